@@ -1,0 +1,32 @@
+// How much memory an application takes, item by item: shared by the check of the budget and the memory map.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config-gen/model/model.hpp"
+
+namespace flexrf::config_gen {
+
+struct MemoryItem {
+  enum class Kind { slot, history, queue, stack, parameters };
+  Kind kind = Kind::slot;
+  std::string name;
+  std::size_t bytes = 0;
+  std::string account;  // how it comes about: "5 buffers of 64 B"
+  Position position;
+};
+
+// Control blocks and buffers as config-gen lays them out; units and drivers themselves are sized by the
+// compiler and judged there. In the order slots, histories, queues, stacks, parameters.
+std::vector<MemoryItem> memory_map(const Model& model);
+std::size_t total(const std::vector<MemoryItem>& items);
+
+constexpr std::size_t cache_line = 64;
+constexpr std::size_t page = 4096;
+constexpr std::size_t large_payload = 4096;  // payload of this size and more starts on a page
+
+// Bytes of one buffer of a slot: payload rounded up to cache lines, or pages when large.
+std::size_t buffer_size(std::size_t payload);
+
+}  // namespace flexrf::config_gen

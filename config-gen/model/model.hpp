@@ -1,0 +1,491 @@
+// The fully resolved application: what the tables say once groups are flattened, populations expanded, names
+// turned into indices and sizes computed. The reader fills it, the checks judge it, the emitter writes it
+// out.
+//
+// An index (`std::size_t`) always points into the Model's vector of that kind. Durations are nanoseconds,
+// sizes bytes. Every vector is in table order, which is source order.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "config-gen/model/position.hpp"
+
+namespace flexrf::config_gen {
+
+using Index = std::size_t;
+using Nanoseconds = std::int64_t;
+
+// ---- Types
+// -----------------------------------------------------------------------------------------------------
+
+enum class Scalar { boolean, i8, u8, i16, u16, i32, u32, i64, u64, f32, f64, text };
+
+struct FieldType {
+  enum class Kind { scalar, declared };
+  Kind kind = Kind::scalar;
+  Scalar scalar = Scalar::boolean;  // kind scalar
+  Index declared = 0;               // kind declared: into Model::types, a record or an enumeration
+};
+
+// A field of a record, or the value of a parameter. `text` is `capacity` bytes, padded with zeros,
+// alignment 1.
+struct Field {
+  std::string name;
+  Position position;
+  FieldType type;
+  std::vector<std::size_t> shape;  // none: one value; one or two dimensions, two stored column by column
+  std::size_t capacity = 0;        // bytes of a text
+  std::string unit;                // unit of measure; empty for what has none to declare
+  std::string summary;
+
+  std::size_t offset = 0;  // in the enclosing struct
+  std::size_t size = 0;    // of the whole array
+  std::size_t alignment = 1;
+
+  std::size_t elements() const;  // product of the shape, 1 without
+};
+
+struct EnumerationValue {
+  std::string name;
+  Position position;
+  std::string summary;
+};
+
+struct Type {
+  enum class Kind { record, enumeration };
+  std::string name;  // CamelCase
+  std::string stem;  // the file's name without .toml
+  std::filesystem::path file;
+  Position position;
+  Kind kind = Kind::record;
+  std::string summary;
+  bool image = false;
+  std::vector<Field> fields;  // record
+  std::vector<EnumerationValue>
+      values;  // enumeration; stored as u8, u16 or u32, whichever is the first to hold all
+  std::size_t size = 0;
+  std::size_t alignment = 1;
+};
+
+// ---- Values
+// ----------------------------------------------------------------------------------------------------
+
+// A value that has been checked against its Field. Arrays are flat (column by column for two dimensions); a
+// record has one element per field in field order; an enumeration is its value's number, its name is
+// Type::values[n].name.
+struct Literal {
+  std::variant<std::monostate, bool, std::int64_t, double, std::string> value;  // monostate: see `elements`
+  std::vector<Literal> elements;                                                // of an array or a record
+  Position position;
+};
+
+// ---- Parameters
+// ------------------------------------------------------------------------------------------------
+
+enum class PanelRole { viewer, op, engineer, admin };  // `op`: operator, which is a keyword
+
+struct Parameter {
+  enum class Kind { configuration, runtime, feedback };
+  enum class Input {
+    value,
+    button,
+    hold
+  };  // of a runtime parameter: button counts presses (u32), hold is a bool
+  Kind kind = Kind::configuration;
+  Input input = Input::value;
+  Field field;                 // name, type, shape, unit, summary; place and size in its block
+  std::optional<Literal> low;  // of the range, both or none; bool, int64 or double as the field's type
+  std::optional<Literal> high;
+  Literal initial;  // the default; zeros for buttons, holds and feedback
+  std::string widget;
+  std::string label;  // empty: made from the name
+  std::string menu;
+  PanelRole role = PanelRole::op;
+  bool persist = true;  // runtime only
+};
+
+// One generated struct of plain fields: Configuration, Runtime or Feedback.
+struct ParameterBlock {
+  std::vector<Parameter> parameters;
+  std::size_t size = 1;  // an empty struct has size 1
+  std::size_t alignment = 1;
+};
+
+// ---- Unit types, interfaces, drivers
+// ---------------------------------------------------------------------------
+
+struct InputPort {
+  std::string name;
+  Position position;
+  bool queue = false;  // items of a queue, else the latest of a slot
+  Index type = 0;
+  Position type_position;
+  std::optional<Nanoseconds> max_age;
+  bool hold = false;
+  bool range = false;
+  bool history = false;
+  bool optional = false;
+  std::string summary;
+};
+
+struct OutputPort {
+  std::string name;
+  Position position;
+  bool queue = false;
+  Index type = 0;
+  Position type_position;
+  std::size_t loans = 1;
+  std::string summary;
+};
+
+struct DevicePort {
+  std::string name;
+  Position position;
+  Index interface = 0;
+  std::string summary;
+};
+
+struct UnitType {
+  std::string name;         // the table's name: robot_control
+  std::string class_name;   // RobotControl
+  std::string base_class;   // RobotControlUnit
+  std::string header;       // robot_control.hpp, as the author's file is included
+  std::string base_header;  // robot_control_unit.hpp
+  std::filesystem::path file;
+  Position position;
+  std::string summary;
+  std::vector<InputPort> inputs;
+  std::vector<OutputPort> outputs;
+  std::vector<DevicePort> devices;
+  ParameterBlock configuration;
+  ParameterBlock runtime;
+  ParameterBlock feedback;
+};
+
+struct Resource {
+  enum class Reader { urdf };
+  std::string name;
+  Position position;
+  Reader reader = Reader::urdf;
+  std::string key;  // of the device's row, by which it names the file
+  std::string summary;
+};
+
+struct Interface {
+  std::string name;        // the table's name: robot_arm
+  std::string class_name;  // RobotArm
+  std::filesystem::path file;
+  Position position;
+  std::string summary;
+  bool bus = false;  // carries other devices
+  std::vector<Resource> resources;
+  std::vector<OutputPort> outputs;  // published by the device's IO thread
+  ParameterBlock configuration;
+  ParameterBlock runtime;
+  ParameterBlock feedback;
+};
+
+struct Driver {
+  enum class Kind { mock, simulated, real };
+  std::string name;         // as in drivers = [...] and --hardware
+  std::string stem;         // the file's name without .toml
+  std::string class_name;   // SimulatedArm
+  std::string base_class;   // SimulatedArmDriver
+  std::string header;       // simulated_arm.hpp
+  std::string base_header;  // simulated_arm_driver.hpp
+  std::filesystem::path file;
+  Position position;
+  std::string summary;
+  Index interface = 0;
+  Kind kind = Kind::real;
+  bool actuates = false;
+  bool virtual_time = false;
+  bool waits = false;
+  std::optional<Index> bus_interface;  // the device must be on a bus with this interface
+  ParameterBlock configuration;        // the driver's own; the interface's come before
+};
+
+// ---- The application: slots and queues
+// -------------------------------------------------------------------------
+
+// What a slot carries: a type of the tables, or the generated parameter struct of a unit type or interface.
+struct SlotType {
+  enum class Kind { declared, unit_runtime, unit_feedback, interface_runtime, interface_feedback };
+  Kind kind = Kind::declared;
+  Index index = 0;  // into types, unit_types or interfaces
+};
+
+// Who writes: output `port` of a unit or a device; or the executive on behalf of a unit or device, which
+// publishes its feedback after each step and the runtime values in force after each change.
+struct Writer {
+  enum class Kind { unit_output, device_output, unit_feedback, unit_values, device_feedback, device_values };
+  Kind kind = Kind::unit_output;
+  Index owner = 0;    // into units or devices, by kind
+  Index port = 0;     // into the type's outputs; outputs only
+  Position position;  // where the connection was written
+};
+
+// A reader's share of a slot's buffers: one per thread and slot; a held input has its own, plus one for what
+// it keeps.
+struct SlotReader {
+  enum class Kind { thread, held_input, observer };
+  Kind kind = Kind::thread;
+  Index thread = 0;         // thread, held_input
+  Index unit = 0;           // held_input
+  Index input = 0;          // held_input: port of the unit
+  std::size_t first = 0;    // its first reader number in the slot
+  std::size_t readers = 1;  // how many reader numbers it uses: 2 for held inputs
+};
+
+// One input port of one unit (each unit's cursor on the slot or queue).
+struct InputReference {
+  Index unit = 0;
+  Index port = 0;
+  Position position;
+};
+
+struct Slot {
+  std::string
+      name;  // "tool_pose", "tracks[3]", "axis[2].position"; of parameters "jog.feedback", "jog.values"
+  Position position;  // its row, or where it was first named
+  SlotType type;
+  std::size_t payload_size = 0;  // of the type; 0 until the layout is known
+  std::size_t payload_alignment = 1;
+  Writer writer;
+  std::vector<InputReference> inputs;  // all unit inputs that read it
+  std::vector<SlotReader> readers;     // threads in order, then held inputs, then the observer
+  std::size_t reader_count = 0;  // sum of `readers` over all of them: the Readers of Slot<T, Readers, Loans>
+  std::size_t loans = 1;
+  bool observe = true;
+  bool wall = false;
+  std::size_t history = 0;       // entries, 0: none
+  std::vector<Index> doorbells;  // threads that its publication releases
+  std::string summary;
+
+  std::size_t buffers() const { return reader_count + 1 + loans; }
+};
+
+// A physical queue. `share = "copies"` with several readers has become one Queue per reader, named
+// "keys@jog.keys".
+struct Queue {
+  enum class Policy { drop_newest, drop_oldest };
+  std::string name;
+  std::string declared;  // the name in the tables, common to all copies
+  Position position;
+  Index type = 0;
+  std::size_t capacity = 16;  // of each writer's ring, or of the whole job pool; a power of two
+  Policy policy = Policy::drop_newest;
+  bool jobs = false;           // several readers share one pool; else one ring per writer and one reader
+  std::optional<Index> score;  // order by this field of the type, highest first; jobs only
+  bool wall = false;
+  std::string summary;
+  std::vector<Writer> writers;  // table order, which is the order of draining
+  std::vector<InputReference> readers;
+  std::vector<Index> doorbells;
+};
+
+// ---- Threads
+// ---------------------------------------------------------------------------------------------------
+
+struct SourceReference {
+  bool queue = false;
+  Index index = 0;  // into slots or queues
+};
+
+struct PeriodTrigger {
+  Nanoseconds period = 0;
+  Nanoseconds phase = 0;
+};
+struct SlotsTrigger {
+  std::vector<SourceReference> sources;
+  std::optional<Nanoseconds> min_interval;
+  std::optional<Nanoseconds> timeout;
+};
+struct DeviceTrigger {  // the device becomes readable; of an IO thread without period, the thread's own
+                        // device
+  Index device = 0;
+  std::optional<Nanoseconds> min_interval;
+  std::optional<Nanoseconds> timeout;
+};
+struct BackoffTrigger {
+  SourceReference source;
+  Nanoseconds shortest = 0;
+  Nanoseconds longest = 0;
+  std::size_t tries = 4;
+};
+struct FreeTrigger {};
+using Trigger = std::variant<PeriodTrigger, SlotsTrigger, DeviceTrigger, BackoffTrigger, FreeTrigger>;
+
+struct Overrun {
+  enum class Policy { skip, catch_up, fault };
+  enum class Limit { none, consecutive, leaky };
+  Policy policy = Policy::skip;
+  Limit limit = Limit::none;
+  std::size_t consecutive = 0;  // or leaky:
+  std::size_t leaky_limit = 0;
+  std::size_t leaky_drain = 0;
+};
+
+enum class CpuRole { control, io, any };
+
+struct Thread {
+  std::string name;  // an IO thread has its device's name
+  Position position;
+  Trigger trigger = FreeTrigger{};
+  Position trigger_position;
+  int priority = 0;  // 0: not real-time
+  CpuRole role = CpuRole::any;
+  bool rest = false;                    // cpu = "rest": every CPU that no real-time thread claims
+  std::optional<Index> io_device;       // an IO thread: the device that it serves (and, of a bus, all on it)
+  std::vector<Index> units;             // step order
+  std::optional<Nanoseconds> deadline;  // written; else the period or min_interval
+  Overrun overrun;
+  std::size_t stack = 256 * 1024;
+  bool above_interrupts = false;
+  std::string summary;
+
+  Nanoseconds demand = 0;                    // sum of the units' budgets
+  std::optional<Nanoseconds> response_time;  // real-time threads with known interval: the analysis' estimate
+};
+
+// ---- Devices and units
+// -----------------------------------------------------------------------------------------
+
+// Where an output or input goes. Exactly one of the two is used, by the port's kind; both empty: not
+// connected.
+struct OutputConnection {
+  std::optional<Index> slot;
+  std::vector<Index> queues;  // several for copies
+  Position position;
+};
+struct InputConnection {
+  std::vector<Index> slots;  // one; several, in member order, for range inputs
+  std::optional<Index> queue;
+  Position position;
+};
+
+struct DeviceResource {
+  Index resource = 0;  // into the interface's resources
+  std::filesystem::path file;
+  Position position;
+};
+
+struct DriverChoice {
+  Index driver = 0;
+  std::vector<Literal> configuration;  // per parameter of the driver's own block
+};
+
+struct Device {
+  std::string name;
+  Position position;
+  Index interface = 0;
+  std::vector<DriverChoice> drivers;  // the first is the default
+  std::optional<Index> bus;           // on = "..."
+  std::vector<Index> children;        // the devices on this bus
+  std::optional<Index> owner_unit;    // none: owned by its bus, or served by its IO thread only
+  std::optional<Index> owner_port;    // into the unit type's devices
+  std::optional<Index> thread;        // in which its calls are made: its IO thread, its bus's, or its owner's
+  std::optional<Index> io_thread;
+  std::vector<OutputConnection> outputs;  // per output of the interface
+  std::vector<DeviceResource> resources;  // in the interface's order
+  std::vector<Literal> configuration;     // per parameter of the interface's block
+  std::vector<Literal> runtime;
+  Index feedback_slot = 0;
+  Index values_slot = 0;
+};
+
+// What an application changes in how the panel shows one parameter.
+struct ParameterOverride {
+  std::string parameter;
+  Position position;
+  std::optional<std::string> label;
+  std::optional<bool> hidden;
+  std::optional<Literal> low;  // both or none; inside the unit's own range
+  std::optional<Literal> high;
+  std::optional<std::string> widget;
+  std::optional<std::string> menu;
+  std::optional<std::string> place;
+};
+
+struct Unit {
+  enum class Restart { never, once, always };
+  std::string name;  // "jog", "tracker[3]", "axis[2].drive"
+  Position position;
+  Index type = 0;
+  std::optional<Index> population;  // and its number in it:
+  std::size_t member = 0;
+  bool active = true;                         // at start; false only for members of populations
+  std::optional<Index> thread;                // always set once checked
+  std::vector<InputConnection> inputs;        // per input port
+  std::vector<OutputConnection> outputs;      // per output port
+  std::vector<std::optional<Index>> devices;  // per device port; always set once checked
+  std::vector<Literal> configuration;         // per parameter: the row's value, else the default
+  std::vector<Literal> runtime;
+  std::vector<ParameterOverride> overrides;
+  std::optional<Nanoseconds> budget;
+  Position budget_position;
+  Nanoseconds initialise_timeout = 5'000'000'000;
+  std::optional<Nanoseconds> stop_timeout;  // none: the application's
+  Restart restart = Restart::never;
+  Index feedback_slot = 0;
+  Index values_slot = 0;
+};
+
+struct Population {
+  std::string name;
+  Position position;
+  Index first = 0;  // its members are units[first] ... units[first + capacity - 1]
+  std::size_t capacity = 0;
+  std::size_t active = 0;
+};
+
+struct GroupInstance {  // kept for the diagram and the panel; everything in it is already flattened
+  std::string name;     // "axis[2]"
+  std::string table;    // "axis"
+  Position position;
+};
+
+struct Application {
+  std::string name;  // the table's name
+  std::filesystem::path file;
+  Position position;
+  std::string summary;
+  std::optional<std::size_t> memory_budget;
+  Position memory_budget_position;
+  bool autostart = false;
+  Nanoseconds stop_timeout = 2'000'000'000;
+  Nanoseconds finish_timeout = 10'000'000'000;
+};
+
+// ---- The whole
+// -------------------------------------------------------------------------------------------------
+
+struct Model {
+  std::vector<Type> types;  // a type comes after those it contains
+  std::vector<UnitType> unit_types;
+  std::vector<Interface> interfaces;
+  std::vector<Driver> drivers;
+
+  std::optional<Application> application;
+  std::vector<GroupInstance> groups;
+  std::vector<Device> devices;
+  std::vector<Index> safe_order;  // all devices, children before their buses: the order of make_safe()
+  std::vector<Unit> units;
+  std::vector<Population> populations;
+  std::vector<Slot> slots;
+  std::vector<Queue> queues;
+  std::vector<Thread> threads;  // declared threads, then IO threads
+
+  std::vector<std::filesystem::path> files;  // all that was read, for the depfile
+};
+
+// Size, alignment and name of what a slot carries.
+std::size_t size_of(const Model& model, const SlotType& type);
+std::size_t alignment_of(const Model& model, const SlotType& type);
+
+}  // namespace flexrf::config_gen
