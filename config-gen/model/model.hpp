@@ -266,6 +266,7 @@ struct Slot {
   std::size_t history = 0;       // entries, 0: none
   std::vector<Index> doorbells;  // threads that its publication releases
   std::string summary;
+  bool partial = false;  // only with errors: a row that could not be read names it, so it is not judged
 
   std::size_t buffers() const { return reader_count + 1 + loans; }
 };
@@ -278,7 +279,7 @@ struct Queue {
   std::string declared;  // the name in the tables, common to all copies
   Position position;
   Index type = 0;
-  std::size_t capacity = 16;  // of each writer's ring, or of the whole job pool; a power of two
+  std::size_t capacity = 16;  // of each writer's ring, or of the whole job pool
   Policy policy = Policy::drop_newest;
   bool jobs = false;           // several readers share one pool; else one ring per writer and one reader
   std::optional<Index> score;  // order by this field of the type, highest first; jobs only
@@ -287,6 +288,7 @@ struct Queue {
   std::vector<Writer> writers;  // table order, which is the order of draining
   std::vector<InputReference> readers;
   std::vector<Index> doorbells;
+  bool partial = false;  // as of a slot
 };
 
 // ---- Threads
@@ -395,8 +397,9 @@ struct Device {
   std::vector<DeviceResource> resources;  // in the interface's order
   std::vector<Literal> configuration;     // per parameter of the interface's block
   std::vector<Literal> runtime;
-  Index feedback_slot = 0;
-  Index values_slot = 0;
+  std::optional<Index> feedback_slot;  // none when it has no feedback
+  std::optional<Index> values_slot;    // runtime values in force; none when it has no runtime parameters
+  bool partial = false;                // as of a slot
 };
 
 // What an application changes in how the panel shows one parameter.
@@ -432,8 +435,8 @@ struct Unit {
   Nanoseconds initialise_timeout = 5'000'000'000;
   std::optional<Nanoseconds> stop_timeout;  // none: the application's
   Restart restart = Restart::never;
-  Index feedback_slot = 0;
-  Index values_slot = 0;
+  std::optional<Index> feedback_slot;  // none when it has no feedback
+  std::optional<Index> values_slot;    // runtime values in force; none when it has no runtime parameters
 };
 
 struct Population {
