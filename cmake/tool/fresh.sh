@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# fresh.sh ROOT: tries the two set-up commands on the current commit in an empty Debian 12 (minbase with git and
+# ca-certificates). The root is made with the mirrors and the apt settings of this machine, so that what works here behind
+# a proxy works there too, and it is gone afterwards.
+set -eu -o pipefail
+root=$1
+suite=bookworm
+
+if ((EUID != 0)); then
+  command -v sudo >/dev/null || {
+    echo "flexrf: a fresh root needs root, and there is no sudo here" >&2
+    exit 3
+  }
+  exec sudo --preserve-env=http_proxy,https_proxy,no_proxy,TMPDIR bash "${BASH_SOURCE[0]}" "$root" </dev/null
+fi
+
+work=$(mktemp -d "${TMPDIR:-/var/tmp}/flexrf-fresh.XXXXXX")
+# Everything is mounted in a namespace of its own, which ends with its last process: nothing is mounted here.
+trap 'rm -rf --one-file-system "$work"' EXIT
+trap 'exit 130' INT TERM
+fresh=$work/root
+
+sources() {  # this machine's own sources of Debian 12; without any, mmdebstrap's
+  local file
+  for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
+    [[ -f $file ]] && grep -E "^deb .* $suite(-[a-z]+)? " "$file"
+  done >"$work/debian.list"
+  [[ -s $work/debian.list ]] && printf '%s\n' "$work/debian.list"
+  for file in /etc/apt/sources.list.d/*.sources; do
+    [[ -f $file ]] && grep -q -E "^Suites:.*\b$suite\b" "$file" && printf '%s\n' "$file"
+  done
+  return 0
+}
+
+mapfile -t mirrors < <(sources)
+apt-config dump --no-empty |
+  grep -E '^Acquire::(https?|ftp|socks|Check-|Retries|ForceIPv|Languages|Proxy)' >"$work/apt.conf" || true
+
+if [[ $(git -c safe.directory="$root" -C "$root" status --porcelain) ]]; then
+  echo "flexrf: what is not committed is not tried" >&2
+fi
+git -c safe.directory="$root" -C "$root" bundle create --quiet "$work/flexrf.bundle" HEAD
+
+echo "flexrf: making an empty Debian 12 in $fresh" >&2
+mmdebstrap --quiet --variant=minbase --include=git,ca-certificates --aptopt="$work/apt.conf" \
+  "$suite" "$fresh" "${mirrors[@]}" </dev/null
+cp "$work/flexrf.bundle" "$fresh/root/flexrf.bundle"
+cp -L /etc/resolv.conf /etc/hosts "$fresh/etc/"
+
+cat >"$fresh/root/try" <<'TRY'
+#!/bin/bash
+set -eu -o pipefail
+cd /root
+git clone --quiet flexrf.bundle flexrf
+cd flexrf
+echo "== ./flexrf run keyboard, in an empty Debian 12"
+printf 'wwwwddd' | ./flexrf run keyboard
+echo "== ./flexrf test, in an empty Debian 12"
+./flexrf test </dev/null
+TRY
+
+# shellcheck disable=SC2016 # expands inside
+unshare --mount --pid --fork --kill-child bash -c '
+  set -eu
+  mount -t proc proc "$1/proc"
+  mount --rbind /sys "$1/sys"
+  mount --rbind /dev "$1/dev"
+  exec chroot "$1" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root TERM=dumb LANG=C.UTF-8 \
+    ${http_proxy+"http_proxy=$http_proxy"} ${https_proxy+"https_proxy=$https_proxy"} ${no_proxy+"no_proxy=$no_proxy"} \
+    /bin/bash /root/try' fresh "$fresh" </dev/null

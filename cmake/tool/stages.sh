@@ -1,0 +1,91 @@
+# Sourced by flexrf: the stages of `flexrf test`.
+# shellcheck shell=bash disable=SC2154 # root and tool are flexrf's
+
+stage_names=() stage_times=() stage_results=()
+tests_run=0 tests_failed=0
+
+stage() {  # stage NAME COMMAND...: runs it and notes time and result; a failure does not stop the next stage
+  local name=$1 start result=passed
+  shift
+  printf '\n== %s\n' "$name"
+  start=$(microseconds)
+  "$@" || result=FAILED
+  stage_names+=("$name")
+  stage_times+=("$(since "$start")")
+  stage_results+=("$result")
+}
+
+check() {  # check NAME COMMAND...: a stage that counts as one test
+  stage "$@"
+  ((tests_run++))
+  [[ ${stage_results[-1]} == passed ]] || ((tests_failed++))
+}
+
+sources() {  # every C++ file that a person wrote
+  find "$root" \( -path "$root/build" -o -name '.?*' \) -prune -o -type f \
+    \( -name '*.cpp' -o -name '*.hpp' -o -name '*.h' \) -print0
+}
+
+check_format() { sources | xargs -0 -r -n 50 clang-format --dry-run -Werror; }
+
+check_tidy() {  # the files of the release build's list that lie outside build/
+  local headers
+  headers="^$root/($(cd "$root" && find . -mindepth 1 -maxdepth 1 -type d ! -name build ! -name '.*' -printf '%f|')"
+  sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' "$root/build/release/compile_commands.json" | sort -u |
+    grep -v "^$root/build/" | tr '\n' '\0' |
+    xargs -0 -r -n 1 -P "$(nproc)" bash "$tool/tidy.sh" "$root" "${headers%|})/"
+}
+
+run_tests() {  # run_tests PRESET CTEST ARGUMENT...
+  local preset=$1 log=$root/build/$1/ctest.log status counts failed total
+  local -a launcher
+  shift
+  set_launcher "$preset"
+  "${launcher[@]}" ctest --test-dir "$root/build/$preset" --output-on-failure --no-tests=error --no-label-summary \
+    -j "$(nproc)" "$@" </dev/null 2>&1 | tee "$log"
+  status=${PIPESTATUS[0]}
+  counts=$(sed -n 's/^[0-9]*% tests passed, \([0-9]*\) tests failed out of \([0-9]*\)$/\1 \2/p' "$log")
+  read -r failed total <<<"${counts:-1 1}"
+  ((tests_failed += failed, tests_run += total))
+  return "$status"
+}
+
+test_preset() {  # test_preset PRESET full|some: what does not build is a test that fails, the others run all the same
+  local preset=$1 extent=$2
+  local -a targets=() selection=()
+  # Whole cells are what takes long under a sanitizer, and what the other presets run already.
+  [[ $extent == some ]] && targets=(tests_unit tests_stress) selection=(-L '^(unit|stress)$')
+  [[ ${FLEXRF_LONG-} ]] || selection+=(-LE '^long$')
+  stage "build $preset" build "$preset" -k 0 "${targets[@]}"
+  stage "test $preset" run_tests "$preset" "${selection[@]}"
+}
+
+test_stages() {  # test_stages [--full | PRESET...]
+  local start preset index failed=0
+  local -a chosen=("$@")
+  local -A extent=([release]=full [checked]=full [debug]=full [asan]=some [tsan]=some)
+  start=$(microseconds)
+  unset FLEXRF_LONG
+  if [[ ${1-} == --full ]]; then
+    export FLEXRF_LONG=1
+    extent[asan]=full extent[tsan]=full
+  fi
+  if (($# == 0)) || [[ $1 == --full ]]; then
+    check "source layout" check_format
+    chosen=(checked asan tsan)
+    test_preset release full
+    check "static analysis" check_tidy
+  fi
+  for preset in "${chosen[@]}"; do test_preset "$preset" "${extent[$preset]}"; done
+
+  printf '\n'
+  for index in "${!stage_names[@]}"; do
+    printf '%-20s %14s   %s\n' "${stage_names[index]}" "${stage_times[index]}" "${stage_results[index]}"
+    [[ ${stage_results[index]} == passed ]] || failed=1
+  done
+  printf '%-20s %14s\n\n' total "$(since "$start")"
+  # In ctest's own words, over all stages. Less than all is never 100 %.
+  printf '%d%% tests passed, %d tests failed out of %d\n' \
+    $(((tests_run - tests_failed) * 100 / (tests_run ? tests_run : 1))) "$tests_failed" "$tests_run"
+  return "$failed"
+}
