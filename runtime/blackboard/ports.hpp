@@ -1,0 +1,330 @@
+// Ports: how a unit's step reads and writes the blackboard. Used by the unit's thread only, inside step().
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <type_traits>
+
+#include "runtime/blackboard/history.hpp"
+#include "runtime/blackboard/item.hpp"
+#include "runtime/blackboard/queue.hpp"
+#include "runtime/blackboard/slot.hpp"
+
+namespace flexrf {
+
+/// One thread's hold on one slot: the buffer is held per thread, so that all units of the thread share it.
+class SlotReader {
+ public:
+  constexpr SlotReader() noexcept = default;
+  constexpr explicit SlotReader(SlotControl* slot) noexcept : slot_(slot) {}
+
+  /// The slot's latest item as of this step: the first call in a step takes the newest, later calls give the
+  /// same. Null when nothing was published yet.
+  const ItemHeader* latch(std::uint64_t step) noexcept {
+    if (step != step_) {
+      step_ = step;
+      if (slot_->has_newer(held_)) {
+        // A kept buffer is given back by keep(), not by taking the next.
+        if (held_ == kept_) held_ = SlotControl::none;
+        slot_->take(held_);
+      }
+    }
+    return held_ == SlotControl::none ? nullptr : &slot_->header(held_);
+  }
+  const void* payload() const noexcept { return slot_->payload(held_); }
+  SlotControl* slot() const noexcept { return slot_; }
+
+  /// Keeps the buffer beyond the step (inputs with hold = true, which have a reader of their own). What was
+  /// kept before is given back.
+  void keep() noexcept {
+    if (kept_ != SlotControl::none && kept_ != held_) slot_->give(kept_);
+    kept_ = held_;
+  }
+  const void* kept_payload() const noexcept { return slot_->payload(kept_); }
+  const ItemHeader* kept() const noexcept {
+    return kept_ == SlotControl::none ? nullptr : &slot_->header(kept_);
+  }
+
+ private:
+  SlotControl* slot_ = nullptr;
+  std::uint64_t step_ = 0;
+  std::uint8_t held_ = SlotControl::none;
+  std::uint8_t kept_ = SlotControl::none;
+};
+
+/// What a read gives: the value with its provenance, or the NULL item with its reason. Valid until the step
+/// ends.
+template <class T>
+class View {
+ public:
+  View() noexcept = default;
+  explicit View(NullReason reason) noexcept : reason_(reason) {}
+  View(const T* value, const ItemHeader& header, std::uint64_t missed, Duration age,
+       Freshness freshness) noexcept
+      : value_(value),
+        sequence_(header.sequence),
+        missed_(missed),
+        sampled_at_(header.sampled_at),
+        age_(age),
+        reason_(NullReason::none),
+        freshness_(freshness) {}
+
+  explicit operator bool() const noexcept { return value_ != nullptr; }
+  const T& operator*() const noexcept { return *value_; }
+  const T* operator->() const noexcept { return value_; }
+
+  NullReason reason() const noexcept { return reason_; }
+  Freshness freshness() const noexcept { return freshness_; }
+  bool is_new() const noexcept { return freshness_ == Freshness::new_item; }
+  std::uint64_t sequence() const noexcept { return sequence_; }
+  /// Items published since the one this input saw before, and never seen by it.
+  std::uint64_t missed() const noexcept { return missed_; }
+  Time sampled_at() const noexcept { return sampled_at_; }
+  /// Against the step's time.
+  Duration age() const noexcept { return age_; }
+
+ private:
+  const T* value_ = nullptr;
+  std::uint64_t sequence_ = 0;
+  std::uint64_t missed_ = 0;
+  Time sampled_at_{};
+  Duration age_{};
+  NullReason reason_ = NullReason::nothing_yet;
+  Freshness freshness_ = Freshness::null;
+};
+
+/// How the generated application connects an input. max_age zero: no limit.
+struct InputBinding {
+  SlotReader* readers = nullptr;  ///< one, or one per member of a population
+  std::uint32_t count = 0;        ///< 0: not connected, always NULL
+  Duration max_age{};
+};
+
+/// Untyped half of an input: the cursor of one unit in one slot.
+class InputCursor {
+ public:
+  void connect(const StepContext* context, SlotReader* reader, Duration max_age) noexcept {
+    context_ = context;
+    reader_ = reader;
+    max_age_ = max_age;
+  }
+  bool is_connected() const noexcept { return reader_ != nullptr; }
+  /// Counters for reports; relaxed, any thread.
+  std::uint64_t read() const noexcept { return read_; }
+  std::uint64_t missed() const noexcept { return missed_total_; }
+  /// Forgets what was seen: the next item is new (a member of a population begins again).
+  void forget() noexcept { cursor_ = 0; }
+
+ protected:
+  /// Latches; the header, or null with reason_ set.
+  const ItemHeader* latch() noexcept {
+    if (reader_ == nullptr) {
+      reason_ = NullReason::not_registered;
+      return nullptr;
+    }
+    const ItemHeader* header = reader_->latch(context_->step);
+    if (context_->step != step_) {
+      step_ = context_->step;
+      judge(header);
+    }
+    return reason_ == NullReason::none ? header : nullptr;
+  }
+  Duration age(const ItemHeader& header) const noexcept { return context_->now - header.sampled_at; }
+
+  const StepContext* context_ = nullptr;
+  SlotReader* reader_ = nullptr;
+  std::uint64_t missed_ = 0;
+  NullReason reason_ = NullReason::nothing_yet;
+  Freshness freshness_ = Freshness::null;
+
+ private:
+  void judge(const ItemHeader* header) noexcept;
+
+  Duration max_age_{};
+  std::uint64_t step_ = 0;
+  std::uint64_t cursor_ = 0;
+  std::uint64_t read_ = 0;
+  std::uint64_t missed_total_ = 0;
+};
+
+/// Latest item of a slot.
+template <class T>
+class Input : public InputCursor {
+ public:
+  void connect(const StepContext* context, const InputBinding& binding) noexcept {
+    InputCursor::connect(context, binding.count == 0 ? nullptr : binding.readers, binding.max_age);
+  }
+
+  /// The newest item at the first call in a step; the same item at later calls in that step.
+  View<T> latest() noexcept {
+    const ItemHeader* header = latch();
+    if (header == nullptr) return View<T>{reason_};
+    return View<T>{static_cast<const T*>(reader_->payload()), *header, missed_, age(*header), freshness_};
+  }
+
+  /// hold = true: keeps the view that latest() gave beyond the step, until the next keep().
+  void keep() noexcept { reader_->keep(); }
+  View<T> kept() const noexcept {
+    const ItemHeader* header = reader_ == nullptr ? nullptr : reader_->kept();
+    if (header == nullptr) return View<T>{NullReason::nothing_yet};
+    return View<T>{static_cast<const T*>(reader_->kept_payload()), *header, 0, age(*header),
+                   Freshness::old_item};
+  }
+
+  /// history = true: what the slot held at `time`, by value; the reason when it is no longer (or not yet)
+  /// known.
+  NullReason at(Time time, T& value, Time* sampled_at = nullptr) const noexcept {
+    if (reader_ == nullptr || reader_->slot()->history() == nullptr) return NullReason::not_registered;
+    ItemHeader header{};
+    const NullReason reason = reader_->slot()->history()->at(time, header, &value);
+    if (sampled_at != nullptr) *sampled_at = header.sampled_at;
+    return reason;
+  }
+  /// history = true: the items sampled in [from, to], oldest first; returns how many fit.
+  std::size_t between(Time from, Time to, std::span<ItemHeader> headers, T* values) const noexcept {
+    if (reader_ == nullptr || reader_->slot()->history() == nullptr) return 0;
+    return reader_->slot()->history()->between(from, to, headers, values);
+  }
+};
+
+/// Latest items of all members of a population (range = true). Capacity is the population's.
+template <class T, std::size_t Capacity>
+class InputRange {
+ public:
+  void connect(const StepContext* context, const InputBinding& binding) noexcept {
+    count_ = binding.count < Capacity ? binding.count : Capacity;
+    for (std::size_t i = 0; i < count_; ++i) {
+      members_[i].connect(context, InputBinding{binding.readers + i, 1, binding.max_age});
+    }
+  }
+  std::size_t size() const noexcept { return count_; }
+  Input<T>& operator[](std::size_t index) noexcept { return members_[index]; }
+  Input<T>* begin() noexcept { return members_; }
+  Input<T>* end() noexcept { return members_ + count_; }
+
+ private:
+  Input<T> members_[Capacity];
+  std::size_t count_ = 0;
+};
+
+/// A buffer to fill in place. Discarded unless published.
+template <class T>
+class Loan {
+ public:
+  Loan() noexcept = default;
+  Loan(SlotControl* slot, const StepContext* context, std::uint8_t buffer) noexcept
+      : slot_(slot), context_(context), buffer_(buffer) {}
+  Loan(Loan&& other) noexcept : slot_(other.slot_), context_(other.context_), buffer_(other.release()) {}
+  Loan& operator=(Loan&& other) noexcept {
+    if (this != &other) {
+      discard();
+      slot_ = other.slot_;
+      context_ = other.context_;
+      buffer_ = other.release();
+    }
+    return *this;
+  }
+  ~Loan() { discard(); }
+
+  /// False when all loans of the slot are out.
+  explicit operator bool() const noexcept { return buffer_ != SlotControl::none; }
+  T& operator*() const noexcept { return *static_cast<T*>(static_cast<void*>(slot_->payload(buffer_))); }
+  T* operator->() const noexcept { return &**this; }
+
+  void publish() noexcept { publish(context_->now); }
+  void publish(Time sampled_at) noexcept { slot_->publish(release(), sampled_at); }
+  void discard() noexcept {
+    if (buffer_ != SlotControl::none) slot_->abandon(release());
+  }
+
+ private:
+  std::uint8_t release() noexcept {
+    const std::uint8_t buffer = buffer_;
+    buffer_ = SlotControl::none;
+    return buffer;
+  }
+  SlotControl* slot_ = nullptr;
+  const StepContext* context_ = nullptr;
+  std::uint8_t buffer_ = SlotControl::none;
+};
+
+/// What a unit publishes. An unconnected output accepts and forgets.
+template <class T>
+class Output {
+  static_assert(std::is_trivially_copyable_v<T>, "items are plain structs");
+
+ public:
+  void connect(const StepContext* context, SlotControl* slot) noexcept {
+    context_ = context;
+    slot_ = slot;
+  }
+  bool is_connected() const noexcept { return slot_ != nullptr; }
+
+  void publish(const T& value) noexcept { publish(value, context_->now); }
+  void publish(const T& value, Time sampled_at) noexcept {
+    if (slot_ == nullptr) return;
+    const std::uint8_t buffer = slot_->loan();
+    if (buffer == SlotControl::none) return;
+    std::memcpy(slot_->payload(buffer), &value, sizeof(T));
+    slot_->publish(buffer, sampled_at);
+  }
+  Loan<T> loan() noexcept { return slot_ == nullptr ? Loan<T>{} : Loan<T>{slot_, context_, slot_->loan()}; }
+  Loan<T> loan_last() noexcept {
+    return slot_ == nullptr ? Loan<T>{} : Loan<T>{slot_, context_, slot_->loan_last()};
+  }
+
+ private:
+  const StepContext* context_ = nullptr;
+  SlotControl* slot_ = nullptr;
+};
+
+/// Items of a queue, each given to one reader.
+template <class T>
+class QueueInput {
+ public:
+  void connect(QueueSource* source) noexcept { source_ = source; }
+  std::optional<T> pop() noexcept {
+    ItemHeader header{};
+    T value{};
+    if (source_ == nullptr || !source_->pop(&value, header)) return std::nullopt;
+    return value;
+  }
+  bool pop(T& value, ItemHeader& header) noexcept {
+    return source_ != nullptr && source_->pop(&value, header);
+  }
+  bool is_empty() const noexcept { return source_ == nullptr || source_->is_empty(); }
+
+ private:
+  QueueSource* source_ = nullptr;
+};
+
+/// A unit's way into one or (fan-out) several queues.
+template <class T>
+class QueueOutput {
+ public:
+  void connect(const StepContext* context, std::span<QueueSink* const> sinks) noexcept {
+    context_ = context;
+    sinks_ = sinks;
+  }
+  /// False when at least one queue dropped it.
+  bool push(const T& value) noexcept { return push(value, context_->now); }
+  bool push(const T& value, Time sampled_at) noexcept {
+    bool accepted = true;
+    for (QueueSink* sink : sinks_) accepted = sink->push(&value, sampled_at) && accepted;
+    return accepted;
+  }
+  bool has_room() const noexcept {
+    for (const QueueSink* sink : sinks_) {
+      if (!sink->has_room()) return false;
+    }
+    return true;
+  }
+  bool is_connected() const noexcept { return !sinks_.empty(); }
+
+ private:
+  const StepContext* context_ = nullptr;
+  std::span<QueueSink* const> sinks_;
+};
+
+}  // namespace flexrf

@@ -1,0 +1,37 @@
+#include "runtime/blackboard/slot.hpp"
+
+#include "runtime/blackboard/history.hpp"
+#include "runtime/core/digest.hpp"
+
+namespace flexrf {
+
+void SlotControl::make_visible(std::uint8_t buffer) noexcept {
+  if (history_ != nullptr) history_->append(header(buffer), payload(buffer));
+  if (memory_.triple) {
+    const std::uint64_t old = word_.exchange(word_of(buffer) | fresh_bit, std::memory_order_acq_rel);
+    back_ = index_of(old);
+  } else {
+    const std::uint64_t old = word_.exchange(word_of(buffer), std::memory_order_acq_rel);
+    // Only now is it final how often the former buffer was taken.
+    memory_.taken[current_] += static_cast<std::uint32_t>(old);
+    back_ = current_;
+  }
+  current_ = buffer;
+  last_ = buffer;
+  published_.store(header(buffer).sequence, std::memory_order_release);
+  for (Doorbell* bell : bells_) bell->ring();
+}
+
+void SlotControl::digest_item(std::uint8_t buffer) noexcept {
+  Digest digest{digest_};
+  digest.add(header(buffer).sequence);
+  digest.add(static_cast<std::uint64_t>(nanoseconds(header(buffer).sampled_at)));
+  digest.add_fields(*type_, payload(buffer));
+  digest_ = digest.value();
+}
+
+void SlotControl::poison(std::uint8_t buffer) noexcept {
+  std::memset(payload(buffer), 0xA5, type_->size);
+}
+
+}  // namespace flexrf

@@ -1,0 +1,96 @@
+// The hot half of SlotControl: small enough to be worth inlining into every port.
+#pragma once
+
+#include "runtime/blackboard/slot.hpp"
+
+namespace flexrf {
+
+inline std::uint8_t SlotControl::loan() noexcept {
+  if (pending_ != none) [[unlikely]] {
+    commit();
+  }
+  if (loans_out_ == memory_.loans) return none;
+  std::uint8_t buffer = back_;
+  if (!memory_.triple) {
+    const auto is_free = [this](std::uint8_t candidate) noexcept {
+      return candidate != current_ && (loaned_ >> candidate & 1U) == 0 &&
+             memory_.taken[candidate] == memory_.given[candidate].load(std::memory_order_acquire);
+    };
+    while (!is_free(buffer))
+      buffer = buffer + 1 == memory_.buffers ? std::uint8_t{0} : static_cast<std::uint8_t>(buffer + 1);
+    loaned_ |= std::uint64_t{1} << buffer;
+  }
+  ++loans_out_;
+#ifdef FLEXRF_CHECKED
+  poison(buffer);
+#endif
+  return buffer;
+}
+
+inline std::uint8_t SlotControl::loan_last() noexcept {
+  const std::uint8_t buffer = loan();
+  if (buffer == none) return none;
+  if (last_ == none) {
+    std::memset(payload(buffer), 0, type_->size);
+  } else {
+    std::memcpy(payload(buffer), payload(last_), type_->size);
+  }
+  return buffer;
+}
+
+inline void SlotControl::abandon(std::uint8_t buffer) noexcept {
+  loaned_ &= ~(std::uint64_t{1} << buffer);
+  --loans_out_;
+}
+
+inline void SlotControl::publish(std::uint8_t buffer, Time sampled_at) noexcept {
+  ItemHeader& item = header_for_writing(buffer);
+  item.sequence = ++sequence_;
+  item.sampled_at = sampled_at;
+  loaned_ &= ~(std::uint64_t{1} << buffer);
+  --loans_out_;
+  if (digested_) [[unlikely]] {
+    digest_item(buffer);
+  }
+  if (deferred_) [[unlikely]] {
+    commit();
+    pending_ = buffer;
+    loaned_ |= std::uint64_t{1} << buffer;
+    return;
+  }
+  make_visible(buffer);
+}
+
+inline void SlotControl::commit() noexcept {
+  if (pending_ == none) return;
+  const std::uint8_t buffer = pending_;
+  pending_ = none;
+  loaned_ &= ~(std::uint64_t{1} << buffer);
+  make_visible(buffer);
+}
+
+inline bool SlotControl::has_newer(std::uint8_t held) const noexcept {
+  const std::uint64_t word = word_.load(std::memory_order_relaxed);
+  if (memory_.triple) return (word & fresh_bit) != 0;
+  return (word & published_bit) != 0 && index_of(word) != held;
+}
+
+inline bool SlotControl::take(std::uint8_t& held) noexcept {
+  std::uint64_t word = word_.load(std::memory_order_relaxed);
+  if (memory_.triple) {
+    if ((word & fresh_bit) == 0) return false;
+    // Before the first take the reader owns buffer 2: the word began with 0 and the writer with 1.
+    word = word_.exchange(word_of(held == none ? std::uint8_t{2} : held), std::memory_order_acq_rel);
+    held = index_of(word);
+    return true;
+  }
+  if ((word & published_bit) == 0) return false;
+  // A held buffer is never published again before it is given back, so the same index is the same item.
+  if (index_of(word) == held) return false;
+  if (held != none) give(held);
+  word = word_.fetch_add(1, std::memory_order_acquire);
+  held = index_of(word);
+  return true;
+}
+
+}  // namespace flexrf

@@ -1,0 +1,70 @@
+// Device: a generic interface to something outside, behind one of its drivers.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+
+#include "runtime/blackboard/queue.hpp"
+#include "runtime/blackboard/slot.hpp"
+#include "runtime/unit/component.hpp"
+#include "runtime/unit/tick.hpp"
+
+namespace flexrf {
+
+class Device;
+
+enum class DriverKind : std::uint8_t { mock, simulated, real };
+
+/// How the generated application connects a device: ports of its own (with an IO thread), constants, its bus.
+struct DeviceBinding {
+  const StepContext* context = nullptr;                        ///< of the thread it lives in
+  std::span<SlotControl* const> outputs;                       ///< in the order of the interface's table
+  std::span<const std::span<QueueSink* const>> queue_outputs;  ///< likewise; empty span: not connected
+  std::span<const void* const> resources;  ///< constants, in the order of the interface's table
+  Device* bus = nullptr;
+};
+
+/// What a device may ask about the run it lives in. Valid from before initialise().
+struct DeviceEnvironment {
+  std::uint64_t seed = 1;  ///< of this device's random numbers: from --seed and the device's name
+  bool virtual_time = false;
+  const char* keys_file = nullptr;  ///< --keys FILE, else null
+};
+
+/// Lives in one thread. receive, send, make_safe and everything a unit calls: that thread, never blocking,
+/// never allocating. initialise, stop: the lifecycle thread.
+class Device : public Component {
+ public:
+  /// Before the units of the thread step, buses first: take in what arrived. With an IO thread: publish it.
+  virtual void receive(const Tick& /*tick*/) noexcept {}
+  /// After the units stepped, buses last: send what they commanded.
+  virtual void send(const Tick& /*tick*/) noexcept {}
+  /// Brings what it moves to its safe state, one non-blocking act per call; true when it is there.
+  virtual bool make_safe() noexcept { return true; }
+
+  /// A descriptor that becomes readable when there is something to receive; −1: none. For device triggers.
+  virtual int descriptor() const noexcept { return -1; }
+  /// In virtual time: when there will be something to receive; Time::max(): not known to come.
+  virtual Time next_event() const noexcept { return Time::max(); }
+  /// No more input will ever come (end of file): the application finishes.
+  virtual bool is_closed() const noexcept { return false; }
+
+  /// While true an actuator holds or is off, whatever it is commanded. Any thread.
+  bool is_inhibited() const noexcept { return inhibited_.load(std::memory_order_acquire); }
+
+  // ---- for the executive; the generated base implements connect()
+
+  virtual void connect(const DeviceBinding& binding) noexcept = 0;
+  void set_environment(const DeviceEnvironment* environment) noexcept { environment_ = environment; }
+  void set_inhibited(bool on) noexcept { inhibited_.store(on, std::memory_order_release); }
+
+ protected:
+  const DeviceEnvironment& environment() const noexcept { return *environment_; }
+
+ private:
+  const DeviceEnvironment* environment_ = nullptr;
+  std::atomic<bool> inhibited_{true};
+};
+
+}  // namespace flexrf

@@ -1,0 +1,177 @@
+// The application as config-gen writes it: tables of constants that name everything there is and where it
+// lives. Order within each table is the order of the application's source tables.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "runtime/blackboard/queue.hpp"
+#include "runtime/blackboard/slot.hpp"
+#include "runtime/executive/state.hpp"
+#include "runtime/unit/unit.hpp"
+
+namespace flexrf {
+
+inline constexpr std::uint16_t no_index = 0xFFFF;
+
+struct SlotRecord {
+  const char* name;
+  const char* summary;
+  SlotControl* control;
+  SlotReader* observer;  ///< the observer's reader; null when observe = false
+  const char* writer;    ///< "unit.port" or "device.port"; "" for parameters' and feedback's slots
+  std::uint16_t unit;    ///< index of the writing unit, or no_index
+  std::uint16_t device;  ///< index of the writing device, or no_index
+  std::uint8_t readers;  ///< threads and holds that read, without the observer
+  bool wall;             ///< left out of the digest
+};
+
+struct QueueRecord {
+  const char* name;
+  const char* summary;
+  const TypeDescriptor* type;
+  std::uint32_t capacity;                 ///< items per writer's ring, or of the pool
+  std::span<QueueSink* const> sinks;      ///< one per writer
+  std::span<const char* const> writers;   ///< "unit.port" of each sink
+  std::span<QueueSource* const> sources;  ///< one per reader
+  std::span<const char* const> readers;   ///< "unit.port" of each source
+  bool wall;
+};
+
+struct DriverRecord {
+  const char* name;  ///< as in drivers = [...] and --hardware
+  DriverKind kind;
+  bool actuates;
+  bool virtual_time;  ///< can live in virtual time
+  std::size_t size;   ///< bytes of the object
+  Device* (*construct)(void* storage);
+  const ComponentType* type;
+  const void* configuration;  ///< initial values from the tables; null where it has none
+  const void* runtime;
+};
+
+struct DeviceRecord {
+  const char* name;
+  const char* summary;
+  const char* interface;
+  std::span<const DriverRecord> drivers;  ///< permitted ones; the first is the default
+  void* storage;
+  std::size_t storage_size;
+  Device** instance;          ///< where the constructed driver is put
+  DeviceBinding binding;      ///< bus is filled in at start
+  std::uint16_t bus;          ///< index of the device that carries it, or no_index
+  std::uint16_t thread;       ///< index of the thread it lives in
+  std::uint16_t unit;         ///< index of the unit that owns it, or no_index
+  SlotControl* runtime_slot;  ///< runtime parameters in force, sized for the largest driver; null: none
+  SlotControl* feedback_slot;
+  Duration initialise_timeout;
+};
+
+enum class RestartPolicy : std::uint8_t { never, once, always };
+
+struct UnitRecord {
+  const char* name;
+  const char* summary;
+  const ComponentType* type;
+  Unit* (*construct)(void* storage);
+  void* storage;
+  std::size_t size;  ///< bytes of the object
+  UnitBinding binding;
+  const void* configuration;  ///< initial values from the tables; null where it has none
+  const void* runtime;
+  SlotControl* runtime_slot;   ///< runtime parameters in force; null: none
+  SlotControl* feedback_slot;  ///< published after each step; null: none
+  std::uint16_t thread;
+  std::uint16_t population;  ///< index, or no_index
+  std::uint16_t member;      ///< index within the population
+  RestartPolicy restart;
+  Duration budget;  ///< declared execution time of one step
+  Duration initialise_timeout;
+  Duration stop_timeout;
+};
+
+struct PopulationRecord {
+  const char* name;
+  std::uint16_t first_unit;  ///< members are consecutive units
+  std::uint16_t capacity;
+  std::uint16_t active;  ///< members active after the start
+};
+
+enum class TriggerKind : std::uint8_t { period, slots, device, backoff, free };
+
+/// Something whose publications release a thread: a slot or a queue.
+struct TriggerSource {
+  SlotControl* slot = nullptr;
+  QueueSource* queue = nullptr;
+};
+
+struct TriggerRecord {
+  TriggerKind kind;
+  Duration period{};
+  Duration phase{};
+  Duration min_interval{};                 ///< between releases by slots or device
+  Duration timeout{};                      ///< 0: none; else releases without a publication
+  std::span<const TriggerSource> sources;  ///< slots; backoff has one
+  std::uint16_t device = no_index;
+  Duration shortest{};  ///< backoff: bounds of a sleep
+  Duration longest{};
+  std::uint32_t tries = 0;  ///< backoff: retries on a miss before the estimate widens
+};
+
+enum class OverrunPolicy : std::uint8_t { skip, catch_up, fault };
+enum class CpuRole : std::uint8_t { any, control, io, rest };
+
+/// When overruns become a fault. Consecutive: `limit` in a row. Leaky: a counter rises by one per overrun,
+/// falls by one each `drain` good cycles, and faults at `limit`. limit 0: never.
+struct OverrunLimit {
+  bool leaky = false;
+  std::uint32_t limit = 0;
+  std::uint32_t drain = 0;
+};
+
+struct ThreadRecord {
+  const char* name;
+  const char* summary;
+  TriggerRecord trigger;
+  std::uint8_t priority;  ///< SCHED_FIFO; 0: not real-time
+  bool above_interrupts;
+  CpuRole role;
+  OverrunPolicy overrun;
+  OverrunLimit limit;
+  Duration budget;                         ///< sum of its units'
+  Duration deadline;                       ///< of one release
+  std::span<const std::uint16_t> units;    ///< in step order
+  std::span<const std::uint16_t> devices;  ///< in receive order: buses before what they carry
+  void* stack;                             ///< page-aligned, preallocated; the lowest page is the guard
+  std::size_t stack_size;                  ///< bytes, guard included
+  StepContext* context;
+  Doorbell* bell;
+};
+
+struct Application {
+  const char* name;
+  const char* summary;
+  std::uint64_t descriptor_hash;
+  const char* descriptor_json;
+  std::size_t memory_budget;  ///< bytes
+  bool autostart;
+  Duration stop_timeout;
+  Duration finish_timeout;
+  std::span<const SlotRecord> slots;
+  std::span<const QueueRecord> queues;
+  std::span<const DeviceRecord> devices;
+  std::span<const UnitRecord> units;
+  std::span<const PopulationRecord> populations;
+  std::span<const ThreadRecord> threads;
+  // What the executive keeps, one each.
+  std::span<UnitState> unit_states;
+  std::span<DeviceState> device_states;
+  std::span<ThreadState> thread_states;
+};
+
+/// The main function of every application: reads the command line, runs to the end, returns the exit code
+/// (0 finished, 1 usage or table, 2 fault, 3 right missing, 128+n signal).
+int run_application(const Application& application, int argument_count, char** arguments);
+
+}  // namespace flexrf

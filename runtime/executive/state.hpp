@@ -1,0 +1,59 @@
+// What the executive keeps of each unit, device and thread while the application runs. All-zero is the first
+// state.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "runtime/core/histogram.hpp"
+#include "runtime/core/status.hpp"
+#include "runtime/core/time.hpp"
+
+namespace flexrf {
+
+class Device;
+class Unit;
+
+/// Life of a unit or device, as the lifecycle thread drives it and everybody may see it.
+enum class Life : std::uint8_t { created, initialised, running, stopped, fault };
+const char* name_of(Life life) noexcept;
+
+/// Who may touch a unit's object now. Ownership passes by this word alone: the lifecycle thread asks, the
+/// unit's thread acknowledges between two steps.
+enum class Ownership : std::uint8_t {
+  lifecycle,   ///< the lifecycle thread
+  thread,      ///< the unit's thread
+  asked_back,  ///< the unit's thread, which is asked to let go
+};
+
+struct UnitState {
+  Unit* unit = nullptr;
+  std::atomic<Life> life{Life::created};
+  std::atomic<Ownership> ownership{Ownership::lifecycle};
+  std::atomic<bool> active{false};  ///< member of a population: stepped. Others: always true
+  std::atomic<bool> idle{true};     ///< what is_idle() said after the last step
+  std::atomic<std::uint64_t> steps{0};
+  Time stepped_at{};                               ///< the unit's thread only
+  Status fault;                                    ///< read while life is fault
+  std::atomic<std::int64_t> execution_maximum{0};  ///< ns, longest step
+  std::atomic<std::int64_t> execution_total{0};    ///< ns, all steps
+};
+
+struct DeviceState {
+  Device* device = nullptr;
+  std::uint16_t driver = 0;  ///< index of the chosen driver
+  std::atomic<Life> life{Life::created};
+  Status fault;
+};
+
+struct ThreadState {
+  std::atomic<std::uint64_t> cycles{0};
+  std::atomic<std::uint64_t> overruns{0};   ///< cycles that ended after their deadline or the next release
+  std::atomic<std::uint64_t> skipped{0};    ///< releases left out by the policy
+  std::atomic<std::int64_t> step_began{0};  ///< ns; 0 while not stepping: how a hung thread is seen
+  std::atomic<std::int32_t> thread_id{0};   ///< kernel's, for /proc
+  Histogram lateness;
+  Histogram execution;
+};
+
+}  // namespace flexrf

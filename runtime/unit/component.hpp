@@ -1,0 +1,51 @@
+// What units and devices have in common: a name, parameters, a fault with its cause.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/blackboard/item.hpp"
+#include "runtime/core/status.hpp"
+#include "runtime/parameters/parameter_descriptor.hpp"
+
+namespace flexrf {
+
+class Component {
+ public:
+  Component() = default;
+  Component(const Component&) = delete;
+  Component& operator=(const Component&) = delete;
+  virtual ~Component() = default;
+
+  /// Open, allocate, seed. Lifecycle thread; may block within initialise_timeout. Configuration is valid
+  /// here.
+  virtual Status initialise() { return {}; }
+  /// Undo initialise(). Lifecycle thread, after the last step.
+  virtual void stop() {}
+
+  const char* name() const noexcept { return name_; }
+  const Status& fault() const noexcept { return fault_; }
+
+  // ---- for the executive; the generated base implements them
+
+  virtual const ComponentType& component_type() const noexcept = 0;
+  virtual ParameterMemory parameter_memory() noexcept = 0;
+  /// The author's accept(proposed), untyped: may refuse a set of runtime parameters as a whole. Owning
+  /// thread.
+  virtual Status accept_runtime(const void* /*proposed*/) noexcept { return {}; }
+
+  void set_name(const char* name) noexcept { name_ = name; }
+  void set_fault(const Status& cause) noexcept { fault_ = cause; }
+  void clear_fault() noexcept { fault_ = {}; }
+
+ protected:
+  /// Puts this component in fault after the current call returns; `cause` is what the operator reads.
+  void fail(const Status& cause) noexcept {
+    if (fault_.is_ok()) fault_ = cause;
+  }
+
+ private:
+  const char* name_ = "";
+  Status fault_;
+};
+
+}  // namespace flexrf

@@ -1,0 +1,23 @@
+// What a step is told about itself.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/core/time.hpp"
+
+namespace flexrf {
+
+struct Tick {
+  Time nominal{};                 ///< when the step was due
+  Time now{};                     ///< when it began; stamps what it publishes
+  Duration lateness{};            ///< now - nominal
+  Duration elapsed{};             ///< since this unit's step before, 0 at its first
+  std::uint64_t number = 0;       ///< steps of this unit before this one
+  std::uint32_t fired = 0;        ///< bit n: the n-th source of the thread's trigger fired
+  bool timed_out = false;         ///< released by the trigger's timeout
+  bool finishing = false;         ///< no more input will come: complete what is begun
+  bool stop_requested = false;    ///< controlled stop: come to rest within stop_timeout, then be idle
+  bool motion_inhibited = false;  ///< no actuator of this application may be moved now
+};
+
+}  // namespace flexrf
