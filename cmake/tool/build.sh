@@ -34,8 +34,8 @@ build() {  # build PRESET [NINJA ARGUMENT...]: one line when it goes well, the c
   local preset=$1 directory=$root/build/$1 start what
   local -a launcher
   shift
-  what="${*:-everything} ($preset)"
-  what=${what#-k 0 }
+  what=${*:-everything}
+  what="${what/#-k 0 /} ($preset)"
   mkdir -p "$directory"
   (
     flock 9 # two commands at once must not build in one folder

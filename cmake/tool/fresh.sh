@@ -51,7 +51,7 @@ cat >"$fresh/root/try" <<'TRY'
 #!/bin/bash
 set -eu -o pipefail
 cd /root
-git clone --quiet flexrf.bundle flexrf
+git -c advice.detachedHead=false clone --quiet flexrf.bundle flexrf
 cd flexrf
 echo "== ./flexrf run keyboard, in an empty Debian 12"
 printf 'wwwwddd' | ./flexrf run keyboard

@@ -39,8 +39,8 @@ install_packages() {  # install_packages USE...: ends with a message if what is 
     as_root=(sudo)
   fi
   command -v apt-get >/dev/null || die "there is no apt-get here to install them with: ${names[*]}"
+  say "installing them with ${as_root[*]+${as_root[*]} }apt-get"
   as_root+=(env DEBIAN_FRONTEND=noninteractive)
-  say "installing them with ${as_root[0]/env/}${as_root[0]:+ }apt-get"
   start=$(microseconds)
   log=$(mktemp)
   # A third party's broken source need not stop us: whether the packages come is what counts.

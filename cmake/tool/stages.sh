@@ -42,7 +42,8 @@ run_tests() {  # run_tests PRESET CTEST ARGUMENT...
   shift
   set_launcher "$preset"
   "${launcher[@]}" ctest --test-dir "$root/build/$preset" --output-on-failure --no-tests=error --no-label-summary \
-    -j "$(nproc)" "$@" </dev/null 2>&1 | tee "$log"
+    -j "$(nproc)" "$@" </dev/null 2>&1 |
+    sed -u '/^Could not find executable/,/^Unable to find executable/d' | tee "$log"
   status=${PIPESTATUS[0]}
   counts=$(sed -n 's/^[0-9]*% tests passed, \([0-9]*\) tests failed out of \([0-9]*\)$/\1 \2/p' "$log")
   read -r failed total <<<"${counts:-1 1}"
@@ -64,6 +65,7 @@ test_stages() {  # test_stages [--full | PRESET...]
   local start preset index failed=0
   local -a chosen=("$@")
   local -A extent=([release]=full [checked]=full [debug]=full [asan]=some [tsan]=some)
+  exec 2>&1 # one report, in the order in which things happened
   start=$(microseconds)
   unset FLEXRF_LONG
   if [[ ${1-} == --full ]]; then

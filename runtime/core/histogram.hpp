@@ -37,9 +37,9 @@ class Histogram {
  private:
   static constexpr std::uint32_t bucket_of(std::uint64_t value) noexcept {
     if (value < 16) return static_cast<std::uint32_t>(value);
-    const int octave = std::bit_width(value) - 5;
+    const auto octave = static_cast<std::uint32_t>(std::bit_width(value)) - 5U;
     const std::uint32_t bucket =
-        16U * static_cast<std::uint32_t>(octave) + static_cast<std::uint32_t>(value >> octave);
+        16U * octave + static_cast<std::uint32_t>(value >> octave);
     return bucket < buckets ? bucket : buckets - 1;
   }
   // One writer: a load and a store, no read-modify-write.
