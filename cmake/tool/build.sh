@@ -30,19 +30,19 @@ show_progress() {  # passes ninja's output on to the log, and on a terminal show
   if [[ -t 2 ]]; then printf '\r\033[K' >&2; fi
 }
 
-build() {  # build PRESET [NINJA ARGUMENT...]: one line when it goes well, the compiler's output when it does not
+ninja_options=()
+build() {  # build PRESET [TARGET...]: one line when it goes well, the compiler's output when it does not
   local preset=$1 directory=$root/build/$1 start what
   local -a launcher
   shift
-  what=${*:-everything}
-  what="${what/#-k 0 /} ($preset)"
+  what="${*:-everything} ($preset)"
   mkdir -p "$directory"
   (
     flock 9 # two commands at once must not build in one folder
     configure "$preset" 9>&- || exit 1
     set_launcher "$preset"
     start=$(microseconds)
-    if ! "${launcher[@]}" ninja -C "$directory" "$@" </dev/null 2>&1 9>&- | show_progress >"$directory/build.log"; then
+    if ! "${launcher[@]}" ninja "${ninja_options[@]}" -C "$directory" "$@" </dev/null 2>&1 9>&- | show_progress >"$directory/build.log"; then
       grep -v -E '^\[[0-9]+/[0-9]+\] |^ninja: Entering' "$directory/build.log" >&2
       say "building $what failed after $(since "$start")"
       exit 1

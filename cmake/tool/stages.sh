@@ -1,5 +1,5 @@
 # Sourced by flexrf: the stages of `flexrf test`.
-# shellcheck shell=bash disable=SC2154 # root and tool are flexrf's
+# shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
 stage_names=() stage_times=() stage_results=()
 tests_run=0 tests_failed=0
@@ -57,7 +57,7 @@ test_preset() {  # test_preset PRESET full|some: what does not build is a test t
   # Whole cells are what takes long under a sanitizer, and what the other presets run already.
   [[ $extent == some ]] && targets=(tests_unit tests_stress) selection=(-L '^(unit|stress)$')
   [[ ${FLEXRF_LONG-} ]] || selection+=(-LE '^long$')
-  stage "build $preset" build "$preset" -k 0 "${targets[@]}"
+  check "build $preset" build "$preset" "${targets[@]}"
   stage "test $preset" run_tests "$preset" "${selection[@]}"
 }
 
@@ -65,6 +65,7 @@ test_stages() {  # test_stages [--full | PRESET...]
   local start preset index failed=0
   local -a chosen=("$@")
   local -A extent=([release]=full [checked]=full [debug]=full [asan]=some [tsan]=some)
+  ninja_options=(-k 0) # what fails to build should not keep the rest from being tested
   exec 2>&1 # one report, in the order in which things happened
   start=$(microseconds)
   unset FLEXRF_LONG
