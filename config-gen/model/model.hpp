@@ -65,9 +65,8 @@ struct Type {
   Kind kind = Kind::record;
   std::string summary;
   bool image = false;
-  std::vector<Field> fields;  // record
-  std::vector<EnumerationValue>
-      values;  // enumeration; stored as u8, u16 or u32, whichever is the first to hold all
+  std::vector<Field> fields;             // record
+  std::vector<EnumerationValue> values;  // enumeration; at most 256, stored as u8
   std::size_t size = 0;
   std::size_t alignment = 1;
 };
@@ -342,9 +341,10 @@ struct Thread {
   Position trigger_position;
   int priority = 0;  // 0: not real-time
   CpuRole role = CpuRole::any;
-  bool rest = false;                    // cpu = "rest": every CPU that no real-time thread claims
-  std::optional<Index> io_device;       // an IO thread: the device that it serves (and, of a bus, all on it)
-  std::vector<Index> units;             // step order
+  bool rest = false;               // cpu = "rest": every CPU that no real-time thread claims
+  std::optional<Index> io_device;  // an IO thread: the device that it serves (and, of a bus, all on it)
+  std::vector<Index> units;        // step order
+  std::vector<Index> devices;      // that live in it, buses before what they carry: the order of receive()
   std::optional<Nanoseconds> deadline;  // written; else the period or min_interval
   Overrun overrun;
   std::size_t stack = 256 * 1024;
@@ -397,6 +397,7 @@ struct Device {
   std::vector<DeviceResource> resources;  // in the interface's order
   std::vector<Literal> configuration;     // per parameter of the interface's block
   std::vector<Literal> runtime;
+  Nanoseconds initialise_timeout = 5'000'000'000;
   std::optional<Index> feedback_slot;  // none when it has no feedback
   std::optional<Index> values_slot;    // runtime values in force; none when it has no runtime parameters
   bool partial = false;                // as of a slot

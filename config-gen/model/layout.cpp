@@ -1,0 +1,147 @@
+#include "config-gen/model/layout.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <numeric>
+
+namespace flexrf::config_gen {
+namespace {
+
+struct ScalarRow {
+  const char* name;
+  std::size_t size;
+};
+
+constexpr std::array<ScalarRow, 12> scalars{{{"bool", 1},
+                                             {"i8", 1},
+                                             {"u8", 1},
+                                             {"i16", 2},
+                                             {"u16", 2},
+                                             {"i32", 4},
+                                             {"u32", 4},
+                                             {"i64", 8},
+                                             {"u64", 8},
+                                             {"f32", 4},
+                                             {"f64", 8},
+                                             {"text", 1}}};
+
+std::size_t round_up(std::size_t value, std::size_t to) {
+  return (value + to - 1) / to * to;
+}
+
+const ParameterBlock* block_of(const Model& model, const SlotType& type) {
+  switch (type.kind) {
+    case SlotType::Kind::unit_runtime:
+      return &model.unit_types[type.index].runtime;
+    case SlotType::Kind::unit_feedback:
+      return &model.unit_types[type.index].feedback;
+    case SlotType::Kind::interface_runtime:
+      return &model.interfaces[type.index].runtime;
+    case SlotType::Kind::interface_feedback:
+      return &model.interfaces[type.index].feedback;
+    case SlotType::Kind::declared:
+      break;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::size_t scalar_size(Scalar scalar) {
+  return scalars[static_cast<std::size_t>(scalar)].size;
+}
+std::string scalar_name(Scalar scalar) {
+  return scalars[static_cast<std::size_t>(scalar)].name;
+}
+bool is_floating(Scalar scalar) {
+  return scalar == Scalar::f32 || scalar == Scalar::f64;
+}
+bool is_integer(Scalar scalar) {
+  return scalar >= Scalar::i8 && scalar <= Scalar::u64;
+}
+
+std::string type_name(const Model& model, const FieldType& type) {
+  return type.kind == FieldType::Kind::scalar ? scalar_name(type.scalar) : model.types[type.declared].name;
+}
+
+std::string type_name(const Model& model, const SlotType& type) {
+  switch (type.kind) {
+    case SlotType::Kind::unit_runtime:
+      return model.unit_types[type.index].class_name + "Runtime";
+    case SlotType::Kind::unit_feedback:
+      return model.unit_types[type.index].class_name + "Feedback";
+    case SlotType::Kind::interface_runtime:
+      return model.interfaces[type.index].class_name + "Runtime";
+    case SlotType::Kind::interface_feedback:
+      return model.interfaces[type.index].class_name + "Feedback";
+    case SlotType::Kind::declared:
+      break;
+  }
+  return model.types[type.index].name;
+}
+
+std::size_t Field::elements() const {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+void lay_out(const Model& model, Field& field) {
+  std::size_t element = 0;
+  if (field.type.kind == FieldType::Kind::declared) {
+    element = model.types[field.type.declared].size;
+    field.alignment = model.types[field.type.declared].alignment;
+  } else {
+    element = scalar_size(field.type.scalar);
+    field.alignment = element;
+    if (field.type.scalar == Scalar::text) element *= field.capacity;
+  }
+  field.size = element * field.elements();
+}
+
+void append(Field& field, Extent& extent, bool first) {
+  if (first) extent.size = 0;
+  field.offset = round_up(extent.size, field.alignment);
+  extent.size = field.offset + field.size;
+  extent.alignment = std::max(extent.alignment, field.alignment);
+}
+
+Extent finish(Extent extent, bool empty) {
+  if (!empty) extent.size = round_up(extent.size, extent.alignment);
+  return extent;
+}
+
+void lay_out(const Model& model, Type& type) {
+  Extent extent;
+  if (type.kind == Type::Kind::record) {
+    for (Field& field : type.fields) {
+      lay_out(model, field);
+      append(field, extent, &field == &type.fields.front());
+    }
+    extent = finish(extent, type.fields.empty());
+  }
+  type.size = extent.size;
+  type.alignment = extent.alignment;
+}
+
+void lay_out(const Model& model, ParameterBlock& block) {
+  Extent extent;
+  for (Parameter& parameter : block.parameters) {
+    lay_out(model, parameter.field);
+    append(parameter.field, extent, &parameter == &block.parameters.front());
+  }
+  extent = finish(extent, block.parameters.empty());
+  block.size = extent.size;
+  block.alignment = extent.alignment;
+}
+
+std::size_t size_of(const Model& model, const SlotType& type) {
+  const ParameterBlock* block = block_of(model, type);
+  return block != nullptr ? block->size : model.types[type.index].size;
+}
+
+std::size_t alignment_of(const Model& model, const SlotType& type) {
+  const ParameterBlock* block = block_of(model, type);
+  return block != nullptr ? block->alignment : model.types[type.index].alignment;
+}
+
+}  // namespace flexrf::config_gen

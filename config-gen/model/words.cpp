@@ -1,0 +1,179 @@
+#include "config-gen/model/words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <numeric>
+
+namespace flexrf::config_gen {
+namespace {
+
+constexpr std::string_view keywords[] = {
+    "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
+    "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",
+    "char32_t",    "char8_t",  "class",      "co_await",  "co_return", "co_yield",     "compl",
+    "concept",     "const",    "const_cast", "consteval", "constexpr", "constinit",    "continue",
+    "decltype",    "default",  "delete",     "do",        "double",    "dynamic_cast", "else",
+    "enum",        "explicit", "export",     "extern",    "false",     "float",        "for",
+    "friend",      "goto",     "if",         "inline",    "int",       "long",         "mutable",
+    "namespace",   "new",      "noexcept",   "not",       "not_eq",    "nullptr",      "operator",
+    "or",          "or_eq",    "private",    "protected", "public",    "register",     "reinterpret_cast",
+    "requires",    "return",   "short",      "signed",    "sizeof",    "static",       "static_assert",
+    "static_cast", "struct",   "switch",     "template",  "this",      "thread_local", "throw",
+    "true",        "try",      "typedef",    "typeid",    "typename",  "union",        "unsigned",
+    "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
+    "xor_eq"};
+
+bool lower(char c) {
+  return c >= 'a' && c <= 'z';
+}
+bool upper(char c) {
+  return c >= 'A' && c <= 'Z';
+}
+bool digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// Damerau's distance (restricted): insert, delete, replace, swap neighbours.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t cost = a[i - 1] == b[j - 1] ? 0 : 1;
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + cost});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before.swap(last);
+    last.swap(row);
+  }
+  return last[b.size()];
+}
+
+std::string number_with_unit(double value, const char* unit) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%.6g %s", value, unit);
+  return text.data();
+}
+
+}  // namespace
+
+bool is_snake_case(std::string_view name) {
+  if (name.empty() || !lower(name.front()) || name.back() == '_') return false;
+  if (name.find("__") != std::string_view::npos) return false;
+  return std::all_of(name.begin(), name.end(), [](char c) { return lower(c) || digit(c) || c == '_'; });
+}
+
+bool is_camel_case(std::string_view name) {
+  if (name.empty() || !upper(name.front())) return false;
+  return std::all_of(name.begin(), name.end(), [](char c) { return lower(c) || upper(c) || digit(c); });
+}
+
+bool is_keyword(std::string_view name) {
+  return std::find(std::begin(keywords), std::end(keywords), name) != std::end(keywords);
+}
+
+std::string camel_case(std::string_view snake) {
+  std::string camel;
+  bool start = true;
+  for (const char c : snake) {
+    if (c == '_' || c == '-') {
+      start = true;
+    } else {
+      camel += start ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+      start = false;
+    }
+  }
+  return camel;
+}
+
+std::string snake_case(std::string_view camel) {
+  std::string snake;
+  for (const char c : camel) {
+    if (upper(c) && !snake.empty() && snake.back() != '_') snake += '_';
+    snake += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return snake;
+}
+
+std::string nearest(std::string_view word, std::span<const std::string> known) {
+  const std::size_t limit = std::max<std::size_t>(1, std::min<std::size_t>(3, word.size() / 2));
+  std::size_t best = limit + 1;
+  std::string found;
+  for (const std::string& candidate : known) {
+    const std::size_t length_apart =
+        candidate.size() > word.size() ? candidate.size() - word.size() : word.size() - candidate.size();
+    if (length_apart >= best) continue;
+    const std::size_t d = distance(word, candidate);
+    if (d < best || (d == best && !found.empty() && candidate < found)) {
+      best = d;
+      found = candidate;
+    }
+  }
+  return found;
+}
+
+std::string suggest(std::string_view word, const std::vector<std::string>& known, std::string_view kinds,
+                    std::string_view otherwise) {
+  const std::string near = nearest(word, known);
+  if (!near.empty()) return "did you mean " + quoted(near) + "?";
+  if (known.empty()) return std::string(otherwise);
+  std::vector<std::string> shown = known;
+  std::sort(shown.begin(), shown.end());
+  shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
+  constexpr std::size_t most = 12;
+  const bool cut = shown.size() > most;
+  if (cut) shown.resize(most);
+  std::string text = "known " + std::string(kinds) + ": ";
+  for (std::size_t i = 0; i < shown.size(); ++i) text += (i == 0 ? "" : ", ") + quoted(shown[i]);
+  return cut ? text + ", ..." : text;
+}
+
+std::string quoted(std::string_view word) {
+  return "'" + std::string(word) + "'";
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
+    text += quoted(words[i]);
+  }
+  return text;
+}
+
+std::string join(const std::vector<std::string>& words, std::string_view separator) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += separator;
+    text += words[i];
+  }
+  return text;
+}
+
+std::string duration_text(long long nanoseconds) {
+  const auto value = static_cast<double>(nanoseconds);
+  const long long magnitude = nanoseconds < 0 ? -nanoseconds : nanoseconds;
+  if (magnitude >= 1'000'000'000) return number_with_unit(value / 1e9, "s");
+  if (magnitude >= 1'000'000) return number_with_unit(value / 1e6, "ms");
+  if (magnitude >= 1'000) return number_with_unit(value / 1e3, "us");
+  return number_with_unit(value, "ns");
+}
+
+std::string size_text(std::size_t bytes) {
+  const auto value = static_cast<double>(bytes);
+  std::array<char, 48> text{};
+  if (bytes < 1024) return std::to_string(bytes) + " B";
+  const bool mebi = bytes >= 1024 * 1024;
+  const double scaled = mebi ? value / (1024.0 * 1024.0) : value / 1024.0;
+  std::snprintf(text.data(), text.size(), scaled < 100 ? "%.2f" : "%.1f", scaled);
+  std::string number = text.data();
+  while (number.back() == '0') number.pop_back();
+  if (number.back() == '.') number.pop_back();
+  return number + (mebi ? " MiB" : " KiB");
+}
+
+}  // namespace flexrf::config_gen

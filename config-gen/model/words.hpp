@@ -1,0 +1,34 @@
+// Words in tables and messages: names, their spelling, the nearest known one.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexrf::config_gen {
+
+bool is_snake_case(
+    std::string_view name);  // lower_snake_case, starts with a letter, no "__", no "_" at the end
+bool is_camel_case(std::string_view name);
+bool is_keyword(std::string_view name);  // of C++20
+
+std::string camel_case(std::string_view snake);  // key_event -> KeyEvent
+std::string snake_case(std::string_view camel);  // KeyEvent -> key_event
+
+// The known word that is the fewest edits away, or empty when none is near enough to be meant.
+std::string nearest(std::string_view word, std::span<const std::string> known);
+
+// "did you mean 'nearest'?"; else "known KINDS: 'a', 'b'" (sorted, at most a dozen); else `otherwise`.
+std::string suggest(std::string_view word, const std::vector<std::string>& known, std::string_view kinds,
+                    std::string_view otherwise);
+
+std::string quoted(std::string_view word);                  // 'word'
+std::string listed(const std::vector<std::string>& words);  // 'a', 'b' and 'c'
+std::string join(const std::vector<std::string>& words, std::string_view separator);
+
+// For people: "7 ms", "1.5 s"; "64 KiB", "1.5 MiB".
+std::string duration_text(long long nanoseconds);
+std::string size_text(std::size_t bytes);
+
+}  // namespace flexrf::config_gen

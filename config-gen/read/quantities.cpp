@@ -1,0 +1,107 @@
+#include "config-gen/read/quantities.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace flexrf::config_gen {
+namespace {
+
+struct Scale {
+  std::string_view unit;
+  double factor;
+};
+
+constexpr Scale durations[] = {{"ns", 1}, {"us", 1e3}, {"ms", 1e6}, {"s", 1e9}};
+constexpr Scale sizes[] = {
+    {"B", 1}, {"KiB", 1024.0}, {"MiB", 1024.0 * 1024.0}, {"GiB", 1024.0 * 1024.0 * 1024.0}};
+
+template <std::size_t Count>
+std::optional<double> parse_scaled(std::string_view text, const Scale (&scales)[Count]) {
+  double number = 0;
+  const auto [end, failed] =
+      std::from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);
+  if (failed != std::errc{} || !(number >= 0)) return std::nullopt;
+  std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  if (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+  for (const Scale& scale : scales) {
+    if (scale.unit != unit) continue;
+    const double value = number * scale.factor;
+    const double whole = std::round(value);
+    if (std::abs(value - whole) > 1e-6 || whole > 9e18) return std::nullopt;
+    return whole;
+  }
+  return std::nullopt;
+}
+
+constexpr std::string_view coherent[] = {"m",  "kg", "s",  "A",  "K",  "mol", "cd",  "rad", "sr",  "Hz", "N",
+                                         "Pa", "J",  "W",  "C",  "V",  "F",   "Ohm", "S",   "Wb",  "T",  "H",
+                                         "lm", "lx", "Bq", "Gy", "Sv", "kat", "px",  "B",   "bit", "dB"};
+
+struct Instead {
+  std::string_view unit;
+  std::string_view write;
+};
+
+constexpr Instead not_si[] = {{"deg", "rad"},   {"degree", "rad"}, {"degrees", "rad"}, {"degC", "K"},
+                              {"celsius", "K"}, {"rpm", "rad/s"},  {"min", "s"},       {"h", "s"},
+                              {"bar", "Pa"},    {"inch", "m"},     {"in", "m"},        {"meter", "m"},
+                              {"metre", "m"},   {"second", "s"},   {"seconds", "s"},   {"sec", "s"},
+                              {"g", "kg"},      {"l", "m^3"},      {"%", "1"},         {"percent", "1"},
+                              {"", "1"},        {"none", "1"},     {"-", "1"},         {"Nm", "N*m"},
+                              {"psi", "Pa"},    {"ohm", "Ohm"},    {"radian", "rad"},  {"radians", "rad"},
+                              {"pixel", "px"},  {"pixels", "px"},  {"byte", "B"},      {"bytes", "B"}};
+
+bool is_coherent(std::string_view symbol) {
+  return std::find(std::begin(coherent), std::end(coherent), symbol) != std::end(coherent);
+}
+
+std::string judge_symbol(std::string_view symbol, bool multiples) {
+  if (symbol == "1" || is_coherent(symbol)) return "";
+  for (const Instead& row : not_si)
+    if (row.unit == symbol) return "write \"" + std::string(row.write) + "\"";
+  constexpr std::string_view prefixes = "pnumcdhkMG";
+  if (symbol.size() > 1 && prefixes.find(symbol.front()) != std::string_view::npos &&
+      (is_coherent(symbol.substr(1)) || symbol.substr(1) == "g"))
+    return multiples ? ""
+                     : "write \"" + std::string(symbol.substr(1) == "g" ? "kg" : symbol.substr(1)) +
+                           "\" and give the value in it";
+  return "units of measure are SI, as \"m\", \"rad/s\", \"N*m\", \"m/s^2\"; \"1\" for a number without";
+}
+
+}  // namespace
+
+std::optional<std::int64_t> parse_duration(std::string_view text) {
+  const auto value = parse_scaled(text, durations);
+  if (!value) return std::nullopt;
+  return static_cast<std::int64_t>(*value);
+}
+
+std::optional<std::size_t> parse_size(std::string_view text) {
+  const auto value = parse_scaled(text, sizes);
+  if (!value) return std::nullopt;
+  return static_cast<std::size_t>(*value);
+}
+
+std::string judge_unit(std::string_view unit, bool multiples) {
+  std::size_t start = 0;
+  while (true) {
+    const std::size_t end = std::min(unit.find_first_of("*/", start), unit.size());
+    std::string_view factor = unit.substr(start, end - start);
+    if (const std::size_t power = factor.find('^'); power != std::string_view::npos) {
+      std::string_view exponent = factor.substr(power + 1);
+      int value = 0;
+      const auto [stop, failed] = std::from_chars(exponent.data(), exponent.data() + exponent.size(), value);
+      if (failed != std::errc{} || stop != exponent.data() + exponent.size() || value == 0)
+        return "an exponent is a whole number, as in \"m/s^2\"";
+      factor = factor.substr(0, power);
+    }
+    if (std::string advice = judge_symbol(factor, multiples); !advice.empty()) return advice;
+    if (end == unit.size()) return "";
+    start = end + 1;
+  }
+}
+
+}  // namespace flexrf::config_gen

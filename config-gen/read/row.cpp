@@ -1,0 +1,177 @@
+#include "config-gen/read/row.hpp"
+
+#include <algorithm>
+
+#include "config-gen/model/words.hpp"
+#include "config-gen/read/quantities.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+std::string shown(const Node& node) {
+  return node.kind == Node::Kind::text ? "\"" + node.text + "\"" : kind_text(node.kind);
+}
+
+}  // namespace
+
+Row::Row(const Node& table, std::string name, Diagnostics& diagnostics)
+    : table_(table), name_(std::move(name)), diagnostics_(diagnostics) {}
+
+const Node* Row::find(std::string_view key) {
+  also(key);
+  return table_.find(key);
+}
+
+void Row::also(std::string_view key) {
+  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.emplace_back(key);
+}
+
+const Node* Row::any(std::string_view key) {
+  return find(key);
+}
+
+std::optional<std::string> Row::text(std::string_view key) {
+  const Node* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->kind == Node::Kind::text) return value->text;
+  wrong_kind(*value, key, "a text", "write it in double quotes");
+  return std::nullopt;
+}
+
+std::optional<bool> Row::boolean(std::string_view key) {
+  const Node* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->kind == Node::Kind::boolean) return value->boolean;
+  wrong_kind(*value, key, "true or false", "write true or false, without quotes");
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> Row::integer(std::string_view key, std::int64_t least, std::int64_t most) {
+  const Node* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->kind != Node::Kind::integer) {
+    wrong_kind(*value, key, "a whole number", "write a number without quotes and without a fraction");
+    return std::nullopt;
+  }
+  if (value->integer < least || value->integer > most) {
+    diagnostics_.error(value->position,
+                       quoted(key) + " of " + name_ + " is " + std::to_string(value->integer),
+                       "it must be from " + std::to_string(least) + " to " + std::to_string(most));
+    return std::nullopt;
+  }
+  return value->integer;
+}
+
+std::optional<std::int64_t> Row::duration(std::string_view key) {
+  const Node* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->kind == Node::Kind::text)
+    if (const auto duration = parse_duration(value->text)) return duration;
+  diagnostics_.error(
+      value->position, quoted(key) + " of " + name_ + " must be a duration, not " + shown(*value),
+      "write a number and its unit in double quotes, as \"7 ms\", \"300 us\", \"1.5 s\" or \"250 ns\"");
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> Row::positive_duration(std::string_view key) {
+  const auto value = duration(key);
+  if (!value || *value > 0) return value;
+  diagnostics_.error(position(key), quoted(key) + " of " + name_ + " is zero",
+                     "give a duration longer than zero");
+  return std::nullopt;
+}
+
+std::optional<std::size_t> Row::size(std::string_view key) {
+  const Node* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  if (value->kind == Node::Kind::text)
+    if (const auto size = parse_size(value->text); size && *size > 0) return size;
+  diagnostics_.error(value->position, quoted(key) + " of " + name_ + " must be a size, not " + shown(*value),
+                     "write a number and its unit in double quotes, as \"8 MiB\", \"64 KiB\" or \"512 B\"");
+  return std::nullopt;
+}
+
+const Node* Row::list_of_texts(std::string_view key) {
+  const Node* value = find(key);
+  if (value == nullptr) return nullptr;
+  const auto is_text = [](const Node& element) { return element.kind == Node::Kind::text; };
+  if (value->kind == Node::Kind::array &&
+      std::all_of(value->children.begin(), value->children.end(), is_text))
+    return value;
+  wrong_kind(*value, key, "a list of texts", "write it as [\"first\", \"second\"]");
+  return nullptr;
+}
+
+const Node* Row::table(std::string_view key) {
+  const Node* value = find(key);
+  if (value == nullptr || value->kind == Node::Kind::table) return value;
+  wrong_kind(*value, key, "a table", "write it as { key = value } or " + std::string(key) + ".KEY = value");
+  return nullptr;
+}
+
+std::optional<std::size_t> Row::word(std::string_view key, const std::vector<std::string>& words) {
+  const auto value = text(key);
+  if (!value) return std::nullopt;
+  const auto found = std::find(words.begin(), words.end(), *value);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  diagnostics_.error(position(key), "unknown " + std::string(key) + " " + quoted(*value) + " in " + name_,
+                     suggest(*value, words, "words", ""));
+  return std::nullopt;
+}
+
+std::optional<std::string> Row::required_text(std::string_view key, std::string_view hint) {
+  if (!has(key)) missing(key, hint);
+  return text(key);
+}
+
+std::string Row::summary() {
+  const auto value =
+      required_text("summary", "add summary = \"One sentence.\": the panel and the reference show it");
+  if (value && value->find_first_not_of(" \t\n") == std::string::npos)
+    diagnostics_.error(position("summary"), "the summary of " + name_ + " is empty",
+                       "write one sentence: the panel and the reference show it");
+  return value.value_or("");
+}
+
+Position Row::position(std::string_view key) const {
+  const Node* value = table_.find(key);
+  return value != nullptr ? value->position : table_.key_position;
+}
+
+void Row::finish() {
+  for (const Node& child : table_.children)
+    if (std::find(asked_.begin(), asked_.end(), child.key) == asked_.end())
+      diagnostics_.error(child.key_position, "unknown key " + quoted(child.key) + " in " + name_,
+                         suggest(child.key, asked_, "keys", "remove it"));
+}
+
+void Row::missing(std::string_view key, std::string_view hint) {
+  diagnostics_.error(position(), name_ + " has no " + quoted(key), std::string(hint));
+}
+
+void Row::wrong_kind(const Node& value, std::string_view key, std::string_view expected,
+                     std::string_view hint) {
+  std::string is = kind_text(value.kind);
+  if (value.kind == Node::Kind::array && expected.substr(0, 6) == "a list") is = "a list of something else";
+  diagnostics_.error(value.position,
+                     quoted(key) + " of " + name_ + " must be " + std::string(expected) + ", not " + is,
+                     std::string(hint));
+}
+
+bool check_name(const Node& row, std::string_view what, Diagnostics& diagnostics) {
+  if (is_keyword(row.key)) {
+    diagnostics.error(row.key_position,
+                      std::string(what) + " cannot be named " + quoted(row.key) + ": it is a word of C++",
+                      "choose another name, as " + quoted(row.key + "_value"));
+    return false;
+  }
+  if (!is_snake_case(row.key)) {
+    diagnostics.error(
+        row.key_position, quoted(row.key) + " is not a name for " + std::string(what),
+        "names are lower_snake_case: small letters, digits and single underscores, a letter first");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace flexrf::config_gen
