@@ -1,0 +1,100 @@
+// The runtime parameters of one component, as its owning thread keeps them: applies requests between two
+// steps, counts presses, ends leases, publishes the values in force.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "runtime/blackboard/slot.hpp"
+#include "runtime/core/status.hpp"
+#include "runtime/core/time.hpp"
+#include "runtime/parameters/parameter_descriptor.hpp"
+#include "runtime/parameters/request.hpp"
+#include "runtime/unit/component.hpp"
+
+namespace flexrf {
+
+/// Bytes of the largest struct of runtime parameters.
+inline constexpr std::size_t max_runtime_size = 4096;
+/// Hold elements of one component.
+inline constexpr std::size_t max_holds = 16;
+/// How long a hold stays true after its last request.
+inline constexpr Duration lease_time = std::chrono::milliseconds{250};
+
+/// Where proposed values are checked before they come into force. One per thread serves all its components.
+struct ParameterScratch {
+  alignas(cache_line) std::byte bytes[max_runtime_size];
+};
+
+/// No function allocates or waits; each is bounded by the size of the struct. All: the owning thread (before
+/// the start: the one that prepares).
+class RuntimeParameters {
+ public:
+  /// `slot` (may be null): where values in force are published. `defaults` (null: zero): the values of the
+  /// tables. Refuses a component whose parameters exceed max_runtime_size or max_holds. Call it again for a
+  /// component that was constructed anew. Does not touch the component's values.
+  Status connect(Component& component, SlotControl* slot, const void* defaults,
+                 ParameterScratch& scratch) noexcept;
+  bool has_any() const noexcept { return values_ != nullptr; }
+
+  /// Takes a whole set of values (at start: the tables' or the saved ones; after a restart: the former).
+  /// Checked as a request is; buttons and holds become zero. Publishes.
+  Status adopt(const void* values, Time now) noexcept;
+
+  /// Between two steps. All changes or none: ranges, then the component's accept, then the values are in
+  /// force and published. activate and clone start from `base` (clone: the other member's values(); null: the
+  /// tables'); making the member active, reset() and retire are the executive's.
+  ParameterAnswer apply(const ParameterRequest& request, Time now, const void* base = nullptr) noexcept;
+
+  /// Before each step: ends the leases whose time is over.
+  void before_step(Time now) noexcept {
+    if (live_leases_ != 0) end_overdue_leases(now);
+  }
+  /// After each step: it has seen the presses.
+  void after_step(Time now) noexcept {
+    if (pressed_) clear_presses(now);
+  }
+  /// Stop motion, fault, stop: every hold becomes false; none of these leases revives.
+  void end_all_leases(Time now) noexcept;
+
+  /// The values in force; null when the component has none.
+  const void* values() const noexcept { return values_; }
+  /// Of the values in force, as in the slot.
+  std::uint64_t sequence() const noexcept { return sequence_; }
+
+ private:
+  struct Lease {
+    std::uint32_t offset;  // of the hold's bool in the struct
+    std::uint16_t requester;
+    bool live;
+    std::uint64_t newest;    // greatest lease number seen: this and all below never start again
+    std::uint64_t number;    // of the live lease
+    std::uint64_t sequence;  // of its last request
+    Time deadline;
+  };
+
+  ParameterAnswer apply_values(const ParameterRequest& request, Time now, const void* base) noexcept;
+  ParameterAnswer apply_presses(const ParameterRequest& request, Time now) noexcept;
+  ParameterAnswer apply_hold(const ParameterRequest& request, Time now) noexcept;
+  Status check_and_commit(Time now, std::uint16_t& parameter) noexcept;
+  void end_overdue_leases(Time now) noexcept;
+  void end_lease(Lease& lease) noexcept;
+  void clear_presses(Time now) noexcept;
+  void publish(Time now) noexcept;
+
+  Component* component_ = nullptr;
+  const ParameterBlock* block_ = nullptr;
+  std::byte* values_ = nullptr;
+  const std::byte* defaults_ = nullptr;
+  std::byte* proposed_ = nullptr;
+  SlotControl* slot_ = nullptr;
+  std::uint64_t sequence_ = 0;  // of the last publication
+  std::uint64_t settings_ = 0;  // of the last publication that changed more than presses and holds
+  std::uint32_t lease_count_ = 0;
+  std::uint32_t live_leases_ = 0;
+  bool pressed_ = false;
+  Lease leases_[max_holds]{};
+};
+
+}  // namespace flexrf
