@@ -58,3 +58,13 @@ function(flexrf_add_test)
     add_dependencies(tests_${label} ${test_NAME})
   endforeach()
 endfunction()
+
+# flexrf_add_benchmark(NAME name SOURCES file... LIBRARIES target...)
+# One executable, bench_<name>, that measures and prints; `flexrf bench name` builds and runs it. Never a test. The tool
+# finds the names in benchmarks/CMakeLists.txt, so NAME stands on the line of the call.
+function(flexrf_add_benchmark)
+  cmake_parse_arguments(PARSE_ARGV 0 benchmark "" "NAME" "SOURCES;LIBRARIES")
+  add_executable(bench_${benchmark_NAME} ${benchmark_SOURCES})
+  target_link_libraries(bench_${benchmark_NAME} PRIVATE FlexRF::options ${benchmark_LIBRARIES})
+  set_target_properties(bench_${benchmark_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/benchmarks)
+endfunction()

@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# `test` runs every stage whatever fails, selects by preset, and ends with the sum.
+source "$(dirname "$0")/stand_in.sh"
+shopt -s extglob
+
+stand_in ctest <<'BODY'
+echo "long: ${FLEXRF_LONG-unset}" >>"$STAND_IN/calls"
+[[ $2 == */checked && -e $STAND_IN/failing ]] && { echo "75% tests passed, 1 tests failed out of 4"; exit 8; }
+echo "100% tests passed, 0 tests failed out of 4"
+BODY
+stand_in clang-format </dev/null
+stand_in clang-tidy </dev/null
+stand_in setarch <<'BODY'
+exec "${@:2}"
+BODY
+
+last_line() { printf '%s\n' "${output##*$'\n'}"; }
+
+flexrf test </dev/null
+expect "exit code" "$status" 0
+expect "last line" "$(last_line)" "100% tests passed, 0 tests failed out of 22"
+for stage in "source layout" "static analysis" {build,test}\ {release,checked,asan,tsan}; do
+  expect "time of $stage" "$output" "*"$'\n'"$stage *[0-9] s   passed*"
+done
+for preset in release checked; do
+  expect "tests of $preset" "$(grep "^ctest .*/$preset " "$calls")" "!(* -L *)"
+done
+for preset in asan tsan; do
+  expect "tests of $preset" "$(grep "^ctest .*/$preset " "$calls")" "* -L ^(unit|stress)\$ -LE ^long\$"
+  expect "what is built of $preset" "$(grep "^ninja .*/$preset" "$calls")" "*tests_unit tests_stress"
+  expect "start of $preset" "$(grep "^setarch --addr-no-randomize ctest .*/$preset " "$calls")" "?*"
+done
+expect "long tests" "$(sort -u <(grep ^long: "$calls"))" "long: unset"
+
+: >"$calls"
+flexrf test --full </dev/null
+expect "exit code of --full" "$status" 0
+expect "long tests of --full" "$(sort -u <(grep ^long: "$calls"))" "long: 1"
+expect "selections of --full" "$(grep -c -e ' -L' "$calls")" 0
+
+: >"$calls"
+flexrf test tsan debug </dev/null
+expect "exit code of two presets" "$status" 0
+expect "presets" "$(grep '^ctest' "$calls" | sed 's|.*/build/\([a-z]*\) .*|\1|')" "tsan"$'\n'"debug"
+expect "last line of two presets" "$(last_line)" "100% tests passed, 0 tests failed out of 10"
+
+touch "$work/failing"
+: >"$calls"
+flexrf test </dev/null
+expect "exit code of a failure" "$status" 1
+expect "stages after a failure" "$output" "*test checked *FAILED*test tsan *passed*"
+expect "last line of a failure" "$(last_line)" "95% tests passed, 1 tests failed out of 22"
+
+touch "$work/broken"
+flexrf test release </dev/null
+expect "exit code of a broken build" "$status" 1
+expect "tests after a broken build" "$output" "*error: broken*build release *FAILED*test release *passed*"
+expect "last line of a broken build" "$(last_line)" "80% tests passed, 1 tests failed out of 5"
+finish

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Words that flexrf does not know, and its help.
+source "$(dirname "$0")/stand_in.sh"
+
+unknown() {  # unknown NEAREST ARGUMENT...
+  local nearest=$1
+  shift
+  flexrf "$@" </dev/null
+  expect "exit code of '$*'" "$status" 1
+  expect "message of '$*'" "$errors" "*did you mean '$nearest'?*"
+  expect "output of '$*'" "$output" ""
+}
+unknown run rnu
+unknown doctor docter
+unknown help hepl
+unknown build help biuld
+unknown keyboard run keybaord
+unknown keyboard-single run keyboard_single
+unknown keyboard map keybord
+unknown release build --preset relase
+unknown tsan test release tsna
+unknown keyboard check keybord
+
+flexrf run --keys file </dev/null
+expect "exit code of a misplaced argument" "$status" 1
+expect "message of a misplaced argument" "$errors" "*unknown option '--keys'*after --*"
+flexrf build --preset </dev/null
+expect "exit code of a preset left out" "$status" 1
+expect "calls of what was not understood" "$(<"$calls")" ""
+
+flexrf help </dev/null
+expect "exit code of help" "$status" 0
+commands=(run test build check map bench doctor help)
+for command in "${commands[@]}"; do
+  expect "help lists" "$output" "*./flexrf $command *"
+done
+for command in "${commands[@]}"; do
+  flexrf "$command" --help </dev/null
+  expect "exit code of $command --help" "$status" 0
+  expect "$command --help" "$output" "*./flexrf $command*"
+done
+flexrf run -- --help </dev/null
+expect "the application's help" "$output" "*arguments: --help*"
+finish
