@@ -1,0 +1,26 @@
+// urdf_header URDF CONSTANT HEADER: writes the URDF's chain as flexrf::CONSTANT.
+#include <fstream>
+#include <iostream>
+
+#include "config-gen/urdf/urdf_chain.hpp"
+
+int main(int argc, char** argv) {
+  using namespace flexrf::config_gen;
+  if (argc != 4) {
+    std::cerr << "usage: urdf_header URDF CONSTANT HEADER\n";
+    return 1;
+  }
+  const UrdfResult result = read_urdf(argv[1]);
+  for (const UrdfError& error : result.errors) std::cerr << error.text() << '\n';
+  if (!result.chain) return 1;
+  std::ofstream header(argv[3]);
+  header << "#pragma once\n\n#include \"" << kinematic_chain_header << "\"\n\nnamespace flexrf {\n\n"
+         << "inline constexpr KinematicChain " << argv[2] << " = " << emit_kinematic_chain(*result.chain)
+         << ";\n\n}  // namespace flexrf\n";
+  header.close();
+  if (!header) {
+    std::cerr << argv[3] << ": cannot be written\n";
+    return 1;
+  }
+  return 0;
+}
