@@ -1,0 +1,65 @@
+// Last gasp: what is still done when the process crashes, or when the owner of a device does not answer. Each
+// driver prepares the bytes that make its device safe; a handler that needs nothing else writes them.
+#pragma once
+
+#include <termios.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "runtime/core/status.hpp"
+
+namespace flexrf::last_gasp {
+
+inline constexpr std::size_t slots = 64;
+inline constexpr std::size_t bytes_per_slot = 64;
+/// Each thread that may crash needs a stack of its own for the handler.
+inline constexpr std::size_t handler_stack_size = 64 * 1024;
+
+/// Handles SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT: writes everything prepared, restores the terminal,
+/// says which signal and which unit, and lets the signal's default action end the process. Once, by the main
+/// thread, which gets an alternate stack; other threads take an AlternateStack.
+Status install() noexcept;
+
+/// A slot for one device's bytes; −1 when all 64 are taken. Lifecycle thread.
+int claim_slot() noexcept;
+/// Frees it; nothing is written for it any more. Lifecycle thread.
+void release_slot(int slot) noexcept;
+/// What is written to `descriptor` in the last gasp, at most 64 bytes; replaces what was prepared before. The
+/// owner of the slot, every cycle if need be: wait-free, no system call. False: slot or size out of range.
+bool prepare_write(int slot, int descriptor, std::span<const std::byte> bytes) noexcept;
+/// Nothing is written for this slot until something is prepared again. The owner of the slot.
+void clear(int slot) noexcept;
+
+/// How a terminal is to be left. One terminal; not while a signal may come for it. Non-real-time threads.
+void prepare_terminal(int descriptor, const termios& settings) noexcept;
+/// Before the descriptor is closed.
+void clear_terminal() noexcept;
+
+/// Writes everything prepared now and restores the terminal; the process goes on. For a supervising thread
+/// when an owner does not answer. A descriptor that would block for more than 10 ms is left out.
+/// Async-signal-safe.
+/// @returns number of slots written in full.
+int fire() noexcept;
+
+/// The unit that this thread steps (a name that lives for ever; null: none), for the crash's message. Its
+/// thread.
+void set_stepped(const char* unit) noexcept;
+
+/// An alternate stack for this thread's signal handlers while it lives. Memory is the caller's, preallocated,
+/// at least handler_stack_size bytes.
+class AlternateStack {
+ public:
+  explicit AlternateStack(std::span<std::byte> memory) noexcept;
+  ~AlternateStack();
+  AlternateStack(const AlternateStack&) = delete;
+  AlternateStack& operator=(const AlternateStack&) = delete;
+
+ private:
+  void* outer_;
+  std::size_t outer_size_;
+  int outer_flags_;
+};
+
+}  // namespace flexrf::last_gasp

@@ -1,0 +1,48 @@
+// Response-time analysis of periodic tasks under fixed priorities: an estimate of the longest time from
+// release to completion, from declared budgets.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "runtime/core/time.hpp"
+
+namespace flexrf {
+
+/// What a report says beside the numbers: budgets are declared, the kernel's own work is not in them.
+inline constexpr const char* response_time_label =
+    "estimate from declared budgets, kernel and interrupts left out";
+
+struct ResponseTimeTask {
+  const char* name = "";
+  std::uint16_t cpu = 0;      ///< tasks of different CPUs do not disturb each other
+  std::uint8_t priority = 0;  ///< higher runs first; equal ones are counted as disturbing each other
+  Duration execution{};       ///< C: longest execution of one release
+  Duration period{};          ///< T: shortest time between releases, > 0
+  Duration jitter{};          ///< J: how much later than due a release may come
+  Duration deadline{};        ///< D: of one release, from when it was due
+};
+
+struct ResponseTimeResult {
+  /// Longest time from due to completion, jitter included; Duration::max() when it has no bound (the CPU is
+  /// asked for more than it has).
+  Duration response{};
+  bool meets_deadline = false;
+};
+
+/// Joseph and Pandya, "Finding response times in a real-time system", 1986; Audsley et al., "Applying new
+/// scheduling theory to static priority pre-emptive scheduling", 1993; over the whole busy period (Lehoczky
+/// 1990, Tindell 1994), so that deadlines beyond the period are right too. Pure; any thread, not for
+/// real-time paths.
+/// @param results as many as tasks, same order.
+/// @returns whether every task meets its deadline.
+bool analyse_response_times(std::span<const ResponseTimeTask> tasks,
+                            std::span<ResponseTimeResult> results) noexcept;
+
+/// "control: response 1.250 ms, deadline 7.000 ms: met", labelled as an estimate; cut at capacity. @returns
+/// text.
+const char* describe_response_time(const ResponseTimeTask& task, const ResponseTimeResult& result, char* text,
+                                   std::size_t capacity) noexcept;
+
+}  // namespace flexrf
