@@ -99,6 +99,7 @@ struct InputBinding {
   SlotReader* readers = nullptr;  ///< one, or one per member of a population
   std::uint32_t count = 0;        ///< 0: not connected, always NULL
   Duration max_age{};
+  void* members = nullptr;  ///< range inputs: `count` Input<T>, one cursor per member
 };
 
 /// Untyped half of an input: the cursor of one unit in one slot.
@@ -188,24 +189,25 @@ class Input : public InputCursor {
   }
 };
 
-/// Latest items of all members of a population (range = true). Capacity is the population's.
-template <class T, std::size_t Capacity>
+/// Latest items of all members of a population (range = true). A unit type is compiled without knowing how
+/// large the populations are that it will read, so the cursors lie in the application.
+template <class T>
 class InputRange {
  public:
   void connect(const StepContext* context, const InputBinding& binding) noexcept {
-    count_ = binding.count < Capacity ? binding.count : Capacity;
-    for (std::size_t i = 0; i < count_; ++i) {
-      members_[i].connect(context, InputBinding{binding.readers + i, 1, binding.max_age});
+    members_ = {static_cast<Input<T>*>(binding.members), binding.count};
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      members_[i] = Input<T>{};
+      members_[i].connect(context, InputBinding{binding.readers + i, 1, binding.max_age, nullptr});
     }
   }
-  std::size_t size() const noexcept { return count_; }
+  std::size_t size() const noexcept { return members_.size(); }
   Input<T>& operator[](std::size_t index) noexcept { return members_[index]; }
-  Input<T>* begin() noexcept { return members_; }
-  Input<T>* end() noexcept { return members_ + count_; }
+  auto begin() noexcept { return members_.begin(); }
+  auto end() noexcept { return members_.end(); }
 
  private:
-  Input<T> members_[Capacity];
-  std::size_t count_ = 0;
+  std::span<Input<T>> members_;
 };
 
 /// A buffer to fill in place. Discarded unless published.
