@@ -33,7 +33,7 @@ struct FieldDescriptor {
   const char* name;
   Scalar scalar;
   std::uint8_t dimensions;  ///< 0: a single value; 1 or 2: an array, two stored column by column
-  std::uint16_t shape[2];   ///< extent of each dimension; 0 where unused
+  std::uint32_t shape[2];   ///< extent of each dimension; 0 where unused
   std::uint32_t count;      ///< number of elements (product of the shape), or bytes of a text
   std::uint32_t offset;     ///< bytes from the start of the struct
   const char* unit;         ///< unit of measure, "1" for dimensionless, "" where none applies
