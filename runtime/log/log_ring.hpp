@@ -8,32 +8,32 @@
 
 namespace flexrf {
 
-/// Many writers, one reader, records of fixed size. A writer takes a credit, then a ticket: as many credits
-/// as cells and cells freed in order mean that a ticket's cell is free, so writing takes two
+/// Many writers, one reader, records of fixed size. A writer reserves a place, then takes a ticket: as
+/// many places as cells and cells freed in order mean that a ticket's cell is free, so writing takes two
 /// read-modify-writes and never a retry. A writer preempted in mid-record holds up the reader, never another
 /// writer.
 class LogRing {
  public:
   static constexpr std::uint32_t capacity = 512;
   /// The last of them are kept for warnings and errors.
-  static constexpr std::int32_t reserve = 64;
+  static constexpr std::uint32_t reserve = 64;
 
   struct Cell {
     std::atomic<std::uint64_t> ready{0};  ///< ticket + 1 when filled
-    LogRecord record;
+    LogRecord record{};
   };
 
   constexpr LogRing() noexcept = default;
 
   /// A cell to fill, or null when the ring is full (counted). Any thread, wait-free.
   Cell* claim(Severity severity) noexcept {
-    const std::int32_t left = severity < Severity::warning ? reserve : 0;
-    if (credits_.fetch_sub(1, std::memory_order_acquire) <= left) {
-      credits_.fetch_add(1, std::memory_order_relaxed);
+    const std::uint32_t room = severity < Severity::warning ? capacity - reserve : capacity;
+    if (used_.fetch_add(1, std::memory_order_acquire) >= room) {
+      used_.fetch_sub(1, std::memory_order_relaxed);
       dropped_.fetch_add(1, std::memory_order_relaxed);
       return nullptr;
     }
-    // Acquire and release: the credit that a cell's freeing gave may be another writer's, one ticket before.
+    // Acquire and release: the place that a cell's freeing gave may be another writer's, one ticket before.
     const std::uint64_t ticket = tickets_.fetch_add(1, std::memory_order_acq_rel);
     Cell& cell = cells_[ticket % capacity];
     cell.record.ticket = ticket;
@@ -51,18 +51,18 @@ class LogRing {
   }
   void pop() noexcept {
     ++head_;
-    credits_.fetch_add(1, std::memory_order_release);
+    used_.fetch_sub(1, std::memory_order_release);
   }
 
   /// Any thread.
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:
-  std::atomic<std::int32_t> credits_{static_cast<std::int32_t>(capacity)};
+  std::atomic<std::uint32_t> used_{0};
   std::atomic<std::uint64_t> tickets_{0};
   std::atomic<std::uint64_t> dropped_{0};
   std::uint64_t head_ = 0;
-  Cell cells_[capacity];
+  Cell cells_[capacity]{};
 };
 
 /// The process's own.
