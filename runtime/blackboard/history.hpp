@@ -44,6 +44,10 @@ class History {
   std::uint32_t capacity() const noexcept { return capacity_; }
 
  private:
+  std::atomic<std::uint64_t>* entry(std::uint64_t position) const noexcept {
+    return words_ + position % capacity_ * words_per_entry(type_->size);
+  }
+
   const TypeDescriptor* type_;
   std::atomic<std::uint64_t>* words_;
   std::uint32_t capacity_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "runtime/core/time.hpp"
+#include "runtime/core/type_descriptor.hpp"
 
 namespace flexrf {
 
@@ -32,6 +33,35 @@ struct ItemHeader {
   std::uint64_t sequence;  ///< 1 for the first publication; 0: never published
   Time sampled_at;         ///< when the value was true: the step's time unless the writer said otherwise
 };
+
+/// Sequences wrap around modulo 2^64 and leave out 0, which means "never".
+constexpr std::uint64_t next_sequence(std::uint64_t sequence) noexcept {
+  return sequence + 1 == 0 ? 1 : sequence + 1;
+}
+/// How many sequences lie between two, both left out; from before to.
+constexpr std::uint64_t sequences_between(std::uint64_t from, std::uint64_t to) noexcept {
+  return to - from - 1 - (to < from ? 1 : 0);
+}
+
+/// What the writer's state alone makes of every read: none while it may publish.
+constexpr NullReason null_reason_of(WriterState state) noexcept {
+  switch (state) {
+    case WriterState::stopped:
+      return NullReason::writer_stopped;
+    case WriterState::faulted:
+      return NullReason::writer_faulted;
+    case WriterState::retired:
+      return NullReason::writer_retired;
+    case WriterState::waiting:
+    case WriterState::running:
+      break;
+  }
+  return NullReason::none;
+}
+
+/// The digest so far, with one item added: sequence, time, fields (no padding).
+std::uint64_t digest_of_item(std::uint64_t so_far, const TypeDescriptor& type, const ItemHeader& header,
+                             const void* value) noexcept;
 
 /// What the executive tells the ports of the unit it steps. One per thread; written by that thread only.
 struct StepContext {

@@ -63,22 +63,33 @@ class JobQueue final : public QueueSource {
   std::uint64_t arrivals() const noexcept override { return arrivals_.load(std::memory_order_acquire); }
   const TypeDescriptor* type() const noexcept override { return type_; }
   std::uint32_t capacity() const noexcept { return memory_.count; }
+  /// So that tests can see the wrap-around. Before the start.
+  void start_tickets_at(std::uint64_t ticket) noexcept;
 
  private:
   friend class JobSink;
   enum State : std::uint64_t { empty = 0, writing = 1, full = 2, reading = 3 };
   static constexpr std::uint32_t no_cell = 0xFFFFFFFF;
+  /// A cell as it looked when it was passed.
+  struct Candidate {
+    std::uint32_t cell = no_cell;
+    std::uint64_t word = 0;
+    std::uint64_t ticket = 0;
+  };
 
   void* value(std::uint32_t cell) const noexcept {
     return static_cast<std::byte*>(memory_.values) + std::size_t{cell} * memory_.value_stride;
   }
   /// The score of a value as a rank of 62 bits: a higher one is a higher rank.
   std::uint64_t rank_of(const void* value) const noexcept;
+  bool ranks_above(const Candidate& one, const Candidate& other) const noexcept;
+  Candidate look_at(std::uint32_t index) const noexcept;
+  bool has_empty_cell() const noexcept;
+  /// A cell to write a job of this rank into; no_cell when the job is to be dropped.
+  std::uint32_t claim(std::uint64_t rank) noexcept;
   std::uint32_t claim_empty() noexcept;
-  std::uint32_t claim_by_pushing_out(std::uint64_t rank) noexcept;
-  void make_visible(std::uint32_t cell, std::uint64_t rank) noexcept;
-  bool wins(std::uint64_t word, std::uint64_t ticket, std::uint64_t best_word,
-            std::uint64_t best_ticket) const noexcept;
+  Candidate one_to_push_out(std::uint64_t rank) const noexcept;
+  void make_visible(std::uint32_t index) noexcept;
 
   Memory memory_;
   const TypeDescriptor* type_;

@@ -1,7 +1,10 @@
 // Ports: how a unit's step reads and writes the blackboard. Used by the unit's thread only, inside step().
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <cstring>
+#include <memory>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -24,21 +27,24 @@ class SlotReader {
   const ItemHeader* latch(std::uint64_t step) noexcept {
     if (step != step_) {
       step_ = step;
-      if (slot_->has_newer(held_)) {
-        // A kept buffer is given back by keep(), not by taking the next.
-        if (held_ == kept_) held_ = SlotControl::none;
-        slot_->take(held_);
-      }
+      advance();
     }
     return held_ == SlotControl::none ? nullptr : &slot_->header(held_);
   }
+  /// As latch(), for a reader that knows no steps: takes the newest at every call.
+  const ItemHeader* newest() noexcept {
+    advance();
+    return held_ == SlotControl::none ? nullptr : &slot_->header(held_);
+  }
+  /// Of the item that the last latch() or newest() gave.
   const void* payload() const noexcept { return slot_->payload(held_); }
   SlotControl* slot() const noexcept { return slot_; }
 
   /// Keeps the buffer beyond the step (inputs with hold = true, which have a reader of their own). What was
   /// kept before is given back.
   void keep() noexcept {
-    if (kept_ != SlotControl::none && kept_ != held_) slot_->give(kept_);
+    if (kept_ == held_) return;
+    if (kept_ != SlotControl::none) slot_->give(kept_);
     kept_ = held_;
   }
   const void* kept_payload() const noexcept { return slot_->payload(kept_); }
@@ -47,6 +53,16 @@ class SlotReader {
   }
 
  private:
+  void advance() noexcept {
+    if (held_ != kept_) {
+      slot_->take(held_);
+      return;
+    }
+    // A kept buffer is given back by keep(), not by taking the next.
+    std::uint8_t next = SlotControl::none;
+    if (slot_->has_newer(held_) && slot_->take(next)) held_ = next;
+  }
+
   SlotControl* slot_ = nullptr;
   std::uint64_t step_ = 0;
   std::uint8_t held_ = SlotControl::none;
@@ -112,8 +128,8 @@ class InputCursor {
   }
   bool is_connected() const noexcept { return reader_ != nullptr; }
   /// Counters for reports; relaxed, any thread.
-  std::uint64_t read() const noexcept { return read_; }
-  std::uint64_t missed() const noexcept { return missed_total_; }
+  std::uint64_t read() const noexcept { return read_.load(std::memory_order_relaxed); }
+  std::uint64_t missed() const noexcept { return missed_total_.load(std::memory_order_relaxed); }
   /// Forgets what was seen: the next item is new (a member of a population begins again).
   void forget() noexcept { cursor_ = 0; }
 
@@ -145,8 +161,8 @@ class InputCursor {
   Duration max_age_{};
   std::uint64_t step_ = 0;
   std::uint64_t cursor_ = 0;
-  std::uint64_t read_ = 0;
-  std::uint64_t missed_total_ = 0;
+  std::atomic<std::uint64_t> read_{0};
+  std::atomic<std::uint64_t> missed_total_{0};
 };
 
 /// Latest item of a slot.
@@ -197,7 +213,8 @@ class InputRange {
   void connect(const StepContext* context, const InputBinding& binding) noexcept {
     members_ = {static_cast<Input<T>*>(binding.members), binding.count};
     for (std::size_t i = 0; i < members_.size(); ++i) {
-      members_[i] = Input<T>{};
+      // A unit that is restarted begins with cursors of its own again.
+      std::construct_at(&members_[i]);
       members_[i].connect(context, InputBinding{binding.readers + i, 1, binding.max_age, nullptr});
     }
   }
@@ -263,13 +280,15 @@ class Output {
   }
   bool is_connected() const noexcept { return slot_ != nullptr; }
 
-  void publish(const T& value) noexcept { publish(value, context_->now); }
-  void publish(const T& value, Time sampled_at) noexcept {
-    if (slot_ == nullptr) return;
+  /// False when nothing was published because all loans are out.
+  bool publish(const T& value) noexcept { return slot_ == nullptr || publish(value, context_->now); }
+  bool publish(const T& value, Time sampled_at) noexcept {
+    if (slot_ == nullptr) return true;
     const std::uint8_t buffer = slot_->loan();
-    if (buffer == SlotControl::none) return;
+    if (buffer == SlotControl::none) return false;
     std::memcpy(slot_->payload(buffer), &value, sizeof(T));
     slot_->publish(buffer, sampled_at);
+    return true;
   }
   Loan<T> loan() noexcept { return slot_ == nullptr ? Loan<T>{} : Loan<T>{slot_, context_, slot_->loan()}; }
   Loan<T> loan_last() noexcept {
@@ -310,7 +329,7 @@ class QueueOutput {
     sinks_ = sinks;
   }
   /// False when at least one queue dropped it.
-  bool push(const T& value) noexcept { return push(value, context_->now); }
+  bool push(const T& value) noexcept { return sinks_.empty() || push(value, context_->now); }
   bool push(const T& value, Time sampled_at) noexcept {
     bool accepted = true;
     for (QueueSink* sink : sinks_) accepted = sink->push(&value, sampled_at) && accepted;

@@ -57,6 +57,7 @@ class QueueRing final : public QueueSink, public QueueSource {
   void start_position_at(std::uint64_t position) noexcept;
 
  private:
+  void make_visible() noexcept;
   std::atomic<std::uint64_t>* entry(std::uint64_t position) const noexcept {
     return memory_.words + (position & (memory_.entries - 1)) * RingEntry::words(type_->size);
   }

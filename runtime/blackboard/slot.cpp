@@ -1,7 +1,6 @@
 #include "runtime/blackboard/slot.hpp"
 
 #include "runtime/blackboard/history.hpp"
-#include "runtime/core/digest.hpp"
 
 namespace flexrf {
 
@@ -13,21 +12,13 @@ void SlotControl::make_visible(std::uint8_t buffer) noexcept {
   } else {
     const std::uint64_t old = word_.exchange(word_of(buffer), std::memory_order_acq_rel);
     // Only now is it final how often the former buffer was taken.
-    memory_.taken[current_] += static_cast<std::uint32_t>(old);
+    memory_.taken[current_] += static_cast<std::uint32_t>(old >> taken_shift);
     back_ = current_;
   }
   current_ = buffer;
   last_ = buffer;
   published_.store(header(buffer).sequence, std::memory_order_release);
   for (Doorbell* bell : bells_) bell->ring();
-}
-
-void SlotControl::digest_item(std::uint8_t buffer) noexcept {
-  Digest digest{digest_};
-  digest.add(header(buffer).sequence);
-  digest.add(static_cast<std::uint64_t>(nanoseconds(header(buffer).sampled_at)));
-  digest.add_fields(*type_, payload(buffer));
-  digest_ = digest.value();
 }
 
 void SlotControl::poison(std::uint8_t buffer) noexcept {

@@ -6,10 +6,13 @@
 // published. A reader gives its former buffer back by one increment and takes the current one by another; the
 // writer publishes by one exchange and finds a free buffer by comparing taken with given back. Each reader
 // holds at most one buffer (one more per hold), so of Readers + Holds + 1 + Loans buffers one is always free
-// for a writer that keeps to its loans. No operation waits, copies or retries on account of the other side.
+// for a writer that keeps to its loans: one is current, at most Loans - 1 others are out, at most
+// Readers + Holds are held, and none but the current one can become held. No operation waits, copies or
+// retries on account of the other side.
 //
-// Steps that bound each operation, B = number of buffers: publish 1 exchange; loan at most B loads; take at
-// most 1 load and 2 read-modify-writes.
+// Steps that bound each operation, B = number of buffers, whatever the other side does: loan at most B loads;
+// publish 1 exchange and 1 store (and per doorbell 1 read-modify-write); take 1 load, and for a new item 1
+// exchange (triple buffer) or 2 read-modify-writes.
 #pragma once
 
 #include <atomic>
@@ -62,12 +65,13 @@ class SlotControl {
 
   // ---- the writer's side
 
-  /// A buffer to fill, contents unspecified (poisoned in checked builds); `none` when all loans are out.
+  /// A buffer to fill, contents unspecified (poisoned in checked builds); `none` when all loans are out (or
+  /// more readers hold a buffer than the slot was made for).
   std::uint8_t loan() noexcept;
   /// As loan(), starting as the last published value (zero before the first).
   std::uint8_t loan_last() noexcept;
   /// Makes the buffer the latest item, stamps it, rings the doorbells. In virtual time it becomes visible at
-  /// commit().
+  /// commit(), or when the same step asks for another loan: there is no buffer more for that case.
   void publish(std::uint8_t buffer, Time sampled_at) noexcept;
   /// Gives an unpublished loan back.
   void abandon(std::uint8_t buffer) noexcept;
@@ -81,8 +85,9 @@ class SlotControl {
   bool take(std::uint8_t& held) noexcept;
   /// True when take() would bring another item; changes nothing.
   bool has_newer(std::uint8_t held) const noexcept;
-  /// Gives a held buffer back for good (a reader that goes away; a hold that ends). Not in a triple buffer.
-  void give(std::uint8_t held) noexcept { memory_.given[held].fetch_add(1, std::memory_order_release); }
+  /// Gives a held buffer back for good (a reader that goes away; a hold that ends); `held` becomes `none`. In
+  /// a triple buffer the reader's buffer is nobody else's in any case: it stays held, and `held` as it is.
+  void give(std::uint8_t& held) noexcept;
 
   // ---- anybody
 
@@ -95,7 +100,7 @@ class SlotControl {
   }
   const TypeDescriptor* type() const noexcept { return type_; }
   History* history() const noexcept { return history_; }
-  /// Sequence of the last visible publication: what triggers compare and reports count.
+  /// Sequence of the last visible publication, 0 before the first: what triggers compare and reports count.
   std::uint64_t published() const noexcept { return published_.load(std::memory_order_acquire); }
   WriterState writer_state() const noexcept { return writer_state_.load(std::memory_order_acquire); }
   void set_writer_state(WriterState state) noexcept { writer_state_.store(state, std::memory_order_release); }
@@ -107,26 +112,26 @@ class SlotControl {
   /// Whether to digest publications, and the digest so far (name not included).
   void set_digested(bool on) noexcept { digested_ = on; }
   std::uint64_t digest() const noexcept { return digest_; }
-  /// So that tests can see the wrap-around: the next publication has sequence + 1.
+  /// So that tests can see the wrap-around: the next publication has the one after this.
   void start_sequence_at(std::uint64_t sequence) noexcept { sequence_ = sequence; }
 
  private:
-  static constexpr std::uint64_t published_bit = std::uint64_t{1} << 63;
-  static constexpr std::uint64_t fresh_bit = std::uint64_t{1} << 62;
-  static constexpr int index_shift = 32;
+  // The word: [taken 63..10 | fresh 9 | published 8 | index 7..0]. The count is on top so that it may wrap.
+  static constexpr std::uint64_t published_bit = std::uint64_t{1} << 8;
+  static constexpr std::uint64_t fresh_bit = std::uint64_t{1} << 9;
+  static constexpr int taken_shift = 10;
+  static constexpr std::uint64_t one_taken = std::uint64_t{1} << taken_shift;
   static constexpr std::uint8_t index_of(std::uint64_t word) noexcept {
-    return static_cast<std::uint8_t>((word >> index_shift) & 0xFF);
+    return static_cast<std::uint8_t>(word & 0xFF);
   }
-  static constexpr std::uint64_t word_of(std::uint8_t index) noexcept {
-    return published_bit | (std::uint64_t{index} << index_shift);
-  }
+  static constexpr std::uint64_t word_of(std::uint8_t index) noexcept { return published_bit | index; }
 
   ItemHeader& header_for_writing(std::uint8_t buffer) noexcept {
     return *reinterpret_cast<ItemHeader*>(static_cast<std::byte*>(memory_.headers) +
                                           buffer * std::size_t{memory_.header_stride});
   }
+  bool is_free(std::uint8_t buffer) const noexcept;
   void make_visible(std::uint8_t buffer) noexcept;
-  void digest_item(std::uint8_t buffer) noexcept;
   void poison(std::uint8_t buffer) noexcept;
 
   // Read by both sides, written by nobody after the start.
@@ -137,7 +142,7 @@ class SlotControl {
   bool deferred_ = false;
   bool digested_ = false;
 
-  // Shared: [published | fresh | index 32..39 | taken 0..31].
+  // Shared.
   alignas(cache_line) std::atomic<std::uint64_t> word_{0};
   std::atomic<WriterState> writer_state_{WriterState::waiting};
 

@@ -5,6 +5,12 @@
 
 namespace flexrf {
 
+inline bool SlotControl::is_free(std::uint8_t buffer) const noexcept {
+  // Acquire: what its readers did with the buffer is over before the writer's first byte.
+  return buffer != current_ && (loaned_ >> buffer & 1U) == 0 &&
+         memory_.taken[buffer] == memory_.given[buffer].load(std::memory_order_acquire);
+}
+
 inline std::uint8_t SlotControl::loan() noexcept {
   if (pending_ != none) [[unlikely]] {
     commit();
@@ -12,12 +18,10 @@ inline std::uint8_t SlotControl::loan() noexcept {
   if (loans_out_ == memory_.loans) return none;
   std::uint8_t buffer = back_;
   if (!memory_.triple) {
-    const auto is_free = [this](std::uint8_t candidate) noexcept {
-      return candidate != current_ && (loaned_ >> candidate & 1U) == 0 &&
-             memory_.taken[candidate] == memory_.given[candidate].load(std::memory_order_acquire);
-    };
-    while (!is_free(buffer))
+    for (std::uint8_t tried = 1; !is_free(buffer); ++tried) {
+      if (tried == memory_.buffers) return none;
       buffer = buffer + 1 == memory_.buffers ? std::uint8_t{0} : static_cast<std::uint8_t>(buffer + 1);
+    }
     loaned_ |= std::uint64_t{1} << buffer;
   }
   ++loans_out_;
@@ -45,12 +49,13 @@ inline void SlotControl::abandon(std::uint8_t buffer) noexcept {
 
 inline void SlotControl::publish(std::uint8_t buffer, Time sampled_at) noexcept {
   ItemHeader& item = header_for_writing(buffer);
-  item.sequence = ++sequence_;
+  sequence_ = next_sequence(sequence_);
+  item.sequence = sequence_;
   item.sampled_at = sampled_at;
   loaned_ &= ~(std::uint64_t{1} << buffer);
   --loans_out_;
   if (digested_) [[unlikely]] {
-    digest_item(buffer);
+    digest_ = digest_of_item(digest_, *type_, item, payload(buffer));
   }
   if (deferred_) [[unlikely]] {
     commit();
@@ -84,13 +89,18 @@ inline bool SlotControl::take(std::uint8_t& held) noexcept {
     held = index_of(word);
     return true;
   }
-  if ((word & published_bit) == 0) return false;
   // A held buffer is never published again before it is given back, so the same index is the same item.
-  if (index_of(word) == held) return false;
+  if ((word & published_bit) == 0 || index_of(word) == held) return false;
   if (held != none) give(held);
-  word = word_.fetch_add(1, std::memory_order_acquire);
+  word = word_.fetch_add(one_taken, std::memory_order_acquire);
   held = index_of(word);
   return true;
+}
+
+inline void SlotControl::give(std::uint8_t& held) noexcept {
+  if (memory_.triple) return;
+  memory_.given[held].fetch_add(1, std::memory_order_release);
+  held = none;
 }
 
 }  // namespace flexrf
