@@ -352,6 +352,7 @@ struct Thread {
   std::string summary;
 
   Nanoseconds demand = 0;                    // sum of the units' budgets
+  bool partial = false;                      // as of a slot
   std::optional<Nanoseconds> response_time;  // real-time threads with known interval: the analysis' estimate
 };
 

@@ -119,7 +119,7 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
 std::string suggest(std::string_view word, const std::vector<std::string>& known, std::string_view kinds,
                     std::string_view otherwise) {
   const std::string near = nearest(word, known);
-  if (!near.empty()) return "did you mean " + quoted(near) + "?";
+  if (!near.empty()) return "did you mean " + quote(near) + "?";
   if (known.empty()) return std::string(otherwise);
   std::vector<std::string> shown = known;
   std::sort(shown.begin(), shown.end());
@@ -128,11 +128,11 @@ std::string suggest(std::string_view word, const std::vector<std::string>& known
   const bool cut = shown.size() > most;
   if (cut) shown.resize(most);
   std::string text = "known " + std::string(kinds) + ": ";
-  for (std::size_t i = 0; i < shown.size(); ++i) text += (i == 0 ? "" : ", ") + quoted(shown[i]);
+  for (std::size_t i = 0; i < shown.size(); ++i) text += (i == 0 ? "" : ", ") + quote(shown[i]);
   return cut ? text + ", ..." : text;
 }
 
-std::string quoted(std::string_view word) {
+std::string quote(std::string_view word) {
   return "'" + std::string(word) + "'";
 }
 
@@ -140,7 +140,7 @@ std::string listed(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
-    text += quoted(words[i]);
+    text += quote(words[i]);
   }
   return text;
 }

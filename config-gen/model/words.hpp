@@ -23,7 +23,7 @@ std::string nearest(std::string_view word, std::span<const std::string> known);
 std::string suggest(std::string_view word, const std::vector<std::string>& known, std::string_view kinds,
                     std::string_view otherwise);
 
-std::string quoted(std::string_view word);                  // 'word'
+std::string quote(std::string_view word);                   // 'word'
 std::string listed(const std::vector<std::string>& words);  // 'a', 'b' and 'c'
 std::string join(const std::vector<std::string>& words, std::string_view separator);
 

@@ -54,8 +54,7 @@ std::optional<std::int64_t> Row::integer(std::string_view key, std::int64_t leas
     return std::nullopt;
   }
   if (value->integer < least || value->integer > most) {
-    diagnostics_.error(value->position,
-                       quoted(key) + " of " + name_ + " is " + std::to_string(value->integer),
+    diagnostics_.error(value->position, quote(key) + " of " + name_ + " is " + std::to_string(value->integer),
                        "it must be from " + std::to_string(least) + " to " + std::to_string(most));
     return std::nullopt;
   }
@@ -68,7 +67,7 @@ std::optional<std::int64_t> Row::duration(std::string_view key) {
   if (value->kind == Node::Kind::text)
     if (const auto duration = parse_duration(value->text)) return duration;
   diagnostics_.error(
-      value->position, quoted(key) + " of " + name_ + " must be a duration, not " + shown(*value),
+      value->position, quote(key) + " of " + name_ + " must be a duration, not " + shown(*value),
       "write a number and its unit in double quotes, as \"7 ms\", \"300 us\", \"1.5 s\" or \"250 ns\"");
   return std::nullopt;
 }
@@ -76,7 +75,7 @@ std::optional<std::int64_t> Row::duration(std::string_view key) {
 std::optional<std::int64_t> Row::positive_duration(std::string_view key) {
   const auto value = duration(key);
   if (!value || *value > 0) return value;
-  diagnostics_.error(position(key), quoted(key) + " of " + name_ + " is zero",
+  diagnostics_.error(position(key), quote(key) + " of " + name_ + " is zero",
                      "give a duration longer than zero");
   return std::nullopt;
 }
@@ -86,7 +85,7 @@ std::optional<std::size_t> Row::size(std::string_view key) {
   if (value == nullptr) return std::nullopt;
   if (value->kind == Node::Kind::text)
     if (const auto size = parse_size(value->text); size && *size > 0) return size;
-  diagnostics_.error(value->position, quoted(key) + " of " + name_ + " must be a size, not " + shown(*value),
+  diagnostics_.error(value->position, quote(key) + " of " + name_ + " must be a size, not " + shown(*value),
                      "write a number and its unit in double quotes, as \"8 MiB\", \"64 KiB\" or \"512 B\"");
   return std::nullopt;
 }
@@ -114,7 +113,7 @@ std::optional<std::size_t> Row::word(std::string_view key, const std::vector<std
   if (!value) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *value);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  diagnostics_.error(position(key), "unknown " + std::string(key) + " " + quoted(*value) + " in " + name_,
+  diagnostics_.error(position(key), "unknown " + std::string(key) + " " + quote(*value) + " in " + name_,
                      suggest(*value, words, "words", ""));
   return std::nullopt;
 }
@@ -141,12 +140,12 @@ Position Row::position(std::string_view key) const {
 void Row::finish() {
   for (const Node& child : table_.children)
     if (std::find(asked_.begin(), asked_.end(), child.key) == asked_.end())
-      diagnostics_.error(child.key_position, "unknown key " + quoted(child.key) + " in " + name_,
+      diagnostics_.error(child.key_position, "unknown key " + quote(child.key) + " in " + name_,
                          suggest(child.key, asked_, "keys", "remove it"));
 }
 
 void Row::missing(std::string_view key, std::string_view hint) {
-  diagnostics_.error(position(), name_ + " has no " + quoted(key), std::string(hint));
+  diagnostics_.error(position(), name_ + " has no " + quote(key), std::string(hint));
 }
 
 void Row::wrong_kind(const Node& value, std::string_view key, std::string_view expected,
@@ -154,20 +153,20 @@ void Row::wrong_kind(const Node& value, std::string_view key, std::string_view e
   std::string is = kind_text(value.kind);
   if (value.kind == Node::Kind::array && expected.substr(0, 6) == "a list") is = "a list of something else";
   diagnostics_.error(value.position,
-                     quoted(key) + " of " + name_ + " must be " + std::string(expected) + ", not " + is,
+                     quote(key) + " of " + name_ + " must be " + std::string(expected) + ", not " + is,
                      std::string(hint));
 }
 
 bool check_name(const Node& row, std::string_view what, Diagnostics& diagnostics) {
   if (is_keyword(row.key)) {
     diagnostics.error(row.key_position,
-                      std::string(what) + " cannot be named " + quoted(row.key) + ": it is a word of C++",
-                      "choose another name, as " + quoted(row.key + "_value"));
+                      std::string(what) + " cannot be named " + quote(row.key) + ": it is a word of C++",
+                      "choose another name, as " + quote(row.key + "_value"));
     return false;
   }
   if (!is_snake_case(row.key)) {
     diagnostics.error(
-        row.key_position, quoted(row.key) + " is not a name for " + std::string(what),
+        row.key_position, quote(row.key) + " is not a name for " + std::string(what),
         "names are lower_snake_case: small letters, digits and single underscores, a letter first");
     return false;
   }

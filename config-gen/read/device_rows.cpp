@@ -1,0 +1,223 @@
+// [device.N] rows of applications and groups.
+#include <algorithm>
+
+#include "config-gen/model/words.hpp"
+#include "config-gen/read/assembly.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+// io_thread = true, or { priority, role, period, min_interval, budget, stack }.
+void read_io_thread(Assembly& assembly, Row& row, Index device) {
+  const Node* value = row.any("io_thread");
+  if (value == nullptr || (value->kind == Node::Kind::boolean && !value->boolean)) return;
+  Thread thread;
+  thread.name = assembly.model.devices[device].name;
+  thread.position = thread.trigger_position = value->position;
+  thread.io_device = device;
+  thread.role = CpuRole::io;
+  thread.summary = "Serves the device " + thread.name + ".";
+  DeviceTrigger trigger;
+  trigger.device = device;
+  thread.trigger = trigger;
+  if (value->kind == Node::Kind::table) {
+    Row io(*value, "'io_thread' of " + row.name(), assembly.diagnostics);
+    thread.priority = static_cast<int>(io.integer("priority", 0, 98).value_or(0));
+    thread.above_interrupts = io.boolean("above_interrupts").value_or(false);
+    if (const auto role = io.word("role", {"control", "io", "any"}))
+      thread.role = static_cast<CpuRole>(*role);
+    const auto period = io.positive_duration("period");
+    trigger.min_interval = io.positive_duration("min_interval");
+    thread.trigger = trigger;
+    if (period) thread.trigger = PeriodTrigger{*period, 0};
+    if (period && io.has("min_interval"))
+      assembly.diagnostics.error(
+          io.position("min_interval"), io.name() + " has both 'period' and 'min_interval'",
+          "keep 'period' for a polled device, 'min_interval' for one that wakes its thread");
+    thread.demand = io.positive_duration("budget").value_or(0);
+    thread.stack = io.size("stack").value_or(thread.stack);
+    io.finish();
+  } else if (value->kind != Node::Kind::boolean) {
+    row.wrong_kind(*value, "io_thread", "true or a table",
+                   "write io_thread = true, or io_thread = { priority = 30, period = \"1 ms\" }");
+    return;
+  }
+  assembly.io_threads.push_back(std::move(thread));
+}
+
+void read_drivers(Assembly& assembly, Row& row, Device& device) {
+  if (!row.has("drivers")) row.missing("drivers", "add drivers = [\"simulated\"]: the first is the default");
+  const Node* names = row.list_of_texts("drivers");
+  if (names == nullptr) return;
+  if (names->children.empty())
+    assembly.diagnostics.error(names->position, row.name() + " permits no driver",
+                               "name at least one; the first is the default");
+  std::vector<std::string> seen;
+  for (const Node& name : names->children) {
+    if (std::find(seen.begin(), seen.end(), name.text) != seen.end()) {
+      assembly.diagnostics.error(name.position,
+                                 "the driver " + quote(name.text) + " is listed twice in " + row.name(),
+                                 "remove one");
+      continue;
+    }
+    seen.push_back(name.text);
+    const Node* values = row.table(name.text);
+    const auto driver = assembly.library.driver(device.interface, name.text, name.position);
+    if (!driver) continue;
+    DriverChoice choice;
+    choice.driver = *driver;
+    const Node* configuration = nullptr;
+    if (values != nullptr) {
+      Row own(*values, quote(name.text) + " in " + row.name(), assembly.diagnostics);
+      configuration = own.table("configuration");
+      own.finish();
+    }
+    choice.configuration = read_values(assembly, configuration, assembly.model.drivers[*driver].configuration,
+                                       "configuration", row.name() + ", driver " + quote(name.text));
+    device.drivers.push_back(std::move(choice));
+  }
+}
+
+void read_resources(Assembly& assembly, Row& row, Device& device) {
+  const Interface& interface = assembly.model.interfaces[device.interface];
+  for (std::size_t i = 0; i < interface.resources.size(); ++i) {
+    const Resource& resource = interface.resources[i];
+    const auto name = row.required_text(
+        resource.key, interface.class_name + " needs its " + quote(resource.name) + ": add " + resource.key +
+                          " = \"FILE\", relative to the application's folder");
+    if (!name) continue;
+    const std::filesystem::path file =
+        (assembly.model.application->file.parent_path() / *name).lexically_normal();
+    if (!std::filesystem::is_regular_file(file))
+      assembly.diagnostics.error(row.position(resource.key), "there is no file " + quote(*name),
+                                 "it is looked for at " + file.generic_string());
+    else
+      assembly.model.files.push_back(file);
+    device.resources.push_back({i, file, row.position(resource.key)});
+  }
+}
+
+}  // namespace
+
+void read_device_row(Assembly& assembly, const FlatRow& flat) {
+  Row row(*flat.node, "[device." + flat.node->key + "]", assembly.diagnostics);
+  const auto name = row.required_text("interface", "add interface = \"RobotArm\", the name of an interface");
+  const auto interface = name ? assembly.library.interface(*name, row.position("interface")) : std::nullopt;
+  if (!interface) {
+    mark_broken(assembly, flat);
+    return;
+  }
+  const Index index = assembly.model.devices.size();
+  {
+    Device device;
+    device.name = flat.scope->prefix + flat.node->key;
+    device.position = flat.node->key_position;
+    device.interface = *interface;
+    assembly.devices.emplace(device.name, index);
+    assembly.model.devices.push_back(std::move(device));
+  }
+  assembly.device_rows.push_back({&flat, index});
+  Device& device = assembly.model.devices[index];
+  read_drivers(assembly, row, device);
+  read_resources(assembly, row, device);
+  row.text("on");
+  row.table("out");
+  device.initialise_timeout = row.positive_duration("initialise_timeout").value_or(device.initialise_timeout);
+  const Interface& kind = assembly.model.interfaces[*interface];
+  device.configuration =
+      read_values(assembly, row.table("configuration"), kind.configuration, "configuration", row.name());
+  device.runtime = read_values(assembly, row.table("runtime"), kind.runtime, "runtime", row.name());
+  read_io_thread(assembly, row, index);
+  row.finish();
+}
+
+void connect_devices(Assembly& assembly) {
+  Model& model = assembly.model;
+  // A name means the row in the same table, else one in a table around it.
+  const auto look_up = [&](const Scope& scope, const std::string& name) -> std::optional<Index> {
+    std::string prefix = scope.prefix;
+    while (true) {
+      if (const auto found = assembly.devices.find(prefix + name); found != assembly.devices.end())
+        return found->second;
+      if (prefix.empty()) return std::nullopt;
+      const std::size_t dot = prefix.rfind('.', prefix.size() - 2);
+      prefix = dot == std::string::npos || prefix.size() < 2 ? "" : prefix.substr(0, dot + 1);
+    }
+  };
+  const auto unknown = [&](const Scope& scope, const Node& value) {
+    if (assembly.broken_owners.contains(scope.prefix + value.text) ||
+        assembly.broken_owners.contains(value.text))
+      return;
+    assembly.diagnostics.error(value.position, "unknown device " + quote(value.text),
+                               suggest(value.text, assembly.names_in(scope, assembly.devices), "devices",
+                                       "declare it as [device." + value.text + "]"));
+  };
+  for (const DeviceRow& entry : assembly.device_rows) {
+    const Scope& scope = *entry.row->scope;
+    const InScope in_scope(assembly.diagnostics, scope);
+    const Node* on = entry.row->node->find("on");
+    if (on == nullptr || on->kind != Node::Kind::text) continue;
+    const auto bus = look_up(scope, on->text);
+    if (!bus) {
+      unknown(scope, *on);
+      model.devices[entry.device].partial = true;
+    } else if (*bus == entry.device || !model.interfaces[model.devices[*bus].interface].bus) {
+      assembly.diagnostics.error(
+          on->position,
+          quote(on->text) + " is not a bus, so " + quote(entry.row->node->key) + " cannot be on it",
+          "name a device whose interface's table says bus = true");
+      model.devices[entry.device].partial = true;
+    } else {
+      model.devices[entry.device].bus = bus;
+      model.devices[*bus].children.push_back(entry.device);
+    }
+  }
+  for (const UnitRow& entry : assembly.unit_rows) {
+    const Scope& scope = *entry.row->scope;
+    const InScope in_scope(assembly.diagnostics, scope);
+    const UnitType& type = model.unit_types[model.units[entry.first].type];
+    const std::string row_name = "[unit." + entry.row->node->key + "]";
+    const Node* section = entry.row->node->find("device");
+    if (section != nullptr && section->kind != Node::Kind::table) continue;
+    std::vector<std::string> known;
+    for (std::size_t port = 0; port < type.devices.size(); ++port) {
+      known.push_back(type.devices[port].name);
+      const Node* value = section != nullptr ? section->find(type.devices[port].name) : nullptr;
+      if (value == nullptr) {
+        assembly.diagnostics.error(entry.row->node->key_position,
+                                   row_name + " is given no device for " + quote(type.devices[port].name),
+                                   "add device." + type.devices[port].name +
+                                       " = \"NAME\", a device with the interface " +
+                                       model.interfaces[type.devices[port].interface].class_name);
+        continue;
+      }
+      if (value->kind != Node::Kind::text) {
+        assembly.diagnostics.error(value->position,
+                                   quote("device." + value->key) + " of " + row_name +
+                                       " must be a text, not " + kind_text(value->kind),
+                                   "write the device's name in double quotes");
+        continue;
+      }
+      const auto device = look_up(scope, value->text);
+      if (!device) {
+        unknown(scope, *value);
+        continue;
+      }
+      for (std::size_t member = 0; member < entry.count; ++member)
+        model.units[entry.first + member].devices[port] = device;
+      if (!model.devices[*device].owner_unit) {
+        model.devices[*device].owner_unit = entry.first;
+        model.devices[*device].owner_port = port;
+      }
+    }
+    if (section == nullptr) continue;
+    for (const Node& child : section->children)
+      if (std::find(known.begin(), known.end(), child.key) == known.end())
+        assembly.diagnostics.error(
+            child.key_position,
+            "unknown device " + quote(child.key) + " of the unit type " + quote(type.name),
+            suggest(child.key, known, "devices", "it owns none: remove this line"));
+  }
+}
+
+}  // namespace flexrf::config_gen

@@ -1,0 +1,243 @@
+// Fields of types, and parameters of units, interfaces and drivers.
+#include <algorithm>
+
+#include "config-gen/model/layout.hpp"
+#include "config-gen/model/words.hpp"
+#include "config-gen/read/library.hpp"
+#include "config-gen/read/literal.hpp"
+#include "config-gen/read/quantities.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+constexpr std::size_t most_elements = std::size_t{1} << 28;
+
+std::vector<std::string> scalar_words() {
+  std::vector<std::string> words;
+  for (int i = 0; i <= static_cast<int>(Scalar::text); ++i)
+    words.push_back(scalar_name(static_cast<Scalar>(i)));
+  return words;
+}
+
+void read_shape(Row& row, Field& field, Diagnostics& diagnostics) {
+  const Node* shape = row.any("shape");
+  if (shape == nullptr) return;
+  const bool good = shape->kind == Node::Kind::array &&
+                    (shape->children.size() == 1 || shape->children.size() == 2) &&
+                    std::all_of(shape->children.begin(), shape->children.end(), [](const Node& extent) {
+                      return extent.kind == Node::Kind::integer && extent.integer > 0 &&
+                             extent.integer <= static_cast<std::int64_t>(most_elements);
+                    });
+  if (!good) {
+    diagnostics.error(shape->position,
+                      "'shape' of " + row.name() + " must be one or two whole numbers above 0",
+                      "write it as [3], or [rows, columns]");
+    return;
+  }
+  for (const Node& extent : shape->children) field.shape.push_back(static_cast<std::size_t>(extent.integer));
+  if (field.elements() > most_elements) {
+    diagnostics.error(shape->position, "'shape' of " + row.name() + " has too many elements",
+                      "at most " + std::to_string(most_elements) + " fit in one field");
+    field.shape.clear();
+  }
+}
+
+void read_capacity(Row& row, Field& field, bool is_text, Diagnostics& diagnostics) {
+  const auto capacity = row.integer("capacity", 1, 1 << 20);
+  if (!is_text && row.has("capacity"))
+    diagnostics.error(row.position("capacity"), "'capacity' of " + row.name() + " is for texts only",
+                      "remove it; arrays have a shape");
+  if (is_text && !row.has("capacity"))
+    row.missing("capacity", "a text has a fixed place: add capacity = 32 (bytes)");
+  if (capacity) field.capacity = static_cast<std::size_t>(*capacity);
+}
+
+void read_unit_of_measure(Row& row, Field& field, Diagnostics& diagnostics) {
+  const bool scalar = field.type.kind == FieldType::Kind::scalar;
+  const bool floating = scalar && is_floating(field.type.scalar);
+  const bool integer = scalar && is_integer(field.type.scalar);
+  const auto unit = row.text("unit");
+  if (floating && !row.has("unit"))
+    row.missing("unit", "add its SI unit of measure, as unit = \"m\", or unit = \"1\" when it has none");
+  if (!unit) return;
+  if (!floating && !integer) {
+    diagnostics.error(row.position("unit"), "'unit' of " + row.name() + " is for numbers only", "remove it");
+    return;
+  }
+  if (const std::string advice = judge_unit(*unit, integer); !advice.empty())
+    diagnostics.error(row.position("unit"),
+                      quote(*unit) + " is not a unit of measure that " + row.name() + " can have", advice);
+  field.unit = *unit;
+}
+
+void read_range(Library& library, Row& row, Parameter& parameter, bool numeric) {
+  const Node* range = row.any("range");
+  if (range == nullptr) return;
+  Diagnostics& diagnostics = library.diagnostics();
+  if (!numeric) {
+    diagnostics.error(range->position, "'range' of " + row.name() + " is for numbers only", "remove it");
+    return;
+  }
+  if (range->kind != Node::Kind::array || range->children.size() != 2) {
+    diagnostics.error(range->position, "'range' of " + row.name() + " must be a list of two numbers",
+                      "write it as [lowest, highest]");
+    return;
+  }
+  Field bound = parameter.field;
+  bound.shape.clear();
+  const std::string what = "the range of " + row.name();
+  auto low = read_literal(library.model(), bound, range->children[0], what, diagnostics);
+  auto high = read_literal(library.model(), bound, range->children[1], what, diagnostics);
+  if (!low || !high) return;
+  if (number_of(*low) > number_of(*high)) {
+    diagnostics.error(range->position,
+                      what + " is empty: " + literal_text(*low) + " is above " + literal_text(*high),
+                      "write the lower bound first");
+    return;
+  }
+  low->position = high->position = range->position;
+  parameter.low = std::move(low);
+  parameter.high = std::move(high);
+}
+
+void read_default(Library& library, Row& row, Parameter& parameter, bool broken) {
+  const Node* value = row.any("default");
+  Diagnostics& diagnostics = library.diagnostics();
+  const bool needed =
+      parameter.kind != Parameter::Kind::feedback && parameter.input == Parameter::Input::value;
+  if (!needed && value != nullptr)
+    diagnostics.error(value->position, row.name() + " cannot have a default",
+                      "remove it: buttons and holds start released");
+  if (!needed || broken) return;
+  if (value == nullptr) {
+    row.missing("default", "every parameter starts with a value: add default = ...");
+    return;
+  }
+  if (auto initial = read_parameter_value(library.model(), parameter, *value, "the default of " + row.name(),
+                                          diagnostics))
+    parameter.initial = std::move(*initial);
+}
+
+Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kind,
+                         const std::string& section) {
+  Row row(node, "[" + section + "." + node.key + "]", library.diagnostics());
+  Parameter parameter;
+  parameter.kind = kind;
+  parameter.field.name = node.key;
+  parameter.field.position = node.key_position;
+  const std::vector<std::string> words = kind == Parameter::Kind::runtime
+                                             ? std::vector<std::string>{"button", "hold"}
+                                             : std::vector<std::string>{};
+  std::string word;
+  const auto field = read_field(library, row, words, &word);
+  if (field) parameter.field = *field;
+  if (word == "button") parameter.input = Parameter::Input::button;
+  if (word == "hold") parameter.input = Parameter::Input::hold;
+
+  parameter.widget = row.text("widget").value_or("");
+  parameter.label = row.text("label").value_or("");
+  if (field) parameter.initial = zero_literal(library.model(), parameter.field, node.key_position);
+  if (kind != Parameter::Kind::feedback) {
+    const FieldType& type = parameter.field.type;
+    const bool numeric = field && parameter.input == Parameter::Input::value &&
+                         type.kind == FieldType::Kind::scalar &&
+                         (is_integer(type.scalar) || is_floating(type.scalar));
+    if (field || !row.has("range")) {
+      read_range(library, row, parameter, numeric);
+    } else {
+      row.also("range");
+    }
+    read_default(library, row, parameter, !field);
+    parameter.menu = row.text("menu").value_or("");
+    parameter.role = kind == Parameter::Kind::runtime ? PanelRole::op : PanelRole::engineer;
+    if (const auto role = row.word("role", {"viewer", "operator", "engineer", "admin"}))
+      parameter.role = static_cast<PanelRole>(*role);
+  }
+  if (kind == Parameter::Kind::runtime) parameter.persist = row.boolean("persist").value_or(true);
+  row.finish();
+  return parameter;
+}
+
+}  // namespace
+
+std::optional<Field> read_field(Library& library, Row& row, const std::vector<std::string>& words,
+                                std::string* word) {
+  Diagnostics& diagnostics = library.diagnostics();
+  Field field;
+  field.name = row.node().key;
+  field.position = row.node().key_position;
+  field.summary = row.summary();
+  const auto type = row.required_text("type", "add type = \"f64\", another scalar, or the name of a type");
+  bool known = false;
+  bool is_text = false;
+  if (type) {
+    const std::vector<std::string> scalars = scalar_words();
+    const auto scalar = std::find(scalars.begin(), scalars.end(), *type);
+    if (scalar != scalars.end()) {
+      field.type.scalar = static_cast<Scalar>(scalar - scalars.begin());
+      is_text = field.type.scalar == Scalar::text;
+      known = true;
+    } else if (std::find(words.begin(), words.end(), *type) != words.end()) {
+      if (word != nullptr) *word = *type;
+      field.type.scalar = *type == "button" ? Scalar::u32 : Scalar::boolean;
+      known = true;
+    } else if (is_camel_case(*type)) {
+      if (const auto declared = library.type(*type, row.position("type"))) {
+        field.type = {FieldType::Kind::declared, Scalar::boolean, *declared};
+        known = true;
+      }
+    } else {
+      std::vector<std::string> all = scalars;
+      all.insert(all.end(), words.begin(), words.end());
+      diagnostics.error(row.position("type"), "unknown type " + quote(*type) + " in " + row.name(),
+                        suggest(*type, all, "scalars", ""));
+    }
+  }
+  const bool plain = known && (word == nullptr || word->empty());
+  if (plain) {
+    read_shape(row, field, diagnostics);
+    read_capacity(row, field, is_text, diagnostics);
+    read_unit_of_measure(row, field, diagnostics);
+  } else if (!known) {
+    for (const char* key : {"shape", "capacity", "unit"}) row.also(key);
+  }
+  if (!known) return std::nullopt;
+  return field;
+}
+
+void read_parameters(Library& library, const Node& root, Parameter::Kind kind, ParameterBlock& block) {
+  const std::string section = kind == Parameter::Kind::configuration ? "configuration"
+                              : kind == Parameter::Kind::runtime     ? "runtime"
+                                                                     : "feedback";
+  for (const Node* node : named_rows(library, root, section, "a parameter"))
+    block.parameters.push_back(read_parameter(library, *node, kind, section));
+  lay_out(library.model(), block);
+}
+
+std::vector<const Node*> named_rows(Library& library, const Node& root, std::string_view kind,
+                                    std::string_view what) {
+  std::vector<const Node*> rows;
+  const Node* section = root.find(kind);
+  if (section == nullptr) return rows;
+  Diagnostics& diagnostics = library.diagnostics();
+  const std::string header = "[" + std::string(kind) + ".NAME]";
+  if (section->kind != Node::Kind::table) {
+    diagnostics.error(section->position, quote(kind) + " must be a table, not " + kind_text(section->kind),
+                      "write rows as " + header);
+    return rows;
+  }
+  for (const Node& row : section->children) {
+    if (row.kind != Node::Kind::table) {
+      diagnostics.error(
+          row.key_position,
+          quote(row.key) + " in [" + std::string(kind) + "] must be a table, not " + kind_text(row.kind),
+          "write rows as " + header);
+      continue;
+    }
+    check_name(row, what, diagnostics);
+    rows.push_back(&row);
+  }
+  return rows;
+}
+
+}  // namespace flexrf::config_gen

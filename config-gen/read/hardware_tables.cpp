@@ -1,0 +1,121 @@
+// Interface tables and driver tables.
+#include "config-gen/model/words.hpp"
+#include "config-gen/read/library.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+std::string read_class(Row& row, const std::string& stem, Diagnostics& diagnostics) {
+  const std::string name = row.text("class").value_or(camel_case(stem));
+  if (!is_camel_case(name))
+    diagnostics.error(row.position("class"), quote(name) + " is not a name for a class",
+                      "write it in CamelCase, as \"" + camel_case(stem) + "\"");
+  return name;
+}
+
+Resource read_resource(const Node& node, Diagnostics& diagnostics) {
+  Row row(node, "[resource." + node.key + "]", diagnostics);
+  Resource resource;
+  resource.name = node.key;
+  resource.position = node.key_position;
+  resource.summary = row.summary();
+  row.required_text("from", "add from = \"urdf\": the device row's key, and what reads the file");
+  row.word("from", {"urdf"});
+  resource.key = "urdf";
+  row.finish();
+  return resource;
+}
+
+}  // namespace
+
+std::optional<Index> read_interface_table(Library& library, const Node& root,
+                                          const std::filesystem::path& file) {
+  Diagnostics& diagnostics = library.diagnostics();
+  Interface interface;
+  interface.name = file.stem().string();
+  interface.file = file;
+  interface.position = root.position;
+  Row row(root, "this interface table", diagnostics);
+  interface.summary = row.summary();
+  interface.class_name = read_class(row, interface.name, diagnostics);
+  if (is_camel_case(interface.class_name) && interface.class_name != camel_case(interface.name))
+    diagnostics.error(row.position("class"),
+                      "the class " + quote(interface.class_name) + " does not fit the file's name",
+                      "interfaces are found by it: write " + quote(camel_case(interface.name)) +
+                          ", or rename folder and file to " + quote(snake_case(interface.class_name)));
+  interface.bus = row.boolean("bus").value_or(false);
+  for (const char* section : {"resource", "output", "configuration", "runtime", "feedback"})
+    row.also(section);
+  row.finish();
+
+  for (const Node* node : named_rows(library, root, "resource", "a resource"))
+    interface.resources.push_back(read_resource(*node, diagnostics));
+  interface.outputs = read_outputs(library, root, true);
+  read_parameters(library, root, Parameter::Kind::configuration, interface.configuration);
+  read_parameters(library, root, Parameter::Kind::runtime, interface.runtime);
+  read_parameters(library, root, Parameter::Kind::feedback, interface.feedback);
+  if (const Node* outputs = root.find("output");
+      outputs != nullptr && interface.outputs.size() != outputs->children.size())
+    return std::nullopt;
+
+  Model& model = library.model();
+  model.interfaces.push_back(std::move(interface));
+  return model.interfaces.size() - 1;
+}
+
+std::optional<Index> read_driver_table(Library& library, const Node& root,
+                                       const std::filesystem::path& file) {
+  Diagnostics& diagnostics = library.diagnostics();
+  Model& model = library.model();
+  Driver driver;
+  driver.stem = file.stem().string();
+  driver.file = file;
+  driver.position = root.position;
+  Row row(root, "this driver table", diagnostics);
+  driver.summary = row.summary();
+  driver.class_name = read_class(row, driver.stem, diagnostics);
+  driver.base_class = driver.class_name + "Driver";
+  driver.header = driver.stem + ".hpp";
+  driver.base_header = driver.stem + "_driver.hpp";
+  driver.name = row.required_text(
+                       "name", "add name = \"simulated\", as it is written in drivers = [...] and --hardware")
+                    .value_or("");
+  if (row.has("name") && !is_snake_case(driver.name))
+    diagnostics.error(
+        row.position("name"), quote(driver.name) + " is not a name for a driver",
+        "names are lower_snake_case: small letters, digits and single underscores, a letter first");
+  if (!row.has("kind")) row.missing("kind", "add kind = \"mock\", \"simulated\" or \"real\"");
+  const auto kind = row.word("kind", {"mock", "simulated", "real"});
+  if (kind) driver.kind = static_cast<Driver::Kind>(*kind);
+  if (!row.has("actuates"))
+    row.missing("actuates", "add actuates = true if it can move something, false if it only senses");
+  driver.actuates = row.boolean("actuates").value_or(false);
+  driver.virtual_time = row.boolean("virtual_time").value_or(false);
+  driver.waits = row.boolean("waits").value_or(false);
+  const auto interface =
+      row.required_text("interface", "add interface = \"RobotArm\", the interface that it implements");
+  const auto index = interface ? library.interface(*interface, row.position("interface")) : std::nullopt;
+  if (const auto bus = row.text("on")) {
+    driver.bus_interface = library.interface(*bus, row.position("on"));
+    if (driver.bus_interface && !model.interfaces[*driver.bus_interface].bus)
+      diagnostics.error(row.position("on"), quote(*bus) + " is not a bus",
+                        "name an interface whose table says bus = true");
+  }
+  row.also("configuration");
+  row.finish();
+  read_parameters(library, root, Parameter::Kind::configuration, driver.configuration);
+  if (!index) return std::nullopt;
+  driver.interface = *index;
+  for (const Parameter& parameter : driver.configuration.parameters)
+    for (const Parameter& common : model.interfaces[*index].configuration.parameters)
+      if (parameter.field.name == common.field.name)
+        diagnostics.error(parameter.field.position,
+                          "the name " + quote(parameter.field.name) + " is used twice: every driver of " +
+                              *interface + " has it",
+                          "rename it; the other is at " + to_string(common.field.position));
+
+  model.drivers.push_back(std::move(driver));
+  return model.drivers.size() - 1;
+}
+
+}  // namespace flexrf::config_gen

@@ -1,0 +1,184 @@
+#include "config-gen/read/library.hpp"
+
+#include <algorithm>
+
+#include "config-gen/model/words.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> sorted_tables(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<fs::path> sorted_folders(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (entry.is_directory(ignored)) folders.push_back(entry.path());
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+// Each folder once, however often and in whatever spelling it is given.
+void remove_repeated(std::vector<fs::path>& folders) {
+  std::vector<fs::path> kept;
+  std::vector<fs::path> canonical;
+  for (const fs::path& folder : folders) {
+    const fs::path same = fs::weakly_canonical(folder);
+    if (std::find(canonical.begin(), canonical.end(), same) != canonical.end()) continue;
+    canonical.push_back(same);
+    kept.push_back(folder.lexically_normal());
+  }
+  folders = std::move(kept);
+}
+
+}  // namespace
+
+Library::Library(Model& model, SearchPaths paths, Diagnostics& diagnostics)
+    : model_(model), paths_(std::move(paths)), diagnostics_(diagnostics) {
+  for (auto* folders : {&paths_.types, &paths_.units, &paths_.interfaces, &paths_.drivers})
+    remove_repeated(*folders);
+  find_types();
+  find_tables(paths_.units, units_, "unit", false);
+  find_tables(paths_.interfaces, interfaces_, "interface", true);
+}
+
+void Library::add_entry(Entries& entries, const std::string& name, const fs::path& file,
+                        const std::string& what) {
+  const auto [entry, is_new] = entries.try_emplace(name, Entry{file, false, false, std::nullopt});
+  if (!is_new && !fs::equivalent(entry->second.file, file))
+    diagnostics_.error(
+        {intern(file.generic_string()), 1, 1}, "the " + what + " " + quote(name) + " is declared twice",
+        "the other one is " + entry->second.file.generic_string() + ": rename one of the two files");
+}
+
+void Library::find_types() {
+  for (const fs::path& folder : paths_.types)
+    for (const fs::path& file : sorted_tables(folder))
+      add_entry(types_, camel_case(file.stem().string()), file, "type");
+}
+
+void Library::find_tables(const std::vector<fs::path>& folders, Entries& entries, const std::string& what,
+                          bool as_class) {
+  for (const fs::path& folder : folders)
+    for (const fs::path& inner : sorted_folders(folder)) {
+      const std::string name = inner.filename().string();
+      const fs::path file = inner / (name + ".toml");
+      if (fs::exists(file)) add_entry(entries, as_class ? camel_case(name) : name, file, what);
+    }
+}
+
+void Library::find_drivers() {
+  if (drivers_found_) return;
+  drivers_found_ = true;
+  for (const fs::path& folder : paths_.drivers)
+    for (const fs::path& inner : sorted_folders(folder))
+      for (const fs::path& file : sorted_tables(inner)) {
+        Diagnostics unused;  // a broken driver is reported by the run that generates it
+        const auto root = parse_file(file, unused);
+        if (!root) continue;
+        const Node* name = root->find("name");
+        const Node* interface = root->find("interface");
+        if (name == nullptr || interface == nullptr) continue;
+        drivers_.push_back({file, interface->text, name->text, name->position, std::nullopt, false});
+      }
+}
+
+std::optional<Node> Library::parse(const fs::path& file) {
+  model_.files.push_back(file);
+  return parse_file(file, diagnostics_);
+}
+
+template <typename Read>
+std::optional<Index> Library::get(Entries& entries, const std::string& name, const Position& place,
+                                  const std::string& what, const std::string& otherwise, Read read) {
+  const auto found = entries.find(name);
+  if (found == entries.end()) {
+    std::vector<std::string> known;
+    for (const auto& [key, entry] : entries) known.push_back(key);
+    diagnostics_.error(place, "unknown " + what + " " + quote(name),
+                       suggest(name, known, what + "s", otherwise));
+    return std::nullopt;
+  }
+  Entry& entry = found->second;
+  if (entry.reading) {
+    diagnostics_.error(place, name + " contains itself",
+                       "a type has a fixed size: remove the field that leads back to it");
+    return std::nullopt;
+  }
+  if (entry.read) return entry.index;
+  entry.reading = true;
+  if (const auto root = parse(entry.file)) entry.index = read(*this, *root, entry.file);
+  entry.reading = false;
+  entry.read = true;
+  return entry.index;
+}
+
+std::optional<Index> Library::type(const std::string& name, const Position& place) {
+  return get(types_, name, place, "type", "declare it in types/" + snake_case(name) + ".toml",
+             read_type_table);
+}
+
+std::optional<Index> Library::unit(const std::string& name, const Position& place) {
+  return get(units_, name, place, "unit type", "declare it in units/" + name + "/" + name + ".toml",
+             read_unit_table);
+}
+
+std::optional<Index> Library::interface(const std::string& name, const Position& place) {
+  const std::string file = snake_case(name);
+  return get(interfaces_, name, place, "interface",
+             "declare it in hal/interfaces/" + file + "/" + file + ".toml", read_interface_table);
+}
+
+std::optional<Index> Library::driver(Index interface, const std::string& name, const Position& place) {
+  find_drivers();
+  const std::string& wanted = model_.interfaces[interface].class_name;
+  std::vector<std::string> known;
+  for (DriverEntry& entry : drivers_) {
+    if (entry.interface != wanted) continue;
+    known.push_back(entry.name);
+    if (entry.name != name) continue;
+    if (!entry.read) {
+      entry.read = true;
+      if (const auto root = parse(entry.file)) entry.index = read_driver_table(*this, *root, entry.file);
+    }
+    return entry.index;
+  }
+  diagnostics_.error(place, "unknown driver " + quote(name) + " of " + wanted,
+                     suggest(name, known, "drivers", "no driver of " + wanted + " is in the search folders"));
+  return std::nullopt;
+}
+
+void Library::read_types(const fs::path& folder) {
+  for (const fs::path& file : sorted_tables(folder)) {
+    const std::string name = camel_case(file.stem().string());
+    if (!types_.contains(name)) add_entry(types_, name, file, "type");
+    type(name, {intern(file.generic_string()), 1, 1});
+  }
+}
+
+std::optional<Index> Library::read_unit(const fs::path& file) {
+  const auto root = parse(file);
+  return root ? read_unit_table(*this, *root, file) : std::nullopt;
+}
+
+std::optional<Index> Library::read_interface(const fs::path& file) {
+  const std::string name = camel_case(file.stem().string());
+  if (!interfaces_.contains(name)) add_entry(interfaces_, name, file, "interface");
+  return interface(name, {intern(file.generic_string()), 1, 1});
+}
+
+std::optional<Index> Library::read_driver(const fs::path& file) {
+  const auto root = parse(file);
+  return root ? read_driver_table(*this, *root, file) : std::nullopt;
+}
+
+}  // namespace flexrf::config_gen

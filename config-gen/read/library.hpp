@@ -1,0 +1,95 @@
+// The tables that applications are made of: types, units, interfaces, drivers. Found by name in the search
+// folders, read when first asked for, so that a run depends on no more files than it needs.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config-gen/model/target.hpp"
+#include "config-gen/read/row.hpp"
+
+namespace flexrf::config_gen {
+
+class Library {
+ public:
+  Library(Model& model, SearchPaths paths, Diagnostics& diagnostics);
+
+  // The place in the Model of what a table names, read on the way. An unknown name is reported at `place`; of
+  // a broken table nothing more is said.
+  std::optional<Index> type(const std::string& name, const Position& place);       // CamelCase
+  std::optional<Index> unit(const std::string& name, const Position& place);       // folder's name
+  std::optional<Index> interface(const std::string& name, const Position& place);  // CamelCase
+  std::optional<Index> driver(Index interface, const std::string& name, const Position& place);
+
+  // The same by file, for runs that generate one of them.
+  void read_types(const std::filesystem::path& folder);
+  std::optional<Index> read_unit(const std::filesystem::path& file);
+  std::optional<Index> read_interface(const std::filesystem::path& file);
+  std::optional<Index> read_driver(const std::filesystem::path& file);
+
+  // Parses a file of which the run then depends.
+  std::optional<Node> parse(const std::filesystem::path& file);
+
+  Model& model() { return model_; }
+  Diagnostics& diagnostics() { return diagnostics_; }
+
+ private:
+  struct Entry {
+    std::filesystem::path file;
+    bool reading = false;
+    bool read = false;
+    std::optional<Index> index;
+  };
+  using Entries = std::map<std::string, Entry, std::less<>>;
+
+  void find_types();
+  void find_tables(const std::vector<std::filesystem::path>& folders, Entries& entries,
+                   const std::string& what, bool camel_case);
+  void find_drivers();
+  void add_entry(Entries& entries, const std::string& name, const std::filesystem::path& file,
+                 const std::string& what);
+  template <typename Read>
+  std::optional<Index> get(Entries& entries, const std::string& name, const Position& place,
+                           const std::string& what, const std::string& otherwise, Read read);
+
+  Model& model_;
+  SearchPaths paths_;
+  Diagnostics& diagnostics_;
+  Entries types_;
+  Entries units_;
+  Entries interfaces_;
+  struct DriverEntry {
+    std::filesystem::path file;
+    std::string interface;
+    std::string name;
+    Position position;
+    std::optional<Index> index;
+    bool read = false;
+  };
+  std::vector<DriverEntry> drivers_;
+  bool drivers_found_ = false;
+};
+
+// One table each; nothing when it was too broken to be of use. Further errors do not hinder.
+std::optional<Index> read_type_table(Library& library, const Node& root, const std::filesystem::path& file);
+std::optional<Index> read_unit_table(Library& library, const Node& root, const std::filesystem::path& file);
+std::optional<Index> read_interface_table(Library& library, const Node& root,
+                                          const std::filesystem::path& file);
+std::optional<Index> read_driver_table(Library& library, const Node& root, const std::filesystem::path& file);
+
+// What fields and parameters share: type, shape, capacity, unit of measure, summary. `words` are further
+// words allowed as type ("button"), given back in `word`.
+std::optional<Field> read_field(Library& library, Row& row, const std::vector<std::string>& words = {},
+                                std::string* word = nullptr);
+void read_parameters(Library& library, const Node& table, Parameter::Kind kind, ParameterBlock& block);
+// All of `[output.N]` under `table`.
+std::vector<OutputPort> read_outputs(Library& library, const Node& table, bool with_loans);
+
+// The rows under [kind.*], each with its name checked.
+std::vector<const Node*> named_rows(Library& library, const Node& root, std::string_view kind,
+                                    std::string_view what);
+
+}  // namespace flexrf::config_gen

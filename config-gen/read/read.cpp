@@ -1,0 +1,85 @@
+// From tables to the Model.
+#include <algorithm>
+
+#include "config-gen/model/words.hpp"
+#include "config-gen/read/assembly.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+void read_application(Library& library, const std::filesystem::path& file) {
+  Diagnostics& diagnostics = library.diagnostics();
+  Model& model = library.model();
+  auto root = library.parse(file);
+  if (!root) return;
+  Application application;
+  application.name = file.stem().string();
+  application.file = file;
+  application.position = root->position;
+  std::string plain = application.name;
+  std::replace(plain.begin(), plain.end(), '-', '_');
+  if (!is_snake_case(plain))
+    diagnostics.error(root->position,
+                      "the file's name " + quote(application.name) + " is not a name for an application",
+                      "use small letters, digits, and single '-' or '_', a letter first");
+  Row row(*root, "this application table", diagnostics);
+  application.summary = row.summary();
+  application.memory_budget = row.size("memory_budget");
+  application.memory_budget_position = row.position("memory_budget");
+  application.autostart = row.boolean("autostart").value_or(false);
+  application.stop_timeout = row.positive_duration("stop_timeout").value_or(application.stop_timeout);
+  application.finish_timeout = row.positive_duration("finish_timeout").value_or(application.finish_timeout);
+  for (const char* section : {"device", "unit", "slot", "queue", "thread", "group"}) row.also(section);
+  row.finish();
+  model.application = std::move(application);
+
+  Assembly assembly(library);
+  assembly.flat = flatten(library, std::move(*root), file.parent_path());
+  for (const FlatRow& flat : assembly.flat.rows) {
+    const InScope in_scope(diagnostics, *flat.scope);
+    if (flat.kind == FlatRow::Kind::device) read_device_row(assembly, flat);
+    if (flat.kind == FlatRow::Kind::unit) read_unit_row(assembly, flat);
+  }
+  connect_devices(assembly);
+  connect_outputs(assembly);
+  connect_inputs(assembly);
+  read_place_rows(assembly);
+  read_threads(assembly);
+  derive(assembly);
+  for (Device& device : model.devices)
+    device.partial = device.partial || assembly.broken_owners.contains(device.name);
+}
+
+}  // namespace
+
+Model read(const Target& target, const SearchPaths& paths, Diagnostics& diagnostics) {
+  Model model;
+  SearchPaths all = paths;
+  if (target.kind == Target::Kind::types) {
+    all.types.push_back(target.file);
+  } else if (target.kind == Target::Kind::application) {
+    all.types.push_back(target.file.parent_path() / "types");
+    all.units.push_back(target.file.parent_path() / "units");
+  }
+  Library library(model, std::move(all), diagnostics);
+  switch (target.kind) {
+    case Target::Kind::types:
+      library.read_types(target.file);
+      break;
+    case Target::Kind::unit:
+      library.read_unit(target.file);
+      break;
+    case Target::Kind::interface:
+      library.read_interface(target.file);
+      break;
+    case Target::Kind::driver:
+      library.read_driver(target.file);
+      break;
+    case Target::Kind::application:
+      read_application(library, target.file);
+      break;
+  }
+  return model;
+}
+
+}  // namespace flexrf::config_gen

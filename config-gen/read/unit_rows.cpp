@@ -1,0 +1,160 @@
+// [unit.N] rows of applications and groups.
+#include "config-gen/model/words.hpp"
+#include "config-gen/read/assembly.hpp"
+#include "config-gen/read/literal.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+const Parameter* find_parameter(const UnitType& type, const std::string& name) {
+  for (const ParameterBlock* block : {&type.runtime, &type.configuration, &type.feedback})
+    for (const Parameter& parameter : block->parameters)
+      if (parameter.field.name == name) return &parameter;
+  return nullptr;
+}
+
+void read_override_range(Assembly& assembly, Row& row, const Parameter& parameter,
+                         ParameterOverride& change) {
+  const Node* range = row.any("range");
+  if (range == nullptr) return;
+  if (range->kind != Node::Kind::array || range->children.size() != 2) {
+    assembly.diagnostics.error(range->position, "'range' of " + row.name() + " must be a list of two numbers",
+                               "write it as [lowest, highest]");
+    return;
+  }
+  Parameter bound = parameter;
+  bound.field.shape.clear();
+  const std::string what = "the range of " + row.name();
+  auto low = read_parameter_value(assembly.model, bound, range->children[0], what, assembly.diagnostics);
+  auto high = read_parameter_value(assembly.model, bound, range->children[1], what, assembly.diagnostics);
+  if (!low || !high) return;
+  if (number_of(*low) > number_of(*high)) {
+    assembly.diagnostics.error(range->position,
+                               what + " is empty: " + literal_text(*low) + " is above " + literal_text(*high),
+                               "write the lower bound first");
+    return;
+  }
+  low->position = high->position = range->position;
+  change.low = std::move(low);
+  change.high = std::move(high);
+}
+
+std::vector<ParameterOverride> read_overrides(Assembly& assembly, const Node* table, const UnitType& type,
+                                              const std::string& row_name) {
+  std::vector<ParameterOverride> changes;
+  if (table == nullptr) return changes;
+  for (const Node& child : table->children) {
+    const Parameter* parameter = find_parameter(type, child.key);
+    if (parameter == nullptr) {
+      std::vector<std::string> known;
+      for (const ParameterBlock* block : {&type.runtime, &type.configuration, &type.feedback})
+        for (const Parameter& one : block->parameters) known.push_back(one.field.name);
+      assembly.diagnostics.error(
+          child.key_position,
+          "unknown parameter " + quote(child.key) + " of the unit type " + quote(type.name),
+          suggest(child.key, known, "parameters", "it has none: remove this line"));
+      continue;
+    }
+    if (child.kind != Node::Kind::table) {
+      assembly.diagnostics.error(child.position,
+                                 quote("parameter." + child.key) + " of " + row_name +
+                                     " must be a table, not " + kind_text(child.kind),
+                                 "write it as { label = \"Speed\" }");
+      continue;
+    }
+    Row row(child, quote("parameter." + child.key) + " of " + row_name, assembly.diagnostics);
+    ParameterOverride change;
+    change.parameter = child.key;
+    change.position = child.key_position;
+    change.label = row.text("label");
+    change.hidden = row.boolean("hidden");
+    change.widget = row.text("widget");
+    change.menu = row.text("menu");
+    change.place = row.text("place");
+    read_override_range(assembly, row, *parameter, change);
+    row.finish();
+    changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
+void add_population(Assembly& assembly, Row& row, Unit unit, std::size_t capacity, std::size_t active) {
+  Model& model = assembly.model;
+  Population population{unit.name, unit.position, model.units.size(), capacity, active};
+  assembly.unit_rows.back().count = capacity;
+  assembly.unit_rows.back().population = true;
+  assembly.populations.emplace(unit.name, model.populations.size());
+  for (std::size_t member = 0; member < capacity; ++member) {
+    Unit one = unit;
+    one.name = unit.name + "[" + std::to_string(member) + "]";
+    one.population = model.populations.size();
+    one.member = member;
+    one.active = member < active;
+    assembly.units.emplace(one.name, model.units.size());
+    model.units.push_back(std::move(one));
+  }
+  model.populations.push_back(std::move(population));
+  const UnitType& type = model.unit_types[unit.type];
+  if (!type.devices.empty())
+    assembly.diagnostics.error(row.position("capacity"),
+                               row.name() + " cannot be a population: " + quote(type.name) + " owns a device",
+                               "a device has one owner: write one row per unit, or a group with a count");
+}
+
+}  // namespace
+
+void read_unit_row(Assembly& assembly, const FlatRow& flat) {
+  Model& model = assembly.model;
+  Row row(*flat.node, "[unit." + flat.node->key + "]", assembly.diagnostics);
+  const auto name = row.required_text("type", "add type = \"jog\", the name of a unit's folder");
+  const auto type_index = name ? assembly.library.unit(*name, row.position("type")) : std::nullopt;
+  if (!type_index) {
+    mark_broken(assembly, flat);
+    return;
+  }
+  const UnitType& type = model.unit_types[*type_index];
+  Unit unit;
+  unit.name = flat.scope->prefix + flat.node->key;
+  unit.position = flat.node->key_position;
+  unit.type = *type_index;
+  unit.inputs.resize(type.inputs.size());
+  unit.outputs.resize(type.outputs.size());
+  unit.devices.resize(type.devices.size());
+  row.table("in");
+  row.table("out");
+  row.table("device");
+  unit.budget = row.positive_duration("budget");
+  unit.budget_position = row.position("budget");
+  unit.initialise_timeout = row.positive_duration("initialise_timeout").value_or(unit.initialise_timeout);
+  unit.stop_timeout = row.positive_duration("stop_timeout");
+  if (const auto restart = row.word("restart", {"never", "once", "always"}))
+    unit.restart = static_cast<Unit::Restart>(*restart);
+  unit.configuration =
+      read_values(assembly, row.table("configuration"), type.configuration, "configuration", row.name());
+  unit.runtime = read_values(assembly, row.table("runtime"), type.runtime, "runtime", row.name());
+  unit.overrides = read_overrides(assembly, row.table("parameter"), type, row.name());
+  const auto capacity = row.integer("capacity", 1, 4096);
+  const auto active = row.integer("active", 0, 4096);
+  row.finish();
+
+  assembly.unit_rows.push_back({&flat, model.units.size(), 1, false});
+  if (active && !row.has("capacity"))
+    assembly.diagnostics.error(
+        row.position("active"), "'active' of " + row.name() + " needs a 'capacity'",
+        "only populations have members that can rest: add capacity = 16, or remove 'active'");
+  if (active && capacity && *active > *capacity)
+    assembly.diagnostics.error(row.position("active"),
+                               row.name() + " starts with " + std::to_string(*active) +
+                                   " active members of " + std::to_string(*capacity),
+                               "'active' is at most 'capacity'");
+  if (row.has("capacity")) {
+    const std::size_t members = static_cast<std::size_t>(capacity.value_or(1));
+    add_population(assembly, row, std::move(unit), members,
+                   static_cast<std::size_t>(active.value_or(capacity.value_or(1))));
+    return;
+  }
+  assembly.units.emplace(unit.name, model.units.size());
+  model.units.push_back(std::move(unit));
+}
+
+}  // namespace flexrf::config_gen

@@ -1,0 +1,188 @@
+// Unit tables, and the ports that units and interfaces have in common.
+#include <algorithm>
+#include <map>
+
+#include "config-gen/model/words.hpp"
+#include "config-gen/read/library.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+struct PortType {
+  bool queue = false;
+  std::optional<Index> type;
+  Position position;
+};
+
+PortType read_port_type(Library& library, Row& row) {
+  Diagnostics& diagnostics = library.diagnostics();
+  PortType port;
+  const auto type = row.text("type");
+  const auto queue = row.text("queue");
+  if (row.has("type") && row.has("queue")) {
+    diagnostics.error(row.position("queue"), row.name() + " has both 'type' and 'queue'",
+                      "'type' is for the latest item of a slot, 'queue' for the items of a queue: keep one");
+    return port;
+  }
+  if (!row.has("type") && !row.has("queue")) {
+    row.missing(
+        "type",
+        "add type = \"Pose\" for a slot's latest item, or queue = \"KeyEvent\" for the items of a queue");
+    return port;
+  }
+  port.queue = row.has("queue");
+  const auto& name = port.queue ? queue : type;
+  port.position = row.position(port.queue ? "queue" : "type");
+  if (!name) return port;
+  if (!is_camel_case(*name)) {
+    diagnostics.error(
+        port.position,
+        quote(*name) + " cannot be published: " + row.name() + " needs the name of a type table",
+        "declare a type with this field in types/, and name it in CamelCase");
+    return port;
+  }
+  port.type = library.type(*name, port.position);
+  return port;
+}
+
+std::optional<InputPort> read_input(Library& library, const Node& node) {
+  Diagnostics& diagnostics = library.diagnostics();
+  Row row(node, "[input." + node.key + "]", diagnostics);
+  InputPort input;
+  input.name = node.key;
+  input.position = node.key_position;
+  input.summary = row.summary();
+  const PortType port = read_port_type(library, row);
+  input.max_age = row.positive_duration("max_age");
+  input.hold = row.boolean("hold").value_or(false);
+  input.range = row.boolean("range").value_or(false);
+  input.history = row.boolean("history").value_or(false);
+  input.optional = row.boolean("optional").value_or(false);
+  row.finish();
+  if (port.queue)
+    for (const char* key : {"max_age", "hold", "range", "history"})
+      if (row.has(key))
+        diagnostics.error(row.position(key),
+                          quote(key) + " of " + row.name() + " is for slots, not for queues",
+                          "remove it: an item of a queue is taken once, in order");
+  if (!port.type) return std::nullopt;
+  input.queue = port.queue;
+  input.type = *port.type;
+  input.type_position = port.position;
+  return input;
+}
+
+// Inputs, outputs and devices become members of one class, beside those it inherits.
+void check_members(const std::vector<std::pair<std::string, const Node*>>& members,
+                   Diagnostics& diagnostics) {
+  static const std::vector<std::string> inherited = {
+      "accept",    "accept_runtime", "clear_fault", "component_type", "configuration",
+      "connect",   "fail",           "fault",       "feedback",       "initialise",
+      "is_idle",   "name",           "reset",       "runtime",        "parameter_memory",
+      "set_fault", "set_name",       "step",        "stop",           "stop_requested"};
+  std::map<std::string, std::pair<std::string, const Node*>> taken;
+  for (const auto& [kind, node] : members) {
+    if (std::find(inherited.begin(), inherited.end(), node->key) != inherited.end()) {
+      diagnostics.error(
+          node->key_position,
+          kind + " cannot be named " + quote(node->key) + ": every unit has a member of this name",
+          "choose another name");
+      continue;
+    }
+    const auto [first, is_new] = taken.try_emplace(node->key, kind, node);
+    if (!is_new)
+      diagnostics.error(
+          node->key_position,
+          "the name " + quote(node->key) + " is used twice: " + first->second.first + " and " + kind,
+          "both become members of one class: rename one; the other is at " +
+              to_string(first->second.second->key_position));
+  }
+}
+
+}  // namespace
+
+std::vector<OutputPort> read_outputs(Library& library, const Node& table, bool with_loans) {
+  std::vector<OutputPort> outputs;
+  for (const Node* node : named_rows(library, table, "output", "an output")) {
+    Diagnostics& diagnostics = library.diagnostics();
+    Row row(*node, "[output." + node->key + "]", diagnostics);
+    OutputPort output;
+    output.name = node->key;
+    output.position = node->key_position;
+    output.summary = row.summary();
+    const PortType port = read_port_type(library, row);
+    if (with_loans || !port.queue) {
+      output.loans = static_cast<std::size_t>(row.integer("loans", 1, 62).value_or(1));
+      if (port.queue && row.has("loans"))
+        diagnostics.error(row.position("loans"), "'loans' of " + row.name() + " is for slots, not for queues",
+                          "remove it");
+    }
+    row.finish();
+    if (!port.type) continue;
+    output.queue = port.queue;
+    output.type = *port.type;
+    output.type_position = port.position;
+    outputs.push_back(std::move(output));
+  }
+  return outputs;
+}
+
+std::optional<Index> read_unit_table(Library& library, const Node& root, const std::filesystem::path& file) {
+  Diagnostics& diagnostics = library.diagnostics();
+  UnitType unit;
+  unit.name = file.stem().string();
+  unit.file = file;
+  unit.position = root.position;
+  if (!is_snake_case(unit.name))
+    diagnostics.error(root.position, "the file's name " + quote(unit.name) + " is not a name for a unit",
+                      "name folder and file in lower_snake_case, as robot_control/robot_control.toml");
+  Row row(root, "this unit table", diagnostics);
+  unit.summary = row.summary();
+  unit.class_name = row.text("class").value_or(camel_case(unit.name));
+  if (!is_camel_case(unit.class_name))
+    diagnostics.error(row.position("class"), quote(unit.class_name) + " is not a name for a class",
+                      "write it in CamelCase, as \"" + camel_case(unit.name) + "\"");
+  unit.header = row.text("header").value_or(unit.name + ".hpp");
+  unit.base_class = unit.class_name + "Unit";
+  unit.base_header = unit.name + "_unit.hpp";
+  for (const char* section : {"input", "output", "device", "configuration", "runtime", "feedback"})
+    row.also(section);
+  row.finish();
+
+  std::vector<std::pair<std::string, const Node*>> members;
+  const auto inputs = named_rows(library, root, "input", "an input");
+  for (const Node* node : inputs) {
+    members.emplace_back("an input", node);
+    if (auto input = read_input(library, *node)) unit.inputs.push_back(std::move(*input));
+  }
+  if (const Node* outputs = root.find("output"))
+    for (const Node& node : outputs->children) members.emplace_back("an output", &node);
+  unit.outputs = read_outputs(library, root, true);
+  bool complete =
+      unit.inputs.size() == inputs.size() &&
+      (root.find("output") == nullptr || unit.outputs.size() == root.find("output")->children.size());
+  for (const Node* node : named_rows(library, root, "device", "a device")) {
+    members.emplace_back("a device", node);
+    Row device(*node, "[device." + node->key + "]", diagnostics);
+    DevicePort port{node->key, node->key_position, 0, device.summary()};
+    const auto interface =
+        device.required_text("interface", "add interface = \"RobotArm\", the name of an interface");
+    const auto index = interface ? library.interface(*interface, device.position("interface")) : std::nullopt;
+    device.finish();
+    complete = complete && index.has_value();
+    if (!index) continue;
+    port.interface = *index;
+    unit.devices.push_back(std::move(port));
+  }
+  check_members(members, diagnostics);
+  read_parameters(library, root, Parameter::Kind::configuration, unit.configuration);
+  read_parameters(library, root, Parameter::Kind::runtime, unit.runtime);
+  read_parameters(library, root, Parameter::Kind::feedback, unit.feedback);
+  if (!complete) return std::nullopt;  // connections to ports that are not there would be reported as unknown
+
+  Model& model = library.model();
+  model.unit_types.push_back(std::move(unit));
+  return model.unit_types.size() - 1;
+}
+
+}  // namespace flexrf::config_gen
