@@ -38,8 +38,7 @@ class Histogram {
   static constexpr std::uint32_t bucket_of(std::uint64_t value) noexcept {
     if (value < 16) return static_cast<std::uint32_t>(value);
     const auto octave = static_cast<std::uint32_t>(std::bit_width(value)) - 5U;
-    const std::uint32_t bucket =
-        16U * octave + static_cast<std::uint32_t>(value >> octave);
+    const std::uint32_t bucket = 16U * octave + static_cast<std::uint32_t>(value >> octave);
     return bucket < buckets ? bucket : buckets - 1;
   }
   // One writer: a load and a store, no read-modify-write.

@@ -15,6 +15,7 @@ namespace flexrf {
 class Device;
 
 enum class DriverKind : std::uint8_t { mock, simulated, real };
+const char* name_of(DriverKind kind) noexcept;
 
 /// How the generated application connects a device: ports of its own (with an IO thread), constants, its bus.
 struct DeviceBinding {

@@ -8,10 +8,10 @@
 #include "runtime/core/histogram.hpp"
 #include "runtime/core/status.hpp"
 #include "runtime/core/time.hpp"
+#include "runtime/device/device.hpp"
 
 namespace flexrf {
 
-class Device;
 class Unit;
 
 /// Life of a unit or device, as the lifecycle thread drives it and everybody may see it.
@@ -43,15 +43,21 @@ struct DeviceState {
   Device* device = nullptr;
   std::uint16_t driver = 0;  ///< index of the chosen driver
   std::atomic<Life> life{Life::created};
-  Status fault;
+  std::atomic<Ownership> ownership{Ownership::lifecycle};
+  std::atomic<bool> make_safe{false};  ///< its unit or itself is in fault: its thread makes it safe
+  std::atomic<bool> safe{false};       ///< make_safe() said so
+  Status fault;                        ///< read while life is fault
+  DeviceEnvironment environment;
 };
 
 struct ThreadState {
   std::atomic<std::uint64_t> cycles{0};
-  std::atomic<std::uint64_t> overruns{0};   ///< cycles that ended after their deadline or the next release
-  std::atomic<std::uint64_t> skipped{0};    ///< releases left out by the policy
-  std::atomic<std::int64_t> step_began{0};  ///< ns; 0 while not stepping: how a hung thread is seen
-  std::atomic<std::int32_t> thread_id{0};   ///< kernel's, for /proc
+  std::atomic<std::uint64_t> overruns{0};     ///< cycles that ended after their deadline or the next release
+  std::atomic<std::uint64_t> skipped{0};      ///< releases left out by the policy
+  std::atomic<std::uint64_t> allocations{0};  ///< allocations and frees in the real-time part
+  std::atomic<bool> asked_back{false};        ///< a unit or device of this thread is asked_back
+  std::atomic<std::int64_t> step_began{0};    ///< ns; 0 while not stepping: how a hung thread is seen
+  std::atomic<std::int32_t> thread_id{0};     ///< kernel's, for /proc
   Histogram lateness;
   Histogram execution;
 };

@@ -1,0 +1,286 @@
+#include "runtime/executive/cell.hpp"
+
+#include <cstring>
+#include <string>
+
+#include "runtime/core/digest.hpp"
+
+namespace flexrf {
+namespace {
+
+std::vector<Doorbell*> bells_of(const Application& application) {
+  std::vector<Doorbell*> bells;
+  for (const ThreadRecord& thread : application.threads) bells.push_back(thread.bell);
+  return bells;
+}
+
+void fill(void* memory, const ParameterBlock& block, const void* initial) noexcept {
+  if (memory != nullptr && block.type != nullptr && initial != nullptr) {
+    std::memcpy(memory, initial, block.type->size);
+  }
+}
+
+std::uint64_t seed_of(std::uint64_t seed, const char* name) noexcept {
+  Digest digest{seed};
+  digest.add_text(name);
+  return digest.value();
+}
+
+}  // namespace
+
+Cell::Cell(const Application& application, const Options& options)
+    : application_(&application),
+      options_(&options),
+      bells_(bells_of(application)),
+      control_(bells_),
+      parameters_(
+          std::make_unique<RuntimeParameters[]>(application.units.size() + application.devices.size())),
+      requests_(std::make_unique<RequestQueue[]>(application.threads.size())),
+      scratch_(std::make_unique<ParameterScratch[]>(application.threads.size())) {
+  for (std::size_t i = 0; i < application.threads.size(); ++i)
+    requests_[i].set_bell(application.threads[i].bell);
+}
+
+Cell::~Cell() {
+  destroy();
+}
+
+Status Cell::choose_drivers() {
+  for (std::size_t i = 0; i < application_->devices.size(); ++i) {
+    const DeviceRecord& device = application_->devices[i];
+    DeviceState& state = application_->device_states[i];
+    state.driver = 0;
+    const auto choose = [&](std::string_view wanted) {
+      for (std::size_t d = 0; d < device.drivers.size(); ++d) {
+        const DriverRecord& driver = device.drivers[d];
+        if (wanted == driver.name || wanted == name_of(driver.kind)) {
+          state.driver = static_cast<std::uint16_t>(d);
+          return;
+        }
+      }
+    };
+    // A file of key presses implies the driver that reads it; what --hardware says comes after and wins.
+    if (!options_->keys_file.empty() && std::strcmp(device.interface, "Keyboard") == 0) choose("script");
+    for (const HardwareChoice& choice : options_->hardware) {
+      if (choice.device.empty() || choice.device == device.name) choose(choice.driver);
+    }
+    const DriverRecord& driver = device.drivers[state.driver];
+    if (options_->virtual_time && !driver.virtual_time) {
+      std::string able;
+      for (const DriverRecord& other : device.drivers) {
+        if (other.virtual_time) able += (able.empty() ? "" : ", ") + std::string{other.name};
+      }
+      return Status::error(
+          StatusCode::invalid_argument,
+          "--virtual-time: device `%s`: driver `%s` waits for the real world and cannot live in virtual "
+          "time; %s%s",
+          device.name, driver.name,
+          able.empty() ? "no driver of this device can" : "choose --hardware with one of: ", able.c_str());
+    }
+  }
+  return {};
+}
+
+Status Cell::construct_device(std::uint16_t index) {
+  const DeviceRecord& record = application_->devices[index];
+  DeviceState& state = application_->device_states[index];
+  const DriverRecord& driver = record.drivers[state.driver];
+  state.device = driver.construct(record.storage);
+  *record.instance = state.device;
+  state.environment = {seed_of(options_->seed, record.name), options_->virtual_time.has_value(),
+                       options_->keys_file.empty() ? nullptr : options_->keys_file.c_str()};
+  state.device->set_name(record.name);
+  state.device->set_environment(&state.environment);
+  DeviceBinding binding = record.binding;
+  if (record.bus != no_index) binding.bus = application_->device_states[record.bus].device;
+  state.device->connect(binding);
+  const ParameterMemory memory = state.device->parameter_memory();
+  fill(memory.configuration, driver.type->configuration, driver.configuration);
+  fill(memory.runtime, driver.type->runtime, driver.runtime);
+  return parameters_[component_of_device(index)].connect(*state.device, record.runtime_slot, driver.runtime,
+                                                         scratch_[record.thread]);
+}
+
+Status Cell::construct_unit(std::uint16_t index) {
+  const UnitRecord& record = application_->units[index];
+  UnitState& state = application_->unit_states[index];
+  state.unit = record.construct(record.storage);
+  state.unit->set_name(record.name);
+  state.unit->connect(record.binding);
+  const ParameterMemory memory = state.unit->parameter_memory();
+  fill(memory.configuration, record.type->configuration, record.configuration);
+  fill(memory.runtime, record.type->runtime, record.runtime);
+  state.life.store(Life::created);
+  return parameters_[index].connect(*state.unit, record.runtime_slot, record.runtime,
+                                    scratch_[record.thread]);
+}
+
+Status Cell::construct() {
+  if (const Status status = choose_drivers(); !status) return status;
+  // A bus may stand after what it carries in the tables; it is constructed before.
+  for (const bool carried : {false, true}) {
+    for (std::size_t i = 0; i < application_->devices.size(); ++i) {
+      if ((application_->devices[i].bus != no_index) != carried) continue;
+      if (const Status status = construct_device(static_cast<std::uint16_t>(i)); !status) return status;
+    }
+  }
+  for (std::size_t i = 0; i < application_->units.size(); ++i) {
+    const UnitRecord& record = application_->units[i];
+    application_->unit_states[i].active.store(
+        record.population == no_index || record.member < application_->populations[record.population].active);
+    if (const Status status = construct_unit(static_cast<std::uint16_t>(i)); !status) return status;
+  }
+  return {};
+}
+
+void Cell::destroy() noexcept {
+  for (std::size_t i = application_->units.size(); i-- > 0;) {
+    UnitState& state = application_->unit_states[i];
+    if (state.unit != nullptr) std::destroy_at(state.unit);
+    state.unit = nullptr;
+  }
+  for (std::size_t i = application_->devices.size(); i-- > 0;) {
+    DeviceState& state = application_->device_states[i];
+    if (state.device != nullptr) std::destroy_at(state.device);
+    state.device = nullptr;
+    *application_->devices[i].instance = nullptr;
+  }
+}
+
+Status Cell::reconstruct_unit(std::uint16_t index) noexcept {
+  UnitState& state = application_->unit_states[index];
+  const ComponentType& type = *application_->units[index].type;
+  const auto copy = [](const ParameterBlock& block, const void* from) {
+    std::vector<std::byte> bytes(block.type == nullptr || from == nullptr ? 0 : block.type->size);
+    if (!bytes.empty()) std::memcpy(bytes.data(), from, bytes.size());
+    return bytes;
+  };
+  const ParameterMemory before = state.unit->parameter_memory();
+  const std::vector<std::byte> configuration = copy(type.configuration, before.configuration);
+  const std::vector<std::byte> runtime = copy(type.runtime, before.runtime);
+  std::destroy_at(state.unit);
+  if (const Status status = construct_unit(index); !status) return status;
+  const ParameterMemory after = state.unit->parameter_memory();
+  if (!configuration.empty()) std::memcpy(after.configuration, configuration.data(), configuration.size());
+  if (!runtime.empty()) std::memcpy(after.runtime, runtime.data(), runtime.size());
+  return {};
+}
+
+const char* Cell::component_name(ComponentIndex component) const noexcept {
+  const std::size_t units = application_->units.size();
+  return component < units ? application_->units[component].name
+                           : application_->devices[component - units].name;
+}
+
+Component& Cell::component(ComponentIndex component) const noexcept {
+  const std::size_t units = application_->units.size();
+  if (component < units) return *application_->unit_states[component].unit;
+  return *application_->device_states[component - units].device;
+}
+
+void Cell::send(const ParameterRequest& request) noexcept {
+  if (request.component >= component_count()) {
+    answer(request.requester,
+           ParameterAnswer::refused(request, 0, no_parameter, "there is no such component"));
+    return;
+  }
+  const std::size_t units = application_->units.size();
+  const std::uint16_t thread = request.component < units
+                                   ? application_->units[request.component].thread
+                                   : application_->devices[request.component - units].thread;
+  if (!requests_[thread].push(request)) answer(request.requester, ParameterAnswer::busy(request));
+}
+
+std::uint16_t Cell::add_requester(AnswerQueue& answers) noexcept {
+  if (requester_count_ == max_requesters) return 0;
+  requesters_[requester_count_] = &answers;
+  return requester_count_++;
+}
+
+void Cell::answer(std::uint16_t requester, const ParameterAnswer& answer) noexcept {
+  if (requester < requester_count_ && requesters_[requester] != nullptr) requesters_[requester]->push(answer);
+}
+
+bool Cell::has_real_actuator() const noexcept {
+  for (std::size_t i = 0; i < application_->devices.size(); ++i) {
+    const DriverRecord& chosen = driver(static_cast<std::uint16_t>(i));
+    if (chosen.actuates && chosen.kind == DriverKind::real) return true;
+  }
+  return false;
+}
+
+void Cell::set_writer_state(std::uint16_t unit, WriterState state) noexcept {
+  for (SlotControl* slot : application_->units[unit].binding.outputs) {
+    if (slot != nullptr) slot->set_writer_state(state);
+  }
+}
+
+void Cell::set_device_writer_state(std::uint16_t device, WriterState state) noexcept {
+  for (SlotControl* slot : application_->devices[device].binding.outputs) {
+    if (slot != nullptr) slot->set_writer_state(state);
+  }
+}
+
+void Cell::commit_unit(std::uint16_t unit) noexcept {
+  const UnitRecord& record = application_->units[unit];
+  for (SlotControl* slot : record.binding.outputs) {
+    if (slot != nullptr) slot->commit();
+  }
+  for (const std::span<QueueSink* const> sinks : record.binding.queue_outputs) {
+    for (QueueSink* sink : sinks) sink->commit();
+  }
+  if (record.feedback_slot != nullptr) record.feedback_slot->commit();
+}
+
+void Cell::commit_device(std::uint16_t device) noexcept {
+  const DeviceRecord& record = application_->devices[device];
+  for (SlotControl* slot : record.binding.outputs) {
+    if (slot != nullptr) slot->commit();
+  }
+  for (const std::span<QueueSink* const> sinks : record.binding.queue_outputs) {
+    for (QueueSink* sink : sinks) sink->commit();
+  }
+  if (record.feedback_slot != nullptr) record.feedback_slot->commit();
+}
+
+void Cell::prepare_virtual_time(bool digest) noexcept {
+  for (const SlotRecord& slot : application_->slots) {
+    slot.control->set_digested(digest && !slot.wall);
+  }
+  for (const QueueRecord& queue : application_->queues) {
+    for (QueueSink* sink : queue.sinks) {
+      sink->set_digested(digest && !queue.wall);
+      sink->set_deferred(true);
+    }
+  }
+  // Values in force are published between two steps and visible at once; everything else waits for its
+  // commit.
+  const auto defer = [](SlotControl* slot) {
+    if (slot != nullptr) slot->set_deferred(true);
+  };
+  for (const UnitRecord& unit : application_->units) {
+    for (SlotControl* slot : unit.binding.outputs) defer(slot);
+    defer(unit.feedback_slot);
+  }
+  for (const DeviceRecord& device : application_->devices) {
+    for (SlotControl* slot : device.binding.outputs) defer(slot);
+    defer(device.feedback_slot);
+  }
+}
+
+std::uint64_t Cell::digest() const noexcept {
+  Digest digest;
+  for (const SlotRecord& slot : application_->slots) {
+    if (slot.wall) continue;
+    digest.add_text(slot.name);
+    digest.add(slot.control->digest());
+  }
+  for (const QueueRecord& queue : application_->queues) {
+    if (queue.wall) continue;
+    digest.add_text(queue.name);
+    for (const QueueSink* sink : queue.sinks) digest.add(sink->digest());
+  }
+  return digest.value();
+}
+
+}  // namespace flexrf

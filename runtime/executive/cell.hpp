@@ -1,0 +1,92 @@
+// The cell: the application's objects, constructed in place and connected, and what stands beside each.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "runtime/executive/application.hpp"
+#include "runtime/executive/control.hpp"
+#include "runtime/executive/options.hpp"
+#include "runtime/parameters/parameter_store.hpp"
+#include "runtime/parameters/request.hpp"
+
+namespace flexrf {
+
+/// A component's number, as in requests: units in table order, then devices.
+using ComponentIndex = std::uint16_t;
+
+/// The payload is the generated application's; the cell constructs and destroys what lives there. Built and
+/// torn down by the main thread; between the two, each part belongs to the thread that the design names.
+class Cell {
+ public:
+  static constexpr std::size_t max_requesters = 32;
+
+  Cell(const Application& application, const Options& options);
+  Cell(const Cell&) = delete;
+  Cell& operator=(const Cell&) = delete;
+  ~Cell();
+
+  /// Chooses drivers, constructs devices and units in table order, connects them, fills in the tables'
+  /// parameters.
+  Status construct();
+  /// Units in reverse order, then devices.
+  void destroy() noexcept;
+  /// Restart in place: destroys and constructs one unit with the values it had. Lifecycle thread, owning the
+  /// unit.
+  Status reconstruct_unit(std::uint16_t unit) noexcept;
+
+  const Application& application() const noexcept { return *application_; }
+  const Options& options() const noexcept { return *options_; }
+  Control& control() noexcept { return control_; }
+
+  const DriverRecord& driver(std::uint16_t device) const noexcept {
+    return application_->devices[device].drivers[application_->device_states[device].driver];
+  }
+  ComponentIndex component_count() const noexcept {
+    return static_cast<ComponentIndex>(application_->units.size() + application_->devices.size());
+  }
+  ComponentIndex component_of_device(std::uint16_t device) const noexcept {
+    return static_cast<ComponentIndex>(application_->units.size() + device);
+  }
+  const char* component_name(ComponentIndex component) const noexcept;
+  Component& component(ComponentIndex component) const noexcept;
+  RuntimeParameters& parameters(ComponentIndex component) noexcept { return parameters_[component]; }
+  ParameterScratch& scratch(std::uint16_t thread) noexcept { return scratch_[thread]; }
+
+  /// Sends a request to the thread that owns its component; busy or refused is answered at once. Any thread.
+  void send(const ParameterRequest& request) noexcept;
+  /// Registers who waits for answers; its number goes into the requests. Before the start. 0 is nobody.
+  std::uint16_t add_requester(AnswerQueue& answers) noexcept;
+  void answer(std::uint16_t requester, const ParameterAnswer& answer) noexcept;
+  RequestQueue& requests(std::uint16_t thread) noexcept { return requests_[thread]; }
+
+  bool has_real_actuator() const noexcept;
+  /// How readers see what the unit writes.
+  void set_writer_state(std::uint16_t unit, WriterState state) noexcept;
+  void set_device_writer_state(std::uint16_t device, WriterState state) noexcept;
+  /// In virtual time, where publications wait: makes what the unit published in its step visible.
+  void commit_unit(std::uint16_t unit) noexcept;
+  void commit_device(std::uint16_t device) noexcept;
+  /// Virtual time: publications wait for commit, and are digested unless marked wall.
+  void prepare_virtual_time(bool digest) noexcept;
+  /// Of every slot and queue that is not marked wall: name, and all that was published.
+  std::uint64_t digest() const noexcept;
+
+ private:
+  Status choose_drivers();
+  Status construct_device(std::uint16_t device);
+  Status construct_unit(std::uint16_t unit);
+
+  const Application* application_;
+  const Options* options_;
+  std::vector<Doorbell*> bells_;
+  Control control_;
+  std::unique_ptr<RuntimeParameters[]> parameters_;  // one per component
+  std::unique_ptr<RequestQueue[]> requests_;         // one per thread
+  std::unique_ptr<ParameterScratch[]> scratch_;      // one per thread
+  std::array<AnswerQueue*, max_requesters> requesters_{};
+  std::uint16_t requester_count_ = 1;
+};
+
+}  // namespace flexrf

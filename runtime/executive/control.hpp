@@ -1,0 +1,104 @@
+// What all threads of a running application share: its mode, the stop latch, the Start.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+
+#include "runtime/blackboard/doorbell.hpp"
+#include "runtime/core/status.hpp"
+
+namespace flexrf {
+
+/// Where the application stands. Only ever rises.
+enum class Mode : std::uint8_t {
+  starting,  ///< devices and units are being initialised
+  running,
+  finishing,  ///< no more input will come: queues drain, units complete what they began
+  stopping,   ///< controlled stop: units come to rest
+  safe,       ///< every device is made safe; units no longer step
+  ended,      ///< threads leave their loops
+};
+const char* name_of(Mode mode) noexcept;
+
+/// Why the application leaves `running`.
+enum class EndCause : std::uint8_t {
+  none,
+  end_of_input,
+  virtual_time_over,
+  signal,     ///< SIGINT, SIGTERM
+  requested,  ///< panel, test
+  fault,      ///< a thread hangs, a unit cannot be initialised
+};
+
+class Control {
+ public:
+  constexpr explicit Control(std::span<Doorbell* const> bells) noexcept : bells_(bells) {}
+
+  Mode mode() const noexcept { return mode_.load(std::memory_order_acquire); }
+  /// Any thread; ignored when the mode is further already. Wakes every thread.
+  void rise_to(Mode mode) noexcept {
+    Mode now = mode_.load(std::memory_order_relaxed);
+    while (now < mode && !mode_.compare_exchange_weak(now, mode, std::memory_order_acq_rel)) {
+    }
+    wake_all();
+  }
+
+  /// The first cause stays. Any thread.
+  void set_cause(EndCause cause) noexcept {
+    EndCause none = EndCause::none;
+    cause_.compare_exchange_strong(none, cause, std::memory_order_acq_rel);
+  }
+  EndCause cause() const noexcept { return cause_.load(std::memory_order_acquire); }
+
+  /// Stop motion: a latch, handled by each thread in its next control period. Any thread, any signal handler.
+  void stop_motion() noexcept {
+    stop_motion_.store(true, std::memory_order_seq_cst);
+    started_.store(false, std::memory_order_seq_cst);
+    wake_all();
+  }
+  /// Clears the latch; nothing moves before start_motion().
+  void clear_stop_motion() noexcept { stop_motion_.store(false, std::memory_order_seq_cst); }
+  /// A person's Start: actuators may move. Refused while Stop motion is latched or the application is not
+  /// running.
+  Status start_motion() noexcept {
+    if (stop_motion_.load(std::memory_order_seq_cst)) {
+      return Status::error(StatusCode::not_permitted, "Stop motion is latched; clear it before Start");
+    }
+    if (mode() != Mode::running) {
+      return Status::error(StatusCode::not_permitted, "the application is %s, not running", name_of(mode()));
+    }
+    started_.store(true, std::memory_order_seq_cst);
+    // A stop that came in between wins.
+    if (stop_motion_.load(std::memory_order_seq_cst)) started_.store(false, std::memory_order_seq_cst);
+    wake_all();
+    return {};
+  }
+  /// After a restart or a reconfiguration nothing moves before the next Start.
+  void require_start() noexcept {
+    started_.store(false, std::memory_order_seq_cst);
+    wake_all();
+  }
+  bool motion_stopped() const noexcept { return stop_motion_.load(std::memory_order_acquire); }
+  bool may_move() const noexcept {
+    return started_.load(std::memory_order_acquire) && !stop_motion_.load(std::memory_order_acquire);
+  }
+
+  /// Counts units and devices that went into fault. Any thread.
+  void note_fault() noexcept { faults_.fetch_add(1, std::memory_order_release); }
+  std::uint32_t faults() const noexcept { return faults_.load(std::memory_order_acquire); }
+
+  void wake_all() noexcept {
+    for (Doorbell* bell : bells_) bell->ring();
+  }
+
+ private:
+  std::span<Doorbell* const> bells_;
+  std::atomic<Mode> mode_{Mode::starting};
+  std::atomic<EndCause> cause_{EndCause::none};
+  std::atomic<bool> stop_motion_{false};
+  std::atomic<bool> started_{false};
+  std::atomic<std::uint32_t> faults_{0};
+};
+
+}  // namespace flexrf

@@ -1,0 +1,252 @@
+#include "runtime/executive/lifecycle.hpp"
+
+#include <ctime>
+#include <exception>
+
+#include "runtime/log/log.hpp"
+
+namespace flexrf {
+namespace {
+
+/// How long a thread may take to let go of a unit between two of its steps.
+constexpr Duration hand_over_timeout = std::chrono::seconds{1};
+
+/// What a library throws out of a component's code is its fault, with the library's text.
+template <class Call>
+Status guarded(Call call) noexcept {
+  try {
+    return call();
+  } catch (const std::exception& error) {
+    return Status::error(StatusCode::internal, "exception: %s", error.what());
+  } catch (...) {
+    return Status::error(StatusCode::internal, "exception of unknown type");
+  }
+}
+
+void pause() noexcept {
+  const timespec millisecond{0, 1'000'000};
+  nanosleep(&millisecond, nullptr);
+}
+
+}  // namespace
+
+Time Lifecycle::now() const noexcept {
+  return MonotonicClock::now();
+}
+
+void Lifecycle::begin_operation(const char* component, Duration timeout) noexcept {
+  overdue_at_.store(nanoseconds(now() + timeout), std::memory_order_relaxed);
+  component_.store(component, std::memory_order_release);
+}
+
+void Lifecycle::end_operation() noexcept {
+  component_.store(nullptr, std::memory_order_release);
+}
+
+Lifecycle::Operation Lifecycle::operation() const noexcept {
+  return {component_.load(std::memory_order_acquire),
+          Time{Duration{overdue_at_.load(std::memory_order_relaxed)}}};
+}
+
+// ---- all
+
+Status Lifecycle::start_all() noexcept {
+  const Application& application = cell_->application();
+  for (const bool carried : {false, true}) {
+    for (std::size_t i = 0; i < application.devices.size(); ++i) {
+      if ((application.devices[i].bus != no_index) != carried) continue;
+      if (const Status status = start_device(static_cast<std::uint16_t>(i)); !status) return status;
+    }
+  }
+  for (std::size_t i = 0; i < application.units.size(); ++i) {
+    if (const Status status = start_unit(static_cast<std::uint16_t>(i)); !status) return status;
+  }
+  return {};
+}
+
+void Lifecycle::stop_all() noexcept {
+  const Application& application = cell_->application();
+  const auto report = [](const char* name, const Status& status) {
+    if (!status) log_error(name, "cannot be stopped: {}", status.cause());
+  };
+  for (std::size_t i = application.units.size(); i-- > 0;) {
+    report(application.units[i].name, stop_unit(static_cast<std::uint16_t>(i)));
+  }
+  for (const bool carried : {true, false}) {
+    for (std::size_t i = application.devices.size(); i-- > 0;) {
+      if ((application.devices[i].bus != no_index) != carried) continue;
+      report(application.devices[i].name, stop_device(static_cast<std::uint16_t>(i)));
+    }
+  }
+}
+
+// ---- the handshake
+
+Status Lifecycle::take_back(std::atomic<Ownership>& ownership, std::uint16_t thread,
+                            const char* name) noexcept {
+  if (!threads_run_) {
+    ownership.store(Ownership::lifecycle, std::memory_order_release);
+    return {};
+  }
+  Ownership expected = Ownership::thread;
+  if (!ownership.compare_exchange_strong(expected, Ownership::asked_back, std::memory_order_acq_rel) &&
+      expected == Ownership::lifecycle) {
+    return {};
+  }
+  ThreadState& state = cell_->application().thread_states[thread];
+  const Time give_up = now() + hand_over_timeout;
+  while (ownership.load(std::memory_order_acquire) != Ownership::lifecycle) {
+    state.asked_back.store(true, std::memory_order_release);
+    cell_->application().threads[thread].bell->ring();
+    if (now() > give_up) {
+      return Status::error(StatusCode::timeout, "thread %s does not let go of %s",
+                           cell_->application().threads[thread].name, name);
+    }
+    pause();
+  }
+  return {};
+}
+
+// ---- one unit
+
+Status Lifecycle::start_unit(std::uint16_t index) noexcept {
+  const UnitRecord& record = cell_->application().units[index];
+  UnitState& state = cell_->application().unit_states[index];
+  if (state.ownership.load(std::memory_order_acquire) != Ownership::lifecycle) {
+    return Status::error(StatusCode::not_permitted, "%s is %s already", record.name,
+                         name_of(state.life.load()));
+  }
+  begin_operation(record.name, record.initialise_timeout);
+  state.unit->clear_fault();
+  Status status = guarded([&] { return state.unit->initialise(); });
+  end_operation();
+  if (status && !state.unit->fault().is_ok()) status = state.unit->fault();
+  // What the tables or the file say was checked before; accept() may still refuse it.
+  const ParameterMemory memory = state.unit->parameter_memory();
+  if (status && memory.runtime != nullptr) status = cell_->parameters(index).adopt(memory.runtime, now());
+  if (!status) {
+    state.fault = status;
+    state.life.store(Life::fault, std::memory_order_release);
+    cell_->set_writer_state(index, WriterState::faulted);
+    return Status::error(status.code(), "%s: initialise: %s", record.name, status.cause());
+  }
+  state.fault = {};
+  state.steps.store(0, std::memory_order_relaxed);
+  state.idle.store(true, std::memory_order_relaxed);
+  for (std::size_t d = 0; d < cell_->application().devices.size(); ++d) {
+    if (cell_->application().devices[d].unit != index) continue;
+    cell_->application().device_states[d].make_safe.store(false);
+    cell_->application().device_states[d].safe.store(false);
+  }
+  cell_->set_writer_state(index, state.active.load() ? WriterState::running : WriterState::retired);
+  state.life.store(Life::running, std::memory_order_release);
+  state.ownership.store(Ownership::thread, std::memory_order_release);
+  return {};
+}
+
+Status Lifecycle::stop_unit(std::uint16_t index) noexcept {
+  const UnitRecord& record = cell_->application().units[index];
+  UnitState& state = cell_->application().unit_states[index];
+  if (state.life.load() == Life::created || state.life.load() == Life::stopped) return {};
+  if (const Status status = take_back(state.ownership, record.thread, record.name); !status) return status;
+  cell_->set_writer_state(index, WriterState::stopped);
+  begin_operation(record.name, record.stop_timeout);
+  const Status status = guarded([&] {
+    state.unit->stop();
+    return Status{};
+  });
+  end_operation();
+  if (state.life.load() != Life::fault) state.life.store(Life::stopped, std::memory_order_release);
+  state.idle.store(true, std::memory_order_relaxed);
+  return status;
+}
+
+Status Lifecycle::restart_unit(std::uint16_t index) noexcept {
+  // Set-points are seeded anew; until a person says so, nothing follows them.
+  cell_->control().require_start();
+  if (const Status status = stop_unit(index); !status) return status;
+  if (const Status status = cell_->reconstruct_unit(index); !status) return status;
+  return start_unit(index);
+}
+
+bool Lifecycle::may_restart(std::uint16_t index) const noexcept {
+  const Application& application = cell_->application();
+  const RestartPolicy policy = application.units[index].restart;
+  if (policy == RestartPolicy::never || (policy == RestartPolicy::once && restarts_[index] > 0)) return false;
+  for (std::size_t d = 0; d < application.devices.size(); ++d) {
+    const DriverRecord& driver = cell_->driver(static_cast<std::uint16_t>(d));
+    if (application.devices[d].unit == index && driver.actuates && driver.kind == DriverKind::real)
+      return false;
+  }
+  return true;
+}
+
+void Lifecycle::restart_by_policy() noexcept {
+  for (std::size_t i = 0; i < cell_->application().units.size(); ++i) {
+    const auto index = static_cast<std::uint16_t>(i);
+    UnitState& state = cell_->application().unit_states[i];
+    if (state.life.load(std::memory_order_acquire) != Life::fault || !may_restart(index) ||
+        state.ownership.load(std::memory_order_acquire) != Ownership::lifecycle) {
+      continue;
+    }
+    ++restarts_[i];
+    const Status status = restart_unit(index);
+    if (status) {
+      log_warning(cell_->application().units[i].name, "restarted after a fault; motion needs a new Start");
+    } else {
+      log_error(cell_->application().units[i].name, "restart failed: {}", status.cause());
+    }
+  }
+}
+
+// ---- one device
+
+Status Lifecycle::start_device(std::uint16_t index) noexcept {
+  const DeviceRecord& record = cell_->application().devices[index];
+  DeviceState& state = cell_->application().device_states[index];
+  begin_operation(record.name, record.initialise_timeout);
+  state.device->clear_fault();
+  // An actuator is inhibited until its thread has seen a Start.
+  state.device->set_inhibited(!cell_->control().may_move());
+  Status status = guarded([&] { return state.device->initialise(); });
+  end_operation();
+  if (status && !state.device->fault().is_ok()) status = state.device->fault();
+  const ParameterMemory memory = state.device->parameter_memory();
+  if (status && memory.runtime != nullptr) {
+    status = cell_->parameters(cell_->component_of_device(index)).adopt(memory.runtime, now());
+  }
+  if (!status) {
+    state.fault = status;
+    state.life.store(Life::fault, std::memory_order_release);
+    cell_->set_device_writer_state(index, WriterState::faulted);
+    return Status::error(status.code(), "%s (driver %s): initialise: %s", record.name,
+                         cell_->driver(index).name, status.cause());
+  }
+  state.fault = {};
+  state.make_safe.store(false);
+  state.safe.store(false);
+  cell_->set_device_writer_state(index, WriterState::running);
+  state.life.store(Life::running, std::memory_order_release);
+  state.ownership.store(Ownership::thread, std::memory_order_release);
+  // Its thread may sleep until something arrives on a descriptor that exists only now.
+  cell_->application().threads[record.thread].bell->ring();
+  return {};
+}
+
+Status Lifecycle::stop_device(std::uint16_t index) noexcept {
+  const DeviceRecord& record = cell_->application().devices[index];
+  DeviceState& state = cell_->application().device_states[index];
+  if (state.life.load() == Life::created || state.life.load() == Life::stopped) return {};
+  if (const Status status = take_back(state.ownership, record.thread, record.name); !status) return status;
+  cell_->set_device_writer_state(index, WriterState::stopped);
+  begin_operation(record.name, record.initialise_timeout);
+  const Status status = guarded([&] {
+    state.device->stop();
+    return Status{};
+  });
+  end_operation();
+  if (state.life.load() != Life::fault) state.life.store(Life::stopped, std::memory_order_release);
+  return status;
+}
+
+}  // namespace flexrf

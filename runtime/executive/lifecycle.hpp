@@ -1,0 +1,54 @@
+// Lifecycle: initialises, stops and restarts units and devices, one at a time, away from the real-time
+// threads.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "runtime/executive/cell.hpp"
+
+namespace flexrf {
+
+/// All functions but the ones of Operation: the lifecycle thread; in virtual time, the only thread.
+class Lifecycle {
+ public:
+  /// `threads_run`: ownership is handed over to threads that must acknowledge; in virtual time there are
+  /// none.
+  Lifecycle(Cell& cell, bool threads_run) noexcept : cell_(&cell), threads_run_(threads_run) {}
+
+  /// Devices (buses first), then units, in table order. The first failure ends it and is returned.
+  Status start_all() noexcept;
+  /// Takes back and stops everything: units in reverse order, then devices, what is carried before its bus.
+  void stop_all() noexcept;
+
+  Status start_unit(std::uint16_t unit) noexcept;
+  Status stop_unit(std::uint16_t unit) noexcept;
+  /// Stop, destroy, construct in place, initialise; motion needs a new Start.
+  Status restart_unit(std::uint16_t unit) noexcept;
+  Status start_device(std::uint16_t device) noexcept;
+  Status stop_device(std::uint16_t device) noexcept;
+  /// Restarts what its policy lets restart.
+  void restart_by_policy() noexcept;
+
+  /// What the lifecycle thread is at, for whoever watches that it does not hang. Any thread.
+  struct Operation {
+    const char* component;  ///< null: nothing
+    Time overdue_at;
+  };
+  Operation operation() const noexcept;
+
+ private:
+  Status take_back(std::atomic<Ownership>& ownership, std::uint16_t thread, const char* name) noexcept;
+  void begin_operation(const char* component, Duration timeout) noexcept;
+  void end_operation() noexcept;
+  bool may_restart(std::uint16_t unit) const noexcept;
+  Time now() const noexcept;
+
+  Cell* cell_;
+  bool threads_run_;
+  std::atomic<const char*> component_{nullptr};
+  std::atomic<std::int64_t> overdue_at_{0};
+  std::vector<std::uint16_t> restarts_ = std::vector<std::uint16_t>(cell_->application().units.size());
+};
+
+}  // namespace flexrf

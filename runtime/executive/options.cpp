@@ -1,0 +1,207 @@
+#include "runtime/executive/options.hpp"
+
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <string_view>
+
+#include "runtime/core/nearest.hpp"
+
+namespace flexrf {
+namespace {
+
+struct Flag {
+  const char* name;
+  const char* value;  // what follows, or null
+  const char* meaning;
+};
+
+constexpr std::array flags{
+    Flag{"--hardware", "CHOICE", "drivers: `mock`, or `arm=simulated,camera=real`"},
+    Flag{"--virtual-time", "DURATION", "run on a simulated clock, as fast as it goes: `60s`, `500ms`"},
+    Flag{"--keys", "FILE", "key presses from a file: a line each, seconds and key, as `0.5 w`"},
+    Flag{"--seed", "N", "of all random numbers (default 1)"},
+    Flag{"--digest", nullptr, "last line of the output: digest of everything that was published"},
+    Flag{"--config", "FILE", "configuration file (XML): read at the start, written when values are saved"},
+    Flag{"--report", "FILE", "write the final report as JSON too"},
+    Flag{"--panel", "ADDRESS:PORT|off", "where the panel listens (default 127.0.0.1:8080)"},
+    Flag{"--no-realtime", nullptr, "ordinary priorities; refused with a real actuator"},
+    Flag{"--descriptor", nullptr, "print descriptor.json and end"},
+    Flag{"--help", nullptr, "this text"},
+};
+
+Status unknown_flag(std::string_view argument) {
+  std::array<std::string_view, flags.size()> names;
+  for (std::size_t i = 0; i < flags.size(); ++i) names[i] = flags[i].name;
+  const std::string_view near = nearest(argument, names);
+  return Status::error(StatusCode::invalid_argument, "unknown argument `%.*s`%s%.*s%s",
+                       static_cast<int>(argument.size()), argument.data(),
+                       near.empty() ? "; --help lists what there is" : "; did you mean `",
+                       static_cast<int>(near.size()), near.data(), near.empty() ? "" : "`?");
+}
+
+std::optional<Duration> parse_duration(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || !(number > 0)) return std::nullopt;
+  const std::string_view unit{end, static_cast<std::size_t>(text.data() + text.size() - end)};
+  double scale = 0;
+  if (unit == "h") scale = 3600e9;
+  if (unit == "min") scale = 60e9;
+  if (unit == "s") scale = 1e9;
+  if (unit == "ms") scale = 1e6;
+  if (unit == "us") scale = 1e3;
+  if (scale == 0 || number * scale > 9e18 || number * scale < 1) return std::nullopt;
+  return Duration{static_cast<std::int64_t>(number * scale)};
+}
+
+const DeviceRecord* find_device(const Application& application, std::string_view name) {
+  for (const DeviceRecord& device : application.devices) {
+    if (name == device.name) return &device;
+  }
+  return nullptr;
+}
+
+std::string drivers_of(const DeviceRecord& device) {
+  std::string list;
+  for (const DriverRecord& driver : device.drivers)
+    list += (list.empty() ? "" : ", ") + std::string{driver.name};
+  return list;
+}
+
+Status check_choice(const Application& application, const HardwareChoice& choice) {
+  if (choice.device.empty()) {
+    for (const DeviceRecord& device : application.devices) {
+      for (const DriverRecord& driver : device.drivers) {
+        if (choice.driver == driver.name || choice.driver == name_of(driver.kind)) return {};
+      }
+    }
+    return Status::error(StatusCode::invalid_argument,
+                         "--hardware %s: no device of this application has such a driver",
+                         choice.driver.c_str());
+  }
+  const DeviceRecord* device = find_device(application, choice.device);
+  if (device == nullptr) {
+    std::vector<std::string_view> names;
+    for (const DeviceRecord& known : application.devices) names.emplace_back(known.name);
+    const std::string near{nearest(choice.device, names)};
+    return Status::error(StatusCode::invalid_argument, "--hardware: no device `%s`%s%s%s",
+                         choice.device.c_str(), near.empty() ? "" : "; did you mean `", near.c_str(),
+                         near.empty() ? "" : "`?");
+  }
+  for (const DriverRecord& driver : device->drivers) {
+    if (choice.driver == driver.name || choice.driver == name_of(driver.kind)) return {};
+  }
+  return Status::error(StatusCode::invalid_argument,
+                       "--hardware: device `%s` has no driver `%s`; it permits: %s", device->name,
+                       choice.driver.c_str(), drivers_of(*device).c_str());
+}
+
+Status parse_hardware(const Application& application, std::string_view text,
+                      std::vector<HardwareChoice>& choices) {
+  while (!text.empty()) {
+    const std::size_t comma = text.find(',');
+    const std::string_view part = text.substr(0, comma);
+    const std::size_t equals = part.find('=');
+    HardwareChoice choice;
+    if (equals == std::string_view::npos) {
+      choice.driver = part;
+    } else {
+      choice.device = part.substr(0, equals);
+      choice.driver = part.substr(equals + 1);
+    }
+    if (const Status status = check_choice(application, choice); !status) return status;
+    choices.push_back(std::move(choice));
+    text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
+  }
+  return {};
+}
+
+Status take(const Application& application, std::string_view name, std::string_view value, Options& options) {
+  if (name == "--hardware") return parse_hardware(application, value, options.hardware);
+  if (name == "--keys") {
+    options.keys_file = value;
+  } else if (name == "--config") {
+    options.configuration_file = value;
+  } else if (name == "--report") {
+    options.report_file = value;
+  } else if (name == "--panel") {
+    if (value != "off" && value.find(':') == std::string_view::npos) {
+      return Status::error(StatusCode::invalid_argument, "--panel %.*s: give ADDRESS:PORT or off",
+                           static_cast<int>(value.size()), value.data());
+    }
+    options.panel = value;
+  } else if (name == "--virtual-time") {
+    options.virtual_time = parse_duration(value);
+    if (!options.virtual_time) {
+      return Status::error(StatusCode::invalid_argument,
+                           "--virtual-time %.*s: give a duration with its unit (us, ms, s, min, h), as `60s`",
+                           static_cast<int>(value.size()), value.data());
+    }
+  } else if (name == "--seed") {
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), options.seed);
+    if (error != std::errc{} || end != value.data() + value.size()) {
+      return Status::error(StatusCode::invalid_argument, "--seed %.*s: give a whole number from 0 to 2^64-1",
+                           static_cast<int>(value.size()), value.data());
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Options> parse_options(const Application& application, int argument_count, char** arguments) {
+  Options options;
+  for (int i = 1; i < argument_count; ++i) {
+    const std::string_view argument = arguments[i];
+    const std::size_t equals = argument.starts_with("--") ? argument.find('=') : std::string_view::npos;
+    const std::string_view name = argument.substr(0, equals);
+    const Flag* flag = nullptr;
+    for (const Flag& known : flags) {
+      if (name == known.name) flag = &known;
+    }
+    if (flag == nullptr) return unknown_flag(argument);
+    if (flag->value == nullptr) {
+      if (equals != std::string_view::npos) {
+        return Status::error(StatusCode::invalid_argument, "%s takes no value", flag->name);
+      }
+      options.digest |= name == "--digest";
+      options.help |= name == "--help";
+      options.descriptor |= name == "--descriptor";
+      if (name == "--no-realtime") options.realtime = false;
+      continue;
+    }
+    std::string_view value;
+    if (equals != std::string_view::npos) {
+      value = argument.substr(equals + 1);
+    } else if (i + 1 < argument_count) {
+      value = arguments[++i];
+    }
+    if (value.empty())
+      return Status::error(StatusCode::invalid_argument, "%s needs a value: %s", flag->name, flag->value);
+    if (const Status status = take(application, name, value, options); !status) return status;
+  }
+  if (options.digest && !options.virtual_time) {
+    return Status::error(StatusCode::invalid_argument,
+                         "--digest needs --virtual-time: on the wall clock no two runs are the same");
+  }
+  return options;
+}
+
+std::string usage(const Application& application) {
+  std::string text = std::string{application.name} + ": " + application.summary + "\n\n";
+  for (const Flag& flag : flags) {
+    std::string left =
+        "  " + std::string{flag.name} + (flag.value == nullptr ? "" : " " + std::string{flag.value});
+    left.resize(left.size() < 30 ? 30 : left.size() + 1, ' ');
+    text += left + flag.meaning + "\n";
+  }
+  text += "\nDevices and their drivers (the first is the default):\n";
+  for (const DeviceRecord& device : application.devices) {
+    text += "  " + std::string{device.name} + " (" + device.interface + "): " + drivers_of(device) + "\n";
+  }
+  text += "\nExit codes: 0 finished, 1 usage, 2 fault, 3 right missing, 128+n signal n.\n";
+  return text;
+}
+
+}  // namespace flexrf

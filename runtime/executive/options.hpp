@@ -1,0 +1,40 @@
+// The command line of every application.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/core/status.hpp"
+#include "runtime/executive/application.hpp"
+
+namespace flexrf {
+
+/// `--hardware mock` (device empty: all that have it) or `--hardware arm=simulated`.
+struct HardwareChoice {
+  std::string device;
+  std::string driver;
+};
+
+struct Options {
+  std::vector<HardwareChoice> hardware;
+  std::optional<Duration> virtual_time;  ///< run this long on the simulated clock
+  std::string keys_file;                 ///< key presses for the keyboard's `script` driver
+  std::string configuration_file;        ///< empty: none
+  std::string report_file;               ///< empty: none
+  std::string panel = "127.0.0.1:8080";  ///< address:port, or "off"
+  std::uint64_t seed = 1;
+  bool realtime = true;
+  bool digest = false;
+  bool help = false;
+  bool descriptor = false;  ///< print descriptor.json and end
+};
+
+/// Understands the arguments; an error names the argument, what is allowed, and the nearest known word.
+Result<Options> parse_options(const Application& application, int argument_count, char** arguments);
+
+/// What `--help` prints.
+std::string usage(const Application& application);
+
+}  // namespace flexrf

@@ -1,0 +1,26 @@
+// How a run went, for the report.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "runtime/core/time.hpp"
+#include "runtime/executive/control.hpp"
+
+namespace flexrf {
+
+struct RunSummary {
+  EndCause cause = EndCause::none;
+  int signal = 0;  ///< of EndCause::signal
+  int exit_code = 0;
+  bool had_fault = false;
+  bool cut_short = false;  ///< finish_timeout or stop_timeout ended a phase
+  bool virtual_time = false;
+  bool realtime = false;  ///< SCHED_FIFO and locked memory are in force
+  Duration run_time{};    ///< simulated in virtual time
+  Duration wall_time{};
+  Duration start_time{};  ///< from main to the first step
+  std::optional<std::uint64_t> digest;
+};
+
+}  // namespace flexrf

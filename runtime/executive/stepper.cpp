@@ -1,0 +1,348 @@
+#include "runtime/executive/stepper.hpp"
+
+#include <algorithm>
+#include <exception>
+
+#include "runtime/log/log.hpp"
+#include "runtime/realtime/last_gasp.hpp"
+
+namespace flexrf {
+namespace {
+
+/// Counters with one writer: a load and a store, no read-modify-write.
+template <class Counter, class Value>
+void add(Counter& counter, Value value) noexcept {
+  counter.store(counter.load(std::memory_order_relaxed) + value, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+Stepper::Stepper(Cell& cell, std::uint16_t thread)
+    : cell_(&cell),
+      application_(&cell.application()),
+      record_(&application_->threads[thread]),
+      state_(&application_->thread_states[thread]),
+      context_(record_->context),
+      receives_(!record_->devices.empty()) {}
+
+bool Stepper::owns_device(std::uint16_t device) const noexcept {
+  return application_->device_states[device].ownership.load(std::memory_order_acquire) == Ownership::thread;
+}
+
+// ---- between steps
+
+void Stepper::serve(Time now) noexcept {
+  if (state_->asked_back.load(std::memory_order_acquire)) give_back();
+  if (cell_->requests(static_cast<std::uint16_t>(record_ - application_->threads.data())).has_any())
+    apply_requests(now);
+  follow_motion_permission(now);
+}
+
+void Stepper::give_back() noexcept {
+  state_->asked_back.store(false, std::memory_order_relaxed);
+  const auto let_go = [](std::atomic<Ownership>& ownership) {
+    Ownership asked = Ownership::asked_back;
+    ownership.compare_exchange_strong(asked, Ownership::lifecycle, std::memory_order_acq_rel);
+  };
+  for (const std::uint16_t unit : record_->units) let_go(application_->unit_states[unit].ownership);
+  for (const std::uint16_t device : record_->devices) let_go(application_->device_states[device].ownership);
+}
+
+void Stepper::apply_requests(Time now) noexcept {
+  RequestQueue& queue = cell_->requests(static_cast<std::uint16_t>(record_ - application_->threads.data()));
+  ParameterRequest request;
+  // At most one queue's worth: who fills it faster than this must not hold up the step.
+  for (std::uint32_t i = 0; i < RequestQueue::capacity && queue.pop(request); ++i) apply(request, now);
+}
+
+void Stepper::apply(const ParameterRequest& request, Time now) noexcept {
+  const std::size_t units = application_->units.size();
+  const bool is_unit = request.component < units;
+  const std::atomic<Ownership>& ownership =
+      is_unit ? application_->unit_states[request.component].ownership
+              : application_->device_states[request.component - units].ownership;
+  if (ownership.load(std::memory_order_acquire) != Ownership::thread) {
+    const Life life = is_unit ? application_->unit_states[request.component].life.load()
+                              : application_->device_states[request.component - units].life.load();
+    const Status cause = Status::error(StatusCode::not_permitted, "%s is %s; initialise it first",
+                                       cell_->component_name(request.component), name_of(life));
+    cell_->answer(request.requester,
+                  ParameterAnswer::refused(request, cell_->parameters(request.component).sequence(),
+                                           no_parameter, cause.cause()));
+    return;
+  }
+  if (request.kind == RequestKind::activate || request.kind == RequestKind::clone ||
+      request.kind == RequestKind::retire) {
+    apply_to_member(request, request.component, now);
+    return;
+  }
+  if (request.kind == RequestKind::hold && !may_move_) {
+    cell_->answer(request.requester,
+                  ParameterAnswer::refused(request, cell_->parameters(request.component).sequence(),
+                                           no_parameter, "motion is inhibited; give Start first"));
+    return;
+  }
+  cell_->answer(request.requester, cell_->parameters(request.component).apply(request, now));
+}
+
+void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t unit, Time now) noexcept {
+  RuntimeParameters& parameters = cell_->parameters(unit);
+  const auto refuse = [&](const char* reason) {
+    cell_->answer(request.requester,
+                  ParameterAnswer::refused(request, parameters.sequence(), no_parameter, reason));
+  };
+  if (unit >= application_->units.size() || application_->units[unit].population == no_index) {
+    return refuse("it is not a member of a population");
+  }
+  UnitState& member = application_->unit_states[unit];
+  const bool active = member.active.load(std::memory_order_relaxed);
+  if (request.kind == RequestKind::retire) {
+    if (!active) return refuse("this member is not active");
+    parameters.end_all_leases(now);
+    member.active.store(false, std::memory_order_release);
+    member.idle.store(true, std::memory_order_relaxed);
+    cell_->set_writer_state(unit, WriterState::retired);
+    cell_->answer(request.requester, ParameterAnswer::accepted(request, parameters.sequence()));
+    return;
+  }
+  if (active) return refuse("this member is active already");
+  const void* base = nullptr;
+  if (request.kind == RequestKind::clone) {
+    const std::uint16_t source = request.source;
+    if (source >= application_->units.size() ||
+        application_->units[source].population != application_->units[unit].population) {
+      return refuse("a member can only be cloned from one of its own population");
+    }
+    if (application_->units[source].thread != application_->units[unit].thread) {
+      return refuse("the member to copy lives in another thread");
+    }
+    base = cell_->parameters(source).values();
+  }
+  const ParameterAnswer answer =
+      parameters.has_any() ? parameters.apply(request, now, base) : ParameterAnswer::accepted(request, 0);
+  if (answer.kind == AnswerKind::accepted) {
+    member.unit->reset();
+    member.active.store(true, std::memory_order_release);
+    cell_->set_writer_state(unit, WriterState::running);
+  }
+  cell_->answer(request.requester, answer);
+}
+
+void Stepper::follow_motion_permission(Time now) noexcept {
+  const Control& control = cell_->control();
+  const bool may_move = control.may_move() && control.mode() < Mode::safe;
+  if (may_move == may_move_) return;
+  may_move_ = may_move;
+  for (const std::uint16_t device : record_->devices) {
+    DeviceState& state = application_->device_states[device];
+    if (cell_->driver(device).actuates && state.life.load(std::memory_order_relaxed) != Life::fault) {
+      state.device->set_inhibited(!may_move);
+    }
+  }
+  if (may_move) return;
+  // What a person holds ends with the permission to move, and only a new press begins it again.
+  for (const std::uint16_t unit : record_->units) {
+    if (application_->unit_states[unit].ownership.load(std::memory_order_acquire) == Ownership::thread) {
+      cell_->parameters(unit).end_all_leases(now);
+    }
+  }
+  for (const std::uint16_t device : record_->devices) {
+    if (owns_device(device)) cell_->parameters(cell_->component_of_device(device)).end_all_leases(now);
+  }
+}
+
+// ---- one release
+
+Time Stepper::run(const Release& release) noexcept {
+  begin(release);
+  receive(release.now);
+  Time now = release.now;
+  for (std::size_t place = 0; place < record_->units.size(); ++place) {
+    if (!step(place, now)) continue;
+    // One reading of the clock ends this step's measurement and stamps the next step.
+    const Time ended = MonotonicClock::now();
+    UnitState& unit = application_->unit_states[record_->units[place]];
+    const std::int64_t took = (ended - now).count();
+    add(unit.execution_total, took);
+    if (took > unit.execution_maximum.load(std::memory_order_relaxed)) {
+      unit.execution_maximum.store(took, std::memory_order_relaxed);
+    }
+    now = ended;
+  }
+  send(now);
+  state_->step_began.store(0, std::memory_order_release);
+  return receives_ ? MonotonicClock::now() : now;
+}
+
+void Stepper::begin(const Release& release) noexcept {
+  const Control& control = cell_->control();
+  const Mode mode = control.mode();
+  tick_.nominal = release.nominal;
+  tick_.lateness = release.now - release.nominal;
+  tick_.fired = release.fired;
+  tick_.timed_out = release.timed_out;
+  tick_.finishing = mode == Mode::finishing;
+  tick_.stop_requested = mode >= Mode::stopping;
+  tick_.motion_inhibited = !may_move_;
+  making_safe_ = mode >= Mode::safe;
+  add(state_->cycles, std::uint64_t{1});
+  state_->step_began.store(nanoseconds(release.now), std::memory_order_release);
+}
+
+void Stepper::receive(Time now) noexcept {
+  if (!receives_) return;
+  tick_.now = now;
+  context_->now = now;
+  ++context_->step;
+  for (const std::uint16_t index : record_->devices) {
+    if (!owns_device(index)) continue;
+    Device& device = *application_->device_states[index].device;
+    last_gasp::set_stepped(application_->devices[index].name);
+    cell_->parameters(cell_->component_of_device(index)).before_step(now);
+    device.receive(tick_);
+    if (device.is_closed()) {
+      cell_->control().set_cause(EndCause::end_of_input);
+      cell_->control().rise_to(Mode::finishing);
+    }
+    check_device(index);
+  }
+}
+
+bool Stepper::step(std::size_t place, Time now) noexcept {
+  const std::uint16_t index = record_->units[place];
+  UnitState& state = application_->unit_states[index];
+  if (state.ownership.load(std::memory_order_acquire) != Ownership::thread || making_safe_ ||
+      !state.active.load(std::memory_order_relaxed)) {
+    return false;
+  }
+  const UnitRecord& record = application_->units[index];
+  Unit& unit = *state.unit;
+  RuntimeParameters& parameters = cell_->parameters(index);
+  tick_.now = now;
+  tick_.number = state.steps.load(std::memory_order_relaxed);
+  tick_.elapsed = tick_.number == 0 ? Duration{} : now - state.stepped_at;
+  state.stepped_at = now;
+  context_->now = now;
+  ++context_->step;
+  last_gasp::set_stepped(record.name);
+  parameters.before_step(now);
+  try {
+    unit.step(tick_);
+  } catch (const std::exception& error) {
+    unit.set_fault(Status::error(StatusCode::internal, "an exception left step(): %s", error.what()));
+  } catch (...) {
+    unit.set_fault(Status::error(StatusCode::internal, "an exception of unknown type left step()"));
+  }
+  if (record.feedback_slot != nullptr) {
+    publish_feedback(record.feedback_slot, record.type->feedback, unit.parameter_memory().feedback, now);
+  }
+  parameters.after_step(now);
+  add(state.steps, std::uint64_t{1});
+  if (!unit.fault().is_ok()) [[unlikely]] {
+    fault_unit(index, unit.fault());
+  } else {
+    state.idle.store(unit.is_idle(), std::memory_order_release);
+  }
+  return true;
+}
+
+void Stepper::send(Time now) noexcept {
+  if (!receives_) return;
+  tick_.now = now;
+  context_->now = now;
+  ++context_->step;
+  make_safe();
+  for (std::size_t place = record_->devices.size(); place-- > 0;) {
+    const std::uint16_t index = record_->devices[place];
+    if (!owns_device(index)) continue;
+    DeviceState& state = application_->device_states[index];
+    last_gasp::set_stepped(application_->devices[index].name);
+    state.device->send(tick_);
+    check_device(index);
+    if (SlotControl* slot = application_->devices[index].feedback_slot; slot != nullptr) {
+      publish_feedback(slot, cell_->driver(index).type->feedback, state.device->parameter_memory().feedback,
+                       now);
+    }
+    cell_->parameters(cell_->component_of_device(index)).after_step(now);
+  }
+  last_gasp::set_stepped(nullptr);
+}
+
+void Stepper::publish_feedback(SlotControl* slot, const ParameterBlock& block, const void* values,
+                               Time now) noexcept {
+  const std::uint8_t buffer = slot->loan();
+  if (buffer == SlotControl::none || values == nullptr || block.type == nullptr) return;
+  std::memcpy(slot->payload(buffer), values, block.type->size);
+  slot->publish(buffer, now);
+}
+
+// ---- faults and the safe state
+
+/// Children before buses: the reverse of the order in which they receive.
+void Stepper::make_safe() noexcept {
+  for (std::size_t place = record_->devices.size(); place-- > 0;) {
+    const std::uint16_t index = record_->devices[place];
+    DeviceState& state = application_->device_states[index];
+    const bool wanted = making_safe_ || state.make_safe.load(std::memory_order_relaxed);
+    if (!wanted || state.safe.load(std::memory_order_relaxed) || !owns_device(index)) continue;
+    if (cell_->driver(index).actuates) state.device->set_inhibited(true);
+    if (state.device->make_safe()) state.safe.store(true, std::memory_order_release);
+  }
+}
+
+bool Stepper::is_safe() const noexcept {
+  return std::all_of(record_->devices.begin(), record_->devices.end(), [this](std::uint16_t index) {
+    return !owns_device(index) || application_->device_states[index].safe.load(std::memory_order_relaxed);
+  });
+}
+
+bool Stepper::needs_attention() const noexcept {
+  const Mode mode = cell_->control().mode();
+  if (mode >= Mode::safe) return !is_safe();
+  if (mode == Mode::stopping) return true;
+  return std::any_of(record_->devices.begin(), record_->devices.end(), [this](std::uint16_t index) {
+    const DeviceState& state = application_->device_states[index];
+    return state.make_safe.load(std::memory_order_relaxed) && !state.safe.load(std::memory_order_relaxed) &&
+           owns_device(index);
+  });
+}
+
+void Stepper::check_device(std::uint16_t index) noexcept {
+  DeviceState& state = application_->device_states[index];
+  if (state.device->fault().is_ok() || state.life.load(std::memory_order_relaxed) == Life::fault) return;
+  state.fault = state.device->fault();
+  state.life.store(Life::fault, std::memory_order_release);
+  state.make_safe.store(true, std::memory_order_relaxed);
+  state.device->set_inhibited(true);
+  cell_->set_device_writer_state(index, WriterState::faulted);
+  cell_->control().note_fault();
+  log_error(application_->devices[index].name, "fault: {}", state.fault.cause());
+}
+
+void Stepper::fault_unit(std::uint16_t index, const Status& cause) noexcept {
+  UnitState& state = application_->unit_states[index];
+  state.fault = cause;
+  state.life.store(Life::fault, std::memory_order_release);
+  state.idle.store(true, std::memory_order_release);
+  cell_->set_writer_state(index, WriterState::faulted);
+  cell_->parameters(index).end_all_leases(context_->now);
+  // Nobody commands its devices any more: they are brought to rest by their own means.
+  for (const std::uint16_t device : record_->devices) {
+    if (application_->devices[device].unit == index) {
+      application_->device_states[device].make_safe.store(true, std::memory_order_relaxed);
+    }
+  }
+  state.ownership.store(Ownership::lifecycle, std::memory_order_release);
+  cell_->control().note_fault();
+  log_error(application_->units[index].name, "fault: {}", cause.cause());
+}
+
+void Stepper::fault_all(const Status& cause) noexcept {
+  for (const std::uint16_t unit : record_->units) {
+    if (application_->unit_states[unit].ownership.load(std::memory_order_acquire) == Ownership::thread) {
+      fault_unit(unit, cause);
+    }
+  }
+}
+
+}  // namespace flexrf

@@ -1,0 +1,74 @@
+// Stepper: the work of one thread, whoever drives it: its own loop on the wall clock, or the scheduler of
+// virtual time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/executive/cell.hpp"
+
+namespace flexrf {
+
+/// Why and when a thread was released.
+struct Release {
+  Time nominal{};
+  Time now{};
+  std::uint32_t fired = 0;
+  bool timed_out = false;
+};
+
+/// All functions: the thread that it steps.
+class Stepper {
+ public:
+  Stepper(Cell& cell, std::uint16_t thread);
+
+  /// Between steps, at every wake: hands back what the lifecycle thread asks for, applies requests. Nothing
+  /// to do costs three loads.
+  void serve(Time now) noexcept;
+
+  /// One release on the wall clock: receive, step all units, send. Reads the clock once per unit; returns the
+  /// end.
+  Time run(const Release& release) noexcept;
+
+  // The parts of run(), for virtual time.
+  void begin(const Release& release) noexcept;
+  void receive(Time now) noexcept;
+  /// Steps the unit at this place in the thread's order, if it runs. Whether it did.
+  bool step(std::size_t place, Time now) noexcept;
+  void send(Time now) noexcept;
+
+  /// Puts every unit of the thread in fault (its overrun limit is reached).
+  void fault_all(const Status& cause) noexcept;
+  /// Every device of the thread says it is safe.
+  bool is_safe() const noexcept;
+  /// Must be released soon even if nothing triggers it: a stop is to be seen, a device to be made safe.
+  bool needs_attention() const noexcept;
+
+  const ThreadRecord& record() const noexcept { return *record_; }
+  ThreadState& state() noexcept { return *state_; }
+
+ private:
+  void give_back() noexcept;
+  void apply_requests(Time now) noexcept;
+  void apply(const ParameterRequest& request, Time now) noexcept;
+  void apply_to_member(const ParameterRequest& request, std::uint16_t unit, Time now) noexcept;
+  void follow_motion_permission(Time now) noexcept;
+  void make_safe() noexcept;
+  void check_device(std::uint16_t device) noexcept;
+  void fault_unit(std::uint16_t unit, const Status& cause) noexcept;
+  void publish_feedback(SlotControl* slot, const ParameterBlock& block, const void* values,
+                        Time now) noexcept;
+  bool owns_device(std::uint16_t device) const noexcept;
+
+  Cell* cell_;
+  const Application* application_;
+  const ThreadRecord* record_;
+  ThreadState* state_;
+  StepContext* context_;
+  Tick tick_{};
+  bool may_move_ = false;
+  bool receives_ = false;  // has any device at all
+  bool making_safe_ = false;
+};
+
+}  // namespace flexrf

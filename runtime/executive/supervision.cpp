@@ -1,0 +1,150 @@
+#include "runtime/executive/supervision.hpp"
+
+#include <algorithm>
+
+#include "runtime/log/log.hpp"
+#include "runtime/realtime/last_gasp.hpp"
+
+namespace flexrf {
+namespace {
+
+/// How long devices have to become safe before the process ends all the same.
+constexpr Duration safe_timeout = std::chrono::seconds{1};
+constexpr Duration least_hang_timeout = std::chrono::milliseconds{500};
+
+}  // namespace
+
+Supervision::Supervision(Cell& cell, Lifecycle& lifecycle, bool watch_for_hangs) noexcept
+    : cell_(&cell), lifecycle_(&lifecycle), watch_for_hangs_(watch_for_hangs) {
+  // Quiet only counts when every thread has had two turns in which to find something to do.
+  for (const ThreadRecord& thread : cell.application().threads) {
+    settle_time_ = std::max({settle_time_, 2 * thread.trigger.period, 2 * thread.trigger.min_interval,
+                             2 * thread.trigger.longest});
+  }
+  settle_time_ += std::chrono::milliseconds{5};
+}
+
+Duration Supervision::hang_timeout(const ThreadRecord& thread) noexcept {
+  return std::max(least_hang_timeout, 20 * thread.deadline);
+}
+
+void Supervision::observe(Time now) noexcept {
+  const Mode mode = cell_->control().mode();
+  if (mode != mode_) {
+    mode_ = mode;
+    entered_at_ = now;
+    busy_at_ = now;
+  }
+  watch_faults();
+  if (watch_for_hangs_) watch_hangs(now);
+  switch (mode) {
+    case Mode::finishing:
+      return finish(now);
+    case Mode::stopping:
+      return stop(now);
+    case Mode::safe:
+      return make_safe(now);
+    case Mode::starting:
+    case Mode::running:
+    case Mode::ended:
+      return;
+  }
+}
+
+void Supervision::watch_faults() noexcept {
+  had_fault_ = had_fault_ || cell_->control().faults() > 0;
+}
+
+void Supervision::watch_hangs(Time now) noexcept {
+  if (stuck_) return;
+  const Application& application = cell_->application();
+  const auto give_up = [this](const char* name, const char* what) {
+    stuck_ = true;
+    had_fault_ = true;
+    log_error(name, "{}; every device is made safe", StaticText{what});
+    cell_->control().set_cause(EndCause::fault);
+    cell_->control().rise_to(Mode::safe);
+    // Whoever hangs cannot make its own devices safe: their drivers prepared for this.
+    last_gasp::fire();
+  };
+  for (std::size_t i = 0; i < application.threads.size(); ++i) {
+    const std::int64_t began = application.thread_states[i].step_began.load(std::memory_order_acquire);
+    if (began != 0 && now - Time{Duration{began}} > hang_timeout(application.threads[i])) {
+      give_up(application.threads[i].name, "this thread's step does not return");
+      return;
+    }
+  }
+  const Lifecycle::Operation operation = lifecycle_->operation();
+  if (operation.component != nullptr && now > operation.overdue_at) {
+    give_up(operation.component, "initialise() or stop() does not return in its time");
+  }
+}
+
+bool Supervision::units_are_idle() const noexcept {
+  const Application& application = cell_->application();
+  return std::all_of(application.unit_states.begin(), application.unit_states.end(),
+                     [](const UnitState& state) {
+                       return state.life.load(std::memory_order_acquire) != Life::running ||
+                              state.idle.load(std::memory_order_acquire);
+                     });
+}
+
+bool Supervision::is_quiet() const noexcept {
+  for (const QueueRecord& queue : cell_->application().queues) {
+    for (const QueueSource* source : queue.sources) {
+      if (!source->is_empty()) return false;
+    }
+  }
+  return units_are_idle();
+}
+
+void Supervision::enter(Mode mode, Time now) noexcept {
+  cell_->control().rise_to(mode);
+  mode_ = cell_->control().mode();
+  entered_at_ = now;
+  busy_at_ = now;
+}
+
+void Supervision::finish(Time now) noexcept {
+  if (!is_quiet()) busy_at_ = now;
+  if (now - entered_at_ > cell_->application().finish_timeout) {
+    log_warning(cell_->application().name, "not finished within finish_timeout; stopping now");
+    cut_short_ = true;
+    enter(Mode::stopping, now);
+  } else if (now - busy_at_ > settle_time_) {
+    enter(Mode::stopping, now);
+  }
+}
+
+void Supervision::stop(Time now) noexcept {
+  if (!units_are_idle()) busy_at_ = now;
+  if (now - entered_at_ > cell_->application().stop_timeout) {
+    log_warning(cell_->application().name, "not at rest within stop_timeout; every device is made safe");
+    cut_short_ = true;
+    enter(Mode::safe, now);
+  } else if (now - busy_at_ > settle_time_) {
+    enter(Mode::safe, now);
+  }
+}
+
+void Supervision::make_safe(Time now) noexcept {
+  const Application& application = cell_->application();
+  const bool safe = std::all_of(
+      application.device_states.begin(), application.device_states.end(), [](const DeviceState& state) {
+        return state.ownership.load(std::memory_order_acquire) != Ownership::thread ||
+               state.safe.load(std::memory_order_acquire);
+      });
+  if (safe) {
+    enter(Mode::ended, now);
+  } else if (now - entered_at_ > safe_timeout) {
+    for (std::size_t i = 0; i < application.devices.size(); ++i) {
+      if (!application.device_states[i].safe.load())
+        log_error(application.devices[i].name, "did not become safe in time");
+    }
+    last_gasp::fire();
+    had_fault_ = true;
+    enter(Mode::ended, now);
+  }
+}
+
+}  // namespace flexrf

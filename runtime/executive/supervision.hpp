@@ -1,0 +1,50 @@
+// Supervision: brings the application from running to its end, step by step, and notices what goes wrong.
+#pragma once
+
+#include "runtime/executive/cell.hpp"
+#include "runtime/executive/lifecycle.hpp"
+
+namespace flexrf {
+
+/// Only ever looks at what the threads publish of themselves. One non-real-time thread calls it every few
+/// milliseconds; in virtual time the scheduler does, after events.
+class Supervision {
+ public:
+  Supervision(Cell& cell, Lifecycle& lifecycle, bool watch_for_hangs) noexcept;
+
+  /// Raises the mode where it is time to.
+  void observe(Time now) noexcept;
+
+  /// A unit or device is or was in fault, a thread hung, an operation of the lifecycle thread took too long.
+  bool had_fault() const noexcept { return had_fault_; }
+  /// A thread or the lifecycle thread does not answer: the process can only be left, not wound up.
+  bool is_stuck() const noexcept { return stuck_; }
+  /// finish_timeout or stop_timeout ended a phase, not the units' coming to rest.
+  bool was_cut_short() const noexcept { return cut_short_; }
+
+  /// A thread whose step does not return for this long hangs: 500 ms, or 20 deadlines where that is longer.
+  static Duration hang_timeout(const ThreadRecord& thread) noexcept;
+
+ private:
+  void watch_faults() noexcept;
+  void watch_hangs(Time now) noexcept;
+  void finish(Time now) noexcept;
+  void stop(Time now) noexcept;
+  void make_safe(Time now) noexcept;
+  bool is_quiet() const noexcept;
+  bool units_are_idle() const noexcept;
+  void enter(Mode mode, Time now) noexcept;
+
+  Cell* cell_;
+  Lifecycle* lifecycle_;
+  bool watch_for_hangs_;
+  Duration settle_time_{};
+  Mode mode_ = Mode::starting;
+  Time entered_at_{};  // the present mode
+  Time busy_at_{};     // when something was last seen to be under way
+  bool had_fault_ = false;
+  bool stuck_ = false;
+  bool cut_short_ = false;
+};
+
+}  // namespace flexrf

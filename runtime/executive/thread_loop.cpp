@@ -1,0 +1,109 @@
+#include "runtime/executive/thread_loop.hpp"
+
+#include <poll.h>
+#include <sched.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <optional>
+
+#include "runtime/log/log.hpp"
+#include "runtime/realtime/realtime_scope.hpp"
+
+namespace flexrf {
+namespace {
+
+/// How often a thread is released without a trigger while a stop is to be seen or a device to be made safe.
+constexpr Duration attention_interval = std::chrono::milliseconds{5};
+
+}  // namespace
+
+ThreadLoop::ThreadLoop(Cell& cell, std::uint16_t thread)
+    : cell_(&cell),
+      record_(&cell.application().threads[thread]),
+      stepper_(cell, thread),
+      trigger_(record_->trigger, cell.application()),
+      accounting_(*record_, cell.application().thread_states[thread]) {}
+
+ThreadLoop::~ThreadLoop() {
+  if (event_descriptor_ >= 0) close(event_descriptor_);
+}
+
+Status ThreadLoop::prepare() {
+  if (record_->trigger.kind != TriggerKind::device) return {};
+  event_descriptor_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (event_descriptor_ < 0) {
+    return Status::error(StatusCode::internal, "thread %s: no eventfd: %s", record_->name,
+                         std::strerror(errno));
+  }
+  record_->bell->use_descriptor(event_descriptor_);
+  return {};
+}
+
+void ThreadLoop::run() noexcept {
+  std::optional<RealtimeScope> guard;
+  if (record_->priority > 0) guard.emplace(stepper_.state().allocations);
+  trigger_.begin(MonotonicClock::now());
+  while (cell_->control().mode() != Mode::ended) turn(record_->bell->listen());
+  // What the lifecycle thread still asks for is given back here; after this nobody steps.
+  stepper_.serve(MonotonicClock::now());
+}
+
+void ThreadLoop::turn(std::uint32_t heard) noexcept {
+  const Time now = MonotonicClock::now();
+  stepper_.serve(now);
+  Due due = trigger_.due(now, readable_);
+  if (stepper_.needs_attention() && due.at > trigger_.last_release() + attention_interval) {
+    due = Due{trigger_.last_release() + attention_interval, due.fired, true};
+  }
+  if (due.at <= now) {
+    // A period is late against its own instant; everything else is due when it is noticed.
+    release(record_->trigger.kind == TriggerKind::period && !due.timed_out ? due.at : now, now, due);
+  } else {
+    wait(heard, due.at);
+  }
+}
+
+void ThreadLoop::release(Time nominal, Time now, const Due& due) noexcept {
+  const Release release{nominal, now, due.fired, due.timed_out};
+  readable_ = false;
+  trigger_.released(nominal, now);
+  const Time ended = stepper_.run(release);
+  const std::uint64_t past = trigger_.finished(ended, record_->overrun);
+  if (accounting_.count(release, ended, past) && !in_fault_) {
+    in_fault_ = true;
+    stepper_.fault_all(
+        Status::error(StatusCode::timeout, "thread %s reached its overrun limit: %lld us after it was due",
+                      record_->name, static_cast<long long>((ended - release.nominal).count() / 1000)));
+  }
+  if (record_->trigger.kind == TriggerKind::free) sched_yield();
+}
+
+void ThreadLoop::wait(std::uint32_t heard, Time until) noexcept {
+  if (event_descriptor_ >= 0) {
+    wait_with_descriptor(heard, until, trigger_.descriptor());
+  } else {
+    record_->bell->wait(heard, until);
+  }
+}
+
+void ThreadLoop::wait_with_descriptor(std::uint32_t heard, Time until, int descriptor) noexcept {
+  if (!record_->bell->announce(heard)) return;
+  pollfd watched[2] = {{event_descriptor_, POLLIN, 0}, {descriptor, POLLIN, 0}};
+  timespec timeout{};
+  if (until != Time::max()) {
+    const Duration left = std::max(until - MonotonicClock::now(), Duration{0});
+    timeout.tv_sec = static_cast<time_t>(left.count() / 1'000'000'000);
+    timeout.tv_nsec = static_cast<long>(left.count() % 1'000'000'000);
+  }
+  const int ready =
+      ppoll(watched, descriptor < 0 ? 1 : 2, until == Time::max() ? nullptr : &timeout, nullptr);
+  record_->bell->settle();
+  // Hang-up and error are something to receive too: the driver reads and learns of it.
+  readable_ = ready > 0 && (watched[1].revents & (POLLIN | POLLHUP | POLLERR)) != 0;
+}
+
+}  // namespace flexrf

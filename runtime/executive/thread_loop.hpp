@@ -1,0 +1,39 @@
+// The loop of one thread on the wall clock: wait for a reason, serve, step, count.
+#pragma once
+
+#include "runtime/executive/accounting.hpp"
+#include "runtime/executive/stepper.hpp"
+#include "runtime/executive/trigger.hpp"
+
+namespace flexrf {
+
+/// Constructed before its thread starts; run() is the thread's body.
+class ThreadLoop {
+ public:
+  ThreadLoop(Cell& cell, std::uint16_t thread);
+  ThreadLoop(const ThreadLoop&) = delete;
+  ThreadLoop& operator=(const ThreadLoop&) = delete;
+  ~ThreadLoop();
+
+  /// Opens what the wait needs. Lifecycle or main thread, before run().
+  Status prepare();
+  /// Until the application's mode is `ended`.
+  void run() noexcept;
+
+ private:
+  void turn(std::uint32_t heard) noexcept;
+  void release(Time nominal, Time now, const Due& due) noexcept;
+  void wait(std::uint32_t heard, Time until) noexcept;
+  void wait_with_descriptor(std::uint32_t heard, Time until, int descriptor) noexcept;
+
+  Cell* cell_;
+  const ThreadRecord* record_;
+  Stepper stepper_;
+  Trigger trigger_;
+  Accounting accounting_;
+  int event_descriptor_ = -1;
+  bool readable_ = false;
+  bool in_fault_ = false;
+};
+
+}  // namespace flexrf

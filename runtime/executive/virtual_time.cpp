@@ -1,0 +1,165 @@
+#include "runtime/executive/virtual_time.hpp"
+
+#include <algorithm>
+
+namespace flexrf {
+namespace {
+
+/// The simulated clock begins here, so that no instant is "no time".
+constexpr Time beginning{std::chrono::seconds{1}};
+constexpr Duration least_budget = std::chrono::microseconds{1};
+constexpr Duration attention_interval = std::chrono::milliseconds{5};
+
+}  // namespace
+
+VirtualTime::Thread::Thread(Cell& cell, std::uint16_t index)
+    : stepper(cell, index),
+      trigger(cell.application().threads[index].trigger, cell.application()),
+      accounting(cell.application().threads[index], cell.application().thread_states[index]) {
+  for (const std::uint16_t device : stepper.record().devices) {
+    const DeviceBinding& binding = cell.application().devices[device].binding;
+    receives = receives || !binding.outputs.empty() || !binding.queue_outputs.empty();
+  }
+}
+
+VirtualTime::VirtualTime(Cell& cell, Lifecycle& lifecycle, Supervision& supervision)
+    : cell_(&cell), lifecycle_(&lifecycle), supervision_(&supervision), now_(beginning) {
+  const std::size_t count = cell.application().threads.size();
+  threads_.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) threads_.emplace_back(cell, static_cast<std::uint16_t>(i));
+}
+
+Duration VirtualTime::run(Duration duration) noexcept {
+  const Time limit = now_ + duration;
+  for (Thread& thread : threads_) {
+    thread.trigger.begin(now_);
+    look_for_release(thread);
+  }
+  Control& control = cell_->control();
+  while (control.mode() != Mode::ended) {
+    Thread* thread = next_event();
+    Time at = thread == nullptr ? Time::max() : thread->next;
+    // With nothing to come the clock still has to reach what supervision waits for.
+    at = std::min(at, now_ + (control.mode() == Mode::running ? Duration{limit - now_} : attention_interval));
+    if (control.mode() == Mode::running && at >= limit) {
+      now_ = limit;
+      control.set_cause(EndCause::virtual_time_over);
+      control.rise_to(Mode::stopping);
+      supervision_->observe(now_);
+      for (Thread& other : threads_) look_for_release(other);
+      continue;
+    }
+    const bool event = thread != nullptr && thread->next <= at;
+    now_ = at;
+    if (event) {
+      if (thread->phase == Phase::waiting) {
+        begin(*thread);
+      } else {
+        complete(*thread);
+      }
+    }
+    if (control.mode() > Mode::running) supervision_->observe(now_);
+    if (control.faults() != faults_) {
+      faults_ = control.faults();
+      lifecycle_->restart_by_policy();
+    }
+  }
+  supervision_->observe(now_);
+  return now_ - beginning;
+}
+
+VirtualTime::Thread* VirtualTime::next_event() noexcept {
+  Thread* first = nullptr;
+  for (Thread& thread : threads_) {
+    if (thread.phase == Phase::waiting && thread.stepper.record().bell->listen() != thread.heard)
+      look_for_release(thread);
+    if (thread.next == Time::max()) continue;
+    if (first == nullptr || thread.next < first->next) {
+      first = &thread;
+      continue;
+    }
+    if (thread.next > first->next) continue;
+    const bool completes = thread.phase != Phase::waiting;
+    const bool first_completes = first->phase != Phase::waiting;
+    if (completes != first_completes) {
+      if (completes) first = &thread;
+    } else if (thread.stepper.record().priority > first->stepper.record().priority) {
+      first = &thread;
+    }
+  }
+  return first;
+}
+
+void VirtualTime::look_for_release(Thread& thread) noexcept {
+  if (thread.phase != Phase::waiting) return;
+  thread.heard = thread.stepper.record().bell->listen();
+  thread.stepper.serve(now_);
+  thread.due = thread.trigger.due(now_, false);
+  if (thread.stepper.needs_attention()) {
+    const Time attention = thread.trigger.last_release() + attention_interval;
+    if (thread.due.at > attention) thread.due = Due{attention, thread.due.fired, true};
+  }
+  // Never twice at one instant: that would be without end.
+  thread.next = std::max({thread.due.at, now_, thread.released_at + least_budget});
+}
+
+void VirtualTime::begin(Thread& thread) noexcept {
+  // What was published since the release became due belongs to it.
+  look_for_release(thread);
+  if (thread.next > now_) return;
+  if (thread.stepper.record().trigger.kind == TriggerKind::backoff && thread.due.fired == 0 &&
+      !thread.due.timed_out)
+    return;
+  const bool periodic = thread.stepper.record().trigger.kind == TriggerKind::period && !thread.due.timed_out;
+  thread.release = Release{periodic ? thread.due.at : now_, now_, thread.due.fired, thread.due.timed_out};
+  thread.trigger.released(thread.release.nominal, now_);
+  thread.released_at = now_;
+  thread.stepper.begin(thread.release);
+  thread.stepper.receive(now_);
+  thread.place = 0;
+  if (thread.receives) {
+    thread.phase = Phase::receiving;
+    thread.next = now_ + least_budget;
+    return;
+  }
+  go_on(thread);
+}
+
+void VirtualTime::complete(Thread& thread) noexcept {
+  if (thread.phase == Phase::receiving) {
+    for (const std::uint16_t device : thread.stepper.record().devices) cell_->commit_device(device);
+  } else {
+    cell_->commit_unit(thread.stepper.record().units[thread.place]);
+    ++thread.place;
+  }
+  go_on(thread);
+}
+
+void VirtualTime::go_on(Thread& thread) noexcept {
+  const ThreadRecord& record = thread.stepper.record();
+  for (; thread.place < record.units.size(); ++thread.place) {
+    if (!thread.stepper.step(thread.place, now_)) continue;
+    thread.phase = Phase::stepping;
+    thread.next =
+        now_ + std::max(cell_->application().units[record.units[thread.place]].budget, least_budget);
+    return;
+  }
+  end(thread);
+}
+
+void VirtualTime::end(Thread& thread) noexcept {
+  const ThreadRecord& record = thread.stepper.record();
+  thread.stepper.send(now_);
+  thread.stepper.state().step_began.store(0, std::memory_order_relaxed);
+  for (const std::uint16_t device : record.devices) cell_->commit_device(device);
+  const std::uint64_t past = thread.trigger.finished(now_, record.overrun);
+  if (thread.accounting.count(thread.release, now_, past) && !thread.in_fault) {
+    thread.in_fault = true;
+    thread.stepper.fault_all(
+        Status::error(StatusCode::timeout, "thread %s reached its overrun limit", record.name));
+  }
+  thread.phase = Phase::waiting;
+  look_for_release(thread);
+}
+
+}  // namespace flexrf

@@ -1,0 +1,61 @@
+// Virtual time: the whole application on one thread under a simulated clock.
+#pragma once
+
+#include <vector>
+
+#include "runtime/executive/accounting.hpp"
+#include "runtime/executive/cell.hpp"
+#include "runtime/executive/supervision.hpp"
+#include "runtime/executive/trigger.hpp"
+
+namespace flexrf {
+
+/// Logical execution time (Henzinger, Horowitz, Kirsch: "Giotto", 2003): a step reads at its release; what it
+/// publishes becomes visible, and its thread goes on, when its declared budget (at least 1 us) is over.
+/// Events are ordered by time, then completions before releases, then priority, then the threads' order in
+/// the table. So a run depends on nothing but the tables, the seed and the input.
+class VirtualTime {
+ public:
+  VirtualTime(Cell& cell, Lifecycle& lifecycle, Supervision& supervision);
+
+  /// Runs until the application ended; after `duration` it is told to stop. Returns the simulated time that
+  /// passed.
+  Duration run(Duration duration) noexcept;
+  Time now() const noexcept { return now_; }
+
+ private:
+  enum class Phase : std::uint8_t { waiting, receiving, stepping };
+
+  struct Thread {
+    Thread(Cell& cell, std::uint16_t index);
+
+    Stepper stepper;
+    Trigger trigger;
+    Accounting accounting;
+    Phase phase = Phase::waiting;
+    Time next = Time::max();  // completion of what is under way, or the next release
+    Due due{};
+    Release release{};
+    std::size_t place = 0;  // of the unit under way
+    Time released_at{};
+    std::uint32_t heard = 0;
+    bool receives = false;  // has devices that publish
+    bool in_fault = false;
+  };
+
+  Thread* next_event() noexcept;
+  void look_for_release(Thread& thread) noexcept;
+  void begin(Thread& thread) noexcept;
+  void complete(Thread& thread) noexcept;
+  void go_on(Thread& thread) noexcept;
+  void end(Thread& thread) noexcept;
+
+  Cell* cell_;
+  Lifecycle* lifecycle_;
+  Supervision* supervision_;
+  std::vector<Thread> threads_;
+  Time now_{};
+  std::uint32_t faults_ = 0;  // as many as restart policies have been asked about
+};
+
+}  // namespace flexrf
