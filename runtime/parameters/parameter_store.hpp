@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "runtime/blackboard/slot.hpp"
 #include "runtime/core/status.hpp"
@@ -32,8 +31,8 @@ struct ParameterScratch {
 class RuntimeParameters {
  public:
   /// `slot` (may be null): where values in force are published. `defaults` (null: zero): the values of the
-  /// tables. Refuses a component whose parameters exceed max_runtime_size or max_holds. Call it again for a
-  /// component that was constructed anew. Does not touch the component's values.
+  /// tables. Refuses a component whose parameters exceed max_runtime_size or max_holds. To be called again
+  /// for a component that was constructed anew. Does not touch the component's values.
   Status connect(Component& component, SlotControl* slot, const void* defaults,
                  ParameterScratch& scratch) noexcept;
   bool has_any() const noexcept { return values_ != nullptr; }
@@ -44,7 +43,7 @@ class RuntimeParameters {
 
   /// Between two steps. All changes or none: ranges, then the component's accept, then the values are in
   /// force and published. activate and clone start from `base` (clone: the other member's values(); null: the
-  /// tables'); making the member active, reset() and retire are the executive's.
+  /// tables'); retire ends all leases. Making a member active or not and reset() are the executive's.
   ParameterAnswer apply(const ParameterRequest& request, Time now, const void* base = nullptr) noexcept;
 
   /// Before each step: ends the leases whose time is over.
@@ -68,18 +67,35 @@ class RuntimeParameters {
     std::uint32_t offset;  // of the hold's bool in the struct
     std::uint16_t requester;
     bool live;
-    std::uint64_t newest;    // greatest lease number seen: this and all below never start again
+    std::uint64_t newest;    // greatest lease number seen: neither it nor any below starts again
     std::uint64_t number;    // of the live lease
     std::uint64_t sequence;  // of its last request
     Time deadline;
   };
+  // Why a request is refused; ok: it is not.
+  struct Verdict {
+    Status status;
+    std::uint16_t parameter = no_parameter;
+  };
 
-  ParameterAnswer apply_values(const ParameterRequest& request, Time now, const void* base) noexcept;
-  ParameterAnswer apply_presses(const ParameterRequest& request, Time now) noexcept;
-  ParameterAnswer apply_hold(const ParameterRequest& request, Time now) noexcept;
-  Status check_and_commit(Time now, std::uint16_t& parameter) noexcept;
+  Verdict apply_values(const ParameterRequest& request, Time now) noexcept;
+  Verdict apply_member(const ParameterRequest& request, Time now, const void* base) noexcept;
+  Verdict apply_presses(const ParameterRequest& request, Time now) noexcept;
+  Verdict apply_hold(const ParameterRequest& request, Time now) noexcept;
+  Verdict start_lease(const ParameterRequest& request, Lease& lease, Time now) noexcept;
+  Verdict refresh_lease(const ParameterRequest& request, Lease& lease, Time now) noexcept;
+
+  Verdict propose_changes(const ParameterRequest& request) noexcept;
+  void propose(const void* base) noexcept;
+  Status accept_proposed() noexcept;
+  void commit_settings(Time now) noexcept;
+  const ParameterDescriptor* parameter_of(const ParameterChange& change, const ParameterRequest& request,
+                                          Verdict& verdict) const noexcept;
+  Lease* lease_of(std::uint32_t offset) noexcept;
+
   void end_overdue_leases(Time now) noexcept;
   void end_lease(Lease& lease) noexcept;
+  void end_leases() noexcept;
   void clear_presses(Time now) noexcept;
   void publish(Time now) noexcept;
 

@@ -1,0 +1,372 @@
+#include "runtime/parameters/parameter_store.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "runtime/parameters/scalar_types.hpp"
+#include "runtime/parameters/value_access.hpp"
+
+namespace flexrf {
+namespace {
+
+bool is_momentary(const FieldDescriptor& field) noexcept {
+  return field.scalar == Scalar::button || field.scalar == Scalar::hold;
+}
+
+Status invalid(const char* reason) noexcept {
+  return Status::error(StatusCode::invalid_argument, "%s", reason);
+}
+
+}  // namespace
+
+Status RuntimeParameters::connect(Component& component, SlotControl* slot, const void* defaults,
+                                  ParameterScratch& scratch) noexcept {
+  component_ = &component;
+  block_ = &component.component_type().runtime;
+  values_ = nullptr;
+  slot_ = slot;
+  defaults_ = static_cast<const std::byte*>(defaults);
+  proposed_ = scratch.bytes;
+  live_leases_ = 0;
+  pressed_ = false;
+  if (block_->type == nullptr) return {};
+  if (block_->type->size > max_runtime_size)
+    return Status::error(
+        StatusCode::invalid_argument,
+        "%s: runtime parameters of %u bytes, at most %zu are possible: move large ones to the "
+        "configuration",
+        component.name(), block_->type->size, max_runtime_size);
+  // A component that is constructed anew has its offsets as before or, with another driver, anew: in either
+  // case no lease of the former one may start again.
+  std::uint64_t newest = 0;
+  for (std::uint32_t i = 0; i < lease_count_; ++i) newest = std::max(newest, leases_[i].newest);
+  lease_count_ = 0;
+  for (const ParameterDescriptor& parameter : block_->parameters) {
+    if (parameter.field->scalar != Scalar::hold) continue;
+    for (std::uint32_t element = 0; element < parameter.field->count; ++element) {
+      if (lease_count_ == max_holds)
+        return Status::error(StatusCode::invalid_argument, "%s: more than %zu holds", component.name(),
+                             max_holds);
+      leases_[lease_count_++] = {parameter.field->offset + element, 0, false, newest, 0, 0, {}};
+    }
+  }
+  values_ = static_cast<std::byte*>(component.parameter_memory().runtime);
+  return {};
+}
+
+Status RuntimeParameters::adopt(const void* values, Time now) noexcept {
+  if (values_ == nullptr) return {};
+  propose(values);
+  std::uint16_t parameter = no_parameter;
+  if (const Status status = check_block(*block_, proposed_, parameter); !status) return status;
+  if (const Status status = accept_proposed(); !status) return status;
+  end_leases();
+  pressed_ = false;
+  commit_settings(now);
+  return {};
+}
+
+ParameterAnswer RuntimeParameters::apply(const ParameterRequest& request, Time now,
+                                         const void* base) noexcept {
+  if (values_ == nullptr && request.kind != RequestKind::activate && request.kind != RequestKind::clone &&
+      request.kind != RequestKind::retire)
+    return ParameterAnswer::refused(request, 0, no_parameter, "there are no runtime parameters");
+  end_overdue_leases(now);
+  const bool keeps_going = request.kind == RequestKind::refresh || request.kind == RequestKind::release;
+  if (request.expected.has_value() && !keeps_going) {
+    // Sequences wrap around; what was seen must lie between the last change of settings and now.
+    const bool is_current = *request.expected - settings_ <= sequence_ - settings_;
+    if (!is_current) return ParameterAnswer::stale(request, sequence_);
+  }
+  Verdict verdict;
+  switch (request.kind) {
+    case RequestKind::set:
+    case RequestKind::reset:
+      verdict = apply_values(request, now);
+      break;
+    case RequestKind::activate:
+    case RequestKind::clone:
+      if (values_ != nullptr) verdict = apply_member(request, now, base);
+      break;
+    case RequestKind::retire:
+      end_all_leases(now);
+      break;
+    case RequestKind::press:
+      verdict = apply_presses(request, now);
+      break;
+    case RequestKind::hold:
+    case RequestKind::refresh:
+    case RequestKind::release:
+      verdict = apply_hold(request, now);
+      break;
+  }
+  if (!verdict.status)
+    return ParameterAnswer::refused(request, sequence_, verdict.parameter, verdict.status.cause());
+  return ParameterAnswer::accepted(request, sequence_);
+}
+
+// ---- values
+
+RuntimeParameters::Verdict RuntimeParameters::apply_values(const ParameterRequest& request,
+                                                           Time now) noexcept {
+  std::memcpy(proposed_, values_, block_->type->size);
+  if (request.kind == RequestKind::set) {
+    if (const Verdict verdict = propose_changes(request); !verdict.status) return verdict;
+  } else {
+    const auto reset = [this](const FieldDescriptor& field) {
+      if (is_momentary(field)) return;
+      if (defaults_ == nullptr)
+        std::memset(proposed_ + field.offset, 0, field_size(field));
+      else
+        std::memcpy(proposed_ + field.offset, defaults_ + field.offset, field_size(field));
+    };
+    for (std::uint16_t i = 0; i < request.change_count; ++i) {
+      Verdict verdict;
+      const ParameterDescriptor* parameter = parameter_of(request.changes[i], request, verdict);
+      if (parameter == nullptr) return verdict;
+      reset(*parameter->field);
+    }
+    if (request.change_count == 0)
+      for (const ParameterDescriptor& parameter : block_->parameters) reset(*parameter.field);
+  }
+  if (const Status status = accept_proposed(); !status) return {status};
+  commit_settings(now);
+  return {};
+}
+
+RuntimeParameters::Verdict RuntimeParameters::apply_member(const ParameterRequest& request, Time now,
+                                                           const void* base) noexcept {
+  if (base == nullptr && request.kind == RequestKind::clone) return {invalid("there is no member to clone")};
+  propose(base == nullptr ? defaults_ : base);
+  if (const Verdict verdict = propose_changes(request); !verdict.status) return verdict;
+  Verdict verdict;
+  verdict.status = check_block(*block_, proposed_, verdict.parameter);
+  if (!verdict.status) return verdict;
+  if (const Status status = accept_proposed(); !status) return {status};
+  end_leases();
+  pressed_ = false;
+  commit_settings(now);
+  return {};
+}
+
+RuntimeParameters::Verdict RuntimeParameters::apply_presses(const ParameterRequest& request,
+                                                            Time now) noexcept {
+  std::memcpy(proposed_, values_, block_->type->size);
+  for (std::uint16_t i = 0; i < request.change_count; ++i) {
+    const ParameterChange& change = request.changes[i];
+    Verdict verdict;
+    const ParameterDescriptor* parameter = parameter_of(change, request, verdict);
+    if (parameter == nullptr) return verdict;
+    if (parameter->field->scalar != Scalar::button || change.size != sizeof(std::uint32_t))
+      return {invalid("not a button"), change.parameter};
+    std::byte* const at = proposed_ + parameter->field->offset + change.offset;
+    const auto before = load<std::uint32_t>(at);
+    const auto more = load<std::uint32_t>(request.values + change.position);
+    store(at, before + std::min(more, std::numeric_limits<std::uint32_t>::max() - before));
+  }
+  if (const Status status = accept_proposed(); !status) return {status};
+  std::memcpy(values_, proposed_, block_->type->size);
+  pressed_ = true;
+  publish(now);
+  return {};
+}
+
+RuntimeParameters::Verdict RuntimeParameters::propose_changes(const ParameterRequest& request) noexcept {
+  for (std::uint16_t i = 0; i < request.change_count; ++i) {
+    const ParameterChange& change = request.changes[i];
+    Verdict verdict;
+    const ParameterDescriptor* parameter = parameter_of(change, request, verdict);
+    if (parameter == nullptr) return verdict;
+    if (is_momentary(*parameter->field))
+      return {invalid(parameter->field->scalar == Scalar::button ? "a button is pressed, not set"
+                                                                 : "a hold is held under a lease, not set"),
+              change.parameter};
+    std::memcpy(proposed_ + parameter->field->offset + change.offset, request.values + change.position,
+                change.size);
+  }
+  // Only now: two changes may touch one structure.
+  for (std::uint16_t i = 0; i < request.change_count; ++i) {
+    const std::uint16_t index = request.changes[i].parameter;
+    const ParameterDescriptor& parameter = block_->parameters[index];
+    ValueRange range{};
+    const Status status = check_value(*parameter.field, parameter.field->count,
+                                      proposed_ + parameter.field->offset, range_of(parameter, range));
+    if (!status) return {status, index};
+  }
+  return {};
+}
+
+// A whole set of values, without presses and holds.
+void RuntimeParameters::propose(const void* base) noexcept {
+  if (base == nullptr)
+    std::memset(proposed_, 0, block_->type->size);
+  else
+    std::memcpy(proposed_, base, block_->type->size);
+  for (const ParameterDescriptor& parameter : block_->parameters)
+    if (is_momentary(*parameter.field))
+      std::memset(proposed_ + parameter.field->offset, 0, field_size(*parameter.field));
+}
+
+Status RuntimeParameters::accept_proposed() noexcept {
+  return component_->accept_runtime(proposed_);
+}
+
+void RuntimeParameters::commit_settings(Time now) noexcept {
+  std::memcpy(values_, proposed_, block_->type->size);
+  publish(now);
+  settings_ = sequence_;
+}
+
+const ParameterDescriptor* RuntimeParameters::parameter_of(const ParameterChange& change,
+                                                           const ParameterRequest& request,
+                                                           Verdict& verdict) const noexcept {
+  if (change.parameter >= block_->parameters.size()) {
+    verdict = {Status::error(StatusCode::not_found, "there is no runtime parameter number %u",
+                             static_cast<unsigned>(change.parameter)),
+               change.parameter};
+    return nullptr;
+  }
+  const ParameterDescriptor& parameter = block_->parameters[change.parameter];
+  const std::size_t end = std::size_t{change.position} + change.size;
+  const bool has_value = request.kind != RequestKind::reset;
+  if (end > ParameterRequest::max_value_bytes ||
+      (has_value && !is_whole(*parameter.field, change.offset, change.size))) {
+    verdict = {Status::error(StatusCode::invalid_argument, "%u bytes at %u of '%s' are no whole elements",
+                             static_cast<unsigned>(change.size), change.offset, parameter.field->name),
+               change.parameter};
+    return nullptr;
+  }
+  return &parameter;
+}
+
+// ---- holds
+
+RuntimeParameters::Lease* RuntimeParameters::lease_of(std::uint32_t offset) noexcept {
+  for (std::uint32_t i = 0; i < lease_count_; ++i)
+    if (leases_[i].offset == offset) return &leases_[i];
+  return nullptr;
+}
+
+RuntimeParameters::Verdict RuntimeParameters::apply_hold(const ParameterRequest& request, Time now) noexcept {
+  if (request.change_count != 1) return {invalid("a lease is for one hold")};
+  const ParameterChange& change = request.changes[0];
+  Lease* lease = nullptr;
+  if (change.parameter < block_->parameters.size()) {
+    const FieldDescriptor& field = *block_->parameters[change.parameter].field;
+    if (field.scalar == Scalar::hold && change.offset < field.count)
+      lease = lease_of(field.offset + change.offset);
+  }
+  if (lease == nullptr) return {invalid("not a hold"), change.parameter};
+  if (request.lease == 0) return {invalid("a lease has a number from new_lease_number()"), change.parameter};
+
+  const bool is_live = lease->live && lease->number == request.lease && lease->requester == request.requester;
+  const bool is_unseen = request.lease > lease->newest;
+  // Whatever comes of it, this number starts nothing any more: a lease that was refused or ended before it
+  // began must not begin later.
+  lease->newest = std::max(lease->newest, request.lease);
+  switch (request.kind) {
+    case RequestKind::release:
+      if (is_live) {
+        end_lease(*lease);
+        publish(now);
+      }
+      return {};
+    case RequestKind::refresh:
+      if (!is_live)
+        return {invalid(is_unseen ? "this lease was never begun: press again"
+                                  : "the lease has ended: press again"),
+                change.parameter};
+      return refresh_lease(request, *lease, now);
+    default:
+      if (!is_unseen) return {invalid("the lease was used before: each press has its own"), change.parameter};
+      return start_lease(request, *lease, now);
+  }
+}
+
+RuntimeParameters::Verdict RuntimeParameters::start_lease(const ParameterRequest& request, Lease& lease,
+                                                          Time now) noexcept {
+  const std::uint16_t parameter = request.changes[0].parameter;
+  if (lease.live && lease.requester != request.requester)
+    return {Status::error(StatusCode::busy, "another holds it"), parameter};
+  const Time issued_at = request.issued_at == Time{} ? now : std::min(request.issued_at, now);
+  if (issued_at + lease_time <= now)
+    return {Status::error(StatusCode::timeout, "the press waited too long: press again"), parameter};
+  std::memcpy(proposed_, values_, block_->type->size);
+  store<std::uint8_t>(proposed_ + lease.offset, 1);
+  if (const Status status = accept_proposed(); !status) return {status, parameter};
+  if (!lease.live) ++live_leases_;
+  lease.live = true;
+  lease.requester = request.requester;
+  lease.number = request.lease;
+  lease.sequence = request.lease_sequence;
+  lease.deadline = issued_at + lease_time;
+  store<std::uint8_t>(values_ + lease.offset, 1);
+  publish(now);
+  return {};
+}
+
+RuntimeParameters::Verdict RuntimeParameters::refresh_lease(const ParameterRequest& request, Lease& lease,
+                                                            Time now) noexcept {
+  const std::uint16_t parameter = request.changes[0].parameter;
+  if (request.lease_sequence <= lease.sequence)
+    return {invalid("the refresh is older than the last: its sequence did not increase"), parameter};
+  lease.sequence = request.lease_sequence;
+  const Time issued_at = request.issued_at == Time{} ? now : std::min(request.issued_at, now);
+  lease.deadline = std::max(lease.deadline, issued_at + lease_time);
+  return {};
+}
+
+void RuntimeParameters::end_overdue_leases(Time now) noexcept {
+  if (live_leases_ == 0) return;
+  bool any = false;
+  for (std::uint32_t i = 0; i < lease_count_; ++i) {
+    if (!leases_[i].live || now < leases_[i].deadline) continue;
+    end_lease(leases_[i]);
+    any = true;
+  }
+  if (any) publish(now);
+}
+
+void RuntimeParameters::end_all_leases(Time now) noexcept {
+  if (live_leases_ == 0) return;
+  end_leases();
+  publish(now);
+}
+
+void RuntimeParameters::end_leases() noexcept {
+  for (std::uint32_t i = 0; i < lease_count_; ++i)
+    if (leases_[i].live) end_lease(leases_[i]);
+}
+
+void RuntimeParameters::end_lease(Lease& lease) noexcept {
+  lease.live = false;
+  --live_leases_;
+  store<std::uint8_t>(values_ + lease.offset, 0);
+}
+
+// ----
+
+void RuntimeParameters::clear_presses(Time now) noexcept {
+  pressed_ = false;
+  for (const ParameterDescriptor& parameter : block_->parameters)
+    if (parameter.field->scalar == Scalar::button)
+      std::memset(values_ + parameter.field->offset, 0, field_size(*parameter.field));
+  publish(now);
+}
+
+void RuntimeParameters::publish(Time now) noexcept {
+  if (slot_ == nullptr) {
+    ++sequence_;
+    return;
+  }
+  const std::uint8_t buffer = slot_->loan();
+  const std::size_t size = block_->type->size;
+  std::memcpy(slot_->payload(buffer), values_, size);
+  // A device's slot has room for the largest of its drivers.
+  if (slot_->type()->size > size) std::memset(slot_->payload(buffer) + size, 0, slot_->type()->size - size);
+  slot_->publish(buffer, now);
+  sequence_ = slot_->header(buffer).sequence;
+}
+
+}  // namespace flexrf

@@ -1,0 +1,523 @@
+#include "runtime/parameters/parameter_store.hpp"
+
+#include <cstring>
+#include <limits>
+
+#include "runtime/parameters/tests/sample_component.hpp"
+#include "tests/cmocka.hpp"
+
+namespace flexrf {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr Time start_time{std::chrono::seconds{100}};
+
+// Static, because a failing assertion jumps over destructors; begin() makes it anew for each test.
+struct Cell {
+  sample::SampleComponent component;
+  Slot<sample::Runtime, 1> slot;
+  ParameterScratch scratch{};
+  RuntimeParameters parameters;
+  std::uint8_t held = SlotControl::none;
+
+  /// The values in force as a reader of the slot sees them.
+  const sample::Runtime& seen() {
+    slot.control().take(held);
+    return *reinterpret_cast<const sample::Runtime*>(slot.control().payload(held));
+  }
+  std::uint64_t seen_sequence() {
+    slot.control().take(held);
+    return held == SlotControl::none ? 0 : slot.control().header(held).sequence;
+  }
+};
+
+alignas(Cell) std::byte cell_memory[sizeof(Cell)];
+
+Cell& begin() {
+  auto* cell = new (cell_memory) Cell;
+  cell->component.set_name("cell");
+  assert_true(cell->parameters
+                  .connect(cell->component, &cell->slot.control(), &sample::default_runtime, cell->scratch)
+                  .is_ok());
+  assert_true(cell->parameters.adopt(&sample::default_runtime, start_time).is_ok());
+  return *cell;
+}
+
+ParameterRequest request_of(RequestKind kind, std::uint64_t correlation = 0) {
+  ParameterRequest request;
+  request.kind = kind;
+  request.correlation = correlation;
+  return request;
+}
+
+template <class T>
+ParameterRequest set_to(std::uint16_t parameter, const T& value, std::uint32_t offset = 0) {
+  ParameterRequest request = request_of(RequestKind::set, 42);
+  request.add(parameter, offset, &value, sizeof(value));
+  return request;
+}
+
+ParameterRequest lease_request(RequestKind kind, std::uint64_t lease, std::uint64_t sequence,
+                               std::uint32_t element = 0) {
+  ParameterRequest request = request_of(kind);
+  request.requester = 1;
+  request.lease = lease;
+  request.lease_sequence = sequence;
+  request.add_name(sample::jog, element);
+  return request;
+}
+
+void expect_refused(const ParameterAnswer& answer, std::uint16_t parameter, const char* reason) {
+  assert_int_equal(answer.kind, AnswerKind::refused);
+  assert_string_equal(answer.reason, reason);
+  assert_int_equal(answer.parameter, parameter);
+}
+
+void values_in_force_are_published_at_the_start(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.sequence(), 1);
+  assert_int_equal(cell.seen_sequence(), 1);
+  assert_true(cell.seen().step == 0.01);
+  assert_true(cell.parameters.has_any());
+}
+
+void a_set_comes_into_force_as_a_whole(void**) {
+  Cell& cell = begin();
+  ParameterRequest request = set_to(sample::step, 0.05);
+  const float gains[2] = {5, 6};
+  request.add(sample::gains, sizeof(float), gains, sizeof(gains));
+  const std::uint8_t automatic = 2;
+  request.add(sample::mode, 0, &automatic, 1);
+  const ParameterAnswer answer = cell.parameters.apply(request, start_time + milliseconds{1});
+  assert_int_equal(answer.kind, AnswerKind::accepted);
+  assert_int_equal(answer.correlation, 42);
+  assert_int_equal(answer.sequence, 2);
+  assert_true(cell.component.runtime.step == 0.05);
+  assert_true(cell.component.runtime.gains[0] == 1.0F);
+  assert_true(cell.component.runtime.gains[2] == 6.0F);
+  assert_int_equal(cell.seen().mode, 2);
+  assert_int_equal(cell.seen_sequence(), 2);
+}
+
+void a_set_that_fails_changes_nothing(void**) {
+  Cell& cell = begin();
+  const int asked = cell.component.asked;
+  ParameterRequest request = set_to(sample::step, 0.05);
+  const float gain = 11;
+  request.add(sample::gains, 8, &gain, sizeof(gain));
+  expect_refused(cell.parameters.apply(request, start_time), sample::gains,
+                 "gains[2]: 11 lies outside 0 to 10");
+  expect_refused(
+      cell.parameters.apply(set_to(sample::step, std::numeric_limits<double>::quiet_NaN()), start_time),
+      sample::step, "step: nan is not a finite number");
+  expect_refused(cell.parameters.apply(set_to(sample::mode, std::uint8_t{3}), start_time), sample::mode,
+                 "mode: 3 is no value of Mode, which has 3");
+  expect_refused(cell.parameters.apply(set_to(sample::step, 0.05F), start_time), sample::step,
+                 "4 bytes at 0 of 'step' are no whole elements");
+  expect_refused(cell.parameters.apply(set_to(sample::gains, 0.5F, 12), start_time), sample::gains,
+                 "4 bytes at 12 of 'gains' are no whole elements");
+  expect_refused(cell.parameters.apply(set_to(99, 0.5F), start_time), 99,
+                 "there is no runtime parameter number 99");
+  expect_refused(cell.parameters.apply(set_to(sample::go, std::uint32_t{1}), start_time), sample::go,
+                 "a button is pressed, not set");
+  expect_refused(cell.parameters.apply(set_to(sample::jog, true), start_time), sample::jog,
+                 "a hold is held under a lease, not set");
+  ParameterRequest broken = set_to(sample::step, 0.05);
+  broken.changes[0].position = 600;
+  assert_int_equal(cell.parameters.apply(broken, start_time).kind, AnswerKind::refused);
+  // The author's accept is asked only about what passed the checks.
+  assert_int_equal(cell.component.asked, asked);
+  assert_memory_equal(&cell.component.runtime, &sample::default_runtime, sizeof(sample::Runtime));
+  assert_int_equal(cell.seen_sequence(), 1);
+}
+
+void the_component_may_refuse_the_set(void**) {
+  Cell& cell = begin();
+  expect_refused(cell.parameters.apply(set_to(sample::limits, sample::Limits{2, 1}), start_time),
+                 no_parameter, "low is not below high");
+  assert_true(cell.component.runtime.limits.low == -1);
+  // Members one by one: fields that agree only together come in one request.
+  ParameterRequest request = set_to(sample::limits, 2.0, offsetof(sample::Limits, low));
+  const float high = 3;
+  request.add(sample::limits, offsetof(sample::Limits, high), &high, sizeof(high));
+  assert_int_equal(cell.parameters.apply(request, start_time).kind, AnswerKind::accepted);
+  assert_true(cell.component.runtime.limits.low == 2);
+  assert_true(cell.component.runtime.limits.high == 3);
+}
+
+void what_was_seen_too_long_ago_is_stale(void**) {
+  Cell& cell = begin();
+  ParameterRequest request = set_to(sample::step, 0.05);
+  request.expected = 1;
+  assert_int_equal(cell.parameters.apply(request, start_time).kind, AnswerKind::accepted);
+  const ParameterAnswer answer = cell.parameters.apply(request, start_time);
+  assert_int_equal(answer.kind, AnswerKind::stale);
+  assert_int_equal(answer.sequence, 2);
+  // A press and the step after it publish, but change no setting.
+  ParameterRequest press = request_of(RequestKind::press);
+  press.add_presses(sample::go);
+  assert_int_equal(cell.parameters.apply(press, start_time).kind, AnswerKind::accepted);
+  cell.parameters.after_step(start_time);
+  assert_int_equal(cell.parameters.sequence(), 4);
+  request.expected = 2;
+  assert_int_equal(cell.parameters.apply(request, start_time).kind, AnswerKind::accepted);
+  // What was never published cannot have been seen.
+  request.expected = 9;
+  assert_int_equal(cell.parameters.apply(request, start_time).kind, AnswerKind::stale);
+}
+
+void sequences_wrap_around(void**) {
+  Cell& cell = begin();
+  cell.slot.control().start_sequence_at(std::numeric_limits<std::uint64_t>::max() - 1);
+  ParameterRequest request = set_to(sample::step, 0.05);
+  assert_int_equal(cell.parameters.apply(request, start_time).kind, AnswerKind::accepted);
+  ParameterRequest press = request_of(RequestKind::press);
+  press.add_presses(sample::go);
+  assert_int_equal(cell.parameters.apply(press, start_time).sequence, 0);
+  request.expected = std::numeric_limits<std::uint64_t>::max();
+  const ParameterAnswer answer = cell.parameters.apply(request, start_time);
+  assert_int_equal(answer.kind, AnswerKind::accepted);
+  assert_int_equal(answer.sequence, 1);
+  assert_int_equal(cell.parameters.apply(request, start_time).kind, AnswerKind::stale);
+}
+
+void presses_are_counted_until_the_step_has_seen_them(void**) {
+  Cell& cell = begin();
+  ParameterRequest press = request_of(RequestKind::press);
+  press.add_presses(sample::go, 2);
+  assert_int_equal(cell.parameters.apply(press, start_time).kind, AnswerKind::accepted);
+  assert_int_equal(cell.parameters.apply(press, start_time).kind, AnswerKind::accepted);
+  assert_int_equal(cell.component.runtime.go, 4);
+  assert_int_equal(cell.seen().go, 4);
+  cell.parameters.after_step(start_time);
+  assert_int_equal(cell.component.runtime.go, 0);
+  assert_int_equal(cell.seen().go, 0);
+  const std::uint64_t sequence = cell.parameters.sequence();
+  cell.parameters.after_step(start_time);
+  assert_int_equal(cell.parameters.sequence(), sequence);
+
+  press = request_of(RequestKind::press);
+  press.add_presses(sample::go, 0xFFFFFFFF);
+  assert_int_equal(cell.parameters.apply(press, start_time).kind, AnswerKind::accepted);
+  assert_int_equal(cell.parameters.apply(press, start_time).kind, AnswerKind::accepted);
+  assert_true(cell.component.runtime.go == 0xFFFFFFFF);
+  press.add_presses(sample::enabled);
+  assert_int_equal(cell.parameters.apply(press, start_time).kind, AnswerKind::refused);
+}
+
+void a_hold_lives_as_long_as_its_lease(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 1, 1), start_time).kind,
+                   AnswerKind::accepted);
+  assert_false(cell.component.runtime.jog[0]);
+  assert_true(cell.component.runtime.jog[1]);
+  assert_true(cell.seen().jog[1]);
+  cell.parameters.before_step(start_time + milliseconds{249});
+  assert_true(cell.component.runtime.jog[1]);
+  // Refreshed at 249 ms, it lives until 499.
+  assert_int_equal(
+      cell.parameters.apply(lease_request(RequestKind::refresh, 5, 2, 1), start_time + milliseconds{249})
+          .kind,
+      AnswerKind::accepted);
+  cell.parameters.before_step(start_time + milliseconds{498});
+  assert_true(cell.component.runtime.jog[1]);
+  cell.parameters.before_step(start_time + milliseconds{499});
+  assert_false(cell.component.runtime.jog[1]);
+  assert_false(cell.seen().jog[1]);
+  // It never revives: not by a refresh, not by its number.
+  expect_refused(
+      cell.parameters.apply(lease_request(RequestKind::refresh, 5, 3, 1), start_time + milliseconds{500}),
+      sample::jog, "the lease has ended: press again");
+  expect_refused(
+      cell.parameters.apply(lease_request(RequestKind::hold, 5, 4, 1), start_time + milliseconds{500}),
+      sample::jog, "the lease was used before: each press has its own");
+  expect_refused(
+      cell.parameters.apply(lease_request(RequestKind::hold, 4, 1, 1), start_time + milliseconds{500}),
+      sample::jog, "the lease was used before: each press has its own");
+  assert_false(cell.component.runtime.jog[1]);
+  // A new press is a new lease.
+  assert_int_equal(
+      cell.parameters.apply(lease_request(RequestKind::hold, 6, 1, 1), start_time + milliseconds{501}).kind,
+      AnswerKind::accepted);
+  assert_true(cell.component.runtime.jog[1]);
+}
+
+void a_request_that_finds_the_lease_overdue_cannot_save_it(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 1), start_time).kind,
+                   AnswerKind::accepted);
+  // No step came in between.
+  expect_refused(
+      cell.parameters.apply(lease_request(RequestKind::refresh, 5, 2), start_time + milliseconds{250}),
+      sample::jog, "the lease has ended: press again");
+  assert_false(cell.component.runtime.jog[0]);
+}
+
+void a_refresh_must_be_newer_and_of_the_same_lease(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 7), start_time).kind,
+                   AnswerKind::accepted);
+  expect_refused(
+      cell.parameters.apply(lease_request(RequestKind::refresh, 5, 7), start_time + milliseconds{200}),
+      sample::jog, "the refresh is older than the last: its sequence did not increase");
+  ParameterRequest other = lease_request(RequestKind::refresh, 5, 8);
+  other.requester = 2;
+  assert_int_equal(cell.parameters.apply(other, start_time + milliseconds{200}).kind, AnswerKind::refused);
+  expect_refused(
+      cell.parameters.apply(lease_request(RequestKind::refresh, 6, 8), start_time + milliseconds{200}),
+      sample::jog, "this lease was never begun: press again");
+  cell.parameters.before_step(start_time + milliseconds{250});
+  assert_false(cell.component.runtime.jog[0]);
+  // Number 6 was seen before it began: a press that arrives after its refresh starts nothing.
+  assert_int_equal(
+      cell.parameters.apply(lease_request(RequestKind::hold, 6, 9), start_time + milliseconds{260}).kind,
+      AnswerKind::refused);
+}
+
+void a_lease_is_counted_from_when_the_person_acted(void**) {
+  Cell& cell = begin();
+  ParameterRequest press = lease_request(RequestKind::hold, 5, 1);
+  press.issued_at = start_time;
+  expect_refused(cell.parameters.apply(press, start_time + milliseconds{250}), sample::jog,
+                 "the press waited too long: press again");
+  press = lease_request(RequestKind::hold, 6, 1);
+  press.issued_at = start_time + milliseconds{300};
+  assert_int_equal(cell.parameters.apply(press, start_time + milliseconds{500}).kind, AnswerKind::accepted);
+  cell.parameters.before_step(start_time + milliseconds{549});
+  assert_true(cell.component.runtime.jog[0]);
+  cell.parameters.before_step(start_time + milliseconds{550});
+  assert_false(cell.component.runtime.jog[0]);
+  // From the future: counted from now.
+  press = lease_request(RequestKind::hold, 7, 1);
+  press.issued_at = Time::max();
+  assert_int_equal(cell.parameters.apply(press, start_time + milliseconds{600}).kind, AnswerKind::accepted);
+  cell.parameters.before_step(start_time + milliseconds{850});
+  assert_false(cell.component.runtime.jog[0]);
+}
+
+void one_hand_at_a_hold(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 1), start_time).kind,
+                   AnswerKind::accepted);
+  ParameterRequest other = lease_request(RequestKind::hold, 6, 1);
+  other.requester = 2;
+  expect_refused(cell.parameters.apply(other, start_time), sample::jog, "another holds it");
+  // Released by its holder, it does not pass on to the one who was refused.
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::release, 5, 2), start_time).kind,
+                   AnswerKind::accepted);
+  assert_false(cell.component.runtime.jog[0]);
+  assert_int_equal(cell.parameters.apply(other, start_time).kind, AnswerKind::refused);
+  assert_false(cell.component.runtime.jog[0]);
+  other.lease = 7;
+  assert_int_equal(cell.parameters.apply(other, start_time).kind, AnswerKind::accepted);
+  assert_true(cell.component.runtime.jog[0]);
+  // Nobody else releases it.
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::release, 7, 2), start_time).kind,
+                   AnswerKind::accepted);
+  assert_true(cell.component.runtime.jog[0]);
+}
+
+void a_release_that_overtakes_its_press_prevents_it(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::release, 5, 2), start_time).kind,
+                   AnswerKind::accepted);
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 1), start_time).kind,
+                   AnswerKind::refused);
+  assert_false(cell.component.runtime.jog[0]);
+}
+
+void a_release_is_never_stale(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 1), start_time).kind,
+                   AnswerKind::accepted);
+  assert_int_equal(cell.parameters.apply(set_to(sample::step, 0.05), start_time).kind, AnswerKind::accepted);
+  ParameterRequest release = lease_request(RequestKind::release, 5, 2);
+  release.expected = 1;
+  assert_int_equal(cell.parameters.apply(release, start_time).kind, AnswerKind::accepted);
+  assert_false(cell.component.runtime.jog[0]);
+}
+
+void stop_ends_all_leases_but_no_presses(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 1, 0), start_time).kind,
+                   AnswerKind::accepted);
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 6, 1, 1), start_time).kind,
+                   AnswerKind::accepted);
+  ParameterRequest press = request_of(RequestKind::press);
+  press.add_presses(sample::go);
+  assert_int_equal(cell.parameters.apply(press, start_time).kind, AnswerKind::accepted);
+  cell.parameters.end_all_leases(start_time);
+  assert_false(cell.component.runtime.jog[0]);
+  assert_false(cell.seen().jog[1]);
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::refresh, 6, 2, 1), start_time).kind,
+                   AnswerKind::refused);
+  assert_int_equal(cell.component.runtime.go, 1);
+  cell.parameters.after_step(start_time);
+  assert_int_equal(cell.component.runtime.go, 0);
+}
+
+void a_component_constructed_anew_has_no_live_lease(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 1), start_time).kind,
+                   AnswerKind::accepted);
+  cell.component.runtime = sample::default_runtime;
+  assert_true(
+      cell.parameters.connect(cell.component, &cell.slot.control(), &sample::default_runtime, cell.scratch)
+          .is_ok());
+  assert_true(cell.parameters.adopt(&sample::default_runtime, start_time).is_ok());
+  assert_int_equal(cell.parameters.sequence(), 3);
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::refresh, 5, 2), start_time).kind,
+                   AnswerKind::refused);
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 3), start_time).kind,
+                   AnswerKind::refused);
+  assert_false(cell.component.runtime.jog[0]);
+}
+
+void reset_gives_the_values_of_the_tables(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 1), start_time).kind,
+                   AnswerKind::accepted);
+  ParameterRequest request = set_to(sample::step, 0.05);
+  const std::int8_t small = 3;
+  request.add(sample::small, 0, &small, sizeof(small));
+  assert_int_equal(cell.parameters.apply(request, start_time).kind, AnswerKind::accepted);
+  ParameterRequest reset = request_of(RequestKind::reset);
+  reset.add_name(sample::step);
+  assert_int_equal(cell.parameters.apply(reset, start_time).kind, AnswerKind::accepted);
+  assert_true(cell.component.runtime.step == 0.01);
+  assert_int_equal(cell.component.runtime.small, 3);
+  reset = request_of(RequestKind::reset);
+  assert_int_equal(cell.parameters.apply(reset, start_time).kind, AnswerKind::accepted);
+  assert_int_equal(cell.component.runtime.small, -5);
+  assert_true(cell.component.runtime.jog[0]);
+  reset.add_name(99);
+  assert_int_equal(cell.parameters.apply(reset, start_time).kind, AnswerKind::refused);
+}
+
+void a_member_begins_with_the_tables_or_with_another_members_values(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 1), start_time).kind,
+                   AnswerKind::accepted);
+  sample::Runtime other = sample::default_runtime;
+  other.step = 0.07;
+  other.go = 3;
+  other.jog[1] = true;
+  ParameterRequest clone = request_of(RequestKind::clone);
+  const std::int8_t small = 9;
+  clone.add(sample::small, 0, &small, sizeof(small));
+  expect_refused(cell.parameters.apply(clone, start_time), no_parameter, "there is no member to clone");
+  assert_int_equal(cell.parameters.apply(clone, start_time, &other).kind, AnswerKind::accepted);
+  assert_true(cell.component.runtime.step == 0.07);
+  assert_int_equal(cell.component.runtime.small, 9);
+  // Neither its presses nor its holds, nor those the member had before.
+  assert_int_equal(cell.component.runtime.go, 0);
+  assert_false(cell.component.runtime.jog[0]);
+  assert_false(cell.component.runtime.jog[1]);
+
+  ParameterRequest activate = request_of(RequestKind::activate);
+  assert_int_equal(cell.parameters.apply(activate, start_time).kind, AnswerKind::accepted);
+  assert_int_equal(cell.component.runtime.small, -5);
+  const double step = 5;
+  activate.add(sample::step, 0, &step, sizeof(step));
+  assert_int_equal(cell.parameters.apply(activate, start_time).kind, AnswerKind::refused);
+
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 6, 1), start_time).kind,
+                   AnswerKind::accepted);
+  assert_int_equal(cell.parameters.apply(request_of(RequestKind::retire), start_time).kind,
+                   AnswerKind::accepted);
+  assert_false(cell.component.runtime.jog[0]);
+}
+
+void saved_values_are_checked_before_they_are_taken(void**) {
+  Cell& cell = begin();
+  sample::Runtime saved = sample::default_runtime;
+  saved.step = 0.5;
+  const Status out_of_range = cell.parameters.adopt(&saved, start_time);
+  assert_string_equal(out_of_range.cause(), "step: 0.5 m lies outside 0.001 to 0.1 m");
+  saved.step = 0.02;
+  saved.limits = {5, 4};
+  const Status refused = cell.parameters.adopt(&saved, start_time);
+  assert_string_equal(refused.cause(), "low is not below high");
+  assert_true(cell.component.runtime.step == 0.01);
+  saved.limits = {4, 5};
+  saved.go = 1;
+  saved.jog[0] = true;
+  assert_true(cell.parameters.adopt(&saved, start_time).is_ok());
+  assert_true(cell.component.runtime.step == 0.02);
+  assert_int_equal(cell.component.runtime.go, 0);
+  assert_false(cell.component.runtime.jog[0]);
+}
+
+// A component without runtime parameters, and one with too many.
+class OtherComponent : public Component {
+ public:
+  explicit OtherComponent(const ComponentType& type) : type_(type) {}
+  const ComponentType& component_type() const noexcept override { return type_; }
+  ParameterMemory parameter_memory() noexcept override { return {}; }
+
+ private:
+  const ComponentType& type_;
+};
+
+void what_has_no_parameters_refuses_all_but_the_population(void**) {
+  static const ComponentType none{"none", "", {}, {}, {}, {}};
+  static OtherComponent component(none);
+  static RuntimeParameters parameters;
+  static ParameterScratch scratch;
+  assert_true(parameters.connect(component, nullptr, nullptr, scratch).is_ok());
+  assert_false(parameters.has_any());
+  assert_true(parameters.adopt(nullptr, start_time).is_ok());
+  parameters.before_step(start_time);
+  parameters.after_step(start_time);
+  parameters.end_all_leases(start_time);
+  assert_int_equal(parameters.apply(set_to(0, 1.0), start_time).kind, AnswerKind::refused);
+  assert_int_equal(parameters.apply(request_of(RequestKind::activate), start_time).kind,
+                   AnswerKind::accepted);
+  assert_int_equal(parameters.apply(request_of(RequestKind::retire), start_time).kind, AnswerKind::accepted);
+}
+
+void too_large_parameters_are_refused_at_the_start(void**) {
+  static const TypeDescriptor large{"Large", "", max_runtime_size + 1, 1, 1, {}, {}, {}, false};
+  static const ComponentType type{"large", "", {}, {&large, {}}, {}, {}};
+  static OtherComponent component(type);
+  static RuntimeParameters parameters;
+  static ParameterScratch scratch;
+  component.set_name("large");
+  const Status status = parameters.connect(component, nullptr, nullptr, scratch);
+  assert_string_equal(
+      status.cause(),
+      "large: runtime parameters of 4097 bytes, at most 4096 are possible: move large ones to the "
+      "configuration");
+}
+
+}  // namespace
+}  // namespace flexrf
+
+int main() {
+  using namespace flexrf;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(values_in_force_are_published_at_the_start),
+      cmocka_unit_test(a_set_comes_into_force_as_a_whole),
+      cmocka_unit_test(a_set_that_fails_changes_nothing),
+      cmocka_unit_test(the_component_may_refuse_the_set),
+      cmocka_unit_test(what_was_seen_too_long_ago_is_stale),
+      cmocka_unit_test(sequences_wrap_around),
+      cmocka_unit_test(presses_are_counted_until_the_step_has_seen_them),
+      cmocka_unit_test(a_hold_lives_as_long_as_its_lease),
+      cmocka_unit_test(a_request_that_finds_the_lease_overdue_cannot_save_it),
+      cmocka_unit_test(a_refresh_must_be_newer_and_of_the_same_lease),
+      cmocka_unit_test(a_lease_is_counted_from_when_the_person_acted),
+      cmocka_unit_test(one_hand_at_a_hold),
+      cmocka_unit_test(a_release_that_overtakes_its_press_prevents_it),
+      cmocka_unit_test(a_release_is_never_stale),
+      cmocka_unit_test(stop_ends_all_leases_but_no_presses),
+      cmocka_unit_test(a_component_constructed_anew_has_no_live_lease),
+      cmocka_unit_test(reset_gives_the_values_of_the_tables),
+      cmocka_unit_test(a_member_begins_with_the_tables_or_with_another_members_values),
+      cmocka_unit_test(saved_values_are_checked_before_they_are_taken),
+      cmocka_unit_test(what_has_no_parameters_refuses_all_but_the_population),
+      cmocka_unit_test(too_large_parameters_are_refused_at_the_start),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
