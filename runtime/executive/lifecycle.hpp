@@ -30,6 +30,9 @@ class Lifecycle {
   /// Restarts what its policy lets restart.
   void restart_by_policy() noexcept;
 
+  /// The units' threads are joined: nobody acknowledges any more. The supervising thread.
+  void threads_ended() noexcept { threads_run_.store(false, std::memory_order_release); }
+
   /// What the lifecycle thread is at, for whoever watches that it does not hang. Any thread.
   struct Operation {
     const char* component;  ///< null: nothing
@@ -45,7 +48,7 @@ class Lifecycle {
   Time now() const noexcept;
 
   Cell* cell_;
-  bool threads_run_;
+  std::atomic<bool> threads_run_;
   std::atomic<const char*> component_{nullptr};
   std::atomic<std::int64_t> overdue_at_{0};
   std::vector<std::uint16_t> restarts_ = std::vector<std::uint16_t>(cell_->application().units.size());

@@ -15,6 +15,7 @@ struct RunSummary {
   int exit_code = 0;
   bool had_fault = false;
   bool cut_short = false;  ///< finish_timeout or stop_timeout ended a phase
+  bool stuck = false;      ///< a thread hangs: the process can only be left by _exit
   bool virtual_time = false;
   bool realtime = false;  ///< SCHED_FIFO and locked memory are in force
   Duration run_time{};    ///< simulated in virtual time

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "runtime/log/log.hpp"
+#include "runtime/realtime/last_gasp.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
 
 namespace flexrf {
@@ -33,6 +34,7 @@ ThreadLoop::~ThreadLoop() {
 }
 
 Status ThreadLoop::prepare() {
+  handler_stack_ = std::make_unique<std::byte[]>(last_gasp::handler_stack_size);
   if (record_->trigger.kind != TriggerKind::device) return {};
   event_descriptor_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   if (event_descriptor_ < 0) {
@@ -44,6 +46,7 @@ Status ThreadLoop::prepare() {
 }
 
 void ThreadLoop::run() noexcept {
+  const last_gasp::AlternateStack handler_stack({handler_stack_.get(), last_gasp::handler_stack_size});
   std::optional<RealtimeScope> guard;
   if (record_->priority > 0) guard.emplace(stepper_.state().allocations);
   trigger_.begin(MonotonicClock::now());

@@ -1,6 +1,9 @@
 // The loop of one thread on the wall clock: wait for a reason, serve, step, count.
 #pragma once
 
+#include <cstddef>
+#include <memory>
+
 #include "runtime/executive/accounting.hpp"
 #include "runtime/executive/stepper.hpp"
 #include "runtime/executive/trigger.hpp"
@@ -31,6 +34,7 @@ class ThreadLoop {
   Stepper stepper_;
   Trigger trigger_;
   Accounting accounting_;
+  std::unique_ptr<std::byte[]> handler_stack_;  // for crash signals
   int event_descriptor_ = -1;
   bool readable_ = false;
   bool in_fault_ = false;

@@ -1,6 +1,10 @@
 #include "runtime/executive/virtual_time.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+
+#include "runtime/log/log.hpp"
 
 namespace flexrf {
 namespace {
@@ -8,6 +12,7 @@ namespace {
 /// The simulated clock begins here, so that no instant is "no time".
 constexpr Time beginning{std::chrono::seconds{1}};
 constexpr Duration least_budget = std::chrono::microseconds{1};
+constexpr std::uint32_t events_between_drains = 64;
 constexpr Duration attention_interval = std::chrono::milliseconds{5};
 
 }  // namespace
@@ -36,7 +41,9 @@ Duration VirtualTime::run(Duration duration) noexcept {
     look_for_release(thread);
   }
   Control& control = cell_->control();
-  while (control.mode() != Mode::ended) {
+  set_log_clock(&now_);
+  set_log_origin(beginning);
+  for (std::uint32_t events = 0; control.mode() != Mode::ended; ++events) {
     Thread* thread = next_event();
     Time at = thread == nullptr ? Time::max() : thread->next;
     // With nothing to come the clock still has to reach what supervision waits for.
@@ -59,12 +66,14 @@ Duration VirtualTime::run(Duration duration) noexcept {
       }
     }
     if (control.mode() > Mode::running) supervision_->observe(now_);
+    if (events % events_between_drains == 0) drain_log(STDERR_FILENO);
     if (control.faults() != faults_) {
       faults_ = control.faults();
       lifecycle_->restart_by_policy();
     }
   }
   supervision_->observe(now_);
+  set_log_clock(nullptr);
   return now_ - beginning;
 }
 

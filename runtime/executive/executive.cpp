@@ -1,0 +1,294 @@
+#include "runtime/executive/executive.hpp"
+
+#include <sched.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "runtime/executive/virtual_time.hpp"
+#include "runtime/log/log.hpp"
+#include "runtime/realtime/last_gasp.hpp"
+#include "runtime/realtime/machine_file.hpp"
+#include "runtime/realtime/realtime_scope.hpp"
+#include "runtime/realtime/response_time.hpp"
+#include "runtime/realtime/rights.hpp"
+
+namespace flexrf {
+namespace {
+
+constexpr Duration supervision_interval = std::chrono::milliseconds{5};
+constexpr timespec lifecycle_pause{0, 10'000'000};
+
+/// The signals that end an application by a controlled stop.
+constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
+
+sigset_t ending_set() noexcept {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : ending_signals) sigaddset(&set, signal);
+  return set;
+}
+
+/// In virtual time there is no thread to wait for signals; the handler tells the control, which is all
+/// atomics.
+std::atomic<Control*> signalled_control{nullptr};
+volatile std::sig_atomic_t last_signal = 0;
+
+extern "C" void end_virtual_time(int signal) {
+  last_signal = signal;
+  if (Control* control = signalled_control.load(); control != nullptr) {
+    control->set_cause(EndCause::signal);
+    control->rise_to(Mode::stopping);
+  }
+}
+
+Duration interval_of(const TriggerRecord& trigger) noexcept {
+  if (trigger.kind == TriggerKind::period) return trigger.period;
+  if (trigger.kind == TriggerKind::backoff) return trigger.shortest;
+  return trigger.min_interval;
+}
+
+const char* name_of_role(CpuRole role) noexcept {
+  switch (role) {
+    case CpuRole::any:
+      return "any";
+    case CpuRole::control:
+      return "control";
+    case CpuRole::io:
+      return "io";
+    case CpuRole::rest:
+      return "rest";
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+Executive::Executive(const Application& application, Options options)
+    : options_(std::move(options)),
+      cell_(application, options_),
+      lifecycle_(cell_, !options_.virtual_time.has_value()),
+      began_(MonotonicClock::now()) {}
+
+Executive::~Executive() = default;
+
+Status Executive::prepare() {
+  if (const Status status = cell_.construct(); !status) return status;
+  if (options_.virtual_time) {
+    cell_.prepare_virtual_time(options_.digest);
+    return {};
+  }
+  if (!options_.realtime && cell_.has_real_actuator()) {
+    return Status::error(
+        StatusCode::invalid_argument,
+        "--no-realtime is refused: a real actuator is chosen, and it must not be commanded late");
+  }
+  if (!options_.realtime) return {};
+  RightsNeeded needed;
+  for (const ThreadRecord& thread : cell_.application().threads) {
+    needed.priority = std::max<int>(needed.priority, thread.priority);
+  }
+  needed.locked_bytes = cell_.application().memory_budget;
+  const RightsReport rights = probe_rights(needed);
+  if (rights.is_complete()) return {};
+  std::fprintf(stderr, "%s\n", rights.text);
+  if (cell_.has_real_actuator()) return rights.status();
+  std::fprintf(stderr, "Going on without real time: no real actuator is chosen.\n");
+  options_.realtime = false;
+  return {};
+}
+
+RunSummary Executive::run() {
+  RunSummary summary;
+  set_log_origin(began_);
+  std::signal(SIGPIPE, SIG_IGN);
+  if (options_.virtual_time) {
+    run_in_virtual_time(summary);
+  } else {
+    run_on_the_wall_clock(summary);
+  }
+  drain_log(STDERR_FILENO);
+  summary.cause = cell_.control().cause();
+  summary.wall_time = MonotonicClock::now() - began_;
+  if (summary.had_fault) {
+    summary.exit_code = 2;
+  } else if (summary.cause == EndCause::signal) {
+    summary.exit_code = 128 + summary.signal;
+  }
+  return summary;
+}
+
+void Executive::begin_running() noexcept {
+  Control& control = cell_.control();
+  control.rise_to(Mode::running);
+  if (!cell_.application().autostart) return;
+  if (control.start_motion()) {
+    log_warning(cell_.application().name, "autostart: actuators may move without a person's Start");
+  }
+}
+
+// ---- virtual time
+
+void Executive::run_in_virtual_time(RunSummary& summary) {
+  summary.virtual_time = true;
+  Supervision supervision(cell_, lifecycle_, false);
+  signalled_control = &cell_.control();
+  struct sigaction action {};
+  action.sa_handler = end_virtual_time;
+  for (const int signal : ending_signals) sigaction(signal, &action, nullptr);
+  VirtualTime time(cell_, lifecycle_, supervision);
+  const Status status = lifecycle_.start_all();
+  if (status) {
+    begin_running();
+    summary.start_time = MonotonicClock::now() - began_;
+  } else {
+    log_error(cell_.application().name, "not started: {}", status.cause());
+    cell_.control().set_cause(EndCause::fault);
+    cell_.control().note_fault();
+    cell_.control().rise_to(Mode::safe);
+  }
+  summary.run_time = time.run(*options_.virtual_time);
+  lifecycle_.stop_all();
+  signalled_control = nullptr;
+  summary.signal = last_signal;
+  summary.had_fault = supervision.had_fault();
+  summary.cut_short = supervision.was_cut_short();
+  if (options_.digest) summary.digest = cell_.digest();
+}
+
+// ---- the wall clock
+
+void Executive::run_on_the_wall_clock(RunSummary& summary) {
+  // Every thread inherits the mask: only the supervising thread takes these signals, and it waits for them.
+  const sigset_t ending = ending_set();
+  pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+  Status status = last_gasp::install();
+  prepare_allocation_guard();
+  if (status) status = start_threads(summary);
+  if (!status) {
+    log_error(cell_.application().name, "not started: {}", status.cause());
+    cell_.control().set_cause(EndCause::fault);
+    cell_.control().note_fault();
+    cell_.control().rise_to(Mode::ended);
+    summary.had_fault = true;
+  }
+  supervise(summary);
+}
+
+Status Executive::start_threads(RunSummary& summary) {
+  const Application& application = cell_.application();
+  const Result<MachineFile> machine = MachineFile::of_this_machine();
+  if (!machine) return machine.status();
+  if (options_.realtime) {
+    if (const Status status = lock_all_memory(); !status) return status;
+    summary.realtime = true;
+  }
+  CpuSet claimed;
+  std::vector<ResponseTimeTask> tasks;
+  for (const ThreadRecord& thread : application.threads) {
+    if (thread.priority == 0) continue;
+    const CpuSet& cpus = machine->cpus_of(thread.role);
+    claimed = claimed.united_with(cpus);
+    if (interval_of(thread.trigger).count() > 0) {
+      tasks.push_back({thread.name, static_cast<std::uint16_t>(cpus.highest()), thread.priority,
+                       thread.budget, interval_of(thread.trigger), Duration{}, thread.deadline});
+    }
+  }
+  std::vector<ResponseTimeResult> results(tasks.size());
+  if (!analyse_response_times(tasks, results)) {
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      char text[200];
+      if (!results[i].meets_deadline) {
+        log_warning(tasks[i].name, "{}", describe_response_time(tasks[i], results[i], text, sizeof(text)));
+      }
+    }
+  }
+  const CpuSet rest = machine->rest(claimed);
+  // The supervising, lifecycle and library threads stay away from the real-time ones.
+  if (options_.realtime) sched_setaffinity(0, sizeof(cpu_set_t), &rest.mask());
+  for (std::size_t i = 0; i < application.threads.size(); ++i) {
+    ThreadLoop& loop = loops_.emplace_back(cell_, static_cast<std::uint16_t>(i));
+    if (const Status status = loop.prepare(); !status) return status;
+  }
+  for (std::size_t i = 0; i < application.threads.size(); ++i) {
+    const ThreadRecord& record = application.threads[i];
+    ThreadSettings settings;
+    settings.name = record.name;
+    settings.stack = record.stack;
+    settings.stack_size = record.stack_size;
+    if (options_.realtime) {
+      settings.priority = record.priority;
+      settings.cpus = record.priority > 0 ? machine->cpus_of(record.role) : rest;
+    }
+    const Status status = threads_.emplace_back().start(
+        settings, [](void* loop) { static_cast<ThreadLoop*>(loop)->run(); }, &loops_[i]);
+    if (!status) {
+      return Status::error(status.code(), "thread %s (role %s): %s", record.name, name_of_role(record.role),
+                           status.cause());
+    }
+    application.thread_states[i].thread_id.store(threads_.back().id());
+  }
+  lives_ = true;
+  ThreadSettings settings;
+  settings.name = "lifecycle";
+  return threads_.emplace_back().start(
+      settings, [](void* executive) { static_cast<Executive*>(executive)->live(); }, this);
+}
+
+void Executive::live() {
+  if (const Status status = lifecycle_.start_all(); status) {
+    begin_running();
+  } else {
+    log_error(cell_.application().name, "not started: {}", status.cause());
+    cell_.control().set_cause(EndCause::fault);
+    cell_.control().note_fault();
+    cell_.control().rise_to(Mode::safe);
+  }
+  while (lives_.load(std::memory_order_acquire)) {
+    if (cell_.control().mode() == Mode::running) lifecycle_.restart_by_policy();
+    nanosleep(&lifecycle_pause, nullptr);
+  }
+  lifecycle_.stop_all();
+}
+
+void Executive::supervise(RunSummary& summary) {
+  Control& control = cell_.control();
+  Supervision supervision(cell_, lifecycle_, true);
+  const sigset_t ending = ending_set();
+  const timespec interval{0, supervision_interval.count()};
+  Time running_since{};
+  while (control.mode() != Mode::ended) {
+    const int signal = sigtimedwait(&ending, nullptr, &interval);
+    if (signal > 0) {
+      summary.signal = signal;
+      control.set_cause(EndCause::signal);
+      // Asked twice, whoever asks does not want to wait for units to come to rest.
+      control.rise_to(control.mode() == Mode::stopping ? Mode::safe : Mode::stopping);
+    }
+    const Time now = MonotonicClock::now();
+    if (running_since == Time{} && control.mode() >= Mode::running) {
+      running_since = now;
+      summary.start_time = now - began_;
+    }
+    supervision.observe(now);
+    drain_log(STDERR_FILENO);
+  }
+  summary.had_fault = summary.had_fault || supervision.had_fault();
+  summary.cut_short = supervision.was_cut_short();
+  if (running_since != Time{}) summary.run_time = MonotonicClock::now() - running_since;
+  if (supervision.is_stuck()) {
+    summary.stuck = true;
+    return;
+  }
+  const bool lifecycle_runs = lives_.load();
+  for (std::size_t i = 0; i < threads_.size() - (lifecycle_runs ? 1 : 0); ++i) threads_[i].join();
+  lifecycle_.threads_ended();
+  lives_.store(false, std::memory_order_release);
+  if (lifecycle_runs) threads_.back().join();
+}
+
+}  // namespace flexrf
