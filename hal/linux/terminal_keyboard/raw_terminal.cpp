@@ -1,0 +1,86 @@
+#include "hal/linux/terminal_keyboard/raw_terminal.hpp"
+
+#include <termios.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+
+#include "runtime/realtime/last_gasp.hpp"
+
+namespace flexrf::raw_terminal {
+namespace {
+
+// For the signal handlers: written before `raw` becomes true, and not while it is.
+termios settings_before;
+termios settings_raw;
+struct sigaction stop_before;
+struct sigaction continue_before;
+int descriptor = -1;
+std::atomic<bool> raw{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// SIGTSTP: the shell gets its terminal as it lent it. SIGSTOP then stops the process whatever is blocked
+// where.
+void before_stopping(int) {
+  const int error = errno;
+  if (raw.load()) tcsetattr(descriptor, TCSADRAIN, &settings_before);
+  kill(getpid(), SIGSTOP);
+  errno = error;
+}
+
+// SIGCONT: after fg, not after bg (the terminal is another's then, until the next fg).
+void after_continuing(int) {
+  const int error = errno;
+  if (raw.load() && tcgetpgrp(descriptor) == getpgrp()) tcsetattr(descriptor, TCSADRAIN, &settings_raw);
+  errno = error;
+}
+
+void install(int signal, void (*handler)(int), struct sigaction& before) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigfillset(&action.sa_mask);
+  sigaction(signal, &action, &before);
+}
+
+}  // namespace
+
+Status enter(int terminal) noexcept {
+  leave();
+  if (tcgetattr(terminal, &settings_before) != 0) {
+    return Status::error(StatusCode::unavailable, "the terminal does not tell its settings: %s",
+                         std::strerror(errno));
+  }
+  settings_raw = settings_before;
+  settings_raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  settings_raw.c_iflag &= ~static_cast<tcflag_t>(ICRNL | IXON);
+  settings_raw.c_cc[VMIN] = 1;
+  settings_raw.c_cc[VTIME] = 0;
+  if (tcsetattr(terminal, TCSADRAIN, &settings_raw) != 0) {
+    return Status::error(StatusCode::unavailable, "the terminal cannot be made raw: %s",
+                         std::strerror(errno));
+  }
+  descriptor = terminal;
+  raw.store(true);
+  last_gasp::prepare_terminal(terminal, settings_before);
+  install(SIGTSTP, before_stopping, stop_before);
+  install(SIGCONT, after_continuing, continue_before);
+  static const bool at_exit = std::atexit(leave) == 0;
+  static_cast<void>(at_exit);
+  return {};
+}
+
+void leave() noexcept {
+  if (!raw.load()) return;
+  sigaction(SIGTSTP, &stop_before, nullptr);
+  sigaction(SIGCONT, &continue_before, nullptr);
+  raw.store(false);
+  tcsetattr(descriptor, TCSADRAIN, &settings_before);
+  last_gasp::clear_terminal();
+}
+
+}  // namespace flexrf::raw_terminal

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "runtime/core/status.hpp"
+
+namespace flexrf::raw_terminal {
+
+/// Keys come one by one and are not echoed; Ctrl-C, Ctrl-\ and Ctrl-Z keep their meaning, and output is as
+/// before. One terminal per process. While it is raw, Ctrl-Z gives it back before the process stops and fg
+/// makes it raw again; a crash or exit() gives it back too. Lifecycle thread.
+Status enter(int terminal) noexcept;
+
+/// As it was before enter(); nothing when it is not raw.
+void leave() noexcept;
+
+}  // namespace flexrf::raw_terminal

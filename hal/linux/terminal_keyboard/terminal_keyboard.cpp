@@ -1,0 +1,108 @@
+#include "hal/linux/terminal_keyboard/terminal_keyboard.hpp"
+
+#include <poll.h>
+#include <sys/epoll.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "hal/linux/terminal_keyboard/raw_terminal.hpp"
+
+namespace flexrf {
+namespace {
+
+constexpr int input = STDIN_FILENO;
+constexpr std::uint8_t end_of_transmission = 0x04;  // Ctrl-D
+// A terminal sends an escape sequence in one go; a person's next key comes later than this.
+constexpr long sequence_timeout = 30'000'000;  // ns
+
+bool watch(int set, int descriptor) {
+  epoll_event event{};
+  event.events = EPOLLIN;
+  return epoll_ctl(set, EPOLL_CTL_ADD, descriptor, &event) == 0;
+}
+
+}  // namespace
+
+TerminalKeyboard::~TerminalKeyboard() {
+  stop();
+}
+
+Status TerminalKeyboard::initialise() {
+  stop();
+  decoder_ = {};
+  ended_ = false;
+  waiting_ = false;
+  terminal_ = isatty(input) == 1;
+  timer_ = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);
+  own_wait_ = epoll_create1(EPOLL_CLOEXEC);
+  if (timer_ < 0 || own_wait_ < 0 || !watch(own_wait_, timer_)) {
+    return Status::error(StatusCode::internal, "cannot wait for keys: %s", std::strerror(errno));
+  }
+  // A plain file cannot be watched, and is always readable.
+  wait_ = watch(own_wait_, input) ? own_wait_ : input;
+  return terminal_ ? raw_terminal::enter(input) : Status{};
+}
+
+void TerminalKeyboard::stop() {
+  if (terminal_) raw_terminal::leave();
+  terminal_ = false;
+  for (int* descriptor : {&timer_, &own_wait_}) {
+    if (*descriptor >= 0) close(*descriptor);
+    *descriptor = -1;
+  }
+  wait_ = -1;
+}
+
+std::optional<KeyEvent> TerminalKeyboard::read() noexcept {
+  std::uint8_t byte = 0;
+  // No byte is read ahead of need: what nobody has room for stays in the pipe and holds up its writer.
+  while (!decoder_.has_event() && !ended_ && read_byte(byte)) take_byte(byte);
+  if (decoder_.is_undecided() && !decoder_.has_event()) {
+    if (ended_ || has_waited()) {
+      decoder_.decide();
+      await_rest_of_sequence(false);
+    } else {
+      await_rest_of_sequence(true);
+    }
+  } else {
+    await_rest_of_sequence(false);
+  }
+  return decoder_.take();
+}
+
+void TerminalKeyboard::take_byte(std::uint8_t byte) noexcept {
+  if (terminal_ && byte == end_of_transmission) {
+    ended_ = true;
+  } else if (terminal_ || (byte != '\n' && byte != '\r')) {
+    decoder_.put(byte);
+  }
+}
+
+/// False when there is none now; at the end, ended_ becomes true. Standard input is shared with the shell, so
+/// it is not made non-blocking but asked first.
+bool TerminalKeyboard::read_byte(std::uint8_t& byte) noexcept {
+  pollfd ready{input, POLLIN, 0};
+  if (poll(&ready, 1, 0) <= 0) return false;
+  const ssize_t count = (ready.revents & POLLNVAL) != 0 ? 0 : ::read(input, &byte, 1);
+  if (count < 0 && (errno == EINTR || errno == EAGAIN)) return false;
+  ended_ = count <= 0;
+  return count > 0;
+}
+
+void TerminalKeyboard::await_rest_of_sequence(bool on) noexcept {
+  if (on == waiting_) return;
+  waiting_ = on;
+  itimerspec setting{};  // zero disarms
+  if (on) setting.it_value.tv_nsec = sequence_timeout;
+  timerfd_settime(timer_, 0, &setting, nullptr);
+}
+
+bool TerminalKeyboard::has_waited() noexcept {
+  std::uint64_t expirations = 0;
+  return waiting_ && ::read(timer_, &expirations, sizeof(expirations)) == sizeof(expirations);
+}
+
+}  // namespace flexrf

@@ -1,0 +1,65 @@
+#include "units/keyboard_robot/keyboard_robot.hpp"
+
+#include <algorithm>
+
+#include "hal/interfaces/robot_arm/pose_conversion.hpp"
+#include "units/motion/key_motion.hpp"
+
+namespace flexrf {
+namespace {
+
+// The arm has arrived when its joints are this near to their set-points: above the sensors' noise.
+constexpr double arrived = 1e-3;  // rad
+// A later cycle delays the motion, rather than have the arm jump to catch up.
+constexpr double longest_advance = 0.02;  // s
+// A key's quarter turn is robot_control's business.
+constexpr double no_turn = 0;
+
+}  // namespace
+
+Status KeyboardRobot::initialise() {
+  motion_.use(arm->kinematic_chain());
+  moved_ = false;
+  return {};
+}
+
+void KeyboardRobot::step(const Tick& tick) {
+  const auto state = arm->state();
+  if (!state) {
+    motion_.stop();
+  } else {
+    const Pose actual = to_pose(forward_kinematics(arm->kinematic_chain(), state->position_map()));
+    pose.publish(actual);
+    if (tick.motion_inhibited || !motion_.is_seeded()) {
+      motion_.seed(state->position_map());
+      target_ = actual;
+    }
+    if (tick.motion_inhibited) {
+      while (keyboard->read()) continue;  // not kept for when the arm may move again
+    } else if (tick.stop_requested) {
+      motion_.stop();
+    } else {
+      follow_keys();
+    }
+  }
+  if (!motion_.is_seeded()) return;
+  motion_.advance(std::min(seconds(tick.elapsed), longest_advance));
+  JointPositions set_points{};
+  set_points.position_map() = motion_.set_point();
+  arm->command(set_points);
+  idle_ = !motion_.is_moving() && !moved_ &&
+          (!state || (state->position_map() - motion_.set_point()).cwiseAbs().maxCoeff() < arrived);
+}
+
+void KeyboardRobot::follow_keys() noexcept {
+  while (const auto key = keyboard->read()) {
+    if (!move_by_key(target_, *key, runtime.step, no_turn)) continue;
+    moved_ = true;
+    ++feedback.presses;
+  }
+  if (!moved_ || motion_.is_moving()) return;
+  moved_ = false;
+  feedback.set_refusal(motion_.move_to(target_, 1.0).cause());
+}
+
+}  // namespace flexrf

@@ -1,0 +1,26 @@
+// KeyboardRobot: a keyboard and an arm in one unit.
+#pragma once
+
+#include <optional>
+
+#include "keyboard_robot_unit.hpp"
+#include "units/motion/arm_motion.hpp"
+
+namespace flexrf {
+
+class KeyboardRobot final : public KeyboardRobotUnit {
+ public:
+  Status initialise() override;
+  void step(const Tick& tick) override;
+  bool is_idle() const noexcept override { return idle_; }
+
+ private:
+  void follow_keys() noexcept;
+
+  ArmMotion motion_;
+  Pose target_{};
+  bool moved_ = false;  // the target was, since the last motion began
+  bool idle_ = true;
+};
+
+}  // namespace flexrf

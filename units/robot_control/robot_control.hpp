@@ -1,0 +1,34 @@
+// RobotControl: moves an arm to the latest target whenever the motion before is finished.
+//
+// The target is a pose of the tool; the motion is planned in joint space: all joints start and arrive
+// together on a jerk-limited profile. So every posture on the way can be reached and no singularity asks for
+// infinite rates; the price is that the tool does not run on a straight line between two targets.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "robot_control_unit.hpp"
+#include "units/motion/arm_motion.hpp"
+
+namespace flexrf {
+
+class RobotControl final : public RobotControlUnit {
+ public:
+  Status initialise() override;
+  void step(const Tick& tick) override;
+  bool is_idle() const noexcept override { return idle_; }
+
+ private:
+  void follow_target() noexcept;
+  void command(const Tick& tick) noexcept;
+  void publish(const JointState& state) noexcept;
+  void hold(std::string_view reason) noexcept;
+
+  ArmMotion motion_;
+  std::optional<Pose> handled_;  // the target that was moved to or refused
+  Time last_cycle_{};
+  bool idle_ = true;
+};
+
+}  // namespace flexrf
