@@ -20,7 +20,7 @@ class CpuSet {
     set.add(cpu);
     return set;
   }
-  /// Those that this process may run on.
+  /// Those that this process may run on: its main thread's.
   static CpuSet allowed() noexcept;
   /// Reads "0-2,5"; an empty text is the empty set.
   static Result<CpuSet> parse(std::string_view text) noexcept;

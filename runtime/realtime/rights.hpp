@@ -17,13 +17,14 @@ struct RightsReport {
   bool lock_missing = false;
   /// Several lines: which right is missing, of whom, and how to grant it. Empty when nothing is missing.
   char text[1600] = {};
+  char summary[200] = {};  ///< the missing rights in one line
 
   bool is_complete() const noexcept { return !priority_missing && !lock_missing; }
   /// not_permitted with the missing rights in one line.
   Status status() const noexcept;
 };
 
-/// Tries or computes whether the process has the rights. Non-real-time thread; may allocate. The calling
+/// Finds out whether the process has the rights. Non-real-time thread; may allocate. The calling
 /// thread is SCHED_FIFO for an instant and then what it was.
 RightsReport probe_rights(const RightsNeeded& needed);
 

@@ -42,16 +42,21 @@ class RunningThread {
 
  private:
   static void* trampoline(void* self);
-  Status read_back(const ThreadSettings& settings) const noexcept;
+  Status create(const ThreadSettings& settings, const CpuSet& cpus) noexcept;
+  Status read_back(const ThreadSettings& settings, const CpuSet& cpus) const noexcept;
+  void finish() noexcept;
 
   pthread_t handle_{};
   pid_t id_ = 0;
   bool started_ = false;
   void (*body_)(void*) = nullptr;
   void* argument_ = nullptr;
-  const char* name_ = "";
+  std::byte* stack_ = nullptr;  ///< guard included
+  std::size_t stack_size_ = 0;
+  bool stack_is_own_ = false;
+  const void* frame_ = nullptr;  ///< somewhere in the thread's stack, for reading back
   std::atomic<pid_t> announced_{0};
-  std::atomic<int> verdict_{0};  ///< 0: wait, 1: begin, 2: end
+  std::atomic<int> verdict_{0};
 };
 
 /// Smallest stack that start() takes, guard included, bytes.

@@ -1,0 +1,90 @@
+#include "runtime/realtime/instance_lock.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+
+namespace flexrf {
+
+namespace {
+
+/// "process 1234 (./keyboard --panel), since 2026-03-01 12:00:00".
+void describe_self(char* text, std::size_t capacity) noexcept {
+  char command[128] = {};
+  const int file = open("/proc/self/cmdline", O_RDONLY | O_CLOEXEC);
+  if (file >= 0) {
+    const ssize_t size = read(file, command, sizeof(command) - 1);
+    close(file);
+    // Arguments are separated by zeros; what could break the line or the terminal becomes a blank.
+    for (ssize_t i = 0; i + 1 < size; ++i)
+      if (static_cast<unsigned char>(command[i]) < 0x20) command[i] = ' ';
+  }
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char since[32];
+  std::strftime(since, sizeof(since), "%Y-%m-%d %H:%M:%S", &local);
+  std::snprintf(text, capacity, "process %d (%s), since %s", getpid(), command, since);
+}
+
+const char* usual_directory() noexcept {
+  // A folder of the machine comes before the user's: a cell's hardware is there once, whoever starts it.
+  if (access("/run/flexrf", W_OK) == 0) return "/run/flexrf";
+  const char* const user = std::getenv("XDG_RUNTIME_DIR");  // NOLINT(concurrency-mt-unsafe): at start
+  if (user != nullptr && user[0] == '/' && access(user, W_OK) == 0) return user;
+  return "/tmp";
+}
+
+}  // namespace
+
+Status InstanceLock::acquire(const char* cell, const char* directory) noexcept {
+  if (is_held()) return Status::error(StatusCode::busy, "this process holds %s already", path_);
+  if (directory == nullptr) directory = usual_directory();
+  const int length = std::snprintf(path_, sizeof(path_), "%s/flexrf-%s.lock", directory, cell);
+  if (length < 0 || static_cast<std::size_t>(length) >= sizeof(path_))
+    return Status::error(StatusCode::invalid_argument, "the lock file's path is too long: %.100s...", path_);
+  // Another user's file may be read and locked, but in /tmp not opened for writing.
+  int file = open(path_, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
+  const bool is_writable = file >= 0;
+  if (!is_writable) file = open(path_, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (file < 0)
+    return Status::error(StatusCode::unavailable, "cannot open the lock file %s: %s", path_,
+                         strerrordesc_np(errno));
+  if (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    const int cause = errno;
+    char holder[160] = {};
+    const ssize_t size = pread(file, holder, sizeof(holder) - 1, 0);
+    close(file);
+    if (cause != EWOULDBLOCK)
+      return Status::error(StatusCode::unavailable, "cannot lock %s: %s", path_, strerrordesc_np(cause));
+    if (char* const end = std::strchr(holder, '\n')) *end = '\0';
+    return Status::error(StatusCode::busy, "cell %s is run already by %s; lock file %s", cell,
+                         size > 0 ? holder : "a process that has not said its name", path_);
+  }
+  if (is_writable) {
+    char text[224];
+    describe_self(text, sizeof(text) - 1);
+    std::strcat(text, "\n");
+    // The lock is what counts; that its holder cannot be named (a full disk) is no reason not to run.
+    [[maybe_unused]] const bool named =
+        ftruncate(file, 0) == 0 && pwrite(file, text, std::strlen(text), 0) > 0;
+  }
+  descriptor_ = file;
+  return {};
+}
+
+void InstanceLock::release() noexcept {
+  if (!is_held()) return;
+  // The file stays: removing it could leave two processes with a lock each, on two files of one name.
+  close(descriptor_);
+  descriptor_ = -1;
+}
+
+}  // namespace flexrf

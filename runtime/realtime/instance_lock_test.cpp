@@ -1,0 +1,127 @@
+#include "runtime/realtime/instance_lock.hpp"
+
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "tests/cmocka.hpp"
+
+namespace flexrf {
+namespace {
+
+char directory[64];
+
+int make_directory(void**) {
+  std::snprintf(directory, sizeof(directory), "/tmp/flexrf-lock-XXXXXX");
+  return mkdtemp(directory) == nullptr ? 1 : chmod(directory, 0755);
+}
+
+int remove_directory(void**) {
+  char path[128];
+  for (const char* const cell : {"one", "two"}) {
+    std::snprintf(path, sizeof(path), "%s/flexrf-%s.lock", directory, cell);
+    unlink(path);
+  }
+  return rmdir(directory);
+}
+
+void one_holder_per_cell(void**) {
+  static InstanceLock first;
+  static InstanceLock second;
+  static InstanceLock other;
+  assert_true(first.acquire("one", directory).is_ok());
+  assert_true(other.acquire("two", directory).is_ok());
+  const Status status = second.acquire("one", directory);
+  assert_int_equal(status.code(), StatusCode::busy);
+  assert_false(second.is_held());
+  char expected[128];
+  std::snprintf(expected, sizeof(expected), "cell one is run already by process %d (", getpid());
+  assert_memory_equal(status.cause(), expected, strlen(expected));
+  assert_non_null(strstr(status.cause(), "instance_lock_test"));
+  assert_non_null(strstr(status.cause(), "), since 2"));
+  assert_non_null(strstr(status.cause(), first.path()));
+  first.release();
+  assert_true(second.acquire("one", directory).is_ok());
+  assert_int_equal(second.acquire("one", directory).code(), StatusCode::busy);
+  second.release();
+  other.release();
+}
+
+/// A process that takes the lock and is killed.
+bool holder_dies() {
+  int ends[2];
+  if (pipe(ends) != 0) return false;
+  const pid_t child = fork();
+  if (child == 0) {
+    InstanceLock lock;
+    const char good = lock.acquire("one", directory).is_ok() ? 1 : 0;
+    if (write(ends[1], &good, 1) != 1) _exit(1);
+    pause();
+    _exit(0);
+  }
+  char good = 0;
+  const bool told = read(ends[0], &good, 1) == 1 && good == 1;
+  InstanceLock lock;
+  const bool busy = lock.acquire("one", directory).code() == StatusCode::busy;
+  kill(child, SIGKILL);
+  int result = 0;
+  waitpid(child, &result, 0);
+  close(ends[0]);
+  close(ends[1]);
+  return told && busy && lock.acquire("one", directory).is_ok();
+}
+
+void a_dead_holder_holds_nothing(void**) {
+  assert_true(holder_dies());
+}
+
+/// Another user finds the lock taken and who has it, and takes it when it is free.
+int other_user_asks() {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (setuid(65534) != 0) _exit(10);
+    InstanceLock lock;
+    const Status status = lock.acquire("one", directory);
+    if (status) _exit(0);
+    _exit(status.code() == StatusCode::busy && std::strstr(status.cause(), "by process ") != nullptr ? 1 : 2);
+  }
+  int result = 0;
+  waitpid(child, &result, 0);
+  return WIFEXITED(result) ? WEXITSTATUS(result) : -1;
+}
+
+void another_user_is_kept_out_too(void**) {
+  if (geteuid() != 0) skip();  // nobody else can become another user
+  static InstanceLock lock;
+  assert_true(lock.acquire("one", directory).is_ok());
+  assert_int_equal(other_user_asks(), 1);
+  lock.release();
+  assert_int_equal(other_user_asks(), 0);
+}
+
+void a_directory_that_is_not_there_is_named(void**) {
+  static InstanceLock lock;
+  const Status status = lock.acquire("one", "/nowhere");
+  assert_int_equal(status.code(), StatusCode::unavailable);
+  assert_string_equal(status.cause(),
+                      "cannot open the lock file /nowhere/flexrf-one.lock: No such file or directory");
+}
+
+}  // namespace
+}  // namespace flexrf
+
+int main() {
+  using namespace flexrf;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(one_holder_per_cell),
+      cmocka_unit_test(a_dead_holder_holds_nothing),
+      cmocka_unit_test(another_user_is_kept_out_too),
+      cmocka_unit_test(a_directory_that_is_not_there_is_named),
+  };
+  return cmocka_run_group_tests(tests, make_directory, remove_directory);
+}
