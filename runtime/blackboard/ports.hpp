@@ -118,6 +118,12 @@ struct InputBinding {
   void* members = nullptr;  ///< range inputs: `count` Input<T>, one cursor per member
 };
 
+/// What one input of a unit saw of one slot. For reports; may lag by what is being read.
+struct InputCounters {
+  std::uint64_t read = 0;    ///< items
+  std::uint64_t missed = 0;  ///< items published between two that it read
+};
+
 /// Untyped half of an input: the cursor of one unit in one slot.
 class InputCursor {
  public:
@@ -130,6 +136,8 @@ class InputCursor {
   /// Counters for reports; relaxed, any thread.
   std::uint64_t read() const noexcept { return read_.load(std::memory_order_relaxed); }
   std::uint64_t missed() const noexcept { return missed_total_.load(std::memory_order_relaxed); }
+  InputCounters counters() const noexcept { return {read(), missed()}; }
+  InputCounters counters(std::size_t /*member*/) const noexcept { return counters(); }
   /// Forgets what was seen: the next item is new (a member of a population begins again).
   void forget() noexcept { cursor_ = 0; }
 
@@ -181,7 +189,9 @@ class Input : public InputCursor {
   }
 
   /// hold = true: keeps the view that latest() gave beyond the step, until the next keep().
-  void keep() noexcept { reader_->keep(); }
+  void keep() noexcept {
+    if (reader_ != nullptr) reader_->keep();
+  }
   View<T> kept() const noexcept {
     const ItemHeader* header = reader_ == nullptr ? nullptr : reader_->kept();
     if (header == nullptr) return View<T>{NullReason::nothing_yet};
@@ -219,6 +229,7 @@ class InputRange {
     }
   }
   std::size_t size() const noexcept { return members_.size(); }
+  InputCounters counters(std::size_t member) const noexcept { return members_[member].counters(); }
   Input<T>& operator[](std::size_t index) noexcept { return members_[index]; }
   auto begin() noexcept { return members_.begin(); }
   auto end() noexcept { return members_.end(); }

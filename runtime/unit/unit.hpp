@@ -34,6 +34,11 @@ class Unit : public Component {
   // ---- for the executive; the generated base implements it
 
   virtual void connect(const UnitBinding& binding) noexcept = 0;
+  /// What the unit's n-th input (of a slot, in the order of its table; of a range: its member) read since the
+  /// unit was constructed. Any thread.
+  virtual InputCounters input_counters(std::size_t /*input*/, std::size_t /*member*/) const noexcept {
+    return {};
+  }
 };
 
 }  // namespace flexrf

@@ -104,6 +104,9 @@ class TestUnit final : public Unit {
   ParameterMemory parameter_memory() noexcept override { return {&configuration, &runtime, &feedback}; }
   Status accept_runtime(const void* proposed) noexcept override;
   void connect(const UnitBinding& binding) noexcept override;
+  InputCounters input_counters(std::size_t input, std::size_t member) const noexcept override {
+    return inputs[input].counters(member);
+  }
 
   static const ComponentType type;
   static const Configuration default_configuration;
