@@ -1,0 +1,276 @@
+#include "runtime/realtime/last_gasp.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+
+namespace flexrf::last_gasp {
+
+namespace {
+
+constexpr std::size_t words = bytes_per_slot / sizeof(std::uint64_t);
+constexpr int none = -1;
+
+/// What a driver prepared. It fills the side that is not current and then makes it current, so that a handler
+/// that interrupts it, or runs beside it, finds one side whole.
+struct Side {
+  std::atomic<std::int32_t> descriptor{none};
+  std::atomic<std::uint32_t> size{0};
+  std::atomic<std::uint64_t> data[words]{};
+};
+struct Slot {
+  std::atomic<std::uint32_t> generation{0};  ///< its lowest bit is the current side; 0: nothing prepared yet
+  std::atomic<bool> claimed{false};
+  Side sides[2];
+};
+
+struct Terminal {
+  std::atomic<int> descriptor{none};
+  termios settings{};
+};
+
+constinit Slot table[slots];
+constinit Terminal terminal;
+constinit std::atomic<bool> crashing{false};
+constinit thread_local const char* stepped [[gnu::tls_model("initial-exec")]] = nullptr;
+alignas(16) constinit std::byte main_stack[handler_stack_size]{};
+
+struct Prepared {
+  int descriptor = none;
+  std::size_t size = 0;
+  std::byte bytes[bytes_per_slot];
+};
+
+/// One side as a whole; false when its owner was faster, every time.
+bool copy_prepared(const Slot& slot, Prepared& prepared) noexcept {
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    const std::uint32_t generation = slot.generation.load(std::memory_order_acquire);
+    if (generation == 0) return true;
+    const Side& side = slot.sides[generation & 1U];
+    // Acquire loads keep the second look at the generation behind them.
+    prepared.descriptor = side.descriptor.load(std::memory_order_acquire);
+    prepared.size = std::min<std::size_t>(side.size.load(std::memory_order_acquire), bytes_per_slot);
+    for (std::size_t i = 0; i < words; ++i) {
+      const std::uint64_t word = side.data[i].load(std::memory_order_acquire);
+      std::memcpy(prepared.bytes + i * sizeof(word), &word, sizeof(word));
+    }
+    if (slot.generation.load(std::memory_order_relaxed) == generation) return true;
+  }
+  prepared.descriptor = none;
+  return false;
+}
+
+bool write_all(int descriptor, const std::byte* bytes, std::size_t size) noexcept {
+  std::size_t written = 0;
+  for (int attempt = 0; attempt < 4 && written < size; ++attempt) {
+    pollfd ready{descriptor, POLLOUT, 0};
+    // Anything beside writable is an end that is closed, where writing would raise SIGPIPE.
+    if (poll(&ready, 1, 10) <= 0 || ready.revents != POLLOUT) return false;
+    const ssize_t count = write(descriptor, bytes + written, size - written);
+    if (count > 0) written += static_cast<std::size_t>(count);
+    if (count < 0 && errno != EINTR && errno != EAGAIN) return false;
+  }
+  return written == size;
+}
+
+int write_prepared() noexcept {
+  int written = 0;
+  for (const Slot& slot : table) {
+    Prepared prepared;
+    if (copy_prepared(slot, prepared) && prepared.descriptor >= 0 &&
+        write_all(prepared.descriptor, prepared.bytes, prepared.size))
+      ++written;
+  }
+  return written;
+}
+
+void restore_terminal() noexcept {
+  const int descriptor = terminal.descriptor.load(std::memory_order_acquire);
+  if (descriptor >= 0) tcsetattr(descriptor, TCSANOW, &terminal.settings);
+}
+
+/// Text made of pieces, without the C library's formatting, which a signal handler may not use.
+class Message {
+ public:
+  Message& operator<<(const char* text) noexcept {
+    while (*text != '\0' && size_ < sizeof(text_)) text_[size_++] = *text++;
+    return *this;
+  }
+  Message& operator<<(int number) noexcept {
+    char digits[12];
+    std::size_t place = sizeof(digits);
+    digits[--place] = '\0';
+    do {
+      digits[--place] = static_cast<char>('0' + number % 10);
+      number /= 10;
+    } while (number > 0 && place > 0);
+    return *this << digits + place;
+  }
+  Message& address(const void* pointer) noexcept {
+    auto value = reinterpret_cast<std::uintptr_t>(pointer);
+    char digits[2 * sizeof(value) + 1];
+    std::size_t place = sizeof(digits);
+    digits[--place] = '\0';
+    do {
+      digits[--place] = "0123456789abcdef"[value % 16];
+      value /= 16;
+    } while (value > 0 && place > 0);
+    return *this << "0x" << digits + place;
+  }
+  void write_to(int descriptor) const noexcept {
+    write_all(descriptor, reinterpret_cast<const std::byte*>(text_), size_);
+  }
+
+ private:
+  char text_[256];
+  std::size_t size_ = 0;
+};
+
+const char* meaning_of(int signal) noexcept {
+  switch (signal) {
+    case SIGSEGV:
+      return "SIGSEGV (invalid memory access)";
+    case SIGBUS:
+      return "SIGBUS (memory not there)";
+    case SIGFPE:
+      return "SIGFPE (arithmetic error)";
+    case SIGILL:
+      return "SIGILL (invalid instruction)";
+    case SIGABRT:
+      return "SIGABRT (abort)";
+    default:
+      return "a signal";
+  }
+}
+
+void handle(int signal, siginfo_t* information, void* /*context*/) noexcept {
+  if (crashing.exchange(true, std::memory_order_acq_rel)) {
+    // Another thread crashed first and is about to end the process: leave it the time to.
+    for (int i = 0; i < 10; ++i) {
+      const timespec moment{0, 100'000'000};
+      nanosleep(&moment, nullptr);
+    }
+  } else {
+    const int written = write_prepared();
+    restore_terminal();
+    Message message;
+    message << "\nflexrf: " << meaning_of(signal);
+    if (signal == SIGSEGV || signal == SIGBUS) (message << " at ").address(information->si_addr);
+    if (stepped != nullptr) message << " while stepping " << stepped;
+    message << "; prepared outputs written: " << written << "\n";
+    message.write_to(STDERR_FILENO);
+  }
+  // Delivered with the default action as soon as this handler returns.
+  ::signal(signal, SIG_DFL);
+  syscall(SYS_tgkill, getpid(), gettid(), signal);
+}
+
+}  // namespace
+
+Status install() noexcept {
+  stack_t stack{};
+  stack.ss_sp = main_stack;
+  stack.ss_size = sizeof(main_stack);
+  if (sigaltstack(&stack, nullptr) != 0)
+    return Status::error(StatusCode::internal, "no alternate stack for crash signals: %s",
+                         strerrordesc_np(errno));
+  struct sigaction action {};
+  action.sa_sigaction = &handle;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+  // All others wait: a crash in the handler itself then ends the process at once.
+  sigfillset(&action.sa_mask);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+    if (sigaction(signal, &action, nullptr) != 0)
+      return Status::error(StatusCode::internal, "%s cannot be handled: %s", meaning_of(signal),
+                           strerrordesc_np(errno));
+  return {};
+}
+
+int claim_slot() noexcept {
+  for (std::size_t i = 0; i < slots; ++i) {
+    bool expected = false;
+    if (table[i].claimed.compare_exchange_strong(expected, true, std::memory_order_acq_rel))
+      return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void release_slot(int slot) noexcept {
+  if (slot < 0 || static_cast<std::size_t>(slot) >= slots) return;
+  clear(slot);
+  table[slot].claimed.store(false, std::memory_order_release);
+}
+
+bool prepare_write(int slot, int descriptor, std::span<const std::byte> bytes) noexcept {
+  if (slot < 0 || static_cast<std::size_t>(slot) >= slots || bytes.size() > bytes_per_slot) return false;
+  Slot& entry = table[slot];
+  std::uint32_t generation = entry.generation.load(std::memory_order_relaxed) + 1;
+  if (generation == 0) generation = 2;  // 0 means nothing prepared; the side stays right
+  // Release stores keep behind the earlier one that made the other side current: who sees one of them knows
+  // then that this side is current no more.
+  Side& side = entry.sides[generation & 1U];
+  side.descriptor.store(descriptor, std::memory_order_release);
+  side.size.store(static_cast<std::uint32_t>(bytes.size()), std::memory_order_release);
+  for (std::size_t i = 0; i * sizeof(std::uint64_t) < bytes.size(); ++i) {
+    std::uint64_t word = 0;
+    const std::size_t offset = i * sizeof(word);
+    std::memcpy(&word, bytes.data() + offset, std::min(sizeof(word), bytes.size() - offset));
+    side.data[i].store(word, std::memory_order_release);
+  }
+  entry.generation.store(generation, std::memory_order_release);
+  return true;
+}
+
+void clear(int slot) noexcept {
+  prepare_write(slot, none, {});
+}
+
+void prepare_terminal(int descriptor, const termios& settings) noexcept {
+  terminal.descriptor.store(none, std::memory_order_release);
+  terminal.settings = settings;
+  terminal.descriptor.store(descriptor, std::memory_order_release);
+}
+
+void clear_terminal() noexcept {
+  terminal.descriptor.store(none, std::memory_order_release);
+}
+
+int fire() noexcept {
+  const int written = write_prepared();
+  restore_terminal();
+  return written;
+}
+
+void set_stepped(const char* unit) noexcept {
+  stepped = unit;
+}
+
+AlternateStack::AlternateStack(std::span<std::byte> memory) noexcept {
+  stack_t stack{};
+  stack.ss_sp = memory.data();
+  stack.ss_size = memory.size();
+  stack_t outer{};
+  sigaltstack(&stack, &outer);
+  outer_ = outer.ss_sp;
+  outer_size_ = outer.ss_size;
+  outer_flags_ = outer.ss_flags;
+}
+
+AlternateStack::~AlternateStack() {
+  // A sanitizer's thread frees the stack that is set when the thread ends: it must be its own again.
+  stack_t outer{};
+  outer.ss_sp = outer_;
+  outer.ss_size = outer_size_;
+  outer.ss_flags = outer_flags_;
+  sigaltstack(&outer, nullptr);
+}
+
+}  // namespace flexrf::last_gasp
