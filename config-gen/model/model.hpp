@@ -261,6 +261,7 @@ struct Slot {
   std::size_t reader_count = 0;  // sum of `readers` over all of them: the Readers of Slot<T, Readers, Loans>
   std::size_t loans = 1;
   bool observe = true;
+  bool for_panel = false;  // observe = true is written: that no unit reads it is meant
   bool wall = false;
   std::size_t history = 0;       // entries, 0: none
   std::vector<Index> doorbells;  // threads that its publication releases

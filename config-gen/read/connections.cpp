@@ -276,6 +276,7 @@ void read_slot_row(Assembly& assembly, const FlatRow& flat) {
     Slot& slot = assembly.model.slots[index];
     slot.position = flat.node->key_position;
     slot.observe = observe.value_or(true);
+    slot.for_panel = observe.value_or(false);
     slot.wall = wall.value_or(false);
     slot.history = static_cast<std::size_t>(history.value_or(0));
     slot.summary = summary.value_or("");

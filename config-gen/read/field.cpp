@@ -234,7 +234,7 @@ std::vector<const Node*> named_rows(Library& library, const Node& root, std::str
           "write rows as " + header);
       continue;
     }
-    check_name(row, what, diagnostics);
+    check_name(row, what, kind == "thread", diagnostics);
     rows.push_back(&row);
   }
   return rows;

@@ -46,6 +46,12 @@ Library::Library(Model& model, SearchPaths paths, Diagnostics& diagnostics)
     : model_(model), paths_(std::move(paths)), diagnostics_(diagnostics) {
   for (auto* folders : {&paths_.types, &paths_.units, &paths_.interfaces, &paths_.drivers})
     remove_repeated(*folders);
+  // Types that belong to one unit or interface lie beside it.
+  for (const auto& folders : {paths_.units, paths_.interfaces})
+    for (const fs::path& folder : folders)
+      for (const fs::path& inner : sorted_folders(folder))
+        if (fs::is_directory(inner / "types")) paths_.types.push_back(inner / "types");
+  remove_repeated(paths_.types);
   find_types();
   find_tables(paths_.units, units_, "unit", false);
   find_tables(paths_.interfaces, interfaces_, "interface", true);

@@ -26,6 +26,9 @@ void read_application(Library& library, const std::filesystem::path& file) {
   application.summary = row.summary();
   application.memory_budget = row.size("memory_budget");
   application.memory_budget_position = row.position("memory_budget");
+  if (!row.has("memory_budget"))
+    row.missing("memory_budget",
+                "add memory_budget = \"8 MiB\": what slots, queues, stacks and parameters may take");
   application.autostart = row.boolean("autostart").value_or(false);
   application.stop_timeout = row.positive_duration("stop_timeout").value_or(application.stop_timeout);
   application.finish_timeout = row.positive_duration("finish_timeout").value_or(application.finish_timeout);

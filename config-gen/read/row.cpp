@@ -157,8 +157,8 @@ void Row::wrong_kind(const Node& value, std::string_view key, std::string_view e
                      std::string(hint));
 }
 
-bool check_name(const Node& row, std::string_view what, Diagnostics& diagnostics) {
-  if (is_keyword(row.key)) {
+bool check_name(const Node& row, std::string_view what, bool only_text, Diagnostics& diagnostics) {
+  if (!only_text && is_keyword(row.key)) {
     diagnostics.error(row.key_position,
                       std::string(what) + " cannot be named " + quote(row.key) + ": it is a word of C++",
                       "choose another name, as " + quote(row.key + "_value"));

@@ -59,6 +59,7 @@ class Row {
 };
 
 // One sentence for every kind of bad name; false when reported. `what` is as "a unit".
-bool check_name(const Node& row, std::string_view what, Diagnostics& diagnostics);
+// Words of C++ are refused, unless the name stays a text in what is generated.
+bool check_name(const Node& row, std::string_view what, bool only_text, Diagnostics& diagnostics);
 
 }  // namespace flexrf::config_gen

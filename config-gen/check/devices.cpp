@@ -1,0 +1,178 @@
+// Devices: owners, buses, IO threads, drivers.
+#include <algorithm>
+#include <map>
+
+#include "config-gen/check/checks.hpp"
+#include "config-gen/model/words.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+struct Owner {
+  Index unit = 0;
+  Index port = 0;
+};
+
+std::map<Index, std::vector<Owner>> owners_by_device(const Model& model) {
+  std::map<Index, std::vector<Owner>> owners;
+  for (Index unit = 0; unit < model.units.size(); ++unit) {
+    if (model.units[unit].member > 0) continue;  // a population that owns a device was reported as such
+    for (Index port = 0; port < model.units[unit].devices.size(); ++port)
+      if (const auto device = model.units[unit].devices[port]) owners[*device].push_back({unit, port});
+  }
+  return owners;
+}
+
+void check_owners(const Model& model, const Device& device, const std::vector<Owner>& owners,
+                  Diagnostics& diagnostics) {
+  const Interface& interface = model.interfaces[device.interface];
+  for (const Owner& owner : owners) {
+    const Unit& unit = model.units[owner.unit];
+    const DevicePort& port = model.unit_types[unit.type].devices[owner.port];
+    const InInstance instance(diagnostics, model, unit.name);
+    if (port.interface != device.interface)
+      diagnostics.error(unit.position,
+                        "device " + quote(port.name) + " of unit " + quote(unit.name) + " must be a " +
+                            model.interfaces[port.interface].class_name + ", but " + quote(device.name) +
+                            " is a " + interface.class_name,
+                        "the device is declared at " + to_string(device.position) + ", the unit's port at " +
+                            to_string(port.position));
+    if (&owner != &owners.front())
+      diagnostics.error(
+          unit.position,
+          "device " + quote(device.name) + " has two owners: units " +
+              quote(model.units[owners.front().unit].name) + " and " + quote(unit.name),
+          "one unit owns a device, and others ask it through slots and queues; the first owner is at " +
+              to_string(model.units[owners.front().unit].position));
+  }
+  const InInstance instance(diagnostics, model, device.name);
+  if (owners.empty() && !device.io_thread && !interface.bus)
+    diagnostics.error(device.position, "device " + quote(device.name) + " has no owner",
+                      interface.outputs.empty()
+                          ? "give it to a unit, as device.NAME = \"" + device.name + "\""
+                          : "give it to a unit, as device.NAME = \"" + device.name +
+                                "\", or let it publish by itself with io_thread = true");
+  if (!owners.empty() && device.io_thread && !interface.bus)
+    diagnostics.error(device.position,
+                      "device " + quote(device.name) + " has an IO thread and is owned by unit " +
+                          quote(model.units[owners.front().unit].name),
+                      "remove io_thread and let the unit's thread serve it, or remove it from the unit at " +
+                          to_string(model.units[owners.front().unit].position) + " and read its outputs");
+  if (interface.bus && device.children.empty() && owners.empty())
+    diagnostics.error(device.position, "bus " + quote(device.name) + " carries nothing",
+                      "put a device on it, as on = \"" + device.name + "\", or remove it");
+}
+
+void check_io_thread(const Model& model, const Device& device, Diagnostics& diagnostics) {
+  const Interface& interface = model.interfaces[device.interface];
+  if (!device.io_thread) {
+    for (std::size_t port = 0; port < device.outputs.size(); ++port)
+      if (device.outputs[port].position)
+        diagnostics.error(device.outputs[port].position,
+                          "device " + quote(device.name) + " publishes " +
+                              quote(interface.outputs[port].name) + " only with an IO thread",
+                          "add io_thread = true, or let the unit that owns it publish");
+  } else if (interface.outputs.empty() && !interface.bus) {
+    diagnostics.error(model.threads[*device.io_thread].position,
+                      "device " + quote(device.name) + " needs no IO thread: " + interface.class_name +
+                          " publishes nothing",
+                      "remove io_thread, and give the device to a unit");
+  }
+}
+
+void check_drivers(const Model& model, const Device& device, Diagnostics& diagnostics) {
+  for (const DriverChoice& choice : device.drivers) {
+    const Driver& driver = model.drivers[choice.driver];
+    if (driver.waits && !device.io_thread)
+      diagnostics.error(device.position,
+                        "driver " + quote(driver.name) + " of device " + quote(device.name) +
+                            " waits, and the device has no IO thread",
+                        "add io_thread = true, or choose a driver that does not wait");
+    if (driver.bus_interface && !device.partial) {
+      const std::string& bus = model.interfaces[*driver.bus_interface].class_name;
+      if (!device.bus)
+        diagnostics.error(
+            device.position,
+            "driver " + quote(driver.name) + " of device " + quote(device.name) + " needs a bus",
+            "add on = \"NAME\", a device with the interface " + bus);
+      else if (model.devices[*device.bus].interface != *driver.bus_interface)
+        diagnostics.error(device.position,
+                          "driver " + quote(driver.name) + " of device " + quote(device.name) + " needs a " +
+                              bus + ", but " + quote(model.devices[*device.bus].name) + " is a " +
+                              model.interfaces[model.devices[*device.bus].interface].class_name,
+                          "put it on a bus of that kind; the bus is declared at " +
+                              to_string(model.devices[*device.bus].position));
+    }
+  }
+}
+
+// Without an IO thread a bus is served by the one thread in which all live that are on it.
+void check_bus_threads(const Model& model, const Device& bus, Diagnostics& diagnostics) {
+  if (bus.io_thread || bus.children.empty()) return;
+  const Device* first = nullptr;
+  for (const Index index : bus.children) {
+    const Device& child = model.devices[index];
+    if (!child.thread) continue;
+    if (first == nullptr) first = &child;
+    if (child.thread == first->thread) continue;
+    diagnostics.error(
+        child.position,
+        "devices " + quote(first->name) + " and " + quote(child.name) + " on bus " + quote(bus.name) +
+            " are in different threads: " + quote(model.threads[*first->thread].name) + " and " +
+            quote(model.threads[*child.thread].name),
+        "put their units into one thread, or give the bus an IO thread with io_thread = true at " +
+            to_string(bus.position));
+  }
+}
+
+void check_restart(const Model& model, const Unit& unit, Diagnostics& diagnostics) {
+  if (unit.restart == Unit::Restart::never) return;
+  for (const auto& index : unit.devices) {
+    if (!index) continue;
+    const Device& device = model.devices[*index];
+    for (const DriverChoice& choice : device.drivers) {
+      const Driver& driver = model.drivers[choice.driver];
+      if (driver.kind != Driver::Kind::real || !driver.actuates) continue;
+      const InInstance instance(diagnostics, model, unit.name);
+      diagnostics.error(unit.position,
+                        "unit " + quote(unit.name) + " must not restart by itself: its device " +
+                            quote(device.name) + " can be a real actuator (driver " + quote(driver.name) +
+                            ")",
+                        "remove 'restart': a person starts it again");
+      return;
+    }
+  }
+}
+
+void check_autostart(const Model& model, Diagnostics& diagnostics) {
+  if (!model.application->autostart) return;
+  for (const Device& device : model.devices)
+    for (const DriverChoice& choice : device.drivers) {
+      const Driver& driver = model.drivers[choice.driver];
+      if (driver.kind == Driver::Kind::real && driver.actuates)
+        diagnostics.warning(device.position,
+                            "with autostart, device " + quote(device.name) +
+                                " may move right after power-on (driver " + quote(driver.name) + ")",
+                            "remove autostart = true, so that a person gives the start");
+    }
+}
+
+}  // namespace
+
+void check_devices(const Model& model, Diagnostics& diagnostics) {
+  const auto owners = owners_by_device(model);
+  for (Index index = 0; index < model.devices.size(); ++index) {
+    const Device& device = model.devices[index];
+    const auto found = owners.find(index);
+    if (!device.partial)
+      check_owners(model, device, found != owners.end() ? found->second : std::vector<Owner>{}, diagnostics);
+    const InInstance instance(diagnostics, model, device.name);
+    check_io_thread(model, device, diagnostics);
+    check_drivers(model, device, diagnostics);
+    check_bus_threads(model, device, diagnostics);
+  }
+  for (const Unit& unit : model.units) check_restart(model, unit, diagnostics);
+  check_autostart(model, diagnostics);
+}
+
+}  // namespace flexrf::config_gen

@@ -1,0 +1,66 @@
+// Whether the threads of each CPU role meet their deadlines, judged by declared budgets. Each role is one CPU
+// here; at start the same is asked for the CPUs that the machine really gives it.
+#include <algorithm>
+#include <array>
+
+#include "config-gen/check/checks.hpp"
+#include "config-gen/check/response_time.hpp"
+#include "config-gen/model/words.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+constexpr std::array<const char*, 3> role_names{"control", "io", "any"};
+
+struct Member {
+  Index thread = 0;
+  Task task;
+};
+
+std::string load_text(const Model& model, const std::vector<Member>& members, const Member& late) {
+  std::vector<std::string> loads;
+  for (const Member& member : members) {
+    if (member.thread != late.thread && member.task.priority < late.task.priority) continue;
+    loads.push_back(quote(model.threads[member.thread].name) + " " + duration_text(member.task.demand) +
+                    " each " + duration_text(member.task.interval) + " at priority " +
+                    std::to_string(member.task.priority));
+  }
+  return join(loads, ", ");
+}
+
+}  // namespace
+
+void check_schedule(Model& model, Diagnostics& diagnostics) {
+  for (std::size_t role = 0; role < role_names.size(); ++role) {
+    std::vector<Member> members;
+    std::vector<Task> tasks;
+    for (Index index = 0; index < model.threads.size(); ++index) {
+      const Thread& thread = model.threads[index];
+      const Nanoseconds interval = interval_of(thread);
+      if (thread.priority == 0 || thread.partial || static_cast<std::size_t>(thread.role) != role ||
+          interval == 0 || thread.demand == 0)
+        continue;
+      const Task task{thread.priority, thread.demand, interval, 0,
+                      std::min(thread.deadline.value_or(interval), interval)};
+      members.push_back({index, task});
+      tasks.push_back(task);
+    }
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      Thread& thread = model.threads[members[i].thread];
+      constexpr std::int64_t patience = 100;  // deadlines, after which the queue is taken to grow without end
+      const auto response = response_time(tasks, i, patience * tasks[i].deadline);
+      thread.response_time = response;
+      if (response && *response <= tasks[i].deadline) continue;
+      const InInstance instance(diagnostics, model, thread.name);
+      diagnostics.error(
+          thread.position,
+          "thread " + quote(thread.name) + " can miss its deadline: response time " +
+              (response ? duration_text(*response) : "without bound") + ", deadline " +
+              duration_text(tasks[i].deadline),
+          std::string("role '") + role_names[role] + "' carries " + load_text(model, members, members[i]) +
+              " (by declared budgets): lower a budget, lengthen a period, or move a thread to another role");
+    }
+  }
+}
+
+}  // namespace flexrf::config_gen
