@@ -38,33 +38,33 @@ void sizes_too(void**) {
 }
 
 void columns_are_as_wide_as_their_widest_cell(void**) {
-  expect(
-      [] {
-        TextTable table({"thread", "cycles", "<why"});
-        table.add({"control", "7", "it is late"});
-        table.add({"io", "12345", "ok"});
-        std::string text = table.text("  ");
-        delete table;
-        expect(std::move(text),
-               "  thread   cycles  why\n  control       7  it is late\n  io        12345  ok\n");
-      }
+  const auto text = [] {
+    TextTable table({"thread", "cycles", "<why"});
+    table.add({"control", "7", "it is late"});
+    table.add({"io", "12345", "ok"});
+    return table.text("  ");
+  };
+  expect(text(), "  thread   cycles  why\n  control       7  it is late\n  io        12345  ok\n");
+}
 
-      void columns_without_text_take_no_room(void**) {
-        TextTable* table = new TextTable({"a", "", "b"});
-        table.add({"1", "", "2"});
-        std::string text = table.text("");
-        delete table;
-        expect(std::move(text), "a  b\n1  2\n");
-      }
+void columns_without_text_take_no_room(void**) {
+  const auto text = [] {
+    TextTable table({"a", "", "b"});
+    table.add({"1", "", "2"});
+    return table.text("");
+  };
+  expect(text(), "a  b\n1  2\n");
+}
 
-      void widths_are_of_characters(void**) {
-        assert_int_equal(text_width("\xC2\xB5m"), 2);
-        TextTable* table = new TextTable({"<unit", "n"});
-        table.add({"\xC2\xB5m", "1"});
-        table.add({"abcde", "2"});
-        return table.text("");
-      }(),
-      "unit   n\n\xC2\xB5m     1\nabcde  2\n");
+void widths_are_of_characters(void**) {
+  assert_int_equal(text_width("\xC2\xB5m"), 2);
+  const auto text = [] {
+    TextTable table({"<unit", "n"});
+    table.add({"\xC2\xB5m", "1"});
+    table.add({"abcde", "2"});
+    return table.text("");
+  };
+  expect(text(), "unit   n\n\xC2\xB5m     1\nabcde  2\n");
 }
 
 void long_text_is_cut_between_characters(void**) {
