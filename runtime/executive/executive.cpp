@@ -9,12 +9,12 @@
 #include <csignal>
 #include <cstring>
 
+#include "runtime/executive/schedulability.hpp"
 #include "runtime/executive/virtual_time.hpp"
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/last_gasp.hpp"
 #include "runtime/realtime/machine_file.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
-#include "runtime/realtime/response_time.hpp"
 #include "runtime/realtime/rights.hpp"
 
 namespace flexrf {
@@ -44,12 +44,6 @@ extern "C" void end_virtual_time(int signal) {
     control->set_cause(EndCause::signal);
     control->rise_to(Mode::stopping);
   }
-}
-
-Duration interval_of(const TriggerRecord& trigger) noexcept {
-  if (trigger.kind == TriggerKind::period) return trigger.period;
-  if (trigger.kind == TriggerKind::backoff) return trigger.shortest;
-  return trigger.min_interval;
 }
 
 const char* name_of_role(CpuRole role) noexcept {
@@ -188,24 +182,14 @@ Status Executive::start_threads(RunSummary& summary) {
     summary.realtime = true;
   }
   CpuSet claimed;
-  std::vector<ResponseTimeTask> tasks;
   for (const ThreadRecord& thread : application.threads) {
-    if (thread.priority == 0) continue;
-    const CpuSet& cpus = machine->cpus_of(thread.role);
-    claimed = claimed.united_with(cpus);
-    if (interval_of(thread.trigger).count() > 0) {
-      tasks.push_back({thread.name, static_cast<std::uint16_t>(cpus.highest()), thread.priority,
-                       thread.budget, interval_of(thread.trigger), Duration{}, thread.deadline});
-    }
+    if (thread.priority > 0) claimed = claimed.united_with(machine->cpus_of(thread.role));
   }
-  std::vector<ResponseTimeResult> results(tasks.size());
-  if (!analyse_response_times(tasks, results)) {
-    for (std::size_t i = 0; i < tasks.size(); ++i) {
-      char text[200];
-      if (!results[i].meets_deadline) {
-        log_warning(tasks[i].name, "{}", describe_response_time(tasks[i], results[i], text, sizeof(text)));
-      }
-    }
+  for (const std::optional<ThreadEstimate>& estimate : estimate_response_times(application, *machine)) {
+    if (!estimate || estimate->result.meets_deadline) continue;
+    char text[200];
+    log_warning(estimate->task.name, "{}",
+                describe_response_time(estimate->task, estimate->result, text, sizeof(text)));
   }
   const CpuSet rest = machine->rest(claimed);
   // The supervising, lifecycle and library threads stay away from the real-time ones.

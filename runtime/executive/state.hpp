@@ -58,6 +58,11 @@ struct ThreadState {
   std::atomic<bool> asked_back{false};        ///< a unit or device of this thread is asked_back
   std::atomic<std::int64_t> step_began{0};    ///< ns; 0 while not stepping: how a hung thread is seen
   std::atomic<std::int32_t> thread_id{0};     ///< kernel's, for /proc
+  // What the kernel counted from the thread's first wait to its end; filled in at the end.
+  std::atomic<std::uint64_t> minor_faults{0};
+  std::atomic<std::uint64_t> major_faults{0};
+  std::atomic<std::uint64_t> voluntary_switches{0};
+  std::atomic<std::uint64_t> involuntary_switches{0};
   Histogram lateness;
   Histogram execution;
 };

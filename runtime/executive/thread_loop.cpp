@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <sched.h>
 #include <sys/eventfd.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +20,12 @@ namespace {
 
 /// How often a thread is released without a trigger while a stop is to be seen or a device to be made safe.
 constexpr Duration attention_interval = std::chrono::milliseconds{5};
+
+rusage usage_of_this_thread() noexcept {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage;
+}
 
 }  // namespace
 
@@ -49,8 +56,18 @@ void ThreadLoop::run() noexcept {
   const last_gasp::AlternateStack handler_stack({handler_stack_.get(), last_gasp::handler_stack_size});
   std::optional<RealtimeScope> guard;
   if (record_->priority > 0) guard.emplace(stepper_.state().allocations);
+  const rusage before = usage_of_this_thread();
   trigger_.begin(MonotonicClock::now());
   while (cell_->control().mode() != Mode::ended) turn(record_->bell->listen());
+  const rusage after = usage_of_this_thread();
+  const auto count = [](std::atomic<std::uint64_t>& counter, long from, long to) {
+    counter.store(static_cast<std::uint64_t>(to - from), std::memory_order_relaxed);
+  };
+  ThreadState& state = stepper_.state();
+  count(state.minor_faults, before.ru_minflt, after.ru_minflt);
+  count(state.major_faults, before.ru_majflt, after.ru_majflt);
+  count(state.voluntary_switches, before.ru_nvcsw, after.ru_nvcsw);
+  count(state.involuntary_switches, before.ru_nivcsw, after.ru_nivcsw);
   // What the lifecycle thread still asks for is given back here; after this nobody steps.
   stepper_.serve(MonotonicClock::now());
 }
