@@ -1,0 +1,139 @@
+#include "hal/interfaces/keyboard/conformance/keyboard_conformance.hpp"
+
+#include <algorithm>
+
+#include "tests/cmocka.hpp"
+
+namespace flexrf {
+namespace {
+
+// Cycles after which what was pressed must have arrived; drivers that wait on a clock are given its time by
+// their worlds.
+constexpr int patience = 100;
+
+MakeKeyboardWorld make_world = nullptr;
+
+enum class Verdict { passed, failed, skipped };
+Verdict verdict(bool good) {
+  return good ? Verdict::passed : Verdict::failed;
+}
+
+// Each case runs in here, so that a failing assertion jumps over no destructor.
+void judge(Verdict (*run)(KeyboardWorld&)) {
+  Verdict result = Verdict::failed;
+  {
+    const std::unique_ptr<KeyboardWorld> world = make_world();
+    result = run(*world);
+  }
+  if (result == Verdict::skipped) skip();
+  assert_true(result == Verdict::passed);
+}
+
+bool same(const KeyEvent& a, const KeyEvent& b) {
+  return a.key == b.key && a.character == b.character;
+}
+
+std::vector<KeyEvent> letters(std::size_t count) {
+  std::vector<KeyEvent> events;
+  for (std::size_t i = 0; i < count; ++i)
+    events.push_back({Key::character, static_cast<std::uint32_t>('a' + i % 26)});
+  return events;
+}
+
+bool equal(const std::vector<KeyEvent>& a, const std::vector<KeyEvent>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
+// Reads until `count` keys came or patience ends.
+std::vector<KeyEvent> read(KeyboardWorld& world, std::size_t count) {
+  std::vector<KeyEvent> events;
+  for (int cycle = 0; cycle < patience && events.size() < count; ++cycle) {
+    world.receive();
+    while (const auto event = world.keyboard().read()) events.push_back(*event);
+  }
+  return events;
+}
+
+Verdict nothing_is_pressed_nothing_is_read(KeyboardWorld& world) {
+  world.will_press({}, false);
+  if (!world.start({})) return Verdict::failed;
+  return verdict(read(world, 1).empty());
+}
+
+Verdict each_press_is_read_once_in_order(KeyboardWorld& world) {
+  const std::vector<KeyEvent> pressed = letters(40);
+  world.will_press(pressed, false);
+  if (!world.start({})) return Verdict::failed;
+  const std::vector<KeyEvent> got = read(world, pressed.size());
+  return verdict(equal(got, pressed) && read(world, 1).empty());
+}
+
+Verdict arrows_are_keys(KeyboardWorld& world) {
+  if (!world.has_arrows()) return Verdict::skipped;
+  const std::vector<KeyEvent> pressed = {{Key::up, 0}, {Key::down, 0}, {Key::left, 0}, {Key::right, 0}};
+  world.will_press(pressed, true);
+  if (!world.start({})) return Verdict::failed;
+  return verdict(equal(read(world, pressed.size()), pressed));
+}
+
+Verdict closes_after_its_last_key(KeyboardWorld& world) {
+  const std::vector<KeyEvent> pressed = letters(3);
+  world.will_press(pressed, true);
+  if (!world.start({})) return Verdict::failed;
+  std::size_t got = 0;
+  for (int cycle = 0; cycle < patience && !world.keyboard().is_closed(); ++cycle) {
+    world.receive();
+    if (world.keyboard().read()) ++got;
+  }
+  return verdict(got == pressed.size() && world.keyboard().is_closed() && !world.keyboard().read());
+}
+
+Verdict stays_open_while_keys_may_come(KeyboardWorld& world) {
+  world.will_press(letters(3), true);
+  if (!world.start({})) return Verdict::failed;
+  for (int got = 0, cycle = 0; got < 2 && cycle < patience; ++cycle) {
+    world.receive();
+    if (got < 2 && world.keyboard().read()) ++got;
+  }
+  return verdict(!world.keyboard().is_closed());
+}
+
+// The reader takes one key in a cycle: the queue is full nearly always, and none may be lost.
+Verdict a_full_queue_loses_nothing(KeyboardWorld& world) {
+  const std::vector<KeyEvent> pressed = letters(40);
+  world.will_press(pressed, true);
+  QueueBench<KeyEvent, 4> queue;
+  if (!world.start(queue.sinks())) return Verdict::failed;
+  std::vector<KeyEvent> got;
+  for (int cycle = 0; cycle < patience && got.size() < pressed.size(); ++cycle) {
+    world.receive();
+    if (got.size() + 4 < pressed.size() && world.keyboard().is_closed()) return Verdict::failed;
+    if (const auto event = queue.pop()) got.push_back(*event);
+  }
+  world.receive();
+  return verdict(equal(got, pressed) && queue.ring().counters().dropped == 0 && world.keyboard().is_closed());
+}
+
+template <Verdict (*Run)(KeyboardWorld&)>
+void judged(void**) {
+  judge(Run);
+}
+
+}  // namespace
+
+int run_keyboard_conformance(const char* driver, MakeKeyboardWorld make) {
+  make_world = make;
+  const CMUnitTest tests[] = {
+      {"nothing is pressed, nothing is read", judged<nothing_is_pressed_nothing_is_read>, nullptr, nullptr,
+       nullptr},
+      {"each press is read once, in order", judged<each_press_is_read_once_in_order>, nullptr, nullptr,
+       nullptr},
+      {"arrows are keys", judged<arrows_are_keys>, nullptr, nullptr, nullptr},
+      {"closes after its last key", judged<closes_after_its_last_key>, nullptr, nullptr, nullptr},
+      {"stays open while keys may come", judged<stays_open_while_keys_may_come>, nullptr, nullptr, nullptr},
+      {"a full queue loses nothing", judged<a_full_queue_loses_nothing>, nullptr, nullptr, nullptr},
+  };
+  return cmocka_run_group_tests_name(driver, tests, nullptr, nullptr);
+}
+
+}  // namespace flexrf
