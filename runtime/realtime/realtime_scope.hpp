@@ -9,20 +9,14 @@ namespace flexrf {
 /// How often a thread allocated or freed in a RealtimeScope. Written by that thread, read by any.
 using AllocationCounter = std::atomic<std::uint64_t>;
 
-namespace detail {
-// Initial-exec: reading it never allocates, not even for the first time in a thread.
-extern constinit thread_local AllocationCounter* allocation_counter [[gnu::tls_model("initial-exec")]];
-}  // namespace detail
-
 /// While it lives, its thread may neither allocate nor free: the checked build aborts with a backtrace,
 /// others count into `counter`. Scopes nest; the innermost counts. Without the guard's object in the
 /// executable (FlexRF::allocation_guard; never under sanitizers) it has no effect.
 class RealtimeScope {
  public:
-  explicit RealtimeScope(AllocationCounter& counter) noexcept : outer_(detail::allocation_counter) {
-    detail::allocation_counter = &counter;
-  }
-  ~RealtimeScope() { detail::allocation_counter = outer_; }
+  // Not inline: a compiler takes malloc not to look at any variable, and would drop what is set before it.
+  explicit RealtimeScope(AllocationCounter& counter) noexcept;
+  ~RealtimeScope();
   RealtimeScope(const RealtimeScope&) = delete;
   RealtimeScope& operator=(const RealtimeScope&) = delete;
 
@@ -33,8 +27,8 @@ class RealtimeScope {
 /// While it lives, its thread may allocate again, for a stretch in which it is known not to matter.
 class AllocationAllowed {
  public:
-  AllocationAllowed() noexcept : outer_(detail::allocation_counter) { detail::allocation_counter = nullptr; }
-  ~AllocationAllowed() { detail::allocation_counter = outer_; }
+  AllocationAllowed() noexcept;
+  ~AllocationAllowed();
   AllocationAllowed(const AllocationAllowed&) = delete;
   AllocationAllowed& operator=(const AllocationAllowed&) = delete;
 
@@ -46,5 +40,12 @@ class AllocationAllowed {
 bool has_allocation_guard() noexcept;
 /// Loads what the guard's backtrace needs, so that it is there when the guard fires. At start, any thread.
 void prepare_allocation_guard() noexcept;
+
+// ---- for the guard
+
+namespace detail {
+// Initial-exec: reading it never allocates, not even for the first time in a thread.
+extern constinit thread_local AllocationCounter* allocation_counter [[gnu::tls_model("initial-exec")]];
+}  // namespace detail
 
 }  // namespace flexrf
