@@ -52,6 +52,15 @@ bool ArmModel::is_at_rest() const {
   return velocity_.isZero(0);
 }
 
+double ArmModel::approach_velocity(double distance, const ChainJoint& joint) const {
+  // Far off, the velocity that can just be braked; near, the servo's exponential. They meet where the
+  // exponential begins to brake with less than the joint's acceleration.
+  const double lag = std::max(lag_, 2 * step_seconds);
+  const double near = joint.acceleration * lag * lag;
+  if (distance <= near) return distance / lag;
+  return std::sqrt(2 * joint.acceleration * (distance - near / 2));
+}
+
 void ArmModel::step() {
   for (std::size_t i = 0; i < chain_->joint_count; ++i) {
     const auto index = static_cast<Eigen::Index>(i);
@@ -66,10 +75,8 @@ void ArmModel::step() {
     if (!holding_) {
       const double difference = command_[index] - position;
       if (difference == 0 && velocity == 0) continue;
-      // Not faster than what can still be braked within the difference: else the limited servo overshoots.
-      const double brakable = std::sqrt(2 * joint.acceleration * std::abs(difference));
-      const double most = std::min(joint.velocity, brakable);
-      wanted = std::clamp(difference / std::max(lag_, step_seconds), -most, most);
+      wanted =
+          std::copysign(std::min(joint.velocity, approach_velocity(std::abs(difference), joint)), difference);
     }
     const double change = joint.acceleration * step_seconds;
     velocity += std::clamp(wanted - velocity, -change, change);

@@ -33,6 +33,7 @@ class ArmModel {
 
  private:
   void step();
+  double approach_velocity(double distance, const ChainJoint& joint) const;
 
   const KinematicChain* chain_ = nullptr;
   double lag_ = 0.01;
