@@ -6,19 +6,26 @@ mkdir -p "$tree/build/release/config-gen"
 cat >"$tree/build/release/config-gen/config-gen" <<'BODY'
 #!/bin/bash
 echo "config-gen $*"
-[[ ! -e ${!#}/broken ]]
+! grep -q broken "$2"
 BODY
 chmod +x "$tree/build/release/config-gen/config-gen"
 
-flexrf check keyboard </dev/null
+flexrf check keyboard-single </dev/null
 expect "exit code" "$status" 0
-expect "folder of a name" "$output" "config-gen check $tree/apps/keyboard"
+expect "table of a name" "$output" \
+  "config-gen --application $tree/apps/keyboard-single/keyboard_single.toml --check-only --types $tree/runtime/types *"
 expect "target" "$(grep ^ninja "$calls")" "ninja -C $tree/build/release config-gen"
+expect "message" "$errors" "*no error in *"
 
-mkdir "$work/mine" && touch "$work/mine/broken"
+mkdir "$work/mine"
 flexrf check "$work/mine" </dev/null
+expect "exit code of an empty folder" "$status" 1
+expect "message of an empty folder" "$errors" "*mine.toml is missing"
+
+echo broken >"$work/mine/mine.toml"
+flexrf check "$work/mine/" </dev/null
 expect "exit code of broken tables" "$status" 1
-expect "folder" "$output" "config-gen check $work/mine"
+expect "table of a folder" "$output" "config-gen --application $work/mine/mine.toml *"
 
 flexrf check </dev/null
 expect "exit code without a folder" "$status" 1
