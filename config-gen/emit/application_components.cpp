@@ -1,0 +1,244 @@
+// Devices and units of a generated application: storage, initial values, connections, records.
+#include "config-gen/emit/application_parts.hpp"
+#include "config-gen/emit/component.hpp"
+#include "config-gen/urdf/urdf_chain.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+std::string index_or_none(const std::optional<Index>& index) {
+  return index ? std::to_string(*index) : "no_index";
+}
+
+std::string slot_or_null(const ApplicationNames& names, const std::optional<Index>& slot) {
+  return slot ? "&slot_" + names.slot(*slot) : "nullptr";
+}
+
+// The initial values of one block, as a constant; "nullptr" when the block has no parameters.
+std::string emit_values(
+    const Model& model, const std::string& type, const std::string& name,
+    const std::vector<std::pair<const ParameterBlock*, const std::vector<Literal>*>>& parts, Text& out) {
+  std::string list;
+  for (const auto& [block, values] : parts) {
+    for (std::size_t i = 0; i < block->parameters.size(); ++i) {
+      const Literal& value = i < values->size() ? (*values)[i] : block->parameters[i].initial;
+      list += (list.empty() ? "" : ", ") + cpp_value(model, block->parameters[i].field, value);
+    }
+  }
+  if (list.empty()) return "nullptr";
+  out << "constexpr " << type << " " << name << "{" << list << "};\n";
+  return "&" + name;
+}
+
+// Connections of outputs, in the order of the table, slots and queues apart.
+struct OutputsText {
+  std::string slots;   // initialisers of SlotControl*
+  std::string queues;  // initialisers of span<QueueSink* const>
+};
+
+OutputsText emit_outputs(const ApplicationNames& names, const std::vector<OutputPort>& ports,
+                         const std::vector<OutputConnection>& connections, Writer::Kind kind, Index owner,
+                         const std::string& prefix, Text& out) {
+  OutputsText text;
+  for (Index port = 0; port < ports.size(); ++port) {
+    if (!ports[port].queue) {
+      text.slots += (text.slots.empty() ? "" : ", ") + slot_or_null(names, connections[port].slot);
+      continue;
+    }
+    const std::string sinks = names.sinks_of(connections[port], kind, owner, port);
+    const std::string name = prefix + "_" + std::to_string(port) + "_sinks";
+    emit_array("QueueSink* const", name, sinks, out);
+    text.queues += (text.queues.empty() ? "" : ", ") + array_or_none(name, sinks);
+  }
+  emit_array("SlotControl* const", prefix + "_outputs", text.slots, out);
+  emit_array("constexpr std::span<QueueSink* const>", prefix + "_queue_outputs", text.queues, out);
+  return text;
+}
+
+std::string emit_resources(const Model& model, const Device& device, const std::string& prefix,
+                           Diagnostics& diagnostics, Text& out) {
+  std::string list;
+  for (const DeviceResource& resource : device.resources) {
+    const UrdfResult urdf = read_urdf(resource.file);
+    for (const UrdfError& error : urdf.errors) {
+      diagnostics.error({intern(error.file), static_cast<std::uint32_t>(error.line),
+                         static_cast<std::uint32_t>(error.column)},
+                        error.message, error.hint);
+    }
+    if (!urdf.chain) continue;
+    const std::string& name = model.interfaces[device.interface].resources[resource.resource].name;
+    out << "constexpr KinematicChain " << prefix << "_" << name
+        << "_resource = " << emit_kinematic_chain(*urdf.chain) << ";\n";
+    list += (list.empty() ? "&" : ", &") + prefix + "_" + name + "_resource";
+  }
+  emit_array("constexpr const void*", prefix + "_resources", list, out);
+  return array_or_none(prefix + "_resources", list);
+}
+
+std::string emit_drivers(const Model& model, const Device& device, const std::string& prefix, Text& out) {
+  const Interface& interface = model.interfaces[device.interface];
+  Text records;
+  const std::string runtime = emit_values(model, block_struct_name(interface.class_name, "Runtime"),
+                                          prefix + "_runtime", {{&interface.runtime, &device.runtime}}, out);
+  for (const DriverChoice& choice : device.drivers) {
+    const Driver& driver = model.drivers[choice.driver];
+    const std::string configuration = emit_values(
+        model, block_struct_name(driver.class_name, "Configuration"),
+        prefix + "_" + driver.stem + "_configuration",
+        {{&interface.configuration, &device.configuration}, {&driver.configuration, &choice.configuration}},
+        out);
+    const char* kind = driver.kind == Driver::Kind::mock        ? "mock"
+                       : driver.kind == Driver::Kind::simulated ? "simulated"
+                                                                : "real";
+    records << "    {\"" << driver.name << "\", DriverKind::" << kind << ", " << bool_literal(driver.actuates)
+            << ", " << bool_literal(driver.virtual_time) << ", sizeof(" << driver.class_name << "), &"
+            << driver_construct_name(driver) << ", &" << driver_component_name(driver) << ", "
+            << configuration << ", " << runtime << "},\n";
+  }
+  out << "constexpr DriverRecord " << prefix << "_drivers[] = {\n" << records.str() << "};\n";
+  return prefix + "_drivers";
+}
+
+// The members of a range and their readers, or the one reader of a plain input.
+std::string input_binding(const Model& model, const ApplicationNames& names, Index index, Index port,
+                          const std::string& prefix, Text& out) {
+  const Unit& unit = model.units[index];
+  const InputPort& input = model.unit_types[unit.type].inputs[port];
+  const std::vector<Index>& slots = unit.inputs[port].slots;
+  if (slots.empty()) return "{}";
+  std::string members = "nullptr";
+  if (input.range) {
+    members = prefix + "_" + std::to_string(port) + "_members";
+    out << "alignas(cache_line) constinit Input<" << model.types[input.type].name << "> " << members << "["
+        << slots.size() << "]{};\n";
+  }
+  return "{" + names.reader_of(index, port) + ", " + std::to_string(slots.size()) + ", " +
+         duration_literal(input.max_age.value_or(0)) + ", " + members + "}";
+}
+
+std::string emit_binding(const Model& model, const ApplicationNames& names, Index index,
+                         const std::string& prefix, Text& out) {
+  const Unit& unit = model.units[index];
+  const UnitType& type = model.unit_types[unit.type];
+  std::string inputs, queue_inputs;
+  for (Index port = 0; port < type.inputs.size(); ++port) {
+    if (type.inputs[port].queue) {
+      const std::optional<Index>& queue = unit.inputs[port].queue;
+      queue_inputs += (queue_inputs.empty() ? "" : ", ") + (queue ? names.source(*queue) : "nullptr");
+    } else {
+      inputs += (inputs.empty() ? "" : ", ") + input_binding(model, names, index, port, prefix, out);
+    }
+  }
+  const std::string devices = list_of(unit.devices, [](const std::optional<Index>& device) {
+    return "&constructed_devices[" + std::to_string(device.value_or(0)) + "]";
+  });
+  emit_array("constexpr InputBinding", prefix + "_inputs", inputs, out);
+  emit_array("QueueSource* const", prefix + "_queue_inputs", queue_inputs, out);
+  const OutputsText outputs =
+      emit_outputs(names, type.outputs, unit.outputs, Writer::Kind::unit_output, index, prefix, out);
+  emit_array("constexpr Device* const*", prefix + "_devices", devices, out);
+  return "{&context_" + names.thread(unit.thread.value_or(0)) + ", " +
+         array_or_none(prefix + "_inputs", inputs) + ", " +
+         array_or_none(prefix + "_outputs", outputs.slots) + ", " +
+         array_or_none(prefix + "_queue_inputs", queue_inputs) + ", " +
+         array_or_none(prefix + "_queue_outputs", outputs.queues) + ", " +
+         array_or_none(prefix + "_devices", devices) + "}";
+}
+
+const char* restart_policy(Unit::Restart restart) {
+  switch (restart) {
+    case Unit::Restart::never:
+      return "never";
+    case Unit::Restart::once:
+      return "once";
+    case Unit::Restart::always:
+      break;
+  }
+  return "always";
+}
+
+}  // namespace
+
+void emit_devices(const Model& model, const ApplicationNames& names, Diagnostics& diagnostics, Text& out,
+                  std::vector<std::string>& sizes) {
+  if (model.devices.empty()) return;
+  out << "\n// ---- Devices: room for the largest of their drivers\n\nconstinit Device* constructed_devices["
+      << model.devices.size() << "]{};\n";
+  Text records;
+  for (Index i = 0; i < model.devices.size(); ++i) {
+    const Device& device = model.devices[i];
+    const Interface& interface = model.interfaces[device.interface];
+    const std::string prefix = "device_" + names.device(i);
+    const auto each_driver = [&](const char* before) {
+      return list_of(device.drivers, [&](const DriverChoice& choice) {
+        return before + model.drivers[choice.driver].class_name + ")";
+      });
+    };
+    out << "\nalignas(cache_line) std::byte " << prefix << "[std::max({" << each_driver("sizeof(")
+        << "})];\n";
+    sizes.push_back("sizeof(" + prefix + ")");
+    const OutputsText outputs =
+        emit_outputs(names, interface.outputs, device.outputs, Writer::Kind::device_output, i, prefix, out);
+    const std::string resources = emit_resources(model, device, prefix, diagnostics, out);
+    const std::string drivers = emit_drivers(model, device, prefix, out);
+    records << "    {.name = \"" << device.name
+            << "\",\n     .summary = " << string_literal(interface.summary) << ",\n     .interface = \""
+            << interface.class_name << "\",\n     .drivers = " << drivers << ",\n     .storage = " << prefix
+            << ",\n     .storage_size = sizeof(" << prefix << "),\n     .instance = &constructed_devices["
+            << i << "],\n     .binding = {&context_" << names.thread(device.thread.value_or(0)) << ", "
+            << array_or_none(prefix + "_outputs", outputs.slots) << ", "
+            << array_or_none(prefix + "_queue_outputs", outputs.queues) << ", " << resources
+            << ", nullptr},\n     .bus = " << index_or_none(device.bus)
+            << ",\n     .thread = " << index_or_none(device.thread)
+            << ",\n     .unit = " << index_or_none(device.owner_unit)
+            << ",\n     .runtime_slot = " << slot_or_null(names, device.values_slot)
+            << ",\n     .feedback_slot = " << slot_or_null(names, device.feedback_slot)
+            << ",\n     .initialise_timeout = " << duration_literal(device.initialise_timeout) << "},\n";
+  }
+  out << "\nconstexpr DeviceRecord devices_table[] = {\n" << records.str() << "};\n";
+}
+
+void emit_units(const Model& model, const ApplicationNames& names, Text& out,
+                std::vector<std::string>& sizes) {
+  if (model.units.empty()) return;
+  out << "\n// ---- Units: storage, initial values, connections\n";
+  Text records;
+  for (Index i = 0; i < model.units.size(); ++i) {
+    const Unit& unit = model.units[i];
+    const UnitType& type = model.unit_types[unit.type];
+    const std::string prefix = "unit_" + names.unit(i);
+    out << "\nalignas(cache_line) std::byte " << prefix << "[sizeof(" << type.class_name << ")];\n";
+    sizes.push_back("sizeof(" + prefix + ")");
+    const std::string configuration =
+        emit_values(model, block_struct_name(type.class_name, "Configuration"), prefix + "_configuration",
+                    {{&type.configuration, &unit.configuration}}, out);
+    const std::string runtime = emit_values(model, block_struct_name(type.class_name, "Runtime"),
+                                            prefix + "_runtime", {{&type.runtime, &unit.runtime}}, out);
+    const std::string binding = emit_binding(model, names, i, prefix, out);
+    records << "    {.name = \"" << unit.name << "\",\n     .summary = " << string_literal(type.summary)
+            << ",\n     .type = &" << unit_component_name(type) << ",\n     .construct = &"
+            << unit_construct_name(type) << ",\n     .storage = " << prefix << ",\n     .size = sizeof("
+            << prefix << "),\n     .binding = " << binding << ",\n     .configuration = " << configuration
+            << ",\n     .runtime = " << runtime
+            << ",\n     .runtime_slot = " << slot_or_null(names, unit.values_slot)
+            << ",\n     .feedback_slot = " << slot_or_null(names, unit.feedback_slot)
+            << ",\n     .thread = " << index_or_none(unit.thread)
+            << ",\n     .population = " << index_or_none(unit.population)
+            << ",\n     .member = " << unit.member
+            << ",\n     .restart = RestartPolicy::" << restart_policy(unit.restart)
+            << ",\n     .budget = " << duration_literal(unit.budget.value_or(0))
+            << ",\n     .initialise_timeout = " << duration_literal(unit.initialise_timeout)
+            << ",\n     .stop_timeout = "
+            << duration_literal(unit.stop_timeout.value_or(model.application->stop_timeout)) << "},\n";
+  }
+  out << "\nconstexpr UnitRecord units_table[] = {\n" << records.str() << "};\n";
+  if (model.populations.empty()) return;
+  out << "\nconstexpr PopulationRecord populations_table[] = {\n";
+  for (const Population& population : model.populations) {
+    out << "    {\"" << population.name << "\", " << population.first << ", " << population.capacity << ", "
+        << population.active << "},\n";
+  }
+  out << "};\n";
+}
+
+}  // namespace flexrf::config_gen

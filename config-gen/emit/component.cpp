@@ -1,0 +1,152 @@
+#include "config-gen/emit/component.hpp"
+
+#include <cmath>
+
+#include "config-gen/model/words.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+std::string bound(const Literal& value) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value.value)) {
+    return double_literal(static_cast<double>(*integer));
+  }
+  if (const auto* real = std::get_if<double>(&value.value)) return double_literal(*real);
+  if (const auto* flag = std::get_if<bool>(&value.value)) return *flag ? "1.0" : "0.0";
+  return "0.0";
+}
+
+std::string role_name(PanelRole role) {
+  switch (role) {
+    case PanelRole::viewer:
+      return "viewer";
+    case PanelRole::op:
+      return "operator_";
+    case PanelRole::engineer:
+      return "engineer";
+    case PanelRole::admin:
+      return "admin";
+  }
+  return "";
+}
+
+void define_port(std::string_view name, std::string_view direction, std::string_view type,
+                 std::string_view summary, Text& out) {
+  out << "    {\"" << name << "\", PortDescriptor::Direction::" << direction << ", \"" << type << "\", "
+      << string_literal(summary) << "},\n";
+}
+
+}  // namespace
+
+std::string block_struct_name(const std::string& class_name, std::string_view what) {
+  return class_name + std::string(what);
+}
+
+BlockText block_text(const Model& model, const std::string& class_name, std::string_view what,
+                     const Position& position, const std::vector<const ParameterBlock*>& blocks) {
+  BlockText block;
+  const std::string summary =
+      what == "Configuration" ? "Configuration of " + class_name + ": read at initialise()."
+      : what == "Runtime"     ? "Runtime parameters of " + class_name + ", in force for a step."
+                              : "Feedback of " + class_name + ", published after each step.";
+  block.plain = plain_struct(model, block_struct_name(class_name, what), summary, position, blocks);
+  for (const ParameterBlock* part : blocks) {
+    for (const Parameter& parameter : part->parameters) block.parameters.push_back(&parameter);
+  }
+  return block;
+}
+
+void define_parameters(const BlockText& block, bool exported, Text& out) {
+  if (block.empty()) return;
+  const std::string& name = block.plain.identifier;
+  out << (exported ? "constinit const" : "constexpr") << " ParameterDescriptor " << name << "_parameters["
+      << block.parameters.size() << "] = {\n";
+  for (std::size_t i = 0; i < block.parameters.size(); ++i) {
+    const Parameter& parameter = *block.parameters[i];
+    const bool persist = parameter.kind == Parameter::Kind::runtime && parameter.persist;
+    out << "    {&" << name << "_fields[" << i << "], " << bool_literal(parameter.low.has_value()) << ", "
+        << bool_literal(persist) << ", Role::" << role_name(parameter.role) << ", "
+        << (parameter.low ? bound(*parameter.low) : "0.0") << ", "
+        << (parameter.high ? bound(*parameter.high) : "0.0") << ", " << string_literal(parameter.widget)
+        << ", " << string_literal(parameter.label) << ", " << string_literal(parameter.menu) << "},\n";
+  }
+  out << "};\n";
+}
+
+std::string block_initialiser(const BlockText& block) {
+  if (block.empty()) return "{}";
+  return "{&" + block.plain.identifier + "_descriptor, " + block.plain.identifier + "_parameters}";
+}
+
+void define_ports(const Model& model, const UnitType& unit, Text& out) {
+  if (unit.inputs.empty() && unit.outputs.empty() && unit.devices.empty()) return;
+  out << "constexpr PortDescriptor " << unit.name << "_unit_ports[] = {\n";
+  for (const InputPort& port : unit.inputs) {
+    define_port(port.name, port.queue ? "queue_input" : "input", model.types[port.type].name, port.summary,
+                out);
+  }
+  for (const OutputPort& port : unit.outputs) {
+    define_port(port.name, port.queue ? "queue_output" : "output", model.types[port.type].name, port.summary,
+                out);
+  }
+  for (const DevicePort& port : unit.devices) {
+    define_port(port.name, "device", model.interfaces[port.interface].class_name, port.summary, out);
+  }
+  out << "};\n";
+}
+
+void define_ports(const Model& model, const Interface& interface, Text& out) {
+  if (interface.outputs.empty()) return;
+  out << "constexpr PortDescriptor " << interface.name << "_ports[] = {\n";
+  for (const OutputPort& port : interface.outputs) {
+    define_port(port.name, port.queue ? "queue_output" : "output", model.types[port.type].name, port.summary,
+                out);
+  }
+  out << "};\n";
+}
+
+std::string unit_component_name(const UnitType& unit) {
+  return unit.name + "_unit_component";
+}
+std::string unit_construct_name(const UnitType& unit) {
+  return "construct_" + unit.name + "_unit";
+}
+std::string driver_component_name(const Driver& driver) {
+  return driver.stem + "_driver_component";
+}
+std::string driver_construct_name(const Driver& driver) {
+  return "construct_" + driver.stem + "_driver";
+}
+std::string unit_header_path(const UnitType& unit) {
+  return include_path(unit.file, unit.header);
+}
+std::string driver_header_path(const Driver& driver) {
+  return include_path(driver.file, driver.header);
+}
+std::string interface_header_path(const Interface& interface) {
+  return include_path(interface.file, interface.name + ".hpp");
+}
+
+BlockText driver_configuration(const Model& model, const Driver& driver) {
+  const Interface& interface = model.interfaces[driver.interface];
+  return block_text(model, driver.class_name, "Configuration", driver.position,
+                    {&interface.configuration, &driver.configuration});
+}
+
+std::string resource_type(Resource::Reader reader) {
+  switch (reader) {
+    case Resource::Reader::urdf:
+      return "KinematicChain";
+  }
+  return "";
+}
+
+std::string resource_header(Resource::Reader reader) {
+  switch (reader) {
+    case Resource::Reader::urdf:
+      return "hal/interfaces/robot_arm/kinematic_chain.hpp";
+  }
+  return "";
+}
+
+}  // namespace flexrf::config_gen

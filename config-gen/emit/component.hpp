@@ -1,0 +1,56 @@
+// What unit bases, interface bases and driver bases have in common: parameter blocks, ports, ComponentType.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config-gen/emit/plain_struct.hpp"
+#include "config-gen/emit/text.hpp"
+#include "config-gen/model/model.hpp"
+
+namespace flexrf::config_gen {
+
+// One block of parameters of a component: its struct, and what is declared beside.
+struct BlockText {
+  PlainStruct plain;
+  std::vector<const Parameter*> parameters;
+  bool empty() const { return parameters.empty(); }
+};
+// `what`: "Configuration", "Runtime" or "Feedback".
+BlockText block_text(const Model& model, const std::string& class_name, std::string_view what,
+                     const Position& position, const std::vector<const ParameterBlock*>& blocks);
+
+// The array of ParameterDescriptors; local to its file unless `exported`.
+void define_parameters(const BlockText& block, bool exported, Text& out);
+// "{&jog_runtime_descriptor, jog_runtime_parameters}", or "{}".
+std::string block_initialiser(const BlockText& block);
+
+void define_ports(const Model& model, const UnitType& unit, Text& out);
+void define_ports(const Model& model, const Interface& interface, Text& out);
+
+// The generated base classes and their sources, as files of a target.
+std::string unit_base_header(const Model& model, const UnitType& unit);
+std::string unit_base_source(const Model& model, const UnitType& unit);
+std::string unit_construct_source(const UnitType& unit);
+std::string interface_base_header(const Model& model, const Interface& interface);
+std::string interface_base_source(const Model& model, const Interface& interface);
+std::string driver_base_header(const Model& model, const Driver& driver);
+std::string driver_base_source(const Model& model, const Driver& driver);
+std::string driver_construct_source(const Driver& driver);
+
+// Names that the generated code gives.
+std::string unit_component_name(const UnitType& unit);          // jog_unit_component
+std::string unit_construct_name(const UnitType& unit);          // construct_jog_unit
+std::string driver_component_name(const Driver& driver);        // simulated_arm_driver_component
+std::string driver_construct_name(const Driver& driver);        // construct_simulated_arm_driver
+std::string unit_header_path(const UnitType& unit);             // units/jog/jog.hpp
+std::string interface_header_path(const Interface& interface);  // interfaces/robot_arm/robot_arm.hpp
+std::string driver_header_path(const Driver& driver);           // simulated/simulated_arm/simulated_arm.hpp
+std::string block_struct_name(const std::string& class_name, std::string_view what);
+BlockText driver_configuration(const Model& model, const Driver& driver);
+
+// What a device's resource is in C++.
+std::string resource_type(Resource::Reader reader);
+std::string resource_header(Resource::Reader reader);
+
+}  // namespace flexrf::config_gen
