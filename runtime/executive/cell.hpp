@@ -39,6 +39,7 @@ class Cell {
   const Application& application() const noexcept { return *application_; }
   const Options& options() const noexcept { return *options_; }
   Control& control() noexcept { return control_; }
+  const Control& control() const noexcept { return control_; }
 
   const DriverRecord& driver(std::uint16_t device) const noexcept {
     return application_->devices[device].drivers[application_->device_states[device].driver];

@@ -22,8 +22,8 @@ std::vector<std::optional<ThreadEstimate>> estimate_response_times(const Applica
     const Duration interval = interval_of(thread.trigger);
     if (thread.priority == 0 || interval.count() <= 0) continue;
     const auto cpu = static_cast<std::uint16_t>(machine.cpus_of(thread.role).highest());
-    tasks.push_back(
-        {thread.name, cpu, thread.priority, thread.budget, interval, Duration{}, thread.deadline});
+    const Duration deadline = thread.deadline.count() > 0 ? thread.deadline : interval;
+    tasks.push_back({thread.name, cpu, thread.priority, thread.budget, interval, Duration{}, deadline});
     places.push_back(i);
   }
   std::vector<ResponseTimeResult> results(tasks.size());

@@ -1,0 +1,221 @@
+#include "runtime/executive/report_data.hpp"
+
+#include <csignal>
+#include <cstring>
+
+#include "runtime/core/text_table.hpp"
+#include "runtime/executive/schedulability.hpp"
+#include "runtime/log/log.hpp"
+#include "runtime/realtime/realtime_scope.hpp"
+
+namespace flexrf {
+namespace {
+
+MeasuredDurations measured(const Histogram& histogram) {
+  return {histogram.count(), histogram.quantile(0.5), histogram.quantile(0.99), histogram.quantile(0.999),
+          histogram.maximum()};
+}
+
+std::vector<ThreadReport> collect_threads(const Application& application, const RunSummary& summary) {
+  std::vector<ThreadReport> threads(application.threads.size());
+  for (std::size_t i = 0; i < threads.size(); ++i) {
+    const ThreadState& state = application.thread_states[i];
+    ThreadReport& thread = threads[i];
+    thread.record = &application.threads[i];
+    thread.cycles = state.cycles.load();
+    thread.overruns = state.overruns.load();
+    thread.skipped = state.skipped.load();
+    thread.allocations = state.allocations.load();
+    thread.minor_faults = state.minor_faults.load();
+    thread.major_faults = state.major_faults.load();
+    thread.voluntary_switches = state.voluntary_switches.load();
+    thread.involuntary_switches = state.involuntary_switches.load();
+    thread.lateness = measured(state.lateness);
+    thread.execution = measured(state.execution);
+    thread.hangs = summary.stuck && state.step_began.load() != 0;
+  }
+  // Simulated threads disturb nobody, ordinary ones are promised nothing.
+  if (!summary.realtime) return threads;
+  const Result<MachineFile> machine = MachineFile::of_this_machine();
+  if (!machine) return threads;
+  const auto estimates = estimate_response_times(application, *machine);
+  for (std::size_t i = 0; i < threads.size(); ++i) {
+    if (estimates[i]) threads[i].response_estimate = estimates[i]->result.response;
+  }
+  return threads;
+}
+
+std::vector<ComponentReport> collect_units(const Application& application) {
+  std::vector<ComponentReport> units(application.units.size());
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const UnitState& state = application.unit_states[i];
+    ComponentReport& unit = units[i];
+    unit.name = application.units[i].name;
+    unit.life = state.life.load();
+    unit.active = state.active.load();
+    unit.steps = state.steps.load();
+    unit.budget = application.units[i].budget;
+    unit.execution_maximum = Duration{state.execution_maximum.load()};
+    if (unit.steps > 0)
+      unit.execution_mean = Duration{state.execution_total.load() / static_cast<std::int64_t>(unit.steps)};
+    if (unit.life == Life::fault) unit.fault = state.fault.cause();
+  }
+  return units;
+}
+
+std::vector<ComponentReport> collect_devices(const Cell& cell) {
+  const Application& application = cell.application();
+  std::vector<ComponentReport> devices(application.devices.size());
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const DeviceState& state = application.device_states[i];
+    ComponentReport& device = devices[i];
+    device.name = application.devices[i].name;
+    device.driver = cell.driver(static_cast<std::uint16_t>(i)).name;
+    device.life = state.life.load();
+    if (device.life == Life::fault) device.fault = state.fault.cause();
+  }
+  return devices;
+}
+
+/// Names of the type's inputs of slots, in the order of the table.
+std::vector<const char*> input_names(const ComponentType& type) {
+  std::vector<const char*> names;
+  for (const PortDescriptor& port : type.ports) {
+    if (port.direction == PortDescriptor::Direction::input) names.push_back(port.name);
+  }
+  return names;
+}
+
+void collect_readers(const Application& application, std::vector<SlotReport>& slots) {
+  const auto find = [&](const SlotControl* control) -> SlotReport* {
+    for (SlotReport& slot : slots) {
+      if (slot.record->control == control) return &slot;
+    }
+    return nullptr;
+  };
+  for (std::size_t u = 0; u < application.units.size(); ++u) {
+    const UnitRecord& unit = application.units[u];
+    const Unit* object = application.unit_states[u].unit;
+    if (object == nullptr) continue;
+    const std::vector<const char*> names = input_names(*unit.type);
+    for (std::size_t input = 0; input < unit.binding.inputs.size(); ++input) {
+      const InputBinding& binding = unit.binding.inputs[input];
+      for (std::uint32_t member = 0; member < binding.count; ++member) {
+        SlotReport* slot = find(binding.readers[member].slot());
+        if (slot == nullptr) continue;
+        const std::string name = std::string{unit.name} + "." + (input < names.size() ? names[input] : "?");
+        slot->readers.push_back({name, object->input_counters(input, member)});
+      }
+    }
+  }
+}
+
+std::vector<SlotReport> collect_slots(const Application& application) {
+  std::vector<SlotReport> slots;
+  for (const SlotRecord& record : application.slots) {
+    slots.push_back({&record, record.control->published(), {}});
+  }
+  collect_readers(application, slots);
+  return slots;
+}
+
+std::vector<QueueReport> collect_queues(const Application& application) {
+  std::vector<QueueReport> queues;
+  for (const QueueRecord& record : application.queues) {
+    QueueReport queue{&record, {}};
+    for (const QueueSink* sink : record.sinks) queue.writers.push_back(sink->counters());
+    queues.push_back(std::move(queue));
+  }
+  return queues;
+}
+
+std::string name_of_signal(int signal) {
+  const char* name = sigabbrev_np(signal);
+  return name == nullptr ? "signal " + std::to_string(signal) : "SIG" + std::string{name};
+}
+
+/// What to blame first: a component in fault, a thread that hangs, one that was restarted.
+std::string blame(const ReportData& data) {
+  for (const auto* components : {&data.devices, &data.units}) {
+    for (const ComponentReport& component : *components) {
+      if (!component.fault.empty()) return std::string{component.name} + ": " + component.fault;
+    }
+  }
+  for (const ThreadReport& thread : data.threads) {
+    if (thread.hangs) return "thread " + std::string{thread.record->name} + ": its step does not return";
+  }
+  if (data.faults > 0)
+    return std::to_string(data.faults) +
+           (data.faults == 1 ? " fault, restarted by policy" : " faults, restarted by policy");
+  return "see the log";
+}
+
+std::string ending_of(const ReportData& data) {
+  const RunSummary& summary = data.summary;
+  const std::string after = " after " + duration_text(summary.run_time);
+  std::string how;
+  switch (summary.cause) {
+    case EndCause::none:
+      how = "ended" + after;
+      break;
+    case EndCause::end_of_input:
+      how = "finished: end of input" + after;
+      break;
+    case EndCause::virtual_time_over:
+      how = "finished: the virtual time of " + duration_text(summary.run_time) + " is over";
+      break;
+    case EndCause::signal:
+      how = "stopped by " + name_of_signal(summary.signal) + after;
+      break;
+    case EndCause::requested:
+      how = "stopped on request" + after;
+      break;
+    case EndCause::fault:
+      how = "the application ended" + after;
+      break;
+  }
+  if (summary.cut_short) how += ", before everything had come to rest in its time";
+  if (summary.had_fault) return "Fault: " + blame(data) + "; " + how + ".";
+  how[0] = static_cast<char>(how[0] - 'a' + 'A');
+  return how + ".";
+}
+
+}  // namespace
+
+const char* name_of(EndCause cause) noexcept {
+  switch (cause) {
+    case EndCause::none:
+      return "none";
+    case EndCause::end_of_input:
+      return "end of input";
+    case EndCause::virtual_time_over:
+      return "virtual time over";
+    case EndCause::signal:
+      return "signal";
+    case EndCause::requested:
+      return "requested";
+    case EndCause::fault:
+      return "fault";
+  }
+  return "unknown";
+}
+
+ReportData collect_report(const Cell& cell, const RunSummary& summary) {
+  const Application& application = cell.application();
+  ReportData data;
+  data.application = &application;
+  data.summary = summary;
+  data.threads = collect_threads(application, summary);
+  data.units = collect_units(application);
+  data.devices = collect_devices(cell);
+  data.slots = collect_slots(application);
+  data.queues = collect_queues(application);
+  if (const Result<ProcessStatistics> process = read_process_statistics()) data.process = *process;
+  data.faults = cell.control().faults();
+  data.dropped_log_messages = dropped_log_messages();
+  data.guarded = has_allocation_guard();
+  data.ending = ending_of(data);
+  return data;
+}
+
+}  // namespace flexrf

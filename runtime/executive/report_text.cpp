@@ -1,0 +1,193 @@
+// The final report for people.
+#include <algorithm>
+
+#include "runtime/core/text_table.hpp"
+#include "runtime/executive/report.hpp"
+#include "runtime/executive/report_data.hpp"
+#include "runtime/realtime/response_time.hpp"
+
+namespace flexrf {
+namespace {
+
+constexpr std::size_t longest_cause = 100;  // characters, beyond which a table is no longer one
+
+std::string or_nothing(std::uint64_t count) {
+  return count == 0 ? "" : std::to_string(count);
+}
+
+std::string heading(const ReportData& data) {
+  const RunSummary& summary = data.summary;
+  std::string text = std::string{data.application->name} + ": " + duration_text(summary.run_time);
+  if (summary.virtual_time) {
+    text += " of virtual time in " + duration_text(summary.wall_time);
+    if (summary.wall_time.count() > 0) {
+      char ratio[40];
+      std::snprintf(ratio, sizeof(ratio), " (%.0f times real time)",
+                    summary.run_time / std::chrono::duration<double, std::nano>(summary.wall_time));
+      text += ratio;
+    }
+  } else {
+    text += summary.realtime ? ", real time" : ", without real-time priorities";
+    text += ", first step after " + duration_text(summary.start_time);
+  }
+  return text + "\n";
+}
+
+std::string threads_text(const ReportData& data) {
+  if (data.threads.empty()) return {};
+  TextTable counts(
+      {"thread", "cycles", "overruns", "skipped", "page faults", "switches", "preempted", "allocations"});
+  TextTable lateness({"lateness", "p50", "p99", "p99.9", "max"});
+  TextTable execution({"execution", "p50", "p99", "p99.9", "max", "budget", "deadline", "response*"});
+  bool estimated = false;
+  for (const ThreadReport& thread : data.threads) {
+    const char* name = thread.record->name;
+    counts.add({name, std::to_string(thread.cycles), std::to_string(thread.overruns),
+                or_nothing(thread.skipped), or_nothing(thread.minor_faults + thread.major_faults),
+                or_nothing(thread.voluntary_switches), or_nothing(thread.involuntary_switches),
+                or_nothing(thread.allocations)});
+    if (thread.cycles == 0) continue;
+    const auto row = [name](const MeasuredDurations& measured) {
+      return std::vector<std::string>{name, duration_text(measured.p50), duration_text(measured.p99),
+                                      duration_text(measured.p999), duration_text(measured.maximum)};
+    };
+    lateness.add(row(thread.lateness));
+    std::vector<std::string> cells = row(thread.execution);
+    cells.push_back(thread.record->budget.count() > 0 ? duration_text(thread.record->budget) : "");
+    cells.push_back(thread.record->deadline.count() > 0 ? duration_text(thread.record->deadline) : "");
+    if (thread.response_estimate) {
+      estimated = true;
+      cells.push_back(*thread.response_estimate == Duration::max()
+                          ? "no bound"
+                          : duration_text(*thread.response_estimate));
+    }
+    execution.add(std::move(cells));
+  }
+  std::string text = "\nThreads\n" + counts.text("  ");
+  if (!lateness.is_empty()) text += "\n" + lateness.text("  ") + "\n" + execution.text("  ");
+  if (estimated) text += std::string{"  * longest response: "} + response_time_label + "\n";
+  if (data.summary.virtual_time) text += "  Simulated: each step lasts its declared budget.\n";
+  return text;
+}
+
+std::string life_of(const ComponentReport& component) {
+  return component.active ? name_of(component.life) : "not active";
+}
+
+std::string units_text(const ReportData& data) {
+  if (data.units.empty()) return {};
+  TextTable table({"unit", "<life", "steps", "mean", "max", "budget"});
+  std::size_t idle = 0;
+  for (const ComponentReport& unit : data.units) {
+    // A population of hundreds must not hide the rest.
+    if (!unit.active && unit.steps == 0 && unit.fault.empty()) {
+      ++idle;
+      continue;
+    }
+    table.add({unit.name, life_of(unit), std::to_string(unit.steps),
+               data.summary.virtual_time ? "" : duration_text(unit.execution_mean),
+               data.summary.virtual_time ? "" : duration_text(unit.execution_maximum),
+               unit.budget.count() > 0 ? duration_text(unit.budget) : ""});
+  }
+  std::string text = "\nUnits\n" + table.text("  ");
+  if (idle > 0) text += "  and " + std::to_string(idle) + " members that were never active\n";
+  return text;
+}
+
+std::string devices_text(const ReportData& data) {
+  if (data.devices.empty()) return {};
+  TextTable table({"device", "<driver", "<life"});
+  for (const ComponentReport& device : data.devices) table.add({device.name, device.driver, life_of(device)});
+  return "\nDevices\n" + table.text("  ");
+}
+
+std::string slots_text(const ReportData& data) {
+  TextTable table({"slot", "published", "<writer", "<reader", "read", "missed"});
+  std::uint64_t others = 0;
+  for (const SlotReport& slot : data.slots) {
+    if (*slot.record->writer == '\0') {
+      ++others;
+      continue;
+    }
+    std::vector<std::string> cells{slot.record->name, std::to_string(slot.published), slot.record->writer};
+    for (const SlotReaderReport& reader : slot.readers) {
+      cells.insert(cells.end(), {reader.reader, std::to_string(reader.counters.read),
+                                 std::to_string(reader.counters.missed)});
+      table.add(std::move(cells));
+      cells = {"", "", ""};
+    }
+    if (slot.readers.empty()) table.add(std::move(cells));
+  }
+  if (table.is_empty()) return {};
+  std::string text = "\nSlots\n" + table.text("  ");
+  if (others > 0) text += "  and " + std::to_string(others) + " of parameters and feedback\n";
+  return text;
+}
+
+std::string queues_text(const ReportData& data) {
+  if (data.queues.empty()) return {};
+  TextTable table({"queue", "capacity", "<writer", "pushed", "popped", "dropped"});
+  for (const QueueReport& queue : data.queues) {
+    std::string name = queue.record->name;
+    std::string capacity = std::to_string(queue.record->capacity);
+    for (std::size_t i = 0; i < queue.writers.size(); ++i) {
+      const QueueCounters& counters = queue.writers[i];
+      table.add({name, capacity, i < queue.record->writers.size() ? queue.record->writers[i] : "",
+                 std::to_string(counters.pushed), std::to_string(counters.popped),
+                 std::to_string(counters.dropped)});
+      name.clear();
+      capacity.clear();
+    }
+  }
+  return table.is_empty() ? std::string{} : "\nQueues\n" + table.text("  ");
+}
+
+std::string faults_text(const ReportData& data) {
+  if (data.faults == 0 && !data.summary.had_fault) return "\nFaults: none\n";
+  TextTable table({"component", "<cause"});
+  for (const auto* components : {&data.devices, &data.units}) {
+    for (const ComponentReport& component : *components) {
+      if (!component.fault.empty()) table.add({component.name, cut_text(component.fault, longest_cause)});
+    }
+  }
+  for (const ThreadReport& thread : data.threads) {
+    if (thread.hangs) table.add({thread.record->name, "this thread's step does not return"});
+  }
+  std::string text = "\nFaults: " + std::to_string(std::max<std::uint64_t>(data.faults, 1)) + " in all\n";
+  return table.is_empty() ? text : text + table.text("  ");
+}
+
+std::string memory_text(const ReportData& data) {
+  std::string text = "\nMemory: ";
+  if (data.process) {
+    text += size_text(data.process->resident_peak) + " resident at most, " + size_text(data.process->locked) +
+            " locked; ";
+  }
+  text += "budget of the application's own " + size_text(data.application->memory_budget) + "\n";
+  return text;
+}
+
+std::string guard_text(const ReportData& data) {
+  std::uint64_t allocations = 0;
+  for (const ThreadReport& thread : data.threads) allocations += thread.allocations;
+  std::string text;
+  if (data.guarded && !data.summary.virtual_time) {
+    text += "Allocations in real-time threads: " + (allocations == 0 ? "none" : std::to_string(allocations)) +
+            "\n";
+  }
+  if (data.dropped_log_messages > 0) {
+    text += "Log messages dropped: " + std::to_string(data.dropped_log_messages) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string report_text(const Cell& cell, const RunSummary& summary) {
+  const ReportData data = collect_report(cell, summary);
+  return heading(data) + threads_text(data) + units_text(data) + devices_text(data) + slots_text(data) +
+         queues_text(data) + faults_text(data) + memory_text(data) + guard_text(data) + "\n" + data.ending +
+         "\n";
+}
+
+}  // namespace flexrf
