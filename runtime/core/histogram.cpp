@@ -1,5 +1,7 @@
 #include "runtime/core/histogram.hpp"
 
+#include <cmath>
+
 namespace flexrf {
 
 Duration Histogram::upper_bound(std::uint32_t bucket) noexcept {
@@ -13,7 +15,7 @@ Duration Histogram::upper_bound(std::uint32_t bucket) noexcept {
 Duration Histogram::quantile(double share) const noexcept {
   const std::uint64_t total = count();
   if (total == 0) return {};
-  const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(total) + 0.5);
+  const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(total)));
   std::uint64_t seen = 0;
   for (std::uint32_t bucket = 0; bucket < buckets; ++bucket) {
     seen += in_bucket(bucket);
