@@ -357,7 +357,7 @@ void RuntimeParameters::clear_presses(Time now) noexcept {
 
 void RuntimeParameters::publish(Time now) noexcept {
   if (slot_ == nullptr) {
-    ++sequence_;
+    sequence_ = next_sequence(sequence_);
     return;
   }
   const std::uint8_t buffer = slot_->loan();

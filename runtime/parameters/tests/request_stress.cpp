@@ -107,7 +107,7 @@ std::uint32_t request_changes(CellRun& run, std::uint16_t requester, std::uint32
     }
   };
   for (std::uint32_t i = 0; i < count; ++i) {
-    request = {};
+    request = ParameterRequest{};
     request.requester = requester;
     request.correlation = i;
     const double low = i % 4 == 3 ? std::numeric_limits<double>::infinity() : -1.0 - i;
@@ -118,7 +118,7 @@ std::uint32_t request_changes(CellRun& run, std::uint16_t requester, std::uint32
       fetch();
       std::this_thread::yield();
     }
-    while (i - answered > AnswerQueue::capacity / 2) {
+    while (i + 1 - answered > AnswerQueue::capacity / 2) {
       fetch();
       std::this_thread::yield();
     }

@@ -9,7 +9,7 @@ namespace {
 
 void changes_are_added_while_they_fit(void**) {
   static ParameterRequest request;
-  request = {};
+  request = ParameterRequest{};
   const double value = 0.25;
   assert_true(request.add(3, 8, &value, sizeof(value)));
   assert_true(request.add_presses(4, 2));
