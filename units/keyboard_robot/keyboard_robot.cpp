@@ -12,8 +12,10 @@ namespace {
 constexpr double arrived = 1e-3;  // rad
 // A later cycle delays the motion, rather than have the arm jump to catch up.
 constexpr double longest_advance = 0.02;  // s
-// A key's quarter turn is robot_control's business.
+// Keys that turn the target are jog's.
 constexpr double no_turn = 0;
+// However fast keys come, a step ends.
+constexpr int most_keys_per_step = 64;
 
 }  // namespace
 
@@ -35,7 +37,8 @@ void KeyboardRobot::step(const Tick& tick) {
       target_ = actual;
     }
     if (tick.motion_inhibited) {
-      while (keyboard->read()) continue;  // not kept for when the arm may move again
+      for (int n = 0; n < most_keys_per_step && keyboard->read(); ++n)
+        continue;  // not kept for when the arm may move again
     } else if (tick.stop_requested) {
       motion_.stop();
     } else {
@@ -52,7 +55,9 @@ void KeyboardRobot::step(const Tick& tick) {
 }
 
 void KeyboardRobot::follow_keys() noexcept {
-  while (const auto key = keyboard->read()) {
+  for (int n = 0; n < most_keys_per_step; ++n) {
+    const auto key = keyboard->read();
+    if (!key) break;
     if (!move_by_key(target_, *key, runtime.step, no_turn)) continue;
     moved_ = true;
     ++feedback.presses;

@@ -18,7 +18,9 @@ class Keyboard : public KeyboardInterface {
   /// it is, so that no key press is lost however fast they come.
   void receive(const Tick& tick) noexcept override {
     now_ = tick.now;
-    while (keys.is_connected() && keys.has_room()) {
+    constexpr int most_keys_per_cycle =
+        64;  // a reader as fast as the writer must not hold this thread for ever
+    for (int n = 0; n < most_keys_per_cycle && keys.is_connected() && keys.has_room(); ++n) {
       const std::optional<KeyEvent> event = read();
       if (!event) break;
       keys.push(*event, tick.now);

@@ -1,0 +1,145 @@
+#include "units/jog/jog.hpp"
+
+#include <cmath>
+
+#include "hal/interfaces/device_bench.hpp"
+#include "tests/cmocka.hpp"
+#include "units/unit_bench.hpp"
+
+namespace {
+
+using namespace flexrf;
+
+constexpr Duration interval = std::chrono::milliseconds(100);
+
+struct World {
+  UnitBench<Jog> bench;
+  QueueBench<KeyEvent> keys;
+  SlotBench<Pose> actual;
+  SlotBench<Pose> target;
+  InputBinding inputs[1] = {actual.input(std::chrono::milliseconds(500))};
+  SlotControl* outputs[1] = {&target.control()};
+  QueueSource* sources[1] = {&keys.ring()};
+
+  World() {
+    UnitBinding binding;
+    binding.context = &bench.context();
+    binding.inputs = inputs;
+    binding.outputs = outputs;
+    binding.queue_inputs = sources;
+    bench.unit().connect(binding);
+    initialised = bench.unit().initialise().is_ok();
+  }
+
+  void arm_is_at(double x, double y, double z) {
+    Pose pose{};
+    pose.position = {x, y, z};
+    pose.orientation = {0, 1, 0, 0};
+    actual.publish(pose, bench.now());
+  }
+  void press(const char* text) {
+    for (; *text != '\0'; ++text) keys.push({Key::character, static_cast<std::uint32_t>(*text)});
+  }
+  bool target_is(double x, double y, double z) {
+    const auto pose = target.latest();
+    return pose && std::abs(pose->position[0] - x) < 1e-12 && std::abs(pose->position[1] - y) < 1e-12 &&
+           std::abs(pose->position[2] - z) < 1e-12 && pose->orientation[1] == 1.0;
+  }
+  bool initialised = false;
+};
+
+bool keys_wait_for_the_arms_pose() {
+  World world;
+  world.press("ww");
+  world.bench.step(interval);
+  if (world.target.latest() || world.bench.unit().is_idle()) return false;
+  world.arm_is_at(0.7, 0, 1);
+  world.bench.step(interval);
+  return world.target_is(0.72, 0, 1) && world.bench.unit().is_idle() && world.bench.feedback().presses == 2;
+}
+
+bool every_press_counts() {
+  World world;
+  world.arm_is_at(0.7, 0, 1);
+  world.bench.step(interval);
+  if (!world.target_is(0.7, 0, 1)) return false;
+  world.press("wwwwddd?q");
+  world.bench.step(interval);
+  if (!world.target_is(0.74, -0.03, 1.01)) return false;
+  world.bench.runtime().step = 0.1;
+  world.press("s");
+  world.bench.step(interval);
+  return world.target_is(0.64, -0.03, 1.01) && world.bench.feedback().presses == 9;
+}
+
+// The reader's limit on age must not bite while jog lives.
+bool target_stays_fresh() {
+  World world;
+  world.arm_is_at(0.7, 0, 1);
+  world.bench.step(interval);
+  const std::uint64_t published = world.target.control().published();
+  world.bench.step(interval);
+  world.bench.step(interval);
+  return world.target.control().published() == published + 2;
+}
+
+// Seeded once: the arm's motion does not draw the target along.
+bool target_is_its_own() {
+  World world;
+  world.arm_is_at(0.7, 0, 1);
+  world.bench.step(interval);
+  world.arm_is_at(0.5, 0.5, 0.5);
+  world.bench.step(interval);
+  return world.target_is(0.7, 0, 1);
+}
+
+bool nothing_is_kept_while_inhibited() {
+  World world;
+  world.arm_is_at(0.7, 0, 1);
+  world.bench.step(interval);
+  world.press("www");
+  world.bench.tick().motion_inhibited = true;
+  world.arm_is_at(0.6, 0.1, 1);
+  world.bench.step(interval);
+  if (!world.target_is(0.6, 0.1, 1)) return false;
+  world.bench.tick().motion_inhibited = false;
+  world.bench.step(interval);
+  return world.target_is(0.6, 0.1, 1) && world.bench.feedback().presses == 0;
+}
+
+bool an_old_pose_is_no_seed() {
+  World world;
+  world.arm_is_at(0.7, 0, 1);
+  world.bench.step(std::chrono::seconds(1));
+  return !world.target.latest();
+}
+
+void waits_for_the_pose(void**) {
+  assert_true(keys_wait_for_the_arms_pose());
+}
+void counts_every_press(void**) {
+  assert_true(every_press_counts());
+}
+void publishes_in_every_step(void**) {
+  assert_true(target_stays_fresh());
+}
+void does_not_follow_the_arm(void**) {
+  assert_true(target_is_its_own());
+}
+void forgets_while_inhibited(void**) {
+  assert_true(nothing_is_kept_while_inhibited());
+}
+void old_pose_is_no_seed(void**) {
+  assert_true(an_old_pose_is_no_seed());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(waits_for_the_pose),      cmocka_unit_test(counts_every_press),
+      cmocka_unit_test(publishes_in_every_step), cmocka_unit_test(does_not_follow_the_arm),
+      cmocka_unit_test(forgets_while_inhibited), cmocka_unit_test(old_pose_is_no_seed),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
