@@ -162,7 +162,7 @@ std::string ending_of(const ReportData& data) {
       how = "finished: end of input" + after;
       break;
     case EndCause::virtual_time_over:
-      how = "finished: the virtual time of " + duration_text(summary.run_time) + " is over";
+      how = "finished: the virtual time asked for is over" + after;
       break;
     case EndCause::signal:
       how = "stopped by " + name_of_signal(summary.signal) + after;

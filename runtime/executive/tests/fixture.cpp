@@ -487,6 +487,7 @@ ProducerAndConsumer::ProducerAndConsumer() {
   producing_unit.outputs = {values};
   producing_unit.pushes = jobs;
   producing_unit.script.step = [](TestUnit& unit, const Tick& tick) {
+    if (tick.finishing) return;
     const Item item{static_cast<std::int64_t>(tick.number), seconds(tick.now.time_since_epoch())};
     unit.outputs[0].publish(item);
     unit.orders.push(item);

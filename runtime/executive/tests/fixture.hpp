@@ -177,8 +177,9 @@ class TestApplication {
 
 /// Two units in two threads, joined by a slot and a queue; the consumer owns an actuator.
 ///
-/// The producer publishes its step's number and pushes it too, every millisecond. The consumer is released by
-/// either, reads the slot, empties the queue and commands the actuator. Change what a test is about.
+/// The producer publishes its step's number and pushes it too, every millisecond, until it is to finish. The
+/// consumer is released by either, reads the slot, empties the queue and commands the actuator. Change what a
+/// test is about.
 class ProducerAndConsumer : public TestApplication {
  public:
   ProducerAndConsumer();

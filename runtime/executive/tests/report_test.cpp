@@ -1,0 +1,121 @@
+#include "runtime/executive/report.hpp"
+
+#include "runtime/executive/executive.hpp"
+#include "runtime/executive/report_data.hpp"
+#include "runtime/executive/tests/checks.hpp"
+#include "runtime/executive/tests/fixture.hpp"
+
+namespace flexrf::fixture {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+struct Report {
+  RunSummary summary;
+  std::string text;
+  std::string json;
+};
+
+Report report_of(TestApplication& cell, const Options& options) {
+  Executive executive(cell.application(), options);
+  CHECK(executive.prepare().is_ok());
+  Report report{executive.run(), {}, {}};
+  report.text = report_text(executive.cell(), report.summary);
+  report.json = report_json(executive.cell(), report.summary);
+  return report;
+}
+
+void an_ordinary_run_tells_all_and_ends_in_a_sentence() {
+  ProducerAndConsumer cell;
+  const Report report = report_of(cell, in_virtual_time(milliseconds{100}));
+  CHECK_EQUAL(report.summary.exit_code, 0);
+  CHECK_CONTAINS(report.text, "test_cell: 1");
+  CHECK_CONTAINS(report.text, "of virtual time in ");
+  CHECK_CONTAINS(report.text, "producing");
+  CHECK_CONTAINS(report.text, "consumer.first");
+  CHECK_CONTAINS(report.text, "Faults: none\n");
+  CHECK_CONTAINS(report.text, "\nFinished: the virtual time asked for is over after 1");
+  CHECK(report.text.ends_with(" ms.\n"));
+}
+
+void readers_are_counted() {
+  ProducerAndConsumer cell;
+  // The consumer looks every third time only.
+  cell.thread(ProducerAndConsumer::consuming).trigger =
+      TriggerPlan::periodic(milliseconds{3}, milliseconds{1});
+  Executive executive(cell.application(), in_virtual_time(milliseconds{300}));
+  CHECK(executive.prepare().is_ok());
+  const RunSummary summary = executive.run();
+  const ReportData data = collect_report(executive.cell(), summary);
+  const SlotReport& slot = data.slots[ProducerAndConsumer::values];
+  CHECK_EQUAL(slot.readers.size(), 1U);
+  CHECK_EQUAL(slot.readers[0].reader, "consumer.first");
+  const InputCounters seen = slot.readers[0].counters;
+  CHECK(seen.read >= 100 && seen.read <= data.units[ProducerAndConsumer::consumer].steps);
+  // All but what came before the first and after the last reading.
+  CHECK(seen.read + seen.missed <= slot.published);
+  CHECK(seen.read + seen.missed + 3 >= slot.published);
+  CHECK_CONTAINS(report_text(executive.cell(), summary),
+                 "producer.out_first  consumer.first   " + std::to_string(seen.read));
+}
+
+void drops_of_queues_are_shown() {
+  ProducerAndConsumer cell;
+  cell.queue(ProducerAndConsumer::jobs).capacity = 4;
+  cell.unit(ProducerAndConsumer::consumer).script.step = [](TestUnit&, const Tick&) {};
+  const Report report = report_of(cell, in_virtual_time(milliseconds{20}));
+  CHECK_CONTAINS(report.json,
+                 "\"name\": \"producer.orders\",\n          \"pushed\": 4,\n          \"popped\": 0,\n");
+  CHECK_CONTAINS(report.text, "producer.orders       4       0");
+}
+
+void a_fault_is_told_with_its_cause() {
+  ProducerAndConsumer cell;
+  cell.unit(ProducerAndConsumer::producer).script.step = [](TestUnit& unit, const Tick& tick) {
+    if (tick.number == 5) unit.give_up(Status::error(StatusCode::device_fault, "the \"arm\" is on fire"));
+  };
+  const Report report = report_of(cell, in_virtual_time(milliseconds{20}));
+  CHECK_EQUAL(report.summary.exit_code, 2);
+  CHECK_CONTAINS(report.text, "Faults: 1 in all\n  component  cause\n  producer   the \"arm\" is on fire\n");
+  CHECK_CONTAINS(report.text, "\nFault: producer: the \"arm\" is on fire; ");
+  CHECK_CONTAINS(report.json, "\"fault\": \"the \\\"arm\\\" is on fire\"");
+}
+
+void the_end_of_input_is_named() {
+  ProducerAndConsumer cell;
+  cell.device(ProducerAndConsumer::actuator).script.is_closed = [] { return true; };
+  const Report report = report_of(cell, in_virtual_time(seconds{10}));
+  CHECK_EQUAL(report.summary.exit_code, 0);
+  CHECK_CONTAINS(report.text, "Finished: end of input after ");
+  CHECK_CONTAINS(report.json, "\"cause\": \"end of input\"");
+}
+
+void on_the_wall_clock_units_are_measured() {
+  ProducerAndConsumer cell;
+  cell.device(ProducerAndConsumer::actuator).script.is_closed = [steps = 0]() mutable {
+    return ++steps > 20;
+  };
+  const Report report = report_of(cell, on_the_wall_clock());
+  CHECK_EQUAL(report.summary.exit_code, 0);
+  CHECK_CONTAINS(report.text, "without real-time priorities");
+  CHECK_CONTAINS(report.text, "execution");
+  CHECK_CONTAINS(report.text, "p99.9");
+  CHECK(report.json.find("response_estimate_ns\": 0") == std::string::npos);
+}
+
+}  // namespace
+}  // namespace flexrf::fixture
+
+int main() {
+  using namespace flexrf::fixture;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(an_ordinary_run_tells_all_and_ends_in_a_sentence),
+      CONTAINED_TEST(readers_are_counted),
+      CONTAINED_TEST(drops_of_queues_are_shown),
+      CONTAINED_TEST(a_fault_is_told_with_its_cause),
+      CONTAINED_TEST(the_end_of_input_is_named),
+      CONTAINED_TEST(on_the_wall_clock_units_are_measured),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
