@@ -32,6 +32,12 @@ VirtualTime::VirtualTime(Cell& cell, Lifecycle& lifecycle, Supervision& supervis
   const std::size_t count = cell.application().threads.size();
   threads_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) threads_.emplace_back(cell, static_cast<std::uint16_t>(i));
+  set_log_clock(&now_);
+  set_log_origin(beginning);
+}
+
+VirtualTime::~VirtualTime() {
+  set_log_clock(nullptr);
 }
 
 Duration VirtualTime::run(Duration duration) noexcept {
@@ -41,8 +47,6 @@ Duration VirtualTime::run(Duration duration) noexcept {
     look_for_release(thread);
   }
   Control& control = cell_->control();
-  set_log_clock(&now_);
-  set_log_origin(beginning);
   for (std::uint32_t events = 0; control.mode() != Mode::ended; ++events) {
     Thread* thread = next_event();
     Time at = thread == nullptr ? Time::max() : thread->next;
@@ -73,7 +77,6 @@ Duration VirtualTime::run(Duration duration) noexcept {
     }
   }
   supervision_->observe(now_);
-  set_log_clock(nullptr);
   return now_ - beginning;
 }
 

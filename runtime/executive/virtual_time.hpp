@@ -16,7 +16,11 @@ namespace flexrf {
 /// the table. So a run depends on nothing but the tables, the seed and the input.
 class VirtualTime {
  public:
+  /// While it lives, this thread's log messages carry its time.
   VirtualTime(Cell& cell, Lifecycle& lifecycle, Supervision& supervision);
+  VirtualTime(const VirtualTime&) = delete;
+  VirtualTime& operator=(const VirtualTime&) = delete;
+  ~VirtualTime();
 
   /// Runs until the application ended; after `duration` it is told to stop. Returns the simulated time that
   /// passed.
