@@ -32,8 +32,8 @@ std::size_t edit_distance(std::string_view from, std::string_view to) noexcept {
 }
 
 NearestName::NearestName(std::string_view word) noexcept
-    // One slip in a short word, one more for every three letters: beyond that it is another word.
-    : word_(word), limit_(1 + word.size() / 3) {}
+    // One slip for every three letters: beyond that it is another word.
+    : word_(word), limit_((word.size() + 1) / 3) {}
 
 void NearestName::offer(std::string_view known) noexcept {
   const std::size_t distance = edit_distance(word_, known);

@@ -1,0 +1,78 @@
+// The configuration file: XML that holds the values of configuration parameters and persistent runtime
+// parameters, and nothing else.
+//
+//   <flexrf application="keyboard" format="1" descriptor="0123456789abcdef" checksum="...">
+//     <unit name="jog">
+//       <runtime>
+//         <step unit="m">0.02</step>
+//       </runtime>
+//     </unit>
+//     <device name="arm" driver="simulated"> <configuration> ...
+//
+// Made for an engineer to edit: then checksum="edited" (or no checksum) says so. What is left out keeps the
+// value of the application's tables. An array's elements are separated by blanks, a matrix's rows by ";"; a
+// structure's members are elements of their own, with index="0" ... when there are several.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/core/status.hpp"
+#include "runtime/parameters/parameter_descriptor.hpp"
+
+namespace flexrf {
+
+/// One component's values: what loading writes and saving reads.
+struct ConfigurationComponent {
+  enum class Kind : std::uint8_t { unit, device };
+  Kind kind = Kind::unit;
+  const char* name = "";
+  const char* driver = "";  ///< of a device: the chosen one
+  /// Of a device: the others its table permits. Their sections are neither read nor lost.
+  std::span<const char* const> other_drivers;
+  const ComponentType* type = nullptr;
+  void* configuration = nullptr;  ///< null where it has none
+  void* runtime = nullptr;
+};
+
+/// A unit, device ("arm" to "robot") or parameter ("jog.step" to "jog.step_size") that had another name in
+/// files written before.
+struct Rename {
+  const char* from;
+  const char* to;
+};
+
+struct ConfigurationIdentity {
+  const char* application = "";
+  std::uint64_t descriptor_hash = 0;
+  std::span<const Rename> renames;
+};
+
+enum class ConfigurationSource : std::uint8_t {
+  tables,    ///< there is no file: nothing was changed
+  file,      ///< the file's values were taken
+  previous,  ///< the file is damaged (see problems); those of FILE.previous were taken
+  refused,   ///< nothing was taken and the application should not start (see problems)
+};
+
+struct ConfigurationReport {
+  ConfigurationSource source = ConfigurationSource::tables;
+  std::vector<std::string> problems;  ///< "FILE:line:column: error: ..." each, all at once
+  std::vector<std::string> notices;   ///< what a person should know, and what was left out
+};
+
+/// Reads the file into the components' values: all of it, or nothing. Damage (syntax, checksum, truncation)
+/// falls back to FILE.previous; a wrong name or value refuses the file. A file written for another descriptor
+/// is taken as far as it fits, under the names that `renames` give; the rest is noticed. Not real-time.
+ConfigurationReport load_configuration(const std::string& path, const ConfigurationIdentity& identity,
+                                       std::span<const ConfigurationComponent> components);
+
+/// Writes the file atomically. The former one becomes FILE.previous, or FILE.damaged when it is no good, so
+/// that neither a good copy nor somebody's edits are lost. Writes nothing when nothing changed. Not
+/// real-time.
+Status save_configuration(const std::string& path, const ConfigurationIdentity& identity,
+                          std::span<const ConfigurationComponent> components);
+
+}  // namespace flexrf

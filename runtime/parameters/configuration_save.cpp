@@ -1,0 +1,104 @@
+// Saving the configuration file.
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+#include "runtime/parameters/configuration_document.hpp"
+#include "runtime/parameters/configuration_file.hpp"
+#include "runtime/parameters/durable_file.hpp"
+#include "runtime/parameters/scalar_types.hpp"
+#include "runtime/parameters/value_access.hpp"
+
+namespace flexrf {
+namespace {
+
+using Kind = ConfigurationComponent::Kind;
+
+const char* element_of(Kind kind) {
+  return kind == Kind::unit ? "unit" : "device";
+}
+
+void write_field(pugi::xml_node parent, const FieldDescriptor& field, const void* structure) {
+  if (field.scalar != Scalar::structure) {
+    pugi::xml_node node = parent.append_child(field.name);
+    if (field.unit[0] != '\0' && std::strcmp(field.unit, "1") != 0)
+      node.append_attribute("unit").set_value(field.unit);
+    node.text().set(text_of(whole(field), structure).c_str());
+    return;
+  }
+  for (std::uint32_t element = 0; element < field.count; ++element) {
+    pugi::xml_node node = parent.append_child(field.name);
+    if (field.dimensions > 0) node.append_attribute("index").set_value(element);
+    for (const FieldDescriptor& member : field.type->fields)
+      write_field(node, member, bytes_at(structure, field.offset + element * element_size(field)));
+  }
+}
+
+void write_block(pugi::xml_node component, const char* section, const ParameterBlock& block,
+                 const void* values) {
+  if (block.type == nullptr || values == nullptr) return;
+  const bool is_runtime = std::strcmp(section, "runtime") == 0;
+  pugi::xml_node node;
+  for (const ParameterDescriptor& parameter : block.parameters) {
+    const Scalar scalar = parameter.field->scalar;
+    if (is_runtime && (!parameter.persist || scalar == Scalar::button || scalar == Scalar::hold)) continue;
+    if (!node) node = component.append_child(section);
+    write_field(node, *parameter.field, values);
+  }
+}
+
+void write_component(pugi::xml_node root, const ConfigurationComponent& component, pugi::xml_node former) {
+  pugi::xml_node node = root.append_child(element_of(component.kind));
+  node.append_attribute("name").set_value(component.name);
+  if (component.driver[0] != '\0') node.append_attribute("driver").set_value(component.driver);
+  write_block(node, "configuration", component.type->configuration, component.configuration);
+  write_block(node, "runtime", component.type->runtime, component.runtime);
+  if (!node.first_child()) root.remove_child(node);
+  // What was saved with another of its drivers stays.
+  for (pugi::xml_node section : former.children(element_of(component.kind))) {
+    if (std::strcmp(section.attribute("name").value(), component.name) != 0) continue;
+    const char* driver = section.attribute("driver").value();
+    const auto is_this = [driver](const char* other) { return std::strcmp(other, driver) == 0; };
+    if (std::any_of(component.other_drivers.begin(), component.other_drivers.end(), is_this))
+      root.append_copy(section);
+  }
+}
+
+std::string text_of_components(const ConfigurationIdentity& identity,
+                               std::span<const ConfigurationComponent> components, pugi::xml_node former) {
+  pugi::xml_document document;
+  pugi::xml_node declaration = document.append_child(pugi::node_declaration);
+  declaration.append_attribute("version").set_value("1.0");
+  declaration.append_attribute("encoding").set_value("utf-8");
+  document.append_child(pugi::node_comment)
+      .set_value(" Values only, in the units shown. After an edit by hand write checksum=\"edited\" below. ");
+  pugi::xml_node root = document.append_child("flexrf");
+  char hash[17];
+  std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(identity.descriptor_hash));
+  root.append_attribute("application").set_value(identity.application);
+  root.append_attribute("format").set_value(configuration_format);
+  root.append_attribute("descriptor").set_value(hash);
+  root.append_attribute("checksum");
+  for (const ConfigurationComponent& component : components) write_component(root, component, former);
+  return text_with_checksum(document);
+}
+
+}  // namespace
+
+Status save_configuration(const std::string& path, const ConfigurationIdentity& identity,
+                          std::span<const ConfigurationComponent> components) {
+  const Result<std::string> former = read_file(path);
+  if (!former && former.status().code() != StatusCode::not_found) return former.status();
+  ConfigurationDocument document;
+  const bool is_good = former && document.parse(path, *former);
+  const std::string text =
+      text_of_components(identity, components, is_good ? document.root() : pugi::xml_node());
+  if (former) {
+    if (*former == text) return {};
+    const Status kept = replace_file(path + (is_good ? ".previous" : ".damaged"), *former);
+    if (!kept) return kept;
+  }
+  return replace_file(path, text);
+}
+
+}  // namespace flexrf

@@ -1,0 +1,100 @@
+#include "runtime/parameters/durable_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+namespace flexrf {
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{16} << 20;
+
+// Closes on the way out; close() reports what it is told.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) noexcept : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { close(); }
+  bool close() noexcept {
+    const int number = number_;
+    number_ = -1;
+    return number < 0 || ::close(number) == 0;
+  }
+  bool is_open() const noexcept { return number_ >= 0; }
+  int number() const noexcept { return number_; }
+
+ private:
+  int number_;
+};
+
+Status failure(const char* act, const std::string& path) {
+  const int error = errno;
+  const StatusCode code = error == ENOENT                     ? StatusCode::not_found
+                          : error == EACCES || error == EPERM ? StatusCode::not_permitted
+                                                              : StatusCode::unavailable;
+  return Status::error(code, "cannot %s '%s': %s", act, path.c_str(),
+                       std::error_code(error, std::generic_category()).message().c_str());
+}
+
+Status write_all(const std::string& path, std::string_view contents, mode_t mode) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode));
+  if (!file.is_open()) return failure("create", path);
+  if (::fchmod(file.number(), mode) != 0) return failure("set the permissions of", path);
+  while (!contents.empty()) {
+    const ssize_t written = ::write(file.number(), contents.data(), contents.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return failure("write", path);
+    contents.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (::fsync(file.number()) != 0 || !file.close()) return failure("write", path);
+  return {};
+}
+
+}  // namespace
+
+Result<std::string> read_file(const std::string& path) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.is_open()) return failure("read", path);
+  std::string contents;
+  char part[65536];
+  while (true) {
+    const ssize_t count = ::read(file.number(), part, sizeof(part));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return failure("read", path);
+    if (count == 0) return contents;
+    contents.append(part, static_cast<std::size_t>(count));
+    if (contents.size() > largest_file)
+      return Status::error(StatusCode::out_of_range, "'%s' has more than 16 MiB", path.c_str());
+  }
+}
+
+Status replace_file(const std::string& path, std::string_view contents) {
+  std::error_code ignored;
+  const std::filesystem::path resolved = std::filesystem::canonical(path, ignored);
+  const std::string target = ignored ? path : resolved.string();
+  struct stat former {};
+  const mode_t mode = ::stat(target.c_str(), &former) == 0 ? former.st_mode & mode_t{0777} : mode_t{0644};
+  const std::string fresh = target + ".new";
+  if (const Status status = write_all(fresh, contents, mode); !status) {
+    ::unlink(fresh.c_str());
+    return status;
+  }
+  if (::rename(fresh.c_str(), target.c_str()) != 0) {
+    const Status status = failure("replace", target);
+    ::unlink(fresh.c_str());
+    return status;
+  }
+  // Only the directory's own fsync makes the new name outlive a power failure.
+  const std::filesystem::path parent = std::filesystem::path(target).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!directory.is_open() || ::fsync(directory.number()) != 0) return failure("write", folder);
+  return {};
+}
+
+}  // namespace flexrf

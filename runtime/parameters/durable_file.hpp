@@ -1,0 +1,19 @@
+// Files that are either the old or the new, whatever happens while they are written.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "runtime/core/status.hpp"
+
+namespace flexrf {
+
+/// The whole file. not_found when there is none; other codes say why it cannot be read. At most 16 MiB.
+/// Blocks.
+Result<std::string> read_file(const std::string& path);
+
+/// Replaces the file: writes PATH.new, fsync, rename, fsync of the directory. On failure the old file is as
+/// it was. A symbolic link stays and its target is replaced; permissions stay. Blocks.
+Status replace_file(const std::string& path, std::string_view contents);
+
+}  // namespace flexrf

@@ -1,0 +1,446 @@
+#include "runtime/parameters/configuration_file.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <new>
+
+#include "runtime/parameters/configuration_document.hpp"
+#include "runtime/parameters/durable_file.hpp"
+#include "runtime/parameters/tests/sample_component.hpp"
+#include "tests/cmocka.hpp"
+
+namespace flexrf {
+namespace {
+
+constexpr const char* other_drivers[] = {"real", "mock"};
+
+// Static, because a failing assertion jumps over destructors.
+struct World {
+  sample::SampleComponent unit;
+  sample::SampleComponent device;
+  std::vector<ConfigurationComponent> components;
+  ConfigurationIdentity identity{"cell", 0x1234, {}};
+  ConfigurationReport report;
+  std::string folder;
+  std::string file;
+};
+World* world;
+
+// With the padding between the fields, so that memory can be compared.
+void reset_values() {
+  for (sample::SampleComponent* component : {&world->unit, &world->device}) {
+    std::memcpy(&component->configuration, &sample::default_configuration, sizeof(sample::Configuration));
+    std::memcpy(&component->runtime, &sample::default_runtime, sizeof(sample::Runtime));
+  }
+}
+
+int begin(void**) {
+  world = new World;
+  char folder[] = "/tmp/flexrf-configuration-XXXXXX";
+  if (mkdtemp(folder) == nullptr) return -1;
+  world->folder = folder;
+  reset_values();
+  world->file = world->folder + "/config.xml";
+  world->components.push_back({ConfigurationComponent::Kind::unit,
+                               "jog",
+                               "",
+                               {},
+                               &sample::component_type,
+                               &world->unit.configuration,
+                               &world->unit.runtime});
+  world->components.push_back({ConfigurationComponent::Kind::device, "arm", "simulated", other_drivers,
+                               &sample::component_type, &world->device.configuration,
+                               &world->device.runtime});
+  return 0;
+}
+
+int end(void**) {
+  std::filesystem::remove_all(world->folder);
+  delete world;
+  return 0;
+}
+
+ConfigurationSource load() {
+  world->report = load_configuration(world->file, world->identity, world->components);
+  return world->report.source;
+}
+bool save() {
+  return save_configuration(world->file, world->identity, world->components).is_ok();
+}
+void write(const std::string& text, const char* suffix = "") {
+  FILE* file = std::fopen((world->file + suffix).c_str(), "w");
+  if (file == nullptr) std::abort();
+  std::fwrite(text.data(), 1, text.size(), file);
+  std::fclose(file);
+}
+std::string contents(const char* suffix = "") {
+  Result<std::string> text = read_file(world->file + suffix);
+  return text ? *text : "";
+}
+bool exists(const char* suffix) {
+  return std::filesystem::exists(world->file + suffix);
+}
+void replace(const char* from, const char* to) {
+  std::string text = contents();
+  text.replace(text.find(from), std::strlen(from), to);
+  write(text);
+}
+bool has_unchanged_values() {
+  return std::memcmp(&world->unit.configuration, &sample::default_configuration,
+                     sizeof(sample::Configuration)) == 0 &&
+         std::memcmp(&world->unit.runtime, &sample::default_runtime, sizeof(sample::Runtime)) == 0;
+}
+
+/// Line `index` without the folder's name.
+void expect_line(const std::vector<std::string>& lines, std::size_t index, const char* expected) {
+  static char line[1024];
+  if (index >= lines.size()) {
+    for (const std::string& other : lines) print_message("%s\n", other.c_str());
+    fail_msg("no line %zu: %s", index, expected);
+  }
+  std::snprintf(line, sizeof(line), "%s", lines[index].c_str());
+  for (char* at = std::strstr(line, world->folder.c_str()); at != nullptr;
+       at = std::strstr(at, world->folder.c_str()))
+    std::memmove(at, at + world->folder.size() + 1, std::strlen(at) - world->folder.size());
+  assert_string_equal(line, expected);
+}
+void expect_problem(std::size_t index, const char* expected) {
+  expect_line(world->report.problems, index, expected);
+}
+void expect_notice(std::size_t index, const char* expected) {
+  expect_line(world->report.notices, index, expected);
+}
+
+void without_a_file_the_tables_hold(void**) {
+  assert_int_equal(load(), ConfigurationSource::tables);
+  assert_true(has_unchanged_values());
+  assert_int_equal(world->report.problems.size(), 0);
+}
+
+void what_is_saved_is_loaded(void**) {
+  sample::Configuration configuration = sample::default_configuration;
+  configuration.length = 1.0 / 3;
+  configuration.rotation[5] = -0.1;
+  configuration.limits[1] = {5, 6};
+  std::strcpy(configuration.title, "a <b> & \"c\"");
+  std::memcpy(&world->unit.configuration, &configuration, sizeof(configuration));
+  world->unit.runtime.step = 0.0123;
+  world->unit.runtime.mode = 2;
+  world->unit.runtime.limits = {-7, 8};
+  world->unit.runtime.scratch = 99;
+  world->unit.runtime.go = 3;
+  world->device.runtime.small = 77;
+  assert_true(save());
+  assert_false(exists(".previous"));
+  assert_false(exists(".new"));
+  reset_values();
+  assert_int_equal(load(), ConfigurationSource::file);
+  assert_int_equal(world->report.problems.size(), 0);
+  assert_int_equal(world->report.notices.size(), 0);
+  assert_memory_equal(&world->unit.configuration, &configuration, sizeof(configuration));
+  assert_true(world->unit.runtime.step == 0.0123);
+  assert_int_equal(world->unit.runtime.mode, 2);
+  assert_true(world->unit.runtime.limits.low == -7);
+  assert_int_equal(world->device.runtime.small, 77);
+  // Not kept in files: what is not persistent, and presses.
+  assert_true(world->unit.runtime.scratch == 0.5);
+  assert_int_equal(world->unit.runtime.go, 0);
+}
+
+void the_file_is_for_people_to_read(void**) {
+  world->components.pop_back();
+  assert_true(save());
+  static char text[4096];
+  std::snprintf(text, sizeof(text), "%s", contents().c_str());
+  char* checksum = std::strstr(text, "checksum=\"") + std::strlen("checksum=\"");
+  checksum = std::strstr(checksum, "checksum=\"") + std::strlen("checksum=\"");
+  std::memcpy(checksum, "................", 16);
+  assert_string_equal(
+      text,
+      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
+      "<!-- Values only, in the units shown. After an edit by hand write checksum=\"edited\" below. -->\n"
+      "<flexrf application=\"cell\" format=\"1\" descriptor=\"0000000000001234\" "
+      "checksum=\"................\">\n"
+      "  <unit name=\"jog\">\n"
+      "    <configuration>\n"
+      "      <length unit=\"m\">2</length>\n"
+      "      <rows>3</rows>\n"
+      "      <title>home</title>\n"
+      "      <rotation unit=\"rad\">1 3 -2; 2 -1 -3</rotation>\n"
+      "      <limits index=\"0\">\n"
+      "        <low unit=\"m\">0</low>\n"
+      "        <high unit=\"m\">1</high>\n"
+      "      </limits>\n"
+      "      <limits index=\"1\">\n"
+      "        <low unit=\"m\">2</low>\n"
+      "        <high unit=\"m\">3</high>\n"
+      "      </limits>\n"
+      "    </configuration>\n"
+      "    <runtime>\n"
+      "      <step unit=\"m\">0.01</step>\n"
+      "      <gains>1 2 3</gains>\n"
+      "      <mode>manual</mode>\n"
+      "      <enabled>false</enabled>\n"
+      "      <small>-5</small>\n"
+      "      <large>7</large>\n"
+      "      <limits>\n"
+      "        <low unit=\"m\">-1</low>\n"
+      "        <high unit=\"m\">1</high>\n"
+      "      </limits>\n"
+      "    </runtime>\n"
+      "  </unit>\n"
+      "</flexrf>\n");
+}
+
+void saving_keeps_the_former_file_and_its_permissions(void**) {
+  assert_true(save());
+  assert_int_equal(chmod(world->file.c_str(), 0600), 0);
+  assert_true(save());
+  assert_false(exists(".previous"));  // nothing had changed
+  world->unit.runtime.step = 0.02;
+  assert_true(save());
+  assert_true(exists(".previous"));
+  struct stat status {};
+  assert_int_equal(stat(world->file.c_str(), &status), 0);
+  assert_int_equal(status.st_mode & 0777, 0600);
+  world->unit.runtime.step = 0.03;
+  assert_true(save());
+  write(contents(".previous"));
+  assert_int_equal(load(), ConfigurationSource::file);
+  assert_true(world->unit.runtime.step == 0.02);
+}
+
+void a_failed_save_leaves_the_file(void**) {
+  assert_true(save());
+  assert_int_equal(mkdir((world->file + ".new").c_str(), 0700), 0);
+  world->unit.runtime.step = 0.02;
+  assert_false(save());
+  reset_values();
+  assert_int_equal(load(), ConfigurationSource::file);
+  assert_true(world->unit.runtime.step == 0.01);
+}
+
+void a_damaged_file_falls_back_to_the_previous(void**) {
+  world->unit.runtime.step = 0.02;
+  assert_true(save());
+  world->unit.runtime.step = 0.03;
+  assert_true(save());
+  // Every truncation is seen, and never half a file is taken.
+  const std::size_t size = contents().size();
+  static std::string whole_text;
+  whole_text = contents();
+  for (std::size_t length = 0; length + 1 < size; length += 7) {
+    write(whole_text.substr(0, length));
+    reset_values();
+    assert_int_equal(load(), ConfigurationSource::previous);
+    assert_true(world->unit.runtime.step == 0.02);
+  }
+  write(whole_text);
+  replace("0.03", "0.04");
+  reset_values();
+  assert_int_equal(load(), ConfigurationSource::previous);
+  assert_true(world->unit.runtime.step == 0.02);
+  expect_problem(
+      0,
+      "config.xml:3:1: error: damaged, or edited by hand: the checksum does not match. If you edited it, "
+      "write checksum=\"edited\"");
+  expect_notice(0, "config.xml: the previous copy 'config.xml.previous' is used in its place");
+  // Saving now loses neither the good copy nor the edit.
+  assert_true(save());
+  assert_true(contents(".damaged").find("0.04") != std::string::npos);
+  assert_true(contents(".previous").find("0.02") != std::string::npos);
+}
+
+void a_syntax_error_has_line_and_column(void**) {
+  write("<flexrf>\n  <unit name=\"jog\">\n    <runtime><step>0.02</stpe></runtime>\n  </unit>\n</flexrf>\n");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  expect_problem(0, "config.xml:3:26: error: damaged: Start-end tags mismatch");
+  expect_problem(
+      1,
+      "config.xml: error: there is no previous copy 'config.xml.previous': repair the file, or remove it to "
+      "start with the values of the tables");
+  write("<flexrf/>\n<flexrf/>\n");
+  write("<flexrf", ".previous");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  expect_problem(0, "config.xml:2:1: error: damaged: a second document begins here");
+  expect_problem(1, "config.xml.previous:1:8: error: damaged: Error parsing start element tag");
+  expect_problem(
+      2,
+      "config.xml: error: nor can 'config.xml.previous' be used: repair the file, or remove it to start "
+      "with the values of the tables");
+  assert_true(has_unchanged_values());
+}
+
+void an_edited_file_is_taken_with_a_notice(void**) {
+  write(
+      "<flexrf checksum=\"edited\">\n  <unit name=\"jog\"><runtime><step "
+      "unit=\"m\">0.05</step></runtime></unit>\n"
+      "</flexrf>\n");
+  assert_int_equal(load(), ConfigurationSource::file);
+  expect_notice(0, "config.xml:1:1: edited by hand: taken without a checksum");
+  assert_true(world->unit.runtime.step == 0.05);
+  assert_true(world->unit.configuration.length == 2);
+  // Saving completes it.
+  assert_true(save());
+  assert_int_equal(load(), ConfigurationSource::file);
+  assert_int_equal(world->report.notices.size(), 0);
+}
+
+void all_that_does_not_fit_is_named_at_once_and_nothing_is_taken(void**) {
+  write(
+      "<flexrf>\n"
+      "  <unit name=\"jog\">\n"
+      "    <runtime>\n"
+      "      <small>4</small>\n"
+      "      <step>0.5</step>\n"
+      "      <gians>1 2 3</gians>\n"
+      "      <gains>1 2 30</gains>\n"
+      "      <mode>manuel</mode>\n"
+      "      <limits><lo>1</lo><high>nan</high></limits>\n"
+      "      <scratch>1</scratch>\n"
+      "      <go>1</go>\n"
+      "      <small>5</small>\n"
+      "    </runtime>\n"
+      "    <configuration>\n"
+      "      <length unit=\"mm\">2</length>\n"
+      "      <limits index=\"2\"/>\n"
+      "      <rows colour=\"red\">two</rows>\n"
+      "      <title>far too long a title</title>\n"
+      "      <rotation>1 <b/></rotation>\n"
+      "    </configuration>\n"
+      "    <runtme/>\n"
+      "  </unit>\n"
+      "  <unit name=\"jogg\"/>\n"
+      "  <unit name=\"arm\"/>\n"
+      "  <device name=\"arm\" driver=\"reel\"/>\n"
+      "  <devise/>\n"
+      "</flexrf>\n");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  std::size_t line = 0;
+  expect_problem(line++, "config.xml:5:7: error: jog.step: 0.5 m lies outside 0.001 to 0.1 m");
+  expect_problem(line++,
+                 "config.xml:6:7: error: 'jog' has no runtime parameter 'gians'; did you mean 'gains'?");
+  expect_problem(line++, "config.xml:7:7: error: jog.gains, value 3: 30 lies outside 0 to 10");
+  expect_problem(line++, "config.xml:8:7: error: jog.mode: 'manuel' is no Mode; did you mean 'manual'?");
+  expect_problem(line++, "config.xml:9:15: error: 'jog.limits' has no member 'lo'; did you mean 'low'?");
+  expect_problem(line++, "config.xml:9:25: error: jog.limits.high: nan is not a finite number");
+  expect_problem(line++, "config.xml:10:7: error: 'jog.scratch' is not kept in files");
+  expect_problem(line++, "config.xml:11:7: error: 'jog.go' is not kept in files");
+  expect_problem(line++, "config.xml:12:7: error: 'jog.small' is given twice");
+  expect_problem(line++,
+                 "config.xml:15:7: error: 'jog.length' is given in 'mm', but its unit of measure is 'm'");
+  expect_problem(line++, "config.xml:16:7: error: 'jog.limits' wants index=\"0\" to \"1\"");
+  expect_problem(line++, "config.xml:17:7: error: <rows> has no attribute 'colour'");
+  expect_problem(line++, "config.xml:17:7: error: jog.rows: 'two' is not an integer");
+  expect_problem(line++, "config.xml:18:7: error: jog.title: 20 bytes of text, but there is room for 16");
+  expect_problem(line++, "config.xml:19:19: error: <b> within a single value");
+  expect_problem(
+      line++,
+      "config.xml:21:5: error: <runtme> is neither <configuration> nor <runtime>; did you mean 'runtime'?");
+  expect_problem(line++, "config.xml:23:3: error: there is no unit 'jogg'; did you mean 'jog'?");
+  expect_problem(line++, "config.xml:24:3: error: there is no unit 'arm'");
+  expect_problem(line++, "config.xml:25:3: error: device 'arm' has no driver 'reel'; did you mean 'real'?");
+  expect_problem(line++,
+                 "config.xml:26:3: error: <devise> is neither <unit> nor <device>; did you mean 'device'?");
+  assert_int_equal(world->report.problems.size(), line);
+  assert_true(has_unchanged_values());
+}
+
+void a_file_of_another_application_is_refused(void**) {
+  write("<flexrf application=\"press\"/>");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  expect_problem(0, "config.xml:1:1: error: this file is of the application 'press', not of 'cell'");
+  write("<html/>");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  expect_problem(0, "config.xml:1:1: error: the outermost element is <html>, not <flexrf>");
+  write("<flexrf format=\"9\"/>");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  expect_problem(
+      0, "config.xml:1:1: error: format 9 was written by a newer FlexRF; this one reads formats up to 1");
+}
+
+void of_other_tables_what_fits_is_taken_under_its_new_name(void**) {
+  static constexpr Rename renames[] = {
+      {"jogger", "jog"}, {"jogger.stride", "jog.step"}, {"jog.tall", "jog.length"}};
+  world->identity.renames = renames;
+  write(
+      "<flexrf descriptor=\"999\">\n"
+      "  <unit name=\"jogger\">\n"
+      "    <runtime><stride>0.05</stride><small>1000</small><gone>1</gone></runtime>\n"
+      "    <configuration><tall>4</tall></configuration>\n"
+      "  </unit>\n"
+      "</flexrf>\n");
+  assert_int_equal(load(), ConfigurationSource::file);
+  assert_true(world->unit.runtime.step == 0.05);
+  assert_true(world->unit.configuration.length == 4);
+  assert_int_equal(world->unit.runtime.small, -5);
+  expect_notice(
+      0, "config.xml:1:1: written for other tables of this application: values that still fit are taken");
+  expect_notice(1, "config.xml:1:1: edited by hand: taken without a checksum");
+  expect_notice(2, "config.xml:3:35: left out: jog.small: 1000 does not fit its type");
+  expect_notice(3, "config.xml:3:54: left out: 'jog' has no runtime parameter 'gone'");
+  assert_int_equal(world->report.notices.size(), 4);
+}
+
+void values_of_another_driver_are_neither_read_nor_lost(void**) {
+  write(
+      "<flexrf>\n"
+      "  <device name=\"arm\" driver=\"real\"><configuration><port>7</port></configuration></device>\n"
+      "  <device name=\"arm\" driver=\"simulated\"><runtime><small>9</small></runtime></device>\n"
+      "</flexrf>\n");
+  assert_int_equal(load(), ConfigurationSource::file);
+  assert_int_equal(world->device.runtime.small, 9);
+  assert_true(save());
+  assert_true(contents().find("<port>7</port>") != std::string::npos);
+  assert_int_equal(load(), ConfigurationSource::file);
+}
+
+void a_file_that_cannot_be_read_is_not_taken_for_absent(void**) {
+  assert_int_equal(mkdir(world->file.c_str(), 0700), 0);
+  assert_int_equal(load(), ConfigurationSource::refused);
+  expect_problem(0, "config.xml: error: cannot read 'config.xml': Is a directory");
+}
+
+void older_formats_are_brought_up_step_by_step(void**) {
+  static constexpr FormatStep steps[] = {
+      {1, [](pugi::xml_node root) { root.child("unit").set_name("part"); }},
+      {2, [](pugi::xml_node root) { root.child("part").append_attribute("kind").set_value("unit"); }}};
+  static pugi::xml_document document;
+  assert_true(static_cast<bool>(document.load_string("<flexrf format='1'><unit/></flexrf>")));
+  assert_true(upgrade_format(document.document_element(), 3, steps).is_ok());
+  assert_string_equal(document.document_element().attribute("format").value(), "3");
+  assert_string_equal(document.document_element().child("part").attribute("kind").value(), "unit");
+  assert_true(upgrade_format(document.document_element(), 3, steps).is_ok());
+  assert_false(upgrade_format(document.document_element(), 2, steps).is_ok());
+  document.document_element().attribute("format").set_value(0);
+  assert_false(upgrade_format(document.document_element(), 3, steps).is_ok());
+}
+
+}  // namespace
+}  // namespace flexrf
+
+int main() {
+  using namespace flexrf;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(without_a_file_the_tables_hold, begin, end),
+      cmocka_unit_test_setup_teardown(what_is_saved_is_loaded, begin, end),
+      cmocka_unit_test_setup_teardown(the_file_is_for_people_to_read, begin, end),
+      cmocka_unit_test_setup_teardown(saving_keeps_the_former_file_and_its_permissions, begin, end),
+      cmocka_unit_test_setup_teardown(a_failed_save_leaves_the_file, begin, end),
+      cmocka_unit_test_setup_teardown(a_damaged_file_falls_back_to_the_previous, begin, end),
+      cmocka_unit_test_setup_teardown(a_syntax_error_has_line_and_column, begin, end),
+      cmocka_unit_test_setup_teardown(an_edited_file_is_taken_with_a_notice, begin, end),
+      cmocka_unit_test_setup_teardown(all_that_does_not_fit_is_named_at_once_and_nothing_is_taken, begin,
+                                      end),
+      cmocka_unit_test_setup_teardown(a_file_of_another_application_is_refused, begin, end),
+      cmocka_unit_test_setup_teardown(of_other_tables_what_fits_is_taken_under_its_new_name, begin, end),
+      cmocka_unit_test_setup_teardown(values_of_another_driver_are_neither_read_nor_lost, begin, end),
+      cmocka_unit_test_setup_teardown(a_file_that_cannot_be_read_is_not_taken_for_absent, begin, end),
+      cmocka_unit_test(older_formats_are_brought_up_step_by_step),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
