@@ -27,7 +27,7 @@ void push_items(QueueRing& ring, std::uint64_t count) {
   for (std::uint64_t number = 1; number <= count; ++number) {
     item.fill(number);
     ring.push(&item, at(number));
-    if (number % 64 == 0) std::this_thread::yield();
+    if (number % 2048 == 0) std::this_thread::yield();
   }
 }
 
@@ -99,7 +99,7 @@ void push_jobs(JobSink& sink, std::uint64_t writer, std::uint64_t count) {
     const std::uint64_t name = writer << 32 | number;
     const Job job{{name, name, number * 7919 % 101}};
     sink.push(&job, at(number));
-    if (number % 16 == 0) std::this_thread::yield();
+    if (number % 2048 == 0) std::this_thread::yield();
   }
 }
 
@@ -208,7 +208,7 @@ const char* run_history() {
   for (std::uint64_t number = 1; number <= test::items(100'000); ++number) {
     item.fill(number);
     history.append({number, at(number)}, &item);
-    if (number % 16 == 0) std::this_thread::yield();
+    if (number % 2048 == 0) std::this_thread::yield();
   }
   done = true;
   for (std::thread& thread : readers) thread.join();
