@@ -1,0 +1,177 @@
+// Steps that take longer than they may: what is left out, what is caught up with, what is a fault.
+#include "runtime/executive/accounting.hpp"
+#include "runtime/executive/tests/running_cell.hpp"
+
+namespace flexrf::fixture {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using Cell = ProducerAndConsumer;
+
+constexpr Time beginning{std::chrono::seconds{1}};
+
+/// A producer whose declared budget, which virtual time takes it by, is 2.5 periods.
+void make_slow(Cell& cell, OverrunPolicy policy, std::vector<Tick>& ticks) {
+  cell.thread(Cell::producing).overrun = policy;
+  cell.unit(Cell::producer).budget = microseconds{2500};
+  cell.unit(Cell::producer).script.step = [&ticks](TestUnit&, const Tick& tick) {
+    if (!tick.stop_requested) ticks.push_back(tick);
+  };
+}
+
+void skipped_releases_are_left_out() {
+  Cell cell;
+  std::vector<Tick> ticks;
+  make_slow(cell, OverrunPolicy::skip, ticks);
+  Executive executive(cell.application(), in_virtual_time(milliseconds{100}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  CHECK(ticks.size() >= 33);
+  for (std::size_t i = 1; i < ticks.size(); ++i) {
+    CHECK(ticks[i].nominal - ticks[i - 1].nominal >= milliseconds{2});
+    CHECK(ticks[i].lateness < milliseconds{1});
+    // Releases stay on the grid of the period.
+    CHECK_EQUAL((ticks[i].nominal - beginning).count() % 1'000'000, 0);
+  }
+  const ThreadState& state = cell.thread_state(Cell::producing);
+  CHECK(state.overruns >= ticks.size());
+  CHECK(state.skipped >= 50);
+  CHECK(state.skipped + state.cycles <= 106);
+}
+
+void every_release_is_caught_up_with() {
+  Cell cell;
+  std::vector<Tick> ticks;
+  make_slow(cell, OverrunPolicy::catch_up, ticks);
+  Executive executive(cell.application(), in_virtual_time(milliseconds{100}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  CHECK_EQUAL(ticks.size(), 40U);
+  for (std::size_t i = 1; i < ticks.size(); ++i) {
+    CHECK_EQUAL((ticks[i].nominal - ticks[i - 1].nominal).count(), 1'000'000);
+    CHECK_EQUAL((ticks[i].now - ticks[i - 1].now).count(), 2'500'000);
+  }
+  CHECK_EQUAL(cell.thread_state(Cell::producing).skipped.load(), 0U);
+}
+
+void an_overrun_may_be_a_fault() {
+  Cell cell;
+  std::vector<Tick> ticks;
+  make_slow(cell, OverrunPolicy::fault, ticks);
+  Executive executive(cell.application(), in_virtual_time(milliseconds{100}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
+  CHECK_EQUAL(ticks.size(), 1U);
+  CHECK_EQUAL(cell.unit_state(Cell::producer).life.load(), Life::fault);
+  CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.cause(), "thread producing reached its overrun limit");
+  // The other thread's unit is not concerned.
+  CHECK_EQUAL(cell.unit_state(Cell::consumer).life.load(), Life::stopped);
+}
+
+void so_many_in_a_row_are_a_fault() {
+  Cell cell;
+  std::vector<Tick> ticks;
+  make_slow(cell, OverrunPolicy::skip, ticks);
+  cell.thread(Cell::producing).limit = OverrunLimit{false, 4, 0};
+  Executive executive(cell.application(), in_virtual_time(milliseconds{100}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
+  CHECK_EQUAL(ticks.size(), 4U);
+}
+
+// ---- the counting itself
+
+struct Counting {
+  explicit Counting(OverrunPolicy policy, OverrunLimit limit) {
+    record.overrun = policy;
+    record.limit = limit;
+    record.deadline = milliseconds{1};
+  }
+  /// One release that took so long; whether it is a fault.
+  bool cycle(Duration took, std::uint64_t past = 0) {
+    at += milliseconds{10};
+    return accounting.count(Release{at, at, 0, false}, at + took, past);
+  }
+  bool good() { return cycle(microseconds{500}); }
+  bool bad() { return cycle(microseconds{1500}); }
+
+  ThreadRecord record{};
+  ThreadState state;
+  Accounting accounting{record, state};
+  Time at = beginning;
+};
+
+void consecutive_overruns_are_forgotten_by_one_good_cycle() {
+  Counting counting(OverrunPolicy::skip, OverrunLimit{false, 3, 0});
+  for (int i = 0; i < 10; ++i) CHECK(!counting.bad() && !counting.bad() && !counting.good());
+  CHECK(!counting.bad());
+  CHECK(!counting.bad());
+  CHECK(counting.bad());
+  CHECK_EQUAL(counting.state.overruns.load(), 23U);
+}
+
+void a_leaky_limit_drains_by_good_cycles() {
+  // Rises by one per overrun, falls by one per 4 good cycles, faults at 3.
+  Counting steady(OverrunPolicy::skip, OverrunLimit{true, 3, 4});
+  for (int i = 0; i < 50; ++i) {
+    CHECK(!steady.bad());
+    for (int good = 0; good < 4; ++good) CHECK(!steady.good());
+  }
+  Counting rising(OverrunPolicy::skip, OverrunLimit{true, 3, 4});
+  const auto bad_and_three_good = [&] {
+    const bool fault = rising.bad();
+    return rising.good() || rising.good() || rising.good() || fault;
+  };
+  int faults_after = 0;
+  for (bool fault = false; !fault && faults_after < 100; ++faults_after) fault = bad_and_three_good();
+  CHECK(faults_after >= 4 && faults_after < 20);
+}
+
+void without_a_limit_overruns_are_only_counted() {
+  Counting counting(OverrunPolicy::skip, OverrunLimit{});
+  for (int i = 0; i < 1000; ++i) CHECK(!counting.cycle(milliseconds{2}, 3));
+  CHECK_EQUAL(counting.state.overruns.load(), 1000U);
+  CHECK_EQUAL(counting.state.skipped.load(), 3000U);
+}
+
+void a_late_beginning_counts_too() {
+  Counting counting(OverrunPolicy::skip, OverrunLimit{});
+  const Time due = beginning;
+  counting.accounting.count(Release{due, due + microseconds{900}, 0, false}, due + microseconds{1100}, 0);
+  CHECK_EQUAL(counting.state.overruns.load(), 1U);
+  CHECK_EQUAL(counting.state.lateness.maximum().count(), 900'000);
+  CHECK_EQUAL(counting.state.execution.maximum().count(), 200'000);
+}
+
+void a_real_overrun_is_noticed_on_the_wall_clock() {
+  Cell cell;
+  cell.thread(Cell::producing).overrun = OverrunPolicy::fault;
+  cell.unit(Cell::producer).script.step = [](TestUnit&, const Tick& tick) {
+    if (tick.number != 3) return;
+    const Time until = MonotonicClock::now() + milliseconds{5};
+    while (MonotonicClock::now() < until) {
+    }
+  };
+  cell.thread(Cell::producing).trigger = TriggerPlan::periodic(milliseconds{2});
+  RunningCell running(cell);
+  running.start();
+  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::producer).life == Life::fault; }));
+  CHECK_EQUAL(running.finish().exit_code, 2);
+  CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.cause(), "overrun limit");
+}
+
+}  // namespace
+}  // namespace flexrf::fixture
+
+int main() {
+  using namespace flexrf::fixture;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(skipped_releases_are_left_out),
+      CONTAINED_TEST(every_release_is_caught_up_with),
+      CONTAINED_TEST(an_overrun_may_be_a_fault),
+      CONTAINED_TEST(so_many_in_a_row_are_a_fault),
+      CONTAINED_TEST(consecutive_overruns_are_forgotten_by_one_good_cycle),
+      CONTAINED_TEST(a_leaky_limit_drains_by_good_cycles),
+      CONTAINED_TEST(without_a_limit_overruns_are_only_counted),
+      CONTAINED_TEST(a_late_beginning_counts_too),
+      CONTAINED_TEST(a_real_overrun_is_noticed_on_the_wall_clock),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

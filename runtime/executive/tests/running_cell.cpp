@@ -1,0 +1,59 @@
+#include "runtime/executive/tests/running_cell.hpp"
+
+#include <chrono>
+
+namespace flexrf::fixture {
+
+RunSummary run_to_the_end(Executive& executive) {
+  const Status status = executive.prepare();
+  if (!status) throw CheckFailed{std::string{"prepare: "} + status.cause()};
+  return executive.run();
+}
+
+RunningCell::RunningCell(TestApplication& cell, Options options)
+    : executive_(cell.application(), std::move(options)) {
+  const Status status = executive_.prepare();
+  if (!status) throw CheckFailed{std::string{"prepare: "} + status.cause()};
+  // The signals a test sends are for the supervising thread, which waits for them.
+  sigset_t ending;
+  sigemptyset(&ending);
+  sigaddset(&ending, SIGINT);
+  sigaddset(&ending, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+}
+
+RunningCell::~RunningCell() {
+  if (thread_.joinable()) finish();
+}
+
+void RunningCell::start() {
+  thread_ = std::thread([this] { summary_ = executive_.run(); });
+}
+
+bool RunningCell::wait_until(const std::function<bool()>& condition) {
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > give_up) return false;
+    std::this_thread::sleep_for(std::chrono::microseconds{200});
+  }
+  return true;
+}
+
+ParameterAnswer RunningCell::ask(const ParameterRequest& request) {
+  executive_.cell().send(request);
+  ParameterAnswer answer;
+  if (!wait_until([&] { return answers_.pop(answer); })) throw CheckFailed{"no answer"};
+  return answer;
+}
+
+void RunningCell::stop() {
+  control().set_cause(EndCause::requested);
+  control().rise_to(Mode::stopping);
+}
+
+RunSummary RunningCell::join() {
+  thread_.join();
+  return summary_;
+}
+
+}  // namespace flexrf::fixture

@@ -1,0 +1,50 @@
+// An application that runs on the wall clock beside the test, which plays the person at the machine.
+#pragma once
+
+#include <csignal>
+#include <functional>
+#include <thread>
+
+#include "runtime/executive/executive.hpp"
+#include "runtime/executive/tests/checks.hpp"
+#include "runtime/executive/tests/fixture.hpp"
+
+namespace flexrf::fixture {
+
+/// Runs a cell from prepare() to its end on this thread: for virtual time, and for what ends by itself.
+RunSummary run_to_the_end(Executive& executive);
+
+/// Runs it on a thread of its own; ends it when the test forgets to.
+class RunningCell {
+ public:
+  explicit RunningCell(TestApplication& cell, Options options = on_the_wall_clock());
+  ~RunningCell();
+  RunningCell(const RunningCell&) = delete;
+  RunningCell& operator=(const RunningCell&) = delete;
+
+  Executive& executive() { return executive_; }
+  Control& control() { return executive_.control(); }
+  /// Before start().
+  std::uint16_t add_requester() { return executive_.cell().add_requester(answers_); }
+  void start();
+  /// False when it does not come true within 20 s, which is not a measurement but the end of patience.
+  static bool wait_until(const std::function<bool()>& condition);
+  /// Sends and waits for the answer.
+  ParameterAnswer ask(const ParameterRequest& request);
+  /// Requests the controlled stop.
+  void stop();
+  /// Waits for the end.
+  RunSummary join();
+  RunSummary finish() {
+    stop();
+    return join();
+  }
+
+ private:
+  AnswerQueue answers_;
+  Executive executive_;
+  std::thread thread_;
+  RunSummary summary_;
+};
+
+}  // namespace flexrf::fixture

@@ -1,0 +1,205 @@
+// The five triggers, and what a step is told of its release.
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "runtime/executive/tests/running_cell.hpp"
+
+namespace flexrf::fixture {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using Cell = ProducerAndConsumer;
+
+constexpr Time beginning{std::chrono::seconds{1}};  // of virtual time
+
+/// A script that keeps the ticks of ordinary steps.
+std::function<void(TestUnit&, const Tick&)> recording(std::vector<Tick>& ticks) {
+  return [&ticks](TestUnit&, const Tick& tick) {
+    if (!tick.stop_requested) ticks.push_back(tick);
+  };
+}
+
+std::vector<Tick> ticks_of_consumer(Cell& cell, Duration duration) {
+  std::vector<Tick> ticks;
+  cell.unit(Cell::consumer).script.step = recording(ticks);
+  Executive executive(cell.application(), in_virtual_time(duration));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  return ticks;
+}
+
+void a_period_has_its_phase_and_no_drift() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{7}, milliseconds{2});
+  const std::vector<Tick> ticks = ticks_of_consumer(cell, milliseconds{50});
+  CHECK_EQUAL(ticks.size(), 7U);
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    CHECK_EQUAL(nanoseconds(ticks[i].nominal),
+                nanoseconds(beginning + milliseconds{2 + 7 * static_cast<int>(i)}));
+    CHECK_EQUAL(ticks[i].lateness.count(), 0);
+    CHECK_EQUAL(nanoseconds(ticks[i].now), nanoseconds(ticks[i].nominal));
+    CHECK_EQUAL(ticks[i].elapsed.count(), i == 0 ? 0 : 7'000'000);
+    CHECK_EQUAL(ticks[i].number, i);
+    CHECK_EQUAL(ticks[i].fired, 0U);
+    CHECK(!ticks[i].timed_out && !ticks[i].finishing && !ticks[i].motion_inhibited);
+  }
+}
+
+void a_publication_releases_when_it_becomes_visible() {
+  Cell cell;
+  const std::vector<Tick> ticks = ticks_of_consumer(cell, milliseconds{10});
+  CHECK_EQUAL(ticks.size(), 10U);
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    // The producer's budget later than its release.
+    CHECK_EQUAL(nanoseconds(ticks[i].now), nanoseconds(beginning + milliseconds{i} + microseconds{50}));
+    CHECK_EQUAL(ticks[i].fired, 3U);
+  }
+}
+
+void the_tick_says_which_source_fired() {
+  Cell cell;
+  cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
+    if (tick.number == 3) unit.outputs[0].publish(Item{});
+    if (tick.number == 5) unit.orders.push(Item{});
+  };
+  const std::vector<Tick> ticks = ticks_of_consumer(cell, milliseconds{10});
+  CHECK_EQUAL(ticks.size(), 2U);
+  CHECK_EQUAL(ticks[0].fired, 1U);
+  CHECK_EQUAL(ticks[1].fired, 2U);
+  CHECK_EQUAL(ticks[1].elapsed.count(), 2'000'000);
+}
+
+void publications_in_between_make_one_release() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger.min_interval = milliseconds{5};
+  std::vector<std::uint64_t> missed;
+  std::vector<Tick> ticks;
+  cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
+    if (tick.stop_requested) return;
+    missed.push_back(unit.inputs[0].latest().missed());
+    ticks.push_back(tick);
+  };
+  Executive executive(cell.application(), in_virtual_time(milliseconds{51}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  CHECK(ticks.size() >= 10);
+  for (std::size_t i = 2; i < ticks.size(); ++i) {
+    CHECK_EQUAL((ticks[i].now - ticks[i - 1].now).count(), 5'000'000);
+    CHECK_EQUAL(missed[i], 4U);
+  }
+}
+
+void a_timeout_is_a_release_of_its_own() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger.timeout = milliseconds{10};
+  cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
+    if (tick.number < 3 || tick.number == 40) unit.outputs[0].publish(Item{});
+  };
+  const std::vector<Tick> ticks = ticks_of_consumer(cell, milliseconds{60});
+  std::vector<std::int64_t> timeouts;
+  for (const Tick& tick : ticks) {
+    CHECK_EQUAL(tick.timed_out, tick.fired == 0);
+    if (tick.timed_out) timeouts.push_back((tick.now - beginning).count() / 1000);
+  }
+  CHECK_EQUAL(ticks.size(), 8U);
+  CHECK((timeouts == std::vector<std::int64_t>{12'050, 22'050, 32'050, 50'050}));
+}
+
+void a_device_releases_its_thread_in_virtual_time() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger = TriggerPlan::on_device(Cell::actuator);
+  Time next = beginning + milliseconds{3};
+  cell.device(Cell::actuator).script.next_event = [&] { return next; };
+  cell.device(Cell::actuator).script.receive = [&](TestDevice&, const Tick& tick) {
+    if (tick.now >= next) next += milliseconds{4};
+  };
+  const std::vector<Tick> ticks = ticks_of_consumer(cell, milliseconds{20});
+  CHECK_EQUAL(ticks.size(), 5U);
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    CHECK_EQUAL((ticks[i].now - beginning).count(), 3'000'000 + 4'000'000 * static_cast<std::int64_t>(i));
+    CHECK_EQUAL(ticks[i].fired, 1U);
+  }
+}
+
+void a_device_releases_its_thread_on_the_wall_clock() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger = TriggerPlan::on_device(Cell::actuator);
+  const int descriptor = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  std::atomic<std::uint64_t> received{0};
+  std::atomic<int> released{0};
+  cell.device(Cell::actuator).script.descriptor = [descriptor] { return descriptor; };
+  cell.device(Cell::actuator).script.receive = [&](TestDevice&, const Tick&) {
+    std::uint64_t value = 0;
+    if (read(descriptor, &value, sizeof(value)) == sizeof(value)) received += value;
+  };
+  cell.unit(Cell::consumer).script.step = [&](TestUnit&, const Tick& tick) {
+    released += tick.fired == 1 ? 1 : 0;
+  };
+  RunningCell running(cell);
+  running.start();
+  CHECK(RunningCell::wait_until([&] { return running.control().mode() == Mode::running; }));
+  for (std::uint64_t i = 1; i <= 5; ++i) {
+    const std::uint64_t one = 1;
+    CHECK_EQUAL(write(descriptor, &one, sizeof(one)), 8);
+    CHECK(RunningCell::wait_until([&] { return received == i; }));
+  }
+  CHECK(RunningCell::wait_until([&] { return released >= 5; }));
+  CHECK_EQUAL(running.finish().exit_code, 0);
+  close(descriptor);
+}
+
+void back_off_finds_every_item_of_a_steady_source_soon() {
+  Cell cell;
+  cell.thread(Cell::producing).trigger = TriggerPlan::periodic(milliseconds{10});
+  cell.thread(Cell::consuming).trigger =
+      TriggerPlan::backing_off(Cell::values, microseconds{100}, milliseconds{50});
+  std::vector<Duration> ages;
+  std::uint64_t missed = 0;
+  cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
+    if (tick.stop_requested) return;
+    const View<Item> view = unit.inputs[0].latest();
+    CHECK(view.is_new());
+    ages.push_back(view.age());
+    missed += view.missed();
+  };
+  Executive executive(cell.application(), in_virtual_time(std::chrono::seconds{2}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  CHECK(ages.size() + missed + 2 >= 200);
+  CHECK(missed <= 10);
+  std::sort(ages.begin(), ages.end());
+  CHECK(ages[ages.size() / 2] < milliseconds{1});
+}
+
+void a_free_thread_steps_without_a_reason() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger = TriggerPlan::free_running();
+  cell.unit(Cell::consumer).budget = microseconds{20};
+  const std::vector<Tick> ticks = ticks_of_consumer(cell, milliseconds{10});
+  CHECK(ticks.size() >= 490);
+  Cell other;
+  other.thread(Cell::consuming).trigger = TriggerPlan::free_running();
+  RunningCell running(other);
+  running.start();
+  CHECK(RunningCell::wait_until([&] { return other.unit_state(Cell::consumer).steps > 1000; }));
+  CHECK_EQUAL(running.finish().exit_code, 0);
+}
+
+}  // namespace
+}  // namespace flexrf::fixture
+
+int main() {
+  using namespace flexrf::fixture;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(a_period_has_its_phase_and_no_drift),
+      CONTAINED_TEST(a_publication_releases_when_it_becomes_visible),
+      CONTAINED_TEST(the_tick_says_which_source_fired),
+      CONTAINED_TEST(publications_in_between_make_one_release),
+      CONTAINED_TEST(a_timeout_is_a_release_of_its_own),
+      CONTAINED_TEST(a_device_releases_its_thread_in_virtual_time),
+      CONTAINED_TEST(a_device_releases_its_thread_on_the_wall_clock),
+      CONTAINED_TEST(back_off_finds_every_item_of_a_steady_source_soon),
+      CONTAINED_TEST(a_free_thread_steps_without_a_reason),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
