@@ -46,7 +46,13 @@ void check_owners(const Model& model, const Device& device, const std::vector<Ow
               to_string(model.units[owners.front().unit].position));
   }
   const InInstance instance(diagnostics, model, device.name);
-  if (owners.empty() && !device.io_thread && !interface.bus)
+  // What waits or publishes lacks an IO thread rather than an owner, which is reported as such.
+  const bool lacks_io_thread =
+      std::any_of(device.outputs.begin(), device.outputs.end(),
+                  [](const auto& output) { return bool(output.position); }) ||
+      std::any_of(device.drivers.begin(), device.drivers.end(),
+                  [&](const DriverChoice& choice) { return model.drivers[choice.driver].waits; });
+  if (owners.empty() && !device.io_thread && !interface.bus && !lacks_io_thread)
     diagnostics.error(device.position, "device " + quote(device.name) + " has no owner",
                       interface.outputs.empty()
                           ? "give it to a unit, as device.NAME = \"" + device.name + "\""

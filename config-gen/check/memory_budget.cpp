@@ -20,7 +20,7 @@ void check_memory(const Model& model, Diagnostics& diagnostics) {
                    [](const MemoryItem& a, const MemoryItem& b) { return a.bytes > b.bytes; });
   constexpr std::size_t most_shown = 4;
   std::vector<std::string> biggest;
-  for (std::size_t i = 0; i < std::min(most_shown, items.size()); ++i)
+  for (std::size_t i = 0; i < std::min(most_shown, items.size()) && items[i].bytes * 50 >= needed; ++i)
     biggest.push_back(std::string(kinds[static_cast<std::size_t>(items[i].kind)]) + " " +
                       quote(items[i].name) + " " + size_text(items[i].bytes) + " (" + items[i].account + ")");
   diagnostics.error(

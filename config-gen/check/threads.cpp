@@ -29,9 +29,11 @@ void check_units_once(const Model& model, Diagnostics& diagnostics) {
         first[index] = &thread;
     }
   }
+  const bool incomplete = std::any_of(model.threads.begin(), model.threads.end(),
+                                      [](const Thread& thread) { return thread.units_unknown; });
   for (Index index = 0; index < model.units.size(); ++index) {
-    if (first[index] != nullptr) continue;
     const Unit& unit = model.units[index];
+    if (first[index] != nullptr || unit.partial || incomplete) continue;
     const InInstance instance(diagnostics, model, unit.name);
     diagnostics.error(unit.position, "unit " + quote(unit.name) + " is in no thread",
                       "add it to the units of a [thread.NAME]; until then it would never step");

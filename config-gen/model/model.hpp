@@ -353,7 +353,8 @@ struct Thread {
   std::string summary;
 
   Nanoseconds demand = 0;                    // sum of the units' budgets
-  bool partial = false;                      // as of a slot
+  bool partial = false;                      // only with errors: its trigger could not be read
+  bool units_unknown = false;                // only with errors: its list of units could not be read
   std::optional<Nanoseconds> response_time;  // real-time threads with known interval: the analysis' estimate
 };
 
@@ -440,6 +441,7 @@ struct Unit {
   Restart restart = Restart::never;
   std::optional<Index> feedback_slot;  // none when it has no feedback
   std::optional<Index> values_slot;    // runtime values in force; none when it has no runtime parameters
+  bool partial = false;                // as of a slot
 };
 
 struct Population {

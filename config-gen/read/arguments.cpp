@@ -40,6 +40,12 @@ Node integer_node(std::size_t value) {
   return node;
 }
 
+Node broken_node() {
+  Node node;
+  node.broken = true;
+  return node;
+}
+
 class Filler {
  public:
   Filler(const Arguments& arguments, std::optional<std::size_t> index, bool in_group,
@@ -61,6 +67,7 @@ class Filler {
       const std::size_t end = node.text.find('}', start);
       if (end == std::string::npos) {
         diagnostics_.error(node.position, "a ${ without its }", "write arguments as \"${name}\"");
+        node.broken = true;
         return;
       }
       const std::string name = node.text.substr(start + 2, end - start - 2);
@@ -69,7 +76,8 @@ class Filler {
         continue;
       }
       const auto value = look_up(name, node.position);
-      if (!value) return;
+      node.broken = !value || value->broken;
+      if (node.broken) return;
       if (start == 0 && end + 1 == node.text.size()) {
         replace(node, *value);
         return;
@@ -146,12 +154,13 @@ Arguments read_arguments(Library& library, const Node& group, const Node* with, 
           with != nullptr ? with->key_position : row.key_position,
           "[group." + row.key + "] gives no argument " + quote(node->key),
           "add with = { " + node->key + " = ... }; it is declared at " + to_string(node->key_position));
+      arguments.emplace(node->key, broken_node());
       continue;
     }
-    if (field &&
-        !read_literal(library.model(), *field, *value, "the argument " + quote(node->key), diagnostics))
-      continue;
-    arguments.emplace(node->key, *value);
+    const bool good =
+        field && !value->broken &&
+        read_literal(library.model(), *field, *value, "the argument " + quote(node->key), diagnostics);
+    arguments.emplace(node->key, good ? *value : broken_node());
   }
   if (with != nullptr)
     for (const Node& given : with->children)

@@ -10,7 +10,7 @@ namespace {
 
 // A connection as written: in the row itself, or by a port of the group around it.
 struct Connection {
-  std::string name;  // full
+  std::string name;  // full; empty when what is written is wrong, and was reported
   Position position;
 };
 
@@ -23,20 +23,31 @@ std::map<std::string, Connection> connections_of(Assembly& assembly, const FlatR
   const auto known = [&](const std::string& port) {
     return std::find(ports.begin(), ports.end(), port) != ports.end();
   };
-  const auto unknown = [&](const std::string& port, const Position& position) {
+  // What was meant is taken as connected, and what it names as written and read: one mistake, one message.
+  const auto wrong = [&](const std::string& port, const std::string& slot, const Position& position) {
+    const std::string meant = known(port) ? port : nearest(port, ports);
+    if (!meant.empty()) found.emplace(meant, Connection{"", position});
+    assembly.broken_places.insert(array_base(slot));
+  };
+  const auto unknown = [&](const std::string& port, const std::string& slot, const Position& position) {
+    wrong(port, slot, position);
     assembly.diagnostics.error(position, "unknown " + kind + " " + quote(port) + " of " + owner,
                                suggest(port, ports, kind + "s", "it has none: remove this connection"));
   };
   if (const Node* section = flat.node->find(input ? "in" : "out"); section != nullptr) {
     for (const Node& child : section->children) {
       if (!known(child.key)) {
-        unknown(child.key, child.key_position);
+        unknown(child.key, flat.scope->slot_name(child.text), child.key_position);
+      } else if (child.broken) {
+        wrong(child.key, "", child.position);
       } else if (child.kind != Node::Kind::text) {
+        wrong(child.key, "", child.position);
         assembly.diagnostics.error(child.position,
                                    quote((input ? "in." : "out.") + child.key) +
                                        " must be the name of a slot or queue, not " + kind_text(child.kind),
                                    "write it in double quotes");
       } else if (!is_slot_name(child.text)) {
+        wrong(child.key, flat.scope->slot_name(child.text), child.position);
         assembly.diagnostics.error(
             child.position, quote(child.text) + " is not the name of a slot or queue",
             child.text.find('.') != std::string::npos
@@ -52,7 +63,7 @@ std::map<std::string, Connection> connections_of(Assembly& assembly, const FlatR
     if (known(binding.port))
       found.emplace(binding.port, Connection{binding.slot, binding.position});
     else
-      unknown(binding.port, binding.position);
+      unknown(binding.port, binding.slot, binding.position);
   }
   return found;
 }
@@ -97,6 +108,14 @@ void connect_output(Assembly& assembly, const OutputPort& port, const Connection
                     OutputConnection& connection, const std::string& owner) {
   Model& model = assembly.model;
   connection.position = writer.position = to.position;
+  if (to.name.empty()) return;
+  if (to.name.find("][") != std::string::npos) {
+    assembly.diagnostics.error(
+        to.position, "output " + quote(port.name) + " of " + owner + " would be in an array of arrays",
+        "a group with a count cannot expose an array: expose single slots, or remove the count");
+    assembly.broken_places.insert(array_base(array_base(to.name)));
+    return;
+  }
   if (port.queue) {
     if (const auto slot = assembly.slots.find(to.name); slot != assembly.slots.end()) {
       assembly.diagnostics.error(
@@ -164,12 +183,15 @@ void connect_unit_outputs(Assembly& assembly, const UnitRow& entry) {
           "output " + quote(output.name) + " of a population cannot go to the single slot " +
               quote(to->second.name),
           "write the name without an index: a population makes one slot for each member");
+      assembly.broken_places.insert(array_base(to->second.name));
+      for (std::size_t member = 0; member < entry.count; ++member)
+        model.units[entry.first + member].outputs[port].position = to->second.position;
       continue;
     }
     for (std::size_t member = 0; member < entry.count; ++member) {
       const Index unit = entry.first + member;
       Connection one = to->second;
-      if (array) one.name += "[" + std::to_string(member) + "]";
+      if (array && !one.name.empty()) one.name += "[" + std::to_string(member) + "]";
       connect_output(assembly, output, one, Writer{Writer::Kind::unit_output, unit, port, {}},
                      model.units[unit].outputs[port], "unit " + quote(model.units[unit].name));
     }
@@ -217,6 +239,7 @@ void connect_input(Assembly& assembly, Index unit, Index port_index, const Conne
   const std::string owner = "unit " + quote(model.units[unit].name);
   InputConnection& connection = model.units[unit].inputs[port_index];
   connection.position = from.position;
+  if (from.name.empty()) return;
   const InputReference reference{unit, port_index, from.position};
   if (port.queue) {
     if (const auto slot = assembly.slots.find(from.name); slot != assembly.slots.end()) {

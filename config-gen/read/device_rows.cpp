@@ -145,6 +145,10 @@ void connect_devices(Assembly& assembly) {
     }
   };
   const auto unknown = [&](const Scope& scope, const Node& value) {
+    // The one that was meant has no owner only because of this.
+    if (const std::string meant = nearest(value.text, assembly.names_in(scope, assembly.devices));
+        !meant.empty())
+      assembly.broken_owners.insert(scope.prefix + meant);
     if (assembly.broken_owners.contains(scope.prefix + value.text) ||
         assembly.broken_owners.contains(value.text))
       return;

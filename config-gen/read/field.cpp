@@ -1,5 +1,6 @@
 // Fields of types, and parameters of units, interfaces and drivers.
 #include <algorithm>
+#include <map>
 
 #include "config-gen/model/layout.hpp"
 #include "config-gen/model/words.hpp"
@@ -187,10 +188,17 @@ std::optional<Field> read_field(Library& library, Row& row, const std::vector<st
         known = true;
       }
     } else {
+      static const std::map<std::string, std::string> elsewhere = {
+          {"float", "f32"},   {"double", "f64"},  {"int", "i32"},    {"uint", "u32"},     {"byte", "u8"},
+          {"int8", "i8"},     {"int16", "i16"},   {"int32", "i32"},  {"int64", "i64"},    {"uint8", "u8"},
+          {"uint16", "u16"},  {"uint32", "u32"},  {"uint64", "u64"}, {"boolean", "bool"}, {"string", "text"},
+          {"float32", "f32"}, {"float64", "f64"}, {"real", "f64"},   {"lreal", "f64"},    {"char", "u8"}};
+      const auto same = elsewhere.find(*type);
       std::vector<std::string> all = scalars;
       all.insert(all.end(), words.begin(), words.end());
       diagnostics.error(row.position("type"), "unknown type " + quote(*type) + " in " + row.name(),
-                        suggest(*type, all, "scalars", ""));
+                        same != elsewhere.end() ? "it is called " + quote(same->second) + " here"
+                                                : suggest(*type, all, "scalars", ""));
     }
   }
   const bool plain = known && (word == nullptr || word->empty());

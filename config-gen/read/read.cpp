@@ -38,6 +38,7 @@ void read_application(Library& library, const std::filesystem::path& file) {
 
   Assembly assembly(library);
   assembly.flat = flatten(library, std::move(*root), file.parent_path());
+  assembly.broken_places.insert(assembly.flat.broken_places.begin(), assembly.flat.broken_places.end());
   for (const FlatRow& flat : assembly.flat.rows) {
     const InScope in_scope(diagnostics, *flat.scope);
     if (flat.kind == FlatRow::Kind::device) read_device_row(assembly, flat);
@@ -51,6 +52,8 @@ void read_application(Library& library, const std::filesystem::path& file) {
   derive(assembly);
   for (Device& device : model.devices)
     device.partial = device.partial || assembly.broken_owners.contains(device.name);
+  for (Slot& slot : model.slots) slot.partial = assembly.broken_places.contains(array_base(slot.name));
+  for (Queue& queue : model.queues) queue.partial = assembly.broken_places.contains(queue.declared);
 }
 
 }  // namespace

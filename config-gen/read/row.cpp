@@ -19,7 +19,8 @@ Row::Row(const Node& table, std::string name, Diagnostics& diagnostics)
 
 const Node* Row::find(std::string_view key) {
   also(key);
-  return table_.find(key);
+  const Node* value = table_.find(key);
+  return value != nullptr && value->broken ? nullptr : value;
 }
 
 void Row::also(std::string_view key) {

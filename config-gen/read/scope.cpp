@@ -130,11 +130,22 @@ class Flattener {
       return;
     }
     const Node* group = load(*table, row.position("table"));
-    if (group == nullptr) return;
+    if (group == nullptr) {
+      mark_broken(outer, row_node);
+      return;
+    }
     open_.push_back(*table);
     const std::size_t instances = static_cast<std::size_t>(count.value_or(1));
     for (std::size_t i = 0; i < instances; ++i) make(outer, row_node, *table, *group, i, row.has("count"));
     open_.pop_back();
+  }
+
+  // Nobody writes or reads what this row names, and the reason was reported.
+  void mark_broken(const Scope& outer, const Node& row) {
+    for (const char* direction : {"in", "out"})
+      if (const Node* section = row.find(direction))
+        for (const Node& child : section->children)
+          result_.broken_places.push_back(array_base(outer.slot_name(child.text)));
   }
 
   void make(const Scope& outer, const Node& row_node, const std::string& table, const Node& group,
@@ -175,37 +186,56 @@ class Flattener {
         continue;
       }
       names[in ? 0 : 1].push_back(port->key);
-      const Node* section = row.find(in ? "in" : "out");
-      const Node* value = section != nullptr ? section->find(port->key) : nullptr;
-      if (value == nullptr || value->kind != Node::Kind::text) continue;
-      const Node* raw_value = raw.find(in ? "in" : "out")->find(port->key);
-      std::string slot = value->text;
-      if (out && raw_value->text.find("${index}") == std::string::npos) slot += index;
-      if (!is_slot_name(slot)) {
-        diagnostics_.error(value->position, quote(slot) + " is not the name of a slot or queue",
-                           "write a name as \"keys\", or one of an array as \"tracks[3]\"");
-        continue;
-      }
-      expose(scope, *port, in ? *in : *out, in.has_value(), outer.slot_name(slot));
+      const auto slot = outer_slot(outer, raw, row, *port, in.has_value(), index);
+      if (slot) expose(scope, *port, in ? *in : *out, in.has_value(), *slot);
     }
-    for (const bool in : {true, false}) report_unknown_ports(row, in, names[in ? 0 : 1]);
+    for (const bool in : {true, false}) report_unknown_ports(outer, row, in, names[in ? 0 : 1]);
   }
 
-  void report_unknown_ports(const Node& row, bool in, const std::vector<std::string>& known) {
+  // The full name of the slot that an instance connects a port to: in its row, or by a port of the group
+  // around.
+  std::optional<std::string> outer_slot(const Scope& outer, const Node& raw, const Node& row,
+                                        const Node& port, bool in, const std::string& index) {
+    for (const PortBinding& binding : outer.bindings)
+      if (binding.input == in && binding.target == row.key && binding.port == port.key)
+        return in ? binding.slot : binding.slot + index;
+    const Node* section = row.find(in ? "in" : "out");
+    const Node* value = section != nullptr ? section->find(port.key) : nullptr;
+    if (value == nullptr || value->kind != Node::Kind::text || value->broken) return std::nullopt;
+    const Node* raw_value = raw.find(in ? "in" : "out")->find(port.key);
+    std::string slot = value->text;
+    if (!in && raw_value->text.find("${index}") == std::string::npos) slot += index;
+    if (is_slot_name(slot)) return outer.slot_name(slot);
+    diagnostics_.error(value->position, quote(slot) + " is not the name of a slot or queue",
+                       "write a name as \"keys\", or one of an array as \"tracks[3]\"");
+    return std::nullopt;
+  }
+
+  void report_unknown_ports(const Scope& outer, const Node& row, bool in,
+                            const std::vector<std::string>& known) {
+    const std::string kind = in ? "input" : "output";
+    for (const PortBinding& binding : outer.bindings)
+      if (binding.input == in && binding.target == row.key &&
+          std::find(known.begin(), known.end(), binding.port) == known.end())
+        diagnostics_.error(
+            binding.position,
+            "unknown " + kind + " port " + quote(binding.port) + " of the group " + quote(row.key),
+            suggest(binding.port, known, kind + " ports", "the group's table exposes no " + kind));
     const Node* section = row.find(in ? "in" : "out");
     if (section == nullptr) return;
-    const std::string kind = in ? "input" : "output";
     for (const Node& child : section->children) {
-      if (child.kind != Node::Kind::text)
+      if (child.kind != Node::Kind::text) {
         diagnostics_.error(child.position,
                            quote(child.key) + " of [group." + row.key + "] must be the name of a slot, not " +
                                kind_text(child.kind),
                            "write it in double quotes");
-      else if (std::find(known.begin(), known.end(), child.key) == known.end())
+      } else if (std::find(known.begin(), known.end(), child.key) == known.end()) {
+        result_.broken_places.push_back(array_base(outer.slot_name(child.text)));
         diagnostics_.error(
             child.key_position,
             "unknown " + kind + " port " + quote(child.key) + " of the group in [group." + row.key + "]",
             suggest(child.key, known, kind + " ports", "the group's table exposes no " + kind));
+      }
     }
   }
 
@@ -232,6 +262,7 @@ class Flattener {
       return;
     }
     if (owner == nullptr) {
+      result_.broken_places.push_back(array_base(slot));
       diagnostics_.error(place.position,
                          "unknown unit or group " + quote(name) + " in [port." + port.key + "]",
                          suggest(name, known, "units and groups", "the group has none"));

@@ -41,8 +41,9 @@ struct FlatRow {
 };
 
 struct Flattened {
-  std::deque<Scope> scopes;   // the application first
-  std::vector<FlatRow> rows;  // source order, an instance's rows in place of its own
+  std::deque<Scope> scopes;                // the application first
+  std::vector<std::string> broken_places;  // slots and queues of instances that could not be made
+  std::vector<FlatRow> rows;               // source order, an instance's rows in place of its own
 };
 
 Flattened flatten(Library& library, Node application, const std::filesystem::path& folder);

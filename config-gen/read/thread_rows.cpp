@@ -201,6 +201,7 @@ void read_overrun(Assembly& assembly, Row& thread, Overrun& overrun) {
 void read_units(Assembly& assembly, Row& row, const Scope& scope, Thread& thread, Index index) {
   if (!row.has("units")) row.missing("units", "add units = [\"jog\"], in the order of their steps");
   const Node* names = row.list_of_texts("units");
+  thread.units_unknown = names == nullptr;
   if (names == nullptr) return;
   if (names->children.empty())
     assembly.diagnostics.error(names->position, row.name() + " has no units",
@@ -228,6 +229,8 @@ void read_units(Assembly& assembly, Row& row, const Scope& scope, Thread& thread
       std::vector<std::string> known = assembly.names_in(scope, assembly.units);
       for (const std::string& population : assembly.names_in(scope, assembly.populations))
         known.push_back(population);
+      const auto meant = assembly.units.find(scope.prefix + nearest(name.text, known));
+      if (meant != assembly.units.end()) assembly.model.units[meant->second].partial = true;
       assembly.diagnostics.error(
           name.position, "unknown unit " + quote(name.text) + " in " + row.name(),
           suggest(name.text, known, "units", "declare it as [unit." + name.text + "]"));

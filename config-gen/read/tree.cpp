@@ -51,16 +51,34 @@ Node convert(const toml::node& node, std::string_view file) {
 
 std::string hint_for(std::string_view description) {
   const auto says = [&](std::string_view part) { return description.find(part) != std::string_view::npos; };
-  if (says("cannot redefine"))
-    return "this name is already taken further up in this file: rename one of the two";
+  if (says("cannot redefine")) return "rename one of the two, or remove it";
   if (says("end-of-file")) return "something opened above is never closed: look for a missing ], }, or quote";
-  if (says("literal string") || says("basic string") || says("control characters"))
-    return "the text is not closed on its line: add the closing quote";
+  if (says("parsing string") || says("literal string") || says("basic string") || says("control characters"))
+    return "add the closing quote on the same line";
   if (says("expected value")) return "write a value after the =";
-  if (says("could not determine value type") || says("expected a comment or whitespace"))
+  if (says("could not determine value type") || says("expected a comment or whitespace") ||
+      says("expected comma"))
     return "texts, durations and sizes are written in double quotes, as in \"7 ms\"";
   if (says("table header")) return "a table starts with a line as [unit.jog]";
   return "the file must be valid TOML 1.0: https://toml.io/en/v1.0.0";
+}
+
+// "Error while parsing string: ..." as "this is not TOML: while reading a string: ...".
+std::string text_for(std::string_view description) {
+  if (description.find("cannot redefine") != std::string_view::npos) {
+    const std::size_t quote = description.find('\'');
+    if (quote != std::string_view::npos)
+      return std::string(description.substr(quote)) + " is written twice in this file";
+  }
+  if (description.find("control characters") != std::string_view::npos)
+    return "this is not TOML: a text without its closing quote";
+  constexpr std::string_view start = "Error while parsing ";
+  if (!description.starts_with(start)) return "this is not TOML: " + std::string(description);
+  description.remove_prefix(start.size());
+  const std::size_t colon = description.find(": ");
+  if (colon == std::string_view::npos) return "this is not TOML: " + std::string(description);
+  return "this is not TOML: " + std::string(description.substr(colon + 2)) + " (in its " +
+         std::string(description.substr(0, colon)) + ")";
 }
 
 }  // namespace
@@ -100,7 +118,7 @@ std::optional<Node> parse_text(std::string_view toml, const std::filesystem::pat
     root.position = root.key_position = {name, 1, 1};
     return root;
   } catch (const toml::parse_error& error) {
-    diagnostics.error(at(name, error.source().begin), "syntax: " + std::string(error.description()),
+    diagnostics.error(at(name, error.source().begin), text_for(error.description()),
                       hint_for(error.description()));
     return std::nullopt;
   }

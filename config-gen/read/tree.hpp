@@ -22,6 +22,7 @@ struct Node {
   std::int64_t integer = 0;
   double real = 0;
   std::string text;
+  bool broken = false;         // what it should be is unknown, and was reported
   std::vector<Node> children;  // of a table by source position, of an array in order
 
   const Node* find(std::string_view name) const;

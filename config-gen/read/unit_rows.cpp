@@ -24,13 +24,14 @@ void read_override_range(Assembly& assembly, Row& row, const Parameter& paramete
   }
   Parameter bound = parameter;
   bound.field.shape.clear();
-  const std::string what = "the range of " + row.name();
+  const std::string what = "a bound of the range of " + row.name();
   auto low = read_parameter_value(assembly.model, bound, range->children[0], what, assembly.diagnostics);
   auto high = read_parameter_value(assembly.model, bound, range->children[1], what, assembly.diagnostics);
   if (!low || !high) return;
   if (number_of(*low) > number_of(*high)) {
     assembly.diagnostics.error(range->position,
-                               what + " is empty: " + literal_text(*low) + " is above " + literal_text(*high),
+                               "the range of " + row.name() + " is empty: " + literal_text(*low) +
+                                   " is above " + literal_text(*high),
                                "write the lower bound first");
     return;
   }

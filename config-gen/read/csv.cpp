@@ -1,0 +1,217 @@
+#include "config-gen/read/csv.hpp"
+
+#include <charconv>
+#include <fstream>
+#include <iterator>
+
+#include "config-gen/model/words.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+bool blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+class Scanner {
+ public:
+  Scanner(std::string_view text, std::string_view file, Diagnostics& diagnostics)
+      : text_(text), diagnostics_(diagnostics), place_{file, 1, 1} {
+    if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
+    separator_ = find_separator();
+  }
+
+  // The next record that is neither empty nor a comment.
+  std::optional<std::vector<CsvCell>> next() {
+    while (at_ < text_.size()) {
+      if (peek() == '#') {
+        while (at_ < text_.size() && peek() != '\n') step();
+      }
+      if (at_ == text_.size()) break;
+      if (peek() == '\n' || peek() == '\r') {
+        step();
+        continue;
+      }
+      return record();
+    }
+    return std::nullopt;
+  }
+
+ private:
+  char peek() const { return text_[at_]; }
+
+  void step() {
+    if (text_[at_] == '\n') {
+      ++place_.line;
+      place_.column = 1;
+    } else if ((static_cast<unsigned char>(text_[at_]) & 0xC0) != 0x80) {
+      ++place_.column;  // not for the further bytes of a character in UTF-8
+    }
+    ++at_;
+  }
+
+  bool ends_cell() const {
+    return at_ == text_.size() || peek() == separator_ || peek() == '\n' || peek() == '\r';
+  }
+
+  char find_separator() const {
+    bool quoted = false, comment = false, fresh = true;
+    for (const char c : text_) {
+      if (fresh && c == '#') comment = true;
+      fresh = c == '\n';
+      if (fresh) comment = false;
+      if (comment) continue;
+      if (c == '"') quoted = !quoted;
+      if (!quoted && (c == ';' || c == ',')) return c;
+    }
+    return ',';
+  }
+
+  std::vector<CsvCell> record() {
+    std::vector<CsvCell> cells;
+    while (true) {
+      cells.push_back(cell());
+      if (at_ == text_.size() || peek() != separator_) break;
+      step();
+    }
+    while (at_ < text_.size() && peek() != '\n') step();
+    if (at_ < text_.size()) step();
+    return cells;
+  }
+
+  CsvCell cell() {
+    while (at_ < text_.size() && blank(peek()) && peek() != separator_) step();
+    CsvCell result{"", place_};
+    if (at_ < text_.size() && peek() == '"') {
+      quoted_cell(result);
+      return result;
+    }
+    const std::size_t start = at_;
+    while (!ends_cell()) step();
+    result.text = trimmed(text_.substr(start, at_ - start));
+    return result;
+  }
+
+  void quoted_cell(CsvCell& result) {
+    step();
+    while (at_ < text_.size()) {
+      if (peek() == '"') {
+        step();
+        if (at_ == text_.size() || peek() != '"') break;
+      }
+      result.text += peek();
+      step();
+      if (at_ == text_.size())
+        diagnostics_.error(result.position, "a quoted cell is never closed",
+                           "add the closing quote; a quote inside is written twice");
+    }
+    while (!ends_cell()) {
+      if (!blank(peek())) {
+        diagnostics_.error(place_, "text after the closing quote of a cell",
+                           "put the whole cell in quotes; a quote inside is written twice");
+        while (!ends_cell()) step();
+        return;
+      }
+      step();
+    }
+  }
+
+  std::string_view text_;
+  Diagnostics& diagnostics_;
+  Position place_;
+  std::size_t at_ = 0;
+  char separator_ = ',';
+};
+
+}  // namespace
+
+std::optional<std::size_t> CsvTable::column(std::string_view name) const {
+  for (std::size_t i = 0; i < header.size(); ++i)
+    if (header[i].text == name) return i;
+  return std::nullopt;
+}
+
+std::optional<std::size_t> CsvTable::required_column(std::string_view name, Diagnostics& diagnostics) const {
+  if (const auto found = column(name)) return found;
+  std::vector<std::string> known;
+  for (const CsvCell& cell : header) known.push_back(cell.text);
+  diagnostics.error(header.front().position, "this list has no column " + quote(name),
+                    suggest(name, known, "columns", "add it to the first line"));
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> CsvTable::integer(const CsvCell& cell, Diagnostics& diagnostics) {
+  std::string_view digits = cell.text;
+  const bool negative = digits.starts_with('-');
+  if (negative) digits.remove_prefix(1);
+  const bool hexadecimal = digits.starts_with("0x") || digits.starts_with("0X");
+  if (hexadecimal) digits.remove_prefix(2);
+  std::int64_t value = 0;
+  const auto [end, failed] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), value, hexadecimal ? 16 : 10);
+  if (failed == std::errc{} && end == digits.data() + digits.size() && !digits.starts_with('-'))
+    return negative ? -value : value;
+  diagnostics.error(cell.position, quote(cell.text) + " is not a whole number", "write it as 31 or 0x1F");
+  return std::nullopt;
+}
+
+std::optional<double> CsvTable::number(const CsvCell& cell, Diagnostics& diagnostics) {
+  double value = 0;
+  const auto [end, failed] = std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
+  if (failed == std::errc{} && end == cell.text.data() + cell.text.size()) return value;
+  diagnostics.error(cell.position, quote(cell.text) + " is not a number",
+                    cell.text.find(',') != std::string::npos ? "write the fraction after a point, as 1.5"
+                                                             : "write it as 1.5 or 2e-3");
+  return std::nullopt;
+}
+
+std::optional<CsvTable> parse_csv(std::string_view text, const std::filesystem::path& file,
+                                  Diagnostics& diagnostics) {
+  const std::string_view name = intern(file.generic_string());
+  Scanner scanner(text, name, diagnostics);
+  CsvTable table;
+  auto header = scanner.next();
+  if (!header) {
+    diagnostics.error({name, 1, 1}, "this list is empty", "its first line names the columns");
+    return std::nullopt;
+  }
+  table.header = std::move(*header);
+  for (std::size_t i = 0; i < table.header.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (table.header[i].text == table.header[k].text)
+        diagnostics.error(table.header[i].position,
+                          "the column " + quote(table.header[i].text) + " is there twice",
+                          "rename one; the other is at " + to_string(table.header[k].position));
+  while (auto cells = scanner.next()) {
+    if (cells->size() == table.header.size()) {
+      table.rows.push_back({std::move(*cells)});
+      continue;
+    }
+    diagnostics.error(cells->front().position,
+                      "this row has " + std::to_string(cells->size()) + " cells, but there are " +
+                          std::to_string(table.header.size()) + " columns",
+                      "put cells that contain the separator in double quotes");
+  }
+  return table;
+}
+
+std::optional<CsvTable> read_csv(const std::filesystem::path& file, Diagnostics& diagnostics) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    diagnostics.error({intern(file.generic_string()), 0, 0}, "cannot read this file",
+                      "check that it exists and may be read");
+    return std::nullopt;
+  }
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return parse_csv(text, file, diagnostics);
+}
+
+}  // namespace flexrf::config_gen

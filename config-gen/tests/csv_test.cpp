@@ -1,0 +1,109 @@
+#include "config-gen/read/csv.hpp"
+
+#include <cstring>
+#include <sstream>
+
+#include "tests/cmocka.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+struct Parsed {
+  std::optional<CsvTable> table;
+  std::string messages;
+  Diagnostics diagnostics;
+};
+
+Parsed parse(std::string_view text) {
+  Parsed parsed;
+  parsed.table = parse_csv(text, "list.csv", parsed.diagnostics);
+  std::ostringstream out;
+  parsed.diagnostics.print(out);
+  parsed.messages = out.str();
+  return parsed;
+}
+
+// All cells of all rows, as "a|b\n".
+std::string cells(const Parsed& parsed) {
+  std::string text;
+  for (const CsvRow& row : parsed.table->rows) {
+    for (const CsvCell& cell : row.cells) text += cell.text + "|";
+    text += "\n";
+  }
+  return text;
+}
+
+void both_separators(void**) {
+  assert_string_equal(cells(parse("name,address\ndoor, 1 \nlamp,2\n")).c_str(), "door|1|\nlamp|2|\n");
+  assert_string_equal(cells(parse("name;address\ndoor;1,5\n")).c_str(), "door|1,5|\n");
+  assert_string_equal(cells(parse("\"a,b\";c\n1;2\n")).c_str(), "1|2|\n");
+}
+
+void quotes(void**) {
+  assert_string_equal(cells(parse("a,b\n\"x, y\",\"say \"\"no\"\"\"\n")).c_str(), "x, y|say \"no\"|\n");
+  assert_string_equal(cells(parse("a,b\n\"two\nlines\",  \"\"\n")).c_str(), "two\nlines||\n");
+}
+
+void comments_and_line_ends(void**) {
+  assert_string_equal(cells(parse("\xEF\xBB\xBF# made by hand, today\r\na;b\r\n\r\n# more\r\n1;2")).c_str(),
+                      "1|2|\n");
+  assert_string_equal(cells(parse("a,b\n1,\n,2\n")).c_str(), "1||\n|2|\n");
+}
+
+void places(void**) {
+  const Parsed parsed = parse("# c\na,b\n\"x\ny\",ä,\n");
+  assert_string_equal(parsed.messages.c_str(),
+                      "list.csv:3:1: error: this row has 3 cells, but there are 2 columns\n"
+                      "list.csv:3:1: hint: put cells that contain the separator in double quotes\n");
+  const Parsed wide = parse("a,b,c\nä, x,  7\n");
+  const Position last = wide.table->rows[0][2].position;
+  assert_int_equal(last.line, 2);
+  assert_int_equal(last.column, 8);
+}
+
+void mistakes(void**) {
+  assert_string_equal(
+      parse("").messages.c_str(),
+      "list.csv:1:1: error: this list is empty\nlist.csv:1:1: hint: its first line names the columns\n");
+  assert_false(parse("# only a comment\n").table.has_value());
+  assert_string_equal(parse("a,a\n").messages.c_str(),
+                      "list.csv:1:3: error: the column 'a' is there twice\n"
+                      "list.csv:1:3: hint: rename one; the other is at list.csv:1:1\n");
+  assert_non_null(
+      strstr(parse("a,b\n\"x,1\n").messages.c_str(), "list.csv:2:1: error: a quoted cell is never closed"));
+  assert_non_null(
+      strstr(parse("a,b\n\"x\"y,1\n").messages.c_str(), "list.csv:2:4: error: text after the closing quote"));
+}
+
+void values(void**) {
+  Parsed parsed = parse("name,address\ndoor,0x1F\nlamp,-12\nbell,\"1,5\"\n");
+  const CsvTable& table = *parsed.table;
+  assert_int_equal(CsvTable::integer(table.rows[0][1], parsed.diagnostics).value_or(0), 31);
+  assert_int_equal(CsvTable::integer(table.rows[1][1], parsed.diagnostics).value_or(0), -12);
+  assert_true(CsvTable::number(table.rows[1][1], parsed.diagnostics) == -12.0);
+  assert_false(parsed.diagnostics.failed());
+  assert_false(CsvTable::number(table.rows[2][1], parsed.diagnostics).has_value());
+  assert_false(CsvTable::integer(table.rows[0][0], parsed.diagnostics).has_value());
+  assert_int_equal(table.required_column("address", parsed.diagnostics).value_or(9), 1);
+  assert_false(table.required_column("adress", parsed.diagnostics).has_value());
+  std::ostringstream out;
+  parsed.diagnostics.print(out);
+  assert_string_equal(out.str().c_str(),
+                      "list.csv:1:1: error: this list has no column 'adress'\n"
+                      "list.csv:1:1: hint: did you mean 'address'?\n"
+                      "list.csv:2:1: error: 'door' is not a whole number\n"
+                      "list.csv:2:1: hint: write it as 31 or 0x1F\n"
+                      "list.csv:4:6: error: '1,5' is not a number\n"
+                      "list.csv:4:6: hint: write the fraction after a point, as 1.5\n");
+}
+
+}  // namespace
+}  // namespace flexrf::config_gen
+
+int main() {
+  using namespace flexrf::config_gen;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(both_separators), cmocka_unit_test(quotes),   cmocka_unit_test(comments_and_line_ends),
+      cmocka_unit_test(places),          cmocka_unit_test(mistakes), cmocka_unit_test(values)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

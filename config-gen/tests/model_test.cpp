@@ -1,0 +1,199 @@
+// The resolved model: readers, doorbells, queues, devices, layouts, values, memory, and a large application.
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <map>
+
+#include "config-gen/model/memory.hpp"
+#include "config-gen/tests/find.hpp"
+#include "config-gen/tests/tables.hpp"
+#include "tests/cmocka.hpp"
+
+namespace flexrf::config_gen::tests {
+namespace {
+
+const Result& cell(const std::string& name) {
+  static std::map<std::string, Result> results;
+  std::filesystem::current_path(TESTS_FOLDER);
+  if (!results.contains(name)) results.emplace(name, read_cell("cells/" + name));
+  return results.at(name);
+}
+
+void the_keyboard_example(void**) {
+  const Result& result = cell("keyboard");
+  assert_string_equal(result.messages.c_str(), "");
+  const Model& model = result.model;
+  assert_int_equal(model.threads.size(), 3);
+  assert_string_equal(model.threads[2].name.c_str(), "keyboard");
+  assert_true(model.devices[0].io_thread == std::size_t{2});
+  assert_true(model.devices[1].thread == index_of(model.threads, "control"));
+  assert_true(model.devices[1].owner_unit == index_of(model.units, "robot"));
+  assert_int_equal(named(model.threads, "control").response_time.value_or(0), 300'000);
+  const Queue& keys = named(model.queues, "keys");
+  assert_int_equal(keys.writers.size(), 1);
+  assert_int_equal(keys.readers.size(), 1);
+  assert_int_equal(keys.doorbells.size(), 1);
+  const Slot& target = named(model.slots, "target");
+  assert_int_equal(target.reader_count, 2);  // the control thread and the observer
+  assert_int_equal(target.buffers(), 4);
+  assert_true(has(model.slots, "jog.feedback") && has(model.slots, "jog.values") &&
+              has(model.slots, "arm.values"));
+  assert_false(has(model.slots, "robot.feedback"));
+}
+
+void values_override_defaults(void**) {
+  const Model& model = cell("keyboard").model;
+  const Unit& jog = named(model.units, "jog");
+  assert_true(std::get<double>(jog.runtime[0].value) == 0.02);
+  assert_int_equal(jog.configuration[0].elements.size(), 3);
+  for (const Literal& axis : jog.configuration[0].elements) assert_true(std::get<double>(axis.value) == 0.5);
+  const Device& arm = named(model.devices, "arm");
+  assert_true(std::get<double>(arm.runtime[0].value) == 0.25);
+  assert_true(std::get<double>(arm.drivers[0].configuration[0].value) == 0.001);
+  assert_string_equal(arm.resources[0].file.generic_string().c_str(), "cells/keyboard/six-axis.urdf");
+}
+
+void layouts_are_those_of_the_compiler(void**) {
+  struct KeyEvent {
+    std::uint32_t key;
+    std::uint8_t action;
+    char source[16];
+  };
+  const Model& model = cell("keyboard").model;
+  const Type& type = named(model.types, "KeyEvent");
+  assert_int_equal(type.size, sizeof(KeyEvent));
+  assert_int_equal(type.alignment, alignof(KeyEvent));
+  assert_int_equal(type.fields[2].offset, offsetof(KeyEvent, source));
+  assert_int_equal(named(model.types, "Pose").size, 56);
+}
+
+void readers_are_threads_and_holds(void**) {
+  const Model& model = cell("shared").model;
+  assert_string_equal(cell("shared").messages.c_str(), "");
+  const Slot& picture = named(model.slots, "picture");  // four held inputs, no observer, three loans
+  assert_int_equal(picture.readers.size(), 4);
+  assert_int_equal(picture.reader_count, 8);
+  assert_int_equal(picture.readers[3].first, 6);
+  assert_int_equal(picture.buffers(), 8 + 1 + 3);
+  const Slot& mean = named(model.slots, "mean");  // three units of one thread: one buffer
+  assert_int_equal(mean.inputs.size(), 3);
+  assert_int_equal(mean.readers.size(), 2);
+  assert_true(mean.readers[1].kind == SlotReader::Kind::observer);
+  assert_int_equal(mean.history, 32);
+}
+
+void populations_make_arrays(void**) {
+  const Model& model = cell("shared").model;
+  assert_int_equal(model.populations.size(), 1);
+  assert_int_equal(model.populations[0].capacity, 4);
+  assert_true(named(model.units, "tracker[1]").active);
+  assert_false(named(model.units, "tracker[2]").active);
+  const Unit& fusion = named(model.units, "fusion");
+  assert_int_equal(fusion.inputs[0].slots.size(), 4);
+  assert_string_equal(model.slots[fusion.inputs[0].slots[3]].name.c_str(), "tracks[3]");
+  const std::size_t jobs = index_of(model.threads, "jobs");
+  assert_int_equal(named(model.slots, "tracks[2]").doorbells[0], jobs);
+}
+
+void copies_are_queues_of_their_own(void**) {
+  const Model& model = cell("shared").model;
+  assert_int_equal(model.queues.size(), 2);
+  assert_string_equal(model.queues[0].name.c_str(), "jobs@worker.jobs");
+  assert_string_equal(model.queues[1].name.c_str(), "jobs@second_worker.jobs");
+  assert_int_equal(model.queues[1].writers.size(), 2);
+  assert_int_equal(named(model.units, "planner").outputs[0].queues.size(), 2);
+  assert_true(named(model.units, "second_worker").inputs[0].queue == std::size_t{1});
+  assert_int_equal(model.queues[0].doorbells.size(), 0);  // its reader's thread is periodic
+  assert_int_equal(model.queues[1].doorbells.size(), 1);
+}
+
+void children_come_before_buses(void**) {
+  const Model& model = cell("axes").model;
+  assert_int_equal(model.safe_order.size(), model.devices.size());
+  assert_int_equal(model.safe_order.back(), index_of(model.devices, "can0"));
+}
+
+void memory_adds_up(void**) {
+  const Model& model = cell("shared").model;
+  const std::vector<MemoryItem> items = memory_map(model);
+  std::size_t picture = 0;
+  for (const MemoryItem& item : items)
+    if (item.kind == MemoryItem::Kind::slot && item.name == "picture") picture = item.bytes;
+  const std::size_t payload = named(model.slots, "picture").payload_size;
+  assert_true(picture >= 12 * payload && picture < 12 * payload + 12 * 2 * page);
+  assert_true(total(items) > picture);
+}
+
+// 1000 units with two slots each, in ten threads.
+std::string large_table() {
+  std::string text = "summary = \"Large.\"\nmemory_budget = \"64 MiB\"\n";
+  for (int i = 0; i < 1000; ++i) {
+    const std::string number = std::to_string(i);
+    text += "[unit.u" + number + "]\ntype = \"twin\"\nin.left = \"a" + std::to_string((i + 999) % 1000) +
+            "\"\nin.right = \"b" + std::to_string((i + 1) % 1000) + "\"\nout.first = \"a" + number +
+            "\"\nout.second = \"b" + number + "\"\nbudget = \"1 us\"\n";
+  }
+  for (int thread = 0; thread < 10; ++thread) {
+    text += "[thread.t" + std::to_string(thread) +
+            "]\ntrigger = { period = \"10 ms\" }\npriority = " + std::to_string(10 + thread) +
+            "\nrole = \"control\"\nunits = [";
+    for (int i = 0; i < 100; ++i)
+      text += (i == 0 ? "\"u" : ", \"u") + std::to_string(thread * 100 + i) + "\"";
+    text += "]\n";
+  }
+  return text;
+}
+
+// All that a model says of its slots and units, as text.
+std::string summary_of(const Model& model) {
+  std::string text;
+  for (const Slot& slot : model.slots)
+    text += slot.name + " " + std::to_string(slot.reader_count) + " " + to_string(slot.position) + "\n";
+  for (const Unit& unit : model.units)
+    text += unit.name + " " + std::to_string(unit.thread.value_or(99)) + "\n";
+  return text;
+}
+
+void a_large_application_reads_the_same_twice(void**) {
+  std::filesystem::current_path(TESTS_FOLDER);
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("flexrf_large_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder / "units/twin");
+  std::ofstream(folder / "units/twin/twin.toml") << "summary = \"Two in, two out.\"\n"
+                                                    "[input.left]\ntype = \"Pose\"\nsummary = \"L.\"\n"
+                                                    "[input.right]\ntype = \"Pose\"\nsummary = \"R.\"\n"
+                                                    "[output.first]\ntype = \"Pose\"\nsummary = \"F.\"\n"
+                                                    "[output.second]\ntype = \"Pose\"\nsummary = \"S.\"\n"
+                                                    "[feedback.count]\ntype = \"u64\"\nsummary = \"C.\"\n";
+  std::ofstream(folder / "cell.toml") << large_table();
+  const auto before = std::chrono::steady_clock::now();
+  const Result first = read_cell(folder);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;
+  std::printf("1000 units and %zu slots read and checked in %.0f ms\n", first.model.slots.size(),
+              took.count());
+  const Result second = read_cell(folder);
+  std::filesystem::remove_all(folder);
+  assert_string_equal(first.messages.c_str(), "");
+  assert_int_equal(first.model.units.size(), 1000);
+  assert_int_equal(first.model.slots.size(), 3000);  // with the feedback of each
+  assert_true(summary_of(first.model) == summary_of(second.model));
+}
+
+}  // namespace
+}  // namespace flexrf::config_gen::tests
+
+int main() {
+  using namespace flexrf::config_gen::tests;
+  const CMUnitTest tests[] = {cmocka_unit_test(the_keyboard_example),
+                              cmocka_unit_test(values_override_defaults),
+                              cmocka_unit_test(layouts_are_those_of_the_compiler),
+                              cmocka_unit_test(readers_are_threads_and_holds),
+                              cmocka_unit_test(populations_make_arrays),
+                              cmocka_unit_test(copies_are_queues_of_their_own),
+                              cmocka_unit_test(children_come_before_buses),
+                              cmocka_unit_test(memory_adds_up),
+                              cmocka_unit_test(a_large_application_reads_the_same_twice)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
