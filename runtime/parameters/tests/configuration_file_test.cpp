@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -89,10 +90,14 @@ void replace(const char* from, const char* to) {
   text.replace(text.find(from), std::strlen(from), to);
   write(text);
 }
+template <class T>
+bool has_same_bytes(const T& one, const T& other) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(&one);
+  return std::equal(bytes, bytes + sizeof(T), reinterpret_cast<const std::byte*>(&other));
+}
 bool has_unchanged_values() {
-  return std::memcmp(&world->unit.configuration, &sample::default_configuration,
-                     sizeof(sample::Configuration)) == 0 &&
-         std::memcmp(&world->unit.runtime, &sample::default_runtime, sizeof(sample::Runtime)) == 0;
+  return has_same_bytes(world->unit.configuration, sample::default_configuration) &&
+         has_same_bytes(world->unit.runtime, sample::default_runtime);
 }
 
 /// Line `index` without the folder's name.
@@ -126,7 +131,8 @@ void what_is_saved_is_loaded(void**) {
   std::memcpy(&configuration, &sample::default_configuration, sizeof(configuration));
   configuration.length = 1.0 / 3;
   configuration.rotation[5] = -0.1;
-  configuration.limits[1] = {5, 6};
+  configuration.limits[1].low = 5;
+  configuration.limits[1].high = 6;
   std::strcpy(configuration.title, "a <b> & \"c\"");
   std::memcpy(&world->unit.configuration, &configuration, sizeof(configuration));
   world->unit.runtime.step = 0.0123;
