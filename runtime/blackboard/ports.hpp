@@ -3,12 +3,12 @@
 
 #include <atomic>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <span>
 #include <type_traits>
 
+#include "runtime/blackboard/copy.hpp"
 #include "runtime/blackboard/history.hpp"
 #include "runtime/blackboard/item.hpp"
 #include "runtime/blackboard/queue.hpp"
@@ -29,15 +29,15 @@ class SlotReader {
       step_ = step;
       advance();
     }
-    return held_ == SlotControl::none ? nullptr : &slot_->header(held_);
+    return header_;
   }
   /// As latch(), for a reader that knows no steps: takes the newest at every call.
   const ItemHeader* newest() noexcept {
     advance();
-    return held_ == SlotControl::none ? nullptr : &slot_->header(held_);
+    return header_;
   }
   /// Of the item that the last latch() or newest() gave.
-  const void* payload() const noexcept { return slot_->payload(held_); }
+  const void* payload() const noexcept { return payload_; }
   SlotControl* slot() const noexcept { return slot_; }
 
   /// Keeps the buffer beyond the step (inputs with hold = true, which have a reader of their own). What was
@@ -54,17 +54,20 @@ class SlotReader {
 
  private:
   void advance() noexcept {
-    if (held_ != kept_) {
-      slot_->take(held_);
-      return;
+    if (slot_->glance() != seen_) [[unlikely]] {
+      // A kept buffer is given back by keep(), not by taking the next.
+      if (held_ == kept_) held_ = SlotControl::none;
+      slot_->take(held_, seen_);
+      header_ = &slot_->header(held_);
+      payload_ = slot_->payload(held_);
     }
-    // A kept buffer is given back by keep(), not by taking the next.
-    std::uint8_t next = SlotControl::none;
-    if (slot_->has_newer(held_) && slot_->take(next)) held_ = next;
   }
 
   SlotControl* slot_ = nullptr;
+  const ItemHeader* header_ = nullptr;
+  const void* payload_ = nullptr;
   std::uint64_t step_ = 0;
+  std::uint16_t seen_ = 0;
   std::uint8_t held_ = SlotControl::none;
   std::uint8_t kept_ = SlotControl::none;
 };
@@ -89,6 +92,11 @@ class View {
   explicit operator bool() const noexcept { return value_ != nullptr; }
   const T& operator*() const noexcept { return *value_; }
   const T* operator->() const noexcept { return value_; }
+  /// Copies the value, faster than `value = *view` where it is large. False, and nothing copied, for NULL.
+  bool copy_to(T& value) const noexcept {
+    if (value_ != nullptr) copy_item<T>(&value, value_);
+    return value_ != nullptr;
+  }
 
   NullReason reason() const noexcept { return reason_; }
   Freshness freshness() const noexcept { return freshness_; }
@@ -131,6 +139,7 @@ class InputCursor {
     context_ = context;
     reader_ = reader;
     max_age_ = max_age;
+    reason_ = reader == nullptr ? NullReason::not_registered : NullReason::nothing_yet;
   }
   bool is_connected() const noexcept { return reader_ != nullptr; }
   /// Counters for reports; relaxed, any thread.
@@ -144,29 +153,53 @@ class InputCursor {
  protected:
   /// Latches; the header, or null with reason_ set.
   const ItemHeader* latch() noexcept {
-    if (reader_ == nullptr) {
-      reason_ = NullReason::not_registered;
-      return nullptr;
-    }
-    const ItemHeader* header = reader_->latch(context_->step);
-    if (context_->step != step_) {
+    if (context_->step != step_ && reader_ != nullptr) {
       step_ = context_->step;
-      judge(header);
+      header_ = reader_->latch(step_);
+      judge();
     }
-    return reason_ == NullReason::none ? header : nullptr;
+    return header_;
   }
   Duration age(const ItemHeader& header) const noexcept { return context_->now - header.sampled_at; }
 
-  const StepContext* context_ = nullptr;
+  const StepContext* context_ = &no_step;
   SlotReader* reader_ = nullptr;
   std::uint64_t missed_ = 0;
-  NullReason reason_ = NullReason::nothing_yet;
+  NullReason reason_ = NullReason::not_registered;
   Freshness freshness_ = Freshness::null;
 
  private:
-  void judge(const ItemHeader* header) noexcept;
+  static constexpr StepContext no_step{};
+
+  void judge() noexcept {
+    missed_ = 0;
+    reason_ = null_reason_of(reader_->slot()->writer_state());
+    if (reason_ == NullReason::none) {
+      if (header_ == nullptr) {
+        reason_ = NullReason::nothing_yet;
+      } else if (max_age_.count() > 0 && age(*header_) > max_age_) {
+        reason_ = NullReason::too_old;
+      } else if (header_->sequence == cursor_) {
+        freshness_ = Freshness::old_item;
+        return;
+      } else {
+        see(header_->sequence);
+        return;
+      }
+    }
+    header_ = nullptr;
+  }
+  void see(std::uint64_t sequence) noexcept {
+    freshness_ = Freshness::new_item;
+    // The first item an input sees misses nothing.
+    if (cursor_ != 0) missed_ = sequences_between(cursor_, sequence);
+    cursor_ = sequence;
+    read_.store(read() + 1, std::memory_order_relaxed);
+    if (missed_ > 0) missed_total_.store(missed() + missed_, std::memory_order_relaxed);
+  }
 
   Duration max_age_{};
+  const ItemHeader* header_ = nullptr;  ///< of this step
   std::uint64_t step_ = 0;
   std::uint64_t cursor_ = 0;
   std::atomic<std::uint64_t> read_{0};
@@ -297,7 +330,7 @@ class Output {
     if (slot_ == nullptr) return true;
     const std::uint8_t buffer = slot_->loan();
     if (buffer == SlotControl::none) return false;
-    std::memcpy(slot_->payload(buffer), &value, sizeof(T));
+    copy_item<T>(slot_->payload(buffer), &value);
     slot_->publish(buffer, sampled_at);
     return true;
   }

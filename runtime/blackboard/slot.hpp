@@ -82,7 +82,15 @@ class SlotControl {
 
   /// Moves the reader on to the latest item. `held` is the reader's buffer (`none` at first) and is replaced;
   /// it stays `none` while nothing was published. True when the item is another than before.
-  bool take(std::uint8_t& held) noexcept;
+  bool take(std::uint8_t& held) noexcept {
+    std::uint16_t seen = 0;
+    return take(held, seen);
+  }
+  /// Also tells what glance() gives until there is something newer.
+  bool take(std::uint8_t& held, std::uint16_t& seen) noexcept;
+  std::uint16_t glance() const noexcept {
+    return static_cast<std::uint16_t>(word_.load(std::memory_order_relaxed) & (one_taken - 1));
+  }
   /// True when take() would bring another item; changes nothing.
   bool has_newer(std::uint8_t held) const noexcept;
   /// Gives a held buffer back for good (a reader that goes away; a hold that ends); `held` becomes `none`. In
@@ -165,9 +173,10 @@ struct SlotMemory;
 
 template <class T, std::size_t Buffers>
 struct SlotMemory<T, Buffers, false> {
+  // The value begins the cell, so that copies of it do not straddle cache lines.
   struct alignas(cache_line) Cell {
-    ItemHeader header;
     T value;
+    ItemHeader header;
   };
   Cell cells[Buffers];
   std::uint32_t taken[Buffers];

@@ -80,13 +80,15 @@ inline bool SlotControl::has_newer(std::uint8_t held) const noexcept {
   return (word & published_bit) != 0 && index_of(word) != held;
 }
 
-inline bool SlotControl::take(std::uint8_t& held) noexcept {
+inline bool SlotControl::take(std::uint8_t& held, std::uint16_t& seen) noexcept {
   std::uint64_t word = word_.load(std::memory_order_relaxed);
   if (memory_.triple) {
     if ((word & fresh_bit) == 0) return false;
     // Before the first take the reader owns buffer 2: the word began with 0 and the writer with 1.
-    word = word_.exchange(word_of(held == none ? std::uint8_t{2} : held), std::memory_order_acq_rel);
+    const std::uint64_t left = word_of(held == none ? std::uint8_t{2} : held);
+    word = word_.exchange(left, std::memory_order_acq_rel);
     held = index_of(word);
+    seen = static_cast<std::uint16_t>(left);
     return true;
   }
   // A held buffer is never published again before it is given back, so the same index is the same item.
@@ -94,6 +96,7 @@ inline bool SlotControl::take(std::uint8_t& held) noexcept {
   if (held != none) give(held);
   word = word_.fetch_add(one_taken, std::memory_order_acquire);
   held = index_of(word);
+  seen = static_cast<std::uint16_t>(word & (one_taken - 1));
   return true;
 }
 

@@ -394,7 +394,8 @@ void large_payload_is_page_aligned_and_apart_from_headers(void**) {
   }
   assert_true(header < first || header >= first + 3 * sizeof(Block<1024>));
   static Slot<Block<2>, 1> small;
-  assert_ptr_equal(small.control().payload(1) - sizeof(ItemHeader), &small.control().header(1));
+  assert_int_equal(reinterpret_cast<std::uintptr_t>(small.control().payload(1)) % cache_line, 0);
+  assert_ptr_equal(small.control().payload(1) + sizeof(Block<2>), &small.control().header(1));
 }
 
 void loans_are_poisoned_in_checked_builds(void**) {
