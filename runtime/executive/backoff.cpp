@@ -12,7 +12,7 @@ constexpr double apart = 8;
 /// A spread above this part of the mean is no rhythm: such a source is polled in even steps.
 constexpr double irregular = 2.5;
 /// How often a source that gives several items at once is looked at in between.
-constexpr std::uint32_t exploration = 16;
+constexpr std::uint32_t exploration = 4;
 
 double between(Time from, Time to) noexcept {
   return static_cast<double>((to - from).count());
@@ -37,7 +37,7 @@ void Backoff::Rhythm::add(double interval) noexcept {
   mean += error / 8;
 }
 
-void Backoff::learn(double interval) noexcept {
+void Backoff::learn(double interval, double count) noexcept {
   if (interval <= 0) return;
   if (rhythm_.mean == 0) {
     rhythm_.start(interval);
@@ -45,7 +45,7 @@ void Backoff::learn(double interval) noexcept {
   }
   if (burst_.mean == 0) {
     if (interval * apart < rhythm_.mean) {
-      burst_.start(interval);
+      burst_.start(interval / count);
       burst_share_ = 0.25;
     } else if (interval > apart * rhythm_.mean) {
       burst_ = rhythm_;
@@ -57,7 +57,11 @@ void Backoff::learn(double interval) noexcept {
     return;
   }
   const bool within = interval * interval < burst_.mean * rhythm_.mean;
-  (within ? burst_ : rhythm_).add(interval);
+  // Of several items in a burst only the last is told of: the others came evenly in between.
+  if (within)
+    burst_.add(interval / count);
+  else
+    rhythm_.add(interval);
   burst_share_ += ((within ? 1.0 : 0.0) - burst_share_) / 16;
   // One of the two was a passing disturbance, or both have become one.
   const bool one = rhythm_.mean < apart / 2 * burst_.mean;
@@ -98,7 +102,7 @@ Time Backoff::hit(Time now, Time arrived, std::uint64_t count) noexcept {
   Time visible =
       knows_arrival ? std::min(arrived + rounded(delay_), now) : std::min(now, is_first ? now : due_);
   if (was_missed)
-    visible = knows_arrival ? std::max(visible, last_miss_) : last_miss_ + (now - last_miss_) / 2;
+    visible = knows_arrival ? std::max(visible, last_miss_) : std::clamp(due_, last_miss_, now);
   else if (!is_first)
     visible -= rounded(lead);
   if (knows_arrival) delay_ = std::max(0.0, delay_ + (between(arrived, visible) - delay_) / 4);
@@ -106,17 +110,20 @@ Time Backoff::hit(Time now, Time arrived, std::uint64_t count) noexcept {
   const double interval = is_first ? 0 : between(arrived_, now_arrived);
   arrived_ = now_arrived;
   visible_ = visible;
-  learn(interval);
+  // The time in which the items came while nobody looked.
+  const double unseen = between(was_missed ? last_miss_ : hit_at_, now);
+  hit_at_ = now;
+  learn(interval, static_cast<double>(count));
   if (rhythm_.mean == 0) {
     misses_ = 0;
     step_ = limits_.shortest;
     return now + limits_.shortest;
   }
   if (count > 1 && ++batches_ % exploration == 0) {
-    // They may have come together, or one after the other while nobody looked.
+    // They may have come together, or one after the other.
     misses_ = 0;
     in_burst_ = true;
-    due_ = visible_ + rounded(interval / static_cast<double>(count));
+    due_ = now + rounded(unseen / static_cast<double>(count));
     return bounded(now, due_);
   }
   return expect(now, burst_.mean > 0 && burst_share_ >= 0.2);

@@ -45,7 +45,7 @@ class Backoff {
     void add(double interval) noexcept;
   };
 
-  void learn(double interval) noexcept;
+  void learn(double interval, double count) noexcept;
   Time expect(Time now, bool in_burst) noexcept;
   double margin(const Rhythm& rhythm) const noexcept;
   Time bounded(Time now, Time wanted) const noexcept;
@@ -58,6 +58,7 @@ class Backoff {
   Time visible_{};          ///< when it could be polled, as far as known
   Time due_{};              ///< when the next is expected to be
   Time last_miss_{};
+  Time hit_at_{};
   double delay_ = 0;  ///< ns from arrival to visibility, as learned
   Duration step_{};   ///< between retries
   std::uint32_t misses_ = 0;
