@@ -193,13 +193,24 @@ struct SlotMemory<T, Buffers, true> {
   struct alignas(page) Value {
     T value;
   };
+  // Apart from each other too: the writer fills one while readers look at others.
+  struct alignas(cache_line) Header {
+    ItemHeader header;
+  };
   Value values[Buffers];
-  ItemHeader headers[Buffers];
+  Header headers[Buffers];
   std::uint32_t taken[Buffers];
   alignas(cache_line) std::atomic<std::uint32_t> given[Buffers];
 
   constexpr SlotControl::Memory view(std::uint8_t loans, bool triple) noexcept {
-    return {&headers[0], &values[0].value, sizeof(ItemHeader), sizeof(Value), taken, given, Buffers, loans,
+    return {&headers[0].header,
+            &values[0].value,
+            sizeof(Header),
+            sizeof(Value),
+            taken,
+            given,
+            Buffers,
+            loans,
             triple};
   }
 };
