@@ -73,7 +73,7 @@ Duration VirtualTime::run(Duration duration) noexcept {
     if (events % events_between_drains == 0) drain_log(STDERR_FILENO);
     if (control.faults() != faults_) {
       faults_ = control.faults();
-      lifecycle_->restart_by_policy();
+      if (control.mode() == Mode::running) lifecycle_->restart_by_policy();
     }
   }
   supervision_->observe(now_);

@@ -25,7 +25,8 @@ void skipped_releases_are_left_out() {
   std::vector<Tick> ticks;
   make_slow(cell, OverrunPolicy::skip, ticks);
   Executive executive(cell.application(), in_virtual_time(milliseconds{100}));
-  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  const RunSummary summary = run_to_the_end(executive);
+  CHECK_EQUAL(summary.exit_code, 0);
   CHECK(ticks.size() >= 33);
   for (std::size_t i = 1; i < ticks.size(); ++i) {
     CHECK(ticks[i].nominal - ticks[i - 1].nominal >= milliseconds{2});
@@ -36,7 +37,9 @@ void skipped_releases_are_left_out() {
   const ThreadState& state = cell.thread_state(Cell::producing);
   CHECK(state.overruns >= ticks.size());
   CHECK(state.skipped >= 50);
-  CHECK(state.skipped + state.cycles <= 106);
+  // Each release took place or was left out, none was both.
+  const auto releases = static_cast<std::uint64_t>(summary.run_time / milliseconds{1});
+  CHECK(state.skipped + state.cycles + 3 >= releases && state.skipped + state.cycles <= releases + 3);
 }
 
 void every_release_is_caught_up_with() {

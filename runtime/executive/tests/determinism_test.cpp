@@ -1,0 +1,127 @@
+// A run in virtual time depends on nothing but tables, seed and input.
+#include <random>
+
+#include "runtime/executive/tests/running_cell.hpp"
+
+namespace flexrf::fixture {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using Cell = ProducerAndConsumer;
+
+struct Outcome {
+  std::uint64_t digest;
+  double position;
+};
+
+/// Noise from the device's seed reaches what is published; several threads of different rhythm take part.
+Outcome run_with_seed(std::uint64_t seed, bool busy_host = false) {
+  Cell cell;
+  const std::uint16_t measured = cell.add(SlotPlan{.name = "measured"});
+  cell.device(Cell::actuator).output = measured;
+  cell.unit(Cell::producer).inputs = {InputPlan{.slot = measured}};
+  std::mt19937_64 random;
+  double position = 0;
+  cell.device(Cell::actuator).script.initialise = [&](TestDevice& device) {
+    random.seed(device.environment().seed);
+    return Status{};
+  };
+  cell.device(Cell::actuator).script.send = [&](TestDevice& device, const Tick&) {
+    position = device.position + 1e-6 * static_cast<double>(random() % 1000);
+    device.output.publish(Item{device.moves, position});
+  };
+  cell.thread(Cell::consuming).trigger.min_interval = microseconds{1500};
+  UnitPlan other;
+  other.name = "other";
+  other.inputs = {InputPlan{.slot = measured}, InputPlan{.slot = Cell::values}};
+  other.script.step = [busy_host](TestUnit& unit, const Tick&) {
+    const View<Item> view = unit.inputs[0].latest();
+    if (view) unit.feedback = {view.sequence(), view->value};
+    const Time until = MonotonicClock::now() + microseconds{busy_host ? 30 : 0};
+    while (MonotonicClock::now() < until) {
+    }
+  };
+  ThreadPlan thread;
+  thread.name = "watching";
+  thread.trigger = TriggerPlan::periodic(microseconds{700});
+  thread.units = {cell.add(std::move(other))};
+  cell.add(std::move(thread));
+  Executive executive(cell.application(), in_virtual_time(milliseconds{500}, seed));
+  const RunSummary summary = run_to_the_end(executive);
+  CHECK_EQUAL(summary.exit_code, 0);
+  CHECK(summary.digest.has_value());
+  return {*summary.digest, position};
+}
+
+void two_runs_have_the_same_digest() {
+  const Outcome first = run_with_seed(1);
+  const Outcome second = run_with_seed(1);
+  CHECK_EQUAL(first.digest, second.digest);
+  CHECK_EQUAL(first.position, second.position);
+}
+
+void however_long_steps_take_on_this_machine() {
+  CHECK_EQUAL(run_with_seed(1).digest, run_with_seed(1, true).digest);
+}
+
+void another_seed_changes_a_value_not_just_the_digest() {
+  const Outcome first = run_with_seed(1);
+  const Outcome second = run_with_seed(2);
+  CHECK(first.digest != second.digest);
+  CHECK(first.position != second.position);
+}
+
+/// Digest of a run whose producer publishes this number in step 7.
+std::uint64_t digest_with(std::int64_t number, bool wall) {
+  Cell cell;
+  cell.slot(Cell::values).wall = wall;
+  cell.unit(Cell::producer).script.step = [number](TestUnit& unit, const Tick& tick) {
+    unit.outputs[0].publish(Item{tick.number == 7 ? number : 0, 0});
+  };
+  cell.unit(Cell::consumer).script.step = {};
+  Executive executive(cell.application(), in_virtual_time(milliseconds{20}));
+  const RunSummary summary = run_to_the_end(executive);
+  CHECK(summary.digest.has_value());
+  return *summary.digest;
+}
+
+void one_value_changes_the_digest() {
+  CHECK_EQUAL(digest_with(1, false), digest_with(1, false));
+  CHECK(digest_with(1, false) != digest_with(2, false));
+}
+
+void what_is_marked_wall_does_not() {
+  CHECK_EQUAL(digest_with(1, true), digest_with(2, true));
+}
+
+void observing_changes_nothing() {
+  const auto digest = [](bool observe) {
+    Cell cell;
+    Executive executive(cell.application(), in_virtual_time(milliseconds{100}));
+    const SlotRecord& slot = cell.application().slots[Cell::values];
+    cell.unit(Cell::consumer).script.step = [&, observe](TestUnit& unit, const Tick&) {
+      if (observe) slot.observer->newest();
+      while (unit.jobs.pop()) ++unit.memory;
+      unit.feedback.steps = static_cast<std::uint64_t>(unit.memory);
+    };
+    return *run_to_the_end(executive).digest;
+  };
+  CHECK_EQUAL(digest(false), digest(true));
+}
+
+}  // namespace
+}  // namespace flexrf::fixture
+
+int main() {
+  using namespace flexrf::fixture;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(two_runs_have_the_same_digest),
+      CONTAINED_TEST(however_long_steps_take_on_this_machine),
+      CONTAINED_TEST(another_seed_changes_a_value_not_just_the_digest),
+      CONTAINED_TEST(one_value_changes_the_digest),
+      CONTAINED_TEST(what_is_marked_wall_does_not),
+      CONTAINED_TEST(observing_changes_nothing),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,333 @@
+// The life of units and devices: in which order, what goes wrong, who begins again.
+#include <stdexcept>
+
+#include "runtime/executive/tests/running_cell.hpp"
+
+namespace flexrf::fixture {
+namespace {
+
+using std::chrono::milliseconds;
+using Cell = ProducerAndConsumer;
+
+constexpr const char* usual_order[] = {"actuator: initialise", "producer: initialise", "consumer: initialise",
+                                       "consumer: stop",       "producer: stop",       "actuator: stop"};
+
+void check_order(Cell& cell) {
+  for (std::size_t i = 0; i < std::size(usual_order); ++i) {
+    CHECK(cell.events().place_of(usual_order[i]) != Events::never);
+    CHECK_EQUAL(cell.events().count_of(usual_order[i]), 1U);
+    if (i > 0) CHECK(cell.events().place_of(usual_order[i - 1]) < cell.events().place_of(usual_order[i]));
+  }
+}
+
+void initialised_in_table_order_stopped_in_reverse() {
+  Cell simulated;
+  Executive executive(simulated.application(), in_virtual_time(milliseconds{10}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  check_order(simulated);
+  Cell real;
+  RunningCell running(real);
+  running.start();
+  CHECK(RunningCell::wait_until([&] { return real.unit_state(Cell::consumer).steps > 5; }));
+  CHECK_EQUAL(real.unit_state(Cell::consumer).life.load(), Life::running);
+  CHECK_EQUAL(running.finish().exit_code, 0);
+  check_order(real);
+  CHECK_EQUAL(real.unit_state(Cell::consumer).life.load(), Life::stopped);
+  CHECK_EQUAL(real.device_state(Cell::actuator).life.load(), Life::stopped);
+}
+
+void configuration_and_parameters_are_there_at_initialise() {
+  Cell cell;
+  double offset = 0;
+  double gain = 0;
+  cell.unit(Cell::producer).script.initialise = [&](TestUnit& unit) {
+    offset = unit.configuration.offset;
+    gain = unit.runtime.gain;
+    return Status{};
+  };
+  Executive executive(cell.application(), in_virtual_time(milliseconds{2}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  CHECK_EQUAL(offset, 0.5);
+  CHECK_EQUAL(gain, 1.0);
+}
+
+void check_failed_start(Cell& cell, const RunSummary& summary, const char* cause) {
+  CHECK_EQUAL(summary.exit_code, 2);
+  CHECK_EQUAL(summary.cause, EndCause::fault);
+  CHECK_EQUAL(cell.unit_state(Cell::consumer).life.load(), Life::fault);
+  CHECK_CONTAINS(cell.unit_state(Cell::consumer).fault.cause(), cause);
+  CHECK_EQUAL(cell.events().count_of("consumer: initialise"), 1U);
+  // What was begun is undone.
+  CHECK_EQUAL(cell.events().count_of("producer: stop"), 1U);
+  CHECK_EQUAL(cell.events().count_of("actuator: stop"), 1U);
+  CHECK_EQUAL(cell.unit_state(Cell::consumer).steps.load(), 0U);
+}
+
+void a_unit_that_cannot_be_initialised_ends_the_start() {
+  for (const bool simulated : {true, false}) {
+    Cell cell;
+    cell.unit(Cell::consumer).script.initialise = [](TestUnit&) {
+      return Status::error(StatusCode::unavailable, "no cable");
+    };
+    Executive executive(cell.application(),
+                        simulated ? in_virtual_time(milliseconds{10}) : on_the_wall_clock());
+    check_failed_start(cell, run_to_the_end(executive), "no cable");
+  }
+}
+
+void an_exception_in_initialise_is_a_fault_with_its_text() {
+  Cell cell;
+  cell.unit(Cell::consumer).script.initialise = [](TestUnit&) -> Status {
+    throw std::runtime_error("bad file");
+  };
+  Executive executive(cell.application(), in_virtual_time(milliseconds{10}));
+  check_failed_start(cell, run_to_the_end(executive), "bad file");
+}
+
+void a_device_that_cannot_be_initialised_ends_the_start() {
+  Cell cell;
+  cell.device(Cell::actuator).script.initialise = [](TestDevice&) {
+    return Status::error(StatusCode::unavailable, "no such port");
+  };
+  Executive executive(cell.application(), in_virtual_time(milliseconds{10}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
+  CHECK_EQUAL(cell.device_state(Cell::actuator).life.load(), Life::fault);
+  CHECK_CONTAINS(cell.device_state(Cell::actuator).fault.cause(), "no such port");
+  CHECK_EQUAL(cell.events().count_of("producer: initialise"), 0U);
+}
+
+void an_exception_in_a_step_is_that_units_fault() {
+  for (const bool simulated : {true, false}) {
+    Cell cell;
+    cell.unit(Cell::producer).script.step = [](TestUnit&, const Tick& tick) {
+      if (tick.number == 4) throw std::out_of_range("joint 7 of 6");
+    };
+    cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{1});
+    Executive executive(cell.application(),
+                        simulated ? in_virtual_time(milliseconds{50}) : on_the_wall_clock());
+    std::atomic<std::uint64_t> steps_after{0};
+    cell.unit(Cell::consumer).script.step = [&](TestUnit&, const Tick&) {
+      if (cell.unit_state(Cell::producer).life != Life::fault) return;
+      if (++steps_after == 10) {
+        executive.control().set_cause(EndCause::requested);
+        executive.control().rise_to(Mode::stopping);
+      }
+    };
+    CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
+    CHECK_EQUAL(cell.unit_state(Cell::producer).life.load(), Life::fault);
+    CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.cause(), "joint 7 of 6");
+    CHECK_EQUAL(cell.unit_state(Cell::producer).steps.load(), 5U);
+    CHECK(steps_after >= 10U);
+    // It is stopped all the same, so that what it opened is closed.
+    CHECK_EQUAL(cell.events().count_of("producer: stop"), 1U);
+  }
+}
+
+void what_is_no_exception_of_the_library_too() {
+  Cell cell;
+  cell.unit(Cell::producer).script.step = [](TestUnit&, const Tick&) { throw 42; };
+  Executive executive(cell.application(), in_virtual_time(milliseconds{5}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
+  CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.cause(), "unknown type");
+}
+
+// ---- restart policies
+
+struct Restarts {
+  std::size_t initialised;
+  std::uint64_t last_steps;
+  Life life;
+  bool may_move;
+};
+
+/// A consumer that faults in its fifth step, as often as it gets that far.
+Restarts restarts_with(RestartPolicy policy, DriverKind kind) {
+  Cell cell;
+  cell.unit(Cell::consumer).restart = policy;
+  cell.device(Cell::actuator).kind = kind;
+  bool may_move = true;
+  Executive executive(cell.application(), in_virtual_time(milliseconds{100}));
+  cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
+    may_move = executive.control().may_move();
+    if (tick.number == 4) unit.give_up(Status::error(StatusCode::device_fault, "again"));
+  };
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
+  return {cell.events().count_of("consumer: initialise"), cell.unit_state(Cell::consumer).steps,
+          cell.unit_state(Cell::consumer).life, may_move};
+}
+
+void never_is_never() {
+  const Restarts restarts = restarts_with(RestartPolicy::never, DriverKind::simulated);
+  CHECK_EQUAL(restarts.initialised, 1U);
+  CHECK_EQUAL(restarts.last_steps, 5U);
+  CHECK_EQUAL(restarts.life, Life::fault);
+}
+
+void once_is_once() {
+  const Restarts restarts = restarts_with(RestartPolicy::once, DriverKind::simulated);
+  CHECK_EQUAL(restarts.initialised, 2U);
+  CHECK_EQUAL(restarts.life, Life::fault);
+  CHECK(!restarts.may_move);
+}
+
+void always_is_as_often_as_it_takes() {
+  const Restarts restarts = restarts_with(RestartPolicy::always, DriverKind::simulated);
+  CHECK(restarts.initialised >= 18U);
+  CHECK(!restarts.may_move);
+}
+
+void who_owns_a_real_actuator_is_never_restarted() {
+  const Restarts restarts = restarts_with(RestartPolicy::always, DriverKind::real);
+  CHECK_EQUAL(restarts.initialised, 1U);
+  CHECK_EQUAL(restarts.life, Life::fault);
+}
+
+void a_restart_constructs_anew_and_keeps_the_settings() {
+  Cell cell;
+  cell.unit(Cell::producer).restart = RestartPolicy::once;
+  std::vector<double> gains;
+  std::vector<std::int64_t> memories;
+  Executive executive(cell.application(), in_virtual_time(milliseconds{50}));
+  cell.unit(Cell::producer).script.initialise = [&](TestUnit& unit) {
+    gains.push_back(unit.runtime.gain);
+    memories.push_back(unit.memory);
+    return Status{};
+  };
+  cell.unit(Cell::producer).script.step = [&](TestUnit& unit, const Tick& tick) {
+    unit.memory = 77;
+    if (tick.number == 2) {
+      ParameterRequest request;
+      request.component = Cell::producer;
+      const double gain = 2.5;
+      request.add(0, 0, &gain, sizeof(gain));
+      executive.cell().send(request);
+    }
+    if (tick.number == 6 && gains.size() == 1) unit.give_up(Status::error(StatusCode::device_fault, "once"));
+  };
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
+  CHECK((gains == std::vector<double>{1.0, 2.5}));
+  CHECK((memories == std::vector<std::int64_t>{0, 0}));
+  CHECK_EQUAL(cell.unit_state(Cell::producer).life.load(), Life::stopped);
+}
+
+void a_restart_on_the_wall_clock() {
+  Cell cell;
+  cell.unit(Cell::producer).restart = RestartPolicy::once;
+  cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
+    unit.outputs[0].publish(Item{});
+    if (tick.number == 4) unit.give_up(Status::error(StatusCode::device_fault, "broken"));
+  };
+  RunningCell running(cell);
+  running.start();
+  // Five steps each: faulted, restarted, faulted for good.
+  CHECK(RunningCell::wait_until([&] {
+    return cell.unit_state(Cell::producer).life == Life::fault &&
+           cell.events().count_of("producer: initialise") == 2;
+  }));
+  CHECK(!running.control().may_move());
+  CHECK_EQUAL(running.finish().exit_code, 2);
+  CHECK(cell.slot_control(Cell::values).published() == 10U);
+}
+
+// ---- what readers of a unit in trouble see
+
+/// Steps a consumer every millisecond beside a producer with this script; the reasons it saw, without
+/// repeats.
+std::vector<NullReason> reasons_seen(Cell& cell) {
+  cell.thread(Cell::consuming).trigger =
+      TriggerPlan::periodic(milliseconds{1}, std::chrono::microseconds{500});
+  std::vector<NullReason> reasons;
+  cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
+    const NullReason reason = unit.inputs[0].latest().reason();
+    if (!tick.stop_requested && (reasons.empty() || reasons.back() != reason)) reasons.push_back(reason);
+  };
+  Executive executive(cell.application(), in_virtual_time(milliseconds{50}));
+  run_to_the_end(executive);
+  return reasons;
+}
+
+void readers_of_a_faulted_unit_see_why() {
+  Cell cell;
+  cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
+    if (tick.number >= 3) unit.outputs[0].publish(Item{});
+    if (tick.number == 10) unit.give_up(Status::error(StatusCode::device_fault, "broken"));
+  };
+  CHECK((reasons_seen(cell) ==
+         std::vector<NullReason>{NullReason::nothing_yet, NullReason::none, NullReason::writer_faulted}));
+}
+
+void readers_of_a_restarted_unit_see_it_again() {
+  Cell cell;
+  cell.unit(Cell::producer).restart = RestartPolicy::once;
+  bool failed = false;
+  cell.unit(Cell::producer).script.step = [&](TestUnit& unit, const Tick& tick) {
+    unit.outputs[0].publish(Item{});
+    if (tick.number == 10 && !failed) {
+      failed = true;
+      unit.give_up(Status::error(StatusCode::device_fault, "broken"));
+    }
+  };
+  const std::vector<NullReason> reasons = reasons_seen(cell);
+  CHECK_EQUAL(reasons.back(), NullReason::none);
+}
+
+void readers_of_a_late_unit_see_that_it_is_too_old() {
+  Cell cell;
+  cell.unit(Cell::consumer).inputs[0].max_age = milliseconds{5};
+  cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
+    if (tick.number < 10 || tick.number > 30) unit.outputs[0].publish(Item{});
+  };
+  CHECK((reasons_seen(cell) ==
+         std::vector<NullReason>{NullReason::none, NullReason::too_old, NullReason::none}));
+}
+
+void an_input_that_is_not_connected_says_so() {
+  Cell cell;
+  cell.unit(Cell::consumer).inputs[0].slot = no_index;
+  CHECK((reasons_seen(cell) == std::vector<NullReason>{NullReason::not_registered}));
+}
+
+void readers_of_a_faulted_device_see_why() {
+  Cell cell;
+  const std::uint16_t measured = cell.add(SlotPlan{.name = "measured"});
+  cell.device(Cell::actuator).output = measured;
+  cell.unit(Cell::consumer).inputs[0].slot = measured;
+  cell.device(Cell::actuator).script.receive = [](TestDevice& device, const Tick& tick) {
+    device.output.publish(Item{});
+    if (tick.now > Time{std::chrono::seconds{1}} + milliseconds{20}) {
+      device.give_up(Status::error(StatusCode::device_fault, "overheated"));
+    }
+  };
+  const std::vector<NullReason> reasons = reasons_seen(cell);
+  CHECK_EQUAL(reasons.back(), NullReason::writer_faulted);
+  CHECK_EQUAL(cell.device_state(Cell::actuator).life.load(), Life::fault);
+  CHECK(cell.events().count_of("actuator: make_safe") >= 1U);
+}
+
+}  // namespace
+}  // namespace flexrf::fixture
+
+int main() {
+  using namespace flexrf::fixture;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(initialised_in_table_order_stopped_in_reverse),
+      CONTAINED_TEST(configuration_and_parameters_are_there_at_initialise),
+      CONTAINED_TEST(a_unit_that_cannot_be_initialised_ends_the_start),
+      CONTAINED_TEST(an_exception_in_initialise_is_a_fault_with_its_text),
+      CONTAINED_TEST(a_device_that_cannot_be_initialised_ends_the_start),
+      CONTAINED_TEST(an_exception_in_a_step_is_that_units_fault),
+      CONTAINED_TEST(what_is_no_exception_of_the_library_too),
+      CONTAINED_TEST(never_is_never),
+      CONTAINED_TEST(once_is_once),
+      CONTAINED_TEST(always_is_as_often_as_it_takes),
+      CONTAINED_TEST(who_owns_a_real_actuator_is_never_restarted),
+      CONTAINED_TEST(a_restart_constructs_anew_and_keeps_the_settings),
+      CONTAINED_TEST(a_restart_on_the_wall_clock),
+      CONTAINED_TEST(readers_of_a_faulted_unit_see_why),
+      CONTAINED_TEST(readers_of_a_restarted_unit_see_it_again),
+      CONTAINED_TEST(readers_of_a_late_unit_see_that_it_is_too_old),
+      CONTAINED_TEST(an_input_that_is_not_connected_says_so),
+      CONTAINED_TEST(readers_of_a_faulted_device_see_why),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,193 @@
+// Nothing moves by itself: Start, Stop motion, holds and their leases.
+#include "runtime/executive/tests/running_cell.hpp"
+
+namespace flexrf::fixture {
+namespace {
+
+using std::chrono::milliseconds;
+using Cell = ProducerAndConsumer;
+
+constexpr Time beginning{std::chrono::seconds{1}};
+
+/// A cell whose consumer commands a new position each millisecond, while the producer's script is the person.
+struct Machine {
+  explicit Machine(bool autostart, Duration duration, std::function<void(Machine&, std::uint64_t)> person) {
+    cell.autostart = autostart;
+    cell.thread(Cell::consuming).trigger =
+        TriggerPlan::periodic(milliseconds{1}, std::chrono::microseconds{500});
+    cell.unit(Cell::consumer).script.step = [this](TestUnit& unit, const Tick& tick) {
+      if (tick.stop_requested) return;
+      unit.device->command = static_cast<double>(tick.number + 1);
+      moved.push_back(unit.device->position);
+      inhibited.push_back(tick.motion_inhibited);
+      held.push_back(unit.runtime.move);
+    };
+    cell.unit(Cell::producer).script.step = [this, person = std::move(person)](TestUnit&, const Tick& tick) {
+      if (!tick.stop_requested) person(*this, tick.number);
+    };
+    executive.emplace(cell.application(), in_virtual_time(duration));
+    exit_code = run_to_the_end(*executive).exit_code;
+  }
+  Control& control() { return executive->control(); }
+
+  /// Requests for the consumer's hold.
+  void hold(RequestKind kind, std::uint64_t lease, std::uint64_t sequence, Time issued_at = {}) {
+    ParameterRequest request;
+    request.kind = kind;
+    request.component = Cell::consumer;
+    request.lease = lease;
+    request.lease_sequence = sequence;
+    request.issued_at = issued_at;
+    request.add_name(2);
+    executive->cell().send(request);
+  }
+
+  Cell cell;
+  std::optional<Executive> executive;
+  std::vector<double> moved;    // the actuator's position as each step found it
+  std::vector<bool> inhibited;  // what each step was told
+  std::vector<bool> held;
+  int exit_code = -1;
+};
+
+void nothing_moves_before_start() {
+  Machine machine(false, milliseconds{50}, [](Machine&, std::uint64_t) {});
+  CHECK_EQUAL(machine.exit_code, 0);
+  CHECK_EQUAL(machine.moved.size(), 50U);
+  for (const double position : machine.moved) CHECK_EQUAL(position, 0.0);
+  for (const bool inhibited : machine.inhibited) CHECK(inhibited);
+}
+
+void autostart_lifts_it_at_power_on() {
+  Machine machine(true, milliseconds{50}, [](Machine&, std::uint64_t) {});
+  CHECK_EQUAL(machine.moved.back(), 49.0);
+  for (const bool inhibited : machine.inhibited) CHECK(!inhibited);
+}
+
+void start_lets_move_and_stop_motion_ends_it_in_the_next_period() {
+  Machine machine(false, milliseconds{60}, [](Machine& self, std::uint64_t number) {
+    if (number == 10 && !self.control().start_motion()) throw CheckFailed{"Start was refused"};
+    if (number == 30) self.control().stop_motion();
+    if (number == 40) {
+      if (self.control().start_motion()) throw CheckFailed{"Start in spite of the latch"};
+      self.control().clear_stop_motion();
+    }
+    if (number == 50 && !self.control().start_motion()) throw CheckFailed{"Start was refused"};
+  });
+  CHECK_EQUAL(machine.exit_code, 0);
+  // Steps are half a millisecond after the person's acts; what they command takes effect at their end.
+  CHECK_EQUAL(machine.moved[10], 0.0);
+  CHECK_EQUAL(machine.moved[11], 11.0);
+  CHECK_EQUAL(machine.moved[30], 30.0);
+  for (std::size_t i = 30; i <= 50; ++i) CHECK_EQUAL(machine.moved[i], 30.0);
+  CHECK_EQUAL(machine.moved[51], 51.0);
+  for (std::size_t i = 0; i < 60; ++i) {
+    CHECK_EQUAL(machine.inhibited[i], i < 10 || (i >= 30 && i < 50));
+  }
+}
+
+void a_hold_lasts_as_long_as_its_lease_is_refreshed() {
+  const std::uint64_t lease = new_lease_number();
+  Machine machine(true, milliseconds{800}, [lease](Machine& self, std::uint64_t number) {
+    if (number == 10) self.hold(RequestKind::hold, lease, 1);
+    if (number == 200) self.hold(RequestKind::refresh, lease, 2);
+    // Long over: a lease never revives.
+    if (number == 600) self.hold(RequestKind::refresh, lease, 3);
+    if (number == 700) self.hold(RequestKind::hold, new_lease_number(), 1);
+  });
+  CHECK_EQUAL(machine.exit_code, 0);
+  for (std::size_t i = 0; i < machine.held.size(); ++i) {
+    // From the person's act until 250 ms after the last refresh.
+    const bool wanted = (i >= 10 && i < 450) || i >= 700;
+    CHECK_EQUAL(machine.held[i], wanted);
+  }
+}
+
+void a_lease_counts_from_the_persons_act() {
+  Machine machine(true, milliseconds{400}, [](Machine& self, std::uint64_t number) {
+    // It waited for 100 ms somewhere on its way.
+    if (number == 110) self.hold(RequestKind::hold, new_lease_number(), 1, beginning + milliseconds{10});
+  });
+  for (std::size_t i = 0; i < machine.held.size(); ++i) CHECK_EQUAL(machine.held[i], i >= 110 && i < 260);
+}
+
+void stop_motion_ends_holds_for_good() {
+  const std::uint64_t lease = new_lease_number();
+  Machine machine(true, milliseconds{100}, [lease](Machine& self, std::uint64_t number) {
+    if (number == 10) self.hold(RequestKind::hold, lease, 1);
+    if (number == 30) self.control().stop_motion();
+    if (number == 40) {
+      self.control().clear_stop_motion();
+      if (!self.control().start_motion()) throw CheckFailed{"Start was refused"};
+    }
+    if (number > 10) self.hold(RequestKind::refresh, lease, number);
+  });
+  for (std::size_t i = 0; i < machine.held.size(); ++i) CHECK_EQUAL(machine.held[i], i >= 10 && i < 30);
+}
+
+void a_hold_is_refused_while_motion_is_inhibited() {
+  Machine machine(false, milliseconds{50}, [](Machine& self, std::uint64_t number) {
+    if (number == 10) self.hold(RequestKind::hold, new_lease_number(), 1);
+  });
+  for (const bool held : machine.held) CHECK(!held);
+}
+
+void a_restart_needs_a_new_start() {
+  bool failed = false;
+  Cell cell;
+  cell.unit(Cell::producer).restart = RestartPolicy::once;
+  cell.thread(Cell::consuming).trigger =
+      TriggerPlan::periodic(milliseconds{1}, std::chrono::microseconds{500});
+  std::vector<bool> inhibited;
+  cell.unit(Cell::producer).script.step = [&](TestUnit& unit, const Tick& tick) {
+    if (tick.number != 10 || failed) return;
+    failed = true;
+    unit.give_up(Status::error(StatusCode::device_fault, "broken"));
+  };
+  cell.unit(Cell::consumer).script.step = [&](TestUnit&, const Tick& tick) {
+    if (!tick.stop_requested) inhibited.push_back(tick.motion_inhibited);
+  };
+  Executive executive(cell.application(), in_virtual_time(milliseconds{30}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
+  CHECK_EQUAL(inhibited.size(), 30U);
+  for (std::size_t i = 0; i < inhibited.size(); ++i) CHECK_EQUAL(inhibited[i], i >= 10);
+}
+
+void stop_motion_is_seen_by_sleeping_threads_on_the_wall_clock() {
+  Cell cell;
+  cell.unit(Cell::producer).script.step = {};  // the consumer, and with it the actuator, sleeps
+  TestDevice* actuator = nullptr;
+  cell.device(Cell::actuator).script.initialise = [&](TestDevice& device) {
+    actuator = &device;
+    return Status{};
+  };
+  RunningCell running(cell);
+  running.start();
+  CHECK(RunningCell::wait_until([&] { return running.control().mode() == Mode::running; }));
+  CHECK(RunningCell::wait_until([&] { return !actuator->is_inhibited(); }));
+  running.control().stop_motion();
+  CHECK(RunningCell::wait_until([&] { return actuator->is_inhibited(); }));
+  running.control().clear_stop_motion();
+  CHECK(running.control().start_motion().is_ok());
+  CHECK(RunningCell::wait_until([&] { return !actuator->is_inhibited(); }));
+  CHECK_EQUAL(running.finish().exit_code, 0);
+}
+
+}  // namespace
+}  // namespace flexrf::fixture
+
+int main() {
+  using namespace flexrf::fixture;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(nothing_moves_before_start),
+      CONTAINED_TEST(autostart_lifts_it_at_power_on),
+      CONTAINED_TEST(start_lets_move_and_stop_motion_ends_it_in_the_next_period),
+      CONTAINED_TEST(a_hold_lasts_as_long_as_its_lease_is_refreshed),
+      CONTAINED_TEST(a_lease_counts_from_the_persons_act),
+      CONTAINED_TEST(stop_motion_ends_holds_for_good),
+      CONTAINED_TEST(a_hold_is_refused_while_motion_is_inhibited),
+      CONTAINED_TEST(a_restart_needs_a_new_start),
+      CONTAINED_TEST(stop_motion_is_seen_by_sleeping_threads_on_the_wall_clock),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,81 @@
+// 500 units in one thread, 1000 slots.
+#include "runtime/executive/tests/running_cell.hpp"
+
+namespace flexrf::fixture {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+
+constexpr std::uint16_t units = 500;
+
+/// Unit i reads slot i − 1 and publishes one more in slot i, and its own count in slot 500 + i.
+class Chain : public TestApplication {
+ public:
+  Chain() {
+    for (std::uint16_t i = 0; i < 2 * units; ++i) add(SlotPlan{.name = "slot" + std::to_string(i)});
+    ThreadPlan thread;
+    thread.name = "all";
+    thread.trigger = TriggerPlan::periodic(milliseconds{10});
+    for (std::uint16_t i = 0; i < units; ++i) {
+      UnitPlan unit;
+      unit.name = "unit" + std::to_string(i);
+      unit.parameters = false;
+      unit.budget = microseconds{1};
+      if (i > 0) unit.inputs = {InputPlan{.slot = static_cast<std::uint16_t>(i - 1)}};
+      unit.outputs = {i, static_cast<std::uint16_t>(units + i)};
+      unit.script.step = [](TestUnit& self, const Tick& tick) {
+        const View<Item> before = self.inputs[0].latest();
+        self.outputs[0].publish(Item{before ? before->number + 1 : 1, 0});
+        self.outputs[1].publish(Item{static_cast<std::int64_t>(tick.number), 0});
+      };
+      thread.units.push_back(add(std::move(unit)));
+    }
+    add(std::move(thread));
+  }
+  std::int64_t latest(std::uint16_t slot) {
+    SlotReader* observer = application().slots[slot].observer;
+    return observer->newest() == nullptr ? -1 : static_cast<const Item*>(observer->payload())->number;
+  }
+};
+
+void check(Chain& cell) {
+  const std::uint64_t steps = cell.unit_state(0).steps;
+  CHECK(steps > 1);
+  CHECK_EQUAL(cell.application().slots.size(), 1000U);
+  for (std::uint16_t i = 0; i < units; ++i) {
+    CHECK_EQUAL(cell.unit_state(i).steps.load(), steps);
+    CHECK_EQUAL(cell.slot_control(i).published(), steps);
+    // Table order: in one release a value passes through all units.
+    CHECK_EQUAL(cell.latest(i), i + 1);
+    CHECK_EQUAL(cell.latest(static_cast<std::uint16_t>(units + i)), static_cast<std::int64_t>(steps) - 1);
+  }
+}
+
+void in_virtual_time_all_units_step() {
+  Chain cell;
+  Executive executive(cell.application(), in_virtual_time(milliseconds{200}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  check(cell);
+}
+
+void on_the_wall_clock_too() {
+  Chain cell;
+  RunningCell running(cell);
+  running.start();
+  CHECK(RunningCell::wait_until([&] { return cell.unit_state(units - 1).steps > 20; }));
+  CHECK_EQUAL(running.finish().exit_code, 0);
+  check(cell);
+}
+
+}  // namespace
+}  // namespace flexrf::fixture
+
+int main() {
+  using namespace flexrf::fixture;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(in_virtual_time_all_units_step),
+      CONTAINED_TEST(on_the_wall_clock_too),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
