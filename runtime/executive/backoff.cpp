@@ -12,7 +12,7 @@ constexpr double apart = 8;
 /// A spread above this part of the mean is no rhythm: such a source is polled in even steps.
 constexpr double irregular = 2.5;
 /// How often a source that gives several items at once is looked at in between.
-constexpr std::uint32_t exploration = 4;
+constexpr std::uint32_t exploration = 2;
 
 double between(Time from, Time to) noexcept {
   return static_cast<double>((to - from).count());
@@ -101,9 +101,12 @@ Time Backoff::hit(Time now, Time arrived, std::uint64_t count) noexcept {
   // it was there, so the next is looked for a little earlier.
   Time visible =
       knows_arrival ? std::min(arrived + rounded(delay_), now) : std::min(now, is_first ? now : due_);
-  if (was_missed)
-    visible = knows_arrival ? std::max(visible, last_miss_) : std::clamp(due_, last_miss_, now);
-  else if (!is_first)
+  if (was_missed) {
+    // Of several items `due` meant the first, and the last of them counts.
+    const Duration others =
+        (now - last_miss_) / static_cast<std::int64_t>(count) * static_cast<std::int64_t>(count - 1);
+    visible = knows_arrival ? std::max(visible, last_miss_) : std::clamp(due_, last_miss_ + others, now);
+  } else if (!is_first)
     visible -= rounded(lead);
   if (knows_arrival) delay_ = std::max(0.0, delay_ + (between(arrived, visible) - delay_) / 4);
   const Time now_arrived = knows_arrival ? arrived : visible;

@@ -89,10 +89,12 @@ Arrivals arrivals_with(Gap gap) {
 }
 
 void check_against_fixed(Arrivals arrivals) {
-  Backoff backoff(limits);
-  const Figures ours = poll_with_backoff(arrivals, backoff);
-  const Figures fixed = poll_at_equal_cost(arrivals, ours.empty_polls);
-  assert_true(ours.median <= 0.5 * fixed.median);
+  for (const bool knows_arrival : {true, false}) {
+    Backoff backoff(limits);
+    const Figures ours = poll_with_backoff(arrivals, backoff, knows_arrival);
+    const Figures fixed = poll_at_equal_cost(arrivals, ours.empty_polls);
+    assert_true(ours.median <= 0.5 * fixed.median);
+  }
 }
 
 void periodic_source(void**) {
