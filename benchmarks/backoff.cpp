@@ -9,10 +9,11 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <random>
 #include <thread>
 #include <vector>
+
+#include "benchmarks/harness.hpp"
 
 namespace flexrf {
 namespace {
@@ -147,69 +148,46 @@ Duration interval_at_equal_cost(const std::vector<Time>& arrivals, double empty_
   return Duration{static_cast<std::int64_t>(longest)};
 }
 
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
-/// 95 % interval of the median, by resampling.
-std::pair<double, double> interval_of_median(const std::vector<double>& values) {
-  std::mt19937_64 random(1);
-  std::uniform_int_distribution<std::size_t> any(0, values.size() - 1);
-  std::vector<double> medians;
-  for (int i = 0; i < 2000; ++i) {
-    std::vector<double> sample;
-    for (std::size_t k = 0; k < values.size(); ++k) sample.push_back(values[any(random)]);
-    medians.push_back(median_of(std::move(sample)));
-  }
-  std::sort(medians.begin(), medians.end());
-  return {medians[50], medians[1949]};
-}
-
-void measure_simulated(Producer producer, const char* name, bool knows_arrival) {
-  std::vector<double> ratios;
-  Figures ours{};
-  Figures fixed{};
-  for (int block = 0; block < blocks; ++block) {
+void measure_simulated(bench::Report& report, Producer producer, const char* name, bool knows_arrival) {
+  bench::Pairs pairs;
+  double empty_polls = 0;
+  const int count = report.choose(blocks, 4);
+  for (int block = 0; block < count; ++block) {
     const auto arrivals =
         arrivals_of(producer, learning + block_length, static_cast<std::uint64_t>(block) + 1);
     Backoff backoff(limits);
-    ours = poll_simulated(arrivals, by_backoff(backoff, knows_arrival));
-    fixed = poll_simulated(arrivals, by_interval(interval_at_equal_cost(arrivals, ours.empty_polls)));
-    ratios.push_back(ours.median / fixed.median);
+    const Figures ours = poll_simulated(arrivals, by_backoff(backoff, knows_arrival));
+    const Figures fixed =
+        poll_simulated(arrivals, by_interval(interval_at_equal_cost(arrivals, ours.empty_polls)));
+    pairs.add(ours.median, fixed.median);
+    empty_polls += ours.empty_polls / count;
   }
-  const auto [low, high] = interval_of_median(ratios);
-  std::printf("  %-43s %-14s %6.3f  [%.3f, %.3f]   %8.1f us %8.1f us   %.2f\n", name,
-              knows_arrival ? "known" : "not known", median_of(ratios), low, high, ours.median / 1e3,
-              fixed.median / 1e3, ours.empty_polls);
+  report.add_ratio(bench::text("back-off, %s, arrival %s", name, knows_arrival ? "known" : "not known"),
+                   pairs, 0.5, "ns", bench::text("simulated time, %.2f empty polls per item", empty_polls));
 }
 
-void measure_wall(Producer producer, const char* name) {
-  const auto schedule = arrivals_of(producer, learning / 2 + wall_length, 1);
+void measure_wall(bench::Report& report, Producer producer, const char* name) {
+  const auto schedule = arrivals_of(producer, learning / 2 + report.choose(wall_length, Duration{1s}), 1);
   Backoff backoff(limits);
   const Figures ours = poll_wall(schedule, by_backoff(backoff, true));
   const Figures fixed = poll_wall(schedule, by_interval(interval_at_equal_cost(schedule, ours.empty_polls)));
-  std::printf("  %-43s %6.3f   %8.1f us %8.1f us   %.2f %.2f\n", name, ours.median / fixed.median,
-              ours.median / 1e3, fixed.median / 1e3, ours.empty_polls, fixed.empty_polls);
+  bench::Pairs pairs;
+  pairs.add(ours.median, fixed.median);
+  report.add_ratio(bench::text("back-off, %s, wall clock", name), pairs, 0.5, "ns",
+                   bench::text("one run, not real-time; %.2f against %.2f empty polls per item",
+                               ours.empty_polls, fixed.empty_polls));
 }
 
 }  // namespace
 }  // namespace flexrf
 
-int main() {
+int main(int argument_count, char** arguments) {
   using namespace flexrf;
-  std::printf("backoff: added latency p50 over fixed-interval polling with as many empty polls; goal 0.5\n");
-  std::printf(
-      "simulated time, %d blocks of 10 s, median of ratios with 95 %% interval; times of the last block\n",
-      blocks);
-  std::printf("  %-43s %-14s %6s  %-16s %11s %11s   %s\n", "producer", "arrival", "ratio", "", "back-off",
-              "fixed", "empty polls per item");
-  for (const auto& [producer, name] : producers) measure_simulated(producer, name, true);
-  for (const auto& [producer, name] : producers) measure_simulated(producer, name, false);
-  std::printf("wall clock, threads that are not real-time, one run of 3 s each\n");
-  std::printf("  %-43s %6s   %11s %11s   %s\n", "producer", "ratio", "back-off", "fixed",
-              "empty polls per item, of each");
-  for (const auto& [producer, name] : producers) measure_wall(producer, name);
-  return 0;
+  bench::Report report("backoff", argument_count, arguments);
+  for (const auto& [producer, name] : producers) {
+    measure_simulated(report, producer, name, true);
+    measure_simulated(report, producer, name, false);
+    measure_wall(report, producer, name);
+  }
+  return report.finish();
 }
