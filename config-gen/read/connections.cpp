@@ -178,11 +178,13 @@ void connect_unit_outputs(Assembly& assembly, const UnitRow& entry) {
     if (to == found.end()) continue;
     const bool array = entry.population && !output.queue;
     if (array && array_base(to->second.name) != to->second.name) {
-      assembly.diagnostics.error(
-          to->second.position,
-          "output " + quote(output.name) + " of a population cannot go to the single slot " +
-              quote(to->second.name),
-          "write the name without an index: a population makes one slot for each member");
+      assembly.diagnostics.error(to->second.position,
+                                 "output " + quote(output.name) +
+                                     " of a population cannot go to the single slot " +
+                                     quote(to->second.name),
+                                 "a population makes one slot for each member: write the name without an "
+                                 "index, and do not expose it from a "
+                                 "group with a count");
       assembly.broken_places.insert(array_base(to->second.name));
       for (std::size_t member = 0; member < entry.count; ++member)
         model.units[entry.first + member].outputs[port].position = to->second.position;
