@@ -121,7 +121,8 @@ class Report {
   }
 
   void add(Row row);
-  void add_ratio(std::string what, const Pairs& pairs, double goal, const char* unit, std::string note = "");
+  void add_ratio(std::string what, const Pairs& pairs, double goal, const char* unit,
+                 const std::string& note = "");
   /// Prints everything, writes the JSON; the process's exit code: 0, or 1 when the file could not be written.
   int finish();
 
