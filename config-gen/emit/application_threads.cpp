@@ -27,7 +27,7 @@ struct TriggerText {
 
   std::string operator()(const PeriodTrigger& trigger) const {
     return "{.kind = TriggerKind::period, .period = " + duration_literal(trigger.period) +
-           ", .phase = " + duration_literal(trigger.phase) + "}";
+           ", .phase = " + duration_literal(trigger.phase) + ", .sources = {}}";
   }
   std::string operator()(const SlotsTrigger& trigger) const {
     return "{.kind = TriggerKind::slots" + optional_duration("min_interval", trigger.min_interval) +
@@ -35,7 +35,7 @@ struct TriggerText {
   }
   std::string operator()(const DeviceTrigger& trigger) const {
     return "{.kind = TriggerKind::device" + optional_duration("min_interval", trigger.min_interval) +
-           optional_duration("timeout", trigger.timeout) + ", .device = " + std::to_string(trigger.device) +
+           optional_duration("timeout", trigger.timeout) + ", .sources = {}, .device = " + std::to_string(trigger.device) +
            "}";
   }
   std::string operator()(const BackoffTrigger& trigger) const {
@@ -44,7 +44,7 @@ struct TriggerText {
            ", .longest = " + duration_literal(trigger.longest) +
            ", .tries = " + std::to_string(trigger.tries) + "}";
   }
-  std::string operator()(const FreeTrigger&) const { return "{.kind = TriggerKind::free}"; }
+  std::string operator()(const FreeTrigger&) const { return "{.kind = TriggerKind::free, .sources = {}}"; }
 
   std::string sources(const std::vector<SourceReference>& all) const {
     const std::string list =
