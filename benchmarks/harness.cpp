@@ -132,7 +132,7 @@ void Report::add(Row row) {
 }
 
 void Report::add_ratio(std::string what, const Pairs& pairs, double goal, const char* unit,
-                       std::string note) {
+                       const std::string& note) {
   const std::string medians = text("ours %s %s, floor %s %s", number(pairs.ours().median).c_str(), unit,
                                    number(pairs.floor().median).c_str(), unit);
   add({std::move(what), "", pairs.ratio(), goal, true, note.empty() ? medians : medians + "; " + note});

@@ -8,13 +8,13 @@
 
 namespace flexrf::test {
 
-/// Runs are counted, not timed: `few` items in a short run, 50 times as many with FLEXRF_LONG set.
+/// Runs are counted, not timed: `few` items in a short run, 20 times as many with FLEXRF_LONG set.
 inline std::uint64_t items(std::uint64_t few) {
   static const bool is_long = std::getenv("FLEXRF_LONG") != nullptr;
 #ifdef FLEXRF_SANITIZER
   few /= 4;
 #endif
-  return is_long ? few * 50 : few;
+  return is_long ? few * 20 : few;
 }
 
 /// The first complaint of any thread. Threads go on after complaining, so that all of them end.
