@@ -59,6 +59,9 @@ class Control {
   }
   /// Clears the latch; nothing moves before start_motion().
   void clear_stop_motion() noexcept { stop_motion_.store(false, std::memory_order_seq_cst); }
+  /// autostart: actuators may move from power-on. Before anything is initialised, so that no unit takes the
+  /// moment in between for an inhibition.
+  void permit_motion_at_power_on() noexcept { started_.store(true, std::memory_order_seq_cst); }
   /// A person's Start: actuators may move. Refused while Stop motion is latched or the application is not
   /// running.
   Status start_motion() noexcept {

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <future>
 
 #include "runtime/executive/schedulability.hpp"
 #include "runtime/executive/virtual_time.hpp"
@@ -72,6 +73,7 @@ Executive::~Executive() = default;
 
 Status Executive::prepare() {
   if (const Status status = cell_.construct(); !status) return status;
+  if (const Status status = load_values(); !status) return status;
   if (options_.virtual_time) {
     cell_.prepare_virtual_time(options_.digest);
     return {};
@@ -96,15 +98,46 @@ Status Executive::prepare() {
   return {};
 }
 
+Status Executive::load_values() {
+  if (options_.configuration_file.empty()) return {};
+  const std::vector<ConfigurationComponent> components = configuration_components(cell_);
+  const ConfigurationReport report =
+      load_configuration(options_.configuration_file, configuration_identity(cell_), components);
+  for (const std::string& problem : report.problems) std::fprintf(stderr, "%s\n", problem.c_str());
+  for (const std::string& notice : report.notices) std::fprintf(stderr, "%s\n", notice.c_str());
+  if (report.source != ConfigurationSource::refused) return {};
+  return Status::error(StatusCode::invalid_argument, "--config %s: refused; nothing was started",
+                       options_.configuration_file.c_str());
+}
+
+void Executive::save_values() {
+  if (options_.configuration_file.empty()) return;
+  const std::vector<ConfigurationComponent> components = configuration_components(cell_);
+  const Status status = save_configuration(options_.configuration_file, configuration_identity(cell_), components);
+  if (!status) log_error(cell_.application().name, "the values were not saved: {}", status.cause());
+}
+
+ReconfigureResult Executive::reconfigure(std::vector<ConfigurationChange> changes) {
+  std::promise<ReconfigureResult> result;
+  lifecycle_.post([this, &result, &changes] {
+    Reconfiguration host(cell_, lifecycle_);
+    result.set_value(flexrf::reconfigure(host, changes));
+  });
+  return result.get_future().get();
+}
+
 RunSummary Executive::run() {
   RunSummary summary;
   set_log_origin(began_);
+  if (cell_.application().autostart) cell_.control().permit_motion_at_power_on();
   std::signal(SIGPIPE, SIG_IGN);
   if (options_.virtual_time) {
     run_in_virtual_time(summary);
   } else {
     run_on_the_wall_clock(summary);
   }
+  // With a thread that hangs nobody may look at the values.
+  if (!summary.stuck) save_values();
   drain_log(STDERR_FILENO);
   summary.cause = cell_.control().cause();
   summary.wall_time = MonotonicClock::now() - began_;
@@ -117,10 +150,8 @@ RunSummary Executive::run() {
 }
 
 void Executive::begin_running() noexcept {
-  Control& control = cell_.control();
-  control.rise_to(Mode::running);
-  if (!cell_.application().autostart) return;
-  if (control.start_motion()) {
+  cell_.control().rise_to(Mode::running);
+  if (cell_.application().autostart) {
     log_warning(cell_.application().name, "autostart: actuators may move without a person's Start");
   }
 }
@@ -147,6 +178,7 @@ void Executive::run_in_virtual_time(RunSummary& summary) {
   }
   summary.run_time = time.run(*options_.virtual_time);
   lifecycle_.stop_all();
+  lifecycle_.use_clock(nullptr);
   signalled_control = nullptr;
   summary.signal = last_signal;
   summary.had_fault = supervision.had_fault();
@@ -233,6 +265,7 @@ void Executive::live() {
     cell_.control().rise_to(Mode::safe);
   }
   while (lives_.load(std::memory_order_acquire)) {
+    if (lifecycle_.has_jobs()) lifecycle_.run_jobs();
     if (cell_.control().mode() == Mode::running) lifecycle_.restart_by_policy();
     nanosleep(&lifecycle_pause, nullptr);
   }

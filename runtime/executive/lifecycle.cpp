@@ -123,7 +123,7 @@ Status Lifecycle::start_unit(std::uint16_t index) noexcept {
   if (status && !state.unit->fault().is_ok()) status = state.unit->fault();
   // What the tables or the file say was checked before; accept() may still refuse it.
   const ParameterMemory memory = state.unit->parameter_memory();
-  if (status && memory.runtime != nullptr) status = cell_->parameters(index).adopt(memory.runtime, now());
+  if (status && memory.runtime != nullptr) status = cell_->parameters(index).adopt(memory.runtime, stamp());
   if (!status) {
     state.fault = status;
     state.life.store(Life::fault, std::memory_order_release);
@@ -167,6 +167,22 @@ Status Lifecycle::restart_unit(std::uint16_t index) noexcept {
   if (const Status status = stop_unit(index); !status) return status;
   if (const Status status = cell_->reconstruct_unit(index); !status) return status;
   return start_unit(index);
+}
+
+void Lifecycle::post(std::function<void()> job) {
+  const std::lock_guard lock(jobs_mutex_);
+  jobs_.push_back(std::move(job));
+  has_jobs_.store(true, std::memory_order_release);
+}
+
+void Lifecycle::run_jobs() {
+  std::vector<std::function<void()>> jobs;
+  {
+    const std::lock_guard lock(jobs_mutex_);
+    jobs.swap(jobs_);
+    has_jobs_.store(false, std::memory_order_release);
+  }
+  for (const std::function<void()>& job : jobs) job();
 }
 
 bool Lifecycle::may_restart(std::uint16_t index) const noexcept {
@@ -213,7 +229,7 @@ Status Lifecycle::start_device(std::uint16_t index) noexcept {
   if (status && !state.device->fault().is_ok()) status = state.device->fault();
   const ParameterMemory memory = state.device->parameter_memory();
   if (status && memory.runtime != nullptr) {
-    status = cell_->parameters(cell_->component_of_device(index)).adopt(memory.runtime, now());
+    status = cell_->parameters(cell_->component_of_device(index)).adopt(memory.runtime, stamp());
   }
   if (!status) {
     state.fault = status;

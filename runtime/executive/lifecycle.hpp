@@ -4,12 +4,15 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
+#include <mutex>
+#include <vector>
 
 #include "runtime/executive/cell.hpp"
 
 namespace flexrf {
 
-/// All functions but the ones of Operation: the lifecycle thread; in virtual time, the only thread.
+/// All functions but post, has_jobs and operation: the lifecycle thread; in virtual time, the only thread.
 class Lifecycle {
  public:
   /// `threads_run`: ownership is handed over to threads that must acknowledge; in virtual time there are
@@ -27,8 +30,16 @@ class Lifecycle {
   Status restart_unit(std::uint16_t unit) noexcept;
   Status start_device(std::uint16_t device) noexcept;
   Status stop_device(std::uint16_t device) noexcept;
+  /// Has a job done by the lifecycle thread, between two operations. Any non-real-time thread; does not wait.
+  void post(std::function<void()> job);
+  bool has_jobs() const noexcept { return has_jobs_.load(std::memory_order_acquire); }
+  /// Does what was posted.
+  void run_jobs();
   /// Restarts what its policy lets restart.
   void restart_by_policy() noexcept;
+
+  /// Virtual time: what the values in force are stamped with. Null: the wall's clock.
+  void use_clock(const Time* clock) noexcept { clock_ = clock; }
 
   /// The units' threads are joined: nobody acknowledges any more. The supervising thread.
   void threads_ended() noexcept { threads_run_.store(false, std::memory_order_release); }
@@ -47,8 +58,15 @@ class Lifecycle {
   bool may_restart(std::uint16_t unit) const noexcept;
   Time now() const noexcept;
 
+  /// The application's time; operations are timed by the wall's.
+  Time stamp() const noexcept { return clock_ != nullptr ? *clock_ : now(); }
+
   Cell* cell_;
+  const Time* clock_ = nullptr;
   std::atomic<bool> threads_run_;
+  std::mutex jobs_mutex_;
+  std::vector<std::function<void()>> jobs_;
+  std::atomic<bool> has_jobs_{false};
   std::atomic<const char*> component_{nullptr};
   std::atomic<std::int64_t> overdue_at_{0};
   std::vector<std::uint16_t> restarts_ = std::vector<std::uint16_t>(cell_->application().units.size());

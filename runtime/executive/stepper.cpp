@@ -200,7 +200,9 @@ void Stepper::receive(Time now) noexcept {
     last_gasp::set_stepped(application_->devices[index].name);
     cell_->parameters(cell_->component_of_device(index)).before_step(now);
     device.receive(tick_);
-    if (device.is_closed()) {
+    // What comes to its end before all is initialised is noticed afterwards: until then nothing can be
+    // finished.
+    if (device.is_closed() && cell_->control().mode() >= Mode::running) {
       cell_->control().set_cause(EndCause::end_of_input);
       cell_->control().rise_to(Mode::finishing);
     }

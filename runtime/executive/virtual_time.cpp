@@ -29,6 +29,7 @@ VirtualTime::Thread::Thread(Cell& cell, std::uint16_t index)
 
 VirtualTime::VirtualTime(Cell& cell, Lifecycle& lifecycle, Supervision& supervision)
     : cell_(&cell), lifecycle_(&lifecycle), supervision_(&supervision), now_(beginning) {
+  lifecycle.use_clock(&now_);
   const std::size_t count = cell.application().threads.size();
   threads_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) threads_.emplace_back(cell, static_cast<std::uint16_t>(i));
@@ -71,6 +72,7 @@ Duration VirtualTime::run(Duration duration) noexcept {
     }
     if (control.mode() > Mode::running) supervision_->observe(now_);
     if (events % events_between_drains == 0) drain_log(STDERR_FILENO);
+    if (lifecycle_->has_jobs()) lifecycle_->run_jobs();
     if (control.faults() != faults_) {
       faults_ = control.faults();
       if (control.mode() == Mode::running) lifecycle_->restart_by_policy();

@@ -18,21 +18,29 @@ class Keyboard : public KeyboardInterface {
   /// it is, so that no key press is lost however fast they come.
   void receive(const Tick& tick) noexcept override {
     now_ = tick.now;
-    constexpr int most_keys_per_cycle =
-        64;  // a reader as fast as the writer must not hold this thread for ever
     for (int n = 0; n < most_keys_per_cycle && keys.is_connected() && keys.has_room(); ++n) {
       const std::optional<KeyEvent> event = read();
       if (!event) break;
       keys.push(*event, tick.now);
     }
+    backed_up_ = keys.is_connected() && !keys.has_room();
   }
 
  protected:
+  /// A reader as fast as the writer must not hold this thread for ever.
+  static constexpr int most_keys_per_cycle = 64;
+  /// How soon a driver whose queue is full asks to be called again: keys that nobody has room for would wake
+  /// its thread for nothing.
+  static constexpr Duration retry_interval = std::chrono::milliseconds(5);
+
   /// As of the last receive(); 0 before the first.
   Time now() const noexcept { return now_; }
+  /// The queue was full when the last receive() ended.
+  bool is_backed_up() const noexcept { return backed_up_; }
 
  private:
   Time now_{};
+  bool backed_up_ = false;
 };
 
 }  // namespace flexrf

@@ -16,7 +16,7 @@ namespace {
 constexpr int input = STDIN_FILENO;
 constexpr std::uint8_t end_of_transmission = 0x04;  // Ctrl-D
 // A terminal sends an escape sequence in one go; a person's next key comes later than this.
-constexpr long sequence_timeout = 30'000'000;  // ns
+constexpr Duration sequence_timeout = std::chrono::milliseconds(30);
 
 bool watch(int set, int descriptor) {
   epoll_event event{};
@@ -35,6 +35,7 @@ Status TerminalKeyboard::initialise() {
   decoder_ = {};
   ended_ = false;
   waiting_ = false;
+  rests_ = false;
   terminal_ = isatty(input) == 1;
   timer_ = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);
   own_wait_ = epoll_create1(EPOLL_CLOEXEC);
@@ -54,6 +55,16 @@ void TerminalKeyboard::stop() {
     *descriptor = -1;
   }
   wait_ = -1;
+}
+
+void TerminalKeyboard::receive(const Tick& tick) noexcept {
+  TerminalKeyboardDriver::receive(tick);
+  const bool rest = is_backed_up() || ended_;
+  if (!rest && !rests_) return;
+  rests_ = rest;
+  if (waiting_) return;  // the timer runs already
+  // Setting it also makes it unreadable again.
+  set_timer(rest ? retry_interval : Duration{});
 }
 
 std::optional<KeyEvent> TerminalKeyboard::read() noexcept {
@@ -95,8 +106,13 @@ bool TerminalKeyboard::read_byte(std::uint8_t& byte) noexcept {
 void TerminalKeyboard::await_rest_of_sequence(bool on) noexcept {
   if (on == waiting_) return;
   waiting_ = on;
-  itimerspec setting{};  // zero disarms
-  if (on) setting.it_value.tv_nsec = sequence_timeout;
+  set_timer(on ? sequence_timeout : Duration{});
+}
+
+/// Once, after this time; zero: not at all.
+void TerminalKeyboard::set_timer(Duration after) noexcept {
+  itimerspec setting{};
+  setting.it_value.tv_nsec = after.count();
   timerfd_settime(timer_, 0, &setting, nullptr);
 }
 

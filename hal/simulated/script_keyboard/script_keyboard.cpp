@@ -3,6 +3,7 @@
 #include <sys/timerfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -53,7 +54,9 @@ std::optional<KeyEvent> ScriptKeyboard::read() noexcept {
 
 Time ScriptKeyboard::next_event() const noexcept {
   if (started_ == Time{}) return Time{};
-  return is_closed() ? Time::max() : started_ + keys_[next_].after;
+  if (is_closed()) return Time::max();
+  const Time due = started_ + keys_[next_].after;
+  return is_backed_up() ? std::max(due, now() + retry_interval) : due;
 }
 
 void ScriptKeyboard::arm_timer(Time when) noexcept {
