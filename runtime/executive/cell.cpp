@@ -65,6 +65,10 @@ Status Cell::choose_drivers() {
       if (choice.device.empty() || choice.device == device.name) choose(choice.driver);
     }
     const DriverRecord& driver = device.drivers[state.driver];
+    std::vector<const char*>& others = other_drivers_.emplace_back();
+    for (const DriverRecord& other : device.drivers) {
+      if (&other != &driver) others.push_back(other.name);
+    }
     if (options_->virtual_time && !driver.virtual_time) {
       std::string able;
       for (const DriverRecord& other : device.drivers) {

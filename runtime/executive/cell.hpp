@@ -44,6 +44,10 @@ class Cell {
   const DriverRecord& driver(std::uint16_t device) const noexcept {
     return application_->devices[device].drivers[application_->device_states[device].driver];
   }
+  /// Names of the drivers that a device's row permits and that were not chosen.
+  std::span<const char* const> other_drivers(std::uint16_t device) const noexcept {
+    return other_drivers_[device];
+  }
   ComponentIndex component_count() const noexcept {
     return static_cast<ComponentIndex>(application_->units.size() + application_->devices.size());
   }
@@ -82,6 +86,7 @@ class Cell {
   const Application* application_;
   const Options* options_;
   std::vector<Doorbell*> bells_;
+  std::vector<std::vector<const char*>> other_drivers_;  // per device
   Control control_;
   std::unique_ptr<RuntimeParameters[]> parameters_;  // one per component
   std::unique_ptr<RequestQueue[]> requests_;         // one per thread

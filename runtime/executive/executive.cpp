@@ -113,7 +113,8 @@ Status Executive::load_values() {
 void Executive::save_values() {
   if (options_.configuration_file.empty()) return;
   const std::vector<ConfigurationComponent> components = configuration_components(cell_);
-  const Status status = save_configuration(options_.configuration_file, configuration_identity(cell_), components);
+  const Status status =
+      save_configuration(options_.configuration_file, configuration_identity(cell_), components);
   if (!status) log_error(cell_.application().name, "the values were not saved: {}", status.cause());
 }
 

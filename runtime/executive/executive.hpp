@@ -8,6 +8,7 @@
 
 #include "runtime/executive/cell.hpp"
 #include "runtime/executive/lifecycle.hpp"
+#include "runtime/executive/reconfiguration.hpp"
 #include "runtime/executive/run_summary.hpp"
 #include "runtime/executive/supervision.hpp"
 #include "runtime/executive/thread_loop.hpp"
@@ -30,7 +31,12 @@ class Executive {
   /// Until the application ended. Signals SIGINT and SIGTERM end it by a controlled stop.
   RunSummary run();
 
+  /// Changes configuration parameters of the running application, as one transaction; waits for the outcome.
+  /// Another thread than run()'s, not real-time, while the application runs.
+  ReconfigureResult reconfigure(std::vector<ConfigurationChange> changes);
+
   Cell& cell() noexcept { return cell_; }
+  Lifecycle& lifecycle() noexcept { return lifecycle_; }
   Control& control() noexcept { return cell_.control(); }
 
  private:
@@ -40,6 +46,8 @@ class Executive {
   void supervise(RunSummary& summary);
   void live();  // the lifecycle thread
   void begin_running() noexcept;
+  Status load_values();
+  void save_values();
 
   Options options_;
   Cell cell_;
