@@ -10,6 +10,7 @@ set(FLEXRF_SANITIZER "" CACHE STRING "Sanitizers to build with: empty, 'address,
 
 add_library(flexrf_options INTERFACE)
 add_library(FlexRF::options ALIAS flexrf_options)
+target_compile_features(flexrf_options INTERFACE cxx_std_20)
 target_compile_options(flexrf_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
 # Includes name their layer from the repository's root: "runtime/blackboard/slot.hpp".
 target_include_directories(flexrf_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)

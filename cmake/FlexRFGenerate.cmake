@@ -22,6 +22,7 @@ define_property(GLOBAL PROPERTY FLEXRF_INTERFACES BRIEF_DOCS "Targets made by fl
 define_property(GLOBAL PROPERTY FLEXRF_DRIVERS BRIEF_DOCS "Targets made by flexrf_add_driver")
 define_property(GLOBAL PROPERTY FLEXRF_UNITS BRIEF_DOCS "Targets made by flexrf_add_unit")
 define_property(TARGET PROPERTY FLEXRF_FOLDER BRIEF_DOCS "Folder of the target's table")
+define_property(TARGET PROPERTY FLEXRF_OUTPUT BRIEF_DOCS "Folder of what was generated for the target")
 define_property(TARGET PROPERTY FLEXRF_CLASS BRIEF_DOCS "Interface: its class. Driver: the class of its interface")
 define_property(TARGET PROPERTY FLEXRF_NAME BRIEF_DOCS "Unit: its name in tables. Driver: as in drivers = [...]")
 
@@ -119,6 +120,7 @@ function(_flexrf_generated_library target output)
   set(folders "${output}" ${library_INCLUDES})
   list(TRANSFORM folders REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
   target_include_directories(${target} PUBLIC ${folders})
+  set_target_properties(${target} PROPERTIES FLEXRF_OUTPUT "${output}")
   target_link_libraries(${target} PUBLIC FlexRF::runtime ${library_LIBRARIES})
 endfunction()
 
@@ -331,5 +333,5 @@ function(flexrf_add_application)
   _flexrf_generate(--application "${table}" "${output}" ${generated} main.cpp descriptor.json reference.md diagram.dot
     diagram.mmd memory_map.txt)
   add_executable(${name} "${output}/main.cpp")
-  target_link_libraries(${name} PRIVATE ${name}_application)
+  target_link_libraries(${name} PRIVATE ${name}_application FlexRF::allocation_guard)
 endfunction()

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# outside.sh SOURCE BUILD: installs FlexRF, moves it, builds two applications against it, and looks at what is built
+# again after a change.
+set -eu -o pipefail
+source=$1 build=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+rebuild() {  # what ninja did, one line per command
+  ninja -C "$work/build" -v -j2 >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "does not build"; }
+}
+did() { grep -q -e "$1" "$work/log"; }
+
+cmake --install "$build" --prefix "$work/first" >/dev/null
+mv "$work/first" "$work/prefix"
+! grep -rq -F -e "$source/" -e "$work/first" "$work/prefix/lib/cmake" || fail "the package names folders of its build"
+cp -r "$source/tests/outside/project" "$work/project"
+cmake -S "$work/project" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH="$work/prefix" \
+  -DCMAKE_COMPILE_WARNING_AS_ERROR=ON >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "does not configure"; }
+rebuild
+
+printf '0.1 a\n0.2 b\n0.3 c\n' >"$work/keys"
+"$work/build/tally/tally" --virtual-time 2s --keys "$work/keys" --report "$work/report.json" >/dev/null 2>"$work/log" || fail "tally: exit code $?"
+grep -q '"keys"' "$work/report.json" || fail "the report does not know the queue"
+"$work/build/second/second" --virtual-time 1s >/dev/null || fail "second: exit code $?"
+
+rebuild
+did 'no work to do' || fail "a build after a build does something"
+
+touch "$work/project/tally/tally.toml"
+rebuild
+did '/bin/config-gen' || fail "a touched table is not read again"
+! did '\.cpp\.o -c ' || fail "a touched table whose contents are the same is compiled again"
+
+sed -i 's/5 ms/6 ms/' "$work/project/tally/tally.toml"
+rebuild
+did 'application\.cpp\.o -c ' || fail "a changed table is not compiled again"
+! did 'second' || fail "a change in one application's table builds another one again"
+! did 'tally\.cpp\.o -c ' || fail "a change in an application's table compiles its unit again"
+
+sed -i 's/steps]/steps_so_far]/' "$work/project/second/units/tally/tally.toml"
+if ninja -C "$work/build" >"$work/log" 2>&1; then fail "a unit whose table has lost a name compiles"; fi
+sed -i 's/steps_so_far]/steps]/; s/"u64"/"u63"/' "$work/project/second/units/tally/tally.toml"
+if ninja -C "$work/build" >"$work/log" 2>&1; then fail "a broken table builds"; fi
+did 'units/tally/tally.toml:[0-9]*:[0-9]*: error: ' || { cat "$work/log" >&2; fail "the error does not cite its place"; }

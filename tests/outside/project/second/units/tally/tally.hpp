@@ -1,0 +1,8 @@
+#pragma once
+
+#include "tally_unit.hpp"
+
+class Tally final : public flexrf::TallyUnit {
+ public:
+  void step(const flexrf::Tick& /*tick*/) override { ++feedback.steps; }
+};

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "tally_unit.hpp"
+
+class Tally final : public flexrf::TallyUnit {
+ public:
+  void step(const flexrf::Tick& /*tick*/) override;
+
+ private:
+  std::uint64_t presses_ = 0;
+};
