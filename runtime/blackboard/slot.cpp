@@ -17,6 +17,7 @@ void SlotControl::make_visible(std::uint8_t buffer) noexcept {
   }
   current_ = buffer;
   last_ = buffer;
+  published_at_.store(nanoseconds(header(buffer).sampled_at), std::memory_order_relaxed);
   published_.store(header(buffer).sequence, std::memory_order_release);
   for (Doorbell* bell : bells_) bell->ring();
 }

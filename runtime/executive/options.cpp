@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "runtime/core/nearest.hpp"
+#include "runtime/core/nearest_name.hpp"
 
 namespace flexrf {
 namespace {
@@ -30,14 +30,18 @@ constexpr std::array flags{
     Flag{"--help", nullptr, "this text"},
 };
 
-Status unknown_flag(std::string_view argument) {
-  std::array<std::string_view, flags.size()> names;
-  for (std::size_t i = 0; i < flags.size(); ++i) names[i] = flags[i].name;
-  const std::string_view near = nearest(argument, names);
-  return Status::error(StatusCode::invalid_argument, "unknown argument `%.*s`%s%.*s%s",
-                       static_cast<int>(argument.size()), argument.data(),
-                       near.empty() ? "; --help lists what there is" : "; did you mean `",
-                       static_cast<int>(near.size()), near.data(), near.empty() ? "" : "`?");
+/// "; did you mean `x`?", or nothing when no known word is near.
+std::string did_you_mean(const NearestName& nearest) {
+  if (nearest.best().empty()) return "";
+  return "; did you mean `" + std::string{nearest.best()} + "`?";
+}
+
+Status unknown_flag(const std::string& argument) {
+  NearestName nearest(argument);
+  for (const Flag& flag : flags) nearest.offer(flag.name);
+  const std::string hint = nearest.best().empty() ? "; --help lists what there is" : did_you_mean(nearest);
+  return Status::error(StatusCode::invalid_argument, "unknown argument `%s`%s", argument.c_str(),
+                       hint.c_str());
 }
 
 std::optional<Duration> parse_duration(std::string_view text) {
@@ -82,12 +86,10 @@ Status check_choice(const Application& application, const HardwareChoice& choice
   }
   const DeviceRecord* device = find_device(application, choice.device);
   if (device == nullptr) {
-    std::vector<std::string_view> names;
-    for (const DeviceRecord& known : application.devices) names.emplace_back(known.name);
-    const std::string near{nearest(choice.device, names)};
-    return Status::error(StatusCode::invalid_argument, "--hardware: no device `%s`%s%s%s",
-                         choice.device.c_str(), near.empty() ? "" : "; did you mean `", near.c_str(),
-                         near.empty() ? "" : "`?");
+    NearestName nearest(choice.device);
+    for (const DeviceRecord& known : application.devices) nearest.offer(known.name);
+    return Status::error(StatusCode::invalid_argument, "--hardware: no device `%s`%s", choice.device.c_str(),
+                         did_you_mean(nearest).c_str());
   }
   for (const DriverRecord& driver : device->drivers) {
     if (choice.driver == driver.name || choice.driver == name_of(driver.kind)) return {};
@@ -160,7 +162,7 @@ Result<Options> parse_options(const Application& application, int argument_count
     for (const Flag& known : flags) {
       if (name == known.name) flag = &known;
     }
-    if (flag == nullptr) return unknown_flag(argument);
+    if (flag == nullptr) return unknown_flag(std::string{argument});
     if (flag->value == nullptr) {
       if (equals != std::string_view::npos) {
         return Status::error(StatusCode::invalid_argument, "%s takes no value", flag->name);

@@ -84,7 +84,9 @@ Due Trigger::due_by_backoff(Time now) noexcept {
     poll_at_ = backoff_.miss(now);
     return Due{poll_at_, 0, false};
   }
-  poll_at_ = backoff_.hit(now, now, arrived);
+  // A slot tells when its item came about; of a queue only the poll's time is known.
+  const SlotControl* slot = record_->sources[0].slot;
+  poll_at_ = backoff_.hit(now, slot == nullptr ? now : slot->published_at(), arrived);
   found_ = true;
   return Due{now, 1, false};
 }

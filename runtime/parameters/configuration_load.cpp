@@ -9,7 +9,7 @@
 #include "runtime/parameters/configuration_document.hpp"
 #include "runtime/parameters/configuration_file.hpp"
 #include "runtime/parameters/durable_file.hpp"
-#include "runtime/parameters/nearest_name.hpp"
+#include "runtime/core/nearest_name.hpp"
 #include "runtime/parameters/scalar_types.hpp"
 #include "runtime/parameters/value_access.hpp"
 

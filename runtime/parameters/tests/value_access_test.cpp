@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "runtime/parameters/nearest_name.hpp"
+#include "runtime/core/nearest_name.hpp"
 #include "runtime/parameters/tests/sample_component.hpp"
 #include "tests/cmocka.hpp"
 

@@ -1,4 +1,4 @@
-#include "runtime/parameters/nearest_name.hpp"
+#include "runtime/core/nearest_name.hpp"
 
 #include <algorithm>
 #include <array>
