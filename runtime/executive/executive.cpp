@@ -69,7 +69,10 @@ Executive::Executive(const Application& application, Options options)
       lifecycle_(cell_, !options_.virtual_time.has_value()),
       began_(MonotonicClock::now()) {}
 
-Executive::~Executive() = default;
+/// After a run that got stuck: whoever hung may have let go since, else this waits.
+Executive::~Executive() {
+  join_threads();
+}
 
 Status Executive::prepare() {
   if (const Status status = cell_.construct(); !status) return status;
@@ -302,8 +305,12 @@ void Executive::supervise(RunSummary& summary) {
     summary.stuck = true;
     return;
   }
+  join_threads();
+}
+
+void Executive::join_threads() noexcept {
   const bool lifecycle_runs = lives_.load();
-  for (std::size_t i = 0; i < threads_.size() - (lifecycle_runs ? 1 : 0); ++i) threads_[i].join();
+  for (std::size_t i = 0; i + (lifecycle_runs ? 1 : 0) < threads_.size(); ++i) threads_[i].join();
   lifecycle_.threads_ended();
   lives_.store(false, std::memory_order_release);
   if (lifecycle_runs) threads_.back().join();

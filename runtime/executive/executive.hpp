@@ -45,6 +45,7 @@ class Executive {
   Status start_threads(RunSummary& summary);
   void supervise(RunSummary& summary);
   void live();  // the lifecycle thread
+  void join_threads() noexcept;
   void begin_running() noexcept;
   Status load_values();
   void save_values();

@@ -25,6 +25,8 @@ class Chain : public TestApplication {
       if (i > 0) unit.inputs = {InputPlan{.slot = static_cast<std::uint16_t>(i - 1)}};
       unit.outputs = {i, static_cast<std::uint16_t>(units + i)};
       unit.script.step = [](TestUnit& self, const Tick& tick) {
+        // Virtual time may end within a release, on the wall clock a stop is seen by whole releases only.
+        if (tick.stop_requested) return;
         const View<Item> before = self.inputs[0].latest();
         self.outputs[0].publish(Item{before ? before->number + 1 : 1, 0});
         self.outputs[1].publish(Item{static_cast<std::int64_t>(tick.number), 0});
@@ -40,11 +42,11 @@ class Chain : public TestApplication {
 };
 
 void check(Chain& cell) {
-  const std::uint64_t steps = cell.unit_state(0).steps;
-  CHECK(steps > 1);
+  const std::uint64_t steps = cell.slot_control(0).published();
+  CHECK(steps > 10);
   CHECK_EQUAL(cell.application().slots.size(), 1000U);
   for (std::uint16_t i = 0; i < units; ++i) {
-    CHECK_EQUAL(cell.unit_state(i).steps.load(), steps);
+    CHECK(cell.unit_state(i).steps >= steps);
     CHECK_EQUAL(cell.slot_control(i).published(), steps);
     // Table order: in one release a value passes through all units.
     CHECK_EQUAL(cell.latest(i), i + 1);
