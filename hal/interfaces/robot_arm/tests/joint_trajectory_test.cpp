@@ -14,7 +14,11 @@ namespace {
 
 using namespace flexrf;
 
+#ifdef FLEXRF_SANITIZER
+constexpr int random_cases = 500;  // a sanitizer makes them thirty times slower
+#else
 constexpr int random_cases = 10000;
+#endif
 constexpr int samples = 300;
 
 JointVector random_posture(std::mt19937_64& random) {

@@ -14,6 +14,11 @@ namespace {
 using namespace flexrf;
 using Eigen::Isometry3d;
 
+#ifdef FLEXRF_SANITIZER
+constexpr int random_cases = 200;  // a sanitizer makes them many times slower
+#else
+constexpr int random_cases = 3000;
+#endif
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 JointVector random_posture(std::mt19937_64& random, double part = 1.0) {
@@ -83,7 +88,7 @@ bool jacobian_is_the_derivative() {
 bool inverse_finds_poses_of_the_arm() {
   std::mt19937_64 random(2);
   int converged = 0;
-  constexpr int cases = 3000;
+  constexpr int cases = random_cases;
   for (int n = 0; n < cases; ++n) {
     const JointVector joints = random_posture(random, 0.9);
     JointVector seed = joints;
@@ -106,7 +111,7 @@ bool inverse_finds_poses_of_the_arm() {
 bool small_motions_stay_small() {
   std::mt19937_64 random(3);
   int tried = 0;
-  for (int n = 0; n < 3000; ++n) {
+  for (int n = 0; n < random_cases; ++n) {
     const JointVector seed = random_posture(random, 0.9);
     if (smallest_singular_value(geometric_jacobian(six_axis, seed)) < 0.1) continue;
     ++tried;
@@ -117,7 +122,7 @@ bool small_motions_stay_small() {
     if (result.outcome != InverseOutcome::converged && result.outcome != InverseOutcome::at_limit)
       return false;
   }
-  return tried > 500;
+  return tried > random_cases / 6;
 }
 
 // Many centimetres at once, as when a line of keys was typed while the arm moved.
@@ -199,7 +204,7 @@ bool random_targets_stay_sane() {
   std::mt19937_64 random(5);
   std::uniform_real_distribution coordinate(-2.5, 2.5);
   int counts[5] = {};
-  for (int n = 0; n < 3000; ++n) {
+  for (int n = 0; n < random_cases; ++n) {
     Isometry3d target = Isometry3d::Identity();
     target.translation() = Eigen::Vector3d(coordinate(random), coordinate(random), coordinate(random));
     const Eigen::Vector4d quaternion(coordinate(random), coordinate(random), coordinate(random),
