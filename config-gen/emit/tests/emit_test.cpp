@@ -1,0 +1,143 @@
+// The same tables give the same bytes, wherever they lie; literals and identifiers are what C++ reads back.
+#include "config-gen/emit/emit.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <string>
+
+#include "config-gen/emit/text.hpp"
+#include "config-gen/model/target.hpp"
+#include "tests/cmocka.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace flexrf::config_gen;
+
+std::vector<GeneratedFile> generate(const fs::path& root, Target::Kind kind, const fs::path& file) {
+  const fs::path tests = root / "tests/generator";
+  const SearchPaths paths{
+      {tests / "cell/types"}, {tests / "cell/units"}, {tests / "interfaces"}, {tests / "drivers"}};
+  Diagnostics diagnostics;
+  Model model = read({kind, tests / file}, paths, diagnostics);
+  check(model, diagnostics);
+  std::vector<GeneratedFile> files;
+  if (!diagnostics.failed()) files = emit(model, {kind, tests / file}, diagnostics);
+  if (diagnostics.failed()) diagnostics.print(std::cerr);
+  return files;
+}
+
+struct Case {
+  Target::Kind kind;
+  const char* file;
+  std::size_t files;
+};
+constexpr Case cases[] = {{Target::Kind::types, "cell/types", 10},
+                          {Target::Kind::types, "cell/types/", 10},
+                          {Target::Kind::unit, "cell/units/source/source.toml", 4},
+                          {Target::Kind::unit, "cell/units/lift/lift.toml", 4},
+                          {Target::Kind::interface, "interfaces/station/station.toml", 3},
+                          {Target::Kind::driver, "drivers/mock_station/mock_station.toml", 4},
+                          {Target::Kind::application, "cell/generated_cell.toml", 8}};
+
+// What goes wrong in one case, so that no assertion jumps over the files' destructors.
+std::string difference_between_places(const Case& one) {
+  const fs::path elsewhere = fs::temp_directory_path() / "flexrf_emit_test" / std::to_string(::getpid());
+  fs::create_directories(elsewhere / "tests");
+  fs::copy(fs::path(SOURCE_FOLDER) / "tests/generator", elsewhere / "tests/generator",
+           fs::copy_options::recursive);
+  const auto here = generate(SOURCE_FOLDER, one.kind, one.file);
+  const auto there = generate(elsewhere, one.kind, one.file);
+  fs::remove_all(elsewhere);
+  if (here.size() != one.files) return std::to_string(here.size()) + " files";
+  if (there.size() != one.files) return std::to_string(there.size()) + " files elsewhere";
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    if (here[i].path != there[i].path || here[i].contents != there[i].contents) return here[i].path.string();
+    if (here[i].contents.find(SOURCE_FOLDER) != std::string::npos)
+      return "an absolute path in " + here[i].path.string();
+    if (here[i].path.is_absolute()) return here[i].path.string() + " is absolute";
+  }
+  return "";
+}
+
+void same_tables_same_bytes(void**) {
+  static std::string difference;
+  for (const Case& one : cases) {
+    difference = difference_between_places(one);
+    assert_string_equal(difference.c_str(), "");
+  }
+}
+
+std::uint64_t hash_of_application() {
+  const fs::path tests = fs::path(SOURCE_FOLDER) / "tests/generator";
+  const SearchPaths paths{
+      {tests / "cell/types"}, {tests / "cell/units"}, {tests / "interfaces"}, {tests / "drivers"}};
+  Diagnostics diagnostics;
+  Model model = read({Target::Kind::application, tests / "cell/generated_cell.toml"}, paths, diagnostics);
+  const std::uint64_t before = descriptor_text(model).hash;
+  model.units.front().name += "x";
+  return before == descriptor_text(model).hash ? 0 : before;
+}
+
+void the_hash_follows_the_contents(void**) {
+  assert_int_not_equal(hash_of_application(), 0);
+}
+
+bool text_is(const std::string& text, const char* wanted) {
+  if (text == wanted) return true;
+  print_error("%s instead of %s\n", text.c_str(), wanted);
+  return false;
+}
+
+void literals(void**) {
+  assert_true(text_is(string_literal("a \"b\" \\ \n\x01"
+                                     "7 \xC2\xB5"),
+                      "\"a \\\"b\\\" \\\\ \\n\\0017 \xC2\xB5\""));
+  assert_true(text_is(double_literal(1), "1.0"));
+  assert_true(text_is(double_literal(0.1), "0.1"));
+  assert_true(text_is(double_literal(1e-9), "1e-09"));
+  assert_true(text_is(double_literal(-0.0), "-0.0"));
+  assert_true(text_is(double_literal(std::numeric_limits<double>::infinity()),
+                      "std::numeric_limits<double>::infinity()"));
+  assert_true(text_is(float_literal(0.1), "0.1F"));
+  assert_true(text_is(integer_literal(-1, Scalar::u64), "18446744073709551615U"));
+  assert_true(text_is(integer_literal(std::numeric_limits<std::int64_t>::min(), Scalar::i64),
+                      "(-9223372036854775807 - 1)"));
+  assert_true(text_is(duration_literal(7'000'000), "Duration{7'000'000}"));
+  assert_true(text_is(duration_literal(0), "Duration{}"));
+  assert_true(text_is(grouped(12), "12"));
+  assert_true(text_is(hash_text(0xAB), "00000000000000ab"));
+  // The published vector of FNV-1a, 64 bits.
+  assert_true(text_is(hash_text(fnv1a("foobar")), "85944171f73967e8"));
+}
+
+void identifiers_differ_as_names_do(void**) {
+  Identifiers identifiers;
+  assert_true(text_is(identifiers.of("axis[2].drive"), "axis_2_drive"));
+  assert_true(text_is(identifiers.of("axis_2_drive"), "axis_2_drive_x2"));
+  assert_true(text_is(identifiers.of("axis[2].drive"), "axis_2_drive"));
+  assert_true(text_is(identifiers.of("keys@jog.keys"), "keys_for_jog_keys"));
+  // Would be taken for a part of `jog`.
+  assert_true(text_is(identifiers.of("jog_inputs"), "jog_inputs_"));
+}
+
+void paths_do_not_say_where_the_repository_lies(void**) {
+  assert_true(text_is(short_path("/home/me/flexrf/units/jog/jog.toml"), "units/jog/jog.toml"));
+  assert_true(text_is(short_path("jog.toml"), "jog.toml"));
+  assert_true(text_is(include_path("/home/me/flexrf/units/jog/jog.toml", "jog.hpp"), "units/jog/jog.hpp"));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(same_tables_same_bytes),
+                              cmocka_unit_test(the_hash_follows_the_contents), cmocka_unit_test(literals),
+                              cmocka_unit_test(identifiers_differ_as_names_do),
+                              cmocka_unit_test(paths_do_not_say_where_the_repository_lies)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

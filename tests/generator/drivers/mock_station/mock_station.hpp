@@ -1,0 +1,16 @@
+#pragma once
+
+#include "mock_station_driver.hpp"
+
+namespace flexrf {
+
+class MockStation final : public MockStationDriver {
+ public:
+  void receive(const Tick& /*tick*/) noexcept override {
+    bus->transfer();
+    ++feedback.transfers;
+  }
+  double output() const noexcept override { return runtime.setpoint; }
+};
+
+}  // namespace flexrf

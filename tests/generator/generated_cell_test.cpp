@@ -1,0 +1,218 @@
+// The generated application says what its tables say, and runs.
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "runtime/core/digest.hpp"
+#include "runtime/executive/application.hpp"
+#include "tests/cmocka.hpp"
+#include "types/everything.hpp"
+#include "types/picture.hpp"
+#include "units/source/source.hpp"
+
+namespace flexrf::application {
+extern const Application application;
+}
+
+namespace {
+
+using namespace flexrf;
+const Application& cell = flexrf::application::application;
+
+template <class Row>
+const Row& row(std::span<const Row> rows, const char* name) {
+  for (const Row& one : rows) {
+    if (std::strcmp(one.name, name) == 0) return one;
+  }
+  fail_msg("there is no %s", name);
+  return rows.front();
+}
+
+const FieldDescriptor& field(const TypeDescriptor& type, const char* name) {
+  return row(type.fields, name);
+}
+
+void tables_hold_every_row_in_order(void**) {
+  const char* units[] = {"source",   "worker[0]",    "worker[1]",   "worker[2]",
+                         "overview", "axis[0].lift", "axis[1].lift"};
+  assert_int_equal(cell.units.size(), std::size(units));
+  for (std::size_t i = 0; i < std::size(units); ++i) assert_string_equal(cell.units[i].name, units[i]);
+  assert_int_equal(cell.populations.size(), 1);
+  assert_int_equal(cell.populations[0].first_unit, 1);
+  assert_int_equal(cell.populations[0].capacity, 3);
+  assert_int_equal(cell.populations[0].active, 2);
+  assert_int_equal(cell.units[3].member, 2);
+  assert_true(row(cell.units, "overview").restart == RestartPolicy::once);
+}
+
+void a_thread_is_as_its_row_says(void**) {
+  const ThreadRecord& control = row(cell.threads, "control");
+  assert_true(control.trigger.kind == TriggerKind::period);
+  assert_int_equal(control.trigger.period.count(), 5'000'000);
+  assert_int_equal(control.trigger.phase.count(), 1'000'000);
+  assert_int_equal(control.priority, 30);
+  assert_true(control.overrun == OverrunPolicy::catch_up && control.limit.leaky);
+  assert_int_equal(control.limit.limit, 5);
+  assert_int_equal(control.budget.count(), 40'000);
+  assert_int_equal(control.units.size(), 2);
+  // The bus before the station that it carries.
+  assert_int_equal(control.devices.size(), 2);
+  assert_string_equal(cell.devices[control.devices[0]].name, "line");
+  assert_int_equal(reinterpret_cast<std::uintptr_t>(control.stack) % page, 0);
+  assert_int_equal(control.stack_size, 256 * 1024 + page);
+  const ThreadRecord& work = row(cell.threads, "work");
+  assert_int_equal(work.trigger.sources.size(), 1);
+  assert_non_null(work.trigger.sources[0].queue);
+}
+
+void a_queue_of_jobs_has_one_source_for_all(void**) {
+  const QueueRecord& jobs = row(cell.queues, "jobs");
+  assert_int_equal(jobs.capacity, 8);
+  assert_int_equal(jobs.sinks.size(), 1);
+  assert_int_equal(jobs.sources.size(), 3);
+  assert_ptr_equal(jobs.sources[0], jobs.sources[2]);
+  assert_string_equal(jobs.readers[1], "worker[1].jobs");
+}
+
+void inputs_find_their_readers(void**) {
+  const UnitRecord& overview = row(cell.units, "overview");
+  assert_int_equal(overview.binding.inputs.size(), 5);
+  const InputBinding& places = overview.binding.inputs[0];
+  assert_int_equal(places.count, 3);
+  for (std::uint32_t i = 0; i < places.count; ++i) {
+    const std::string name = "places[" + std::to_string(i) + "]";
+    assert_ptr_equal(places.readers[i].slot(), row(cell.slots, name.c_str()).control);
+  }
+  const InputBinding& sample = overview.binding.inputs[1];
+  const InputBinding& kept = overview.binding.inputs[2];
+  assert_ptr_equal(sample.readers->slot(), kept.readers->slot());
+  assert_ptr_not_equal(sample.readers, kept.readers);
+  assert_int_equal(sample.max_age.count(), 20'000'000);
+  assert_non_null(sample.readers->slot()->history());
+  assert_int_equal(overview.binding.inputs[3].count, 0);
+  assert_null(row(cell.slots, "picture").observer);
+}
+
+void values_of_the_tables_are_constants(void**) {
+  const UnitRecord& source = row(cell.units, "source");
+  const auto& configuration = *static_cast<const SourceConfiguration*>(source.configuration);
+  assert_true(configuration.vector[2] == 3.0);
+  assert_true(configuration.label_view() == "left \"belt\"");
+  assert_true(configuration.first == Colour::green);
+  assert_true(configuration.smallest == INT64_MIN);
+  assert_true(static_cast<const SourceRuntime*>(source.runtime)->gain == 2.0F);
+  assert_true(SourceConfiguration{}.vector[2] == 1e-9);
+  const DeviceRecord& station = row(cell.devices, "station");
+  const auto* bytes = static_cast<const char*>(station.drivers[0].configuration);
+  assert_int_equal(bytes[0], 7);                  // the interface's field first
+  assert_memory_equal(bytes + 1, "eight ch", 8);  // a full text has no zero at its end
+  assert_int_equal(station.bus, 0);
+}
+
+void parameters_are_described(void**) {
+  const ComponentType& type = *row(cell.units, "source").type;
+  assert_int_equal(type.runtime.parameters.size(), 3);
+  const ParameterDescriptor& gain = type.runtime.parameters[0];
+  assert_string_equal(gain.field->name, "gain");
+  assert_true(gain.has_range && gain.minimum == -2.0 && gain.maximum == 2.0);
+  assert_true(gain.role == Role::engineer && !gain.persist);
+  assert_string_equal(gain.label, "Gain of it");
+  assert_true(type.runtime.parameters[1].field->scalar == Scalar::button);
+  assert_true(type.runtime.parameters[2].field->scalar == Scalar::hold);
+  assert_int_equal(row(cell.units, "axis[0].lift").type->ports.size(), 0);
+}
+
+void types_are_described(void**) {
+  const TypeDescriptor& type = *descriptor_of<Everything>;
+  assert_int_equal(type.size, sizeof(Everything));
+  const FieldDescriptor& matrix = field(type, "matrix");
+  assert_int_equal(matrix.dimensions, 2);
+  assert_int_equal(matrix.shape[0], 3);
+  assert_int_equal(matrix.shape[1], 2);
+  assert_int_equal(matrix.count, 6);
+  assert_int_equal(field(type, "name").count, 5);
+  assert_ptr_equal(field(type, "colour").type, descriptor_of<Colour>);
+  assert_string_equal(name_of(Colour::green), "green");
+  assert_string_equal(name_of(static_cast<Colour>(9)), "?");
+  assert_string_equal(descriptor_of<Colour>->values[2].summary, "Green, \"as grass\".");
+  assert_true(descriptor_of<Picture>->is_image);
+  assert_int_equal(field(*descriptor_of<Picture>, "data").shape[0], 80000);
+}
+
+void padding_is_not_significant(void**) {
+  Everything one;
+  Everything other;
+  std::memset(static_cast<void*>(&one), 0x00, sizeof(one));
+  std::memset(static_cast<void*>(&other), 0xFF, sizeof(other));
+  for (Everything* all : {&one, &other}) {
+    all->flag = true;
+    all->tiny = -1;
+    all->small = 2;
+    all->number = 3;
+    all->large = 4;
+    all->single = 5;
+    all->matrix_map().setConstant(6);
+    all->row_map().setConstant(7);
+    all->set_name("text");
+    all->colour = Colour::red;
+    for (Spot& spot : all->spots) {
+      spot.x = 8;
+      spot.seen = true;
+    }
+  }
+  Digest first, second;
+  first.add_fields(*descriptor_of<Everything>, &one);
+  second.add_fields(*descriptor_of<Everything>, &other);
+  assert_int_equal(first.value(), second.value());
+  other.spots[1].seen = false;
+  Digest third;
+  third.add_fields(*descriptor_of<Everything>, &other);
+  assert_int_not_equal(first.value(), third.value());
+}
+
+void the_descriptor_is_embedded(void**) {
+  std::ifstream stream(DESCRIPTOR_JSON);
+  const std::string file{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  assert_string_equal(cell.descriptor_json, file.c_str());
+  const auto json = nlohmann::json::parse(file);
+  assert_int_equal(std::stoull(json.at("hash").get<std::string>(), nullptr, 16), cell.descriptor_hash);
+  const auto& source = json.at("units").at(0);
+  assert_string_equal(source.at("overrides").at(0).at("label").get<std::string>().c_str(), "Gain");
+  assert_int_equal(json.at("units").at(4).at("inputs").at("places").size(), 3);
+  assert_int_equal(json.at("slots").size(), cell.slots.size());
+  assert_string_equal(
+      json.at("devices").at(1).at("drivers").at(0).at("configuration").at("label").get<std::string>().c_str(),
+      "eight ch");
+}
+
+void it_runs(void**) {
+  const char* words[] = {"generated_cell", "--virtual-time", "1s"};
+  assert_int_equal(run_application(cell, 3, const_cast<char**>(words)), 0);
+  assert_in_range(row(cell.slots, "sample").control->published(), 190, 210);
+  assert_in_range(row(cell.slots, "station.feedback").control->published(), 190, 210);
+  const SlotRecord& seen = row(cell.slots, "overview.feedback");
+  assert_non_null(seen.observer->latch(~std::uint64_t{0}));
+  std::uint32_t values[2];
+  std::memcpy(values, seen.observer->payload(), sizeof(values));
+  assert_int_equal(values[0], 2);  // two of three workers are active
+  assert_int_equal(values[1],
+                   row(cell.slots, "sample").control->published() - 3);  // numbered from 0, two steps ago
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(tables_hold_every_row_in_order),
+                              cmocka_unit_test(a_thread_is_as_its_row_says),
+                              cmocka_unit_test(a_queue_of_jobs_has_one_source_for_all),
+                              cmocka_unit_test(inputs_find_their_readers),
+                              cmocka_unit_test(values_of_the_tables_are_constants),
+                              cmocka_unit_test(parameters_are_described),
+                              cmocka_unit_test(types_are_described),
+                              cmocka_unit_test(padding_is_not_significant),
+                              cmocka_unit_test(the_descriptor_is_embedded),
+                              cmocka_unit_test(it_runs)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

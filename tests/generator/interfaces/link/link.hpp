@@ -1,0 +1,13 @@
+#pragma once
+
+#include "link_interface.hpp"
+
+namespace flexrf {
+
+class Link : public LinkInterface {
+ public:
+  /// How often a station was reached through it.
+  virtual void transfer() noexcept = 0;
+};
+
+}  // namespace flexrf
