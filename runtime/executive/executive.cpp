@@ -9,8 +9,10 @@
 #include <csignal>
 #include <cstring>
 #include <future>
+#include <optional>
 
 #include "runtime/executive/schedulability.hpp"
+#include "runtime/executive/status_view.hpp"
 #include "runtime/executive/virtual_time.hpp"
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/last_gasp.hpp"
@@ -282,6 +284,10 @@ void Executive::supervise(RunSummary& summary) {
   const sigset_t ending = ending_set();
   const timespec interval{0, supervision_interval.count()};
   Time running_since{};
+  std::optional<StatusView> view;
+  if (options_.status_view && StatusView::is_possible()) view.emplace(cell_);
+  // Where the log would go to the terminal that the view is in, the view shows it.
+  const int log = view && isatty(STDERR_FILENO) == 1 ? -1 : STDERR_FILENO;
   while (control.mode() != Mode::ended) {
     const int signal = sigtimedwait(&ending, nullptr, &interval);
     if (signal > 0) {
@@ -296,8 +302,11 @@ void Executive::supervise(RunSummary& summary) {
       summary.start_time = now - began_;
     }
     supervision.observe(now);
-    drain_log(STDERR_FILENO);
+    drain_log(log);
+    if (view) view->draw(now);
   }
+  drain_log(log);
+  view.reset();
   summary.had_fault = summary.had_fault || supervision.had_fault();
   summary.cut_short = supervision.was_cut_short();
   if (running_since != Time{}) summary.run_time = MonotonicClock::now() - running_since;

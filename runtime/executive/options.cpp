@@ -187,6 +187,7 @@ Result<Options> parse_options(const Application& application, int argument_count
     return Status::error(StatusCode::invalid_argument,
                          "--digest needs --virtual-time: on the wall clock no two runs are the same");
   }
+  options.status_view = true;
   return options;
 }
 

@@ -26,6 +26,7 @@ struct Options {
   std::string panel = "127.0.0.1:8080";  ///< address:port, or "off"
   std::uint64_t seed = 1;
   bool realtime = true;
+  bool status_view = false;  ///< show the live status while standard output is a terminal
   bool digest = false;
   bool help = false;
   bool descriptor = false;  ///< print descriptor.json and end
