@@ -12,7 +12,7 @@ constexpr std::uint16_t capacity = 4;
 class Population : public TestApplication {
  public:
   Population() {
-    UnitPlan reader;
+    UnitPlan reading;
     for (std::uint16_t i = 0; i < capacity; ++i) {
       add(SlotPlan{.name = "tracks[" + std::to_string(i) + "]"});
       UnitPlan member;
@@ -23,10 +23,10 @@ class Population : public TestApplication {
         unit.outputs[0].publish(Item{unit.memory, unit.runtime.gain});
       };
       add(std::move(member));
-      reader.inputs.push_back(InputPlan{.slot = i});
+      reading.inputs.push_back(InputPlan{.slot = i});
     }
-    reader.name = "reader";
-    add(std::move(reader));
+    reading.name = "reader";
+    add(std::move(reading));
     add(PopulationPlan{.name = "tracker", .first_unit = 0, .capacity = capacity, .active = 2});
     add(ThreadPlan{.name = "tracking",
                    .trigger = TriggerPlan::periodic(milliseconds{1}),
