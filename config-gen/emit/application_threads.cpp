@@ -35,8 +35,8 @@ struct TriggerText {
   }
   std::string operator()(const DeviceTrigger& trigger) const {
     return "{.kind = TriggerKind::device" + optional_duration("min_interval", trigger.min_interval) +
-           optional_duration("timeout", trigger.timeout) + ", .sources = {}, .device = " + std::to_string(trigger.device) +
-           "}";
+           optional_duration("timeout", trigger.timeout) +
+           ", .sources = {}, .device = " + std::to_string(trigger.device) + "}";
   }
   std::string operator()(const BackoffTrigger& trigger) const {
     return "{.kind = TriggerKind::backoff, .sources = " + sources({trigger.source}) +
