@@ -107,7 +107,7 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
   if (!index) return std::nullopt;
   driver.interface = *index;
   for (const Parameter& parameter : driver.configuration.parameters)
-    for (const Parameter& common : model.interfaces[*index].configuration.parameters)
+    for (const Parameter& common : model.interfaces[driver.interface].configuration.parameters)
       if (parameter.field.name == common.field.name)
         diagnostics.error(parameter.field.position,
                           "the name " + quote(parameter.field.name) + " is used twice: every driver of " +
