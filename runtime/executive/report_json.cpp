@@ -1,5 +1,6 @@
 // The final report for programs.
 #include "runtime/core/json_writer.hpp"
+#include "runtime/core/value_json.hpp"
 #include "runtime/executive/report.hpp"
 #include "runtime/executive/report_data.hpp"
 #include "runtime/realtime/response_time.hpp"
@@ -95,11 +96,32 @@ void write_components(JsonWriter& json, const ReportData& data) {
   json.end_array();
 }
 
+/// Beyond this a value is of no use in a report.
+constexpr std::uint32_t largest_value = 4096;
+
+/// What the slot held at the end, whatever became of its writer; null: nothing, not observed, or too large.
+void write_last_value(JsonWriter& json, const SlotRecord& slot) {
+  const TypeDescriptor& type = *slot.control->type();
+  json.key("last");
+  const ItemHeader* item = nullptr;
+  if (slot.observer != nullptr && !type.is_image && type.size <= largest_value)
+    item = slot.observer->newest();
+  if (item == nullptr) {
+    json.null();
+    return;
+  }
+  json.begin_object().member("sequence", item->sequence).member("time_ns", nanoseconds(item->sampled_at));
+  json.key("value");
+  write_value(json, type, slot.observer->payload());
+  json.end_object();
+}
+
 void write_slots(JsonWriter& json, const ReportData& data) {
   json.key("slots").begin_array();
   for (const SlotReport& slot : data.slots) {
     json.begin_object().member("name", slot.record->name).member("writer", slot.record->writer);
     json.member("type", slot.record->control->type()->name).member("published", slot.published);
+    write_last_value(json, *slot.record);
     json.key("readers").begin_array();
     for (const SlotReaderReport& reader : slot.readers) {
       json.begin_object().member("name", reader.reader).member("read", reader.counters.read);
