@@ -1,17 +1,19 @@
 # Sourced by flexrf: the stages of `flexrf test`.
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
-stage_names=() stage_times=() stage_results=()
+stage_names=() stage_times=() stage_loads=() stage_results=()
 tests_run=0 tests_failed=0
 
 stage() {  # stage NAME COMMAND...: runs it and notes time and result; a failure does not stop the next stage
-  local name=$1 start result=passed
+  local name=$1 result=passed wall user system TIMEFORMAT='%3R %3U %3S'
   shift
   printf '\n== %s\n' "$name"
-  start=$(microseconds)
-  "$@" || result=FAILED
+  # The shell tells the times on its own standard error, which is not the command's.
+  { time "$@" 2>&1 || result=FAILED; } 2>"$root/build/.times"
+  read -r wall user system <<<"$(tail -n 1 "$root/build/.times" | tr -d .,)"
   stage_names+=("$name")
-  stage_times+=("$(since "$start")")
+  stage_times+=("$(duration $((10#$wall * 1000)))")
+  stage_loads+=("$(duration $(((10#$user + 10#$system) * 1000)))")
   stage_results+=("$result")
 }
 
@@ -67,6 +69,7 @@ test_stages() {  # test_stages [--full | PRESET...]
   local -A extent=([release]=full [checked]=full [debug]=full [asan]=some [tsan]=some)
   ninja_options=(-k 0) # what fails to build should not keep the rest from being tested
   exec 2>&1 # one report, in the order in which things happened
+  mkdir -p "$root/build"
   start=$(microseconds)
   unset FLEXRF_LONG
   if [[ ${1-} == --full ]]; then
@@ -81,9 +84,10 @@ test_stages() {  # test_stages [--full | PRESET...]
   fi
   for preset in "${chosen[@]}"; do test_preset "$preset" "${extent[$preset]}"; done
 
-  printf '\n'
+  printf '\n%-20s %14s %14s\n' stage time "on all CPUs"
   for index in "${!stage_names[@]}"; do
-    printf '%-20s %14s   %s\n' "${stage_names[index]}" "${stage_times[index]}" "${stage_results[index]}"
+    printf '%-20s %14s %14s   %s\n' "${stage_names[index]}" "${stage_times[index]}" "${stage_loads[index]}" \
+      "${stage_results[index]}"
     [[ ${stage_results[index]} == passed ]] || failed=1
   done
   printf '%-20s %14s\n\n' total "$(since "$start")"

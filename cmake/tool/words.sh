@@ -41,11 +41,13 @@ known_word() {  # known_word KIND WORD KNOWN...: returns if WORD is known, else 
 
 microseconds() { printf '%s\n' "${EPOCHREALTIME//[.,]/}"; }
 
-since() {  # since MICROSECONDS: the time since then, as 0.4 s or 2 min 05 s
-  local tenths=$((($(microseconds) - $1) / 100000))
+duration() {  # duration MICROSECONDS: as 0.4 s or 2 min 05 s
+  local tenths=$(($1 / 100000))
   if ((tenths < 600)); then
     printf '%d.%d s\n' $((tenths / 10)) $((tenths % 10))
   else
     printf '%d min %02d s\n' $((tenths / 600)) $((tenths % 600 / 10))
   fi
 }
+
+since() { duration $(($(microseconds) - $1)); }  # since MICROSECONDS: the time from then to now
