@@ -61,9 +61,13 @@ std::string number(double value) {
   return text(size >= 1000 ? "%.0f" : size >= 100 ? "%.1f" : size >= 10 ? "%.2f" : "%.3f", value);
 }
 
+bool is_met(const Row& row) {
+  return row.at_least ? row.value.high >= row.goal : row.value.low <= row.goal;
+}
+
 const char* verdict(const Row& row) {
   if (!row.has_goal) return "";
-  return row.value.low <= row.goal ? "met" : "missed";
+  return is_met(row) ? "met" : "missed";
 }
 
 }  // namespace
@@ -150,10 +154,12 @@ int Report::finish() {
     const bool has_interval = row.value.low != row.value.high;
     table.add({row.what, number(row.value.median),
                has_interval ? number(row.value.low) + " - " + number(row.value.high) : "", row.unit,
-               row.has_goal ? number(row.goal) : "", verdict(row), row.note});
+               row.has_goal ? (row.at_least ? ">= " : "") + number(row.goal) : "", verdict(row), row.note});
     json.begin_object().member("what", row.what).member("unit", row.unit).member("median", row.value.median);
     json.member("low", row.value.low).member("high", row.value.high);
-    if (row.has_goal) json.member("goal", row.goal).member("met", row.value.low <= row.goal);
+    if (row.has_goal) {
+      json.member("goal", row.goal).member("at_least", row.at_least).member("met", is_met(row));
+    }
     json.member("note", row.note).end_object();
   }
   json.end_array().end_object();

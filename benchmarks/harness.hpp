@@ -2,7 +2,7 @@
 //
 // The machine is noisy and may be shared: nothing is judged by one run. Blocks are short and alternate, each
 // pair gives one ratio, and the median of the ratios stands with a bootstrap interval. A goal is met when the
-// interval's lower end is. A figure is never a test's pass mark.
+// interval's end on its side is. A figure is never a test's pass mark.
 #pragma once
 
 #include <cstddef>
@@ -101,7 +101,8 @@ struct Row {
   Estimate value;    ///< low = high = median where there is no interval
   double goal = 0;   ///< at most this; with has_goal
   bool has_goal = false;
-  std::string note;  ///< floor, multiples, conditions
+  std::string note;       ///< floor, multiples, conditions
+  bool at_least = false;  ///< the goal is a least
 };
 
 /// Command line, text on standard output, JSON on request.

@@ -1,0 +1,43 @@
+// Runs a program and says what it took: for benchmarks of whole applications, of the generator and of builds.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "runtime/core/time.hpp"
+
+namespace flexrf::bench {
+
+struct ProgramRun {
+  int exit_code = -1;              ///< -1: it could not be run, or a signal ended it
+  Duration wall_time{};            ///< from before it is started to its end
+  double greatest_memory_mib = 0;  ///< resident, of the greatest process among it and those it waited for
+  bool succeeded() const { return exit_code == 0; }
+};
+
+/// Waits for its end. The first argument is the program; standard input is empty, standard output and error
+/// go to `log`, which the caller can show when it fails.
+ProgramRun run_program(const std::vector<std::string>& arguments, const std::string& log);
+
+/// What an application wrote with --report; null when there is no such file.
+nlohmann::json read_report(const std::string& file);
+
+/// Copies a file to standard error.
+void show_log(const std::string& log);
+
+/// A folder that is removed with all that is in it when this object goes.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder();
+  const std::string& path() const { return path_; }
+  std::string file(const char* name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace flexrf::bench

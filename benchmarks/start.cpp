@@ -1,0 +1,51 @@
+// How long the keyboard application takes from its start to its first step, in real time with all memory
+// locked.
+#include <fstream>
+
+#include "benchmarks/harness.hpp"
+#include "benchmarks/program.hpp"
+
+namespace flexrf::bench {
+namespace {
+
+int run(int argument_count, char** arguments) {
+  Report report{"start", argument_count, arguments};
+  const TemporaryFolder folder;
+  const std::string keys = folder.file("keys");
+  const std::string log = folder.file("log");
+  const std::string result = folder.file("report.json");
+  std::ofstream{keys} << "0.05 w\n";
+  const std::vector<std::string> command{FLEXRF_KEYBOARD, "--keys",   keys,  "--panel",
+                                         "off",           "--report", result};
+  std::vector<double> milliseconds;
+  std::vector<double> locked;
+  bool realtime = true;
+  for (int i = 0; i < report.choose(20, 5); ++i) {
+    const ProgramRun program = run_program(command, log);
+    const nlohmann::json data = read_report(result);
+    if (!program.succeeded() || !data.contains("run")) {
+      std::fprintf(stderr, "start: the application ended with %d:\n", program.exit_code);
+      show_log(log);
+      return 1;
+    }
+    const nlohmann::json& times = data["run"];
+    // What the application cannot see of itself, loading before and unloading after, is counted in full.
+    const double outside =
+        static_cast<double>(program.wall_time.count()) - times["wall_time_ns"].get<double>();
+    milliseconds.push_back((times["start_time_ns"].get<double>() + outside) * 1e-6);
+    locked.push_back(data["memory"].value("locked_bytes", 0.0) / (1024 * 1024));
+    realtime = realtime && times["realtime"].get<bool>();
+  }
+  const double mebibytes = quantile(locked, 0.5);
+  report.add({"start to first step", "ms", estimate(milliseconds), 50 + 0.5 * mebibytes, true,
+              text("keyboard, %.1f MiB locked%s; loading included", mebibytes,
+                   realtime ? "" : ", not real-time: the right is missing")});
+  return report.finish();
+}
+
+}  // namespace
+}  // namespace flexrf::bench
+
+int main(int argument_count, char** arguments) {
+  return flexrf::bench::run(argument_count, arguments);
+}
