@@ -167,7 +167,7 @@ void measure_simulated(bench::Report& report, Producer producer, const char* nam
 }
 
 void measure_wall(bench::Report& report, Producer producer, const char* name) {
-  const auto schedule = arrivals_of(producer, learning / 2 + report.choose(wall_length, Duration{1s}), 1);
+  const auto schedule = arrivals_of(producer, learning / 2 + report.choose(wall_length, Duration{2s}), 1);
   Backoff backoff(limits);
   const Figures ours = poll_wall(schedule, by_backoff(backoff, true));
   const Figures fixed = poll_wall(schedule, by_interval(interval_at_equal_cost(schedule, ours.empty_polls)));

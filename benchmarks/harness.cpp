@@ -137,9 +137,11 @@ void Report::add(Row row) {
 
 void Report::add_ratio(std::string what, const Pairs& pairs, double goal, const char* unit,
                        const std::string& note) {
-  const std::string medians = text("ours %s %s, floor %s %s", number(pairs.ours().median).c_str(), unit,
-                                   number(pairs.floor().median).c_str(), unit);
-  add({std::move(what), "", pairs.ratio(), goal, true, note.empty() ? medians : medians + "; " + note});
+  Row row{std::move(what), "", pairs.ratio(), goal, true, ""};
+  row.ours = number(pairs.ours().median) + " " + unit;
+  row.floor = number(pairs.floor().median) + " " + unit;
+  row.note = "ours " + row.ours + ", floor " + row.floor + (note.empty() ? "" : "; " + note);
+  add(std::move(row));
 }
 
 int Report::finish() {
@@ -160,6 +162,7 @@ int Report::finish() {
     if (row.has_goal) {
       json.member("goal", row.goal).member("at_least", row.at_least).member("met", is_met(row));
     }
+    if (!row.floor.empty()) json.member("ours", row.ours).member("floor", row.floor);
     json.member("note", row.note).end_object();
   }
   json.end_array().end_object();

@@ -103,6 +103,8 @@ struct Row {
   bool has_goal = false;
   std::string note;       ///< floor, multiples, conditions
   bool at_least = false;  ///< the goal is a least
+  std::string ours{};     ///< of a ratio: the two medians, with unit
+  std::string floor{};
 };
 
 /// Command line, text on standard output, JSON on request.
