@@ -199,6 +199,7 @@ void Executive::run_on_the_wall_clock(RunSummary& summary) {
   const sigset_t ending = ending_set();
   pthread_sigmask(SIG_BLOCK, &ending, nullptr);
   Status status = last_gasp::install();
+  last_gasp::expect_no_exit(true);
   prepare_allocation_guard();
   if (status) status = start_threads(summary);
   if (!status) {
@@ -209,6 +210,7 @@ void Executive::run_on_the_wall_clock(RunSummary& summary) {
     summary.had_fault = true;
   }
   supervise(summary);
+  last_gasp::expect_no_exit(false);
 }
 
 Status Executive::start_threads(RunSummary& summary) {

@@ -141,7 +141,8 @@ void Supervision::make_safe(Time now) noexcept {
       if (!application.device_states[i].safe.load())
         log_error(application.devices[i].name, "did not become safe in time");
     }
-    last_gasp::fire();
+    // For a thread that hangs it was done at once.
+    if (!stuck_) last_gasp::fire();
     had_fault_ = true;
     enter(Mode::ended, now);
   }

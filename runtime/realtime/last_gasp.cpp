@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 
@@ -40,6 +41,7 @@ struct Terminal {
 constinit Slot table[slots];
 constinit Terminal terminal;
 constinit std::atomic<bool> crashing{false};
+constinit std::atomic<bool> exit_is_unexpected{false};
 constinit thread_local const char* stepped [[gnu::tls_model("initial-exec")]] = nullptr;
 alignas(16) constinit std::byte main_stack[handler_stack_size]{};
 
@@ -173,6 +175,23 @@ void handle(int signal, siginfo_t* information, void* /*context*/) noexcept {
   syscall(SYS_tgkill, getpid(), gettid(), signal);
 }
 
+constexpr int exit_fault = 2;
+
+void at_exit() noexcept {
+  if (!exit_is_unexpected.load(std::memory_order_acquire)) return;
+  // A thread that crashes meanwhile ends the process itself.
+  if (!crashing.exchange(true, std::memory_order_acq_rel)) {
+    const int written = write_prepared();
+    restore_terminal();
+    Message message;
+    message << "\nflexrf: exit() was called while the application ran";
+    if (stepped != nullptr) message << ", in " << stepped;
+    message << "; prepared outputs written: " << written << "\n";
+    message.write_to(STDERR_FILENO);
+  }
+  _exit(exit_fault);
+}
+
 }  // namespace
 
 Status install() noexcept {
@@ -192,6 +211,11 @@ Status install() noexcept {
       return Status::error(StatusCode::internal, "%s cannot be handled: %s", meaning_of(signal),
                            strerrordesc_np(errno));
   return {};
+}
+
+void expect_no_exit(bool on) noexcept {
+  static const bool registered = std::atexit(at_exit) == 0;
+  exit_is_unexpected.store(on && registered, std::memory_order_release);
 }
 
 int claim_slot() noexcept {

@@ -22,6 +22,11 @@ inline constexpr std::size_t handler_stack_size = 64 * 1024;
 /// thread, which gets an alternate stack; other threads take an AlternateStack.
 Status install() noexcept;
 
+/// While on, an exit() from anywhere does as a crash does: prepared bytes, terminal, a message. The process
+/// then ends at once with code 2, before destructors of static objects take away what running threads use.
+/// Main thread.
+void expect_no_exit(bool on) noexcept;
+
 /// A slot for one device's bytes; −1 when all 64 are taken. Lifecycle thread.
 int claim_slot() noexcept;
 /// Frees it; nothing is written for it any more. Lifecycle thread.

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "real_drive_driver.hpp"
+
+namespace flexrf {
+
+class RealDrive final : public RealDriveDriver {
+ public:
+  void command(double /*speed*/) noexcept override {}
+  double speed() const noexcept override { return 0; }
+};
+
+}  // namespace flexrf

@@ -1,0 +1,91 @@
+#include "units/saboteur/saboteur.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "runtime/log/log.hpp"
+
+namespace flexrf {
+namespace {
+
+[[noreturn]] void hang() {
+  for (;;) pause();
+}
+
+void write_where_nothing_is() {
+  volatile int* volatile nowhere = nullptr;
+  *nowhere = 1;
+}
+
+}  // namespace
+
+Status Saboteur::initialise() {
+  target_.reset();
+  drives_ = silent_ = never_idle_ = refused_ = false;
+  return {};
+}
+
+void Saboteur::step(const Tick& tick) {
+  if (!target_) {
+    if (const auto pose = actual.latest()) target_ = *pose;
+  }
+  if (target_) {
+    // One a step, so that what a key begins has begun before the next.
+    if (const auto key = keys.pop()) {
+      ++feedback.keys_done;
+      obey(static_cast<char>(key->character));
+    }
+  }
+  if ((tick.stop_requested || tick.finishing) && never_idle_) {
+    if (tick.stop_requested && !refused_) log_warning(name(), "does not come to rest, as it was told");
+    refused_ = tick.stop_requested;
+  } else if (tick.stop_requested || tick.finishing) {
+    drives_ = false;
+  }
+  drive->command(drives_ ? 1.0 : 0.0);
+  feedback.speed = drive->speed();
+  if (target_ && !silent_) target.publish(*target_);
+}
+
+void Saboteur::obey(char key) {
+  switch (key) {
+    case 'd':
+      drives_ = true;
+      break;
+    case 'm':
+      target_->position[1] += runtime.step;
+      break;
+    case 'l':
+      silent_ = true;
+      break;
+    case 'n':
+      never_idle_ = true;
+      break;
+    case 'f':
+      fail(Status::error(StatusCode::device_fault, "told to fail"));
+      break;
+    case 't':
+      throw std::runtime_error("a library's text");
+    case 'h':
+      hang();
+    case 's':
+      write_where_nothing_is();
+      break;
+    case 'a':
+      std::abort();
+    case 'x':
+      std::exit(0);
+    case 'k': {
+      void* volatile memory = std::malloc(100);
+      std::free(memory);
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+}  // namespace flexrf

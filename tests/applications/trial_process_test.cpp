@@ -1,0 +1,229 @@
+// Each level of stopping on each of its causes, in a process: what is written to the drive, to the terminal
+// and to the report, and how the process ends.
+#include <termios.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+
+#include "runtime/executive/tests/checks.hpp"
+#include "tests/applications/process.hpp"
+
+namespace flexrf::whole {
+namespace {
+
+const std::string application = APPLICATION;
+
+const std::string at_rest = "made safe at rest\nsafe\n";
+const std::string while_moving = "made safe while moving\nsafe\n";
+const std::string moving = "moving\n";
+const std::string last_gasp = "last gasp: brake\n";
+
+std::vector<std::string> words() {
+  return {application, "--report", "report"};
+}
+
+std::string fault_of(const Report& report, const char* array, const std::string& component) {
+  const nlohmann::json& fault = report.row(array, component).at("fault");
+  return fault.is_null() ? "" : fault.get<std::string>();
+}
+
+std::string cause_of(const Report& report) {
+  return report["run"].at("cause");
+}
+
+/// Types the keys to a running application and waits for how it ends.
+Ending ending_after(const Folder& folder, const std::string& keys) {
+  Process process(folder, words());
+  process.type(keys);
+  return process.wait();
+}
+
+void wait_until_moving(const Folder& folder) {
+  CHECK(wait_until([&] { return contents_of(folder / "drive.log") == moving; }));
+}
+
+// ---- faults: the unit's own device is made safe, everything else goes on
+
+void check_survived_fault(const std::string& keys, const std::string& cause) {
+  const Folder folder;
+  Process process(folder, words());
+  process.type(keys);
+  process.wait_for_error(cause);
+  process.send(SIGTERM);
+  const Ending ending = process.wait();
+  CHECK_EQUAL(ending.exit_code, 2);
+  CHECK_CONTAINS(ending.output, cause);
+  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + while_moving);
+  const Report report(folder / "report");
+  CHECK_CONTAINS(fault_of(report, "units", "saboteur"), cause);
+  CHECK_EQUAL(report["faults"].get<int>(), 1);
+  // The arm's unit lived on and knew why it had no target.
+  CHECK_EQUAL(report.row("units", "robot").at("life").get<std::string>(), "stopped");
+  CHECK_EQUAL(cause_of(report), "signal");
+}
+
+void a_fault_makes_its_own_device_safe() {
+  check_survived_fault("ddddddddddddf", "told to fail");
+}
+void an_exception_is_a_fault_with_its_text() {
+  check_survived_fault("ddddddddddddt", "a library's text");
+}
+
+void a_hung_step_ends_in_the_last_gasp() {
+  const Folder folder;
+  const Ending ending = ending_after(folder, "dh");
+  CHECK_EQUAL(ending.exit_code, 2);
+  CHECK_CONTAINS(ending.errors, "step does not return");
+  CHECK_CONTAINS(ending.output, "\nFault: thread sabotage: its step does not return; ");
+  CHECK_EQUAL(contents_of(folder / "drive.log"), last_gasp);
+  const Report report(folder / "report");
+  CHECK(report["run"].at("stuck").get<bool>());
+  CHECK(report.row("threads", "sabotage").at("hangs").get<bool>());
+  CHECK(!report.row("threads", "control").at("hangs").get<bool>());
+}
+
+// ---- signals
+
+void a_signal_is_a_controlled_stop() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const Folder folder;
+    Process process(folder, words());
+    process.type("dm");
+    wait_until_moving(folder);
+    process.send(signal);
+    CHECK_EQUAL(process.wait().exit_code, 128 + signal);
+    CHECK_EQUAL(contents_of(folder / "drive.log"), moving + at_rest);
+    const Report report(folder / "report");
+    CHECK(!report["run"].at("cut_short").get<bool>());
+    CHECK_EQUAL(report["run"].at("signal").get<int>(), signal);
+  }
+}
+
+void stop_timeout_ends_what_does_not_come_to_rest() {
+  const Folder folder;
+  Process process(folder, words());
+  process.type("nd");
+  wait_until_moving(folder);
+  process.send(SIGTERM);
+  const Ending ending = process.wait();
+  CHECK_EQUAL(ending.exit_code, 128 + SIGTERM);
+  CHECK_CONTAINS(ending.errors, "not at rest within stop_timeout");
+  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + while_moving);
+  CHECK(Report(folder / "report")["run"].at("cut_short").get<bool>());
+}
+
+void a_second_signal_does_not_wait() {
+  const Folder folder;
+  Process process(folder, words());
+  process.type("nd");
+  wait_until_moving(folder);
+  process.send(SIGINT);
+  process.wait_for_error("does not come to rest");
+  process.send(SIGINT);
+  const Ending ending = process.wait();
+  CHECK_EQUAL(ending.exit_code, 128 + SIGINT);
+  CHECK_EQUAL(ending.errors.find("stop_timeout"), std::string::npos);
+  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + while_moving);
+}
+
+void crash_signals_write_the_last_gasp() {
+  struct Case {
+    char key;
+    int signal;
+    const char* name;
+  };
+  for (const Case& one : {Case{'s', SIGSEGV, "SIGSEGV"}, Case{'a', SIGABRT, "SIGABRT"}}) {
+    const Folder folder;
+    const Ending ending = ending_after(folder, std::string{"d"} + one.key);
+    CHECK_EQUAL(ending.exit_code, -1);
+    CHECK_EQUAL(ending.signal, one.signal);
+    CHECK_CONTAINS(ending.errors, std::string{"flexrf: "} + one.name);
+    CHECK_CONTAINS(ending.errors, " while stepping saboteur; prepared outputs written: 1\n");
+    CHECK_EQUAL(contents_of(folder / "drive.log"), last_gasp);
+  }
+}
+
+void exit_from_a_unit_writes_the_last_gasp() {
+  const Folder folder;
+  const Ending ending = ending_after(folder, "dx");
+  CHECK_EQUAL(ending.exit_code, 2);
+  CHECK_CONTAINS(ending.errors,
+                 "exit() was called while the application ran, in saboteur; prepared outputs written: 1");
+  CHECK_EQUAL(contents_of(folder / "drive.log"), last_gasp);
+}
+
+// ---- the end of the input
+
+void the_end_of_input_is_the_gentlest() {
+  const Folder folder;
+  const Ending ending = run(folder, words(), "ddddm");
+  CHECK_EQUAL(ending.exit_code, 0);
+  CHECK(contents_of(folder / "drive.log").ends_with(at_rest));
+  const Report report(folder / "report");
+  CHECK(!report["run"].at("cut_short").get<bool>());
+  CHECK_EQUAL(cause_of(report), "end of input");
+  // The last key had its effect: the arm went where it was sent.
+  CHECK_EQUAL(report.last("saboteur.feedback").at("keys_done").get<int>(), 5);
+  const double off = report.last("target").at("position").at(1).get<double>() -
+                     report.last("tool_pose").at("position").at(1).get<double>();
+  CHECK(std::abs(off) < 1e-3);
+}
+
+void finish_timeout_ends_what_does_not_finish() {
+  const Folder folder;
+  const Ending ending = run(folder, words(), "dn");
+  CHECK_EQUAL(ending.exit_code, 0);
+  CHECK_CONTAINS(ending.errors, "not finished within finish_timeout");
+  CHECK(Report(folder / "report")["run"].at("cut_short").get<bool>());
+}
+
+// ---- the terminal
+
+termios settings_of(const Process& process) {
+  termios settings{};
+  CHECK(tcgetattr(process.terminal(), &settings) == 0);
+  return settings;
+}
+
+/// Raw while it runs, and afterwards as it was, however it ends.
+void the_terminal_is_restored_on_every_exit() {
+  struct Case {
+    const char* keys;
+    int signal;
+  };
+  for (const Case& one : {Case{"s", 0}, Case{"a", 0}, Case{"x", 0}, Case{"h", 0}, Case{"\x04", 0},
+                          Case{"\x03", 0}, Case{"", SIGTERM}}) {
+    const Folder folder;
+    Process process(folder, words(), Input::terminal);
+    CHECK(wait_until([&] { return (settings_of(process).c_lflag & (ICANON | ECHO)) == 0; }));
+    process.wait_for_error("autostart");
+    process.type(one.keys);
+    if (one.signal != 0) process.send(one.signal);
+    process.wait();
+    const tcflag_t cooked = ICANON | ECHO;
+    if ((settings_of(process).c_lflag & cooked) != cooked)
+      throw fixture::CheckFailed{std::string{"the terminal is still raw after the key "} + one.keys};
+  }
+}
+
+}  // namespace
+}  // namespace flexrf::whole
+
+int main() {
+  using namespace flexrf::whole;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(a_fault_makes_its_own_device_safe),
+      CONTAINED_TEST(an_exception_is_a_fault_with_its_text),
+      CONTAINED_TEST(a_hung_step_ends_in_the_last_gasp),
+      CONTAINED_TEST(a_signal_is_a_controlled_stop),
+      CONTAINED_TEST(stop_timeout_ends_what_does_not_come_to_rest),
+      CONTAINED_TEST(a_second_signal_does_not_wait),
+      CONTAINED_TEST(crash_signals_write_the_last_gasp),
+      CONTAINED_TEST(exit_from_a_unit_writes_the_last_gasp),
+      CONTAINED_TEST(the_end_of_input_is_the_gentlest),
+      CONTAINED_TEST(finish_timeout_ends_what_does_not_finish),
+      CONTAINED_TEST(the_terminal_is_restored_on_every_exit),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
