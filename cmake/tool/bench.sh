@@ -1,0 +1,53 @@
+# Sourced by flexrf: the benchmarks, one after the other, and what they measured.
+# shellcheck shell=bash disable=SC2154 # root is flexrf's
+
+results=$root/build/bench
+
+benchmarks() {  # their names, in the order of the table
+  sed -n 's/^flexrf_add_benchmark(NAME \([a-z0-9_]*\).*/\1/p' "$root/benchmarks/CMakeLists.txt"
+}
+
+summarise() { "$root/build/release/benchmarks/bench_summary" "$results" "$@"; }
+
+measure() {  # measure NAME: what it prints goes to standard output, its figures to build/bench/NAME.json
+  local -a options=(--json "$results/$1.json")
+  [[ ${FLEXRF_BENCH_SHORT-} ]] && options+=(--quick)
+  rm -f "$results/$1.json"
+  "$root/build/release/benchmarks/bench_$1" "${options[@]}" </dev/null
+}
+
+measure_one() {  # measure_one NAME: the others' last figures stay in results.json and results.md
+  local name status=0
+  local -a measured=()
+  measure "$1" || status=$?
+  for name in "${known[@]}"; do [[ -f $results/$name.json ]] && measured+=("$name"); done
+  ((${#measured[@]})) && summarise "${measured[@]}" >/dev/null
+  return "$status"
+}
+
+measure_all() {
+  local name start status=0
+  for name in "${known[@]}"; do
+    start=$(microseconds)
+    measure "$name" >"$results/$name.txt" || status=$?
+    say "measured $name: $(since "$start")"
+  done
+  summarise "${known[@]}" || status=$?
+  say "also in build/bench/results.json, and for the documentation in results.md"
+  return "$status"
+}
+
+quote_results() {  # puts the last results into docs/performance.md, between its two marks
+  local document=$root/docs/performance.md begin='<!-- results -->' end='<!-- end of results -->' quoted
+  [[ -s $results/results.md ]] || die "nothing was measured yet: ./flexrf bench"
+  grep -q -F "$begin" "$document" && grep -q -F "$end" "$document" || die "$document lacks its marks $begin and $end"
+  quoted=$(mktemp)
+  awk -v begin="$begin" -v end="$end" -v file="$results/results.md" '
+    $0 == end { quoting = 0 }
+    !quoting
+    $0 == begin { quoting = 1; print ""; while ((getline line < file) > 0) print line; print "" }' "$document" >"$quoted"
+  cat "$quoted" >"$document"
+  rm -f "$quoted"
+  cat "$results/results.md"
+  say "put into docs/performance.md"
+}
