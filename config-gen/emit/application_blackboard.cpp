@@ -11,8 +11,8 @@ namespace {
 // One array per set of doorbells, for many slots ring the same threads.
 class Bells {
  public:
-  Bells(const Model& model, const ApplicationNames& names, std::string prefix, Text& out)
-      : model_(model), names_(names), prefix_(std::move(prefix)), out_(out) {}
+  Bells(const ApplicationNames& names, std::string prefix, Text& out)
+      : names_(names), prefix_(std::move(prefix)), out_(out) {}
 
   std::string of(const std::vector<Index>& threads) {
     if (threads.empty()) return "{}";
@@ -26,7 +26,6 @@ class Bells {
   }
 
  private:
-  const Model& model_;
   const ApplicationNames& names_;
   std::string prefix_;
   Text& out_;
@@ -97,7 +96,7 @@ void emit_slots(const Model& model, const ApplicationNames& names, Text& out,
                 std::vector<std::string>& sizes) {
   if (model.slots.empty()) return;
   out << "\n// ---- Slots: buffers, then the control block\n\n";
-  Bells bells(model, names, "bells_of_slots_", out);
+  Bells bells(names, "bells_of_slots_", out);
   for (Index i = 0; i < model.slots.size(); ++i) {
     const Slot& slot = model.slots[i];
     const std::string type = slot_type(model, slot);
@@ -138,7 +137,7 @@ void emit_queues(const Model& model, const ApplicationNames& names, Text& out,
                  std::vector<std::string>& sizes) {
   if (model.queues.empty()) return;
   out << "\n// ---- Queues\n\n";
-  Bells bells(model, names, "bells_of_queues_", out);
+  Bells bells(names, "bells_of_queues_", out);
   for (Index i = 0; i < model.queues.size(); ++i) {
     const std::string rung = bells.of(model.queues[i].doorbells);
     if (model.queues[i].jobs) {

@@ -110,7 +110,8 @@ class SlotControl {
   History* history() const noexcept { return history_; }
   /// Sequence of the last visible publication, 0 before the first: what triggers compare and reports count.
   std::uint64_t published() const noexcept { return published_.load(std::memory_order_acquire); }
-  /// When its value was true (sampled_at); no time before the first. May be one publication ahead of published().
+  /// When its value was true (sampled_at); no time before the first. May be one publication ahead of
+  /// published().
   Time published_at() const noexcept { return Time{Duration{published_at_.load(std::memory_order_relaxed)}}; }
   WriterState writer_state() const noexcept { return writer_state_.load(std::memory_order_acquire); }
   void set_writer_state(WriterState state) noexcept { writer_state_.store(state, std::memory_order_release); }

@@ -6,10 +6,10 @@
 #include <initializer_list>
 #include <optional>
 
+#include "runtime/core/nearest_name.hpp"
 #include "runtime/parameters/configuration_document.hpp"
 #include "runtime/parameters/configuration_file.hpp"
 #include "runtime/parameters/durable_file.hpp"
-#include "runtime/core/nearest_name.hpp"
 #include "runtime/parameters/scalar_types.hpp"
 #include "runtime/parameters/value_access.hpp"
 

@@ -52,9 +52,7 @@ class MockArm final : public MockArmDriver {
   /// Nothing: the sensors are silent.
   void set_state(const std::optional<JointState>& state) noexcept { state_ = state; }
   void set_follows(bool on) noexcept { follows_ = on; }
-  void trip_drives() noexcept {
-    fail(Status::error(StatusCode::device_fault, "the mock's drives tripped"));
-  }
+  void trip_drives() noexcept { fail(Status::error(StatusCode::device_fault, "the mock's drives tripped")); }
   const std::optional<JointPositions>& commanded() const noexcept { return commanded_; }
   std::uint64_t commands() const noexcept { return commands_; }
 
