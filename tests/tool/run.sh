@@ -13,6 +13,18 @@ flexrf run keyboard-single -- 0 -- x </dev/null
 expect "arguments of a named application" "$output" "arguments: 0 -- x*"
 expect "target" "$(<"$calls")" "*ninja *build/release keyboard-single*"
 
+configuration=$tree/apps/keyboard/config.xml
+touch "$configuration"
+flexrf run -- 0 x </dev/null
+expect "configuration file of the application" "$output" "arguments: --config $configuration 0 x*"
+flexrf run -- 0 --config mine </dev/null
+expect "configuration file that was asked for" "$output" "arguments: 0 --config mine"$'\n'*
+flexrf run -- 0 --config=mine </dev/null
+expect "configuration file that was asked for" "$output" "arguments: 0 --config=mine"$'\n'*
+flexrf run keyboard-single -- 0 </dev/null
+expect "an application without one" "$output" "arguments: 0"$'\n'*
+rm "$configuration"
+
 for code in 0 1 2 3; do
   flexrf run keyboard -- "$code" </dev/null
   expect "exit code" "$status" "$code"

@@ -20,6 +20,7 @@ unknown keyboard map keybord
 unknown release build --preset relase
 unknown tsan test release tsna
 unknown keyboard check keybord
+unknown unit new unti name
 
 flexrf run --keys file </dev/null
 expect "exit code of a misplaced argument" "$status" 1
@@ -30,7 +31,7 @@ expect "calls of what was not understood" "$(<"$calls")" ""
 
 flexrf help </dev/null
 expect "exit code of help" "$status" 0
-commands=(run test build check map bench doctor help)
+commands=(run test build check map bench doctor new help)
 for command in "${commands[@]}"; do
   expect "help lists" "$output" "*./flexrf $command *"
 done

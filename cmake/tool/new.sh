@@ -1,0 +1,103 @@
+# Sourced by flexrf: makes a unit or an application from cmake/tool/templates.
+# shellcheck shell=bash disable=SC2154 # root and tool are flexrf's
+
+refuse() { die "'$1' cannot be the name: $2"; }
+
+camel_case() {  # camel_case NAME: my_unit or my-app as MyUnit, MyApp
+  local part
+  local -a parts
+  IFS=_- read -r -a parts <<<"$1"
+  for part in "${parts[@]}"; do printf '%s' "${part^}"; done
+}
+
+need_identifier() {  # need_identifier NAME STEM: the tables, hence the generated code, call it STEM
+  ((${#2} <= 40)) || refuse "$1" "more than 40 characters"
+  g++ -std=c++20 -fsyntax-only -x c++ - <<<"extern int $2;" 2>/dev/null || refuse "$1" "it is a word of C++"
+}
+
+need_free_class() {  # need_free_class NAME: the unit's class is nobody else's
+  local class place
+  class=$(camel_case "$1")
+  place=$(find "$root" -path "$root/build" -prune -o -path '*/types/'"$1.toml" -print | head -n 1)
+  [[ $place ]] || place=$(grep -r -l -E --include='*.hpp' "^(class|struct|enum class|union) ($class|${class}Unit)\b" \
+    "$root/runtime" "$root/hal" "$root/units" | head -n 1)
+  [[ $place ]] && refuse "$1" "${place#"$root/"} has a $class already"
+}
+
+instantiate() {  # instantiate TEMPLATE FOLDER OLD NEW...: its files, with each word OLD in text and names as NEW
+  local template=$1 folder=$2 file made place
+  local -a words=()
+  shift 2
+  while (($#)); do
+    words+=(-e "s/$1/$2/g")
+    shift 2
+  done
+  place=$(mktemp -d "$(dirname "$folder")/.new.XXXXXX")
+  while IFS= read -r -d '' file; do
+    made=$place/$(sed "${words[@]}" <<<"$file")
+    mkdir -p "$(dirname "$made")"
+    sed "${words[@]}" "$template/$file" >"$made"
+  done < <(cd "$template" && find . -type f -print0)
+  # A long name may want other line breaks.
+  command -v clang-format >/dev/null &&
+    find "$place" -name '*.[ch]pp' -exec clang-format -i --style="file:$root/.clang-format" {} +
+  chmod 755 "$place"
+  mv -T "$place" "$folder" || die "could not make $folder"
+}
+
+add_to_build() {  # add_to_build FOLDER NAME
+  local list=$root/$1/CMakeLists.txt
+  [[ $(tail -c 1 "$list") ]] && echo >>"$list"
+  echo "add_subdirectory($2)" >>"$list"
+}
+
+next_step() { printf '  %-44s %s\n' "$@"; }
+
+new_unit() {
+  local name=$1 class
+  [[ $name =~ ^[a-z][a-z0-9]*(_[a-z0-9]+)*$ ]] || refuse "$name" "a unit's name is lower_snake_case, as robot_control"
+  [[ -e $root/units/$name ]] && refuse "$name" "units/$name is there already"
+  need_identifier "$name" "$name"
+  need_free_class "$name"
+  class=$(camel_case "$name")
+  instantiate "$tool/templates/unit" "$root/units/$name" new_unit "$name" NewUnit "$class"
+  add_to_build units "$name"
+  cat <<TEXT
+Made units/$name and added it to units/CMakeLists.txt. It builds and passes its test as it is:
+
+  ./flexrf build && ctest --test-dir build/release -R '^${name}_test\$' --output-on-failure
+
+Next:
+TEXT
+  next_step "units/$name/$name.toml" "say what it reads, writes and can be told (docs/tables.md)"
+  next_step "units/$name/$name.cpp" "what one step does"
+  next_step "units/$name/tests/${name}_test.cpp" "what it promises"
+  next_step "the table of an application" "use it: type = \"$name\" in [unit.X], and X in a thread's units"
+}
+
+new_app() {
+  local name=$1 stem=${1//-/_}
+  [[ $name =~ ^[a-z][a-z0-9]*(-[a-z0-9]+)*$ ]] ||
+    refuse "$name" "an application's name is lower case with dashes, as keyboard-single"
+  [[ -e $root/apps/$name ]] && refuse "$name" "apps/$name is there already"
+  case $name in
+    all | clean | help | test | install | package | installed | config-gen | flexrf* | tests-* | bench-*)
+      refuse "$name" "the build means something else by it"
+      ;;
+  esac
+  need_identifier "$name" "$stem"
+  instantiate "$tool/templates/app" "$root/apps/$name" new-app "$name" new_app "$stem"
+  add_to_build apps "$name"
+  cat <<TEXT
+Made apps/$name and added it to apps/CMakeLists.txt. It runs as it is, and passes its test:
+
+  ./flexrf run $name -- --virtual-time 5s
+  ./flexrf build && ctest --test-dir build/release -R '^${stem}_cell_test\$' --output-on-failure
+
+Next:
+TEXT
+  next_step "apps/$name/$stem.toml" "the cell: devices, units, slots, threads; ./flexrf check $name"
+  next_step "apps/$name/types/" "what its units tell each other"
+  next_step "apps/$name/units/" "its own units; those of units/ can be used too"
+  next_step "apps/$name/tests/" "what the cell promises"
+}

@@ -1,0 +1,13 @@
+// NewUnit: passes a pose on, raised by what the operator sets.
+#pragma once
+
+#include "new_unit_unit.hpp"
+
+namespace flexrf {
+
+class NewUnit final : public NewUnitUnit {
+ public:
+  void step(const Tick& tick) override;
+};
+
+}  // namespace flexrf

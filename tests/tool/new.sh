@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# `new` makes a folder from its template and adds it to the build, or says why not and changes nothing.
+source "$(dirname "$0")/stand_in.sh"
+shopt -s extglob
+
+stand_in g++ <<'BODY'
+[[ $(cat) != *" operator;"* ]]
+BODY
+stand_in clang-format </dev/null
+mkdir -p "$tree/units" "$tree/hal/interfaces/keyboard/types" "$tree/runtime/core"
+printf 'add_subdirectory(jog)' >"$tree/units/CMakeLists.txt" # and no end of line
+printf 'add_subdirectory(keyboard)\n' >"$tree/apps/CMakeLists.txt"
+touch "$tree/hal/interfaces/keyboard/types/key_event.toml"
+echo 'class TextTable {' >"$tree/runtime/core/text_table.hpp"
+
+made() { (cd "$1" && find . -type f | LC_ALL=C sort | tr '\n' ' '); }
+
+flexrf new unit lift_guard </dev/null
+expect "exit code of a unit" "$status" 0
+expect "files of a unit" "$(made "$tree/units/lift_guard")" \
+  "./CMakeLists.txt ./lift_guard.cpp ./lift_guard.hpp ./lift_guard.toml ./tests/lift_guard_test.cpp "
+expect "class of a unit" "$(<"$tree/units/lift_guard/lift_guard.hpp")" "*class LiftGuard final : public LiftGuardUnit {*"
+expect "list of units" "$(<"$tree/units/CMakeLists.txt")" "add_subdirectory(jog)"$'\n'"add_subdirectory(lift_guard)"
+expect "next steps" "$output" "*-R '^lift_guard_test\$'*units/lift_guard/lift_guard.toml *"
+
+flexrf new app level-cell </dev/null
+expect "exit code of an application" "$status" 0
+expect "files of an application" "$(made "$tree/apps/level-cell")" \
+  "./CMakeLists.txt ./level_cell.toml ./tests/level_cell_cell_test.cpp ./types/level.toml *./units/smoothing/smoothing.toml "
+expect "library of the test" "$(<"$tree/apps/level-cell/CMakeLists.txt")" "*LIBRARIES level-cell_application *"
+expect "list of applications" "$(<"$tree/apps/CMakeLists.txt")" "*add_subdirectory(level-cell)"
+expect "next steps" "$output" "*./flexrf run level-cell *apps/level-cell/level_cell.toml *"
+expect "names left from the template" "$(grep -r -i -E 'new.?(unit|app)' "$tree/units" "$tree/apps")" ""
+
+before=$(find "$tree/units" "$tree/apps" -type f -exec cksum {} +)
+refused() {  # refused REASON KIND NAME
+  flexrf new "$2" "$3" </dev/null
+  expect "exit code of 'new $2 $3'" "$status" 1
+  expect "message of 'new $2 $3'" "$errors" "flexrf: '$3' cannot be the name: *$1*"
+}
+refused "is there already" unit lift_guard
+refused "is there already" app keyboard
+for name in Lift lift-guard lift__guard lift_ _lift 2lift ../lift ''; do refused lower_snake_case unit "$name"; done
+for name in Level level_cell level--cell -level 2level a/b; do refused "with dashes" app "$name"; done
+refused "a word of C++" unit operator
+refused "a word of C++" app operator
+refused "more than 40" unit "$(printf 'x%.0s' {1..41})"
+refused "key_event.toml has a KeyEvent already" unit key_event
+refused "text_table.hpp has a TextTable already" unit text_table
+refused "the build" app test
+expect "what a refusal changes" "$(find "$tree/units" "$tree/apps" -type f -exec cksum {} +)" "$before"
+flexrf new </dev/null
+expect "exit code without a kind" "$status" 1
+finish
