@@ -19,6 +19,7 @@ bool same(const Pose& a, const Pose& b) {
 Status RobotControl::initialise() {
   motion_.use(arm->kinematic_chain());
   handled_.reset();
+  held_ = false;
   last_cycle_ = Time{};
   return {};
 }
@@ -62,6 +63,10 @@ void RobotControl::follow_target() noexcept {
     hold(wanted.reason() == NullReason::nothing_yet ? "no target yet" : name_of(wanted.reason()));
     return;
   }
+  if (held_) {
+    held_ = false;
+    feedback.set_holding({});
+  }
   if (motion_.is_moving() || (handled_ && same(*wanted, *handled_))) return;
   handled_ = *wanted;
   const Status planned = motion_.move_to(*wanted, runtime.speed);
@@ -87,6 +92,7 @@ void RobotControl::publish(const JointState& state) noexcept {
 void RobotControl::hold(std::string_view reason) noexcept {
   if (motion_.is_moving()) handled_.reset();
   motion_.stop();
+  held_ = true;
   feedback.set_holding(reason);
 }
 

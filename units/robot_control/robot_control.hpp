@@ -27,6 +27,7 @@ class RobotControl final : public RobotControlUnit {
 
   ArmMotion motion_;
   std::optional<Pose> handled_;  // the target that was moved to or refused
+  bool held_ = false;            // the last cycle did not follow a target
   Time last_cycle_{};
   bool idle_ = true;
 };
