@@ -40,7 +40,7 @@ measure_all() {
 quote_results() {  # puts the last results into docs/performance.md, between its two marks
   local document=$root/docs/performance.md begin='<!-- results -->' end='<!-- end of results -->' quoted
   [[ -s $results/results.md ]] || die "nothing was measured yet: ./flexrf bench"
-  grep -q -F "$begin" "$document" && grep -q -F "$end" "$document" || die "$document lacks its marks $begin and $end"
+  (($(grep -c -x -F -e "$begin" -e "$end" "$document") == 2)) || die "$document lacks its marks $begin and $end"
   quoted=$(mktemp)
   awk -v begin="$begin" -v end="$end" -v file="$results/results.md" '
     $0 == end { quoting = 0 }
