@@ -302,7 +302,7 @@ void TestApplication::make_queues() {
     for (const DevicePlan& device : devices_) {
       if (device.pushes == index) writers.push_back(keep(device.name + ".orders"));
     }
-    auto& rings = made_->memory.emplace_back(zeroed(writers.size() * sizeof(QueueRing*)));
+    auto& rings = made_->memory.emplace_back(zeroed(writers.size() * sizeof(void*)));
     auto** ring_list = static_cast<QueueRing**>(rings.get());
     const std::uint32_t entries = std::bit_ceil(plan.capacity);
     for (std::size_t w = 0; w < writers.size(); ++w) {
