@@ -17,6 +17,7 @@
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/last_gasp.hpp"
 #include "runtime/realtime/machine_file.hpp"
+#include "runtime/realtime/process_statistics.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
 #include "runtime/realtime/rights.hpp"
 
@@ -47,6 +48,14 @@ extern "C" void end_virtual_time(int signal) {
     control->set_cause(EndCause::signal);
     control->rise_to(Mode::stopping);
   }
+}
+
+/// Bytes. All that is mapped is locked, code and libraries too: an application within its budget needs more.
+std::size_t memory_to_lock(const Application& application) noexcept {
+  // The lifecycle thread's stack, and what the executive and the report allocate.
+  constexpr std::size_t mapped_later = 4U << 20;
+  const Result<ProcessStatistics> process = read_process_statistics();
+  return process ? process->mapped + mapped_later : application.memory_budget;
 }
 
 const char* name_of_role(CpuRole role) noexcept {
@@ -93,7 +102,7 @@ Status Executive::prepare() {
   for (const ThreadRecord& thread : cell_.application().threads) {
     needed.priority = std::max<int>(needed.priority, thread.priority);
   }
-  needed.locked_bytes = cell_.application().memory_budget;
+  needed.locked_bytes = memory_to_lock(cell_.application());
   const RightsReport rights = probe_rights(needed);
   if (rights.is_complete()) return {};
   std::fprintf(stderr, "%s\n", rights.text);

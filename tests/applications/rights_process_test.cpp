@@ -1,0 +1,91 @@
+// A start without the rights that real time needs.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "runtime/executive/tests/checks.hpp"
+#include "tests/applications/process.hpp"
+
+namespace flexrf::whole {
+namespace {
+
+/// As another user, who may lock little and has no priorities: whoever builds may be root.
+std::vector<std::string> as_nobody(const Folder& folder, const std::string& application,
+                                   const std::vector<std::string>& words) {
+  // The user must get at the executable, and may write the folder.
+  const std::string copy = folder / "application";
+  std::filesystem::copy_file(application, copy, std::filesystem::copy_options::overwrite_existing);
+  CHECK(chmod(folder.path().c_str(), 0777) == 0);
+  std::vector<std::string> all{"bash", "-c", "ulimit -r 0; ulimit -l 64; exec \"$0\" \"$@\""};
+  if (geteuid() == 0)
+    all.insert(all.end(), {"setpriv", "--reuid=nobody", "--regid=nogroup", "--clear-groups"});
+  all.push_back(copy);
+  all.insert(all.end(), words.begin(), words.end());
+  return all;
+}
+
+void check_tells_what_is_missing(const Ending& ending, const std::string& copy) {
+  CHECK_CONTAINS(ending.errors, "Missing right: real-time priority ");
+  CHECK_CONTAINS(ending.errors, "RLIMIT_RTPRIO is 0 and the process does not hold CAP_SYS_NICE.");
+  CHECK_CONTAINS(ending.errors, " of locked memory for user ");
+  CHECK_CONTAINS(ending.errors, "RLIMIT_MEMLOCK is 64 KiB and the process does not hold CAP_IPC_LOCK.");
+  CHECK_CONTAINS(ending.errors, "/etc/security/limits.d/90-flexrf.conf");
+  CHECK_CONTAINS(ending.errors, "rtprio 49");
+  CHECK_CONTAINS(ending.errors, "memlock unlimited");
+  CHECK_CONTAINS(ending.errors, "setcap cap_sys_nice,cap_ipc_lock=ep " + copy);
+}
+
+void without_rights_and_real_actuators_it_goes_on() {
+  const Folder folder;
+  const Ending ending = run(folder, as_nobody(folder, KEYBOARD, {"--report", "report"}), "w");
+  check_tells_what_is_missing(ending, folder / "application");
+  CHECK_CONTAINS(ending.errors, "Going on without real time: no real actuator is chosen.");
+  CHECK_EQUAL(ending.exit_code, 0);
+  CHECK(!Report(folder / "report")["run"].at("realtime").get<bool>());
+}
+
+void without_rights_a_real_actuator_is_refused() {
+  const Folder folder;
+  const Ending ending = run(folder, as_nobody(folder, CROWD, {"--hardware", "press=real"}));
+  check_tells_what_is_missing(ending, folder / "application");
+  CHECK_CONTAINS(ending.errors,
+                 "crowd: missing right: SCHED_FIFO priority 20 (RLIMIT_RTPRIO 0, no CAP_SYS_NICE)");
+  CHECK_EQUAL(ending.exit_code, 3);
+  CHECK_EQUAL(ending.output, "");
+}
+
+void a_real_actuator_is_refused_with_no_realtime() {
+  const Folder folder;
+  const Ending ending = run(folder, {CROWD, "--hardware", "press=real", "--no-realtime"});
+  CHECK_CONTAINS(ending.errors, "--no-realtime is refused: a real actuator is chosen");
+  CHECK_EQUAL(ending.exit_code, 1);
+}
+
+/// Enough for the table's budget, too little for all that is mapped: this is known before anything starts.
+void a_limit_between_budget_and_need_is_noticed() {
+  if (geteuid() != 0) skip();  // only root can keep the priorities and give up the capability
+  const Folder folder;
+  const Ending ending =
+      run(folder,
+          {"bash", "-c", "ulimit -l 8192; exec \"$0\" \"$@\"", "setpriv", "--bounding-set=-ipc_lock",
+           "--inh-caps=-ipc_lock", KEYBOARD, "--report", "report"},
+          "w");
+  CHECK_CONTAINS(ending.errors, "RLIMIT_MEMLOCK is 8192 KiB and the process does not hold CAP_IPC_LOCK.");
+  CHECK_CONTAINS(ending.errors, "Going on without real time");
+  CHECK_EQUAL(ending.exit_code, 0);
+}
+
+}  // namespace
+}  // namespace flexrf::whole
+
+int main() {
+  using namespace flexrf::whole;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(without_rights_and_real_actuators_it_goes_on),
+      CONTAINED_TEST(without_rights_a_real_actuator_is_refused),
+      CONTAINED_TEST(a_real_actuator_is_refused_with_no_realtime),
+      CONTAINED_TEST(a_limit_between_budget_and_need_is_noticed),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
