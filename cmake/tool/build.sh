@@ -11,9 +11,12 @@ set_launcher() {  # set_launcher PRESET: sets `launcher` to what the preset's pr
 
 configure() {  # configure PRESET: once; later ninja itself sees when a CMakeLists.txt changes
   local directory=$root/build/$1 start
+  local -a options=()
+  # The generator is the same in every preset, and takes longest to compile.
+  [[ $1 == release ]] || options=("-DFLEXRF_HOST_TOOLS=$root/build/release/config-gen")
   [[ -f $directory/build.ninja && ! $root/CMakePresets.json -nt $directory/build.ninja ]] && return
   start=$(microseconds)
-  if ! (cd "$root" && cmake --preset "$1") </dev/null >"$directory/configure.log" 2>&1; then
+  if ! (cd "$root" && cmake --preset "$1" "${options[@]}") </dev/null >"$directory/configure.log" 2>&1; then
     cat "$directory/configure.log" >&2
     say "configuring $1 failed"
     return 1
@@ -36,6 +39,7 @@ build() {  # build PRESET [TARGET...]: one line when it goes well, the compiler'
   local -a launcher
   shift
   what="${*:-everything} ($preset)"
+  [[ $preset == release ]] || build release host-tools || return
   mkdir -p "$directory"
   (
     flock 9 # two commands at once must not build in one folder
