@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 namespace flexrf::bench {
 namespace {
@@ -43,9 +44,15 @@ ProgramRun run_program(const std::vector<std::string>& arguments, const std::str
   return run;
 }
 
-nlohmann::json read_report(const std::string& file) {
+std::optional<RunFigures> read_report(const std::string& file) {
   std::ifstream stream{file};
-  return stream ? nlohmann::json::parse(stream, nullptr, false) : nlohmann::json{};
+  const nlohmann::json report = stream ? nlohmann::json::parse(stream, nullptr, false) : nlohmann::json{};
+  if (!report.contains("run") || !report.contains("memory")) return std::nullopt;
+  const nlohmann::json& run = report["run"];
+  const auto duration = [&run](const char* name) { return Duration{run.value(name, std::int64_t{0})}; };
+  return RunFigures{duration("run_time_ns"), duration("wall_time_ns"), duration("start_time_ns"),
+                    report["memory"].value("locked_bytes", 0.0) / (1024 * 1024),
+                    run.value("realtime", false)};
 }
 
 void show_log(const std::string& log) {

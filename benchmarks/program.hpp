@@ -1,7 +1,7 @@
 // Runs a program and says what it took: for benchmarks of whole applications, of the generator and of builds.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +20,16 @@ struct ProgramRun {
 /// go to `log`, which the caller can show when it fails.
 ProgramRun run_program(const std::vector<std::string>& arguments, const std::string& log);
 
-/// What an application wrote with --report; null when there is no such file.
-nlohmann::json read_report(const std::string& file);
+/// Of what an application wrote with --report.
+struct RunFigures {
+  Duration run_time{};    ///< simulated in virtual time
+  Duration wall_time{};   ///< from main to the end
+  Duration start_time{};  ///< from main to the first step
+  double locked_mib = 0;
+  bool realtime = false;
+};
+/// Nothing when there is no such file or it is not such a report.
+std::optional<RunFigures> read_report(const std::string& file);
 
 /// Copies a file to standard error.
 void show_log(const std::string& log);

@@ -22,19 +22,17 @@ int run(int argument_count, char** arguments) {
   bool realtime = true;
   for (int i = 0; i < report.choose(20, 5); ++i) {
     const ProgramRun program = run_program(command, log);
-    const nlohmann::json data = read_report(result);
-    if (!program.succeeded() || !data.contains("run")) {
+    const std::optional<RunFigures> figures = read_report(result);
+    if (!program.succeeded() || !figures) {
       std::fprintf(stderr, "start: the application ended with %d:\n", program.exit_code);
       show_log(log);
       return 1;
     }
-    const nlohmann::json& times = data["run"];
     // What the application cannot see of itself, loading before and unloading after, is counted in full.
-    const double outside =
-        static_cast<double>(program.wall_time.count()) - times["wall_time_ns"].get<double>();
-    milliseconds.push_back((times["start_time_ns"].get<double>() + outside) * 1e-6);
-    locked.push_back(data["memory"].value("locked_bytes", 0.0) / (1024 * 1024));
-    realtime = realtime && times["realtime"].get<bool>();
+    const Duration outside = program.wall_time - figures->wall_time;
+    milliseconds.push_back(seconds(figures->start_time + outside) * 1e3);
+    locked.push_back(figures->locked_mib);
+    realtime = realtime && figures->realtime;
   }
   const double mebibytes = quantile(locked, 0.5);
   report.add({"start to first step", "ms", estimate(milliseconds), 50 + 0.5 * mebibytes, true,

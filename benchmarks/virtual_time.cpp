@@ -41,15 +41,14 @@ int run(int argument_count, char** arguments) {
   std::vector<double> whole;
   for (int i = 0; i < report.choose(20, 5); ++i) {
     const ProgramRun program = run_program(command, log);
-    const nlohmann::json data = read_report(result);
-    if (!program.succeeded() || !data.contains("run")) {
+    const std::optional<RunFigures> figures = read_report(result);
+    if (!program.succeeded() || !figures) {
       std::fprintf(stderr, "virtual_time: the application ended with %d:\n", program.exit_code);
       show_log(log);
       return 1;
     }
-    const auto simulated = data["run"]["run_time_ns"].get<double>();
-    within.push_back(simulated / data["run"]["wall_time_ns"].get<double>());
-    whole.push_back(simulated / static_cast<double>(program.wall_time.count()));
+    within.push_back(seconds(figures->run_time) / seconds(figures->wall_time));
+    whole.push_back(seconds(figures->run_time) / seconds(program.wall_time));
   }
   report.add(
       {"virtual time for keyboard against the wall clock", "x", estimate(within), 2000, true,
