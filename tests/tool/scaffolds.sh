@@ -22,7 +22,8 @@ ninja -C build/release lift_guard_test level_cell_cell_test level-cell >"$work/l
   exit 1
 }
 [[ $(grep -c 'warning:' "$work/log") == 0 ]] || { cat "$work/log"; exit 1; }
-ctest --test-dir build/release --output-on-failure --no-tests=error -R '^(lift_guard_test|level_cell_cell_test)$' | tee "$work/log"
+ctest --test-dir build/release --output-on-failure --no-tests=error \
+  -R '^(lift_guard_test|level_cell_cell_test)$' | tee "$work/log"
 grep -q '100% tests passed, 0 tests failed out of 2$' "$work/log"
 first=$(./flexrf run level-cell -- --virtual-time 5s --digest </dev/null | tail -n 1)
 [[ $first =~ ^[0-9a-f]+$ && $(./flexrf run level-cell -- --virtual-time 5s --digest </dev/null | tail -n 1) == "$first" ]]
