@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "config-gen/model/footprint.hpp"
 #include "config-gen/model/model.hpp"
 
 namespace flexrf::config_gen {
@@ -21,12 +22,5 @@ struct MemoryItem {
 // compiler and judged there. In the order slots, histories, queues, stacks, parameters.
 std::vector<MemoryItem> memory_map(const Model& model);
 std::size_t total(const std::vector<MemoryItem>& items);
-
-constexpr std::size_t cache_line = 64;
-constexpr std::size_t page = 4096;
-constexpr std::size_t large_payload = 4096;  // payload of this size and more starts on a page
-
-// Bytes of one buffer of a slot: payload rounded up to cache lines, or pages when large.
-std::size_t buffer_size(std::size_t payload);
 
 }  // namespace flexrf::config_gen

@@ -1,0 +1,70 @@
+// What config-gen believes about the runtime's sizes and limits, against what the compiler says: a difference
+// does not compile.
+#include "config-gen/model/footprint.hpp"
+
+#include <array>
+#include <cstddef>
+
+#include "config-gen/model/limits.hpp"
+#include "runtime/blackboard/history.hpp"
+#include "runtime/blackboard/job_queue.hpp"
+#include "runtime/blackboard/queue_ring.hpp"
+#include "runtime/blackboard/slot.hpp"
+#include "runtime/parameters/parameter_store.hpp"
+#include "tests/cmocka.hpp"
+
+namespace flexrf {
+namespace {
+
+static_assert(config_gen::cache_line == cache_line);
+static_assert(config_gen::page == page);
+static_assert(config_gen::large_payload == large_payload);
+static_assert(config_gen::max_runtime_size == max_runtime_size);
+static_assert(config_gen::max_holds == max_holds);
+
+static_assert(config_gen::item_header == sizeof(ItemHeader));
+static_assert(config_gen::slot_control == sizeof(SlotControl));
+static_assert(config_gen::history_control == sizeof(History));
+static_assert(config_gen::ring_control == sizeof(QueueRing));
+static_assert(config_gen::ring_set == sizeof(RingSet));
+static_assert(config_gen::job_control == sizeof(JobQueue));
+static_assert(config_gen::job_sink == sizeof(JobSink));
+static_assert(config_gen::job_cell == sizeof(JobQueue::Cell));
+
+// A payload of `Size` bytes, aligned as a struct of doubles or of bytes.
+template <std::size_t Size, std::size_t Alignment>
+struct Payload {
+  alignas(Alignment) std::array<std::byte, Size> bytes;
+};
+
+template <std::size_t Size, std::size_t Alignment, std::size_t Count>
+constexpr bool is_as_believed() {
+  using T = Payload<Size, Alignment>;
+  static_assert(sizeof(T) == Size);
+  static_assert(sizeof(SlotMemory<T, Count>) == config_gen::slot_memory(Size, Count));
+  static_assert(sizeof(HistoryMemory<T, Count>) == config_gen::history_memory(Size, Count));
+  static_assert(sizeof(QueueRingMemory<T, Count>) == config_gen::ring_memory(Size, Count));
+  static_assert(sizeof(JobQueueMemory<T, Count>) == config_gen::job_memory(Size, Count));
+  return true;
+}
+
+template <std::size_t Size, std::size_t Alignment>
+constexpr bool is_as_believed() {
+  return is_as_believed<Size, Alignment, 3>() && is_as_believed<Size, Alignment, 16>() &&
+         is_as_believed<Size, Alignment, 21>();
+}
+
+void sizes_are_as_config_gen_believes(void**) {
+  static_assert(is_as_believed<1, 1>() && is_as_believed<7, 1>() && is_as_believed<45, 1>());
+  static_assert(is_as_believed<8, 8>() && is_as_believed<48, 8>() && is_as_believed<56, 8>());
+  static_assert(is_as_believed<4088, 8>() && is_as_believed<4096, 8>() && is_as_believed<4097, 1>());
+  static_assert(is_as_believed<921'600, 8>());
+}
+
+}  // namespace
+}  // namespace flexrf
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(flexrf::sizes_are_as_config_gen_believes)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
