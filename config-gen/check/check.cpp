@@ -5,6 +5,7 @@
 namespace flexrf::config_gen {
 
 void check(Model& model, Diagnostics& diagnostics) {
+  check_class_names(model, diagnostics);
   if (!model.application) return;
   check_inputs(model, diagnostics);
   check_slots(model, diagnostics);

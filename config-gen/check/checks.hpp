@@ -8,6 +8,7 @@
 
 namespace flexrf::config_gen {
 
+void check_class_names(const Model& model, Diagnostics& diagnostics);  // of any run, not only applications
 void check_slots(const Model& model, Diagnostics& diagnostics);
 void check_queues(const Model& model, Diagnostics& diagnostics);
 void check_inputs(const Model& model, Diagnostics& diagnostics);

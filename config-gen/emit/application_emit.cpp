@@ -53,6 +53,10 @@ void emit_application_record(const Model& model, Text& out) {
   states("UnitState", "states_of_units", model.units.size());
   states("DeviceState", "states_of_devices", model.devices.size());
   states("ThreadState", "states_of_threads", model.threads.size());
+  const std::string renames = list_of(model.renames, [](const Rename& rename) {
+    return "{" + string_literal(rename.from) + ", " + string_literal(rename.to) + "}";
+  });
+  emit_array("constexpr Rename", "renames_table", renames, out);
   const auto table = [](std::string_view name, std::size_t count) {
     return count == 0 ? "{}" : std::string(name);
   };
@@ -71,6 +75,7 @@ void emit_application_record(const Model& model, Text& out) {
       << ",\n    .units = " << table("units_table", model.units.size())
       << ",\n    .populations = " << table("populations_table", model.populations.size())
       << ",\n    .threads = " << table("threads_table", model.threads.size())
+      << ",\n    .renames = " << table("renames_table", model.renames.size())
       << ",\n    .unit_states = " << table("states_of_units", model.units.size())
       << ",\n    .device_states = " << table("states_of_devices", model.devices.size())
       << ",\n    .thread_states = " << table("states_of_threads", model.threads.size()) << ",\n};\n";

@@ -452,6 +452,13 @@ struct Population {
   std::size_t active = 0;
 };
 
+// What configuration files written before call otherwise; one for each member of a population.
+struct Rename {
+  std::string from;  // "jogger", "jog.step_size"
+  std::string to;    // "jog", "jog.step"
+  Position position;
+};
+
 struct GroupInstance {  // kept for the diagram and the panel; everything in it is already flattened
   std::string name;     // "axis[2]"
   std::string table;    // "axis"
@@ -485,6 +492,7 @@ struct Model {
   std::vector<Index> safe_order;  // all devices, children before their buses: the order of make_safe()
   std::vector<Unit> units;
   std::vector<Population> populations;
+  std::vector<Rename> renames;
   std::vector<Slot> slots;
   std::vector<Queue> queues;
   std::vector<Thread> threads;  // declared threads, then IO threads

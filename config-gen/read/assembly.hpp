@@ -67,7 +67,8 @@ void connect_outputs(Assembly& assembly);  // makes slots and queues
 void read_place_rows(Assembly& assembly);  // [slot.N], [queue.N]
 void connect_inputs(Assembly& assembly);
 void read_threads(Assembly& assembly);
-void derive(Assembly& assembly);  // readers, doorbells, parameter slots, order
+void read_renames(Assembly& assembly, const Node& table);  // [renamed]
+void derive(Assembly& assembly);                           // readers, doorbells, parameter slots, order
 
 // `section`.P = v for parameters of `block`, under `table` (may be null): a value for each parameter.
 std::vector<Literal> read_values(Assembly& assembly, const Node* table, const ParameterBlock& block,

@@ -3,9 +3,11 @@
 #include <map>
 
 #include "config-gen/model/layout.hpp"
+#include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/library.hpp"
 #include "config-gen/read/literal.hpp"
+#include "config-gen/read/members.hpp"
 #include "config-gen/read/quantities.hpp"
 
 namespace flexrf::config_gen {
@@ -51,6 +53,14 @@ void read_capacity(Row& row, Field& field, bool is_text, Diagnostics& diagnostic
   if (is_text && !row.has("capacity"))
     row.missing("capacity", "a text has a fixed place: add capacity = 32 (bytes)");
   if (capacity) field.capacity = static_cast<std::size_t>(*capacity);
+}
+
+// Its accessors are of one text; a record in between gives every text a name of its own.
+void refuse_shape_of_text(Row& row, Field& field, Diagnostics& diagnostics) {
+  if (!row.has("shape")) return;
+  diagnostics.error(row.position("shape"), row.name() + " is a text and cannot have a 'shape'",
+                    "declare a type with one text field, and give a field of that type the shape");
+  field.shape.clear();
 }
 
 void read_unit_of_measure(Row& row, Field& field, Diagnostics& diagnostics) {
@@ -159,6 +169,28 @@ Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kin
   return parameter;
 }
 
+// As much as the runtime reserves for the parameters of one component.
+void check_limits(const ParameterBlock& block, Diagnostics& diagnostics) {
+  std::size_t holds = 0;
+  bool too_large = false;
+  for (const Parameter& parameter : block.parameters) {
+    const Field& field = parameter.field;
+    if (!too_large && field.offset + field.size > max_runtime_size) {
+      too_large = true;
+      diagnostics.error(field.position,
+                        "the runtime parameters up to " + quote(field.name) + " take " +
+                            std::to_string(field.offset + field.size) + " bytes, more than " +
+                            std::to_string(max_runtime_size),
+                        "make an array smaller, or take what is large from a slot or the configuration");
+    }
+    if (parameter.input == Parameter::Input::hold && ++holds == max_holds + 1)
+      diagnostics.error(field.position,
+                        quote(field.name) + " is one hold more than the " + std::to_string(max_holds) +
+                            " that a component can have",
+                        "remove one, or divide the unit into two");
+  }
+}
+
 }  // namespace
 
 std::optional<Field> read_field(Library& library, Row& row, const std::vector<std::string>& words,
@@ -204,6 +236,7 @@ std::optional<Field> read_field(Library& library, Row& row, const std::vector<st
   const bool plain = known && (word == nullptr || word->empty());
   if (plain) {
     read_shape(row, field, diagnostics);
+    if (is_text) refuse_shape_of_text(row, field, diagnostics);
     read_capacity(row, field, is_text, diagnostics);
     read_unit_of_measure(row, field, diagnostics);
   } else if (!known) {
@@ -220,6 +253,11 @@ void read_parameters(Library& library, const Node& root, Parameter::Kind kind, P
   for (const Node* node : named_rows(library, root, section, "a parameter"))
     block.parameters.push_back(read_parameter(library, *node, kind, section));
   lay_out(library.model(), block);
+  std::vector<const Field*> fields;
+  for (const Parameter& parameter : block.parameters) fields.push_back(&parameter.field);
+  // A driver's are in one struct with its interface's, and checked with them.
+  check_fields(fields, library.diagnostics());
+  if (kind == Parameter::Kind::runtime) check_limits(block, library.diagnostics());
 }
 
 std::vector<const Node*> named_rows(Library& library, const Node& root, std::string_view kind,

@@ -1,6 +1,7 @@
 // Interface tables and driver tables.
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/library.hpp"
+#include "config-gen/read/members.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -24,6 +25,18 @@ Resource read_resource(const Node& node, Diagnostics& diagnostics) {
   resource.key = "urdf";
   row.finish();
   return resource;
+}
+
+// What units and the panel see of a device is the same whichever driver it has.
+void refuse_sections_of_interface(Row& row, const std::string& interface, Diagnostics& diagnostics) {
+  for (const char* section : {"runtime", "feedback", "output", "resource"}) {
+    if (!row.has(section)) continue;
+    row.also(section);
+    diagnostics.error(row.position(section),
+                      "a driver cannot have [" + std::string(section) + ".NAME]: only its interface has it",
+                      "move it to the table of the interface " + interface +
+                          ", so that every driver has it; a driver's own is only [configuration.NAME]");
+  }
 }
 
 }  // namespace
@@ -51,6 +64,10 @@ std::optional<Index> read_interface_table(Library& library, const Node& root,
   for (const Node* node : named_rows(library, root, "resource", "a resource"))
     interface.resources.push_back(read_resource(*node, diagnostics));
   interface.outputs = read_outputs(library, root, true);
+  std::vector<std::pair<std::string, const Node*>> members;
+  add_members(root, "resource", "a resource", members);
+  add_members(root, "output", "an output", members);
+  check_members(Heir::interface, members, diagnostics);
   read_parameters(library, root, Parameter::Kind::configuration, interface.configuration);
   read_parameters(library, root, Parameter::Kind::runtime, interface.runtime);
   read_parameters(library, root, Parameter::Kind::feedback, interface.feedback);
@@ -102,10 +119,16 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
                         "name an interface whose table says bus = true");
   }
   row.also("configuration");
+  refuse_sections_of_interface(row, interface.value_or(""), diagnostics);
   row.finish();
   read_parameters(library, root, Parameter::Kind::configuration, driver.configuration);
   if (!index) return std::nullopt;
   driver.interface = *index;
+  std::vector<const Field*> fields;
+  for (const ParameterBlock* block :
+       {&model.interfaces[driver.interface].configuration, &driver.configuration})
+    for (const Parameter& parameter : block->parameters) fields.push_back(&parameter.field);
+  check_fields(fields, diagnostics);
   for (const Parameter& parameter : driver.configuration.parameters)
     for (const Parameter& common : model.interfaces[driver.interface].configuration.parameters)
       if (parameter.field.name == common.field.name)

@@ -32,10 +32,13 @@ void read_application(Library& library, const std::filesystem::path& file) {
   application.autostart = row.boolean("autostart").value_or(false);
   application.stop_timeout = row.positive_duration("stop_timeout").value_or(application.stop_timeout);
   application.finish_timeout = row.positive_duration("finish_timeout").value_or(application.finish_timeout);
-  for (const char* section : {"device", "unit", "slot", "queue", "thread", "group"}) row.also(section);
+  for (const char* section : {"device", "unit", "slot", "queue", "thread", "group", "renamed"})
+    row.also(section);
   row.finish();
   model.application = std::move(application);
 
+  const Node* const renamed = root->find("renamed");
+  const std::optional<Node> renames = renamed != nullptr ? std::optional<Node>(*renamed) : std::nullopt;
   Assembly assembly(library);
   assembly.flat = flatten(library, std::move(*root), file.parent_path());
   assembly.broken_places.insert(assembly.flat.broken_places.begin(), assembly.flat.broken_places.end());
@@ -49,6 +52,7 @@ void read_application(Library& library, const std::filesystem::path& file) {
   connect_inputs(assembly);
   read_place_rows(assembly);
   read_threads(assembly);
+  if (renames) read_renames(assembly, *renames);
   derive(assembly);
   for (Device& device : model.devices)
     device.partial = device.partial || assembly.broken_owners.contains(device.name);

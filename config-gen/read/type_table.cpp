@@ -2,6 +2,7 @@
 #include "config-gen/model/layout.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/library.hpp"
+#include "config-gen/read/members.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -43,6 +44,9 @@ std::optional<Index> read_type_table(Library& library, const Node& root, const s
     if (auto field = read_field(library, field_row)) type.fields.push_back(std::move(*field));
     field_row.finish();
   }
+  std::vector<const Field*> fields;
+  for (const Field& field : type.fields) fields.push_back(&field);
+  check_fields(fields, diagnostics);
   for (const Node* node : named_rows(library, root, "value", "a value")) {
     Row value_row(*node, "[value." + node->key + "]", diagnostics);
     type.values.push_back({node->key, node->key_position, value_row.summary()});

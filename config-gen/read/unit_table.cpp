@@ -1,9 +1,7 @@
 // Unit tables, and the ports that units and interfaces have in common.
-#include <algorithm>
-#include <map>
-
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/library.hpp"
+#include "config-gen/read/members.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -72,33 +70,6 @@ std::optional<InputPort> read_input(Library& library, const Node& node) {
   return input;
 }
 
-// Inputs, outputs and devices become members of one class, beside those it inherits.
-void check_members(const std::vector<std::pair<std::string, const Node*>>& members,
-                   Diagnostics& diagnostics) {
-  static const std::vector<std::string> inherited = {
-      "accept",    "accept_runtime", "clear_fault", "component_type", "configuration",
-      "connect",   "fail",           "fault",       "feedback",       "initialise",
-      "is_idle",   "name",           "reset",       "runtime",        "parameter_memory",
-      "set_fault", "set_name",       "step",        "stop",           "stop_requested"};
-  std::map<std::string, std::pair<std::string, const Node*>> taken;
-  for (const auto& [kind, node] : members) {
-    if (std::find(inherited.begin(), inherited.end(), node->key) != inherited.end()) {
-      diagnostics.error(
-          node->key_position,
-          kind + " cannot be named " + quote(node->key) + ": every unit has a member of this name",
-          "choose another name");
-      continue;
-    }
-    const auto [first, is_new] = taken.try_emplace(node->key, kind, node);
-    if (!is_new)
-      diagnostics.error(
-          node->key_position,
-          "the name " + quote(node->key) + " is used twice: " + first->second.first + " and " + kind,
-          "both become members of one class: rename one; the other is at " +
-              to_string(first->second.second->key_position));
-  }
-}
-
 }  // namespace
 
 std::vector<OutputPort> read_outputs(Library& library, const Node& table, bool with_loans) {
@@ -149,20 +120,14 @@ std::optional<Index> read_unit_table(Library& library, const Node& root, const s
     row.also(section);
   row.finish();
 
-  std::vector<std::pair<std::string, const Node*>> members;
   const auto inputs = named_rows(library, root, "input", "an input");
-  for (const Node* node : inputs) {
-    members.emplace_back("an input", node);
+  for (const Node* node : inputs)
     if (auto input = read_input(library, *node)) unit.inputs.push_back(std::move(*input));
-  }
-  if (const Node* outputs = root.find("output"))
-    for (const Node& node : outputs->children) members.emplace_back("an output", &node);
   unit.outputs = read_outputs(library, root, true);
   bool complete =
       unit.inputs.size() == inputs.size() &&
       (root.find("output") == nullptr || unit.outputs.size() == root.find("output")->children.size());
   for (const Node* node : named_rows(library, root, "device", "a device")) {
-    members.emplace_back("a device", node);
     Row device(*node, "[device." + node->key + "]", diagnostics);
     DevicePort port{node->key, node->key_position, 0, device.summary()};
     const auto interface =
@@ -174,7 +139,11 @@ std::optional<Index> read_unit_table(Library& library, const Node& root, const s
     port.interface = *index;
     unit.devices.push_back(std::move(port));
   }
-  check_members(members, diagnostics);
+  std::vector<std::pair<std::string, const Node*>> members;
+  add_members(root, "input", "an input", members);
+  add_members(root, "output", "an output", members);
+  add_members(root, "device", "a device", members);
+  check_members(Heir::unit, members, diagnostics);
   read_parameters(library, root, Parameter::Kind::configuration, unit.configuration);
   read_parameters(library, root, Parameter::Kind::runtime, unit.runtime);
   read_parameters(library, root, Parameter::Kind::feedback, unit.feedback);

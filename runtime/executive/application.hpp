@@ -9,6 +9,7 @@
 #include "runtime/blackboard/queue.hpp"
 #include "runtime/blackboard/slot.hpp"
 #include "runtime/executive/state.hpp"
+#include "runtime/parameters/rename.hpp"
 #include "runtime/unit/unit.hpp"
 
 namespace flexrf {
@@ -164,6 +165,7 @@ struct Application {
   std::span<const UnitRecord> units;
   std::span<const PopulationRecord> populations;
   std::span<const ThreadRecord> threads;
+  std::span<const Rename> renames;  ///< of what older configuration files call otherwise
   // What the executive keeps, one each.
   std::span<UnitState> unit_states;
   std::span<DeviceState> device_states;

@@ -99,7 +99,7 @@ std::vector<ConfigurationComponent> configuration_components(Cell& cell) {
 }
 
 ConfigurationIdentity configuration_identity(const Cell& cell) {
-  return {cell.application().name, cell.application().descriptor_hash, {}};
+  return {cell.application().name, cell.application().descriptor_hash, cell.application().renames};
 }
 
 }  // namespace flexrf

@@ -21,6 +21,7 @@
 
 #include "runtime/core/status.hpp"
 #include "runtime/parameters/parameter_descriptor.hpp"
+#include "runtime/parameters/rename.hpp"
 
 namespace flexrf {
 
@@ -35,13 +36,6 @@ struct ConfigurationComponent {
   const ComponentType* type = nullptr;
   void* configuration = nullptr;  ///< null where it has none
   void* runtime = nullptr;
-};
-
-/// A unit, device ("arm" to "robot") or parameter ("jog.step" to "jog.step_size") that had another name in
-/// files written before.
-struct Rename {
-  const char* from;
-  const char* to;
 };
 
 struct ConfigurationIdentity {

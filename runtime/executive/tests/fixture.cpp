@@ -471,6 +471,7 @@ void TestApplication::fill_application() {
   application_.units = made_->unit_records;
   application_.populations = made_->population_records;
   application_.threads = made_->thread_records;
+  application_.renames = renames;
   application_.unit_states = unit_states_;
   application_.device_states = device_states_;
   application_.thread_states = thread_states_;

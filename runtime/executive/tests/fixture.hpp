@@ -127,6 +127,7 @@ class TestApplication {
   bool autostart = true;
   Duration stop_timeout = std::chrono::seconds{1};
   Duration finish_timeout = std::chrono::seconds{2};
+  std::span<const Rename> renames;
 
   /// Makes the records at the first call.
   const Application& application();
