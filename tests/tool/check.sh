@@ -27,6 +27,10 @@ flexrf check "$work/mine/" </dev/null
 expect "exit code of broken tables" "$status" 1
 expect "table of a folder" "$output" "config-gen --application $work/mine/mine.toml *"
 
+flexrf check apps/keybord </dev/null
+expect "exit code of no folder" "$status" 1
+expect "message of no folder" "$errors" "*there is no folder apps/keybord"
+
 flexrf check </dev/null
 expect "exit code without a folder" "$status" 1
 finish
