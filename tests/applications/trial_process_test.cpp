@@ -67,7 +67,15 @@ void a_fault_makes_its_own_device_safe() {
   check_survived_fault("ddddddddddddf", "told to fail");
 }
 void an_exception_is_a_fault_with_its_text() {
+#if FLEXRF_CHECKED
+  // To throw is to allocate: in a real-time thread the guard is there first.
+  const Folder folder;
+  const Ending ending = ending_after(folder, "t");
+  CHECK_EQUAL(ending.signal, SIGABRT);
+  CHECK_CONTAINS(ending.errors, "__cxa_allocate_exception");
+#else
   check_survived_fault("ddddddddddddt", "a library's text");
+#endif
 }
 
 void a_hung_step_ends_in_the_last_gasp() {
@@ -178,6 +186,28 @@ void finish_timeout_ends_what_does_not_finish() {
   CHECK(Report(folder / "report")["run"].at("cut_short").get<bool>());
 }
 
+// ---- what must not be done in a real-time thread
+
+/// Linked with the guard: the checked build ends with a trace, others count.
+void an_allocation_is_caught() {
+  const Folder folder;
+  const Ending ending = run(folder, words(), "dkk");
+#if FLEXRF_CHECKED
+  CHECK_EQUAL(ending.signal, SIGABRT);
+  CHECK_CONTAINS(ending.errors,
+                 "malloc called in a real-time thread, where nothing may be allocated or freed:");
+  CHECK_CONTAINS(ending.errors, " while stepping saboteur");
+  CHECK_EQUAL(contents_of(folder / "drive.log"), last_gasp);
+#else
+  CHECK_EQUAL(ending.exit_code, 0);
+  const Report report(folder / "report");
+  // Each k allocates and frees.
+  CHECK_EQUAL(report.row("threads", "sabotage").at("allocations").get<int>(), 4);
+  CHECK_EQUAL(report.row("threads", "control").at("allocations").get<int>(), 0);
+  CHECK(report["memory"].at("allocation_guard").get<bool>());
+#endif
+}
+
 // ---- the terminal
 
 termios settings_of(const Process& process) {
@@ -223,6 +253,7 @@ int main() {
       CONTAINED_TEST(exit_from_a_unit_writes_the_last_gasp),
       CONTAINED_TEST(the_end_of_input_is_the_gentlest),
       CONTAINED_TEST(finish_timeout_ends_what_does_not_finish),
+      CONTAINED_TEST(an_allocation_is_caught),
       CONTAINED_TEST(the_terminal_is_restored_on_every_exit),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
