@@ -1,6 +1,7 @@
 #include "runtime/executive/supervision.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/last_gasp.hpp"
@@ -15,8 +16,10 @@ constexpr Duration least_hang_timeout = std::chrono::milliseconds{500};
 }  // namespace
 
 Supervision::Supervision(Cell& cell, Lifecycle& lifecycle, bool watch_for_hangs) noexcept
-    : cell_(&cell), lifecycle_(&lifecycle), watch_for_hangs_(watch_for_hangs) {
-  // Quiet only counts when every thread has had two turns in which to find something to do.
+    : cell_(&cell),
+      lifecycle_(&lifecycle),
+      watch_for_hangs_(watch_for_hangs),
+      cycles_when_busy_(cell.application().threads.size()) {
   for (const ThreadRecord& thread : cell.application().threads) {
     settle_time_ = std::max({settle_time_, 2 * thread.trigger.period, 2 * thread.trigger.min_interval,
                              2 * thread.trigger.longest});
@@ -30,11 +33,7 @@ Duration Supervision::hang_timeout(const ThreadRecord& thread) noexcept {
 
 void Supervision::observe(Time now) noexcept {
   const Mode mode = cell_->control().mode();
-  if (mode != mode_) {
-    mode_ = mode;
-    entered_at_ = now;
-    busy_at_ = now;
-  }
+  if (mode != mode_) begin_phase(mode, now);
   watch_faults();
   if (watch_for_hangs_) watch_hangs(now);
   switch (mode) {
@@ -100,29 +99,54 @@ bool Supervision::is_quiet() const noexcept {
 
 void Supervision::enter(Mode mode, Time now) noexcept {
   cell_->control().rise_to(mode);
-  mode_ = cell_->control().mode();
+  begin_phase(cell_->control().mode(), now);
+}
+
+void Supervision::begin_phase(Mode mode, Time now) noexcept {
+  mode_ = mode;
   entered_at_ = now;
+  note_busy(now);
+}
+
+void Supervision::note_busy(Time now) noexcept {
   busy_at_ = now;
+  const std::span<const ThreadState> states = cell_->application().thread_states;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    cycles_when_busy_[i] = states[i].cycles.load(std::memory_order_relaxed);
+  }
+}
+
+/// Quiet counts only when it has lasted, and when every periodic thread has had two turns in which to find
+/// something to do: on a loaded machine time alone says nothing about who ran in it.
+bool Supervision::has_settled(Time now) const noexcept {
+  if (now - busy_at_ <= settle_time_) return false;
+  const Application& application = cell_->application();
+  for (std::size_t i = 0; i < application.threads.size(); ++i) {
+    const bool periodic = application.threads[i].trigger.kind == TriggerKind::period;
+    const std::uint64_t cycles = application.thread_states[i].cycles.load(std::memory_order_relaxed);
+    if (periodic && cycles - cycles_when_busy_[i] < 2) return false;
+  }
+  return true;
 }
 
 void Supervision::finish(Time now) noexcept {
-  if (!is_quiet()) busy_at_ = now;
+  if (!is_quiet()) note_busy(now);
   if (now - entered_at_ > cell_->application().finish_timeout) {
     log_warning(cell_->application().name, "not finished within finish_timeout; stopping now");
     cut_short_ = true;
     enter(Mode::stopping, now);
-  } else if (now - busy_at_ > settle_time_) {
+  } else if (has_settled(now)) {
     enter(Mode::stopping, now);
   }
 }
 
 void Supervision::stop(Time now) noexcept {
-  if (!units_are_idle()) busy_at_ = now;
+  if (!units_are_idle()) note_busy(now);
   if (now - entered_at_ > cell_->application().stop_timeout) {
     log_warning(cell_->application().name, "not at rest within stop_timeout; every device is made safe");
     cut_short_ = true;
     enter(Mode::safe, now);
-  } else if (now - busy_at_ > settle_time_) {
+  } else if (has_settled(now)) {
     enter(Mode::safe, now);
   }
 }

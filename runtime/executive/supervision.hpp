@@ -1,6 +1,9 @@
 // Supervision: brings the application from running to its end, step by step, and notices what goes wrong.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "runtime/executive/cell.hpp"
 #include "runtime/executive/lifecycle.hpp"
 
@@ -34,14 +37,18 @@ class Supervision {
   bool is_quiet() const noexcept;
   bool units_are_idle() const noexcept;
   void enter(Mode mode, Time now) noexcept;
+  void begin_phase(Mode mode, Time now) noexcept;
+  void note_busy(Time now) noexcept;
+  bool has_settled(Time now) const noexcept;
 
   Cell* cell_;
   Lifecycle* lifecycle_;
   bool watch_for_hangs_;
   Duration settle_time_{};
   Mode mode_ = Mode::starting;
-  Time entered_at_{};  // the present mode
-  Time busy_at_{};     // when something was last seen to be under way
+  Time entered_at_{};                            // the present mode
+  Time busy_at_{};                               // when something was last seen to be under way
+  std::vector<std::uint64_t> cycles_when_busy_;  // of each thread, at that time
   bool had_fault_ = false;
   bool stuck_ = false;
   bool cut_short_ = false;
