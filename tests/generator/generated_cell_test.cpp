@@ -172,6 +172,14 @@ void padding_is_not_significant(void**) {
   assert_int_not_equal(first.value(), third.value());
 }
 
+void former_names_are_told(void**) {
+  assert_int_equal(cell.renames.size(), 2);
+  assert_string_equal(cell.renames[0].from, "origin");
+  assert_string_equal(cell.renames[0].to, "source");
+  assert_string_equal(cell.renames[1].from, "source.amplification");
+  assert_string_equal(cell.renames[1].to, "source.gain");
+}
+
 void the_descriptor_is_embedded(void**) {
   std::ifstream stream(DESCRIPTOR_JSON);
   const std::string file{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -212,6 +220,7 @@ int main() {
                               cmocka_unit_test(parameters_are_described),
                               cmocka_unit_test(types_are_described),
                               cmocka_unit_test(padding_is_not_significant),
+                              cmocka_unit_test(former_names_are_told),
                               cmocka_unit_test(the_descriptor_is_embedded),
                               cmocka_unit_test(it_runs)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
