@@ -34,8 +34,7 @@ std::vector<ClassName> class_names(const Model& model) {
     const std::string of = "driver " + quote(driver.stem);
     names.push_back({driver.class_name, "the class of " + of, driver.position});
     names.push_back({driver.base_class, "the base class of " + of, driver.position});
-    names.push_back(
-        {driver.class_name + "Configuration", "the parameter struct of " + of, driver.position});
+    names.push_back({driver.class_name + "Configuration", "the parameter struct of " + of, driver.position});
   }
   for (const Type& type : model.types)
     names.push_back({type.name, "the type " + quote(type.stem), type.position});

@@ -16,9 +16,10 @@ std::string saved_by_a_run(std::span<const Rename> renames) {
       std::filesystem::temp_directory_path() / ("flexrf_rename_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   const std::filesystem::path file = folder / "cell.xml";
-  std::ofstream(file) << "<flexrf application=\"test_cell\" format=\"1\" descriptor=\"999\">\n"
-                         "  <unit name=\"maker\"><runtime><amplification>2.5</amplification></runtime></unit>\n"
-                         "</flexrf>\n";
+  std::ofstream(file)
+      << "<flexrf application=\"test_cell\" format=\"1\" descriptor=\"999\">\n"
+         "  <unit name=\"maker\"><runtime><amplification>2.5</amplification></runtime></unit>\n"
+         "</flexrf>\n";
   {
     ProducerAndConsumer cell;
     cell.renames = renames;
