@@ -156,7 +156,9 @@ RunSummary Executive::run() {
   drain_log(STDERR_FILENO);
   summary.cause = cell_.control().cause();
   summary.wall_time = MonotonicClock::now() - began_;
-  if (summary.had_fault) {
+  if (summary.start_failure.code() == StatusCode::not_permitted) {
+    summary.exit_code = 3;
+  } else if (summary.had_fault) {
     summary.exit_code = 2;
   } else if (summary.cause == EndCause::signal) {
     summary.exit_code = 128 + summary.signal;
@@ -216,6 +218,7 @@ void Executive::run_on_the_wall_clock(RunSummary& summary) {
     cell_.control().set_cause(EndCause::fault);
     cell_.control().note_fault();
     cell_.control().rise_to(Mode::ended);
+    summary.start_failure = status;
     summary.had_fault = true;
   }
   supervise(summary);

@@ -136,6 +136,7 @@ std::string name_of_signal(int signal) {
 
 /// What to blame first: a component in fault, a thread that hangs, one that was restarted.
 std::string blame(const ReportData& data) {
+  if (!data.summary.start_failure) return std::string{"not started: "} + data.summary.start_failure.cause();
   for (const auto* components : {&data.devices, &data.units}) {
     for (const ComponentReport& component : *components) {
       if (!component.fault.empty()) return std::string{component.name} + ": " + component.fault;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "runtime/core/status.hpp"
 #include "runtime/core/time.hpp"
 #include "runtime/executive/control.hpp"
 
@@ -13,6 +14,7 @@ struct RunSummary {
   EndCause cause = EndCause::none;
   int signal = 0;  ///< of EndCause::signal
   int exit_code = 0;
+  Status start_failure;  ///< why nothing was started; ok when it was
   bool had_fault = false;
   bool cut_short = false;  ///< finish_timeout or stop_timeout ended a phase
   bool stuck = false;      ///< a thread hangs: the process can only be left by _exit
