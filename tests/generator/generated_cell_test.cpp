@@ -176,8 +176,8 @@ void former_names_are_told(void**) {
   assert_int_equal(cell.renames.size(), 2);
   assert_string_equal(cell.renames[0].from, "origin");
   assert_string_equal(cell.renames[0].to, "source");
-  assert_string_equal(cell.renames[1].from, "source.amplification");
-  assert_string_equal(cell.renames[1].to, "source.gain");
+  assert_string_equal(cell.renames[1].from, "source.direction");
+  assert_string_equal(cell.renames[1].to, "source.vector");
 }
 
 void the_descriptor_is_embedded(void**) {
