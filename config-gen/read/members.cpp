@@ -36,7 +36,7 @@ std::vector<std::string> accessors_of(const Field& field) {
 
 }  // namespace
 
-void add_members(const Node& table, std::string_view section, std::string kind,
+void add_members(const Node& table, std::string_view section, const std::string& kind,
                  std::vector<std::pair<std::string, const Node*>>& members) {
   const Node* rows = table.find(section);
   if (rows == nullptr || rows->kind != Node::Kind::table) return;
