@@ -13,7 +13,7 @@ namespace flexrf::config_gen {
 enum class Heir { unit, interface };
 
 // The rows of one section, which become members of the class: `kind` is as "an input".
-void add_members(const Node& table, std::string_view section, std::string kind,
+void add_members(const Node& table, std::string_view section, const std::string& kind,
                  std::vector<std::pair<std::string, const Node*>>& members);
 void check_members(Heir heir, const std::vector<std::pair<std::string, const Node*>>& members,
                    Diagnostics& diagnostics);
