@@ -1,0 +1,106 @@
+// What widgets and views may know of the page's core, and the contract of custom widgets.
+
+/** As descriptor.json names scalars. */
+export type Scalar =
+  | 'bool' | 'i8' | 'u8' | 'i16' | 'u16' | 'i32' | 'u32' | 'i64' | 'u64' | 'f32' | 'f64'
+  | 'text' | 'enumeration' | 'structure' | 'button' | 'hold';
+
+/** A decoded value: 64-bit integers become numbers; arrays are flat, matrices row by row as number[][]. */
+export type Value = number | boolean | string | Value[] | { [field: string]: Value };
+
+export type Role = 'viewer' | 'operator' | 'engineer' | 'admin';
+
+/** One value that a widget shows or edits: a parameter, or a field of a slot. */
+export interface ItemInfo {
+  /** "jog.step", "robot.feedback.pose", "slot:joints", "slot:joints.position": unique in the application. */
+  readonly key: string;
+  readonly label: string;
+  readonly summary: string;
+  readonly scalar: Scalar;
+  readonly shape: readonly number[];
+  /** Unit of measure, SI; empty where none applies, "1" for dimensionless. */
+  readonly unit: string;
+  readonly range?: readonly [number, number];
+  /** Names of an enumeration's values, in order. */
+  readonly values?: readonly string[];
+  /** Members of a structure. */
+  readonly members?: readonly ItemInfo[];
+  readonly typeName?: string;
+  readonly kind: 'runtime' | 'configuration' | 'feedback' | 'slot';
+  /** Least role that may change it; undefined for what can only be read. */
+  readonly role?: Role;
+  readonly default?: Value;
+  readonly widget?: string;
+  readonly component?: string;
+  /** The parameter's path in requests ("step"). */
+  readonly path?: string;
+}
+
+/** What is known of an item's value now. */
+export interface Reading {
+  /** null: the NULL item. */
+  readonly value: Value | null;
+  /** Why it is null, in words; empty when it is not. */
+  readonly reason: string;
+  /** CLOCK_MONOTONIC of the application, ns. */
+  readonly sampledAt: number;
+  readonly sequence: number;
+  /** Seconds since it was sampled, by the server's clock. */
+  readonly age: number;
+  /** A JPEG of an image slot. */
+  readonly image?: Blob;
+}
+
+export type Outcome = { ok: true; values?: { [path: string]: Value } } | { ok: false; detail: string; parameter?: string };
+
+/** A hold that lives: refreshed by the core every 100 ms until release() or until it is lost. */
+export interface Hold {
+  release(): void;
+  /** Resolves when the lease is over, however it ended, with the reason. */
+  readonly over: Promise<string>;
+}
+
+/** What a widget is given. The same for built-in and custom ones. */
+export interface WidgetHost {
+  /**
+   * Calls back in an animation frame whenever the reading changed (at most `rate` times a second, default 30), and once
+   * at once if there is one. Ends with the returned function.
+   */
+  watch(key: string, callback: (reading: Reading) => void, options?: { rate?: number; width?: number }): () => void;
+  /** Sends a runtime parameter; the answer is the unit's. */
+  set(key: string, value: Value): Promise<Outcome>;
+  press(key: string, count?: number): Promise<Outcome>;
+  hold(key: string): Promise<Hold>;
+  reset(key: string): Promise<Outcome>;
+  item(key: string): ItemInfo | undefined;
+  /** Why this item cannot be changed now ("no control", "needs engineer", "link lost"...); empty when it can. */
+  locked(key: string): string;
+  /** Calls back when locked() of anything may have changed, and when values turn stale or fresh. */
+  watchAccess(callback: () => void): () => void;
+  /** More than 1 s of silence: values are old, controls dead. */
+  readonly stale: boolean;
+  /** A file that the application brought along (its URDF, its meshes). */
+  file(path: string): Promise<Response>;
+}
+
+/** Where the application's table placed a widget, and what it gave it: the row [widget.NAME]. */
+export interface Placement {
+  readonly name: string;
+  readonly kind: string;
+  readonly label: string;
+  readonly place: string;
+  readonly slots: { readonly [role: string]: string };
+  readonly parameters: { readonly [role: string]: string };
+  readonly device?: string;
+  readonly options: { readonly [name: string]: Value };
+}
+
+/** Every widget is a custom element with these properties; the core sets them before it is connected. */
+export interface WidgetElement extends HTMLElement {
+  host: WidgetHost;
+  item?: ItemInfo;
+  placement?: Placement;
+}
+
+/** Makes a kind of widget known under a name; throws when the name is taken. */
+export type RegisterWidget = (kind: string, element: new () => WidgetElement) => void;

@@ -1,0 +1,54 @@
+// Who may do what: sessions with roles, the one-time token, logins, and the one control token.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "runtime/core/time.hpp"
+#include "runtime/parameters/parameter_descriptor.hpp"
+#include "web-ui/server/exchange.hpp"
+
+namespace flexrf::panel {
+
+/// What others may know of a session. Views live until the session ends.
+struct SessionInfo {
+  std::string_view name;     ///< short, for people: "panel-3"
+  std::string_view user;     ///< who logged in; empty without a password
+  std::string_view address;  ///< numeric, of its newest connection
+  Role role = Role::viewer;
+  bool local = false;  ///< from an address that the application's table calls local
+};
+
+/// What handlers ask of access control. All functions: the server's thread; none blocks.
+class AccessControl {
+ public:
+  virtual const SessionInfo* session(SessionIndex session) const = 0;  ///< null: it ended
+  virtual bool has_role(SessionIndex session, Role role) const = 0;
+
+  // ---- the control token
+  virtual SessionIndex holder() const = 0;     ///< no_session: nobody
+  virtual SessionIndex wanted_by() const = 0;  ///< who asked for it and waits
+  virtual Duration answer_within(Time now) const = 0;
+  enum class Taking : std::uint8_t { taken, asked, refused_role, refused_local };
+  virtual Taking take(SessionIndex session, Time now) = 0;
+  virtual void release(SessionIndex session) = 0;
+  virtual bool answer(SessionIndex session, bool grant,
+                      Time now) = 0;  ///< false: it is not the holder's to answer
+  /// Rises with everything above that changed: sessions, holder, who asks.
+  virtual std::uint64_t revision() const = 0;
+
+ protected:
+  ~AccessControl() = default;
+};
+
+/// Told when the holder of the control token changes, however it came about: ends holds, stops manual motion.
+class ControlWatcher {
+ public:
+  virtual void on_control_changed(SessionIndex from, SessionIndex to) = 0;
+
+ protected:
+  ~ControlWatcher() = default;
+};
+
+}  // namespace flexrf::panel

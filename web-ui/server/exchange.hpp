@@ -1,0 +1,75 @@
+// One HTTP request and its reply, as the panel's handlers see them; knows nothing of sockets.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace flexrf::panel {
+
+enum class Method : std::uint8_t { get, head, put, post, other };
+
+/// Index of a session in SessionTable.
+using SessionIndex = std::uint16_t;
+inline constexpr SessionIndex no_session = 0xFFFF;
+
+/// Views are valid while handle() runs. What is absent is empty.
+struct Request {
+  Method method = Method::get;
+  std::string_view path;   ///< percent-decoded, without query: "/api/v1/slots/joints"
+  std::string_view query;  ///< as sent, without '?'
+  std::string_view body;
+  std::string_view content_type;
+  std::string_view if_match;
+  std::string_view if_none_match;
+  std::string_view remote_address;  ///< numeric
+  bool loopback = false;            ///< the remote end is this machine
+  SessionIndex session = no_session;
+};
+
+/// Belongs to a connection, which reuses its memory: a handler appends to `text`, or names bytes that live
+/// for ever.
+struct Reply {
+  unsigned status = 200;
+  std::string_view content_type = "application/json";
+  std::string_view cache_control = "no-store";
+  std::string_view content_encoding;  ///< "gzip", or none
+  std::string_view location;          ///< of a redirection
+  std::string etag;                   ///< quoted; empty: none
+  std::string set_cookie;             ///< the whole value; empty: none
+  unsigned retry_after = 0;           ///< s; 0: none
+  std::string text;                   ///< the body, unless `fixed` is set
+  std::string_view fixed;             ///< bytes that outlive the server
+};
+
+/// Names a reply that is not complete yet. Of a connection that is gone: reply_of() gives null.
+struct Ticket {
+  std::uint32_t connection = 0;
+  std::uint32_t exchange = 0;
+};
+
+enum class Handled : std::uint8_t {
+  now,    ///< the reply is complete
+  later,  ///< somebody kept the ticket and will complete it
+};
+
+/// The server's thread only; must return within 5 ms.
+class RequestHandler {
+ public:
+  virtual Handled handle(const Request& request, Reply& reply, Ticket ticket) = 0;
+
+ protected:
+  ~RequestHandler() = default;
+};
+
+/// The server's side of a reply that came later. The server's thread.
+class LaterReplies {
+ public:
+  virtual Reply* reply_of(Ticket ticket) = 0;  ///< null: the client is gone
+  virtual void complete(Ticket ticket) = 0;    ///< sends it
+
+ protected:
+  ~LaterReplies() = default;
+};
+
+}  // namespace flexrf::panel
