@@ -7,6 +7,8 @@
 #include <string>
 #include <unordered_set>
 
+#include "tests/cmocka.hpp"
+
 namespace flexrf::test {
 
 /// What exploring a model found: null when nothing is wrong in any interleaving.
@@ -44,6 +46,22 @@ Exploration explore(const Model& initial) {
   }
   result.states = seen.size();
   return result;
+}
+
+/// No interleaving of the model does wrong, and there are enough of them to mean something.
+template <class Model>
+void assert_holds(Model model) {
+  const Exploration result = explore(model);
+  if (result.violation != nullptr) fail_msg("%s", result.violation);
+  assert_true(result.states > 100);
+}
+
+/// A model with a mistake in it is found out, by this very violation.
+template <class Model>
+void assert_refused(Model model, const char* violation) {
+  const Exploration result = explore(model);
+  assert_non_null(result.violation);
+  assert_string_equal(result.violation, violation);
 }
 
 }  // namespace flexrf::test

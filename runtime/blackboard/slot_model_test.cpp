@@ -8,8 +8,8 @@
 namespace flexrf {
 namespace {
 
-using test::Exploration;
-using test::explore;
+using test::assert_holds;
+using test::assert_refused;
 
 using Byte = std::uint8_t;
 constexpr Byte none = 0xFF;
@@ -346,20 +346,6 @@ struct Bell {
   Byte seen = 0;
   Ringer ringers[2];
 };
-
-template <class Model>
-void assert_holds(Model model) {
-  const Exploration result = explore(model);
-  if (result.violation != nullptr) fail_msg("%s", result.violation);
-  assert_true(result.states > 100);
-}
-
-template <class Model>
-void assert_refused(Model model, const char* violation) {
-  const Exploration result = explore(model);
-  assert_non_null(result.violation);
-  assert_string_equal(result.violation, violation);
-}
 
 void counted_slot(void**) {
   assert_holds(CountedSlot{CountedSlot::no_mistake});
