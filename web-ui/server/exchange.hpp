@@ -22,6 +22,7 @@ struct Request {
   std::string_view content_type;
   std::string_view if_match;
   std::string_view if_none_match;
+  bool accepts_gzip = false;
   std::string_view remote_address;  ///< numeric
   bool loopback = false;            ///< the remote end is this machine
   SessionIndex session = no_session;
@@ -34,6 +35,8 @@ struct Reply {
   std::string_view content_type = "application/json";
   std::string_view cache_control = "no-store";
   std::string_view content_encoding;  ///< "gzip", or none
+  bool varies_by_encoding = false;    ///< the same path has another representation for other clients
+  std::string_view allow;             ///< of a 405: "GET, HEAD"
   std::string_view location;          ///< of a redirection
   std::string etag;                   ///< quoted; empty: none
   std::string set_cookie;             ///< the whole value; empty: none

@@ -1,0 +1,111 @@
+#include "web-ui/server/problem.hpp"
+
+#include <array>
+#include <charconv>
+
+#include "web-ui/server/json_text.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+struct Title {
+  unsigned status;
+  std::string_view text;
+};
+
+// RFC 9110, what this server uses.
+constexpr std::array titles{
+    Title{100, "Continue"},
+    Title{200, "OK"},
+    Title{201, "Created"},
+    Title{202, "Accepted"},
+    Title{204, "No Content"},
+    Title{302, "Found"},
+    Title{303, "See Other"},
+    Title{304, "Not Modified"},
+    Title{400, "Bad Request"},
+    Title{401, "Unauthorized"},
+    Title{403, "Forbidden"},
+    Title{404, "Not Found"},
+    Title{405, "Method Not Allowed"},
+    Title{406, "Not Acceptable"},
+    Title{408, "Request Timeout"},
+    Title{409, "Conflict"},
+    Title{410, "Gone"},
+    Title{411, "Length Required"},
+    Title{412, "Precondition Failed"},
+    Title{413, "Content Too Large"},
+    Title{415, "Unsupported Media Type"},
+    Title{417, "Expectation Failed"},
+    Title{421, "Misdirected Request"},
+    Title{422, "Unprocessable Content"},
+    Title{423, "Locked"},
+    Title{426, "Upgrade Required"},
+    Title{428, "Precondition Required"},
+    Title{429, "Too Many Requests"},
+    Title{431, "Request Header Fields Too Large"},
+    Title{500, "Internal Server Error"},
+    Title{501, "Not Implemented"},
+    Title{503, "Service Unavailable"},
+    Title{504, "Gateway Timeout"},
+    Title{505, "HTTP Version Not Supported"},
+};
+
+void append_member(std::string& json, std::string_view name, std::string_view value) {
+  if (value.empty()) return;
+  json += ',';
+  append_json_text(json, name);
+  json += ':';
+  append_json_text(json, value);
+}
+
+}  // namespace
+
+std::string_view title_of(unsigned status) noexcept {
+  for (const Title& title : titles) {
+    if (title.status == status) return title.text;
+  }
+  return "Unknown";
+}
+
+void append_problem(std::string& json, const Problem& problem) {
+  json += R"({"type":")";
+  if (problem.name.empty()) {
+    json += "about:blank";
+  } else {
+    json += "/problems/";
+    json += problem.name;
+  }
+  json += R"(","title":)";
+  append_json_text(json, title_of(problem.status));
+  json += R"(,"status":)";
+  char digits[12];
+  json.append(digits, std::to_chars(digits, digits + sizeof(digits), problem.status).ptr);
+  append_member(json, "detail", problem.detail);
+  append_member(json, "parameter", problem.parameter);
+  append_member(json, "reason", problem.reason);
+  if (!problem.moving.empty()) {
+    json += R"(,"moving":[)";
+    bool first = true;
+    for (const std::string_view name : problem.moving) {
+      if (!first) json += ',';
+      first = false;
+      append_json_text(json, name);
+    }
+    json += ']';
+  }
+  json += '}';
+}
+
+void answer_problem(Reply& reply, const Problem& problem) {
+  reply.status = problem.status;
+  reply.content_type = "application/problem+json";
+  reply.content_encoding = {};
+  reply.cache_control = "no-store";
+  reply.etag.clear();
+  reply.fixed = {};
+  reply.text.clear();
+  append_problem(reply.text, problem);
+}
+
+}  // namespace flexrf::panel
