@@ -1,0 +1,289 @@
+// What the page knows of the application before any value arrives: components, slots, and every item that can be shown.
+import type { ItemInfo, Placement, Role, Value } from '../contract';
+import type {
+  BlockJson, DescriptorJson, DeviceJson, OverrideJson, ParameterJson, QueueJson, SlotJson, ThreadJson, UnitJson,
+} from './descriptor_json';
+import { makeTypes, type Field, type Types } from './types';
+
+/** An item with what only the core, the shell and the views need of it. */
+export interface Item extends ItemInfo {
+  /** Where its value comes from; undefined for configuration, which is asked for. */
+  readonly source?: Source;
+  readonly hidden: boolean;
+  readonly menu: string;
+  readonly place: string;
+}
+
+export interface Source {
+  readonly slot: Slot;
+  /** Lead to a field from the slot's value, one structure into the next; none: the whole value. */
+  readonly fields: readonly Field[];
+  /** Then from the field's value on: indices of elements, members of those. */
+  readonly steps: readonly (string | number)[];
+}
+
+export interface Slot {
+  readonly index: number;
+  readonly name: string;
+  readonly json: SlotJson;
+  readonly image: boolean;
+  /** Of its whole value; its members are its fields. */
+  readonly item: Item;
+}
+
+/** A unit or a device. */
+export interface Component {
+  readonly kind: 'unit' | 'device';
+  readonly name: string;
+  /** Of the unit's type, or of the interface. */
+  readonly typeName: string;
+  readonly summary: string;
+  readonly thread: string;
+  readonly population: string;
+  readonly unit?: UnitJson;
+  readonly device?: DeviceJson;
+  readonly configuration: readonly Item[];
+  readonly runtime: readonly Item[];
+  readonly feedback: readonly Item[];
+}
+
+export interface Model {
+  readonly json: DescriptorJson;
+  /** 16 hexadecimal digits, as in every frame of values. */
+  readonly hash: string;
+  readonly application: string;
+  readonly types: Types;
+  readonly components: ReadonlyMap<string, Component>;
+  readonly slots: readonly Slot[];
+  readonly slotsByName: ReadonlyMap<string, Slot>;
+  readonly queues: readonly QueueJson[];
+  readonly threads: readonly ThreadJson[];
+  /** By name of the menu entry, in the order of the tables. */
+  readonly menus: ReadonlyMap<string, readonly Item[]>;
+  readonly placements: readonly Placement[];
+  /** By key; also elements and members of items: "jog.gains[2]", "slot:pose.position[0]". */
+  item(key: string): Item | undefined;
+  /** What the tables placed there ("overview"), in their order; items that are hidden are left out. */
+  placed(place: string): { readonly items: readonly Item[]; readonly placements: readonly Placement[] };
+}
+
+/** "longest_advance" → "Longest advance". */
+export function labelOf(name: string): string {
+  const words = name.replaceAll('_', ' ').trim();
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}
+
+/** Column by column, as descriptor.json lists matrices, → rows. */
+export function rowsOf(flat: readonly Value[], shape: readonly number[]): Value[] {
+  const [rows, columns] = shape;
+  if (rows === undefined || columns === undefined) return [...flat];
+  return Array.from({ length: rows }, (_, row) =>
+    Array.from({ length: columns }, (_unused, column) => flat[column * rows + row] ?? 0));
+}
+
+interface Origin {
+  readonly kind: ItemInfo['kind'];
+  readonly component?: string;
+  readonly source?: Source;
+  readonly role?: Role;
+}
+
+/** Beside a field: what its declaration says, and what the application's table changes of that. */
+interface Declared {
+  readonly parameter?: ParameterJson | undefined;
+  readonly change?: OverrideJson | undefined;
+}
+
+/** One field as an item, with its members. */
+function makeItem(types: Types, key: string, field: Field, path: string, origin: Origin, declared: Declared = {}): Item {
+  const { parameter, change } = declared;
+  const writable = origin.kind === 'runtime' || origin.kind === 'configuration';
+  const role = writable ? (parameter?.role ?? origin.role ?? 'engineer') : undefined;
+  const range = narrowed(parameter?.range, change?.range);
+  const flat = parameter?.default;
+  const initial = Array.isArray(flat) && field.shape.length === 2 ? rowsOf(flat, field.shape) : flat;
+  const type = field.typeName === undefined ? undefined : types.get(field.typeName);
+  const members = type?.fields && field.shape.length === 0
+    ? membersOf(types, key, type.fields, path, { ...origin, ...(role && { role }) })
+    : undefined;
+  const widget = change?.widget ?? parameter?.widget;
+  return {
+    key,
+    label: change?.label ?? parameter?.label ?? labelOf(field.name),
+    summary: field.summary,
+    scalar: field.scalar,
+    shape: field.shape,
+    unit: field.unit,
+    kind: origin.kind,
+    hidden: change?.hidden ?? false,
+    menu: change?.menu ?? parameter?.menu ?? '',
+    place: change?.place ?? '',
+    ...(range && { range }),
+    ...(type?.values && { values: type.values }),
+    ...(members && { members }),
+    ...(field.typeName !== undefined && { typeName: field.typeName }),
+    ...(role && { role }),
+    ...(initial !== undefined && { default: initial }),
+    ...(widget && { widget }),
+    ...(origin.component !== undefined && { component: origin.component }),
+    ...(writable && { path }),
+    ...(origin.source && { source: origin.source }),
+  };
+}
+
+/** `origin` is that of the structure; each member's source goes one step further. */
+function membersOf(types: Types, key: string, fields: readonly Field[], path: string, origin: Origin): Item[] {
+  return fields.map((field) => {
+    const source = origin.source && deeper(origin.source, field);
+    return makeItem(types, `${key}.${field.name}`, field, path ? `${path}.${field.name}` : field.name,
+      { ...origin, ...(source && { source }) });
+  });
+}
+
+function deeper(source: Source, field: Field): Source {
+  return source.steps.length === 0
+    ? { ...source, fields: [...source.fields, field] }
+    : { ...source, steps: [...source.steps, field.name] };
+}
+
+/** The table may narrow a range, on one end or both. */
+function narrowed(declared: readonly [number, number] | undefined,
+                  change: readonly [number | null, number | null] | undefined): readonly [number, number] | undefined {
+  const low = change?.[0] ?? declared?.[0];
+  const high = change?.[1] ?? declared?.[1];
+  return low === undefined || high === undefined ? undefined : [low, high];
+}
+
+/** An element of an array, as "gains[2]": made when asked for. */
+function makeElement(types: Types, parent: Item, index: number): Item | undefined {
+  const length = parent.shape[0];
+  if (length === undefined || index >= length) return undefined;
+  const { default: initial, ...rest } = parent;
+  const key = `${parent.key}[${index}]`;
+  const shape = parent.shape.slice(1);
+  const path = parent.path === undefined ? undefined : `${parent.path}[${index}]`;
+  const source = parent.source && { ...parent.source, steps: [...parent.source.steps, index] };
+  const chosen = Array.isArray(initial) ? initial[index] : undefined;
+  const fields = shape.length === 0 && parent.typeName !== undefined ? types.get(parent.typeName)?.fields : undefined;
+  const members = fields && membersOf(types, key, fields, path ?? '', {
+    kind: parent.kind,
+    ...(parent.component !== undefined && { component: parent.component }),
+    ...(parent.role && { role: parent.role }),
+    ...(source && { source }),
+  });
+  return {
+    ...rest, key, shape,
+    label: `${parent.label} ${index + 1}`,
+    ...(chosen !== undefined && { default: chosen }),
+    ...(members && { members }),
+    ...(path !== undefined && { path }),
+    ...(source && { source }),
+  };
+}
+
+export function makeModel(json: DescriptorJson): Model {
+  const types = makeTypes(json.types);
+  const slots: Slot[] = [];
+  const slotsByName = new Map<string, Slot>();
+  const components = new Map<string, Component>();
+  const items = new Map<string, Item>();
+  const menus = new Map<string, Item[]>();
+
+  const addAll = (item: Item): void => {
+    items.set(item.key, item);
+    item.members?.forEach((member) => addAll(member as Item));
+  };
+
+  json.slots.forEach((slotJson, index) => {
+    const type = types.get(slotJson.type);
+    const slot = {
+      index, name: slotJson.name, json: slotJson, image: type?.image ?? false,
+    } as { -readonly [K in keyof Slot]: Slot[K] };
+    const key = `slot:${slotJson.name}`;
+    const source: Source = { slot, fields: [], steps: [] };
+    const members = membersOf(types, key, type?.fields ?? [], '', { kind: 'slot', source });
+    slot.item = {
+      key, label: slotJson.name, summary: slotJson.summary || (type?.summary ?? ''), scalar: 'structure', shape: [],
+      unit: '', kind: 'slot', members, typeName: slotJson.type, hidden: false, menu: '', place: '',
+      source,
+    };
+    slots.push(slot);
+    slotsByName.set(slot.name, slot);
+    addAll(slot.item);
+  });
+
+  const block = (component: string, kind: Origin['kind'], declared: BlockJson | undefined, slotName: string | undefined,
+                 overrides: readonly OverrideJson[] | undefined,
+                 values: { readonly [name: string]: Value } | undefined): Item[] => {
+    if (!declared) return [];
+    const slot = slotName === undefined ? undefined : slotsByName.get(slotName);
+    const prefix = kind === 'runtime' ? component : `${component}.${kind}`;
+    const made: Item[] = [];
+    for (const field of types.get(declared.type)?.fields ?? []) {
+      const parameter = declared.parameters.find((one) => one.name === field.name);
+      const change = overrides?.find((one) => one.parameter === field.name || one.parameter === `${kind}.${field.name}`);
+      const initial = values?.[field.name]; // the application's own default goes before the type's
+      const merged = parameter && initial !== undefined ? { ...parameter, default: initial } : parameter;
+      const item = makeItem(types, `${prefix}.${field.name}`, field, field.name,
+        { kind, component, ...(slot && { source: { slot, fields: [field], steps: [] } }) },
+        { parameter: merged, change });
+      made.push(item);
+      addAll(item);
+      if (item.menu && !item.hidden) menus.set(item.menu, [...(menus.get(item.menu) ?? []), item]);
+    }
+    return made;
+  };
+
+  for (const unit of json.units) {
+    const type = json.unit_types.find((one) => one.name === unit.type);
+    components.set(unit.name, {
+      kind: 'unit', name: unit.name, typeName: unit.type, summary: type?.summary ?? '', thread: unit.thread ?? '',
+      population: unit.population ?? '', unit,
+      configuration: block(unit.name, 'configuration', type?.configuration, undefined, unit.overrides, unit.configuration),
+      runtime: block(unit.name, 'runtime', type?.runtime, unit.values_slot, unit.overrides, unit.runtime),
+      feedback: block(unit.name, 'feedback', type?.feedback, unit.feedback_slot, unit.overrides, undefined),
+    });
+  }
+  for (const device of json.devices) {
+    const face = json.interfaces.find((one) => one.name === device.interface);
+    // Which driver was chosen is known to the server alone: the first that has configuration names the items.
+    const choice = device.drivers[0];
+    const driver = json.drivers.find((one) => one.name === choice?.type);
+    components.set(device.name, {
+      kind: 'device', name: device.name, typeName: device.interface, summary: face?.summary ?? '',
+      thread: device.thread ?? '', population: '', device,
+      configuration: block(device.name, 'configuration', driver?.configuration, undefined, device.overrides, choice?.configuration),
+      runtime: block(device.name, 'runtime', face?.runtime, device.values_slot, device.overrides, device.runtime),
+      feedback: block(device.name, 'feedback', face?.feedback, device.feedback_slot, device.overrides, undefined),
+    });
+  }
+
+  const placements = (json.widgets ?? []).map((row): Placement => ({
+    name: row.name, kind: row.kind, label: row.label ?? labelOf(row.name), place: row.place ?? 'overview',
+    slots: row.slots ?? {}, parameters: row.parameters ?? {}, options: row.options ?? {},
+    ...(row.device !== undefined && { device: row.device }),
+  }));
+
+  const find = (key: string): Item | undefined => {
+    const known = items.get(key);
+    if (known) return known;
+    const element = /^(.+)\[(\d+)\]$/.exec(key);
+    if (element) {
+      const parent = find(element[1] ?? '');
+      return parent && makeElement(types, parent, Number(element[2]));
+    }
+    const dot = key.lastIndexOf('.');
+    const members = dot > 0 && key.includes('[') ? find(key.slice(0, dot))?.members : undefined;
+    return members?.find((member) => member.key === key) as Item | undefined;
+  };
+
+  return {
+    json, hash: json.hash, application: json.application, types, components, slots, slotsByName,
+    queues: json.queues, threads: json.threads, menus, placements,
+    item: find,
+    placed: (place) => ({
+      items: [...items.values()].filter((item) => item.place === place && !item.hidden),
+      placements: placements.filter((placement) => placement.place === place),
+    }),
+  };
+}

@@ -1,0 +1,207 @@
+// descriptor.json as config-gen writes it (config-gen/emit/descriptor_emit.cpp).
+import type { Role, Value } from '../contract';
+
+export interface FieldJson {
+  readonly name: string;
+  /** A scalar of the tables ("f64", "boolean", "text"), or "enumeration", "structure", "button", "hold". */
+  readonly scalar: string;
+  readonly type?: string;
+  readonly shape?: readonly number[];
+  /** Of a text, bytes. */
+  readonly capacity?: number;
+  readonly offset: number;
+  /** Of the whole field: all elements of an array. */
+  readonly size: number;
+  readonly unit?: string;
+  readonly summary: string;
+}
+
+export interface TypeJson {
+  readonly name: string;
+  readonly summary: string;
+  readonly hash: string;
+  readonly size?: number;
+  readonly image?: boolean;
+  readonly fields?: readonly FieldJson[];
+  /** Of an enumeration. */
+  readonly values?: readonly { readonly name: string; readonly summary: string }[];
+}
+
+export interface ParameterJson {
+  readonly name: string;
+  readonly role?: Role;
+  readonly default?: Value;
+  readonly range?: readonly [number, number];
+  readonly persist?: boolean;
+  readonly widget?: string;
+  readonly label?: string;
+  readonly menu?: string;
+}
+
+export interface BlockJson {
+  readonly type: string;
+  readonly parameters: readonly ParameterJson[];
+}
+
+export interface PortJson {
+  readonly name: string;
+  readonly type?: string;
+  readonly queue?: string;
+  readonly interface?: string;
+  readonly range?: boolean;
+  readonly optional?: boolean;
+  readonly max_age_ns?: number;
+  readonly summary: string;
+}
+
+interface Blocks {
+  readonly configuration?: BlockJson;
+  readonly runtime?: BlockJson;
+  readonly feedback?: BlockJson;
+}
+
+export interface UnitTypeJson extends Blocks {
+  readonly name: string;
+  readonly class: string;
+  readonly summary: string;
+  readonly inputs?: readonly PortJson[];
+  readonly outputs?: readonly PortJson[];
+  readonly devices?: readonly PortJson[];
+}
+
+export interface InterfaceJson extends Blocks {
+  readonly name: string;
+  readonly summary: string;
+  readonly bus?: boolean;
+  readonly outputs?: readonly PortJson[];
+}
+
+export interface DriverJson extends Blocks {
+  readonly name: string;
+  readonly driver: string;
+  readonly interface: string;
+  readonly kind: 'mock' | 'simulated' | 'real';
+  readonly actuates: boolean;
+  readonly virtual_time: boolean;
+  readonly summary: string;
+}
+
+/** parameter.P = { ... } of the application's table. */
+export interface OverrideJson {
+  readonly parameter: string;
+  readonly label?: string;
+  readonly hidden?: boolean;
+  readonly range?: readonly [number | null, number | null];
+  readonly widget?: string;
+  readonly menu?: string;
+  readonly place?: string;
+}
+
+type Connected = string | null | readonly string[];
+
+export interface UnitJson {
+  readonly name: string;
+  readonly type: string;
+  readonly thread?: string;
+  readonly population?: string;
+  readonly member?: number;
+  readonly active?: boolean;
+  readonly inputs?: { readonly [port: string]: Connected };
+  readonly outputs?: { readonly [port: string]: Connected };
+  readonly devices?: { readonly [port: string]: string };
+  readonly values_slot?: string;
+  readonly feedback_slot?: string;
+  readonly configuration?: { readonly [name: string]: Value };
+  readonly runtime?: { readonly [name: string]: Value };
+  readonly overrides?: readonly OverrideJson[];
+  readonly budget_ns?: number;
+  readonly restart: string;
+}
+
+export interface DeviceJson {
+  readonly name: string;
+  readonly interface: string;
+  readonly drivers: readonly {
+    readonly driver: string;
+    readonly type: string;
+    readonly configuration?: { readonly [name: string]: Value };
+  }[];
+  readonly on?: string;
+  readonly unit?: string;
+  readonly thread?: string;
+  readonly outputs?: { readonly [port: string]: Connected };
+  readonly values_slot?: string;
+  readonly feedback_slot?: string;
+  readonly runtime?: { readonly [name: string]: Value };
+  readonly overrides?: readonly OverrideJson[];
+}
+
+export interface SlotJson {
+  readonly name: string;
+  readonly type: string;
+  readonly writer: string;
+  readonly readers: readonly string[];
+  readonly buffers: number;
+  readonly observe: boolean;
+  readonly wall: boolean;
+  readonly history: number;
+  readonly summary: string;
+}
+
+export interface QueueJson {
+  readonly name: string;
+  readonly type: string;
+  readonly capacity: number;
+  readonly policy: string;
+  readonly share: string;
+  readonly score?: string;
+  readonly wall: boolean;
+  readonly writers: readonly string[];
+  readonly readers: readonly string[];
+  readonly summary: string;
+}
+
+export interface ThreadJson {
+  readonly name: string;
+  readonly trigger: { readonly kind: string; readonly period_ns?: number; readonly [key: string]: unknown };
+  readonly priority: number;
+  readonly role: string;
+  readonly units: readonly string[];
+  readonly devices: readonly string[];
+  readonly budget_ns: number;
+  readonly response_time_ns?: number;
+  readonly stack: number;
+  readonly summary: string;
+}
+
+/** A row [widget.NAME]. */
+export interface WidgetJson {
+  readonly name: string;
+  readonly kind: string;
+  readonly label?: string;
+  readonly place?: string;
+  readonly slots?: { readonly [role: string]: string };
+  readonly parameters?: { readonly [role: string]: string };
+  readonly device?: string;
+  readonly options?: { readonly [name: string]: Value };
+}
+
+export interface DescriptorJson {
+  readonly hash: string;
+  readonly format: number;
+  readonly application: string;
+  readonly summary: string;
+  readonly autostart: boolean;
+  readonly unit_types: readonly UnitTypeJson[];
+  readonly interfaces: readonly InterfaceJson[];
+  readonly drivers: readonly DriverJson[];
+  readonly types: readonly TypeJson[];
+  readonly devices: readonly DeviceJson[];
+  readonly units: readonly UnitJson[];
+  readonly populations: readonly { readonly name: string; readonly capacity: number; readonly active: number }[];
+  readonly groups: readonly { readonly name: string; readonly table: string }[];
+  readonly slots: readonly SlotJson[];
+  readonly queues: readonly QueueJson[];
+  readonly threads: readonly ThreadJson[];
+  readonly widgets?: readonly WidgetJson[];
+}

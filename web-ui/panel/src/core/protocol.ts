@@ -1,0 +1,89 @@
+// What the server says in JSON, as docs/panel-protocol.md has it.
+import type { Role, Value } from '../contract';
+
+/** RFC 9457. */
+export interface Problem {
+  readonly type?: string;
+  readonly title: string;
+  readonly status?: number;
+  readonly detail?: string;
+  readonly parameter?: string;
+  readonly reason?: string;
+  readonly moving?: readonly string[];
+}
+
+/** Answer to an operation: what it brings along is beside `ok`. */
+export type Answer<Fields = object> =
+  | ({ readonly id: number; readonly ok: true } & Fields)
+  | { readonly id: number; readonly ok: false; readonly problem: Problem };
+
+export interface SessionInfo {
+  readonly name: string;
+  readonly role: Role;
+  readonly local: boolean;
+  readonly user: string;
+}
+
+export interface Hello {
+  readonly event: 'hello';
+  readonly protocol: number;
+  readonly application: string;
+  /** Differs after each start of the application. */
+  readonly boot: string | number;
+  /** Hash of descriptor.json, 16 hexadecimal digits. */
+  readonly descriptor: string;
+  readonly session: SessionInfo;
+  readonly server_time_ns: number;
+}
+
+export type Mode = 'starting' | 'running' | 'finishing' | 'stopping' | 'safe' | 'ended';
+
+export interface Fault {
+  readonly component: string;
+  readonly cause: string;
+  /** What to do about it, where the component says so. */
+  readonly remedy?: string;
+}
+
+export interface ControlSession {
+  readonly name: string;
+  readonly user: string;
+  readonly address: string;
+  readonly local: boolean;
+  readonly you: boolean;
+}
+
+export interface ApplicationState {
+  readonly mode: Mode;
+  readonly cause: string;
+  readonly motion: { readonly stopped: boolean; readonly may_move: boolean };
+  readonly faults: readonly Fault[];
+  readonly control: {
+    readonly holder: ControlSession | null;
+    readonly wanted_by: ControlSession | null;
+    readonly answer_within_ms?: number;
+  };
+  readonly edit: { readonly holder: string; readonly components: readonly string[] } | null;
+  readonly server: {
+    readonly connections: number;
+    readonly places: number;
+    readonly loop_delay_us: { readonly p99: number; readonly max: number };
+  };
+}
+
+export interface LogLine {
+  readonly number: number;
+  readonly text: string;
+}
+
+export type TopicName = 'components' | 'slots' | 'queues' | 'threads' | 'log';
+
+export type ServerEvent =
+  | Hello
+  | ({ readonly event: 'state' } & ApplicationState)
+  | { readonly event: 'topic'; readonly name: string; readonly body: unknown }
+  | { readonly event: 'log'; readonly lines: readonly LogLine[] }
+  | { readonly event: 'ended'; readonly text: string };
+
+/** Values by parameter path, as requests and answers carry them. */
+export type Values = { readonly [path: string]: Value };

@@ -1,0 +1,86 @@
+// Which element shows what: the widgets that come with the panel, and those that an application brings along.
+//
+// A custom widget is one file, `widgets/KIND.js`, in the application's folder: plain JavaScript (a module) that the browser
+// loads as /application/widgets/KIND.js when a row [widget.NAME] has this kind. It needs no build and no library:
+//
+//     export default class extends HTMLElement {
+//       connectedCallback() { this.host.watch(this.placement.slots.pose, (reading) => ...); }
+//     }
+//
+// The module's default export is the element's class, and its kind is the file's name. A module that brings several kinds
+// exports `register(register)` instead and calls register('KIND', class) for each. A class is defined as the custom element
+// <flexrf-widget-KIND>; it never calls customElements.define itself. `host`, `item` or `placement` are set before it is
+// connected. What it may use is in contract.ts.
+import type { ItemInfo, RegisterWidget, WidgetElement } from '../contract';
+
+type WidgetClass = new () => WidgetElement;
+
+/** What src/widgets/index.ts exports: all built-in widgets in one chunk of their own. */
+export interface BuiltInWidgets {
+  registerBuiltIn(register: RegisterWidget): void;
+  /** The kind of widget that shows an item best; `item.widget` has been tried before. */
+  kindOf(item: ItemInfo): string;
+}
+
+interface CustomModule {
+  readonly default?: WidgetClass;
+  readonly register?: (register: RegisterWidget) => void;
+}
+
+export const kindPattern = /^[a-z][a-z0-9_-]*$/;
+
+export class Registry {
+  #kinds = new Map<string, string>();
+  #builtIn: Promise<BuiltInWidgets> | undefined;
+  #loading = new Map<string, Promise<void>>();
+
+  constructor(
+    private readonly loadBuiltIn: () => Promise<BuiltInWidgets>,
+    private readonly loadCustom: (address: string) => Promise<CustomModule> = (address) => import(/* @vite-ignore */ address),
+  ) {}
+
+  readonly register: RegisterWidget = (kind, element) => {
+    if (!kindPattern.test(kind)) throw new Error(`"${kind}" is no name of a widget: use a-z, 0-9, _ and -`);
+    if (this.#kinds.has(kind)) throw new Error(`a widget "${kind}" is registered already`);
+    const tag = `flexrf-widget-${kind.replaceAll('_', '-')}`;
+    if (!customElements.get(tag)) customElements.define(tag, element);
+    this.#kinds.set(kind, tag);
+  };
+
+  /** A new element of the kind; loads the application's own if there is no built-in one. Rejects with the cause. */
+  async create(kind: string): Promise<WidgetElement> {
+    await this.#builtIns();
+    if (!this.#kinds.has(kind)) await this.#load(kind);
+    const tag = this.#kinds.get(kind);
+    if (!tag) throw new Error(`/application/widgets/${kind}.js registers no widget "${kind}"`);
+    return document.createElement(tag) as WidgetElement;
+  }
+
+  /** The widget that the tables name, or else the one that suits the item. */
+  async kindFor(item: ItemInfo): Promise<string> {
+    const builtIn = await this.#builtIns();
+    return item.widget ?? builtIn.kindOf(item);
+  }
+
+  #builtIns(): Promise<BuiltInWidgets> {
+    this.#builtIn ??= this.loadBuiltIn().then((module) => {
+      module.registerBuiltIn(this.register);
+      return module;
+    });
+    return this.#builtIn;
+  }
+
+  #load(kind: string): Promise<void> {
+    if (!kindPattern.test(kind)) return Promise.reject(new Error(`"${kind}" is no name of a widget`));
+    let loading = this.#loading.get(kind);
+    if (!loading) {
+      loading = this.loadCustom(`/application/widgets/${kind}.js`).then((module) => {
+        if (module.register) module.register(this.register);
+        else if (module.default) this.register(kind, module.default);
+      });
+      this.#loading.set(kind, loading);
+      loading.catch(() => this.#loading.delete(kind)); // another try, once the file is there
+    }
+    return loading;
+  }
+}

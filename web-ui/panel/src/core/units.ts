@@ -1,0 +1,78 @@
+// SI inside, the person's units on display. Values are converted where they are shown and where they are typed in,
+// and nowhere else.
+
+export interface DisplayUnit {
+  /** As shown beside a number: "mm", "°", "" for dimensionless. */
+  readonly text: string;
+  /** Displayed = SI * factor. */
+  readonly factor: number;
+}
+
+const plain: { readonly [unit: string]: string } = {
+  '1': '', 'm^2': 'm²', 'm^3': 'm³', 'm/s^2': 'm/s²', 'm/s^3': 'm/s³', 'rad/s^2': 'rad/s²', 'rad/s^3': 'rad/s³',
+  'N*m': 'N·m', 'kg*m^2': 'kg·m²', us: 'µs', degC: '°C', ohm: 'Ω',
+};
+
+const degrees = 180 / Math.PI;
+const workshop: { readonly [unit: string]: DisplayUnit } = {
+  m: { text: 'mm', factor: 1000 },
+  'm/s': { text: 'mm/s', factor: 1000 },
+  'm/s^2': { text: 'mm/s²', factor: 1000 },
+  'm/s^3': { text: 'mm/s³', factor: 1000 },
+  rad: { text: '°', factor: degrees },
+  'rad/s': { text: '°/s', factor: degrees },
+  'rad/s^2': { text: '°/s²', factor: degrees },
+  'rad/s^3': { text: '°/s³', factor: degrees },
+  Pa: { text: 'kPa', factor: 1e-3 },
+};
+
+const place = 'flexrf.units';
+
+export class DisplayUnits {
+  #si: boolean;
+  #watchers = new Set<() => void>();
+
+  /** `storage` keeps the choice on this computer; undefined where there is none. */
+  constructor(private readonly storage?: Storage) {
+    this.#si = storage?.getItem(place) === 'si';
+  }
+
+  /** Whether everything is shown in SI. */
+  get si(): boolean { return this.#si; }
+  set si(value: boolean) {
+    if (value === this.#si) return;
+    this.#si = value;
+    this.storage?.setItem(place, value ? 'si' : 'workshop');
+    this.#watchers.forEach((watcher) => watcher());
+  }
+
+  /** Calls back when another choice was made. Ends with the returned function. */
+  watch(callback: () => void): () => void {
+    this.#watchers.add(callback);
+    return () => this.#watchers.delete(callback);
+  }
+
+  of(unit: string): DisplayUnit {
+    return (this.#si ? undefined : workshop[unit]) ?? { text: plain[unit] ?? unit, factor: 1 };
+  }
+  toDisplay(value: number, unit: string): number { return value * this.of(unit).factor; }
+  fromDisplay(value: number, unit: string): number { return value / this.of(unit).factor; }
+}
+
+/** The units of this page. */
+export const displayUnits = new DisplayUnits(typeof localStorage === 'undefined' ? undefined : localStorage);
+
+/**
+ * A number for people: `digits` significant ones, no exponent between 1e-4 and 1e9, integers whole.
+ * With the same number of decimals for all values of one range, so that a live number does not jump about.
+ */
+export function formatNumber(value: number, options: { digits?: number; range?: readonly [number, number]; integer?: boolean } = {}): string {
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? 'not a number' : value > 0 ? '∞' : '−∞';
+  if (options.integer) return String(Math.round(value)).replace('-', '−');
+  const digits = options.digits ?? 4;
+  const largest = options.range ? Math.max(Math.abs(options.range[0]), Math.abs(options.range[1])) : Math.abs(value);
+  if (largest !== 0 && (largest >= 1e9 || largest < 1e-4)) return value.toExponential(digits - 1).replaceAll('-', '−');
+  const decimals = largest === 0 ? 0 : Math.max(0, digits - 1 - Math.floor(Math.log10(largest)));
+  const text = value.toFixed(Math.min(decimals, 9));
+  return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', '−');
+}

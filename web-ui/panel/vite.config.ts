@@ -1,0 +1,28 @@
+// How the page is built: static files with hashed names, nothing inline, so that a strict content policy holds.
+import { defineConfig } from 'vitest/config';
+
+// `npm run dev` serves the sources and passes everything else on to a running application.
+const application = process.env['FLEXRF_PANEL'] ?? 'http://127.0.0.1:8080';
+
+export default defineConfig({
+  base: '/',
+  build: {
+    target: 'es2022',
+    assetsDir: 'assets',
+    assetsInlineLimit: 0, // data: addresses would need a wider content policy
+    cssCodeSplit: true,
+    modulePreload: { polyfill: false },
+    sourcemap: false,
+    reportCompressedSize: true,
+  },
+  server: {
+    proxy: {
+      '/api': { target: application, ws: true, changeOrigin: true, headers: { origin: application } },
+      '/application': { target: application, changeOrigin: true },
+    },
+  },
+  test: {
+    environment: 'jsdom',
+    include: ['src/**/*.test.ts'],
+  },
+});
