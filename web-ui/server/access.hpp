@@ -30,7 +30,13 @@ class AccessControl {
   virtual SessionIndex holder() const = 0;     ///< no_session: nobody
   virtual SessionIndex wanted_by() const = 0;  ///< who asked for it and waits
   virtual Duration answer_within(Time now) const = 0;
-  enum class Taking : std::uint8_t { taken, asked, refused_role, refused_local };
+  enum class Taking : std::uint8_t {
+    taken,
+    asked,          ///< the holder has 10 s to refuse
+    refused_role,   ///< it takes an operator
+    refused_local,  ///< its holder is local, and who asks is not
+    refused_asked,  ///< somebody else has asked and waits
+  };
   virtual Taking take(SessionIndex session, Time now) = 0;
   virtual void release(SessionIndex session) = 0;
   virtual bool answer(SessionIndex session, bool grant,
@@ -49,6 +55,16 @@ class ControlWatcher {
 
  protected:
   ~ControlWatcher() = default;
+};
+
+/// Told when a session has ended, by log-out, time or a new login. What is connected under its index must be
+/// closed now: the index may be another session's soon.
+class SessionWatcher {
+ public:
+  virtual void on_session_ended(SessionIndex session) = 0;
+
+ protected:
+  ~SessionWatcher() = default;
 };
 
 }  // namespace flexrf::panel
