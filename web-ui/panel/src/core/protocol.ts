@@ -63,7 +63,7 @@ export interface ApplicationState {
     readonly wanted_by: ControlSession | null;
     readonly answer_within_ms?: number;
   };
-  readonly edit: { readonly holder: string; readonly components: readonly string[] } | null;
+  readonly edit: { readonly holder: ControlSession; readonly components: readonly string[]; readonly left_ms: number } | null;
   readonly server: {
     readonly connections: number;
     readonly places: number;
