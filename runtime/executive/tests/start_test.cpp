@@ -1,0 +1,63 @@
+// A start that fails although everything looked right before: nothing runs, and the report says why.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "runtime/executive/report.hpp"
+#include "runtime/executive/tests/running_cell.hpp"
+
+namespace flexrf::fixture {
+namespace {
+
+using Cell = ProducerAndConsumer;
+
+struct Ending {
+  int exit_code = -1;
+  std::string report;
+};
+
+/// In a process of its own, which gives its rights away between prepare() and run().
+Ending run_without_rights(Cell& cell) {
+  int ends[2];
+  CHECK(pipe(ends) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    Options options = on_the_wall_clock();
+    options.realtime = true;
+    Executive executive(cell.application(), options);
+    if (!executive.prepare() || setgid(65534) != 0 || setuid(65534) != 0) _exit(100);
+    const RunSummary summary = executive.run();
+    const std::string report = report_text(executive.cell(), summary);
+    const bool written = write(ends[1], report.data(), report.size()) == static_cast<ssize_t>(report.size());
+    _exit(written ? summary.exit_code : 101);
+  }
+  close(ends[1]);
+  Ending ending;
+  char part[4096];
+  for (ssize_t size = 0; (size = read(ends[0], part, sizeof(part))) > 0;) {
+    ending.report.append(part, static_cast<std::size_t>(size));
+  }
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFEXITED(status)) ending.exit_code = WEXITSTATUS(status);
+  return ending;
+}
+
+void a_right_lost_before_the_start_is_named() {
+  if (geteuid() != 0) skip();  // nobody else has rights to lose
+  Cell cell;
+  cell.thread(Cell::producing).priority = 20;
+  const Ending ending = run_without_rights(cell);
+  CHECK_EQUAL(ending.exit_code, 3);
+  CHECK_CONTAINS(ending.report, "not started: ");
+  CHECK_CONTAINS(ending.report, "not held");  // CAP_IPC_LOCK or, where no memory is locked, CAP_SYS_NICE
+}
+
+}  // namespace
+}  // namespace flexrf::fixture
+
+int main() {
+  using namespace flexrf::fixture;
+  const CMUnitTest tests[] = {CONTAINED_TEST(a_right_lost_before_the_start_is_named)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
