@@ -16,22 +16,14 @@ struct ServerFigures {
   std::uint64_t slow_calls = 0;  ///< calls of handlers that took longer than 5 ms
 };
 
-/// The server's thread only.
-class ServerWatch {
- public:
-  virtual ServerFigures figures() const = 0;
-
- protected:
-  ~ServerWatch() = default;
-};
-
 /// Whatever is to be done from time to time: what is due is sent, what ran out is ended, work of other
-/// threads is fetched.
+/// threads is fetched. The server's thread; both return within 5 ms.
 class Ticked {
  public:
-  static constexpr Duration interval = std::chrono::milliseconds{10};
-  /// The server's thread, each `interval`; must return within 5 ms.
+  /// When until_next() has passed, soon after each handled request or message, and at least each 100 ms.
   virtual void on_tick(Time now) = 0;
+  /// Until there is something to do; zero: at once, but others first.
+  virtual Duration until_next(Time now) const = 0;
 
  protected:
   ~Ticked() = default;

@@ -1,4 +1,4 @@
-#include "web-ui/server/problem.hpp"
+#include "web-ui/server/http_problem.hpp"
 
 #include <array>
 #include <charconv>
@@ -51,14 +51,6 @@ constexpr std::array titles{
     Title{505, "HTTP Version Not Supported"},
 };
 
-void append_member(std::string& json, std::string_view name, std::string_view value) {
-  if (value.empty()) return;
-  json += ',';
-  append_json_text(json, name);
-  json += ':';
-  append_json_text(json, value);
-}
-
 }  // namespace
 
 std::string_view title_of(unsigned status) noexcept {
@@ -68,44 +60,21 @@ std::string_view title_of(unsigned status) noexcept {
   return "Unknown";
 }
 
-void append_problem(std::string& json, const Problem& problem) {
-  json += R"({"type":")";
-  if (problem.name.empty()) {
-    json += "about:blank";
-  } else {
-    json += "/problems/";
-    json += problem.name;
-  }
-  json += R"(","title":)";
-  append_json_text(json, title_of(problem.status));
-  json += R"(,"status":)";
-  char digits[12];
-  json.append(digits, std::to_chars(digits, digits + sizeof(digits), problem.status).ptr);
-  append_member(json, "detail", problem.detail);
-  append_member(json, "parameter", problem.parameter);
-  append_member(json, "reason", problem.reason);
-  if (!problem.moving.empty()) {
-    json += R"(,"moving":[)";
-    bool first = true;
-    for (const std::string_view name : problem.moving) {
-      if (!first) json += ',';
-      first = false;
-      append_json_text(json, name);
-    }
-    json += ']';
-  }
-  json += '}';
-}
-
-void answer_problem(Reply& reply, const Problem& problem) {
-  reply.status = problem.status;
+void answer_problem(Reply& reply, unsigned status, std::string_view detail) {
+  reply.status = status;
   reply.content_type = "application/problem+json";
   reply.content_encoding = {};
   reply.cache_control = "no-store";
   reply.etag.clear();
   reply.fixed = {};
-  reply.text.clear();
-  append_problem(reply.text, problem);
+  reply.text = R"({"type":"about:blank","title":)";
+  append_json_text(reply.text, title_of(status));
+  reply.text += R"(,"status":)";
+  char digits[12];
+  reply.text.append(digits, std::to_chars(digits, digits + sizeof(digits), status).ptr);
+  reply.text += R"(,"detail":)";
+  append_json_text(reply.text, detail);
+  reply.text += '}';
 }
 
 }  // namespace flexrf::panel
