@@ -73,12 +73,12 @@ Result<std::string> read_file(const std::string& path) {
   }
 }
 
-Status replace_file(const std::string& path, std::string_view contents) {
+Status replace_file(const std::string& path, std::string_view contents, mode_t fresh_mode) {
   std::error_code ignored;
   const std::filesystem::path resolved = std::filesystem::canonical(path, ignored);
   const std::string target = ignored ? path : resolved.string();
   struct stat former {};
-  const mode_t mode = ::stat(target.c_str(), &former) == 0 ? former.st_mode & mode_t{0777} : mode_t{0644};
+  const mode_t mode = ::stat(target.c_str(), &former) == 0 ? former.st_mode & mode_t{0777} : fresh_mode;
   const std::string fresh = target + ".new";
   if (const Status status = write_all(fresh, contents, mode); !status) {
     ::unlink(fresh.c_str());
