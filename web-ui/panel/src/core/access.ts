@@ -1,0 +1,54 @@
+// Who may do what now, and why not. The server decides; the page only says it beforehand.
+import type { ItemInfo, Role } from '../contract';
+import type { LinkStatus } from './core';
+import type { ApplicationState, SessionInfo } from './protocol';
+
+const order: readonly Role[] = ['viewer', 'operator', 'engineer', 'admin'];
+
+export function includes(role: Role, least: Role): boolean {
+  return order.indexOf(role) >= order.indexOf(least);
+}
+
+export interface Situation {
+  readonly link: Pick<LinkStatus, 'phase' | 'stale'>;
+  readonly session: SessionInfo | undefined;
+  readonly state: ApplicationState | undefined;
+}
+
+/** Whether this page's session holds the control token. */
+export function hasControl(situation: Situation): boolean {
+  return situation.state?.control.holder?.you === true;
+}
+
+export function deniedLink(situation: Situation): string {
+  if (situation.link.phase !== 'open') return 'link lost';
+  return situation.link.stale ? 'values are old' : '';
+}
+
+/** Why the session may not do what needs this role and the control token; empty when it may. */
+export function deniedAction(situation: Situation, role: Role): string {
+  const link = deniedLink(situation);
+  if (link) return link;
+  if (!situation.session || !includes(situation.session.role, role)) return `needs ${role}`;
+  if (hasControl(situation)) return '';
+  const holder = situation.state?.control.holder;
+  return holder ? `${holder.user || holder.name} has control` : 'take control first';
+}
+
+/** Why a session may not take the control token; empty when it may ask for it. */
+export function deniedControl(situation: Situation): string {
+  const link = deniedLink(situation);
+  if (link) return link;
+  if (!situation.session || !includes(situation.session.role, 'operator')) return 'needs operator';
+  const { holder, wanted_by: wanted } = situation.state?.control ?? { holder: null, wanted_by: null };
+  if (holder?.local && !situation.session.local) return 'held at the machine';
+  return wanted && !wanted.you ? `${wanted.user || wanted.name} asks for it already` : '';
+}
+
+/** Why the item cannot be changed now; empty when it can. */
+export function locked(situation: Situation, item: ItemInfo | undefined): string {
+  if (!item) return 'unknown';
+  if (item.role === undefined) return 'read only';
+  if (item.kind === 'configuration') return 'changed by Edit';
+  return deniedAction(situation, item.role);
+}

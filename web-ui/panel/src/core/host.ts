@@ -1,0 +1,129 @@
+// What every widget is given: the core behind the contract of widgets.
+import type { Hold, Outcome, Reading, Value, WidgetHost } from '../contract';
+import type { ConfigurationValues } from './configuration';
+import type { Item } from './descriptor';
+import type { Holds } from './holds';
+import type { Answer, Problem } from './protocol';
+import type { Store } from './store';
+import type { Subscriptions } from './subscriptions';
+
+export interface HostParts {
+  readonly item: (key: string) => Item | undefined;
+  readonly store: Store;
+  readonly subscriptions: Subscriptions;
+  readonly configuration: ConfigurationValues;
+  readonly holds: Holds;
+  readonly request: <Fields>(op: string, fields: object) => Promise<Answer<Fields>>;
+  readonly locked: (item: Item | undefined) => string;
+  readonly stale: () => boolean;
+  readonly watchAccess: (callback: () => void) => () => void;
+}
+
+interface Applied {
+  readonly sequence: number;
+  readonly values: { [path: string]: Value };
+}
+
+/** One parameter that is being set: a newer value waits for the answer to the one before, those between are left out. */
+interface Setting {
+  next: { readonly value: Value; readonly done: ((outcome: Outcome) => void)[] } | undefined;
+}
+
+const unknownKey: Outcome = { ok: false, detail: 'There is no such parameter.' };
+
+export class Host implements WidgetHost {
+  #settings = new Map<string, Setting>();
+
+  constructor(private readonly parts: HostParts) {}
+
+  get stale(): boolean { return this.parts.stale(); }
+
+  item(key: string): Item | undefined {
+    return this.parts.item(key);
+  }
+
+  locked(key: string): string {
+    return this.parts.locked(this.item(key));
+  }
+
+  watchAccess(callback: () => void): () => void {
+    return this.parts.watchAccess(callback);
+  }
+
+  watch(key: string, callback: (reading: Reading) => void, options: { rate?: number; width?: number } = {}): () => void {
+    const item = this.item(key);
+    if (!item) {
+      callback({ value: null, reason: `nothing is called ${key}`, sampledAt: 0, sequence: 0, age: 0 });
+      return () => undefined;
+    }
+    if (!item.source) return this.parts.configuration.watch(item, callback);
+    const rate = options.rate ?? 30;
+    const unwatch = this.parts.store.watch(item, callback, rate);
+    const unsubscribe = this.parts.subscriptions.addSlot(item.source.slot.name, rate, options.width);
+    return () => {
+      unwatch();
+      unsubscribe();
+    };
+  }
+
+  set(key: string, value: Value): Promise<Outcome> {
+    const item = this.item(key);
+    if (item?.component === undefined || item.path === undefined) return Promise.resolve(unknownKey);
+    const { component, path } = item;
+    return new Promise((resolve) => {
+      const running = this.#settings.get(key);
+      if (running) {
+        running.next = { value, done: [...(running.next?.done ?? []), resolve] };
+        return;
+      }
+      const setting: Setting = { next: undefined };
+      this.#settings.set(key, setting);
+      void this.#send(key, setting, component, path, value, [resolve]);
+    });
+  }
+
+  async press(key: string, count = 1): Promise<Outcome> {
+    const item = this.item(key);
+    if (item?.component === undefined || item.path === undefined) return unknownKey;
+    return outcomeOf(await this.parts.request('press', { component: item.component, parameter: item.path, count }));
+  }
+
+  async hold(key: string): Promise<Hold> {
+    const item = this.item(key);
+    if (item?.component === undefined || item.path === undefined) throw new Error('There is no such parameter.');
+    return this.parts.holds.begin(item.component, item.path);
+  }
+
+  async reset(key: string): Promise<Outcome> {
+    const item = this.item(key);
+    if (item?.component === undefined || item.path === undefined) return unknownKey;
+    return outcomeOf(await this.parts.request<Applied>('reset', { component: item.component, parameters: [item.path] }));
+  }
+
+  async file(path: string): Promise<Response> {
+    const parts = path.split('/').filter((part) => part !== '' && part !== '.');
+    if (parts.includes('..') || path.includes(':')) throw new Error(`"${path}" is not in the application's folder`);
+    return fetch(`/application/${parts.map(encodeURIComponent).join('/')}`);
+  }
+
+  async #send(key: string, setting: Setting, component: string, path: string, value: Value,
+              done: readonly ((outcome: Outcome) => void)[]): Promise<void> {
+    const outcome = outcomeOf(await this.parts.request<Applied>('set', { component, values: { [path]: value } }));
+    done.forEach((resolve) => resolve(outcome));
+    const { next } = setting;
+    setting.next = undefined;
+    if (next) await this.#send(key, setting, component, path, next.value, next.done);
+    else this.#settings.delete(key);
+  }
+}
+
+/** A problem in one sentence or two. */
+export function textOf(problem: Problem): string {
+  return problem.detail ?? problem.reason ?? problem.title;
+}
+
+export function outcomeOf(answer: Answer<Partial<Applied>>): Outcome {
+  if (answer.ok) return { ok: true, ...(answer.values && { values: answer.values }) };
+  const { problem } = answer;
+  return { ok: false, detail: textOf(problem), ...(problem.parameter !== undefined && { parameter: problem.parameter }) };
+}

@@ -1,0 +1,250 @@
+// The core put together: connection, model, values, access; what shell, views and widgets stand on.
+import type { ItemInfo, Placement, Role, WidgetElement } from '../contract';
+import { deniedAction, hasControl, locked, type Situation } from './access';
+import { ConfigurationValues } from './configuration';
+import { Connection, type Socket } from './connection';
+import type { Core, LinkStatus } from './core';
+import { makeModel, type Model } from './descriptor';
+import type { DescriptorJson } from './descriptor_json';
+import { Holds } from './holds';
+import { Host } from './host';
+import { getJson } from './http';
+import type { Answer, ApplicationState, Hello, LogLine, ServerEvent, SessionInfo, TopicName, Values } from './protocol';
+import { Registry, type BuiltInWidgets } from './registry';
+import { Store } from './store';
+import { Subscriptions } from './subscriptions';
+import { displayUnits } from './units';
+
+const linesKept = 2000;
+
+export type Severity = 'info' | 'warning' | 'alarm';
+
+export interface PanelCoreOptions {
+  readonly makeSocket?: () => Socket;
+  readonly loadBuiltIn?: () => Promise<BuiltInWidgets>;
+  /** Another descriptor than before, or the first. */
+  readonly onModel: (model: Model) => void;
+  readonly onNotice: (text: string, severity: Severity) => void;
+  /** The application said that it ends. */
+  readonly onEnded?: (text: string) => void;
+}
+
+export class PanelCore implements Core {
+  readonly units = displayUnits;
+  readonly host: Host;
+  readonly connection: Connection;
+  readonly registry: Registry;
+  state: ApplicationState | undefined;
+  session: SessionInfo | undefined;
+  /** When `state` arrived, ms of performance.now(): its countdowns run from there. */
+  stateAt = 0;
+  #model: Model | undefined;
+  #boot: string | number | undefined;
+  #store: Store;
+  #subscriptions: Subscriptions;
+  #configuration: ConfigurationValues;
+  #holds: Holds;
+  #stateWatchers = new Set<() => void>();
+  #accessWatchers = new Set<() => void>();
+  #topics = new Map<string, { body: unknown; watchers: Set<(body: unknown) => void> }>();
+  #log: LogLine[] = [];
+  #logWatchers = new Set<(lines: readonly LogLine[]) => void>();
+  #telling = false;
+  #access = '';
+
+  constructor(private readonly options: PanelCoreOptions) {
+    this.connection = new Connection({
+      makeSocket: options.makeSocket ?? openSocket,
+      onHello: (hello) => void this.#onHello(hello),
+      onEvent: (event) => this.#onEvent(event),
+      onFrame: (frame) => void this.#store.apply(frame),
+      onStatus: () => this.#changed(),
+      explain: explainRefusal,
+    });
+    this.registry = new Registry(options.loadBuiltIn ?? (() => import('../widgets')));
+    this.#store = new Store({ serverNow: () => this.connection.serverNow() });
+    this.#subscriptions = new Subscriptions({
+      request: (op, fields) => this.connection.request(op, fields),
+      onSlotGone: (name) => {
+        const slot = this.#model?.slotsByName.get(name);
+        if (slot) this.#store.forgetSlot(slot.index);
+      },
+      onProblem: (text) => options.onNotice(text, 'warning'),
+    });
+    this.#configuration = new ConfigurationValues(fetchConfiguration);
+    this.#holds = new Holds(this.connection);
+    this.host = new Host({
+      item: (key) => this.#model?.item(key),
+      store: this.#store,
+      subscriptions: this.#subscriptions,
+      configuration: this.#configuration,
+      holds: this.#holds,
+      request: (op, fields) => this.connection.request(op, fields),
+      locked: (item) => locked(this.situation, item),
+      stale: () => this.connection.status.stale,
+      watchAccess: (callback) => added(this.#accessWatchers, callback),
+    });
+  }
+
+  start(): void {
+    this.#holds.guard(window);
+    this.connection.start();
+  }
+
+  get model(): Model {
+    if (!this.#model) throw new Error('no descriptor yet');
+    return this.#model;
+  }
+  get link(): LinkStatus { return this.connection.status; }
+  get situation(): Situation {
+    return { link: this.connection.status, session: this.session, state: this.state };
+  }
+
+  deniedAction(role: Role): string {
+    return deniedAction(this.situation, role);
+  }
+
+  request<Fields = object>(op: string, fields?: object, timeoutMs?: number): Promise<Answer<Fields>> {
+    return this.connection.request<Fields>(op, fields, timeoutMs);
+  }
+
+  notify(text: string, severity: Severity = 'info'): void {
+    this.options.onNotice(text, severity);
+  }
+
+  watchState(callback: () => void): () => void {
+    return added(this.#stateWatchers, callback);
+  }
+
+  watchTopic(name: Exclude<TopicName, 'log'>, callback: (body: unknown) => void, rate = 2): () => void {
+    const topic = this.#topics.get(name) ?? { body: undefined, watchers: new Set() };
+    this.#topics.set(name, topic);
+    topic.watchers.add(callback);
+    if (topic.body !== undefined) callback(topic.body);
+    const unsubscribe = this.#subscriptions.addTopic(name, rate);
+    return () => {
+      topic.watchers.delete(callback);
+      if (topic.watchers.size === 0) topic.body = undefined;
+      unsubscribe();
+    };
+  }
+
+  watchLog(callback: (lines: readonly LogLine[]) => void): () => void {
+    this.#logWatchers.add(callback);
+    if (this.#log.length > 0) callback(this.#log);
+    const unsubscribe = this.#subscriptions.addTopic('log', 10);
+    return () => {
+      this.#logWatchers.delete(callback);
+      unsubscribe();
+    };
+  }
+
+  async createWidget(what: { item: ItemInfo } | { placement: Placement }): Promise<WidgetElement> {
+    try {
+      const kind = 'item' in what ? await this.registry.kindFor(what.item) : what.placement.kind;
+      const element = await this.registry.create(kind);
+      return Object.assign(element, { host: this.host }, what);
+    } catch (error) {
+      const name = 'item' in what ? what.item.label : what.placement.label;
+      const broken = document.createElement('p');
+      broken.className = 'broken';
+      broken.textContent = `${name} cannot be shown: ${error instanceof Error ? error.message : String(error)}`;
+      return Object.assign(broken, { host: this.host }, what);
+    }
+  }
+
+  async #onHello(hello: Hello): Promise<void> {
+    this.session = hello.session;
+    const restarted = this.#boot !== undefined && this.#boot !== hello.boot;
+    this.#boot = hello.boot;
+    this.state = undefined;
+    this.#store.forgetValues();
+    if (restarted) this.#log = [];
+    if (this.#model?.hash !== hello.descriptor) {
+      const json = await getJson<DescriptorJson>('/api/v1/descriptor');
+      if (!json.ok) {
+        this.options.onNotice(`The application's description could not be loaded: ${json.detail}`, 'alarm');
+        return this.connection.restart();
+      }
+      this.#model = makeModel(json.body);
+      this.#store.reset(this.#model);
+      this.options.onModel(this.#model);
+    }
+    if (restarted) this.options.onNotice('The application was started anew.', 'info');
+    this.#subscriptions.resubscribe();
+    this.#configuration.refresh();
+    this.#changed();
+  }
+
+  #onEvent(event: Exclude<ServerEvent, Hello>): void {
+    switch (event.event) {
+      case 'state': {
+        const edited = this.state?.edit != null && event.edit === null;
+        this.state = event;
+        this.stateAt = performance.now();
+        if (edited) this.#configuration.refresh();
+        this.#changed();
+        break;
+      }
+      case 'topic': {
+        const topic = this.#topics.get(event.name);
+        if (!topic) break;
+        topic.body = event.body;
+        topic.watchers.forEach((watcher) => watcher(event.body));
+        break;
+      }
+      case 'log': {
+        const last = this.#log.at(-1)?.number ?? -1;
+        const fresh = event.lines.filter((line) => line.number > last);
+        this.#log = [...this.#log, ...fresh].slice(-linesKept);
+        this.#logWatchers.forEach((watcher) => watcher(fresh));
+        break;
+      }
+      case 'ended':
+        this.options.onEnded?.(event.text);
+        break;
+    }
+  }
+
+  /** Holds end at once; who watches is told in the next animation frame, or soon in a hidden page. */
+  #changed(): void {
+    if (this.#holds.alive > 0 && (this.link.phase !== 'open' || this.link.stale)) this.#holds.endAll('the link is lost');
+    if (this.#holds.alive > 0 && this.state && !hasControl(this.situation)) this.#holds.endAll('control was lost');
+    if (this.#holds.alive > 0 && this.state?.motion.stopped) this.#holds.endAll('motion is stopped');
+    if (this.#telling) return;
+    this.#telling = true;
+    const tell = (): void => {
+      this.#telling = false;
+      this.#stateWatchers.forEach((watcher) => watcher());
+      const access = JSON.stringify([this.link.phase, this.link.stale, this.session?.role, this.state?.control, this.state?.motion]);
+      if (access === this.#access) return;
+      this.#access = access;
+      this.#accessWatchers.forEach((watcher) => watcher());
+    };
+    if (document.visibilityState === 'hidden') setTimeout(tell, 100);
+    else requestAnimationFrame(tell);
+  }
+}
+
+function added<Callback>(set: Set<Callback>, callback: Callback): () => void {
+  set.add(callback);
+  return () => set.delete(callback);
+}
+
+function openSocket(): Socket {
+  const address = new URL('/api/v1/live', location.href);
+  address.protocol = address.protocol.replace('http', 'ws');
+  return new WebSocket(address, 'flexrf.v1');
+}
+
+/** A WebSocket that is refused does not say why; a request does. */
+async function explainRefusal(): Promise<string> {
+  const answer = await getJson('/api/v1/session');
+  if (answer.ok) return '';
+  return answer.status === 401 ? 'login' : answer.detail;
+}
+
+async function fetchConfiguration(component: string): Promise<Values | undefined> {
+  const answer = await getJson<{ configuration: Values }>(`/api/v1/components/${encodeURIComponent(component)}/parameters`);
+  return answer.ok ? answer.body.configuration : undefined;
+}
