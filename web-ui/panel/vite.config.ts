@@ -1,8 +1,9 @@
 // How the page is built: static files with hashed names, nothing inline, so that a strict content policy holds.
+import { loadEnv } from 'vite';
 import { defineConfig } from 'vitest/config';
 
-// `npm run dev` serves the sources and passes everything else on to a running application.
-const application = process.env['FLEXRF_PANEL'] ?? 'http://127.0.0.1:8080';
+// `npm run dev` serves the sources and passes everything else on to a running application, at FLEXRF_PANEL.
+const application = loadEnv('', '.', 'FLEXRF_')['FLEXRF_PANEL'] ?? 'http://127.0.0.1:8080';
 
 export default defineConfig({
   base: '/',

@@ -95,6 +95,8 @@ export class PanelCore implements Core {
     if (!this.#model) throw new Error('no descriptor yet');
     return this.#model;
   }
+  /** The application's name, as soon as it is known. */
+  application = '';
   get link(): LinkStatus { return this.connection.status; }
   get situation(): Situation {
     return { link: this.connection.status, session: this.session, state: this.state };
@@ -155,6 +157,7 @@ export class PanelCore implements Core {
 
   async #onHello(hello: Hello): Promise<void> {
     this.session = hello.session;
+    this.application = hello.application;
     const restarted = this.#boot !== undefined && this.#boot !== hello.boot;
     this.#boot = hello.boot;
     this.state = undefined;

@@ -18,13 +18,18 @@ type WidgetClass = new () => WidgetElement;
 /** What src/widgets/index.ts exports: all built-in widgets in one chunk of their own. */
 export interface BuiltInWidgets {
   registerBuiltIn(register: RegisterWidget): void;
-  /** The kind of widget that shows an item best; `item.widget` has been tried before. */
+  /** `item.widget` where it fits or is none of the built-in ones, or else what suits the item's type. */
   kindOf(item: ItemInfo): string;
 }
 
 interface CustomModule {
   readonly default?: WidgetClass;
   readonly register?: (register: RegisterWidget) => void;
+}
+
+/** Name of the custom element of a kind. */
+export function tagOf(kind: string): string {
+  return `flexrf-widget-${kind.replaceAll('_', '-')}`;
 }
 
 export const kindPattern = /^[a-z][a-z0-9_-]*$/;
@@ -42,7 +47,7 @@ export class Registry {
   readonly register: RegisterWidget = (kind, element) => {
     if (!kindPattern.test(kind)) throw new Error(`"${kind}" is no name of a widget: use a-z, 0-9, _ and -`);
     if (this.#kinds.has(kind)) throw new Error(`a widget "${kind}" is registered already`);
-    const tag = `flexrf-widget-${kind.replaceAll('_', '-')}`;
+    const tag = tagOf(kind);
     if (!customElements.get(tag)) customElements.define(tag, element);
     this.#kinds.set(kind, tag);
   };
@@ -59,7 +64,7 @@ export class Registry {
   /** The widget that the tables name, or else the one that suits the item. */
   async kindFor(item: ItemInfo): Promise<string> {
     const builtIn = await this.#builtIns();
-    return item.widget ?? builtIn.kindOf(item);
+    return builtIn.kindOf(item);
   }
 
   #builtIns(): Promise<BuiltInWidgets> {

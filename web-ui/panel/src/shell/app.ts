@@ -1,0 +1,189 @@
+// The page: header, Stop motion, banner, navigation, the current view, and dialogs above it. Each has a cell of its own in
+// one grid, so that nothing ever lies over Stop motion.
+import { LitElement, css, html, nothing } from 'lit';
+import { customElement, query, state } from 'lit/decorators.js';
+import { PanelCore } from '../core/panel_core';
+import { views } from '../views';
+import './control';
+import './header';
+import './login';
+import './notices';
+import type { Notices } from './notices';
+import './outlet';
+import { Preferences } from './preferences';
+import { addressOfRoute, parseRoute, type Route } from './router';
+import './settings';
+import './stop_motion';
+import { shellStyles } from './styles';
+
+@customElement('flexrf-panel')
+export class Panel extends LitElement {
+  static override styles = [
+    shellStyles,
+    css`
+      :host {
+        display: grid;
+        height: 100dvh;
+        grid-template: 'header stop' auto 'banner banner' auto 'nav nav' auto 'main main' minmax(0, 1fr) / minmax(0, 1fr) auto;
+        background: var(--flexrf-page);
+      }
+      flexrf-header {
+        grid-area: header;
+      }
+      flexrf-stop-motion {
+        grid-area: stop;
+        background: var(--flexrf-surface);
+      }
+      .banner {
+        grid-area: banner;
+      }
+      .banner p {
+        margin: 0;
+        padding: 8px 12px;
+        color: var(--flexrf-stop-text);
+        background: var(--flexrf-stop);
+        font-weight: 600;
+      }
+      nav {
+        grid-area: nav;
+        display: flex;
+        overflow-x: auto;
+        border-block: 1px solid var(--flexrf-border);
+        background: var(--flexrf-surface);
+      }
+      nav a {
+        flex: none;
+        display: flex;
+        align-items: center;
+        min-height: max(var(--target), 40px);
+        padding: 0 14px;
+        color: var(--flexrf-text);
+        text-decoration: none;
+        border-block-end: 4px solid transparent;
+        box-sizing: border-box;
+      }
+      nav a:focus-visible {
+        outline-offset: -4px;
+      }
+      nav a[aria-current] {
+        font-weight: 700;
+        border-block-end-color: var(--flexrf-fill);
+        background: var(--flexrf-page);
+      }
+      .main {
+        grid-area: main;
+        position: relative;
+        min-height: 0;
+        display: grid;
+      }
+      main {
+        overflow: auto;
+        min-height: 0;
+      }
+      main:focus-visible {
+        outline-offset: -3px;
+      }
+      @media (max-width: 760px) {
+        :host {
+          grid-template: 'header' auto 'banner' auto 'nav' auto 'main' minmax(0, 1fr) 'stop' auto / minmax(0, 1fr);
+        }
+      }
+    `,
+  ];
+
+  @state() private route: Route = this.#fromAddress();
+  @state() private dialog: 'none' | 'login' | 'settings' = 'none';
+  @state() private generation = '';
+  @state() private ended = '';
+  @query('flexrf-notices') private notices!: Notices;
+  #preferences = new Preferences(document.documentElement, localStorage, matchMedia('(prefers-color-scheme: dark)'));
+  #ends: (() => void)[] = [];
+  #asked = false;
+
+  readonly core = new PanelCore({
+    onModel: (model) => {
+      this.generation = model.hash;
+      document.title = `${model.application} – FlexRF panel`;
+    },
+    onNotice: (text, severity) => this.notices?.add(text, severity),
+    onEnded: (text) => { this.ended = text; },
+  });
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    const onHash = (): void => { this.route = this.#fromAddress(); };
+    window.addEventListener('hashchange', onHash);
+    this.#ends = [
+      () => window.removeEventListener('hashchange', onHash),
+      this.core.watchState(() => this.#onState()),
+    ];
+    this.core.start();
+  }
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.#ends.forEach((end) => end());
+    this.core.connection.stop();
+  }
+
+  protected override render(): unknown {
+    const covered = this.dialog !== 'none';
+    return html`
+      <flexrf-header .core=${this.core} @login=${() => this.#open('login')} @settings=${() => this.#open('settings')}></flexrf-header>
+      <flexrf-stop-motion .core=${this.core} role="region" aria-label="Stop motion"></flexrf-stop-motion>
+      <div class="banner">
+        ${this.#banner()}
+        <flexrf-consent .core=${this.core}></flexrf-consent>
+      </div>
+      <nav aria-label="Views" ?inert=${covered}>${this.#entries().map(([route, label]) => html`
+        <a href=${addressOfRoute(route)} aria-current=${this.#isCurrent(route) ? 'page' : nothing}>${label}</a>`)}
+      </nav>
+      <div class="main">
+        <main tabindex="0" aria-label=${this.route.view} ?inert=${covered}>${this.generation
+          ? html`<flexrf-outlet .core=${this.core} .views=${views} .route=${this.route} .generation=${this.generation}></flexrf-outlet>`
+          : html`<p>Waiting for the application…</p>`}
+        </main>
+        <flexrf-notices></flexrf-notices>
+        ${this.dialog === 'login' ? html`<flexrf-login .core=${this.core} @close=${() => this.#open('none')}></flexrf-login>` : nothing}
+        ${this.dialog === 'settings' ? html`<flexrf-settings .preferences=${this.#preferences} @close=${() => this.#open('none')}></flexrf-settings>` : nothing}
+      </div>
+    `;
+  }
+
+  #banner(): unknown {
+    const { link } = this.core;
+    if (link.phase === 'open' && !link.stale) return nothing;
+    if (!this.generation && link.phase === 'connecting') return nothing;
+    const why = this.ended ? `The application ended: ${this.ended}.` : link.detail === 'login' ? 'Log in to connect.' : link.detail;
+    return html`<p role="alert">⚠ No connection to the application. Values are old, controls are dead. ${why}</p>`;
+  }
+
+  #entries(): (readonly [Route, string])[] {
+    const entries: (readonly [Route, string])[] = views.filter((view) => view.label !== '').map((view) => [{ view: view.name, path: [] }, view.label]);
+    if (this.generation) for (const menu of this.core.model.menus.keys()) entries.push([{ view: 'menu', path: [menu] }, menu]);
+    return entries;
+  }
+
+  #isCurrent(entry: Route): boolean {
+    return entry.view === this.route.view && (entry.path.length === 0 || entry.path[0] === this.route.path[0]);
+  }
+
+  #onState(): void {
+    const { link } = this.core;
+    if (link.phase === 'open') {
+      this.ended = '';
+      this.#asked = false;
+    } else if (link.detail === 'login' && !this.#asked) {
+      this.#asked = true; // once: who closes the dialog finds the button
+      this.dialog = 'login';
+    }
+    this.requestUpdate();
+  }
+
+  #open(dialog: 'none' | 'login' | 'settings'): void {
+    this.dialog = dialog;
+  }
+
+  #fromAddress(): Route {
+    return parseRoute(location.hash, 'overview');
+  }
+}

@@ -1,0 +1,33 @@
+// What the application's states are called, and what one does about them.
+import type { ApplicationState, ControlSession, Fault, Mode } from '../core/protocol';
+
+const modes: { readonly [mode in Mode]: string } = {
+  starting: 'Starting', running: 'Running', finishing: 'Finishing', stopping: 'Stopping', safe: 'Made safe', ended: 'Ended',
+};
+
+export function modeText(mode: Mode): string {
+  return modes[mode];
+}
+
+export type MotionState = 'stopped' | 'inhibited' | 'enabled' | 'unknown';
+
+export function motionOf(state: ApplicationState | undefined): MotionState {
+  if (!state) return 'unknown';
+  if (state.motion.stopped) return 'stopped';
+  return state.motion.may_move ? 'enabled' : 'inhibited';
+}
+
+export const motionText: { readonly [state in MotionState]: string } = {
+  stopped: 'Motion stopped', inhibited: 'Motion inhibited', enabled: 'Motion enabled', unknown: 'Motion unknown',
+};
+
+/** "anna at 192.168.0.7". */
+export function nameOf(session: ControlSession): string {
+  const name = session.user || session.name;
+  return session.local ? `${name} at the machine` : `${name} at ${session.address}`;
+}
+
+/** What to do about a fault, when it does not say so itself. */
+export function remedyOf(fault: Fault): string {
+  return fault.remedy ?? `Remove the cause, then initialise ${fault.component} on its page, and start it.`;
+}

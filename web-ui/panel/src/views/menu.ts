@@ -1,0 +1,35 @@
+// A menu entry of the application's own: the parameters that name it in the tables, and the widgets placed there.
+import { css, html } from 'lit';
+import { customElement } from 'lit/decorators.js';
+import './item_widget';
+import './placement_widget';
+import { ViewBase } from './view_base';
+import { viewStyles } from './view_styles';
+
+@customElement('flexrf-menu')
+export class Menu extends ViewBase {
+  static override styles = [
+    viewStyles,
+    css`
+      .items {
+        display: grid;
+        gap: 12px;
+        max-width: 60rem;
+      }
+    `,
+  ];
+
+  protected override render(): unknown {
+    const name = this.path[0] ?? '';
+    const items = this.core.model.menus.get(name) ?? [];
+    const { placements } = this.core.model.placed(name);
+    return html`
+      <h2>${name}</h2>
+      ${items.length + placements.length === 0 ? html`<p>The application's tables place nothing here.</p>` : ''}
+      ${placements.map((placement) => html`<flexrf-placement .core=${this.core} .placement=${placement}></flexrf-placement>`)}
+      <div class="items">
+        ${items.map((item) => html`<flexrf-item .core=${this.core} .item=${item}></flexrf-item>`)}
+      </div>
+    `;
+  }
+}

@@ -1,0 +1,139 @@
+// The first view: what the application does, what is wrong and what to do about it, and the values chosen for it.
+import { css, html, nothing } from 'lit';
+import { customElement } from 'lit/decorators.js';
+import type { Item, Model } from '../core/descriptor';
+import type { Fault } from '../core/protocol';
+import { modeText, motionOf, motionText, remedyOf } from '../shell/words';
+import './item_widget';
+import './placement_widget';
+import { ViewBase, addressOf } from './view_base';
+import { viewStyles } from './view_styles';
+
+const place = 'overview';
+const most = 24;
+
+/** Without anything placed on the overview: feedback, a few values of each component, until the page is full. */
+export function chosenFeedback(model: Model): readonly Item[] {
+  const lists = [...model.components.values()]
+    .map((component) => component.feedback.filter((item) => !item.hidden && item.shape.length < 2))
+    .filter((list) => list.length > 0);
+  const chosen = new Set<Item>();
+  for (let index = 0; chosen.size < most && lists.some((list) => index < list.length); index += 1) {
+    for (const list of lists) {
+      const item = list[index];
+      if (item && chosen.size < most) chosen.add(item);
+    }
+  }
+  return lists.flat().filter((item) => chosen.has(item));
+}
+
+@customElement('flexrf-overview')
+export class Overview extends ViewBase {
+  static override styles = [
+    viewStyles,
+    css`
+      .cards {
+        display: grid;
+        grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr));
+        gap: 12px;
+        align-items: start;
+      }
+      section {
+        background: var(--surface);
+        border: 1px solid var(--track);
+        border-radius: var(--radius);
+        padding: 4px 12px 10px;
+        min-width: 0;
+      }
+      section h3 {
+        margin-block: 0.4em;
+      }
+      .wide {
+        grid-column: 1 / -1;
+      }
+      .items {
+        display: grid;
+        gap: 10px;
+      }
+      ul {
+        list-style: none;
+        margin: 0;
+        padding: 0;
+      }
+    `,
+  ];
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.until(this.core.watchState(() => this.requestUpdate()));
+  }
+
+  protected override render(): unknown {
+    const { model } = this.core;
+    const placed = model.placed(place);
+    const nothingPlaced = placed.items.length + placed.placements.length === 0;
+    return html`
+      <h2>${model.application}</h2>
+      <p class="muted">${model.json.summary}</p>
+      <div class="cards">
+        ${this.faults()}
+        ${this.stateCard()}
+        ${placed.placements.map((placement) => html`
+          <section><h3>${placement.label}</h3>
+            <flexrf-placement .core=${this.core} .placement=${placement}></flexrf-placement></section>`)}
+        ${placed.items.length > 0 ? html`<section><h3>Values</h3>${this.items(placed.items)}</section>` : nothing}
+        ${nothingPlaced ? this.feedback(chosenFeedback(model)) : nothing}
+      </div>
+    `;
+  }
+
+  private faults(): unknown {
+    const faults = this.core.state?.faults ?? [];
+    if (faults.length === 0) return html`<section><h3>Faults</h3><p>None.</p></section>`;
+    return html`
+      <section class="wide box abnormal-box" role="alert">
+        <h3 class="alarm">✕ ${faults.length === 1 ? 'A fault' : `${faults.length} faults`}</h3>
+        <ul>${faults.map((fault) => html`<li>
+          <a href=${this.address(fault)}>${fault.component}</a>
+          <p>${fault.cause}</p>
+          <p class="muted">What to do: ${remedyOf(fault)}</p>
+        </li>`)}</ul>
+      </section>`;
+  }
+
+  private address(fault: Fault): string {
+    const kind = this.core.model.components.get(fault.component)?.kind;
+    return addressOf(kind === 'device' ? 'devices' : 'units', fault.component);
+  }
+
+  private stateCard(): unknown {
+    const { state } = this.core;
+    return html`
+      <section>
+        <h3>State</h3>
+        ${state
+          ? html`<dl>
+              <dt>Application</dt><dd>${modeText(state.mode)}${state.cause ? `: ${state.cause}` : ''}</dd>
+              <dt>Motion</dt><dd>${motionText[motionOf(state)]}</dd>
+              ${state.edit ? html`<dt>Being edited</dt><dd>${state.edit.components.join(', ')}</dd>` : nothing}
+              <dt>Pages open</dt><dd>${state.server.connections} of ${state.server.places}</dd>
+              <dt>Panel's delay</dt><dd>p99 ${(state.server.loop_delay_us.p99 / 1000).toFixed(2)} ms, most ${(state.server.loop_delay_us.max / 1000).toFixed(2)} ms</dd>
+            </dl>`
+          : html`<p>Not known yet.</p>`}
+      </section>`;
+  }
+
+  private feedback(items: readonly Item[]): unknown {
+    const components = [...new Set(items.map((item) => item.component ?? ''))];
+    return components.map((component) => html`
+      <section>
+        <h3>${component}</h3>
+        ${this.items(items.filter((item) => item.component === component))}
+      </section>`);
+  }
+
+  private items(items: readonly Item[]): unknown {
+    return html`<div class="items">${items.map((item) => html`
+      <flexrf-item .core=${this.core} .item=${item}></flexrf-item>`)}</div>`;
+  }
+}
