@@ -1,7 +1,6 @@
 import { expect, it } from 'vitest';
 import type { ItemInfo, Value } from '../contract';
 import { checkValue } from './check_value';
-import { equalValues } from './equal_values';
 
 const number: ItemInfo = {
   key: 'a.configuration.gain', label: 'Gain', summary: '', scalar: 'f64', shape: [], unit: 'm', range: [0, 2],
@@ -19,14 +18,4 @@ it.each<[Partial<ItemInfo>, Value, string]>([
   [{ scalar: 'structure', members: [{ ...number, label: 'Low', path: 'gain.low' }] }, { low: 4 }, 'Gain: Low: must lie from 0 to 2 m'],
 ])('%o with %o: %s', (change, value, fault) => {
   expect(checkValue({ ...number, ...change }, value)).toBe(fault);
-});
-
-it('compares values field by field', () => {
-  expect(equalValues([1, [2, 3]], [1, [2, 3]])).toBe(true);
-  expect(equalValues([1, 2], [1, 2, 3])).toBe(false);
-  expect(equalValues({ a: 1 }, { a: 1, b: 2 })).toBe(false);
-  expect(equalValues({ a: 1, b: [true] }, { b: [true], a: 1 })).toBe(true);
-  expect(equalValues({ a: 1 }, [1])).toBe(false);
-  expect(equalValues(null, undefined)).toBe(false);
-  expect(equalValues(0, false)).toBe(false);
 });

@@ -1,6 +1,6 @@
 // Editing configuration parameters: what the page is at, from Edit to the outcome. Knows no document.
 import type { Value } from '../contract';
-import { equalValues } from './equal_values';
+import { sameValue } from '../widgets/same_value';
 
 /** Values of components by name, then by parameter. */
 export type Configuration = { readonly [component: string]: { readonly [parameter: string]: Value } };
@@ -125,7 +125,7 @@ export class EditFlow {
     const opening: EditState = { step: 'opening', components };
     this.go(opening);
     const answer = await this.options.link.begin(components);
-    if (this.current !== opening) {
+    if (this.state !== opening) {
       // The person thought better of it while the server was asked.
       if (answer.ok) this.options.link.discard(answer.edit);
       return;
@@ -146,7 +146,7 @@ export class EditFlow {
     const before = draft.configuration[component]?.[parameter];
     if (before === undefined) return;
     const { [parameter]: _dropped, ...others } = draft.changed[component] ?? {};
-    const values = equalValues(before, value) ? others : { ...others, [parameter]: value };
+    const values = sameValue(before, value, 'f64') ? others : { ...others, [parameter]: value };
     const { [component]: _values, ...rest } = draft.changed;
     const changed = Object.keys(values).length === 0 ? rest : { ...rest, [component]: values };
     const key = `${component}.${parameter}`;
@@ -167,7 +167,7 @@ export class EditFlow {
     const applying: EditState = { step: 'applying', draft };
     this.go(applying);
     const answer = await this.options.link.apply(draft.edit, this.changes);
-    if (this.current !== applying) return;
+    if (this.state !== applying) return;
     if (!answer.ok) {
       this.go({ step: 'editing', draft: { ...draft, causes: [answer.detail] } });
     } else if (answer.outcome === 'refused') {

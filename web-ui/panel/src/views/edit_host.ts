@@ -1,18 +1,19 @@
 // What widgets of configuration parameters are given as their host: they show the configuration in force, or the draft
 // while it is being edited, and what they set goes into the draft. All else is the page's own host.
 import type { Hold, ItemInfo, Outcome, Reading, Value, WidgetHost } from '../contract';
-import type { Configuration, EditFlow } from './edit_flow';
-import { equalValues } from './equal_values';
+import type { EditFlow } from './edit_flow';
+import { sameValue } from '../widgets/same_value';
 import { partOf, partsOf, rootOf, withPart } from './value_path';
 
 interface Watcher {
   readonly item: ItemInfo;
   readonly callback: (reading: Reading) => void;
+  /** What the server says is in force; undefined before it said anything. */
+  inForce: Reading | undefined;
   shown: Value | null | undefined;
 }
 
 export class EditHost implements WidgetHost {
-  private inForce: Configuration = {};
   private sequence = 0;
   private frame = 0;
   private readonly watchers = new Set<Watcher>();
@@ -25,25 +26,26 @@ export class EditHost implements WidgetHost {
     private readonly before: () => string,
   ) {}
 
-  /** Configuration as the server said last. */
-  show(configuration: Configuration): void {
-    this.inForce = { ...this.inForce, ...configuration };
-    this.refresh();
-  }
-
   /** The flow is at another step, or a value of its draft is another. */
   refresh(): void {
-    if (this.frame === 0) this.frame = requestAnimationFrame(() => this.tell());
+    if (this.frame === 0) this.frame = requestAnimationFrame(() => this.tellAll());
     this.access.forEach((callback) => callback());
   }
 
   watch(key: string, callback: (reading: Reading) => void, options?: { rate?: number; width?: number }): () => void {
     const item = this.configured(key);
     if (item === undefined) return this.base.watch(key, callback, options);
-    const watcher: Watcher = { item, callback, shown: undefined };
+    const watcher: Watcher = { item, callback, inForce: undefined, shown: undefined };
     this.watchers.add(watcher);
-    this.refresh();
-    return () => this.watchers.delete(watcher);
+    const end = this.base.watch(key, (reading) => {
+      watcher.inForce = reading;
+      this.tell(watcher);
+    });
+    this.tell(watcher);
+    return () => {
+      end();
+      this.watchers.delete(watcher);
+    };
   }
 
   async set(key: string, value: Value): Promise<Outcome> {
@@ -113,18 +115,19 @@ export class EditHost implements WidgetHost {
     return item?.kind === 'configuration' && item.component !== undefined && item.path !== undefined ? item : undefined;
   }
 
-  private tell(): void {
+  private tellAll(): void {
     this.frame = 0;
-    for (const watcher of this.watchers) {
-      const component = watcher.item.component!;
-      const [root, ...rest] = partsOf(watcher.item.path!);
-      const parameter = String(root);
-      const whole = this.flow().value(component, parameter) ?? this.inForce[component]?.[parameter];
-      const value = partOf(whole, rest) ?? null;
-      if (watcher.shown !== undefined && equalValues(watcher.shown, value)) continue;
-      watcher.shown = value;
-      const reason = value === null ? 'not known yet' : '';
-      watcher.callback({ value, reason, sampledAt: 0, sequence: ++this.sequence, age: 0 });
-    }
+    this.watchers.forEach((watcher) => this.tell(watcher));
+  }
+
+  private tell(watcher: Watcher): void {
+    const [root, ...rest] = partsOf(watcher.item.path!);
+    const drafted = partOf(this.flow().value(watcher.item.component!, String(root)), rest);
+    if (drafted === undefined && watcher.inForce === undefined) return;
+    const value = drafted ?? watcher.inForce?.value ?? null;
+    if (watcher.shown !== undefined && sameValue(watcher.shown, value, 'f64')) return;
+    watcher.shown = value;
+    const reason = value === null ? (watcher.inForce?.reason ?? 'not known yet') : '';
+    watcher.callback({ value, reason, sampledAt: 0, sequence: ++this.sequence, age: 0 });
   }
 }

@@ -1,0 +1,263 @@
+// The blackboard: every slot and queue, live. Only rows that are seen are subscribed.
+import { css, html, nothing } from 'lit';
+import { customElement, query, state } from 'lit/decorators.js';
+import { repeat } from 'lit/directives/repeat.js';
+import { ownerOf, slotColumns, SlotRow, type SlotCounters } from './blackboard_rows';
+import { countText, rateText } from './durations';
+import { RateMeters } from './rates';
+import { addressOf, ViewBase } from './view_base';
+import { viewStyles } from './view_styles';
+
+/** A row of topic "queues". */
+interface QueueCounters {
+  readonly name: string;
+  readonly writers: readonly { readonly name: string; readonly pushed: number; readonly popped: number; readonly dropped: number }[];
+}
+
+@customElement('flexrf-blackboard')
+export class Blackboard extends ViewBase {
+  static override styles = [
+    ...viewStyles,
+    css`
+      .value-cell {
+        min-width: 16rem;
+        max-width: 36rem;
+        overflow: hidden;
+        text-overflow: ellipsis;
+        white-space: nowrap;
+      }
+      .value-cell.abnormal {
+        white-space: normal;
+      }
+      button.expand {
+        text-align: start;
+        font-weight: 600;
+        white-space: nowrap;
+        min-height: 28px;
+      }
+      button.expand::before {
+        content: '▸ ';
+      }
+      button.expand[aria-expanded='true']::before {
+        content: '▾ ';
+      }
+      @media (pointer: coarse) {
+        button.expand {
+          min-height: var(--target);
+        }
+      }
+      .detail td {
+        padding: 0 0 0.8em 1.5em;
+      }
+      .filter {
+        display: flex;
+        flex-wrap: wrap;
+        gap: var(--gap);
+        align-items: center;
+        margin-block: 0.6em;
+      }
+      .filter input {
+        flex: 1 1 12rem;
+        max-width: 28rem;
+      }
+    `,
+  ];
+
+  @state() private filter = '';
+  @state() private queues = new Map<string, QueueCounters>();
+  @state() private old = false;
+  @query('#slots') private body!: HTMLTableSectionElement;
+  private rows: SlotRow[] = [];
+  private readonly rates = new RateMeters();
+  private readonly queueRates = new Map<string, number | null>();
+  private observer: IntersectionObserver | undefined;
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    if (this.hasUpdated) this.begin();
+  }
+
+  protected override firstUpdated(): void {
+    this.begin();
+  }
+
+  private begin(): void {
+    this.rows = this.core.model.slots.map((slot) => new SlotRow(slot, this.core, this.host));
+    this.body.replaceChildren(...this.rows.map((row) => row.element));
+    const byElement = new Map<Element, SlotRow>(this.rows.map((row) => [row.element, row]));
+    const byName = new Map(this.rows.map((row) => [row.slot.name, row]));
+    this.observer = new IntersectionObserver(
+      (entries) => entries.forEach((entry) => (byElement.get(entry.target)!.visible = entry.isIntersecting)),
+      { rootMargin: '100px' },
+    );
+    this.rows.forEach((row) => this.observer!.observe(row.element));
+    const timer = setInterval(() => {
+      const now = performance.now();
+      this.rows.forEach((row) => row.tick(now));
+    }, 500);
+    this.until(() => {
+      clearInterval(timer);
+      this.observer?.disconnect();
+      this.rows.forEach((row) => row.close());
+    });
+    this.until(this.host.watchAccess(() => (this.old = this.host.stale)));
+    this.until(this.core.watchTopic('slots', (body) => this.countSlots(byName, body), 2));
+    this.until(this.core.watchTopic('queues', (body) => this.countQueues(body), 2));
+    this.applyFilter();
+    this.open();
+  }
+
+  protected override updated(changed: Map<PropertyKey, unknown>): void {
+    if (changed.has('filter')) this.applyFilter();
+    if (changed.has('path') && changed.get('path') !== undefined) this.open();
+  }
+
+  protected override render(): unknown {
+    const { slots } = this.core.model;
+    const shown = slots.length === this.shownSlots ? `${slots.length} slots` : `${this.shownSlots} of ${slots.length} slots`;
+    return html`
+      <h2>Blackboard</h2>
+      <div class="filter">
+        <label for="filter">Filter</label>
+        <input
+          id="filter"
+          type="search"
+          autocomplete="off"
+          placeholder="name, type, writer, reader"
+          .value=${this.filter}
+          @input=${(event: Event) => (this.filter = (event.target as HTMLInputElement).value)}
+        />
+        <span role="status">${shown}</span>
+      </div>
+      <h3 id="slots-title">Slots</h3>
+      <div class="scroll ${this.old ? 'stale' : ''}" tabindex="0" role="region" aria-labelledby="slots-title">
+        <table>
+          <caption>
+            Latest values; open a slot for all its fields
+          </caption>
+          <thead>
+            <tr>
+              ${slotColumns.map((name) =>
+                html`<th scope="col" class=${['Rate', 'Age', 'Missed'].includes(name) ? 'number' : ''}>${name}</th>`)}
+            </tr>
+          </thead>
+          <tbody id="slots"></tbody>
+        </table>
+      </div>
+      ${this.queueTable()}
+    `;
+  }
+
+  private get words(): string[] {
+    return this.filter.toLowerCase().split(/\s+/).filter((word) => word !== '');
+  }
+
+  private get shownSlots(): number {
+    return this.rows.length === 0 ? this.core.model.slots.length : this.rows.filter((row) => row.matches(this.words)).length;
+  }
+
+  private queueTable(): unknown {
+    const { words } = this;
+    const queues = this.core.model.queues.filter((queue) => {
+      const text = [queue.name, queue.type, ...queue.writers, ...queue.readers].join(' ').toLowerCase();
+      return words.every((word) => text.includes(word));
+    });
+    if (this.core.model.queues.length === 0) return nothing;
+    return html`
+      <h3 id="queues-title">Queues</h3>
+      <div class="scroll ${this.old ? 'stale' : ''}" tabindex="0" role="region" aria-labelledby="queues-title">
+        <table>
+          <caption>
+            Each item goes to one reader; a line for each writer
+          </caption>
+          <thead>
+            <tr>
+              <th scope="col">Queue</th>
+              <th scope="col">Type</th>
+              <th scope="col" class="number">Capacity</th>
+              <th scope="col">When full</th>
+              <th scope="col">Writer</th>
+              <th scope="col" class="number">Pushed</th>
+              <th scope="col" class="number">Rate</th>
+              <th scope="col" class="number">Taken</th>
+              <th scope="col" class="number">Dropped</th>
+              <th scope="col">Readers</th>
+            </tr>
+          </thead>
+          <tbody>
+            ${repeat(queues, (queue) => queue.name, (queue) => queue.writers.map((name, i) => this.queueRow(queue, name, i)))}
+          </tbody>
+        </table>
+      </div>
+    `;
+  }
+
+  private queueRow(queue: Blackboard['core']['model']['queues'][number], writer: string, index: number): unknown {
+    const counters = this.queues.get(queue.name)?.writers[index];
+    const count = (value: number | undefined): string => (value === undefined ? '–' : countText(value));
+    const dropped = counters !== undefined && counters.dropped > 0;
+    return html`
+      <tr>
+        ${index === 0
+          ? html`<th scope="rowgroup" rowspan=${queue.writers.length} title=${queue.summary}>${queue.name}</th>
+              <td rowspan=${queue.writers.length}>${queue.type}</td>
+              <td rowspan=${queue.writers.length} class="number">${queue.capacity}</td>
+              <td rowspan=${queue.writers.length}>${queue.policy.replaceAll('_', ' ')}</td>`
+          : nothing}
+        <td>${this.portLink(writer)}</td>
+        <td class="number">${count(counters?.pushed)}</td>
+        <td class="number">${rateText(this.queueRates.get(`${queue.name} ${index}`) ?? null)}</td>
+        <td class="number">${count(counters?.popped)}</td>
+        <td class="number ${dropped ? 'warning' : ''}">${dropped ? '▲ ' : ''}${count(counters?.dropped)}</td>
+        ${index === 0
+          ? html`<td rowspan=${queue.writers.length}>${queue.readers.map((reader, i) => [i > 0 ? ', ' : '', this.portLink(reader)])}</td>`
+          : nothing}
+      </tr>
+    `;
+  }
+
+  private portLink(port: string): unknown {
+    const component = ownerOf(this.core.model, port);
+    if (component === undefined) return port;
+    return html`<a href=${addressOf(component.kind === 'unit' ? 'units' : 'devices', component.name)}>${port}</a>`;
+  }
+
+  private countSlots(rows: ReadonlyMap<string, SlotRow>, body: unknown): void {
+    const now = performance.now() / 1000;
+    for (const counters of listOf<SlotCounters>(body)) {
+      rows.get(counters.name)?.count(counters, this.rates.add(counters.name, counters.published, now));
+    }
+  }
+
+  private countQueues(body: unknown): void {
+    const now = performance.now() / 1000;
+    const rows = listOf<QueueCounters>(body);
+    for (const queue of rows) {
+      queue.writers.forEach((writer, i) => {
+        const key = `${queue.name} ${i}`;
+        this.queueRates.set(key, this.rates.add(`queue ${key}`, writer.pushed, now));
+      });
+    }
+    this.queues = new Map(rows.map((row) => [row.name, row]));
+  }
+
+  private applyFilter(): void {
+    for (const row of this.rows) row.hidden = !row.matches(this.words);
+  }
+
+  /** "#/blackboard/NAME" shows that slot with all its fields. */
+  private open(): void {
+    const name = this.path[0];
+    const row = name === undefined ? undefined : this.rows.find((one) => one.slot.name === name);
+    if (row !== undefined) {
+      row.expand();
+      row.focus();
+    } else if (name !== undefined && this.core.model.queues.some((queue) => queue.name === name)) {
+      this.renderRoot.querySelector('#queues-title')?.scrollIntoView();
+    }
+  }
+}
+
+function listOf<Row>(body: unknown): Row[] {
+  return Array.isArray(body) ? (body as Row[]) : [];
+}

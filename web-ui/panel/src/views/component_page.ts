@@ -1,0 +1,275 @@
+// The page of one unit or device.
+import { css, html, nothing } from 'lit';
+import { customElement, property } from 'lit/decorators.js';
+import { repeat } from 'lit/directives/repeat.js';
+import type { Component, Item } from '../core/descriptor';
+import { formatNumber } from '../core/units';
+import { remedyOf } from '../shell/words';
+import { componentRows, stateText, type ComponentRow } from './component_actions';
+import './component_buttons';
+import { countText, durationText } from './durations';
+import './edit_panel';
+import { EditSession } from './edit_session';
+import './item_widget';
+import { portsOf, type Port } from './ports';
+import './slot_age';
+import { addressOf, ViewBase } from './view_base';
+import { viewStyles } from './view_styles';
+
+@customElement('flexrf-component-page')
+export class ComponentPage extends ViewBase {
+  static override styles = [
+    ...viewStyles,
+    css`
+      .item {
+        display: block;
+        padding-block: 4px;
+        border-block-end: 1px solid var(--track);
+      }
+      .item.edited {
+        border-inline-start: 4px solid var(--modified);
+        padding-inline-start: 8px;
+      }
+      .edited-note {
+        display: flex;
+        flex-wrap: wrap;
+        align-items: center;
+        gap: var(--gap);
+        color: var(--modified);
+      }
+      ul.plain {
+        list-style: none;
+        margin: 0;
+        padding: 0;
+      }
+    `,
+  ];
+
+  @property({ attribute: false }) component!: Component;
+  private rows = new Map<string, ComponentRow>();
+  private session!: EditSession;
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.session = EditSession.of(this.core);
+    this.until(this.session.watch(() => this.requestUpdate()));
+    this.until(
+      this.core.watchTopic('components', (body) => {
+        this.rows = new Map(componentRows(body).map((row) => [row.name, row]));
+        this.requestUpdate();
+      }, 2),
+    );
+  }
+
+  protected override render(): unknown {
+    const { component } = this;
+    const view = component.kind === 'unit' ? 'units' : 'devices';
+    return html`
+      <nav aria-label="Breadcrumb"><a href="#/${view}">All ${view}</a></nav>
+      <h2>${component.name}</h2>
+      <p>${component.summary}</p>
+      ${this.state()} ${this.facts()} ${this.configuration()}
+      ${this.items('Runtime parameters', component.runtime)} ${this.items('Feedback', component.feedback)} ${this.ports()}
+      ${this.members()}
+    `;
+  }
+
+  private get row(): ComponentRow | undefined {
+    return this.rows.get(this.component.name);
+  }
+
+  private state(): unknown {
+    const { row } = this;
+    if (row === undefined) return html`<h3>State</h3><p class="muted">Not known yet.</p>`;
+    const sources = [...this.rows.values()]
+      .filter((one) => one.member !== null && one.member.population === row.member?.population && one.active && one.name !== row.name)
+      .map((one) => one.name);
+    return html`
+      <h3>State</h3>
+      <p><strong class=${row.life === 'fault' ? 'alarm' : ''}>${stateText(row)}</strong></p>
+      ${this.fault(row)}
+      <flexrf-component-buttons .core=${this.core} .host=${this.host} .row=${row} .sources=${sources}></flexrf-component-buttons>
+    `;
+  }
+
+  private fault(row: ComponentRow): unknown {
+    if (row.life !== 'fault') return nothing;
+    const told = this.core.state?.faults.find((fault) => fault.component === row.name) ?? { component: row.name, cause: row.fault };
+    return html`
+      <div class="box abnormal-box" role="alert">
+        <dl>
+          <dt>Cause</dt>
+          <dd>${row.fault || told.cause || 'not told'}</dd>
+          <dt>Remedy</dt>
+          <dd>${remedyOf(told)}</dd>
+        </dl>
+      </div>
+    `;
+  }
+
+  private facts(): unknown {
+    const { component, row } = this;
+    const fact = (name: string, value: unknown): unknown =>
+      value === undefined || value === '' ? nothing : html`<dt>${name}</dt><dd>${value}</dd>`;
+    const { unit, device } = component;
+    const drivers = this.core.model.json.drivers;
+    const driver = drivers.find((one) => one.interface === device?.interface && one.driver === row?.driver);
+    return html`
+      <dl>
+        ${fact(unit ? 'Type' : 'Interface', component.typeName)}
+        ${fact('Driver', device && row?.driver ? `${row.driver}${driver ? ` (${driver.kind}): ${driver.summary}` : ''}` : undefined)}
+        ${fact('Thread', component.thread === '' ? '' : html`<a href=${addressOf('threads', component.thread)}>${component.thread}</a>`)}
+        ${fact('Belongs to', device?.unit ? html`<a href=${addressOf('units', device.unit)}>${device.unit}</a>` : '')}
+        ${fact('Carried by', device?.on ? html`<a href=${addressOf('devices', device.on)}>${device.on}</a>` : '')}
+        ${Object.entries(unit?.devices ?? {}).map(([port, name]) => fact(`Device ${port}`, html`<a href=${addressOf('devices', name)}>${name}</a>`))}
+        ${unit && row
+          ? html`${fact('Steps', countText(row.steps))}
+            ${fact('Step takes', `${durationText(row.execution.mean_ns)} on average, ${durationText(row.execution.max_ns)} at most`)}
+            ${fact('Budget', unit.budget_ns ? durationText(unit.budget_ns) : '')} ${fact('Restart', unit.restart)}`
+          : nothing}
+      </dl>
+    `;
+  }
+
+  private configuration(): unknown {
+    const items = this.component.configuration.filter((item) => !item.hidden);
+    if (items.length === 0) return nothing;
+    return html`
+      <section aria-labelledby="configuration">
+        <h3 id="configuration">Configuration</h3>
+        <flexrf-edit-panel .core=${this.core} .host=${this.host} component=${this.component.name}></flexrf-edit-panel>
+        ${repeat(items, (item) => item.key, (item) => this.configured(item))}
+      </section>
+    `;
+  }
+
+  private configured(item: Item): unknown {
+    const { flow } = this.session;
+    const name = item.path ?? '';
+    const edited = flow.isChanged(this.component.name, name);
+    const before = flow.draft?.configuration[this.component.name]?.[name];
+    return html`
+      <div class="item ${edited ? 'edited' : ''}">
+        <flexrf-item .core=${this.core} .host=${this.session.host} .item=${item}></flexrf-item>
+        ${edited
+          ? html`<div class="edited-note">
+              <span>✎ Edited; in force: ${this.inForce(item, before)}</span>
+              <button
+                ?disabled=${flow.state.step !== 'editing'}
+                aria-label="Take back ${item.label}"
+                @click=${() => flow.revert(this.component.name, name)}
+              >
+                Take back
+              </button>
+            </div>`
+          : nothing}
+      </div>
+    `;
+  }
+
+  private inForce(item: Item, value: unknown): string {
+    if (typeof value !== 'number') return typeof value === 'object' ? JSON.stringify(value) : String(value);
+    const unit = this.core.units.of(item.unit);
+    return `${formatNumber(value * unit.factor)}${unit.text === '' ? '' : ` ${unit.text}`}`;
+  }
+
+  private items(title: string, all: readonly Item[]): unknown {
+    const items = all.filter((item) => !item.hidden);
+    if (items.length === 0) return nothing;
+    return html`
+      <section aria-label=${title}>
+        <h3>${title}</h3>
+        ${repeat(items, (item) => item.key, (item) =>
+          html`<flexrf-item class="item" .core=${this.core} .host=${undefined} .item=${item}></flexrf-item>`)}
+      </section>
+    `;
+  }
+
+  private ports(): unknown {
+    const ports = portsOf(this.core.model, this.component);
+    if (ports.length === 0) return nothing;
+    return html`
+      <h3 id="ports">Inputs and outputs</h3>
+      <div class="scroll" tabindex="0" role="region" aria-labelledby="ports">
+        <table>
+          <caption>
+            What it reads and writes
+          </caption>
+          <thead>
+            <tr>
+              <th scope="col">Name</th>
+              <th scope="col">Direction</th>
+              <th scope="col">Type</th>
+              <th scope="col">Connected to</th>
+              <th scope="col">Age, or why NULL</th>
+              <th scope="col">Meaning</th>
+            </tr>
+          </thead>
+          <tbody>
+            ${repeat(ports, (port) => `${port.direction} ${port.name}`, (port) => this.port(port))}
+          </tbody>
+        </table>
+      </div>
+    `;
+  }
+
+  private port(port: Port): unknown {
+    const line = (content: unknown): unknown => html`<li>${content}</li>`;
+    return html`
+      <tr>
+        <th scope="row">${port.name}</th>
+        <td>${port.direction}</td>
+        <td>${port.type}</td>
+        <td>
+          ${port.connections.length === 0
+            ? html`<span class="muted">not connected</span>`
+            : html`<ul class="plain">
+                ${port.connections.map((to) => line(html`<a href=${addressOf('blackboard', to.name)}>${to.name}</a>`))}
+              </ul>`}
+        </td>
+        <td>
+          <ul class="plain">
+            ${repeat(port.connections, (to) => to.name, (to) =>
+              line(
+                to.kind === 'slot' && this.core.model.slotsByName.get(to.name)?.json.observe
+                  ? html`<flexrf-slot-age .host=${this.host} .slotName=${to.name}></flexrf-slot-age>`
+                  : html`<span class="muted">${to.kind === 'queue' ? 'a queue' : 'not observed'}</span>`,
+              ))}
+          </ul>
+        </td>
+        <td>${port.summary}${port.maxAge === undefined ? nothing : html` <span class="muted">NULL when older than ${durationText(port.maxAge)}.</span>`}</td>
+      </tr>
+    `;
+  }
+
+  private members(): unknown {
+    const { population } = this.component;
+    if (population === '') return nothing;
+    const members = [...this.core.model.components.values()].filter((one) => one.population === population);
+    return html`
+      <h3 id="members">Population ${population}</h3>
+      <table>
+        <caption>
+          Members of the population
+        </caption>
+        <thead>
+          <tr>
+            <th scope="col">Member</th>
+            <th scope="col">State</th>
+          </tr>
+        </thead>
+        <tbody>
+          ${repeat(members, (one) => one.name, (one) => {
+            const row = this.rows.get(one.name);
+            return html`
+              <tr>
+                <th scope="row"><a href=${addressOf('units', one.name)} aria-current=${one === this.component ? 'page' : nothing}>${one.name}</a></th>
+                <td>${row ? stateText(row) : 'not known yet'}</td>
+              </tr>
+            `;
+          })}
+        </tbody>
+      </table>
+    `;
+  }
+}

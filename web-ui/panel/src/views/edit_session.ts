@@ -1,0 +1,116 @@
+// The one edit of this page: outlives views, so that a person may look elsewhere while values are being edited.
+import type { Core } from '../core/core';
+import { nameOf } from '../shell/words';
+import { checkValue } from './check_value';
+import { EditFlow, type ApplyAnswer, type BeginAnswer, type Change, type Configuration, type Editor, type Outcome } from './edit_flow';
+import { EditHost } from './edit_host';
+
+/** Initialising takes as long as its time-outs say; the server's answer comes at the end. */
+const apply_timeout = 180_000;
+const left_open_at_most = 300_000;
+
+interface Begun {
+  readonly edit: string;
+  readonly reinitialised: readonly string[];
+  readonly configuration: Configuration;
+  readonly left_ms?: number;
+}
+
+interface Applied {
+  readonly outcome: Outcome;
+  readonly causes?: readonly string[];
+  readonly owners?: readonly string[];
+}
+
+const sessions = new WeakMap<Core, EditSession>();
+
+export class EditSession {
+  readonly flow: EditFlow;
+  readonly host: EditHost;
+  private readonly watchers = new Set<() => void>();
+  private timer: ReturnType<typeof setInterval> | undefined;
+
+  static of(core: Core): EditSession {
+    let session = sessions.get(core);
+    if (session === undefined) sessions.set(core, (session = new EditSession(core)));
+    return session;
+  }
+
+  private constructor(private readonly core: Core) {
+    this.flow = new EditFlow({
+      link: {
+        begin: (components) => this.begin(components),
+        apply: (edit, changes) => this.apply(edit, changes),
+        discard: (edit) => void core.request('edit_discard', { edit }),
+      },
+      check: (component, parameter, value) => {
+        const item = core.model.item(`${component}.configuration.${parameter}`);
+        return item === undefined ? '' : checkValue(item, value);
+      },
+      now: () => performance.now(),
+      changed: () => this.changed(),
+    });
+    this.host = new EditHost(core.host, () => this.flow, () => this.denied);
+    core.watchState(() => {
+      if (core.state !== undefined) this.flow.serverSays(this.editor);
+      this.host.refresh();
+      this.tell();
+    });
+  }
+
+  /** Calls back at every step, edited value, and second of the countdown. Ends with the returned function. */
+  watch(callback: () => void): () => void {
+    this.watchers.add(callback);
+    return () => this.watchers.delete(callback);
+  }
+
+  /** Who edits now, as the server says. */
+  get editor(): Editor {
+    const edit = this.core.state?.edit;
+    if (edit == null) return 'nobody';
+    return edit.holder.you ? 'you' : 'other';
+  }
+
+  /** Why this session cannot begin an edit; empty when it can ask for one. */
+  get denied(): string {
+    const edit = this.core.state?.edit;
+    if (edit != null && !edit.holder.you) {
+      return `${nameOf(edit.holder)} edits ${edit.components.join(', ')}.`;
+    }
+    return this.core.deniedAction('engineer');
+  }
+
+  private async begin(components: readonly string[]): Promise<BeginAnswer> {
+    const answer = await this.core.request<Begun>('edit_begin', { components });
+    if (!answer.ok) {
+      const { detail, title, moving } = answer.problem;
+      return { ok: false, detail: detail ?? title, moving: moving ?? [] };
+    }
+    return { ...answer, leftMs: answer.left_ms ?? left_open_at_most };
+  }
+
+  private async apply(edit: string, changes: readonly Change[]): Promise<ApplyAnswer> {
+    const answer = await this.core.request<Applied>('edit_apply', { edit, changes }, apply_timeout);
+    if (!answer.ok) return { ok: false, detail: answer.problem.detail ?? answer.problem.title };
+    return { ok: true, outcome: answer.outcome, causes: answer.causes ?? [], owners: answer.owners ?? [] };
+  }
+
+  private changed(): void {
+    const running = this.flow.state.step === 'editing';
+    if (running && this.timer === undefined) {
+      this.timer = setInterval(() => {
+        this.flow.tick();
+        this.tell();
+      }, 1000);
+    } else if (!running && this.timer !== undefined) {
+      clearInterval(this.timer);
+      this.timer = undefined;
+    }
+    this.host.refresh();
+    this.tell();
+  }
+
+  private tell(): void {
+    this.watchers.forEach((callback) => callback());
+  }
+}

@@ -1,0 +1,31 @@
+// What the panel's own views have in common: the properties that the shell sets, and subscriptions that end with them.
+import { LitElement } from 'lit';
+import { property } from 'lit/decorators.js';
+import type { WidgetHost } from '../contract';
+import type { Core } from '../core/core';
+import { addressOfRoute } from '../shell/router';
+import type { ViewElement } from './view';
+
+export abstract class ViewBase extends LitElement implements ViewElement {
+  @property({ attribute: false }) core!: Core;
+  @property({ attribute: false }) host!: WidgetHost;
+  @property({ attribute: false }) path: readonly string[] = [];
+
+  private ends: (() => void)[] = [];
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.ends.forEach((end) => end());
+    this.ends = [];
+  }
+
+  /** Called with the end of something that was begun in connectedCallback. */
+  protected until(end: () => void): void {
+    this.ends.push(end);
+  }
+}
+
+/** Address of a unit's, device's or slot's page. */
+export function addressOf(view: 'units' | 'devices' | 'blackboard' | 'threads', name: string): string {
+  return addressOfRoute({ view, path: [name] });
+}
