@@ -150,11 +150,23 @@ export const widgetStyles = css`
     outline: 3px solid var(--focus);
     outline-offset: 1px;
   }
+  .controls {
+    display: inline-flex;
+    flex-wrap: wrap;
+    align-items: center;
+    justify-content: flex-end;
+    gap: var(--gap);
+    min-width: 0;
+  }
+  .gone {
+    visibility: hidden;
+  }
+  /* A touch on a dead control reaches what is around it, which tells why. */
   :disabled {
+    pointer-events: none;
     color: var(--stale);
     background: transparent;
     border-style: dashed;
-    cursor: not-allowed;
     opacity: 1;
   }
   [aria-busy='true'] {

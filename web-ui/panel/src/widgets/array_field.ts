@@ -1,0 +1,147 @@
+// A vector or matrix of numbers to be typed in: a field for each element, sent by itself.
+import { css, html } from 'lit';
+import type { TemplateResult } from 'lit';
+import type { Value } from '../contract';
+import { arrayStyles, elementAt, elementName, gridOf } from './array_readout';
+import { Edit } from './edit';
+import { EditorBase } from './editor_base';
+import { setAttribute } from './live_text';
+import { stepOfKey } from './number_field';
+import { widgetStyles } from './styles';
+import { dash } from './widget_base';
+
+export class ArrayField extends EditorBase {
+  static override styles = [
+    widgetStyles,
+    arrayStyles,
+    css`
+      .cell input,
+      td input {
+        width: 9ch;
+        text-align: right;
+      }
+    `,
+  ];
+  private cells: Edit[] = [];
+
+  protected override prepare(): void {
+    super.prepare();
+    if (this.cells.length > 0 || !this.item) return;
+    const { rows, columns } = gridOf(this.item);
+    this.cells = Array.from({ length: rows * columns }, (_, i) => {
+      const index = this.indexOf(i);
+      return new Edit(
+        (value) => this.host.set(`${this.item!.key}${index}`, value),
+        () => (this.item?.path === undefined ? undefined : `${this.item.path}${index}`),
+        () => this.presentCell(i),
+      );
+    });
+  }
+
+  /** "[2]", "[1][0]" */
+  private indexOf(cell: number): string {
+    const { columns } = gridOf(this.item!);
+    return this.item!.shape.length === 2 ? `[${Math.floor(cell / columns)}][${cell % columns}]` : `[${cell}]`;
+  }
+
+  protected override render(): TemplateResult {
+    const item = this.item!;
+    const { rows, columns } = gridOf(item);
+    const fields = this.cells.map((_, i) => this.field(i));
+    if (item.shape.length === 1) {
+      return this.editFrame(html`<span class="cells">
+          ${fields.map(
+            (field, i) => html`<span class="cell"><span class="index" aria-hidden="true">${elementName(item, i)}</span>${field}</span>`,
+          )} </span
+        >${this.unitMark()}`);
+    }
+    return this.editFrame(html`<div class="scroll">
+        <table role="presentation">
+          ${Array.from(
+            { length: rows },
+            (_, row) => html`<tr>
+              ${fields.slice(row * columns, (row + 1) * columns).map((field) => html`<td>${field}</td>`)}
+            </tr>`,
+          )}
+        </table></div
+      >${this.unitMark()}`);
+  }
+
+  private field(i: number): TemplateResult {
+    const edit = this.cells[i]!;
+    const name = this.item!.shape.length === 1 ? elementName(this.item!, i) : this.indexOf(i);
+    return html`<input
+      data-cell=${i}
+      type="text"
+      inputmode="text"
+      autocomplete="off"
+      spellcheck="false"
+      aria-label=${`${this.label} ${name}`}
+      aria-describedby="refusal lock"
+      ?disabled=${this.locked !== ''}
+      @input=${() => edit.touch()}
+      @blur=${() => this.commitCell(i)}
+      @keydown=${(event: KeyboardEvent) => this.onKey(event, i)}
+    />`;
+  }
+
+  private input(i: number): HTMLInputElement {
+    return this.find<HTMLInputElement>(`[data-cell="${i}"]`);
+  }
+
+  private onKey(event: KeyboardEvent, i: number): void {
+    const edit = this.cells[i]!;
+    if (event.key === 'Enter') return this.commitCell(i);
+    if (event.key === 'Escape') return edit.cancel();
+    const step = stepOfKey(event, this.quantity.fine, this.quantity.coarse);
+    if (step === undefined) return;
+    event.preventDefault();
+    const from = edit.shown;
+    if (typeof from !== 'number' || edit.touched) return;
+    const { quantity } = this;
+    edit.put(quantity.toSi(quantity.clamped(quantity.rounded(quantity.toShown(from) + step))));
+  }
+
+  private commitCell(i: number): void {
+    const edit = this.cells[i]!;
+    if (!edit.touched || this.locked !== '' || this.question.open) return;
+    const parsed = this.quantity.parse(this.input(i).value);
+    if (!('value' in parsed)) return edit.refuse(parsed.problem);
+    this.question.ask(
+      () => {
+        edit.letGo();
+        edit.put(parsed.value);
+      },
+      () => edit.cancel(),
+    );
+  }
+
+  protected override onLocked(): void {
+    super.onLocked();
+    this.cells.forEach((cell) => cell.cancel());
+  }
+
+  /** The whole: from a reading, or after a reset. */
+  protected override write(value: Value | null): void {
+    const { columns } = gridOf(this.item!);
+    const matrix = this.item!.shape.length === 2;
+    this.cells.forEach((cell, i) => {
+      cell.echo(elementAt(value, Math.floor(i / columns), i % columns, matrix) ?? null);
+      this.presentCell(i);
+    });
+  }
+
+  private presentCell(i: number): void {
+    if (!this.hasUpdated) return;
+    const edit = this.cells[i]!;
+    const input = this.input(i);
+    const shown = edit.shown;
+    const text = typeof shown === 'number' ? this.quantity.plain(shown) : '';
+    if (!edit.touched && input.value !== text) input.value = text;
+    input.placeholder = shown === null ? dash : '';
+    setAttribute(input, 'aria-busy', String(edit.pending));
+    const refused = this.cells.findIndex((cell) => cell.refusal !== '');
+    if (refused >= 0) this.say(`${elementName(this.item!, refused)}: ${this.cells[refused]!.refusal}`);
+    else if (this.locked === '') this.say(this.edit.refusal);
+  }
+}

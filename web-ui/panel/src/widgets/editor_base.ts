@@ -1,0 +1,112 @@
+// What every widget shares that changes a parameter: the value in force, the mark of a modified one, the reset.
+import { html, nothing } from 'lit';
+import type { TemplateResult } from 'lit';
+import type { Value } from '../contract';
+import { ControlBase } from './control_base';
+import { Edit } from './edit';
+import { sameValue } from './same_value';
+import { anyText, scalarText } from './value_text';
+
+export abstract class EditorBase extends ControlBase {
+  protected readonly edit = new Edit(
+    (value) => this.host.set(this.item!.key, value),
+    () => this.item?.path,
+    () => this.presentEdit(),
+  );
+  private modified = false;
+
+  /** Writes into the controls what the person, or else the unit, wants. */
+  protected abstract write(value: Value | null): void;
+
+  protected override show(value: Value | null): void {
+    this.edit.echo(value);
+  }
+
+  protected override redraw(): void {
+    this.presentEdit();
+  }
+
+  protected override updated(): void {
+    this.presentEdit();
+  }
+
+  protected override onLocked(): void {
+    this.edit.cancel();
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.edit.cancel();
+  }
+
+  /** To the unit, after a question where the table wants one. */
+  protected commit(value: Value): void {
+    if (this.locked !== '') return;
+    if (!this.question.wanted) {
+      this.edit.letGo();
+      this.edit.put(value);
+      return;
+    }
+    this.edit.propose(value);
+    this.question.ask(
+      () => {
+        this.edit.letGo();
+        this.edit.put(value);
+      },
+      () => this.edit.cancel(),
+    );
+  }
+
+  private presentEdit(): void {
+    if (!this.hasUpdated) return;
+    this.write(this.edit.shown);
+    if (this.locked === '' || this.edit.refusal !== '') this.say(this.edit.refusal);
+    this.toggleAttribute('pending', this.edit.pending);
+    const modified = this.isModified();
+    if (modified !== this.modified) {
+      this.modified = modified;
+      this.toggleAttribute('modified', modified);
+      this.requestUpdate();
+    }
+  }
+
+  private isModified(): boolean {
+    const item = this.item;
+    if (!item || item.default === undefined || this.edit.inForce === null) return false;
+    return !sameValue(this.edit.inForce, item.default, item.scalar);
+  }
+
+  private get defaultText(): string {
+    const value = this.item?.default;
+    if (value === undefined || !this.item) return '';
+    const text = Array.isArray(value) ? anyText(value) : scalarText(this.item, this.quantity, value);
+    return this.quantity.unit === '' || typeof value !== 'number' ? text : `${text} ${this.quantity.unit}`;
+  }
+
+  protected override extraLabel(): TemplateResult | typeof nothing {
+    if (!this.modified) return nothing;
+    return html` <span class="modified" title=${`Modified; the default is ${this.defaultText}`}
+      ><span aria-hidden="true">●</span><span class="hidden">modified</span></span
+    >`;
+  }
+
+  /** The control and its reset button, which is there for a modified value. */
+  protected editFrame(content: TemplateResult, control = ''): TemplateResult {
+    const item = this.item;
+    const reset =
+      item?.default === undefined || item.kind === 'feedback'
+        ? nothing
+        : html`<button
+            type="button"
+            id="reset"
+            class=${this.modified ? '' : 'gone'}
+            ?disabled=${this.locked !== '' || !this.modified}
+            title=${`Back to the default, ${this.defaultText}`}
+            aria-label=${`Reset ${this.label} to its default, ${this.defaultText}`}
+            @click=${() => this.edit.perform(() => this.host.reset(item.key))}
+          >
+            ↺
+          </button>`;
+    return this.controlFrame(html`${content}${reset}`, control);
+  }
+}

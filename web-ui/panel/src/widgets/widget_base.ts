@@ -1,0 +1,164 @@
+// What every widget shares: its item, its place on the page, its label and unit, NULL, and old values.
+import { LitElement, html, nothing } from 'lit';
+import type { CSSResultGroup, TemplateResult } from 'lit';
+import type { ItemInfo, Placement, Reading, Value, WidgetElement, WidgetHost } from '../contract';
+import { displayUnits } from '../core/units';
+import { misfit } from './choose';
+import { LiveText } from './live_text';
+import { Quantity } from './quantity';
+import { widgetStyles } from './styles';
+
+/** What is shown in place of a value that is not there. */
+export const dash = '—';
+
+export abstract class WidgetBase extends LitElement implements WidgetElement {
+  static override styles: CSSResultGroup = widgetStyles;
+
+  host!: WidgetHost;
+  item?: ItemInfo;
+  placement?: Placement;
+  /** That this is not the widget which was asked for. */
+  note = '';
+
+  /** Newest reading; undefined before the first. */
+  protected reading: Reading | undefined;
+  protected quantity = new Quantity({ scalar: 'f64', unit: '' });
+  private endings: (() => void)[] = [];
+  private absence: LiveText | undefined;
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    const placed = this.item ?? this.placedItem();
+    if (placed) this.item = placed;
+    if (this.item && !this.placement && this.note === '') this.note = misfit(this.item);
+    this.prepare();
+    this.takeAccess();
+    this.until(this.host.watchAccess(() => this.takeAccess()));
+    this.until(
+      displayUnits.watch(() => {
+        this.prepare();
+        this.requestUpdate();
+        if (this.hasUpdated) this.redraw();
+      }),
+    );
+    this.begin();
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.endings.splice(0).forEach((end) => end());
+  }
+
+  /** Does this when the widget leaves the document. */
+  protected until(end: () => void): void {
+    this.endings.push(end);
+  }
+
+  /** Where values come from; widgets of several items begin others. */
+  protected begin(): void {
+    if (this.item) this.until(this.host.watch(this.item.key, (reading) => this.take(reading), this.watchOptions()));
+  }
+
+  protected watchOptions(): { rate?: number; width?: number } {
+    return { rate: 60 };
+  }
+
+  protected take(reading: Reading): void {
+    this.reading = reading;
+    if (this.hasUpdated) this.presentReading(reading);
+  }
+
+  protected override firstUpdated(): void {
+    const absence = this.renderRoot.querySelector('#absence');
+    if (absence) this.absence = new LiveText(absence);
+    if (this.reading) this.presentReading(this.reading);
+    else this.show(null);
+    if (this.absence && !this.reading) this.absence.text = this.item ? 'no value yet' : '';
+  }
+
+  private presentReading(reading: Reading): void {
+    if (this.absence) this.absence.text = reading.value === null && !reading.image ? reading.reason || 'no value' : '';
+    this.show(reading.value);
+  }
+
+  /** Writes a value into what is rendered, with as little as possible; null: there is none. */
+  protected abstract show(value: Value | null): void;
+
+  /** The same value once more: units are others. */
+  protected redraw(): void {
+    this.show(this.reading?.value ?? null);
+  }
+
+  /** Access, or the freshness of values, may have changed. */
+  protected takeAccess(): void {
+    this.toggleAttribute('stale', this.host.stale);
+  }
+
+  /** Item or units are new. */
+  protected prepare(): void {
+    if (this.item) this.quantity = new Quantity(this.item, this.options);
+  }
+
+  protected get options(): Placement['options'] {
+    return this.placement?.options ?? {};
+  }
+  protected get label(): string {
+    return this.placement?.label || this.item?.label || this.placement?.name || '';
+  }
+
+  /** A placed widget without an item of its own shows the first that its row names. */
+  private placedItem(): ItemInfo | undefined {
+    return this.placement ? placedItem(this.host, this.placement) : undefined;
+  }
+
+  /** Label, content, and what is to be said about it. With `control`, the label is that of the element of this id. */
+  protected frame(content: TemplateResult, control = '', notes: TemplateResult | typeof nothing = nothing): TemplateResult {
+    const label = html`${this.label}${this.extraLabel()}`;
+    return html`
+      <div
+        class="row"
+        role=${control === '' ? 'group' : nothing}
+        aria-labelledby=${control === '' ? 'label' : nothing}
+        aria-describedby=${control === '' ? 'summary' : nothing}
+      >
+        <div class="head" title=${this.item?.summary ?? ''}>
+          ${control === ''
+            ? html`<span id="label">${label}</span>`
+            : html`<label id="label" for=${control}>${label}</label>`}
+        </div>
+        <div class="content">${content}</div>
+        <div class="notes">
+          <span id="absence"></span>
+          ${this.note === '' ? nothing : html`<span class="note">${this.note}</span>`} ${notes}
+        </div>
+        <span id="summary" class="hidden">${this.description()}</span>
+      </div>
+    `;
+  }
+
+  protected extraLabel(): TemplateResult | typeof nothing {
+    return nothing;
+  }
+
+  /** For screen readers: summary, unit and range. */
+  protected description(): string {
+    const unit = this.quantity.unit === '' ? '' : `In ${this.quantity.unit}.`;
+    const range = this.quantity.rangeText();
+    return [this.item?.summary ?? '', unit, range === '' ? '' : `From ${range}.`].filter((part) => part !== '').join(' ');
+  }
+
+  protected unitMark(): TemplateResult {
+    return html`<span class="unit" aria-hidden="true">${this.quantity.unit}</span>`;
+  }
+
+  protected find<E extends Element>(selector: string): E {
+    return this.renderRoot.querySelector<E>(selector)!;
+  }
+}
+
+/** The item of a placed widget: `value` among its parameters and slots, or else the first of them. */
+export function placedItem(host: WidgetHost, placement: Placement): ItemInfo | undefined {
+  const names = { ...placement.slots, ...placement.parameters };
+  const name = names['value'] ?? Object.values(names)[0];
+  return name === undefined ? undefined : (host.item(name) ?? host.item(`slot:${name}`));
+}
