@@ -1,5 +1,6 @@
 // All widgets that come with the panel, in one chunk of their own.
 import type { RegisterWidget } from '../contract';
+import { RobotWidget } from '../robot/robot_widget';
 import { ArrayField } from './array_field';
 import { ArrayReadout } from './array_readout';
 import { Button } from './button';
@@ -44,4 +45,5 @@ export function registerBuiltIn(register: RegisterWidget): void {
   register('text_field', TextField);
   register('array_field', ArrayField);
   register('jog_pad', JogPad);
+  register('robot', RobotWidget);
 }

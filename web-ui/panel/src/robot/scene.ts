@@ -1,0 +1,157 @@
+// The 3D scene of one robot. The only file that knows three.js: it comes with a chunk of its own, when it is shown.
+import {
+  AmbientLight, Box3, DirectionalLight, GridHelper, LoadingManager, Material, Mesh, PerspectiveCamera, Scene, Spherical, Vector3,
+  WebGLRenderer, type Object3D,
+} from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import URDFLoader, { type URDFRobot } from 'urdf-loader';
+
+/** Where the files of robots lie; meshes are named relative to it, or as package://PACKAGE/FILE. */
+const folder = '/application/robots/';
+
+/** Sharper than this costs more than it shows. */
+const most_pixels = 2;
+
+export interface SceneOptions {
+  readonly canvas: HTMLCanvasElement;
+  /** CSS colours of the grid: its lines, and those through the origin. */
+  readonly colours: { readonly line: string; readonly axis: string };
+}
+
+/** Draws only when something changed. Throws when there is no WebGL. */
+export class RobotScene {
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(40, 1, 0.01, 100);
+  private readonly renderer: WebGLRenderer;
+  private readonly controls: OrbitControls;
+  private readonly end = new AbortController();
+  private robot: URDFRobot | undefined;
+  private frame = 0;
+  private shown = true;
+
+  constructor({ canvas, colours }: SceneOptions) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.setPixelRatio(Math.min(globalThis.devicePixelRatio, most_pixels));
+    this.camera.up.set(0, 0, 1); // z is up in robotics
+    const key = new DirectionalLight(0xffffff, 2.2);
+    key.position.set(2, -3, 4);
+    const fill = new DirectionalLight(0xffffff, 0.8);
+    fill.position.set(-3, 2, 1);
+    const grid = new GridHelper(4, 16, colours.axis, colours.line);
+    grid.rotation.x = Math.PI / 2;
+    this.scene.add(new AmbientLight(0xffffff, 1.2), key, fill, grid);
+
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener('change', () => this.invalidate());
+    // The wheel scrolls the page until the person turned to the view.
+    this.controls.enableZoom = false;
+    const { signal } = this.end;
+    canvas.addEventListener('focus', () => (this.controls.enableZoom = true), { signal });
+    canvas.addEventListener('blur', () => (this.controls.enableZoom = false), { signal });
+    canvas.addEventListener('webglcontextlost', (event) => event.preventDefault(), { signal });
+    canvas.addEventListener('webglcontextrestored', () => this.invalidate(), { signal });
+  }
+
+  /** Throws when the text is no robot. Meshes come in as they are loaded. */
+  load(urdf: string): void {
+    const manager = new LoadingManager();
+    manager.itemEnd = ((end) => (address: string) => {
+      end.call(manager, address);
+      this.invalidate();
+    })(manager.itemEnd);
+    const loader = new URDFLoader(manager);
+    loader.packages = (name: string) => `${folder}${name}`;
+    loader.workingPath = folder;
+    this.robot = loader.parse(urdf);
+    this.scene.add(this.robot);
+    this.resetView();
+  }
+
+  /** rad or m, by the joints' names. */
+  setJoints(positions: Iterable<readonly [string, number]>): void {
+    let moved = false;
+    for (const [name, position] of positions) moved = (this.robot?.joints[name]?.setJointValue(position) ?? false) || moved;
+    if (moved) this.invalidate();
+  }
+
+  resize(width: number, height: number): void {
+    if (width <= 0 || height <= 0) return;
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.renderer.setSize(width, height, false);
+    this.draw(); // at once: a canvas of a new size is empty
+  }
+
+  /** Nothing is drawn while nobody sees it. */
+  set visible(visible: boolean) {
+    this.shown = visible;
+    if (visible) this.invalidate();
+  }
+
+  /** The whole robot, from the front and a little above. */
+  resetView(): void {
+    const bounds = this.robot ? new Box3().setFromObject(this.robot) : new Box3();
+    if (bounds.isEmpty()) bounds.set(new Vector3(-0.5, -0.5, 0), new Vector3(0.5, 0.5, 1));
+    const centre = bounds.getCenter(new Vector3());
+    const reach = Math.max(0.1, bounds.getSize(new Vector3()).length());
+    this.camera.position.copy(centre).add(new Vector3(1, -1, 0.55).normalize().multiplyScalar(1.5 * reach));
+    this.camera.near = reach / 100;
+    this.camera.far = reach * 100;
+    this.camera.updateProjectionMatrix();
+    this.controls.target.copy(centre);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  /** rad about the vertical, and towards the top. */
+  turn(around: number, up: number): void {
+    this.moveCamera((place) => {
+      place.theta += around;
+      place.phi -= up;
+    });
+  }
+
+  /** Above 1: away. */
+  zoom(factor: number): void {
+    this.moveCamera((place) => (place.radius *= factor));
+  }
+
+  dispose(): void {
+    this.end.abort();
+    cancelAnimationFrame(this.frame);
+    this.controls.dispose();
+    this.scene.traverse(free);
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+
+  private moveCamera(change: (place: Spherical) => void): void {
+    // Spherical has y upwards.
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const place = new Spherical().setFromCartesianCoords(offset.y, offset.z, offset.x);
+    change(place);
+    place.makeSafe();
+    const moved = new Vector3().setFromSpherical(place);
+    this.camera.position.set(moved.z, moved.x, moved.y).add(this.controls.target);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  private invalidate(): void {
+    if (this.frame !== 0 || !this.shown) return;
+    this.frame = requestAnimationFrame(() => this.draw());
+  }
+
+  private draw(): void {
+    cancelAnimationFrame(this.frame);
+    this.frame = 0;
+    this.renderer.render(this.scene, this.camera);
+  }
+}
+
+function free(object: Object3D): void {
+  if (!(object instanceof Mesh) && !('geometry' in object)) return;
+  const { geometry, material } = object as Mesh;
+  geometry.dispose();
+  for (const one of Array.isArray(material) ? material : [material]) if (one instanceof Material) one.dispose();
+}
