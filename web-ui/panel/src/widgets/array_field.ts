@@ -44,6 +44,11 @@ export class ArrayField extends EditorBase {
     return this.item!.shape.length === 2 ? `[${Math.floor(cell / columns)}][${cell % columns}]` : `[${cell}]`;
   }
 
+  /** For people: "x", "2", "[1][0]". */
+  private nameOf(cell: number): string {
+    return this.item!.shape.length === 1 ? elementName(this.item!, cell) : this.indexOf(cell);
+  }
+
   protected override render(): TemplateResult {
     const item = this.item!;
     const { rows, columns } = gridOf(item);
@@ -69,14 +74,13 @@ export class ArrayField extends EditorBase {
 
   private field(i: number): TemplateResult {
     const edit = this.cells[i]!;
-    const name = this.item!.shape.length === 1 ? elementName(this.item!, i) : this.indexOf(i);
     return html`<input
       data-cell=${i}
       type="text"
       inputmode="text"
       autocomplete="off"
       spellcheck="false"
-      aria-label=${`${this.label} ${name}`}
+      aria-label=${`${this.label} ${this.nameOf(i)}`}
       aria-describedby="refusal lock"
       ?disabled=${this.locked !== ''}
       @input=${() => edit.touch()}
@@ -141,7 +145,7 @@ export class ArrayField extends EditorBase {
     input.placeholder = shown === null ? dash : '';
     setAttribute(input, 'aria-busy', String(edit.pending));
     const refused = this.cells.findIndex((cell) => cell.refusal !== '');
-    if (refused >= 0) this.say(`${elementName(this.item!, refused)}: ${this.cells[refused]!.refusal}`);
+    if (refused >= 0) this.say(`${this.nameOf(refused)}: ${this.cells[refused]!.refusal}`);
     else if (this.locked === '') this.say(this.edit.refusal);
   }
 }

@@ -37,6 +37,8 @@ export class Quantity {
   private readonly factor: number;
   private readonly integer: boolean;
   private decimals: number;
+  /** Decimals do not follow the values. */
+  private readonly fixed: boolean;
   private largest = 0;
 
   constructor(
@@ -61,6 +63,7 @@ export class Quantity {
     this.coarse = given('coarse') ?? Math.max(this.fine, wide ? roundStep(span / 20) : 10 * this.fine);
     if (!this.integer) this.decimals = Math.max(this.decimals, Math.min(most_decimals, -Math.floor(Math.log10(this.fine) + 1e-9)));
     const digits = options['decimals'];
+    this.fixed = this.integer || this.range !== undefined || typeof digits === 'number';
     if (typeof digits === 'number') this.decimals = Math.min(most_decimals, Math.max(0, Math.round(digits)));
   }
 
@@ -83,9 +86,9 @@ export class Quantity {
     if (this.integer && this.factor === 1) return String(Math.round(shown));
     const magnitude = Math.abs(shown);
     if (magnitude >= 1e12) return shown.toExponential(3);
-    if (!this.range && magnitude > this.largest) {
+    if (!this.fixed && magnitude > this.largest) {
       this.largest = magnitude;
-      this.decimals = this.integer ? 0 : decimalsFor(magnitude);
+      this.decimals = decimalsFor(magnitude);
     }
     const text = shown.toFixed(this.decimals);
     return text.startsWith('-') && Number(text) === 0 ? text.slice(1) : text;

@@ -100,7 +100,7 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
   }
 
   protected get options(): Placement['options'] {
-    return this.placement?.options ?? {};
+    return this.placement?.options ?? (this.item?.confirm ? { confirm: this.item.confirm } : {});
   }
   protected get label(): string {
     return this.placement?.label || this.item?.label || this.placement?.name || '';
