@@ -1,17 +1,21 @@
 #!/usr/bin/env bash
 # fresh.sh ROOT: tries the two set-up commands on the current commit in an empty Debian 12 (minbase with git and
-# ca-certificates). The root is made with the mirrors and the apt settings of this machine, so that what works here behind
-# a proxy works there too, and it is gone afterwards.
+# ca-certificates). The root is made with the mirrors, the apt settings and the npm settings of this machine, so that what
+# works here behind a proxy works there too, and it is gone afterwards.
 set -eu -o pipefail
 root=$1
 suite=bookworm
+# shellcheck source=cmake/tool/npm_settings.sh
+source "$root/cmake/tool/npm_settings.sh"
 
 if ((EUID != 0)); then
   command -v sudo >/dev/null || {
     echo "flexrf: a fresh root needs root, and there is no sudo here" >&2
     exit 3
   }
-  exec sudo --preserve-env=http_proxy,https_proxy,no_proxy,TMPDIR bash "${BASH_SOURCE[0]}" "$root" </dev/null
+  export npm_config_userconfig=${npm_config_userconfig-$HOME/.npmrc} # the user's, not root's
+  kept=$(compgen -e npm_config_ | paste -s -d ,)
+  exec sudo --preserve-env="http_proxy,https_proxy,no_proxy,TMPDIR,NODE_EXTRA_CA_CERTS,$kept" bash "${BASH_SOURCE[0]}" "$root" </dev/null
 fi
 
 work=$(mktemp -d "${TMPDIR:-/var/tmp}/flexrf-fresh.XXXXXX")
@@ -46,6 +50,7 @@ mmdebstrap --quiet --variant=minbase --include=git,ca-certificates --aptopt="$wo
   "$suite" "$fresh" "${mirrors[@]}" </dev/null
 cp "$work/flexrf.bundle" "$fresh/root/flexrf.bundle"
 cp -L /etc/resolv.conf /etc/hosts "$fresh/etc/"
+copy_npm_settings "$fresh"
 
 cat >"$fresh/root/try" <<'TRY'
 #!/bin/bash

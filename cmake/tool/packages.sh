@@ -2,11 +2,13 @@
 # shellcheck shell=bash disable=SC2154 # root and tool are flexrf's
 
 missing_packages() {  # missing_packages USE...: a line "name<TAB>why" for each package not installed
-  local name use why installed
+  local name use why installed command
   local -a names=()
   local -A reason=()
   while read -r name use why; do
+    IFS=: read -r use command <<<"$use"
     [[ $name == '' || $name == \#* || " $* " != *" $use "* ]] && continue
+    [[ $command ]] && command -v "$command" >/dev/null && continue
     names+=("$name")
     reason[$name]=$why
   done <"$root/packages.txt"

@@ -54,13 +54,19 @@ run_tests() {  # run_tests PRESET CTEST ARGUMENT...
 }
 
 test_preset() {  # test_preset PRESET full|some: what does not build is a test that fails, the others run all the same
-  local preset=$1 extent=$2
+  local preset=$1 extent=$2 without=''
   local -a targets=() selection=()
   # Whole cells are what takes long under a sanitizer, and what the other presets run already.
   [[ $extent == some ]] && targets=(tests_unit tests_stress) selection=(-L '^(unit|stress)$')
-  [[ ${FLEXRF_LONG-} ]] || selection+=(-LE '^long$')
+  [[ ${FLEXRF_LONG-} ]] || without='^long$'
   check "build $preset" build "$preset" "${targets[@]}"
-  stage "test $preset" run_tests "$preset" "${selection[@]}"
+  if [[ $preset == release ]]; then
+    # The page and a browser before it: only here, and apart, as they are of another kind and take their time.
+    stage "test $preset" run_tests "$preset" "${selection[@]}" -LE "${without:+$without|}^panel\$"
+    stage panel run_tests "$preset" -L '^panel$' ${without:+-LE "$without"}
+  else
+    stage "test $preset" run_tests "$preset" "${selection[@]}" ${without:+-LE "$without"}
+  fi
 }
 
 test_stages() {  # test_stages [--full | PRESET...]

@@ -18,13 +18,13 @@ last_line() { printf '%s\n' "${output##*$'\n'}"; }
 
 flexrf test </dev/null
 expect "exit code" "$status" 0
-expect "last line" "$(last_line)" "100% tests passed, 0 tests failed out of 22"
-for stage in "source layout" "static analysis" {build,test}\ {release,checked,asan,tsan}; do
+expect "last line" "$(last_line)" "100% tests passed, 0 tests failed out of 26"
+for stage in "source layout" "static analysis" panel {build,test}\ {release,checked,asan,tsan}; do
   expect "time of $stage" "$output" "*"$'\n'"$stage *[0-9] s   passed*"
 done
-for preset in release checked; do
-  expect "tests of $preset" "$(grep "^ctest .*/$preset " "$calls")" "!(* -L *)"
-done
+expect "tests of checked" "$(grep "^ctest .*/checked " "$calls")" "!(* -L *) -LE ^long\$"
+expect "tests of release" "$(grep "^ctest .*/release " "$calls")" \
+  "!(* -L *) -LE ^long\$|^panel\$"$'\n'"* -L ^panel\$ -LE ^long\$"
 for preset in asan tsan; do
   expect "tests of $preset" "$(grep "^ctest .*/$preset " "$calls")" "* -L ^(unit|stress)\$ -LE ^long\$"
   expect "what is built of $preset" "$(grep "^ninja .*/$preset" "$calls")" "*tests_unit tests_stress"
@@ -36,7 +36,7 @@ expect "long tests" "$(sort -u <(grep ^long: "$calls"))" "long: unset"
 flexrf test --full </dev/null
 expect "exit code of --full" "$status" 0
 expect "long tests of --full" "$(sort -u <(grep ^long: "$calls"))" "long: 1"
-expect "selections of --full" "$(grep -c -e ' -L' "$calls")" 0
+expect "selections of --full" "$(grep -e ' -L' "$calls")" "* -LE ^panel\$"$'\n'"* -L ^panel\$"
 
 : >"$calls"
 flexrf test tsan debug </dev/null
@@ -49,11 +49,11 @@ touch "$work/failing"
 flexrf test </dev/null
 expect "exit code of a failure" "$status" 1
 expect "stages after a failure" "$output" "*test checked *FAILED*test tsan *passed*"
-expect "last line of a failure" "$(last_line)" "95% tests passed, 1 tests failed out of 22"
+expect "last line of a failure" "$(last_line)" "96% tests passed, 1 tests failed out of 26"
 
 touch "$work/broken"
 flexrf test release </dev/null
 expect "exit code of a broken build" "$status" 1
-expect "tests after a broken build" "$output" "*error: broken*build release *FAILED*test release *passed*"
-expect "last line of a broken build" "$(last_line)" "80% tests passed, 1 tests failed out of 5"
+expect "tests after a broken build" "$output" "*error: broken*build release *FAILED*test release *passed*panel *passed*"
+expect "last line of a broken build" "$(last_line)" "88% tests passed, 1 tests failed out of 9"
 finish
