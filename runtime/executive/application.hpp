@@ -8,6 +8,8 @@
 
 #include "runtime/blackboard/queue.hpp"
 #include "runtime/blackboard/slot.hpp"
+#include "runtime/executive/observer.hpp"
+#include "runtime/executive/panel_record.hpp"
 #include "runtime/executive/state.hpp"
 #include "runtime/parameters/rename.hpp"
 #include "runtime/unit/unit.hpp"
@@ -150,6 +152,15 @@ struct ThreadRecord {
   Doorbell* bell;
 };
 
+/// A parameter whose range the application's table narrows.
+struct NarrowedRange {
+  std::uint16_t component;  ///< units in table order, then devices
+  ParameterKind kind;
+  const char* parameter;
+  double minimum;
+  double maximum;
+};
+
 struct Application {
   const char* name;
   const char* summary;
@@ -166,6 +177,8 @@ struct Application {
   std::span<const PopulationRecord> populations;
   std::span<const ThreadRecord> threads;
   std::span<const Rename> renames;  ///< of what older configuration files call otherwise
+  std::span<const NarrowedRange> ranges;
+  const PanelRecord* panel;  ///< null: as its table's defaults are, without files
   // What the executive keeps, one each.
   std::span<UnitState> unit_states;
   std::span<DeviceState> device_states;
@@ -174,6 +187,8 @@ struct Application {
 
 /// The main function of every application: reads the command line, runs to the end, returns the exit code
 /// (0 finished, 1 usage or table, 2 fault, 3 right missing, 128+n signal).
-int run_application(const Application& application, int argument_count, char** arguments);
+/// `make`: of whoever observes it, as the panel; not called with `--panel off` and in virtual time.
+int run_application(const Application& application, int argument_count, char** arguments,
+                    MakeObserver make = nullptr);
 
 }  // namespace flexrf

@@ -1,5 +1,6 @@
 #include "runtime/executive/cell.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -36,7 +37,9 @@ Cell::Cell(const Application& application, const Options& options)
       parameters_(
           std::make_unique<RuntimeParameters[]>(application.units.size() + application.devices.size())),
       requests_(std::make_unique<RequestQueue[]>(application.threads.size())),
-      scratch_(std::make_unique<ParameterScratch[]>(application.threads.size())) {
+      scratch_(std::make_unique<ParameterScratch[]>(application.threads.size())),
+      configurations_(
+          std::make_unique<std::vector<std::byte>[]>(application.units.size() + application.devices.size())) {
   for (std::size_t i = 0; i < application.threads.size(); ++i)
     requests_[i].set_bell(application.threads[i].bell);
 }
@@ -85,6 +88,27 @@ Status Cell::choose_drivers() {
   return {};
 }
 
+void Cell::narrow_ranges() {
+  for (const NarrowedRange& range : application_->ranges) {
+    if (narrowed_type(range.component) != nullptr) continue;
+    narrowed_.emplace_back(component_type(range.component), range.component, application_->ranges);
+  }
+}
+
+const NarrowedType* Cell::narrowed_type(ComponentIndex component) const noexcept {
+  for (const NarrowedType& narrowed : narrowed_) {
+    if (narrowed.component() == component) return &narrowed;
+  }
+  return nullptr;
+}
+
+const ComponentType& Cell::component_type(ComponentIndex component) const noexcept {
+  if (const NarrowedType* narrowed = narrowed_type(component); narrowed != nullptr) return narrowed->type();
+  const std::size_t units = application_->units.size();
+  return component < units ? *application_->units[component].type
+                           : *driver(static_cast<std::uint16_t>(component - units)).type;
+}
+
 Status Cell::construct_device(std::uint16_t index) {
   const DeviceRecord& record = application_->devices[index];
   DeviceState& state = application_->device_states[index];
@@ -94,6 +118,7 @@ Status Cell::construct_device(std::uint16_t index) {
   state.environment = {seed_of(options_->seed, record.name), options_->virtual_time.has_value(),
                        options_->keys_file.empty() ? nullptr : options_->keys_file.c_str()};
   state.device->set_name(record.name);
+  state.device->set_type_in_force(component_type(component_of_device(index)));
   state.device->set_environment(&state.environment);
   DeviceBinding binding = record.binding;
   if (record.bus != no_index) binding.bus = application_->device_states[record.bus].device;
@@ -110,6 +135,7 @@ Status Cell::construct_unit(std::uint16_t index) {
   UnitState& state = application_->unit_states[index];
   state.unit = record.construct(record.storage);
   state.unit->set_name(record.name);
+  state.unit->set_type_in_force(component_type(index));
   state.unit->connect(record.binding);
   const ParameterMemory memory = state.unit->parameter_memory();
   fill(memory.configuration, record.type->configuration, record.configuration);
@@ -121,6 +147,7 @@ Status Cell::construct_unit(std::uint16_t index) {
 
 Status Cell::construct() {
   if (const Status status = choose_drivers(); !status) return status;
+  narrow_ranges();
   // A bus may stand after what it carries in the tables; it is constructed before.
   for (const bool carried : {false, true}) {
     for (std::size_t i = 0; i < application_->devices.size(); ++i) {
@@ -176,6 +203,22 @@ const char* Cell::component_name(ComponentIndex component) const noexcept {
                            : application_->devices[component - units].name;
 }
 
+void Cell::note_configuration(ComponentIndex index) {
+  const ParameterBlock& block = component_type(index).configuration;
+  const auto* values = static_cast<const std::byte*>(component(index).parameter_memory().configuration);
+  if (block.type == nullptr || values == nullptr) return;
+  const std::lock_guard lock(configuration_mutex_);
+  configurations_[index].assign(values, values + block.type->size);
+  configuration_revision_.fetch_add(1, std::memory_order_acq_rel);
+}
+
+std::size_t Cell::copy_configuration(ComponentIndex index, void* to, std::size_t size) const {
+  const std::lock_guard lock(configuration_mutex_);
+  const std::vector<std::byte>& values = configurations_[index];
+  std::memcpy(to, values.data(), std::min(size, values.size()));
+  return values.size();
+}
+
 Component& Cell::component(ComponentIndex component) const noexcept {
   const std::size_t units = application_->units.size();
   if (component < units) return *application_->unit_states[component].unit;
@@ -209,6 +252,13 @@ bool Cell::has_real_actuator() const noexcept {
   for (std::size_t i = 0; i < application_->devices.size(); ++i) {
     const DriverRecord& chosen = driver(static_cast<std::uint16_t>(i));
     if (chosen.actuates && chosen.kind == DriverKind::real) return true;
+  }
+  return false;
+}
+
+bool Cell::owns_actuator(std::uint16_t unit) const noexcept {
+  for (std::size_t i = 0; i < application_->devices.size(); ++i) {
+    if (application_->devices[i].unit == unit && driver(static_cast<std::uint16_t>(i)).actuates) return true;
   }
   return false;
 }

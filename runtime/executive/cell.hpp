@@ -2,11 +2,15 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <deque>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "runtime/executive/application.hpp"
 #include "runtime/executive/control.hpp"
+#include "runtime/executive/narrowed_type.hpp"
 #include "runtime/executive/options.hpp"
 #include "runtime/parameters/parameter_store.hpp"
 #include "runtime/parameters/request.hpp"
@@ -55,7 +59,21 @@ class Cell {
     return static_cast<ComponentIndex>(application_->units.size() + device);
   }
   const char* component_name(ComponentIndex component) const noexcept;
+  /// The object: its owning thread, and whoever knows that nobody restarts it. Others ask component_type().
   Component& component(ComponentIndex component) const noexcept;
+  /// What is declared of it: of a device by the chosen driver, with ranges as the application narrows them.
+  /// Any thread, from construct() on.
+  const ComponentType& component_type(ComponentIndex component) const noexcept;
+  /// Copies the configuration values that the component was initialised with last, at most `size` bytes; the
+  /// object itself may be under restart. How many there are, 0: none. Any non-real-time thread.
+  std::size_t copy_configuration(ComponentIndex component, void* to, std::size_t size) const;
+  /// Rises with each initialisation: the values may be others than before. Any thread.
+  std::uint64_t configuration_revision() const noexcept {
+    return configuration_revision_.load(std::memory_order_acquire);
+  }
+  /// The values are those that the component is about to be initialised with. Lifecycle thread; before the
+  /// start: the main thread.
+  void note_configuration(ComponentIndex component);
   RuntimeParameters& parameters(ComponentIndex component) noexcept { return parameters_[component]; }
   ParameterScratch& scratch(std::uint16_t thread) noexcept { return scratch_[thread]; }
 
@@ -66,7 +84,14 @@ class Cell {
   void answer(std::uint16_t requester, const ParameterAnswer& answer) noexcept;
   RequestQueue& requests(std::uint16_t thread) noexcept { return requests_[thread]; }
 
+  /// The observer's readers (SlotRecord::observer) serve one at a time: whoever reads a slot with one holds
+  /// this lock while it takes the newest item and copies or writes it out, and no longer. Status view,
+  /// report, panel; never a real-time thread, none of which reads as the observer.
+  [[nodiscard]] std::unique_lock<std::mutex> observe() const { return std::unique_lock(observing_); }
+
   bool has_real_actuator() const noexcept;
+  /// A device that actuates and belongs to the unit. Any thread.
+  bool owns_actuator(std::uint16_t unit) const noexcept;
   /// How readers see what the unit writes.
   void set_writer_state(std::uint16_t unit, WriterState state) noexcept;
   void set_device_writer_state(std::uint16_t device, WriterState state) noexcept;
@@ -80,6 +105,8 @@ class Cell {
 
  private:
   Status choose_drivers();
+  void narrow_ranges();
+  const NarrowedType* narrowed_type(ComponentIndex component) const noexcept;
   Status construct_device(std::uint16_t device);
   Status construct_unit(std::uint16_t unit);
 
@@ -91,8 +118,13 @@ class Cell {
   std::unique_ptr<RuntimeParameters[]> parameters_;  // one per component
   std::unique_ptr<RequestQueue[]> requests_;         // one per thread
   std::unique_ptr<ParameterScratch[]> scratch_;      // one per thread
+  std::deque<NarrowedType> narrowed_;
   std::array<AnswerQueue*, max_requesters> requesters_{};
   std::uint16_t requester_count_ = 1;
+  mutable std::mutex observing_;
+  mutable std::mutex configuration_mutex_;
+  std::unique_ptr<std::vector<std::byte>[]> configurations_;  // one per component, as it was initialised
+  std::atomic<std::uint64_t> configuration_revision_{0};
 };
 
 }  // namespace flexrf

@@ -51,11 +51,14 @@ extern "C" void end_virtual_time(int signal) {
 }
 
 /// Bytes. All that is mapped is locked, code and libraries too: an application within its budget needs more.
-std::size_t memory_to_lock(const Application& application) noexcept {
+std::size_t memory_to_lock(const Application& application, bool observed) noexcept {
   // The lifecycle thread's stack, and what the executive and the report allocate.
   constexpr std::size_t mapped_later = 4U << 20;
+  // An observer's stacks, and the heaps that the allocator gives its threads.
+  constexpr std::size_t mapped_by_observer = 12U << 20;
   const Result<ProcessStatistics> process = read_process_statistics();
-  return process ? process->mapped + mapped_later : application.memory_budget;
+  return process ? process->mapped + mapped_later + (observed ? mapped_by_observer : 0)
+                 : application.memory_budget;
 }
 
 const char* name_of_role(CpuRole role) noexcept {
@@ -102,7 +105,7 @@ Status Executive::prepare() {
   for (const ThreadRecord& thread : cell_.application().threads) {
     needed.priority = std::max<int>(needed.priority, thread.priority);
   }
-  needed.locked_bytes = memory_to_lock(cell_.application());
+  needed.locked_bytes = memory_to_lock(cell_.application(), options_.observed);
   const RightsReport rights = probe_rights(needed);
   if (rights.is_complete()) return {};
   std::fprintf(stderr, "%s\n", rights.text);
@@ -134,11 +137,45 @@ void Executive::save_values() {
 
 ReconfigureResult Executive::reconfigure(std::vector<ConfigurationChange> changes) {
   std::promise<ReconfigureResult> result;
-  lifecycle_.post([this, &result, &changes] {
-    Reconfiguration host(cell_, lifecycle_);
-    result.set_value(flexrf::reconfigure(host, changes));
-  });
+  reconfigure(std::move(changes), [&result](const ReconfigureResult& outcome) { result.set_value(outcome); });
   return result.get_future().get();
+}
+
+void Executive::reconfigure(std::vector<ConfigurationChange> changes, ReconfigureDone done) {
+  const auto refused = [this] {
+    return ReconfigureResult{
+        ReconfigureOutcome::refused,
+        {std::string{"the application is "} + name_of(cell_.control().mode()) + ", not running"},
+        {}};
+  };
+  const bool posted = lifecycle_.post([this, refused, done, changes = std::move(changes)] {
+    if (cell_.control().mode() != Mode::running) return done(refused());
+    Reconfiguration host(cell_, lifecycle_);
+    done(flexrf::reconfigure(host, changes));
+  });
+  if (!posted) done(refused());
+}
+
+void Executive::act(ComponentAction action, ComponentIndex component, ActionDone done) {
+  const bool posted = lifecycle_.post([this, action, component, done] {
+    const Status status = ComponentActions(cell_, lifecycle_).run(action, component);
+    if (status) {
+      log_info(cell_.component_name(component), "{}: done", StaticText{name_of(action)});
+    } else {
+      log_warning(cell_.application().name, "{}: {}", StaticText{name_of(action)}, status.cause());
+    }
+    done(status);
+  });
+  if (!posted) done(Status::error(StatusCode::not_permitted, "the application has ended"));
+}
+
+std::vector<ComponentIndex> Executive::owners_of(std::span<const ComponentIndex> changed) {
+  return Reconfiguration(cell_, lifecycle_).owners_of(changed);
+}
+
+void Executive::request_end() noexcept {
+  cell_.control().set_cause(EndCause::requested);
+  cell_.control().rise_to(Mode::stopping);
 }
 
 RunSummary Executive::run() {
@@ -244,8 +281,11 @@ Status Executive::start_threads(RunSummary& summary) {
                 describe_response_time(estimate->task, estimate->result, text, sizeof(text)));
   }
   const CpuSet rest = machine->rest(claimed);
-  // The supervising, lifecycle and library threads stay away from the real-time ones.
+  // The supervising, lifecycle, observing and library threads stay away from the real-time ones.
   if (options_.realtime) sched_setaffinity(0, sizeof(cpu_set_t), &rest.mask());
+  if (observer_ != nullptr) {
+    if (const Status status = start_observer(); !status) return status;
+  }
   for (std::size_t i = 0; i < application.threads.size(); ++i) {
     ThreadLoop& loop = loops_.emplace_back(cell_, static_cast<std::uint16_t>(i));
     if (const Status status = loop.prepare(); !status) return status;
@@ -275,6 +315,26 @@ Status Executive::start_threads(RunSummary& summary) {
       settings, [](void* executive) { static_cast<Executive*>(executive)->live(); }, this);
 }
 
+Status Executive::start_observer() {
+#ifndef FLEXRF_SANITIZER  // a sanitizer's frames are larger
+  // Whatever starts a thread without saying how: of the usual 8 MiB of stack all would be locked, and a main
+  // thread that somebody made real-time would have real-time children.
+  pthread_attr_t attributes;
+  sched_param ordinary{};
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, observer_stack_size);
+  pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
+  pthread_attr_setschedpolicy(&attributes, SCHED_OTHER);
+  pthread_attr_setschedparam(&attributes, &ordinary);
+  const int error = pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
+  if (error != 0) {
+    return Status::error(StatusCode::internal, "threads of the observer: %s", std::strerror(error));
+  }
+#endif
+  return observer_->start();
+}
+
 void Executive::live() {
   if (const Status status = lifecycle_.start_all(); status) {
     begin_running();
@@ -289,6 +349,7 @@ void Executive::live() {
     if (cell_.control().mode() == Mode::running) lifecycle_.restart_by_policy();
     nanosleep(&lifecycle_pause, nullptr);
   }
+  lifecycle_.close();
   lifecycle_.stop_all();
 }
 

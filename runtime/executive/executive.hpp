@@ -3,11 +3,15 @@
 
 #include <atomic>
 #include <deque>
+#include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "runtime/executive/cell.hpp"
+#include "runtime/executive/component_actions.hpp"
 #include "runtime/executive/lifecycle.hpp"
+#include "runtime/executive/observer.hpp"
 #include "runtime/executive/reconfiguration.hpp"
 #include "runtime/executive/run_summary.hpp"
 #include "runtime/executive/supervision.hpp"
@@ -35,7 +39,29 @@ class Executive {
   /// Another thread than run()'s, not real-time, while the application runs.
   ReconfigureResult reconfigure(std::vector<ConfigurationChange> changes);
 
+  // ---- for another thread that is not real-time, while the application runs; none of these waits
+
+  /// Told once, on the lifecycle thread, how it went: it must not wait, nor call what waits for that thread.
+  /// At once and on the caller's thread when the application has ended.
+  using ActionDone = std::function<void(const Status&)>;
+  using ReconfigureDone = std::function<void(const ReconfigureResult&)>;
+
+  void act(ComponentAction action, ComponentIndex component, ActionDone done);
+  /// As reconfigure(), without waiting.
+  void reconfigure(std::vector<ConfigurationChange> changes, ReconfigureDone done);
+  /// What a reconfiguration of these would stop and initialise again, in order of stopping: what actuates
+  /// first.
+  std::vector<ComponentIndex> owners_of(std::span<const ComponentIndex> changed);
+  /// What may move now or is not yet at rest, see moving_components(). Empty: motion is stopped.
+  std::vector<ComponentIndex> moving() const { return moving_components(cell_); }
+  /// The controlled stop of the whole application.
+  void request_end() noexcept;
+
+  /// Whom run() starts with the application's threads. Its maker stops it, after run(). Before run().
+  void set_observer(Observer& observer) noexcept { observer_ = &observer; }
+
   Cell& cell() noexcept { return cell_; }
+  const Options& options() const noexcept { return options_; }
   Lifecycle& lifecycle() noexcept { return lifecycle_; }
   Control& control() noexcept { return cell_.control(); }
 
@@ -43,6 +69,7 @@ class Executive {
   void run_on_the_wall_clock(RunSummary& summary);
   void run_in_virtual_time(RunSummary& summary);
   Status start_threads(RunSummary& summary);
+  Status start_observer();
   void supervise(RunSummary& summary);
   void live();  // the lifecycle thread
   void join_threads() noexcept;
@@ -53,6 +80,7 @@ class Executive {
   Options options_;
   Cell cell_;
   Lifecycle lifecycle_;
+  Observer* observer_ = nullptr;
   std::deque<ThreadLoop> loops_;
   std::deque<RunningThread> threads_;
   Status start_status_;

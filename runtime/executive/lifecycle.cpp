@@ -10,6 +10,10 @@ namespace {
 
 /// How long a thread may take to let go of a unit between two of its steps.
 constexpr Duration hand_over_timeout = std::chrono::seconds{1};
+/// How long the devices of a unit that does not come to rest have to become safe.
+constexpr Duration safe_timeout = std::chrono::seconds{1};
+/// Steps after which a unit has seen that it is to stop, and has said whether it is idle since.
+constexpr std::uint64_t steps_to_notice = 3;
 
 /// What a library throws out of a component's code is its fault, with the library's text.
 template <class Call>
@@ -116,6 +120,8 @@ Status Lifecycle::start_unit(std::uint16_t index) noexcept {
     return Status::error(StatusCode::not_permitted, "%s is %s already", record.name,
                          name_of(state.life.load()));
   }
+  cell_->note_configuration(index);
+  state.stop_requested.store(false, std::memory_order_release);
   begin_operation(record.name, record.initialise_timeout);
   state.unit->clear_fault();
   Status status = guarded([&] { return state.unit->initialise(); });
@@ -144,10 +150,64 @@ Status Lifecycle::start_unit(std::uint16_t index) noexcept {
   return {};
 }
 
+bool Lifecycle::is_at_rest(std::uint16_t index) const noexcept {
+  const UnitState& state = cell_->application().unit_states[index];
+  return state.idle.load(std::memory_order_acquire) ||
+         state.life.load(std::memory_order_acquire) != Life::running;
+}
+
+bool Lifecycle::devices_are_safe(std::uint16_t index) const noexcept {
+  const Application& application = cell_->application();
+  for (std::size_t d = 0; d < application.devices.size(); ++d) {
+    const DeviceState& state = application.device_states[d];
+    if (application.devices[d].unit == index && state.make_safe.load(std::memory_order_acquire) &&
+        !state.safe.load(std::memory_order_acquire) &&
+        state.ownership.load(std::memory_order_acquire) == Ownership::thread) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// As the application's own controlled stop, of one unit.
+void Lifecycle::bring_to_rest(std::uint16_t index) noexcept {
+  const Application& application = cell_->application();
+  UnitState& state = application.unit_states[index];
+  if (!threads_run_ || !cell_->owns_actuator(index) || !state.active.load() ||
+      state.life.load(std::memory_order_acquire) != Life::running) {
+    return;
+  }
+  const auto wait = [&](Duration most, auto&& is_over) {
+    const Time give_up = now() + most;
+    // A step may begin at any time; in the safe state none does.
+    while (!is_over() && now() < give_up && threads_run_ && cell_->control().mode() < Mode::safe) {
+      application.threads[application.units[index].thread].bell->ring();
+      pause();
+    }
+    return is_over();
+  };
+  const std::uint64_t steps = state.steps.load(std::memory_order_acquire);
+  state.stop_requested.store(true, std::memory_order_release);
+  const bool rests = wait(application.units[index].stop_timeout, [&] {
+    return state.life.load(std::memory_order_acquire) != Life::running ||
+           (state.steps.load(std::memory_order_acquire) >= steps + steps_to_notice && is_at_rest(index));
+  });
+  cell_->control().require_start();
+  if (rests || cell_->control().mode() >= Mode::safe) return;
+  log_warning(application.units[index].name,
+              "not at rest within its stop_timeout; its devices are made safe");
+  for (std::size_t d = 0; d < application.devices.size(); ++d) {
+    if (application.devices[d].unit == index) application.device_states[d].make_safe.store(true);
+  }
+  if (!wait(safe_timeout, [&] { return devices_are_safe(index); }))
+    log_error(application.units[index].name, "its devices did not become safe in time");
+}
+
 Status Lifecycle::stop_unit(std::uint16_t index) noexcept {
   const UnitRecord& record = cell_->application().units[index];
   UnitState& state = cell_->application().unit_states[index];
   if (state.life.load() == Life::created || state.life.load() == Life::stopped) return {};
+  bring_to_rest(index);
   if (const Status status = take_back(state.ownership, record.thread, record.name); !status) return status;
   cell_->set_writer_state(index, WriterState::stopped);
   begin_operation(record.name, record.stop_timeout);
@@ -169,10 +229,20 @@ Status Lifecycle::restart_unit(std::uint16_t index) noexcept {
   return start_unit(index);
 }
 
-void Lifecycle::post(std::function<void()> job) {
+bool Lifecycle::post(std::function<void()> job) {
   const std::lock_guard lock(jobs_mutex_);
+  if (closed_) return false;
   jobs_.push_back(std::move(job));
   has_jobs_.store(true, std::memory_order_release);
+  return true;
+}
+
+void Lifecycle::close() {
+  {
+    const std::lock_guard lock(jobs_mutex_);
+    closed_ = true;
+  }
+  run_jobs();
 }
 
 void Lifecycle::run_jobs() {
@@ -220,6 +290,7 @@ void Lifecycle::restart_by_policy() noexcept {
 Status Lifecycle::start_device(std::uint16_t index) noexcept {
   const DeviceRecord& record = cell_->application().devices[index];
   DeviceState& state = cell_->application().device_states[index];
+  cell_->note_configuration(cell_->component_of_device(index));
   begin_operation(record.name, record.initialise_timeout);
   state.device->clear_fault();
   // An actuator is inhibited until its thread has seen a Start.

@@ -12,7 +12,8 @@
 
 namespace flexrf {
 
-/// All functions but post, has_jobs and operation: the lifecycle thread; in virtual time, the only thread.
+/// All functions but post, has_jobs, close and operation: the lifecycle thread; in virtual time, the only
+/// thread.
 class Lifecycle {
  public:
   /// `threads_run`: ownership is handed over to threads that must acknowledge; in virtual time there are
@@ -25,16 +26,22 @@ class Lifecycle {
   void stop_all() noexcept;
 
   Status start_unit(std::uint16_t unit) noexcept;
+  /// A running unit that owns an actuator is brought to rest first: it sees stop_requested and has its
+  /// stop_timeout to become idle; then nothing moves before the next Start, and its devices are made safe if
+  /// it did not.
   Status stop_unit(std::uint16_t unit) noexcept;
   /// Stop, destroy, construct in place, initialise; motion needs a new Start.
   Status restart_unit(std::uint16_t unit) noexcept;
   Status start_device(std::uint16_t device) noexcept;
   Status stop_device(std::uint16_t device) noexcept;
-  /// Has a job done by the lifecycle thread, between two operations. Any non-real-time thread; does not wait.
-  void post(std::function<void()> job);
+  /// Has a job done by the lifecycle thread, between two operations; false, and nothing is done, after
+  /// close(). Any non-real-time thread; does not wait.
+  bool post(std::function<void()> job);
   bool has_jobs() const noexcept { return has_jobs_.load(std::memory_order_acquire); }
   /// Does what was posted.
   void run_jobs();
+  /// Nothing more is taken; what was posted before is done.
+  void close();
   /// Restarts what its policy lets restart.
   void restart_by_policy() noexcept;
 
@@ -53,6 +60,9 @@ class Lifecycle {
 
  private:
   Status take_back(std::atomic<Ownership>& ownership, std::uint16_t thread, const char* name) noexcept;
+  void bring_to_rest(std::uint16_t unit) noexcept;
+  bool is_at_rest(std::uint16_t unit) const noexcept;
+  bool devices_are_safe(std::uint16_t unit) const noexcept;
   void begin_operation(const char* component, Duration timeout) noexcept;
   void end_operation() noexcept;
   bool may_restart(std::uint16_t unit) const noexcept;
@@ -66,6 +76,7 @@ class Lifecycle {
   std::atomic<bool> threads_run_;
   std::mutex jobs_mutex_;
   std::vector<std::function<void()>> jobs_;
+  bool closed_ = false;
   std::atomic<bool> has_jobs_{false};
   std::atomic<const char*> component_{nullptr};
   std::atomic<std::int64_t> overdue_at_{0};

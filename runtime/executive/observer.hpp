@@ -1,6 +1,7 @@
 // Whoever watches and serves a running application from a thread of its own, as the panel does.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "runtime/core/status.hpp"
@@ -16,14 +17,21 @@ class Observer {
   /// After Executive::prepare(), before anything runs: registers requesters, opens sockets. An error refuses
   /// the start. The main thread.
   virtual Status prepare() = 0;
-  /// The application's threads are about to start; the observer's own threads inherit CPUs and signal mask
-  /// from here. The main thread.
+  /// The application's threads are about to start. The observer's own threads inherit from here: the CPUs
+  /// that no real-time thread claims, the mask that leaves ending signals to the main thread, ordinary
+  /// priority, and, as all memory is locked, stacks of observer_stack_size. An error refuses the start. The
+  /// main thread.
   virtual Status start() = 0;
-  /// The application ended, its objects still stand: ends and joins the observer's threads. The main thread.
+  /// The application ended and its report is written; its objects still stand: ends and joins the observer's
+  /// threads. Also after a prepare() or start() that failed or was never called; not when a thread hangs and
+  /// the process can only be left. The main thread.
   virtual void stop() noexcept = 0;
 };
 
-/// Null: nothing to observe (as `--panel off`).
+/// Bytes of the stack of each thread that an observer starts.
+inline constexpr std::size_t observer_stack_size = 512U << 10;
+
+/// Makes what observes an application that was prepared; never null.
 using MakeObserver = std::unique_ptr<Observer> (*)(Executive& executive);
 
 }  // namespace flexrf

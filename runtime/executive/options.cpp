@@ -133,6 +133,7 @@ Status take(const Application& application, std::string_view name, std::string_v
                            static_cast<int>(value.size()), value.data());
     }
     options.panel = value;
+    options.panel_given = value != "off";
   } else if (name == "--virtual-time") {
     options.virtual_time = parse_duration(value);
     if (!options.virtual_time) {
@@ -186,6 +187,13 @@ Result<Options> parse_options(const Application& application, int argument_count
   if (options.digest && !options.virtual_time) {
     return Status::error(StatusCode::invalid_argument,
                          "--digest needs --virtual-time: on the wall clock no two runs are the same");
+  }
+  if (options.panel_given && options.virtual_time) {
+    return Status::error(
+        StatusCode::invalid_argument,
+        "--panel %s with --virtual-time: there is no panel on a simulated clock; leave one of "
+        "them away",
+        options.panel.c_str());
   }
   options.status_view = true;
   return options;

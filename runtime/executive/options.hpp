@@ -24,6 +24,8 @@ struct Options {
   std::string configuration_file;        ///< empty: none
   std::string report_file;               ///< empty: none
   std::string panel = "127.0.0.1:8080";  ///< address:port, or "off"
+  bool panel_given = false;              ///< the command line says where
+  bool observed = false;                 ///< somebody observes: memory is locked for its threads too
   std::uint64_t seed = 1;
   bool realtime = true;
   bool status_view = false;  ///< show the live status while standard output is a terminal

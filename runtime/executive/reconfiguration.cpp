@@ -51,9 +51,11 @@ std::vector<std::uint16_t> Reconfiguration::owners_of(std::span<const std::uint1
 }
 
 Status Reconfiguration::stop(std::uint16_t owner) {
+  const Status status =
+      is_unit(owner) ? lifecycle_->stop_unit(owner) : lifecycle_->stop_device(device_of(owner));
   // What follows seeds its set-points anew; until a person says so, nothing moves.
   cell_->control().require_start();
-  return is_unit(owner) ? lifecycle_->stop_unit(owner) : lifecycle_->stop_device(device_of(owner));
+  return status;
 }
 
 Status Reconfiguration::initialise(std::uint16_t owner) {
@@ -84,7 +86,7 @@ std::vector<ConfigurationComponent> configuration_components(Cell& cell) {
                           application.units[i].name,
                           "",
                           {},
-                          application.units[i].type,
+                          &application.unit_states[i].unit->type_in_force(),
                           memory.configuration,
                           memory.runtime});
   }
@@ -92,8 +94,9 @@ std::vector<ConfigurationComponent> configuration_components(Cell& cell) {
     const auto index = static_cast<std::uint16_t>(i);
     const ParameterMemory memory = application.device_states[i].device->parameter_memory();
     components.push_back({ConfigurationComponent::Kind::device, application.devices[i].name,
-                          cell.driver(index).name, cell.other_drivers(index), cell.driver(index).type,
-                          memory.configuration, memory.runtime});
+                          cell.driver(index).name, cell.other_drivers(index),
+                          &application.device_states[i].device->type_in_force(), memory.configuration,
+                          memory.runtime});
   }
   return components;
 }

@@ -116,7 +116,8 @@ void write_last_value(JsonWriter& json, const SlotRecord& slot) {
   json.end_object();
 }
 
-void write_slots(JsonWriter& json, const ReportData& data) {
+void write_slots(JsonWriter& json, const ReportData& data, const Cell& cell) {
+  const auto lock = cell.observe();
   json.key("slots").begin_array();
   for (const SlotReport& slot : data.slots) {
     json.begin_object().member("name", slot.record->name).member("writer", slot.record->writer);
@@ -170,7 +171,7 @@ std::string report_json(const Cell& cell, const RunSummary& summary) {
   write_run(json, data);
   write_threads(json, data);
   write_components(json, data);
-  write_slots(json, data);
+  write_slots(json, data, cell);
   write_queues(json, data);
   write_memory(json, data);
   json.member("faults", data.faults).member("dropped_log_messages", data.dropped_log_messages);

@@ -5,6 +5,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "runtime/executive/executive.hpp"
 #include "runtime/executive/report.hpp"
@@ -45,8 +46,8 @@ Status write_file(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-int run_application(const Application& application, int argument_count, char** arguments) {
-  const Result<Options> options = parse_options(application, argument_count, arguments);
+int run_application(const Application& application, int argument_count, char** arguments, MakeObserver make) {
+  Result<Options> options = parse_options(application, argument_count, arguments);
   if (!options) return refuse(application, options.status());
   if (options->help) {
     std::fputs(usage(application).c_str(), stdout);
@@ -56,6 +57,14 @@ int run_application(const Application& application, int argument_count, char** a
     std::puts(application.descriptor_json);
     return 0;
   }
+  if (make == nullptr && options->panel_given) {
+    return refuse(
+        application,
+        Status::error(StatusCode::invalid_argument,
+                      "--panel %s: this application was built without the panel; leave --panel away",
+                      options->panel.c_str()));
+  }
+  options->observed = make != nullptr && options->panel != "off" && !options->virtual_time;
   InstanceLock lock;
   // In virtual time nothing of the cell is touched: any number may run.
   if (!options->virtual_time) {
@@ -63,6 +72,16 @@ int run_application(const Application& application, int argument_count, char** a
   }
   Executive executive(application, *options);
   if (const Status status = executive.prepare(); !status) return refuse(application, status);
+  std::unique_ptr<Observer> observer;
+  if (options->observed) {
+    observer = make(executive);
+    if (const Status status = observer->prepare(); !status) {
+      observer->stop();
+      std::fprintf(stderr, "%s: %s\n", application.name, status.cause());
+      return exit_usage;
+    }
+    executive.set_observer(*observer);
+  }
   RunSummary summary = executive.run();
   std::fputs(report_text(executive.cell(), summary).c_str(), stdout);
   if (!options->report_file.empty()) {
@@ -76,6 +95,7 @@ int run_application(const Application& application, int argument_count, char** a
   std::fflush(nullptr);
   // A thread that hangs can be neither joined nor destroyed under; the process can only be left.
   if (summary.stuck) _exit(exit_fault);
+  if (observer != nullptr) observer->stop();
   return summary.exit_code;
 }
 

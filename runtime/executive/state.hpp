@@ -32,6 +32,8 @@ struct UnitState {
   std::atomic<Ownership> ownership{Ownership::lifecycle};
   std::atomic<bool> active{false};  ///< member of a population: stepped. Others: always true
   std::atomic<bool> idle{true};     ///< what is_idle() said after the last step
+  std::atomic<bool> stop_requested{
+      false};  ///< it alone is to come to rest: the lifecycle thread will stop it
   std::atomic<std::uint64_t> steps{0};
   Time stepped_at{};                               ///< the unit's thread only
   Status fault;                                    ///< read while life is fault

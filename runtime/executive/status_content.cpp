@@ -145,6 +145,7 @@ StatusContent::Section StatusContent::units() const {
 
 StatusContent::Section StatusContent::feedback() const {
   const Application& application = cell_->application();
+  const auto lock = cell_->observe();
   TextTable table({"feedback", "<"});
   const auto add = [&](const char* name, const SlotControl* control) {
     if (control == nullptr) return;

@@ -182,7 +182,7 @@ void Stepper::begin(const Release& release) noexcept {
   tick_.fired = release.fired;
   tick_.timed_out = release.timed_out;
   tick_.finishing = mode == Mode::finishing;
-  tick_.stop_requested = mode >= Mode::stopping;
+  stopping_ = mode >= Mode::stopping;
   tick_.motion_inhibited = !may_move_;
   making_safe_ = mode >= Mode::safe;
   add(state_->cycles, std::uint64_t{1});
@@ -221,6 +221,7 @@ bool Stepper::step(std::size_t place, Time now) noexcept {
   Unit& unit = *state.unit;
   RuntimeParameters& parameters = cell_->parameters(index);
   tick_.now = now;
+  tick_.stop_requested = stopping_ || state.stop_requested.load(std::memory_order_relaxed);
   tick_.number = state.steps.load(std::memory_order_relaxed);
   tick_.elapsed = tick_.number == 0 ? Duration{} : now - state.stepped_at;
   state.stepped_at = now;
@@ -302,6 +303,13 @@ bool Stepper::needs_attention() const noexcept {
   const Mode mode = cell_->control().mode();
   if (mode >= Mode::safe) return !is_safe();
   if (mode == Mode::stopping) return true;
+  for (const std::uint16_t unit : record_->units) {
+    const UnitState& state = application_->unit_states[unit];
+    if (state.stop_requested.load(std::memory_order_relaxed) &&
+        state.ownership.load(std::memory_order_relaxed) == Ownership::thread) {
+      return true;
+    }
+  }
   return std::any_of(record_->devices.begin(), record_->devices.end(), [this](std::uint16_t index) {
     const DeviceState& state = application_->device_states[index];
     return state.make_safe.load(std::memory_order_relaxed) && !state.safe.load(std::memory_order_relaxed) &&

@@ -69,6 +69,7 @@ class Stepper {
   bool may_move_ = false;
   bool receives_ = false;  // has any device at all
   bool making_safe_ = false;
+  bool stopping_ = false;  // the whole application
 };
 
 }  // namespace flexrf

@@ -23,7 +23,7 @@ Status invalid(const char* reason) noexcept {
 Status RuntimeParameters::connect(Component& component, SlotControl* slot, const void* defaults,
                                   ParameterScratch& scratch) noexcept {
   component_ = &component;
-  block_ = &component.component_type().runtime;
+  block_ = &component.type_in_force().runtime;
   values_ = nullptr;
   slot_ = slot;
   defaults_ = static_cast<const std::byte*>(defaults);

@@ -18,7 +18,7 @@ struct Staged {
 };
 
 Status stage_value(const ConfigurationChange& change, const Staged& staged, std::byte* values) {
-  const ParameterBlock& block = staged.component->component_type().configuration;
+  const ParameterBlock& block = staged.component->type_in_force().configuration;
   const std::string name = change.parameter.substr(0, change.parameter.find_first_of(".["));
   NearestName nearest(name);
   for (const ParameterDescriptor& parameter : block.parameters) {
@@ -69,7 +69,7 @@ Staged* Transaction::staged_of(std::uint16_t index) {
     if (staged.index == index) return &staged;
   Component* component = host_.component(index);
   if (component == nullptr) return nullptr;
-  const ParameterBlock& block = component->component_type().configuration;
+  const ParameterBlock& block = component->type_in_force().configuration;
   const auto* memory = static_cast<const std::byte*>(component->parameter_memory().configuration);
   std::vector<std::byte> values;
   if (block.type != nullptr && memory != nullptr) values.assign(memory, memory + block.type->size);

@@ -25,6 +25,12 @@ class Component {
   const char* name() const noexcept { return name_; }
   const Status& fault() const noexcept { return fault_; }
 
+  /// What is declared of it, with ranges as the application's table narrows them: what checks and shows
+  /// values goes by this.
+  const ComponentType& type_in_force() const noexcept {
+    return type_in_force_ != nullptr ? *type_in_force_ : component_type();
+  }
+
   // ---- for the executive; the generated base implements them
 
   virtual const ComponentType& component_type() const noexcept = 0;
@@ -34,6 +40,8 @@ class Component {
   virtual Status accept_runtime(const void* /*proposed*/) noexcept { return {}; }
 
   void set_name(const char* name) noexcept { name_ = name; }
+  /// `type` outlives the component. Before anything else asks for it.
+  void set_type_in_force(const ComponentType& type) noexcept { type_in_force_ = &type; }
   void set_fault(const Status& cause) noexcept { fault_ = cause; }
   void clear_fault() noexcept { fault_ = {}; }
 
@@ -45,6 +53,7 @@ class Component {
 
  private:
   const char* name_ = "";
+  const ComponentType* type_in_force_ = nullptr;  // null: its own
   Status fault_;
 };
 

@@ -1,0 +1,141 @@
+#include "runtime/executive/component_actions.hpp"
+
+#include <algorithm>
+
+namespace flexrf {
+
+const char* name_of(ComponentAction action) noexcept {
+  switch (action) {
+    case ComponentAction::start:
+      return "start";
+    case ComponentAction::stop:
+      return "stop";
+    case ComponentAction::initialise:
+      return "initialise";
+  }
+  return "unknown";
+}
+
+Life ComponentActions::life(ComponentIndex component) const noexcept {
+  const Application& application = cell_->application();
+  return is_unit(component)
+             ? application.unit_states[component].life.load(std::memory_order_acquire)
+             : application.device_states[device_of(component)].life.load(std::memory_order_acquire);
+}
+
+Status ComponentActions::run(ComponentAction action, ComponentIndex component) {
+  if (component >= cell_->component_count())
+    return Status::error(StatusCode::not_found, "there is no component number %u",
+                         static_cast<unsigned>(component));
+  if (const Mode mode = cell_->control().mode(); mode != Mode::running)
+    return Status::error(StatusCode::not_permitted, "the application is %s, not running", name_of(mode));
+  switch (action) {
+    case ComponentAction::start:
+      return start(component);
+    case ComponentAction::stop:
+      return stop(component);
+    case ComponentAction::initialise:
+      return initialise(component);
+  }
+  return {};
+}
+
+Status ComponentActions::start(ComponentIndex component) {
+  if (life(component) == Life::running)
+    return Status::error(StatusCode::not_permitted, "%s runs already; initialise it to have it begin anew",
+                         cell_->component_name(component));
+  std::vector<ComponentIndex> wanted = stands_on(component);
+  wanted.push_back(component);
+  for (const ComponentIndex one : wanted) {
+    if (life(one) == Life::running) continue;
+    if (const Status status = initialise(one); !status) return status;
+  }
+  return {};
+}
+
+Status ComponentActions::stop(ComponentIndex component) {
+  const ComponentIndex only[] = {component};
+  for (const ComponentIndex owner : host_.owners_of(only)) {
+    if (const Status status = stop_one(owner); !status) return status;
+  }
+  // In fault it is nobody's owner, but it can be stopped all the same.
+  return life(component) == Life::fault ? stop_one(component) : Status{};
+}
+
+Status ComponentActions::initialise(ComponentIndex component) {
+  const ComponentIndex only[] = {component};
+  std::vector<ComponentIndex> again = host_.owners_of(only);
+  if (const Status status = stop(component); !status) return status;
+  cell_->control().require_start();
+  if (std::find(again.begin(), again.end(), component) == again.end()) again.push_back(component);
+  // What others stand on is initialised before them.
+  for (std::size_t i = again.size(); i-- > 0;) {
+    if (const Status status = start_one(again[i]); !status) return status;
+  }
+  return {};
+}
+
+Status ComponentActions::stop_one(ComponentIndex component) {
+  if (is_unit(component)) {
+    const Status status = lifecycle_->stop_unit(component);
+    if (cell_->owns_actuator(component)) cell_->control().require_start();
+    return status;
+  }
+  const std::uint16_t device = device_of(component);
+  if (cell_->driver(device).actuates) cell_->control().require_start();
+  return lifecycle_->stop_device(device);
+}
+
+Status ComponentActions::start_one(ComponentIndex component) {
+  // What it was in the middle of when it failed is nobody's to know.
+  if (is_unit(component) && life(component) == Life::fault) {
+    if (const Status status = cell_->reconstruct_unit(component); !status) return status;
+  }
+  return is_unit(component) ? lifecycle_->start_unit(component)
+                            : lifecycle_->start_device(device_of(component));
+}
+
+/// Buses before the devices on them.
+std::vector<ComponentIndex> ComponentActions::stands_on(ComponentIndex component) const {
+  const Application& application = cell_->application();
+  std::vector<ComponentIndex> below;
+  const auto add = [&](std::uint16_t device) {
+    if (const std::uint16_t bus = application.devices[device].bus; bus != no_index)
+      below.insert(below.begin(), cell_->component_of_device(bus));
+    if (cell_->component_of_device(device) != component) below.push_back(cell_->component_of_device(device));
+  };
+  if (!is_unit(component)) {
+    add(device_of(component));
+    return below;
+  }
+  for (std::size_t d = 0; d < application.devices.size(); ++d) {
+    if (application.devices[d].unit == component) add(static_cast<std::uint16_t>(d));
+  }
+  return below;
+}
+
+std::vector<ComponentIndex> moving_components(const Cell& cell) {
+  const Application& application = cell.application();
+  std::vector<ComponentIndex> moving;
+  for (std::size_t i = 0; i < application.units.size(); ++i) {
+    const auto unit = static_cast<std::uint16_t>(i);
+    const UnitState& state = application.unit_states[i];
+    if (cell.owns_actuator(unit) && state.life.load(std::memory_order_acquire) == Life::running &&
+        !state.idle.load(std::memory_order_acquire)) {
+      moving.push_back(unit);
+    }
+  }
+  for (std::size_t i = 0; i < application.devices.size(); ++i) {
+    const auto device = static_cast<std::uint16_t>(i);
+    const DeviceState& state = application.device_states[i];
+    if (!cell.driver(device).actuates) continue;
+    const bool may_move =
+        state.life.load(std::memory_order_acquire) == Life::running && !state.device->is_inhibited();
+    const bool comes_to_rest =
+        state.make_safe.load(std::memory_order_acquire) && !state.safe.load(std::memory_order_acquire);
+    if (may_move || comes_to_rest) moving.push_back(cell.component_of_device(device));
+  }
+  return moving;
+}
+
+}  // namespace flexrf

@@ -1,0 +1,30 @@
+// What an application's tables say to the panel beside its descriptor.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "runtime/core/time.hpp"
+
+namespace flexrf {
+
+/// A file that the application brings along: a custom widget, a robot's description, a mesh.
+struct PanelFile {
+  std::string_view path;  ///< "widgets/jog_arrows.js", "robots/arm.urdf", "robots/arm/meshes/link1.stl"
+  std::string_view content_type;
+  std::string_view bytes;  ///< live for ever
+};
+
+struct PanelRecord {
+  static constexpr std::uint16_t default_connections = 32;
+  static constexpr Duration default_session_timeout = std::chrono::hours{12};
+
+  std::uint16_t connections = default_connections;  ///< places, 4 to 256
+  std::span<const char* const> local;  ///< numeric addresses whose sessions are local, beside loopback ones
+  Duration session_timeout = default_session_timeout;  ///< of a session that nobody uses
+  std::span<const PanelFile> files;
+};
+
+}  // namespace flexrf

@@ -1,0 +1,245 @@
+// Single components stopped, started and initialised while the application runs, as the panel asks for it.
+#include <algorithm>
+#include <cstring>
+
+#include "runtime/executive/tests/running_cell.hpp"
+
+namespace flexrf::fixture {
+namespace {
+
+using std::chrono::milliseconds;
+using Cell = ProducerAndConsumer;
+
+constexpr ComponentIndex actuator = 2;  // units come first
+
+/// A cell that runs; its consumer steps every millisecond and commands ever new positions.
+struct Machine {
+  explicit Machine(std::function<void(Cell&)> change = nullptr) {
+    cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{1});
+    if (change) change(cell);
+    running.emplace(cell);
+    running->start();
+    CHECK(RunningCell::wait_until([this] { return steps() > 5; }));
+  }
+  Executive& executive() { return running->executive(); }
+  std::uint64_t steps() { return cell.unit_state(Cell::consumer).steps; }
+  Life life() { return cell.unit_state(Cell::consumer).life; }
+
+  /// Waits for the answer.
+  Status act(ComponentAction action, ComponentIndex component) {
+    std::atomic<bool> answered{false};
+    Status answer;
+    executive().act(action, component, [&](const Status& status) {
+      answer = status;
+      answered = true;
+    });
+    CHECK(RunningCell::wait_until([&] { return answered.load(); }));
+    return answer;
+  }
+
+  Cell cell;
+  std::optional<RunningCell> running;
+};
+
+void a_unit_that_owns_an_actuator_comes_to_rest_before_it_is_stopped() {
+  std::atomic<int> steps_to_rest{0};
+  std::atomic<bool> inhibited_on_the_way{false};
+  Machine machine([&](Cell& cell) {
+    cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
+      if (!tick.stop_requested) return;
+      inhibited_on_the_way = inhibited_on_the_way || unit.device->is_inhibited();
+      if (++unit.memory <= 20) ++steps_to_rest;
+    };
+    cell.unit(Cell::consumer).script.is_idle = [](const TestUnit& unit) { return unit.memory >= 20; };
+  });
+  CHECK(machine.act(ComponentAction::stop, Cell::consumer).is_ok());
+  CHECK_EQUAL(machine.life(), Life::stopped);
+  CHECK_EQUAL(steps_to_rest.load(), 20);
+  CHECK(!inhibited_on_the_way);
+  CHECK(!machine.executive().control().may_move());
+  CHECK_EQUAL(machine.cell.events().count_of("actuator: make_safe"), 0U);
+  CHECK_EQUAL(machine.cell.unit_state(Cell::producer).life.load(), Life::running);
+  CHECK_EQUAL(machine.running->finish().exit_code, 0);
+}
+
+void who_does_not_come_to_rest_has_its_devices_made_safe() {
+  Machine machine([](Cell& cell) {
+    cell.unit(Cell::consumer).stop_timeout = milliseconds{30};
+    cell.unit(Cell::consumer).script.is_idle = [](const TestUnit&) { return false; };
+  });
+  CHECK(machine.act(ComponentAction::stop, Cell::consumer).is_ok());
+  CHECK_EQUAL(machine.life(), Life::stopped);
+  CHECK_EQUAL(machine.cell.events().count_of("actuator: make_safe"), 1U);
+  CHECK(machine.cell.events().place_of("actuator: make_safe") <
+        machine.cell.events().place_of("consumer: stop"));
+  CHECK(!machine.executive().control().may_move());
+}
+
+void what_is_started_again_waits_for_start() {
+  Machine machine;
+  CHECK(machine.act(ComponentAction::stop, Cell::consumer).is_ok());
+  CHECK(machine.act(ComponentAction::start, Cell::consumer).is_ok());
+  CHECK_EQUAL(machine.life(), Life::running);
+  CHECK(RunningCell::wait_until([&] { return machine.steps() > 5; }));
+  CHECK(!machine.executive().control().may_move());
+  CHECK(machine.executive().control().start_motion().is_ok());
+  const Status again = machine.act(ComponentAction::start, Cell::consumer);
+  CHECK_EQUAL(again.code(), StatusCode::not_permitted);
+  CHECK_CONTAINS(again.cause(), "consumer runs already");
+  CHECK(machine.executive().control().may_move());
+}
+
+void a_unit_without_an_actuator_stops_alone() {
+  Machine machine;
+  CHECK(machine.act(ComponentAction::stop, Cell::producer).is_ok());
+  CHECK_EQUAL(machine.cell.unit_state(Cell::producer).life.load(), Life::stopped);
+  CHECK_EQUAL(machine.life(), Life::running);
+  CHECK(machine.executive().control().may_move());
+  CHECK(machine.act(ComponentAction::stop, Cell::producer).is_ok());
+  CHECK_EQUAL(machine.cell.events().count_of("producer: stop"), 1U);
+}
+
+void a_device_stops_after_its_unit_and_starts_before_it() {
+  Machine machine;
+  const Events& events = machine.cell.events();
+  CHECK(machine.act(ComponentAction::stop, actuator).is_ok());
+  CHECK_EQUAL(machine.life(), Life::stopped);
+  CHECK(events.place_of("consumer: stop") < events.place_of("actuator: stop"));
+  CHECK(machine.act(ComponentAction::start, Cell::consumer).is_ok());
+  CHECK_EQUAL(machine.life(), Life::running);
+  CHECK_EQUAL(machine.cell.device_state(Cell::actuator).life.load(), Life::running);
+  CHECK(machine.act(ComponentAction::initialise, actuator).is_ok());
+  CHECK_EQUAL(machine.life(), Life::running);
+  CHECK_EQUAL(events.count_of("actuator: initialise"), 3U);
+  CHECK_EQUAL(events.count_of("consumer: initialise"), 3U);
+}
+
+void after_a_fault_initialise_constructs_it_anew() {
+  std::atomic<bool> fails{true};
+  Machine machine([&](Cell& cell) {
+    cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
+      if (fails && tick.number == 10) unit.give_up(Status::error(StatusCode::device_fault, "slipped"));
+    };
+  });
+  CHECK(RunningCell::wait_until([&] { return machine.life() == Life::fault; }));
+  fails = false;
+  CHECK(machine.act(ComponentAction::initialise, Cell::consumer).is_ok());
+  CHECK_EQUAL(machine.life(), Life::running);
+  CHECK_EQUAL(machine.cell.events().count_of("consumer: destroy"), 1U);
+  CHECK(!machine.executive().control().may_move());
+}
+
+void what_fails_says_why() {
+  std::atomic<bool> fails{false};
+  Machine machine([&](Cell& cell) {
+    cell.unit(Cell::producer).script.initialise = [&](TestUnit&) {
+      return fails ? Status::error(StatusCode::unavailable, "no cable") : Status{};
+    };
+  });
+  fails = true;
+  const Status status = machine.act(ComponentAction::initialise, Cell::producer);
+  CHECK_CONTAINS(status.cause(), "producer: initialise: no cable");
+  CHECK_EQUAL(machine.cell.unit_state(Cell::producer).life.load(), Life::fault);
+  CHECK_EQUAL(machine.act(ComponentAction::stop, 99).code(), StatusCode::not_found);
+}
+
+void what_moves_is_named() {
+  std::atomic<bool> idle{false};
+  Machine machine([&](Cell& cell) {
+    cell.unit(Cell::consumer).script.is_idle = [&](const TestUnit&) { return idle.load(); };
+  });
+  Executive& executive = machine.executive();
+  CHECK(RunningCell::wait_until([&] {
+    return executive.moving() == std::vector<ComponentIndex>{Cell::consumer, actuator};
+  }));
+  executive.control().stop_motion();
+  CHECK(RunningCell::wait_until(
+      [&] { return executive.moving() == std::vector<ComponentIndex>{Cell::consumer}; }));
+  idle = true;
+  CHECK(RunningCell::wait_until([&] { return executive.moving().empty(); }));
+}
+
+void what_a_change_initialises_again_is_known_before() {
+  Machine machine;
+  const ComponentIndex changed[] = {actuator, Cell::producer};
+  CHECK(machine.executive().owners_of(changed) ==
+        (std::vector<ComponentIndex>{Cell::consumer, Cell::producer, actuator}));
+}
+
+void a_reconfiguration_answers_later() {
+  Machine machine;
+  std::atomic<bool> answered{false};
+  ReconfigureResult result;
+  const std::uint64_t before = machine.executive().cell().configuration_revision();
+  machine.executive().reconfigure({{Cell::consumer, "offset", "0.75"}},
+                                  [&](const ReconfigureResult& outcome) {
+                                    result = outcome;
+                                    answered = true;
+                                  });
+  CHECK(RunningCell::wait_until([&] { return answered.load(); }));
+  CHECK_EQUAL(result.outcome, ReconfigureOutcome::done);
+  CHECK(result.owners == std::vector<std::uint16_t>{Cell::consumer});
+  CHECK(machine.executive().cell().configuration_revision() > before);
+  Configuration values{};
+  CHECK_EQUAL(machine.executive().cell().copy_configuration(Cell::consumer, &values, sizeof(values)),
+              sizeof(values));
+  CHECK_EQUAL(values.offset, 0.75);
+}
+
+void after_the_end_everything_is_refused() {
+  Machine machine;
+  machine.executive().request_end();
+  const RunSummary summary = machine.running->join();
+  CHECK_EQUAL(summary.exit_code, 0);
+  CHECK_EQUAL(summary.cause, EndCause::requested);
+  CHECK_EQUAL(machine.act(ComponentAction::start, Cell::consumer).code(), StatusCode::not_permitted);
+  const ReconfigureResult result = machine.executive().reconfigure({{Cell::consumer, "offset", "0.75"}});
+  CHECK_EQUAL(result.outcome, ReconfigureOutcome::refused);
+  CHECK_CONTAINS(result.causes.at(0), "the application is ended");
+}
+
+void a_narrowed_range_is_enforced() {
+  Cell cell;
+  const NarrowedRange ranges[] = {{Cell::producer, ParameterKind::runtime, "gain", 2, 3},
+                                  {Cell::producer, ParameterKind::configuration, "offset", 0, 1}};
+  Application application = cell.application();
+  application.ranges = ranges;
+  Executive executive(application, on_the_wall_clock());
+  CHECK(executive.prepare().is_ok());
+  const auto set_gain = [&](ComponentIndex component, double gain) {
+    ParameterRequest request;
+    request.component = component;
+    request.add(0, 0, &gain, sizeof(gain));
+    return executive.cell().parameters(component).apply(request, Time{}).kind;
+  };
+  CHECK_EQUAL(set_gain(Cell::producer, 2.5), AnswerKind::accepted);
+  CHECK_EQUAL(set_gain(Cell::producer, 3.5), AnswerKind::refused);
+  CHECK_EQUAL(set_gain(Cell::consumer, 3.5), AnswerKind::accepted);
+  const ComponentType& type = executive.cell().component_type(Cell::producer);
+  CHECK(type.configuration.parameters[0].has_range);
+  CHECK_EQUAL(type.runtime.parameters[0].minimum, 2.0);
+  CHECK_EQUAL(&executive.cell().component_type(Cell::consumer), &TestUnit::type);
+  executive.cell().destroy();
+}
+
+}  // namespace
+}  // namespace flexrf::fixture
+
+int main() {
+  using namespace flexrf::fixture;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(a_unit_that_owns_an_actuator_comes_to_rest_before_it_is_stopped),
+      CONTAINED_TEST(who_does_not_come_to_rest_has_its_devices_made_safe),
+      CONTAINED_TEST(what_is_started_again_waits_for_start),
+      CONTAINED_TEST(a_unit_without_an_actuator_stops_alone),
+      CONTAINED_TEST(a_device_stops_after_its_unit_and_starts_before_it),
+      CONTAINED_TEST(after_a_fault_initialise_constructs_it_anew),
+      CONTAINED_TEST(what_fails_says_why),
+      CONTAINED_TEST(what_moves_is_named),
+      CONTAINED_TEST(what_a_change_initialises_again_is_known_before),
+      CONTAINED_TEST(a_reconfiguration_answers_later),
+      CONTAINED_TEST(after_the_end_everything_is_refused),
+      CONTAINED_TEST(a_narrowed_range_is_enforced),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,155 @@
+// Who observes a running application: when it is started and stopped, and what its threads inherit.
+#include <pthread.h>
+#include <sched.h>
+
+#include <array>
+#include <thread>
+
+#include "runtime/executive/tests/running_cell.hpp"
+
+namespace flexrf::fixture {
+namespace {
+
+using Cell = ProducerAndConsumer;
+
+/// What a test wants of the observer, and what became of it. One test at a time.
+struct Record {
+  Cell* cell = nullptr;
+  Status prepared;
+  Status started;
+  std::vector<std::string> calls;
+  std::uint64_t steps_at_start = 1;
+  bool running_was_seen = false;
+  bool ending_signals_are_blocked = false;
+  int policy = -1;
+  std::size_t stack = 0;
+};
+Record* record = nullptr;
+
+class TestObserver final : public Observer {
+ public:
+  explicit TestObserver(Executive& executive) : executive_(&executive) { record->calls.push_back("make"); }
+  ~TestObserver() override { record->calls.push_back("destroy"); }
+
+  Status prepare() override {
+    record->calls.push_back("prepare");
+    return record->prepared;
+  }
+
+  Status start() override {
+    record->calls.push_back("start");
+    record->steps_at_start = record->cell->unit_state(Cell::producer).steps;
+    if (!record->started) return record->started;
+    thread_ = std::thread([this] { watch(); });
+    return {};
+  }
+
+  void stop() noexcept override {
+    record->calls.push_back("stop");
+    if (thread_.joinable()) thread_.join();
+    // The objects still stand.
+    record->calls.push_back(executive_->cell().component(Cell::consumer).name());
+  }
+
+ private:
+  void watch() {
+    pthread_attr_t attributes;
+    pthread_getattr_np(pthread_self(), &attributes);
+    pthread_attr_getstacksize(&attributes, &record->stack);
+    pthread_attr_destroy(&attributes);
+    record->policy = sched_getscheduler(0);
+    sigset_t blocked;
+    pthread_sigmask(SIG_SETMASK, nullptr, &blocked);
+    record->ending_signals_are_blocked =
+        sigismember(&blocked, SIGINT) == 1 && sigismember(&blocked, SIGTERM) == 1;
+    record->running_was_seen =
+        RunningCell::wait_until([] { return record->cell->unit_state(Cell::consumer).steps > 5; });
+    executive_->request_end();
+  }
+
+  Executive* executive_;
+  std::thread thread_;
+};
+
+std::unique_ptr<Observer> make_observer(Executive& executive) {
+  return std::make_unique<TestObserver>(executive);
+}
+
+int run(Record& wanted, Cell& cell, std::vector<const char*> more, MakeObserver make = make_observer) {
+  record = &wanted;
+  wanted.cell = &cell;
+  std::vector<std::string> words{"test_cell", "--no-realtime"};
+  words.insert(words.end(), more.begin(), more.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  return run_application(cell.application(), static_cast<int>(arguments.size()), arguments.data(), make);
+}
+
+using Calls = std::vector<std::string>;
+
+void it_lives_as_long_as_the_application_runs() {
+  Cell cell;
+  Record seen;
+  CHECK_EQUAL(run(seen, cell, {}), 0);
+  CHECK(seen.calls == (Calls{"make", "prepare", "start", "stop", "consumer", "destroy"}));
+  CHECK_EQUAL(seen.steps_at_start, 0U);
+  CHECK(seen.running_was_seen);
+  CHECK(seen.ending_signals_are_blocked);
+  CHECK_EQUAL(seen.policy, SCHED_OTHER);
+#ifndef FLEXRF_SANITIZER
+  // glibc adds the guard.
+  CHECK(seen.stack >= observer_stack_size && seen.stack < 2 * observer_stack_size);
+#endif
+}
+
+void what_it_cannot_prepare_refuses_the_start() {
+  Cell cell;
+  Record seen;
+  seen.prepared = Status::error(StatusCode::unavailable, "port 8080 is in use");
+  CHECK_EQUAL(run(seen, cell, {}), 1);
+  CHECK(seen.calls == (Calls{"make", "prepare", "stop", "consumer", "destroy"}));
+  CHECK_EQUAL(cell.events().count_of("actuator: initialise"), 0U);
+}
+
+void what_it_cannot_start_ends_the_start() {
+  Cell cell;
+  Record seen;
+  seen.started = Status::error(StatusCode::internal, "no thread");
+  CHECK_EQUAL(run(seen, cell, {}), 2);
+  CHECK(seen.calls == (Calls{"make", "prepare", "start", "stop", "consumer", "destroy"}));
+  CHECK_EQUAL(cell.events().count_of("actuator: initialise"), 0U);
+}
+
+void nobody_observes_with_panel_off_or_in_virtual_time() {
+  for (const std::vector<const char*>& more :
+       {std::vector<const char*>{"--virtual-time", "20ms"}, {"--virtual-time", "20ms", "--panel", "off"}}) {
+    Cell cell;
+    Record seen;
+    CHECK_EQUAL(run(seen, cell, more), 0);
+    CHECK(seen.calls.empty());
+  }
+}
+
+void a_panel_that_is_asked_for_and_cannot_be_is_an_error() {
+  Cell cell;
+  Record seen;
+  CHECK_EQUAL(run(seen, cell, {"--panel", "127.0.0.1:0"}, nullptr), 1);
+  CHECK_EQUAL(run(seen, cell, {"--panel", "127.0.0.1:0", "--virtual-time", "20ms"}), 1);
+  CHECK(seen.calls.empty());
+  CHECK_EQUAL(cell.events().all().size(), 0U);
+}
+
+}  // namespace
+}  // namespace flexrf::fixture
+
+int main() {
+  using namespace flexrf::fixture;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(it_lives_as_long_as_the_application_runs),
+      CONTAINED_TEST(what_it_cannot_prepare_refuses_the_start),
+      CONTAINED_TEST(what_it_cannot_start_ends_the_start),
+      CONTAINED_TEST(nobody_observes_with_panel_off_or_in_virtual_time),
+      CONTAINED_TEST(a_panel_that_is_asked_for_and_cannot_be_is_an_error),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
