@@ -1,0 +1,399 @@
+#include "web-ui/server/connection.hpp"
+
+#include <cstring>
+
+#include "web-ui/server/http_problem.hpp"
+#include "web-ui/server/reply_head.hpp"
+#include "web-ui/server/request_target.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+constexpr std::size_t most_lingered = 1U << 20;  // bytes
+
+std::string numeric_text(const net::ip::address& address) {
+  if (address.is_v6() && address.to_v6().is_v4_mapped()) {
+    return net::ip::make_address_v4(net::ip::v4_mapped, address.to_v6()).to_string();
+  }
+  return address.to_string();
+}
+
+}  // namespace
+
+Connection::Connection(Surroundings& surroundings, std::uint32_t place)
+    : surroundings_(surroundings),
+      place_(place),
+      transport_(surroundings.context),
+      memory_(new char[input_size + panel::body_limit + panel::header_limit]),
+      input_(memory_.get()),
+      body_(input_ + input_size),
+      path_(body_ + panel::body_limit),
+      message_rate_(surroundings.settings.live_message_rate) {
+  reply_.text.reserve(4U << 10);
+  reply_.etag.reserve(80);
+  reply_.set_cookie.reserve(200);
+  head_.reserve(2U << 10);
+}
+
+void Connection::open(Socket socket) {
+  error_code error;
+  transport_.socket() = std::move(socket);
+  const tcp::endpoint remote = transport_.socket().remote_endpoint(error);
+  const tcp::endpoint local = transport_.socket().local_endpoint(error);
+  transport_.socket().set_option(tcp::no_delay{true}, error);
+  transport_.socket().non_blocking(true, error);
+  transport_.open(surroundings_.encryption);
+  remote_address_ = numeric_text(remote.address());
+  const std::optional<Address> remote_end = Address::parse(remote_address_);
+  loopback_ = remote_end && remote_end->is_loopback();
+  local_end_ = Address::parse(numeric_text(local.address())).value_or(Address{});
+  session_ = no_session;
+  input_begin_ = input_end_ = 0;
+  keep_alive_ = true;
+  lingered_ = 0;
+  ++surroundings_.connections;
+  clear_reply(reply_);
+  if (error) {
+    state_ = State::reading;
+    shut();
+    return;
+  }
+  if (!transport_.is_encrypted()) {
+    read_request();
+    return;
+  }
+  state_ = State::greeting;
+  wait_at_most(surroundings_.settings.header_timeout);
+  transport_.async_handshake(under_way([this](error_code failure) {
+    if (failure) {
+      shut();
+    } else {
+      read_request();
+    }
+  }));
+}
+
+void Connection::shut() {
+  if (state_ == State::free || state_ == State::shut) return;
+  end_live();
+  state_ = State::shut;
+  ++exchange_;
+  transport_.close();
+  release_if_idle();
+}
+
+void Connection::release_if_idle() {
+  if (under_way_ > 0) return;
+  web_socket_.reset();
+  parser_.reset();
+  transport_.reset();
+  state_ = State::free;
+  --surroundings_.connections;
+  surroundings_.gate.on_connection_closed(place_);
+}
+
+void Connection::end() {
+  if (state_ == State::live) {
+    close(1001, "the application ends");
+  } else if (state_ != State::closing) {
+    shut();
+  }
+}
+
+void Connection::check(Time now) {
+  if (state_ == State::live) {
+    check_live(now);
+    return;
+  }
+  if (state_ == State::free || state_ == State::shut || now < deadline_) return;
+  if (state_ == State::reading && input_end_ > 0) {
+    refuse_and_end(408, "the request did not come to its end in time");
+  } else if (state_ == State::answering) {
+    ++exchange_;
+    refuse_and_end(504, "the application did not answer in time");
+  } else {
+    shut();
+  }
+}
+
+// ---- reading
+
+void Connection::read_request() {
+  parser_.emplace(body_);
+  // The bytes of a next request that came along already.
+  std::memmove(input_, input_ + input_begin_, input_end_ - input_begin_);
+  input_end_ -= input_begin_;
+  input_begin_ = 0;
+  header_end_ = 0;
+  state_ = State::reading;
+  if (input_end_ > 0) {
+    wait_at_most(surroundings_.settings.header_timeout);
+    parse();
+  } else {
+    wait_at_most(surroundings_.settings.idle_timeout);
+    read_more();
+  }
+}
+
+void Connection::read_more() {
+  if (header_end_ > 0 && input_begin_ == input_end_) input_begin_ = input_end_ = header_end_;
+  if (input_end_ == input_size) {
+    refuse_and_end(431, "the header is larger than 8 KiB");
+    return;
+  }
+  input_under_way_ = true;
+  transport_.async_read_some(net::buffer(input_ + input_end_, input_size - input_end_),
+                             under_way([this](error_code error, std::size_t size) { on_read(error, size); }));
+}
+
+void Connection::on_read(error_code error, std::size_t size) {
+  input_under_way_ = false;
+  if (state_ == State::lingering) {
+    lingered_ += size;
+    if (error || lingered_ > most_lingered) {
+      shut();
+    } else {
+      input_begin_ = input_end_ = header_end_ = 0;
+      read_more();
+    }
+    return;
+  }
+  // A request that took too long is being refused meanwhile.
+  if (state_ != State::reading) return;
+  if (error) {
+    shut();
+    return;
+  }
+  if (input_end_ == 0) wait_at_most(surroundings_.settings.header_timeout);
+  input_end_ += size;
+  parse();
+}
+
+void Connection::parse() {
+  if (!parser_->got_some()) {
+    // Empty lines before a request are to be ignored (RFC 9112, 2.2).
+    while (input_begin_ < input_end_ && (input_[input_begin_] == '\r' || input_[input_begin_] == '\n')) {
+      ++input_begin_;
+    }
+    if (input_begin_ == input_end_) {
+      read_more();
+      return;
+    }
+  }
+  error_code error;
+  input_begin_ += parser_->put(net::const_buffer(input_ + input_begin_, input_end_ - input_begin_), error);
+  if (error && error != http::error::need_more) {
+    refuse_input(error);
+    return;
+  }
+  if (parser_->is_header_done() && header_end_ == 0) on_header_done();
+  if (state_ != State::reading) return;
+  if (parser_->is_done()) {
+    handle();
+  } else {
+    read_more();
+  }
+}
+
+void Connection::on_header_done() {
+  header_end_ = input_begin_;
+  wait_at_most(surroundings_.settings.body_timeout);
+  if (parser_->is_done() || !parser_->header().expects_continue) return;
+  // Nothing else is under way, and the few bytes always find room.
+  constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
+  ++under_way_;
+  transport_.async_write_some(net::buffer(go_on.data(), go_on.size()),
+                              HandlerIn(handler_memory_, [this](error_code, std::size_t) {
+                                --under_way_;
+                                if (state_ == State::shut) release_if_idle();
+                              }));
+}
+
+// ---- handling
+
+unsigned Connection::fault_of_header(std::string_view& detail) const {
+  const RequestHeader& header = parser_->header();
+  if (header.hosts != 1 || header.host.empty()) {
+    detail = "a request needs exactly one Host field";
+    return 400;
+  }
+  if (header.origins > 1) {
+    detail = "a request has one Origin field at most";
+    return 400;
+  }
+  if (header.expects_other) {
+    detail = "nothing but 100-continue can be expected of this server";
+    return 417;
+  }
+  if (header.method == Method::other) {
+    detail = "this server knows GET, HEAD, PUT and POST";
+    return 405;
+  }
+  const bool changes = header.method == Method::put || header.method == Method::post;
+  if (changes && !parser_->body().empty() && !is_media_type(header.content_type, "application/json")) {
+    detail = "the body has to be application/json";
+    return 415;
+  }
+  return 0;
+}
+
+void Connection::handle() {
+  ++exchange_;
+  const RequestHeader& header = parser_->header();
+  keep_alive_ = header.version == 11 && parser_->keep_alive();
+  clear_reply(reply_);
+  const std::optional<RequestTarget> target = decode_target(header.target, path_);
+  std::string_view detail = "the request's target has to be a path";
+  const unsigned fault = target ? fault_of_header(detail) : 400;
+  if (fault != 0) {
+    if (fault == 405) reply_.allow = "GET, HEAD, PUT, POST";
+    refuse(fault, detail);
+    return;
+  }
+  if (!admit(*target)) {
+    send_reply();
+  } else if (target->path == "/api/v1/live") {
+    upgrade();
+  } else {
+    serve(*target);
+  }
+}
+
+bool Connection::admit(const RequestTarget& target) {
+  const RequestHeader& header = parser_->header();
+  Approach approach;
+  approach.place = place_;
+  approach.method = header.method;
+  approach.path = target.path;
+  approach.query = target.query;
+  approach.host = header.host;
+  approach.origin = header.origin;
+  approach.cookie = header.cookie;
+  approach.remote_address = remote_address_;
+  approach.local_end = local_end_;
+  approach.loopback = loopback_;
+  approach.has_fetch_site = header.has_fetch_site;
+  approach.upgrade = wants_upgrade();
+  return surroundings_.watch(target.path,
+                             [&] { return surroundings_.gate.admit(approach, session_, reply_); });
+}
+
+void Connection::serve(const RequestTarget& target) {
+  const RequestHeader& header = parser_->header();
+  Request request;
+  request.method = header.method;
+  request.path = target.path;
+  request.query = target.query;
+  request.body = parser_->body();
+  request.content_type = header.content_type;
+  request.if_match = header.if_match;
+  request.if_none_match = header.if_none_match;
+  request.accepts_gzip = accepts_gzip(header.accept_encoding);
+  request.remote_address = remote_address_;
+  request.loopback = loopback_;
+  request.session = session_;
+  const Ticket ticket{place_, exchange_};
+  completed_ = false;
+  handler_runs_ = true;
+  const Handled handled = surroundings_.watch(
+      target.path, [&] { return surroundings_.requests.handle(request, reply_, ticket); });
+  handler_runs_ = false;
+  if (handled == Handled::now || completed_) {
+    send_reply();
+    return;
+  }
+  state_ = State::answering;
+  wait_at_most(surroundings_.settings.reply_timeout);
+}
+
+Reply* Connection::reply_of(std::uint32_t exchange) noexcept {
+  const bool waits = state_ == State::answering || handler_runs_;
+  return waits && exchange == exchange_ ? &reply_ : nullptr;
+}
+
+void Connection::complete(std::uint32_t exchange) {
+  if (reply_of(exchange) == nullptr) return;
+  if (handler_runs_) {
+    completed_ = true;
+  } else {
+    send_reply();
+  }
+}
+
+// ---- refusing
+
+void Connection::refuse(unsigned status, std::string_view detail) {
+  answer_problem(reply_, status, detail);
+  send_reply();
+}
+
+void Connection::refuse_and_end(unsigned status, std::string_view detail) {
+  keep_alive_ = false;
+  clear_reply(reply_);
+  refuse(status, detail);
+}
+
+void Connection::refuse_input(error_code error) {
+  if (error == http::error::header_limit) {
+    refuse_and_end(431, "the header is larger than 8 KiB");
+  } else if (error == http::error::body_limit) {
+    refuse_and_end(413, "the body is larger than 64 KiB");
+  } else if (error == http::error::bad_version) {
+    refuse_and_end(505, "this server speaks HTTP/1.1");
+  } else {
+    refuse_and_end(400, "this is no HTTP request");
+  }
+}
+
+// ---- replying
+
+void Connection::send_reply() {
+  state_ = State::replying;
+  ReplyHead head;
+  head.date = surroundings_.date;
+  head.keep_alive = keep_alive_;
+  head.extra = std::exchange(extra_head_, {});
+  write_reply_head(head_, reply_, head);
+  const bool head_only = parser_->is_header_done() && parser_->header().method == Method::head;
+  const bool has_body = !head_only && reply_.status != 204 && reply_.status != 304;
+  output_ = {std::string_view{head_}, has_body ? body_of(reply_) : std::string_view{}};
+  write_more();
+}
+
+void Connection::write_more() {
+  wait_at_most(surroundings_.settings.write_timeout);
+  const std::array<net::const_buffer, 2> buffers{net::const_buffer(output_[0].data(), output_[0].size()),
+                                                 net::const_buffer(output_[1].data(), output_[1].size())};
+  transport_.async_write_some(
+      buffers, under_way([this](error_code error, std::size_t size) { on_written(error, size); }));
+}
+
+void Connection::on_written(error_code error, std::size_t size) {
+  if (error) {
+    shut();
+    return;
+  }
+  for (std::string_view& part : output_) {
+    const std::size_t written = std::min(size, part.size());
+    part.remove_prefix(written);
+    size -= written;
+  }
+  if (!output_[0].empty() || !output_[1].empty()) {
+    write_more();
+  } else if (keep_alive_) {
+    clear_reply(reply_);
+    read_request();
+  } else {
+    linger();
+  }
+}
+
+void Connection::linger() {
+  state_ = State::lingering;
+  wait_at_most(surroundings_.settings.linger_timeout);
+  transport_.finish();
+  input_begin_ = input_end_ = header_end_ = 0;
+  if (!input_under_way_) read_more();
+}
+
+}  // namespace flexrf::panel

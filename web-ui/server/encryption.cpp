@@ -1,0 +1,39 @@
+#include "web-ui/server/encryption.hpp"
+
+#include <openssl/ssl.h>
+
+namespace flexrf::panel {
+namespace {
+
+Status wrong_file(const char* option, const std::string& file, const error_code& error) {
+  return Status::error(StatusCode::invalid_argument, "%s %s: %s; a PEM file is wanted", option, file.c_str(),
+                       error.message().c_str());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<net::ssl::context>> make_encryption(const std::string& certificate_file,
+                                                           const std::string& key_file) {
+  auto context = std::make_unique<net::ssl::context>(net::ssl::context::tls_server);
+  error_code error;
+  context->set_options(net::ssl::context::default_workarounds | net::ssl::context::no_compression, error);
+  SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
+  SSL_CTX_set_options(context->native_handle(), SSL_OP_NO_RENEGOTIATION | SSL_OP_CIPHER_SERVER_PREFERENCE);
+  SSL_CTX_set_session_cache_mode(context->native_handle(), SSL_SESS_CACHE_OFF);
+  context->use_certificate_chain_file(certificate_file, error);
+  if (error) return wrong_file("--tls-certificate", certificate_file, error);
+  context->use_private_key_file(key_file, net::ssl::context::pem, error);
+  if (error) return wrong_file("--tls-key", key_file, error);
+  if (SSL_CTX_check_private_key(context->native_handle()) != 1) {
+    return Status::error(StatusCode::invalid_argument, "--tls-key %s: not the key of the certificate %s",
+                         key_file.c_str(), certificate_file.c_str());
+  }
+  return context;
+}
+
+std::string certificate_command(const std::string& address) {
+  return "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 825 -subj \"/CN=" +
+         address + "\" -addext \"subjectAltName=IP:" + address + "\" -keyout panel.key -out panel.crt";
+}
+
+}  // namespace flexrf::panel

@@ -1,0 +1,20 @@
+// TLS of the panel.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "runtime/core/status.hpp"
+#include "web-ui/server/asio.hpp"
+
+namespace flexrf::panel {
+
+/// What `--tls-certificate` and `--tls-key` name, PEM: the chain with our own certificate first, and its key.
+/// TLS 1.2 and newer. invalid_argument says which file is wrong and how to make both. Blocks.
+Result<std::unique_ptr<net::ssl::context>> make_encryption(const std::string& certificate_file,
+                                                           const std::string& key_file);
+
+/// The command that makes a certificate of our own for this address, for a person to copy.
+std::string certificate_command(const std::string& address);
+
+}  // namespace flexrf::panel

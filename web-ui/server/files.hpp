@@ -1,0 +1,44 @@
+// What is served from memory: the page, and the files that the application brings along.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/executive/panel_record.hpp"
+#include "web-ui/server/exchange.hpp"
+
+namespace flexrf::panel {
+
+/// One file of the page, as the build embedded it.
+struct PageFile {
+  std::string_view path;  ///< "/assets/index-5f3a.js"
+  std::string_view content_type;
+  std::string_view tag;  ///< of its contents, without quotes
+  bool compressed;       ///< with gzip
+  bool lasting;          ///< its name changes with its contents
+  std::string_view bytes;
+};
+
+/// All files of the page.
+std::span<const PageFile> page_files() noexcept;
+
+/// Answers GET and HEAD of files; `/` is the page's index.html, `/application/PATH` a file of the
+/// application. The server's thread.
+class Files final : public RequestHandler {
+ public:
+  /// What is named lives for ever.
+  Files(std::span<const PageFile> page, std::span<const PanelFile> application);
+
+  Handled handle(const Request& request, Reply& reply, Ticket ticket) override;
+
+ private:
+  bool find(std::string_view path, PageFile& file) const noexcept;
+
+  std::span<const PageFile> page_;
+  std::span<const PanelFile> application_;
+  std::vector<std::string> application_tags_;
+};
+
+}  // namespace flexrf::panel

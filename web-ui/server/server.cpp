@@ -1,0 +1,237 @@
+#include "web-ui/server/server.hpp"
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+
+#include "runtime/log/log.hpp"
+#include "web-ui/server/http_problem.hpp"
+#include "web-ui/server/reply_head.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+constexpr Duration beat_interval = std::chrono::milliseconds{10};
+constexpr std::uint32_t beats_per_check = 10;
+constexpr Duration time_to_wind_up = std::chrono::milliseconds{300};
+/// Handlers that run before what is due is looked at again.
+constexpr int handlers_per_turn = 64;
+constexpr unsigned retry_after = 5;  // s
+
+void write_date(std::string& text) {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char date[40];
+  text.assign(date, std::strftime(date, sizeof(date), "%a, %d %b %Y %H:%M:%S GMT", &parts));
+}
+
+std::chrono::steady_clock::time_point on_asios_clock(Time time) noexcept {
+  return std::chrono::steady_clock::time_point{time.time_since_epoch()};
+}
+
+}  // namespace
+
+Server::Server(const ServerSettings& settings, std::unique_ptr<net::ssl::context> encryption,
+               const ServerParts& parts)
+    : settings_(settings),
+      encryption_(std::move(encryption)),
+      ticked_(parts.ticked),
+      surroundings_{context_, encryption_.get(), settings_, parts.gate, parts.requests, parts.live},
+      acceptor_(context_),
+      accepted_(context_),
+      beat_timer_(context_),
+      tick_timer_(context_) {
+  surroundings_.now = MonotonicClock::now();
+  write_date(surroundings_.date);
+  for (std::uint32_t place = 0; place < settings_.places; ++place) {
+    connections_.emplace_back(surroundings_, place);
+  }
+}
+
+Status Server::listen(const ListenAddress& address) {
+  error_code error;
+  const tcp::endpoint endpoint(net::ip::make_address(address.address, error), address.port);
+  if (!error) acceptor_.open(endpoint.protocol(), error);
+  if (!error) acceptor_.set_option(net::socket_base::reuse_address{true}, error);
+  if (!error) acceptor_.bind(endpoint, error);
+  if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
+  if (!error) acceptor_.non_blocking(true, error);
+  if (!error) {
+    port_ = acceptor_.local_endpoint(error).port();
+    return {};
+  }
+  error_code ignored;
+  acceptor_.close(ignored);
+  const std::string where = address.text();
+  if (error == net::error::address_in_use) {
+    return Status::error(StatusCode::busy,
+                         "the panel cannot listen at %s: another program does; choose another port with "
+                         "--panel %s:0 (any free one), or --panel off",
+                         where.c_str(), where.substr(0, where.rfind(':')).c_str());
+  }
+  if (error == net::error::access_denied) {
+    return Status::error(StatusCode::invalid_argument,
+                         "the panel may not listen at %s: ports below 1024 are for root; choose another",
+                         where.c_str());
+  }
+  return Status::error(StatusCode::invalid_argument,
+                       "the panel cannot listen at %s: %s; `ip address` lists this machine's addresses",
+                       where.c_str(), error.message().c_str());
+}
+
+// ---- the thread
+
+void Server::run() {
+  surroundings_.now = MonotonicClock::now();
+  accept();
+  beat_timer_.expires_at(on_asios_clock(surroundings_.now + beat_interval));
+  beat();
+  tick();
+  while (!stops_.load(std::memory_order_acquire)) {
+    context_.run_one();
+    for (int i = 1; i < handlers_per_turn && context_.poll_one() > 0; ++i) {
+    }
+    if (std::exchange(surroundings_.handled, false)) tick();
+  }
+  wind_up();
+}
+
+void Server::wind_up() {
+  tick();  // what is to be said at the end
+  error_code ignored;
+  acceptor_.close(ignored);
+  const Time latest = MonotonicClock::now() + time_to_wind_up;
+  for (Connection& connection : connections_) connection.end();
+  const auto is_free = [](const Connection& connection) { return connection.is_free(); };
+  while (!std::ranges::all_of(connections_, is_free) && MonotonicClock::now() < latest) {
+    context_.run_one_for(std::chrono::milliseconds{10});
+  }
+  for (Connection& connection : connections_) connection.shut();
+  beat_timer_.cancel();
+  tick_timer_.cancel();
+  context_.poll();
+}
+
+void Server::beat() {
+  beat_timer_.async_wait(HandlerIn(handler_memory_, [this](error_code error) {
+    if (!error) on_beat();
+  }));
+}
+
+void Server::on_beat() {
+  surroundings_.now = MonotonicClock::now();
+  const auto due = beat_timer_.expiry();
+  const auto now = on_asios_clock(surroundings_.now);
+  loop_delay_.add(now - due);
+  // What was missed is not made up for.
+  beat_timer_.expires_at(std::max(due + beat_interval, now));
+  beat();
+  if (++beats_ % beats_per_check == 0) check_connections();
+}
+
+void Server::check_connections() {
+  write_date(surroundings_.date);
+  close_refused();
+  for (Connection& connection : connections_) connection.check(surroundings_.now);
+  if (!accepts_) accept();
+  surroundings_.handled = true;
+}
+
+void Server::tick() {
+  surroundings_.now = MonotonicClock::now();
+  surroundings_.watch("what is due", [this] { ticked_.on_tick(surroundings_.now); });
+  surroundings_.handled = false;
+  plan_tick();
+}
+
+void Server::plan_tick() {
+  const Time next = surroundings_.now + ticked_.until_next(surroundings_.now);
+  // A timer that comes too early is put right then.
+  if (tick_planned_ != Time{} && tick_planned_ <= next) return;
+  tick_planned_ = next;
+  tick_timer_.expires_at(on_asios_clock(next));
+  tick_timer_.async_wait(HandlerIn(handler_memory_, [this](error_code error) {
+    if (error) return;
+    tick_planned_ = Time{};
+    surroundings_.handled = true;
+  }));
+}
+
+// ---- clients
+
+void Server::accept() {
+  accepts_ = true;
+  acceptor_.async_accept(accepted_,
+                         HandlerIn(handler_memory_, [this](error_code error) { on_accepted(error); }));
+}
+
+void Server::on_accepted(error_code error) {
+  accepts_ = false;
+  if (error == net::error::operation_aborted) return;
+  // Too many open files, for one: tried again at the next check.
+  if (error && error != net::error::connection_aborted) return;
+  if (!error) {
+    const auto free = std::ranges::find_if(connections_, &Connection::is_free);
+    if (free == connections_.end()) {
+      refuse(std::move(accepted_));
+    } else {
+      free->open(std::move(accepted_));
+    }
+  }
+  accept();
+}
+
+/// What a fresh socket does not take at once is not worth waiting for.
+void Server::refuse(Socket socket) {
+  std::optional<Socket>& place = refused_sockets_[refused_++ % refused_sockets_.size()];
+  place.reset();
+  if (encryption_) return;  // nothing can be said before the handshake
+  Reply reply;
+  reply.retry_after = retry_after;
+  answer_problem(reply, 503, "all of the panel's connections are in use; close a page, or try again later");
+  ReplyHead head;
+  head.date = surroundings_.date;
+  head.keep_alive = false;
+  std::string text;
+  write_reply_head(text, reply, head);
+  text += reply.text;
+  error_code ignored;
+  socket.non_blocking(true, ignored);
+  socket.write_some(net::buffer(text), ignored);
+  socket.shutdown(Socket::shutdown_send, ignored);
+  place.emplace(std::move(socket));
+}
+
+/// Closing with something unread would take the answer away from the client again.
+void Server::close_refused() {
+  std::array<char, 16384> request;
+  for (std::optional<Socket>& place : refused_sockets_) {
+    if (!place) continue;
+    error_code ignored;
+    place->read_some(net::buffer(request), ignored);
+    place.reset();
+  }
+}
+
+Reply* Server::reply_of(Ticket ticket) {
+  return ticket.connection < connections_.size() ? connections_[ticket.connection].reply_of(ticket.exchange)
+                                                 : nullptr;
+}
+
+void Server::complete(Ticket ticket) {
+  if (ticket.connection < connections_.size()) connections_[ticket.connection].complete(ticket.exchange);
+}
+
+ServerFigures Server::figures() const noexcept {
+  ServerFigures figures;
+  figures.connections = surroundings_.connections;
+  figures.places = settings_.places;
+  figures.refused = refused_;
+  figures.loop_delay_p99 = loop_delay_.quantile(0.99);
+  figures.loop_delay_max = loop_delay_.maximum();
+  figures.slow_calls = surroundings_.slow_calls;
+  return figures;
+}
+
+}  // namespace flexrf::panel

@@ -1,0 +1,92 @@
+// The panel's server: one thread, one port, a fixed number of connections.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "runtime/core/histogram.hpp"
+#include "runtime/core/status.hpp"
+#include "web-ui/server/asio.hpp"
+#include "web-ui/server/connection.hpp"
+#include "web-ui/server/exchange.hpp"
+#include "web-ui/server/handler_memory.hpp"
+#include "web-ui/server/listen_address.hpp"
+#include "web-ui/server/server_services.hpp"
+#include "web-ui/server/settings.hpp"
+#include "web-ui/server/surroundings.hpp"
+
+namespace flexrf::panel {
+
+/// Whose work the server does. They outlive it.
+struct ServerParts {
+  Gate& gate;
+  RequestHandler& requests;
+  LiveHandler& live;
+  Ticked& ticked;
+};
+
+/// Takes all its memory before it runs. Functions: the server's thread, but where they say otherwise.
+class Server final : public LaterReplies {
+ public:
+  /// `encryption` null: plain HTTP. Any one thread.
+  Server(const ServerSettings& settings, std::unique_ptr<net::ssl::context> encryption,
+         const ServerParts& parts);
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// Before run(). busy: somebody else listens there; invalid_argument: this machine has no such address;
+  /// not_permitted: not for this user.
+  Status listen(const ListenAddress& address);
+  /// After listen().
+  std::uint16_t port() const noexcept { return port_; }
+  /// Serves until stop(): the server's thread is the one that calls it.
+  void run();
+  /// Live clients are told, what is under way may come to its end within 300 ms. Any thread.
+  void stop() noexcept { stops_.store(true, std::memory_order_release); }
+
+  ServerFigures figures() const noexcept;
+
+  Reply* reply_of(Ticket ticket) override;
+  void complete(Ticket ticket) override;
+
+ private:
+  void accept();
+  void on_accepted(error_code error);
+  void refuse(Socket socket);
+  void close_refused();
+  void beat();
+  void on_beat();
+  void check_connections();
+  void tick();
+  void plan_tick();
+  void wind_up();
+
+  ServerSettings settings_;
+  std::unique_ptr<net::ssl::context> encryption_;
+  net::io_context context_{1};
+  Ticked& ticked_;
+  Surroundings surroundings_;
+  std::deque<Connection> connections_;
+  Acceptor acceptor_;
+  Socket accepted_;
+  Timer beat_timer_;
+  Timer tick_timer_;
+  // Clients that were refused, and get to read why before their sockets are closed.
+  std::array<std::optional<Socket>, 8> refused_sockets_;
+  // Of the listener and the timers.
+  HandlerMemory handler_memory_;
+  Histogram loop_delay_;
+  std::uint16_t port_ = 0;
+  std::uint64_t refused_ = 0;
+  std::uint32_t beats_ = 0;
+  bool accepts_ = false;
+  Time tick_planned_{};  // zero: no timer is set
+  std::atomic<bool> stops_{false};
+};
+
+}  // namespace flexrf::panel

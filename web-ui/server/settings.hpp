@@ -1,0 +1,28 @@
+// Sizes and times of the server.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "runtime/core/time.hpp"
+
+namespace flexrf::panel {
+
+inline constexpr std::size_t header_limit = 8U << 10;         ///< bytes of a request's header
+inline constexpr std::size_t body_limit = 64U << 10;          ///< bytes of a request's body
+inline constexpr std::size_t live_message_limit = 16U << 10;  ///< bytes of a client's message
+
+struct ServerSettings {
+  std::uint32_t places = 32;  ///< connections at a time
+  Duration header_timeout = std::chrono::seconds{5};
+  Duration body_timeout = std::chrono::seconds{10};
+  Duration idle_timeout = std::chrono::seconds{15};   ///< between two requests
+  Duration reply_timeout = std::chrono::seconds{60};  ///< of a handler that answers later
+  Duration write_timeout = std::chrono::seconds{5};   ///< of a client that does not read
+  Duration linger_timeout = std::chrono::seconds{1};  ///< for the client's side of an end
+  Duration live_silence = std::chrono::seconds{1};    ///< a live client that says nothing is gone
+  std::uint32_t live_message_rate = 2000;             ///< messages and pings a second of one client
+  Duration slow_call = std::chrono::milliseconds{5};  ///< what no handler may take
+};
+
+}  // namespace flexrf::panel

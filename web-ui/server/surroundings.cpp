@@ -1,0 +1,14 @@
+#include "web-ui/server/surroundings.hpp"
+
+#include "runtime/log/log.hpp"
+
+namespace flexrf::panel {
+
+void Surroundings::note(std::string_view what, Duration taken) noexcept {
+  if (taken <= settings.slow_call) return;
+  ++slow_calls;
+  static LogLimit limit;
+  log_warning(limit, "panel", "{} kept the server for {:.1} ms", what, seconds(taken) * 1e3);
+}
+
+}  // namespace flexrf::panel
