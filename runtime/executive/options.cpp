@@ -25,6 +25,11 @@ constexpr std::array flags{
     Flag{"--config", "FILE", "configuration file (XML): read at the start, written when values are saved"},
     Flag{"--report", "FILE", "write the final report as JSON too"},
     Flag{"--panel", "ADDRESS:PORT|off", "where the panel listens (default 127.0.0.1:8080)"},
+    Flag{"--panel-users", "FILE", "who may log in to the panel (`./flexrf password` writes it)"},
+    Flag{"--panel-host", "NAME", "another name of this machine in the panel's address"},
+    Flag{"--tls-certificate", "FILE", "serve the panel by TLS: certificate (PEM)"},
+    Flag{"--tls-key", "FILE", "and its key (PEM)"},
+    Flag{"--insecure-http", nullptr, "let other machines use the panel without TLS"},
     Flag{"--no-realtime", nullptr, "ordinary priorities; refused with a real actuator"},
     Flag{"--descriptor", nullptr, "print descriptor.json and end"},
     Flag{"--help", nullptr, "this text"},
@@ -134,6 +139,14 @@ Status take(const Application& application, std::string_view name, std::string_v
     }
     options.panel = value;
     options.panel_given = value != "off";
+  } else if (name == "--panel-users") {
+    options.panel_users = value;
+  } else if (name == "--panel-host") {
+    options.panel_hosts.emplace_back(value);
+  } else if (name == "--tls-certificate") {
+    options.tls_certificate = value;
+  } else if (name == "--tls-key") {
+    options.tls_key = value;
   } else if (name == "--virtual-time") {
     options.virtual_time = parse_duration(value);
     if (!options.virtual_time) {
@@ -170,6 +183,7 @@ Result<Options> parse_options(const Application& application, int argument_count
       }
       options.digest |= name == "--digest";
       options.help |= name == "--help";
+      options.insecure_http |= name == "--insecure-http";
       options.descriptor |= name == "--descriptor";
       if (name == "--no-realtime") options.realtime = false;
       continue;

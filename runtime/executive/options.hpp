@@ -25,6 +25,11 @@ struct Options {
   std::string report_file;               ///< empty: none
   std::string panel = "127.0.0.1:8080";  ///< address:port, or "off"
   bool panel_given = false;              ///< the command line says where
+  std::string panel_users;               ///< file of who may log in; empty: none
+  std::vector<std::string> panel_hosts;  ///< names that the panel answers to, beside this machine's own
+  std::string tls_certificate;           ///< PEM file; empty: no TLS
+  std::string tls_key;                   ///< PEM file
+  bool insecure_http = false;            ///< the panel may be served to other machines without TLS
   bool observed = false;                 ///< somebody observes: memory is locked for its threads too
   std::uint64_t seed = 1;
   bool realtime = true;
