@@ -39,7 +39,9 @@ export class RobotWidget extends WidgetBase {
     css`
       .stage {
         position: relative;
-        height: clamp(220px, 45vh, 480px);
+        aspect-ratio: 4 / 3;
+        min-height: 220px;
+        max-height: 480px;
         background: var(--field);
         border: 1px solid var(--border);
         border-radius: var(--radius);

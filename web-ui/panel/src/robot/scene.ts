@@ -1,7 +1,7 @@
 // The 3D scene of one robot. The only file that knows three.js: it comes with a chunk of its own, when it is shown.
 import {
-  AmbientLight, Box3, DirectionalLight, GridHelper, LoadingManager, Material, Mesh, PerspectiveCamera, Scene, Spherical, Vector3,
-  WebGLRenderer, type Object3D,
+  AmbientLight, Box3, DirectionalLight, GridHelper, LoadingManager, Material, MathUtils, Mesh, PerspectiveCamera, Scene, Spherical,
+  Vector3, WebGLRenderer, type Object3D,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
@@ -11,6 +11,9 @@ const folder = '/application/robots/';
 
 /** Sharper than this costs more than it shows. */
 const most_pixels = 2;
+
+/** How much more than the robot as it stands is seen: it moves. */
+const room = 1.05;
 
 export interface SceneOptions {
   readonly canvas: HTMLCanvasElement;
@@ -28,6 +31,8 @@ export class RobotScene {
   private robot: URDFRobot | undefined;
   private frame = 0;
   private shown = true;
+  /** The person chose another view: a new size leaves it alone. */
+  private chosen = false;
 
   constructor({ canvas, colours }: SceneOptions) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -43,6 +48,7 @@ export class RobotScene {
 
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.invalidate());
+    this.controls.addEventListener('start', () => (this.chosen = true));
     // The wheel scrolls the page until the person turned to the view.
     this.controls.enableZoom = false;
     const { signal } = this.end;
@@ -79,6 +85,7 @@ export class RobotScene {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.renderer.setSize(width, height, false);
+    if (!this.chosen) this.resetView();
     this.draw(); // at once: a canvas of a new size is empty
   }
 
@@ -88,15 +95,18 @@ export class RobotScene {
     if (visible) this.invalidate();
   }
 
-  /** The whole robot, from the front and a little above. */
+  /** The whole robot from its right side, a little above: x to the right, y away, with room to move. */
   resetView(): void {
+    this.chosen = false;
     const bounds = this.robot ? new Box3().setFromObject(this.robot) : new Box3();
     if (bounds.isEmpty()) bounds.set(new Vector3(-0.5, -0.5, 0), new Vector3(0.5, 0.5, 1));
     const centre = bounds.getCenter(new Vector3());
-    const reach = Math.max(0.1, bounds.getSize(new Vector3()).length());
-    this.camera.position.copy(centre).add(new Vector3(1, -1, 0.55).normalize().multiplyScalar(1.5 * reach));
-    this.camera.near = reach / 100;
-    this.camera.far = reach * 100;
+    const radius = Math.max(0.05, room * 0.5 * bounds.getSize(new Vector3()).length());
+    const half = MathUtils.degToRad(this.camera.fov / 2);
+    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect));
+    this.camera.position.copy(centre).addScaledVector(new Vector3(0.35, -1, 0.45).normalize(), radius / Math.sin(narrow));
+    this.camera.near = radius / 50;
+    this.camera.far = radius * 100;
     this.camera.updateProjectionMatrix();
     this.controls.target.copy(centre);
     this.controls.update();
@@ -126,6 +136,7 @@ export class RobotScene {
   }
 
   private moveCamera(change: (place: Spherical) => void): void {
+    this.chosen = true;
     // Spherical has y upwards.
     const offset = this.camera.position.clone().sub(this.controls.target);
     const place = new Spherical().setFromCartesianCoords(offset.y, offset.z, offset.x);

@@ -35,17 +35,17 @@ export function actionsOf(row: ComponentRow): ActionOffer[] {
   const offers: ActionOffer[] = [
     {
       action: 'start', label: 'Start', role: 'engineer',
-      effect: 'Initialises it and has it stepped.',
-      locked: row.life === 'running' ? 'It is running.' : row.life === 'fault' ? 'It is in fault: initialise it.' : '',
+      effect: 'Initialises it, and what it stands on. Nothing moves before the next Start of motion.',
+      locked: row.life === 'running' ? 'It is running.' : '',
     },
     {
       action: 'stop', label: 'Stop', role: 'engineer',
-      effect: row.kind === 'unit' ? 'Ends its steps; what it writes becomes NULL.' : 'Makes it safe and closes it.',
-      locked: row.life === 'running' || row.life === 'initialised' ? '' : 'It is not running.',
+      effect: 'Stops it, and before it what stands on it; what they write becomes NULL.',
+      locked: row.life === 'created' || row.life === 'stopped' ? 'It is not running.' : '',
     },
     {
       action: 'initialise', label: 'Initialise', role: 'engineer',
-      effect: 'Stops it, makes it anew and starts it. Nothing moves before the next Start of motion.',
+      effect: 'Stops it and what stands on it, and starts it all anew. Nothing moves before the next Start of motion.',
       locked: '',
     },
   ];

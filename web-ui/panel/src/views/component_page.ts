@@ -21,6 +21,9 @@ export class ComponentPage extends ViewBase {
   static override styles = [
     ...viewStyles,
     css`
+      section {
+        max-width: 64rem;
+      }
       .item {
         display: block;
         padding-block: 4px;

@@ -7,7 +7,6 @@ const begun: BeginAnswer = {
   edit: 'e1',
   reinitialised: ['robot', 'arm'],
   configuration: { arm: { servo_lag: 0.012, noise: 2e-5 }, robot: { longest_advance: 0.02, gains: [1, 2] } },
-  leftMs: 300_000,
 };
 
 /** A server whose answers the test gives when it likes. */
@@ -161,15 +160,23 @@ describe('Apply', () => {
   it('stays open with its values when they are refused', async () => {
     await apply({ ok: true, outcome: 'refused', causes: ['servo_lag: too slow'], owners: [] });
     expect(flow.state.step).toBe('editing');
-    expect(flow.draft?.causes).toEqual(['servo_lag: too slow']);
+    expect(flow.draft).toMatchObject({ failure: 'refused', causes: ['servo_lag: too slow'] });
     expect(flow.value('arm', 'servo_lag')).toBe(0.1);
     flow.change('arm', 'servo_lag', 0.05);
     expect(flow.draft?.causes).toEqual([]);
   });
 
-  it.each(['rolled_back', 'fault'] as const)('ends with %s and its causes', async (outcome) => {
-    await apply({ ok: true, outcome, causes: ['arm: no answer'], owners: ['robot', 'arm'] });
-    expect(flow.state).toMatchObject({ step: 'applied', outcome, causes: ['arm: no answer'] });
+  it('stays open to be corrected when all was rolled back', async () => {
+    await apply({ ok: true, outcome: 'rolled_back', causes: ['arm: no answer'], owners: ['robot', 'arm'] });
+    expect(flow.state.step).toBe('editing');
+    expect(flow.draft).toMatchObject({ failure: 'rolled_back', causes: ['arm: no answer'] });
+    flow.discard();
+    expect(server.discarded).toEqual(['e1']);
+  });
+
+  it('ends with a fault and its causes', async () => {
+    await apply({ ok: true, outcome: 'fault', causes: ['arm: no answer'], owners: ['robot', 'arm'] });
+    expect(flow.state).toMatchObject({ step: 'applied', outcome: 'fault', causes: ['arm: no answer'] });
     flow.discard();
     expect(flow.state.step).toBe('closed');
     expect(server.discarded).toEqual([]);
@@ -208,6 +215,15 @@ describe('the end of an edit', () => {
     time += 1;
     flow.tick();
     expect(flow.state.step).toBe('ended');
+  });
+
+  it('comes when the server says, which counts anew after each Apply', () => {
+    time += 299_000;
+    flow.serverSays('you', 250_000);
+    expect(flow.left).toBe(250_000);
+    time += 1000;
+    flow.tick();
+    expect(flow.state.step).toBe('editing');
   });
 
   it('is the server, once it had said that this session edits', () => {

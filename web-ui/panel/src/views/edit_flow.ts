@@ -19,8 +19,6 @@ export type BeginAnswer =
       /** In order of stopping: owners of actuators first. */
       readonly reinitialised: readonly string[];
       readonly configuration: Configuration;
-      /** The server discards it then. */
-      readonly leftMs: number;
     }
   | { readonly ok: false; readonly detail: string; readonly moving: readonly string[] };
 
@@ -46,7 +44,8 @@ export interface Draft {
   readonly invalid: { readonly [key: string]: string };
   /** When the server discards it, ms of the flow's clock. */
   readonly endsAt: number;
-  /** Why the last Apply was refused; empty before. */
+  /** What became of the last Apply, and why; empty before it. */
+  readonly failure: '' | 'refused' | 'rolled_back';
   readonly causes: readonly string[];
 }
 
@@ -58,7 +57,7 @@ export type EditState =
   | { readonly step: 'applying'; readonly draft: Draft }
   | {
       readonly step: 'applied';
-      readonly outcome: Exclude<Outcome, 'refused'>;
+      readonly outcome: 'done' | 'fault';
       readonly causes: readonly string[];
       readonly owners: readonly string[];
     }
@@ -66,6 +65,9 @@ export type EditState =
 
 /** Who edits, as the server's `state` says: this session, another, or nobody. */
 export type Editor = 'you' | 'other' | 'nobody';
+
+/** ms that the server leaves an edit open, until it says how many are left. */
+const lifetime = 300_000;
 
 export interface EditFlowOptions {
   readonly link: EditLink;
@@ -135,9 +137,10 @@ export class EditFlow {
       return;
     }
     this.confirmed = false;
-    const { edit, reinitialised, configuration, leftMs } = answer;
-    const endsAt = this.options.now() + leftMs;
-    this.go({ step: 'editing', draft: { edit, reinitialised, configuration, changed: {}, invalid: {}, endsAt, causes: [] } });
+    const { edit, reinitialised, configuration } = answer;
+    const endsAt = this.options.now() + lifetime;
+    const untouched = { changed: {}, invalid: {}, failure: '', causes: [] } as const;
+    this.go({ step: 'editing', draft: { edit, reinitialised, configuration, endsAt, ...untouched } });
   }
 
   change(component: string, parameter: string, value: Value): void {
@@ -153,7 +156,7 @@ export class EditFlow {
     const { [key]: _reason, ...valid } = draft.invalid;
     const reason = values[parameter] === undefined ? '' : this.options.check(component, parameter, value);
     const invalid = reason === '' ? valid : { ...valid, [key]: reason };
-    this.go({ step: 'editing', draft: { ...draft, changed, invalid, causes: [] } });
+    this.go({ step: 'editing', draft: { ...draft, changed, invalid, failure: '', causes: [] } });
   }
 
   revert(component: string, parameter: string): void {
@@ -169,11 +172,10 @@ export class EditFlow {
     const answer = await this.options.link.apply(draft.edit, this.changes);
     if (this.state !== applying) return;
     if (!answer.ok) {
-      this.go({ step: 'editing', draft: { ...draft, causes: [answer.detail] } });
-    } else if (answer.outcome === 'refused') {
-      // Nothing was stopped, the edit lives on.
-      const causes = answer.causes.length > 0 ? answer.causes : ['The values were refused.'];
-      this.go({ step: 'editing', draft: { ...draft, causes } });
+      this.go({ step: 'editing', draft: { ...draft, failure: 'refused', causes: [answer.detail] } });
+    } else if (answer.outcome === 'refused' || answer.outcome === 'rolled_back') {
+      // What was in force is in force; the edit lives on, to be corrected.
+      this.go({ step: 'editing', draft: { ...draft, failure: answer.outcome, causes: answer.causes } });
     } else {
       this.go({ step: 'applied', outcome: answer.outcome, causes: answer.causes, owners: answer.owners });
     }
@@ -193,11 +195,14 @@ export class EditFlow {
     }
   }
 
-  /** Each `state` of the server. */
-  serverSays(editor: Editor): void {
+  /** Each `state` of the server; `left`: ms until it discards the edit there is. */
+  serverSays(editor: Editor, left = lifetime): void {
     if (this.current.step !== 'editing') return;
-    if (editor === 'you') this.confirmed = true;
-    else if (editor === 'other' || this.confirmed) {
+    if (editor === 'you') {
+      this.confirmed = true;
+      // Each Apply begins the time anew; no need to draw for it.
+      this.current = { ...this.current, draft: { ...this.current.draft, endsAt: this.options.now() + left } };
+    } else if (editor === 'other' || this.confirmed) {
       const why = editor === 'other' ? 'Another session edits now.' : 'The control token or the link was lost, or the time is over.';
       this.go({ step: 'ended', reason: `The edit was discarded. ${why} Nothing was changed.` });
     }

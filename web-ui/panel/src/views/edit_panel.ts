@@ -9,8 +9,12 @@ import { viewStyles } from './view_styles';
 
 const outcomes = {
   done: 'Applied. Everything was initialised again; nothing moves before the next Start of motion.',
-  rolled_back: 'Rolled back: a component could not be initialised with these values. The former ones are in force.',
   fault: 'Fault: a component could be initialised neither with these values nor with the former ones.',
+} as const;
+
+const failures = {
+  refused: 'Refused; nothing was stopped.',
+  rolled_back: 'Rolled back: a component could not be initialised with these values. The former ones are in force.',
 } as const;
 
 @customElement('flexrf-edit-panel')
@@ -41,8 +45,7 @@ export class EditPanel extends ViewBase {
       case 'applying':
         return this.editing(state.draft, state.step === 'applying');
       case 'applied':
-        return this.result(
-          state.outcome === 'done' ? outcomes.done : outcomes[state.outcome], state.causes, state.outcome !== 'done', state.owners);
+        return this.result(outcomes[state.outcome], state.causes, state.outcome !== 'done', state.owners);
       case 'ended':
         return this.result(state.reason, [], true, []);
     }
@@ -98,7 +101,7 @@ export class EditPanel extends ViewBase {
     const count = flow.changes.reduce((sum, change) => sum + Object.keys(change.values).length, 0);
     const here = draft.configuration[this.component] !== undefined;
     return html`
-      <div class="box edit-box" role="group" aria-label="Editing configuration">
+      <div class="box edit-box" role="group" aria-label="Editing configuration" tabindex="-1" data-first>
         <p>
           <strong>${applying ? 'Applying…' : 'Editing.'}</strong> ${here ? nothing : html`This component is not part of this edit. `}
           ${count === 0 ? 'Nothing was changed yet.' : `${count} ${count === 1 ? 'value' : 'values'} changed.`}
@@ -109,10 +112,10 @@ export class EditPanel extends ViewBase {
           ${draft.reinitialised.map((name) => html`<li>${this.link(name)}</li>`)}
         </ol>
         ${this.changes(draft)}
-        <div role="alert">${draft.causes.map((cause) => html`<p class="alarm">Refused: ${cause}</p>`)}</div>
+        <div role="alert">${this.failure(draft)}</div>
         <div class="buttons">
           <div>
-            <button data-first ?disabled=${cannot !== ''} aria-busy=${applying ? 'true' : nothing} aria-describedby="cannot" @click=${() => flow.apply()}>
+            <button ?disabled=${cannot !== ''} aria-busy=${applying ? 'true' : nothing} aria-describedby="cannot" @click=${() => flow.apply()}>
               Apply
             </button>
             <small id="cannot">${cannot}</small>
@@ -120,6 +123,16 @@ export class EditPanel extends ViewBase {
           <div><button ?disabled=${applying} @click=${() => flow.discard()}>Discard</button></div>
         </div>
       </div>
+    `;
+  }
+
+  private failure(draft: Draft): unknown {
+    if (draft.failure === '') return nothing;
+    return html`
+      <p class="alarm">${failures[draft.failure]}</p>
+      <ul>
+        ${draft.causes.map((cause) => html`<li>${cause}</li>`)}
+      </ul>
     `;
   }
 

@@ -7,13 +7,11 @@ import { EditHost } from './edit_host';
 
 /** Initialising takes as long as its time-outs say; the server's answer comes at the end. */
 const apply_timeout = 180_000;
-const left_open_at_most = 300_000;
 
 interface Begun {
   readonly edit: string;
   readonly reinitialised: readonly string[];
   readonly configuration: Configuration;
-  readonly left_ms?: number;
 }
 
 interface Applied {
@@ -52,7 +50,7 @@ export class EditSession {
     });
     this.host = new EditHost(core.host, () => this.flow, () => this.denied);
     core.watchState(() => {
-      if (core.state !== undefined) this.flow.serverSays(this.editor);
+      if (core.state !== undefined) this.flow.serverSays(this.editor, core.state.edit?.left_ms);
       this.host.refresh();
       this.tell();
     });
@@ -86,7 +84,7 @@ export class EditSession {
       const { detail, title, moving } = answer.problem;
       return { ok: false, detail: detail ?? title, moving: moving ?? [] };
     }
-    return { ...answer, leftMs: answer.left_ms ?? left_open_at_most };
+    return answer;
   }
 
   private async apply(edit: string, changes: readonly Change[]): Promise<ApplyAnswer> {

@@ -112,7 +112,13 @@ export const viewStyles = [
       color: var(--stale);
       font-style: italic;
     }
+    td a,
+    th a {
+      white-space: nowrap;
+      overflow-wrap: normal;
+    }
     dl {
+      align-items: baseline;
       display: grid;
       grid-template-columns: max-content 1fr;
       gap: 2px 1em;
