@@ -54,13 +54,13 @@ export class ArrayField extends EditorBase {
     const { rows, columns } = gridOf(item);
     const fields = this.cells.map((_, i) => this.field(i));
     if (item.shape.length === 1) {
-      return this.editFrame(html`<span class="cells">
+      return this.controlFrame(html`<span class="cells">
           ${fields.map(
             (field, i) => html`<span class="cell"><span class="index" aria-hidden="true">${elementName(item, i)}</span>${field}</span>`,
-          )} </span
-        >${this.unitMark()}`);
+          )}${this.unitMark()}
+        </span>`);
     }
-    return this.editFrame(html`<div class="scroll">
+    return this.controlFrame(html`<div class="scroll">
         <table role="presentation">
           ${Array.from(
             { length: rows },
@@ -129,6 +129,7 @@ export class ArrayField extends EditorBase {
   protected override write(value: Value | null): void {
     const { columns } = gridOf(this.item!);
     const matrix = this.item!.shape.length === 2;
+    if (Array.isArray(value)) this.quantity.seeAll(value);
     this.cells.forEach((cell, i) => {
       cell.echo(elementAt(value, Math.floor(i / columns), i % columns, matrix) ?? null);
       this.presentCell(i);

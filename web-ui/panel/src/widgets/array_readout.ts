@@ -2,7 +2,7 @@
 import { css, html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { ItemInfo, Value } from '../contract';
-import { LiveText } from './live_text';
+import { BoxedText } from './live_text';
 import { scalarText } from './value_text';
 import { widgetStyles } from './styles';
 import { WidgetBase, dash } from './widget_base';
@@ -40,12 +40,12 @@ export function elementAt(value: Value | null, row: number, column: number, matr
 export const arrayStyles = css`
   .cells {
     display: flex;
+    align-items: flex-end;
     flex-wrap: wrap;
     gap: 2px var(--gap);
     justify-content: flex-end;
   }
   .cell {
-    min-width: 7ch;
     text-align: right;
   }
   .index {
@@ -68,13 +68,12 @@ export const arrayStyles = css`
   td {
     text-align: right;
     padding: 1px 0.4em;
-    min-width: 6ch;
   }
 `;
 
 export class ArrayReadout extends WidgetBase {
   static override styles = [widgetStyles, arrayStyles];
-  private cells: LiveText[] = [];
+  private cells: BoxedText[] = [];
 
   protected override render(): TemplateResult {
     const item = this.item;
@@ -82,15 +81,15 @@ export class ArrayReadout extends WidgetBase {
     const { rows, columns, left } = gridOf(item);
     const grid = item.shape.length === 2 ? this.table(rows, columns) : this.list(item, columns);
     const more = left > 0 ? html`<span>… and ${left} more</span>` : nothing;
-    return this.frame(html`${grid}${this.unitMark()}`, '', html`${more}`);
+    return this.frame(html`${grid}`, '', html`${more}`);
   }
 
   private list(item: ItemInfo, columns: number): TemplateResult {
     return html`<span class="cells">
       ${Array.from(
         { length: columns },
-        (_, i) => html`<span class="cell"><span class="index">${elementName(item, i)}</span><span class="value"></span></span>`,
-      )}
+        (_, i) => html`<span class="cell"><span class="index">${elementName(item, i)}</span><span class="value boxed"></span></span>`,
+      )}${this.unitMark()}
     </span>`;
   }
 
@@ -104,16 +103,16 @@ export class ArrayReadout extends WidgetBase {
             { length: rows },
             (_, row) => html`<tr>
               <th scope="row">${row}</th>
-              ${heads.map(() => html`<td class="value"></td>`)}
+              ${heads.map(() => html`<td><span class="value boxed"></span></td>`)}
             </tr>`,
           )}
         </tbody>
       </table>
-    </div>`;
+    </div>${this.unitMark()}`;
   }
 
   protected override firstUpdated(): void {
-    this.cells = [...this.renderRoot.querySelectorAll('.value')].map((cell) => new LiveText(cell));
+    this.cells = [...this.renderRoot.querySelectorAll<HTMLElement>('.value')].map((cell) => new BoxedText(cell));
     super.firstUpdated();
   }
 
@@ -122,6 +121,7 @@ export class ArrayReadout extends WidgetBase {
     if (!item) return;
     const matrix = item.shape.length === 2;
     const { columns } = gridOf(item);
+    if (Array.isArray(value)) this.quantity.seeAll(value);
     this.cells.forEach((cell, i) => {
       const element = elementAt(value, Math.floor(i / columns), i % columns, matrix);
       cell.text = element === undefined || element === null ? dash : scalarText(item, this.quantity, element);

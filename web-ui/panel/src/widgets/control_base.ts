@@ -9,7 +9,7 @@ export abstract class ControlBase extends WidgetBase {
   /** Why nothing can be changed now; empty when it can. */
   protected locked = '';
   protected readonly question = new Question(
-    () => this.options,
+    () => this.options['confirm'] ?? this.item?.confirm,
     () => this.requestUpdate(),
   );
   private refusal: LiveText | undefined;

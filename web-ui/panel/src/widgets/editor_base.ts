@@ -90,23 +90,19 @@ export abstract class EditorBase extends ControlBase {
     >`;
   }
 
-  /** The control and its reset button, which is there for a modified value. */
-  protected editFrame(content: TemplateResult, control = ''): TemplateResult {
+  /** The reset button, beside the mark of a modified value. */
+  protected override headControls(): TemplateResult | typeof nothing {
     const item = this.item;
-    const reset =
-      item?.default === undefined || item.kind === 'feedback'
-        ? nothing
-        : html`<button
-            type="button"
-            id="reset"
-            class=${this.modified ? '' : 'gone'}
-            ?disabled=${this.locked !== '' || !this.modified}
-            title=${`Back to the default, ${this.defaultText}`}
-            aria-label=${`Reset ${this.label} to its default, ${this.defaultText}`}
-            @click=${() => this.edit.perform(() => this.host.reset(item.key))}
-          >
-            ↺
-          </button>`;
-    return this.controlFrame(html`${content}${reset}`, control);
+    if (!item || !this.modified) return nothing;
+    return html` <button
+      type="button"
+      id="reset"
+      ?disabled=${this.locked !== ''}
+      title=${`Back to the default, ${this.defaultText}`}
+      aria-label=${`Reset ${this.label} to its default, ${this.defaultText}`}
+      @click=${() => this.edit.perform(() => this.host.reset(item.key))}
+    >
+      ↺
+    </button>`;
   }
 }

@@ -241,12 +241,10 @@ describe('button', () => {
   });
 
   it('asks first where the table says so', async () => {
-    const { host, find, text, widget } = await show(action, {
-      placement: { name: 'w', kind: 'button', label: '', place: '', slots: {}, parameters: {}, options: { confirm: true } },
-    });
+    const { host, find, text, widget } = await show({ ...action, confirm: 'Open it? The part falls.' });
     find<HTMLButtonElement>('#control').click();
     await settled(widget);
-    expect(text('.question [role="alert"]')).toBe('Really: Go?');
+    expect(text('.question [role="alert"]')).toBe('Open it? The part falls.');
     expect(host.press).not.toHaveBeenCalled();
     find<HTMLButtonElement>('#yes').click();
     await settled(widget);

@@ -13,17 +13,23 @@ const directions: { readonly [role: string]: readonly [sign: string, row: number
   turn_left: ['⟲', 1, 1],
   forward: ['▲', 1, 2],
   y_plus: ['▲', 1, 2],
+  plus_y: ['▲', 1, 2],
   turn_right: ['⟳', 1, 3],
   left: ['◀', 2, 1],
   x_minus: ['◀', 2, 1],
+  minus_x: ['◀', 2, 1],
   right: ['▶', 2, 3],
   x_plus: ['▶', 2, 3],
+  plus_x: ['▶', 2, 3],
   back: ['▼', 3, 2],
   y_minus: ['▼', 3, 2],
+  minus_y: ['▼', 3, 2],
   up: ['⤒', 1, 4],
   z_plus: ['⤒', 1, 4],
+  plus_z: ['⤒', 1, 4],
   down: ['⤓', 3, 4],
   z_minus: ['⤓', 3, 4],
+  minus_z: ['⤓', 3, 4],
 };
 
 interface JogButton {

@@ -17,6 +17,29 @@ export class LiveText {
   }
 }
 
+/**
+ * As LiveText, in a box of its own that is as wide as the longest text so far: a new text is laid out by itself, and
+ * neither moves nor measures its neighbours. For text in tabular figures.
+ */
+export class BoxedText {
+  private readonly node: Text;
+  private width = 0;
+
+  constructor(private readonly box: HTMLElement) {
+    this.node = box.ownerDocument.createTextNode('');
+    box.append(this.node);
+  }
+
+  set text(text: string) {
+    if (this.node.data === text) return;
+    if (text.length > this.width) {
+      this.width = text.length;
+      this.box.style.width = `${text.length}ch`;
+    }
+    this.node.data = text;
+  }
+}
+
 /** Sets an attribute only when it differs: each set costs a style calculation. */
 export function setAttribute(element: Element, name: string, value: string): void {
   if (element.getAttribute(name) !== value) element.setAttribute(name, value);

@@ -44,7 +44,7 @@ export class NumberField extends EditorBase {
   static override styles = [widgetStyles, numberFieldStyles];
 
   protected override render(): TemplateResult {
-    return this.editFrame(html`${this.stepsAround(this.field())}${this.unitMark()}`);
+    return this.controlFrame(this.stepsAround(html`${this.field()}${this.unitMark()}`));
   }
 
   /** −− − [middle] + ++ */

@@ -1,8 +1,8 @@
 // A number: text of fixed width, and a bar against its range.
-import { css, html, nothing } from 'lit';
+import { html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { Value } from '../contract';
-import { LiveText } from './live_text';
+import { BoxedText, LiveText } from './live_text';
 import { abnormality } from './value_text';
 import { barStyles, widgetStyles } from './styles';
 import { WidgetBase, dash } from './widget_base';
@@ -11,13 +11,8 @@ export class NumberReadout extends WidgetBase {
   static override styles = [
     widgetStyles,
     barStyles,
-    css`
-      .value {
-        min-width: 6ch;
-      }
-    `,
   ];
-  private text: LiveText | undefined;
+  private text: BoxedText | undefined;
   private abnormal: LiveText | undefined;
   private bar: HTMLElement | null = null;
 
@@ -30,12 +25,12 @@ export class NumberReadout extends WidgetBase {
             ><i></i>${zero === undefined ? nothing : html`<b></b>`}</span
           >`
         : nothing}
-      <span class="abnormal"></span><span class="value"></span>${this.unitMark()}
+      <span class="abnormal"></span><span class="value boxed"></span>${this.unitMark()}
     `);
   }
 
   protected override firstUpdated(): void {
-    this.text = new LiveText(this.find('.value'));
+    this.text = new BoxedText(this.find('.value'));
     this.abnormal = new LiveText(this.find('.abnormal'));
     this.bar = this.renderRoot.querySelector('.bar > i');
     super.firstUpdated();

@@ -86,12 +86,24 @@ export class Quantity {
     if (this.integer && this.factor === 1) return String(Math.round(shown));
     const magnitude = Math.abs(shown);
     if (magnitude >= 1e12) return shown.toExponential(3);
-    if (!this.fixed && magnitude > this.largest) {
-      this.largest = magnitude;
-      this.decimals = decimalsFor(magnitude);
-    }
+    this.see(magnitude);
     const text = shown.toFixed(this.decimals);
     return text.startsWith('-') && Number(text) === 0 ? text.slice(1) : text;
+  }
+
+  /** Of several numbers that are shown together, all go through this before text(): they get the same decimals. */
+  seeAll(values: readonly Value[]): void {
+    if (this.fixed) return;
+    for (const value of values) {
+      if (Array.isArray(value)) this.seeAll(value);
+      else if (typeof value === 'number') this.see(Math.abs(value * this.factor));
+    }
+  }
+
+  private see(magnitude: number): void {
+    if (this.fixed || !(magnitude > this.largest) || magnitude === Number.POSITIVE_INFINITY) return;
+    this.largest = magnitude;
+    this.decimals = decimalsFor(magnitude);
   }
 
   toShown(si: number): number {

@@ -1,21 +1,22 @@
-// "Really?" beside the control, where the table's option `confirm` asks for it: never a dialog, which would lie over
+// "Really?" beside the control, where the table asks for it with `confirm`: never a dialog, which would lie over
 // the button that stops motion.
 import { html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
-import type { Placement } from '../contract';
+import type { Value } from '../contract';
 
 export class Question {
   private act: (() => void) | undefined;
   private giveUp: (() => void) | undefined;
 
   constructor(
-    private readonly options: () => Placement['options'],
+    /** What the table says: a question, or true for the usual one. */
+    private readonly confirm: () => Value | undefined,
     private readonly changed: () => void,
   ) {}
 
   /** Whether anything is asked at all. */
   get wanted(): boolean {
-    const { confirm } = this.options();
+    const confirm = this.confirm();
     return confirm === true || (typeof confirm === 'string' && confirm !== '');
   }
   get open(): boolean {
@@ -40,7 +41,7 @@ export class Question {
 
   render(label: string): TemplateResult | typeof nothing {
     if (!this.open) return nothing;
-    const { confirm } = this.options();
+    const confirm = this.confirm();
     return html`<span class="question" role="group" aria-label="Confirm">
       <span role="alert">${typeof confirm === 'string' ? confirm : `Really: ${label}?`}</span>
       <button type="button" id="yes" @click=${() => this.answer(true)}>Yes</button>

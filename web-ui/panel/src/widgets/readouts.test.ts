@@ -117,7 +117,7 @@ describe('vector and matrix', () => {
   it('shows each element under its index', async () => {
     const shown = await show(makeItem({ shape: [2], unit: 'rad' }));
     shown.host.publish('jog.step', [Math.PI / 2, -Math.PI]);
-    expect([...shown.root.querySelectorAll('.cell')].map((cell) => cell.textContent)).toEqual(['090.00', '1−180.0']);
+    expect([...shown.root.querySelectorAll('.cell')].map((cell) => cell.textContent)).toEqual(['090.0', '1−180.0']);
   });
 
   it('names the axes of a position', async () => {

@@ -9,7 +9,7 @@ import { dash } from './widget_base';
 
 export class Select extends EditorBase {
   protected override render(): TemplateResult {
-    return this.editFrame(
+    return this.controlFrame(
       html`<select
         id="control"
         aria-describedby="summary refusal lock"

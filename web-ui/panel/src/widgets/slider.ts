@@ -14,6 +14,9 @@ export class Slider extends NumberField {
       .steps {
         flex: 1 1 14rem;
       }
+      .typed {
+        flex: 0 0 auto;
+      }
       input[type='range'] {
         flex: 1 1 4rem;
         min-width: 4rem;
@@ -46,7 +49,7 @@ export class Slider extends NumberField {
       @input=${() => this.drag()}
       @keydown=${(event: KeyboardEvent) => this.onSliderKey(event)}
     />`;
-    return this.editFrame(html`${this.stepsAround(slider)}${this.field()}${this.unitMark()}`);
+    return this.controlFrame(html`${this.stepsAround(slider)}<span class="steps typed">${this.field()}${this.unitMark()}</span>`);
   }
 
   override connectedCallback(): void {

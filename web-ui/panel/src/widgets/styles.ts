@@ -39,6 +39,10 @@ export const widgetStyles = css`
     color: var(--text);
     font: var(--flexrf-font, 15px/1.35 system-ui, sans-serif);
     font-variant-numeric: tabular-nums;
+    /* What is scrolled away costs nothing; the padding leaves room for the ring of the focus. */
+    content-visibility: auto;
+    contain-intrinsic-size: auto 2.5rem;
+    padding: 4px;
   }
   :host([hidden]) {
     display: none;
@@ -54,6 +58,7 @@ export const widgetStyles = css`
     --text: var(--stale);
     --fill: var(--track);
     --active: var(--stale);
+    --alarm: var(--stale);
   }
 
   .row {
@@ -63,13 +68,13 @@ export const widgetStyles = css`
     gap: 2px var(--gap);
   }
   .head {
-    flex: 1 1 9rem;
+    flex: 1 1 7rem;
     min-width: 0;
     color: var(--muted);
     overflow-wrap: anywhere;
   }
   .content {
-    flex: 2 1 12rem;
+    flex: 3 1 12rem;
     min-width: 0;
     display: flex;
     flex-wrap: wrap;
@@ -102,6 +107,13 @@ export const widgetStyles = css`
   .value {
     text-align: right;
     white-space: nowrap;
+  }
+  .boxed {
+    display: inline-block;
+    min-width: 6ch;
+    height: 1.35em;
+    contain: strict;
+    vertical-align: bottom;
   }
   .wide {
     white-space: normal;
@@ -157,9 +169,6 @@ export const widgetStyles = css`
     justify-content: flex-end;
     gap: var(--gap);
     min-width: 0;
-  }
-  .gone {
-    visibility: hidden;
   }
   /* A touch on a dead control reaches what is around it, which tells why. */
   :disabled {

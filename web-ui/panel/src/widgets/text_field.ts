@@ -18,7 +18,7 @@ export class TextField extends EditorBase {
   ];
 
   protected override render(): TemplateResult {
-    return this.editFrame(
+    return this.controlFrame(
       html`<input
         id="control"
         type="text"

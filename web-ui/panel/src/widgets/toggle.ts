@@ -43,7 +43,7 @@ export class Toggle extends EditorBase {
   private text: LiveText | undefined;
 
   protected override render(): TemplateResult {
-    return this.editFrame(
+    return this.controlFrame(
       html`<span class="state" aria-hidden="true"></span>
         <input
           id="control"

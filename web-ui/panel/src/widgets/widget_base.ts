@@ -24,6 +24,7 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
   protected reading: Reading | undefined;
   protected quantity = new Quantity({ scalar: 'f64', unit: '' });
   private endings: (() => void)[] = [];
+  private watching = false;
   private absence: LiveText | undefined;
 
   override connectedCallback(): void {
@@ -56,6 +57,7 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
 
   /** Where values come from; widgets of several items begin others. */
   protected begin(): void {
+    this.watching = this.item !== undefined;
     if (this.item) this.until(this.host.watch(this.item.key, (reading) => this.take(reading), this.watchOptions()));
   }
 
@@ -73,7 +75,7 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
     if (absence) this.absence = new LiveText(absence);
     if (this.reading) this.presentReading(this.reading);
     else this.show(null);
-    if (this.absence && !this.reading) this.absence.text = this.item ? 'no value yet' : '';
+    if (this.absence && !this.reading && this.watching) this.absence.text = 'no value yet';
   }
 
   private presentReading(reading: Reading): void {
@@ -124,7 +126,7 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
         <div class="head" title=${this.item?.summary ?? ''}>
           ${control === ''
             ? html`<span id="label">${label}</span>`
-            : html`<label id="label" for=${control}>${label}</label>`}
+            : html`<label id="label" for=${control}>${label}</label>`}${this.headControls()}
         </div>
         <div class="content">${content}</div>
         <div class="notes">
@@ -137,6 +139,10 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
   }
 
   protected extraLabel(): TemplateResult | typeof nothing {
+    return nothing;
+  }
+
+  protected headControls(): TemplateResult | typeof nothing {
     return nothing;
   }
 
