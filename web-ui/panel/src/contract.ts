@@ -31,6 +31,8 @@ export interface ItemInfo {
   readonly role?: Role;
   readonly default?: Value;
   readonly widget?: string;
+  /** What a person is asked before it is changed or pressed. */
+  readonly confirm?: string;
   readonly component?: string;
   /** The parameter's path in requests ("step"). */
   readonly path?: string;

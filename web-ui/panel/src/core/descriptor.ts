@@ -125,6 +125,7 @@ function makeItem(types: Types, key: string, field: Field, path: string, origin:
     ...(role && { role }),
     ...(initial !== undefined && { default: initial }),
     ...(widget && { widget }),
+    ...(change?.confirm && { confirm: change.confirm }),
     ...(origin.component !== undefined && { component: origin.component }),
     ...(writable && { path }),
     ...(origin.source && { source: origin.source }),

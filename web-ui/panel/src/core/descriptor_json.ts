@@ -95,6 +95,8 @@ export interface OverrideJson {
   readonly widget?: string;
   readonly menu?: string;
   readonly place?: string;
+  /** What a person is asked before it is changed or pressed. */
+  readonly confirm?: string;
 }
 
 type Connected = string | null | readonly string[];
@@ -134,6 +136,8 @@ export interface DeviceJson {
   readonly feedback_slot?: string;
   readonly runtime?: { readonly [name: string]: Value };
   readonly overrides?: readonly OverrideJson[];
+  /** Its URDF among the application's files: "robots/arm.urdf". */
+  readonly robot?: string;
 }
 
 export interface SlotJson {
@@ -178,8 +182,12 @@ export interface ThreadJson {
 export interface WidgetJson {
   readonly name: string;
   readonly kind: string;
+  /** Made by widgets/KIND.js of the application. */
+  readonly custom?: boolean;
   readonly label?: string;
+  /** "overview", or a unit's or device's name. */
   readonly place?: string;
+  readonly summary?: string;
   readonly slots?: { readonly [role: string]: string };
   readonly parameters?: { readonly [role: string]: string };
   readonly device?: string;

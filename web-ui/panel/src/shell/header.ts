@@ -93,7 +93,9 @@ export class Header extends ShellPart {
         <span>${session ? `${session.user || session.name}: ${session.role}` : ''}</span>
         ${session?.user
           ? html`<button @click=${() => logOut(core)}>Log out</button>`
-          : html`<button @click=${() => this.dispatchEvent(new Event('login'))}>Log in</button>`}
+          : session?.role === 'admin'
+            ? nothing // by the address that the application printed
+            : html`<button @click=${() => this.dispatchEvent(new Event('login'))}>Log in</button>`}
         <button aria-label="Settings" title="Settings" @click=${() => this.dispatchEvent(new Event('settings'))}>⚙</button>
       </div>
     `;

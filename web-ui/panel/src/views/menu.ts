@@ -1,8 +1,7 @@
-// A menu entry of the application's own: the parameters that name it in the tables, and the widgets placed there.
+// A menu entry of the application's own: the parameters that name it in the tables.
 import { css, html } from 'lit';
 import { customElement } from 'lit/decorators.js';
 import './item_widget';
-import './placement_widget';
 import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
@@ -22,11 +21,9 @@ export class Menu extends ViewBase {
   protected override render(): unknown {
     const name = this.path[0] ?? '';
     const items = this.core.model.menus.get(name) ?? [];
-    const { placements } = this.core.model.placed(name);
     return html`
       <h2>${name}</h2>
-      ${items.length + placements.length === 0 ? html`<p>The application's tables place nothing here.</p>` : ''}
-      ${placements.map((placement) => html`<flexrf-placement .core=${this.core} .placement=${placement}></flexrf-placement>`)}
+      ${items.length === 0 ? html`<p>The application's tables place nothing here.</p>` : ''}
       <div class="items">
         ${items.map((item) => html`<flexrf-item .core=${this.core} .item=${item}></flexrf-item>`)}
       </div>

@@ -1,0 +1,49 @@
+import { describe, expect, it } from 'vitest';
+import { labelOf, makeModel, rowsOf } from '../descriptor';
+import { sample } from './sample';
+
+const model = makeModel(sample);
+
+describe('makeModel', () => {
+  it('makes an item of each parameter, with what the application changes of it', () => {
+    expect(model.item('jog.step')).toMatchObject({
+      label: 'Schritt', unit: 'm', scalar: 'f64', range: [0.001, 0.05], widget: 'slider', role: 'operator', kind: 'runtime',
+      component: 'jog', path: 'step', default: 0.02, place: 'overview', hidden: false,
+    });
+    expect(model.item('jog.forward')).toMatchObject({ label: 'Ahead', scalar: 'hold' });
+    expect(model.item('jog.configuration.lag')).toMatchObject({ kind: 'configuration', path: 'lag', default: 0.25, range: [0, 1] });
+    expect(model.item('jog.configuration.lag')?.source).toBeUndefined();
+    expect(model.item('jog.feedback.presses')).toMatchObject({ kind: 'feedback', label: 'Presses', hidden: true });
+    expect(model.item('jog.feedback.presses')?.role).toBeUndefined();
+    expect(model.item('jog.feedback.mode')?.values).toEqual(['off', 'manual']);
+  });
+  it('makes rows of a matrix that the descriptor lists by columns', () => {
+    expect(model.item('jog.gains')?.default).toEqual([[1, 3, 5], [2, 4, 6]]);
+  });
+  it('knows members and elements, with the path that a request needs', () => {
+    expect(model.item('jog.limits.low')).toMatchObject({ path: 'limits.low', role: 'engineer', unit: 'm' });
+    expect(model.item('jog.gains[1]')).toMatchObject({ path: 'gains[1]', shape: [3], default: [2, 4, 6] });
+    expect(model.item('jog.gains[1][2]')).toMatchObject({ path: 'gains[1][2]', shape: [], default: 6 });
+    expect(model.item('jog.gains[2]')).toBeUndefined();
+  });
+  it('knows slots, and the members of their elements', () => {
+    expect(model.item('slot:track')).toMatchObject({ scalar: 'structure', typeName: 'Track', kind: 'slot' });
+    expect(model.item('slot:track.parts[1]')?.members?.map((member) => member.key)).toEqual(['slot:track.parts[1].low', 'slot:track.parts[1].high']);
+    expect(model.item('slot:track.parts[1].high')?.source?.steps).toEqual([1, 'high']);
+    expect(model.slotsByName.get('camera')?.image).toBe(true);
+    expect(model.item('slot:nothing')).toBeUndefined();
+  });
+  it('lists menus and places, without what is hidden', () => {
+    expect([...model.menus].map(([name, items]) => [name, items.map((item) => item.key)])).toEqual([['Jogging', ['jog.step']]]);
+    const { items, placements } = model.placed('overview');
+    expect(items.map((item) => item.key)).toEqual(['jog.step']);
+    expect(placements).toEqual([{
+      name: 'arrows', kind: 'jog_arrows', label: 'Arrows', place: 'overview', slots: { pose: 'track' }, parameters: {}, options: { size: 3 },
+    }]);
+  });
+});
+
+describe('words', () => {
+  it('makes a label of a name', () => expect(labelOf('longest_advance')).toBe('Longest advance'));
+  it('makes rows', () => expect(rowsOf([1, 2, 3, 4], [2, 2])).toEqual([[1, 3], [2, 4]]));
+});
