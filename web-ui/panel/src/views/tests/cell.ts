@@ -1,0 +1,68 @@
+// A small cell's descriptor.json: two members of a population, one device with two drivers, slots, a queue, a thread.
+import type { DescriptorJson } from '../../core/descriptor_json';
+
+const number = (name: string, offset: number) => ({ name, scalar: 'f64', offset, size: 8, unit: 'm', summary: `${name}.` });
+const slot = (name: string, type: string, writer: string, readers: string[], observe = true) => ({
+  name, type, writer, readers, buffers: 3, observe, wall: false, history: 0, summary: '',
+});
+const member = (index: number) => ({
+  name: `axis[${index}]`, type: 'drive', thread: 'control', population: 'axis', member: index, restart: 'never',
+  inputs: { goal: 'goal', jobs: 'jobs' }, outputs: { place: [`place[${index}]`, 'wide'] }, devices: { motor: 'motor' },
+  feedback_slot: `axis[${index}].feedback`, budget_ns: 50_000,
+});
+
+export const cell: DescriptorJson = {
+  hash: '0000000000000001', format: 1, application: 'cell', summary: 'For tests.', autostart: true,
+  unit_types: [
+    {
+      name: 'drive', class: 'Drive', summary: 'Drives.',
+      inputs: [{ name: 'goal', type: 'Place', max_age_ns: 5e8, summary: 'Where to.' }, { name: 'jobs', queue: 'Place', summary: 'Jobs.' }],
+      outputs: [{ name: 'place', type: 'Place', summary: 'Where it is.' }],
+      configuration: {
+        type: 'DriveConfiguration',
+        parameters: [
+          { name: 'lag', role: 'engineer', default: 0.5, range: [0, 1] },
+          { name: 'reach', role: 'engineer', default: 2, range: [0, 4] },
+        ],
+      },
+      feedback: { type: 'Place', parameters: [{ name: 'x' }, { name: 'y' }] },
+    },
+  ],
+  interfaces: [{ name: 'Motor', summary: 'Turns.', outputs: [{ name: 'ticks', type: 'Place', summary: 'Ticks.' }] }],
+  drivers: [
+    { name: 'model_motor', driver: 'model', interface: 'Motor', kind: 'simulated', actuates: true, virtual_time: true, summary: 'A model.' },
+    { name: 'can_motor', driver: 'can', interface: 'Motor', kind: 'real', actuates: true, virtual_time: false, summary: 'On a bus.' },
+  ],
+  types: [
+    { name: 'Place', summary: 'A place.', hash: '1', size: 16, fields: [number('x', 0), number('y', 8)] },
+    { name: 'DriveConfiguration', summary: 'Configuration.', hash: '2', size: 16, fields: [number('lag', 0), number('reach', 8)] },
+  ],
+  devices: [
+    {
+      name: 'motor', interface: 'Motor', unit: 'axis[0]', thread: 'control', outputs: { ticks: 'ticks' },
+      drivers: [{ driver: 'model', type: 'model_motor' }, { driver: 'can', type: 'can_motor' }],
+    },
+  ],
+  units: [member(0), member(1)],
+  populations: [{ name: 'axis', capacity: 2, active: 1 }],
+  groups: [],
+  slots: [
+    slot('goal', 'Place', '', ['axis[0].goal', 'axis[1].goal']),
+    slot('place[0]', 'Place', 'axis[0].place', []),
+    slot('wide', 'Place', 'axis[1].place', ['axis[0].goal'], false),
+    slot('ticks', 'Place', 'motor.ticks', []),
+    slot('axis[0].feedback', 'Place', '', []),
+  ],
+  queues: [
+    {
+      name: 'jobs', type: 'Place', capacity: 4, policy: 'drop_oldest', share: 'copies', wall: false,
+      writers: ['motor.jobs', 'axis[1].more'], readers: ['axis[0].jobs'], summary: '',
+    },
+  ],
+  threads: [
+    {
+      name: 'control', trigger: { kind: 'period', period_ns: 1_000_000 }, priority: 40, role: 'control',
+      units: ['axis[0]', 'axis[1]'], devices: ['motor'], budget_ns: 100_000, stack: 65536, summary: '',
+    },
+  ],
+};
