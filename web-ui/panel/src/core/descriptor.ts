@@ -42,7 +42,10 @@ export interface Component {
   readonly population: string;
   readonly unit?: UnitJson;
   readonly device?: DeviceJson;
+  /** Of a device: of the first driver that its row permits. */
   readonly configuration: readonly Item[];
+  /** Of a device: of each driver that its row permits, by the driver's name; which was chosen says the server. */
+  readonly driverConfiguration: ReadonlyMap<string, readonly Item[]>;
   readonly runtime: readonly Item[];
   readonly feedback: readonly Item[];
 }
@@ -240,6 +243,7 @@ export function makeModel(json: DescriptorJson): Model {
     components.set(unit.name, {
       kind: 'unit', name: unit.name, typeName: unit.type, summary: type?.summary ?? '', thread: unit.thread ?? '',
       population: unit.population ?? '', unit,
+      driverConfiguration: new Map(),
       configuration: block(unit.name, 'configuration', type?.configuration, undefined, unit.overrides, unit.configuration),
       runtime: block(unit.name, 'runtime', type?.runtime, unit.values_slot, unit.overrides, unit.runtime),
       feedback: block(unit.name, 'feedback', type?.feedback, unit.feedback_slot, unit.overrides, undefined),
@@ -247,13 +251,16 @@ export function makeModel(json: DescriptorJson): Model {
   }
   for (const device of json.devices) {
     const face = json.interfaces.find((one) => one.name === device.interface);
-    // Which driver was chosen is known to the server alone: the first that has configuration names the items.
-    const choice = device.drivers[0];
-    const driver = json.drivers.find((one) => one.name === choice?.type);
+    // The first comes last: where two drivers have a parameter of one name, the key is that of the first's.
+    const driverConfiguration = new Map([...device.drivers].reverse().map((choice) => {
+      const driver = json.drivers.find((one) => one.name === choice.type);
+      return [choice.driver, block(device.name, 'configuration', driver?.configuration, undefined, device.overrides, choice.configuration)] as const;
+    }));
     components.set(device.name, {
       kind: 'device', name: device.name, typeName: device.interface, summary: face?.summary ?? '',
       thread: device.thread ?? '', population: '', device,
-      configuration: block(device.name, 'configuration', driver?.configuration, undefined, device.overrides, choice?.configuration),
+      configuration: driverConfiguration.get(device.drivers[0]?.driver ?? '') ?? [],
+      driverConfiguration,
       runtime: block(device.name, 'runtime', face?.runtime, device.values_slot, device.overrides, device.runtime),
       feedback: block(device.name, 'feedback', face?.feedback, device.feedback_slot, device.overrides, undefined),
     });

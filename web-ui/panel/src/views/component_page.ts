@@ -59,6 +59,7 @@ export class ComponentPage extends ViewBase {
     this.until(
       this.core.watchTopic('components', (body) => {
         this.rows = new Map(componentRows(body).map((row) => [row.name, row]));
+        if (this.row?.driver !== undefined) this.session.drivers.set(this.component.name, this.row.driver);
         this.requestUpdate();
       }, 2),
     );
@@ -135,7 +136,7 @@ export class ComponentPage extends ViewBase {
   }
 
   private configuration(): unknown {
-    const items = this.component.configuration.filter((item) => !item.hidden);
+    const items = this.session.items(this.component.name).filter((item) => !item.hidden);
     if (items.length === 0) return nothing;
     return html`
       <section aria-labelledby="configuration">

@@ -1,5 +1,6 @@
 // The one edit of this page: outlives views, so that a person may look elsewhere while values are being edited.
 import type { Core } from '../core/core';
+import type { Item } from '../core/descriptor';
 import { nameOf } from '../shell/words';
 import { checkValue } from './check_value';
 import { EditFlow, type ApplyAnswer, type BeginAnswer, type Change, type Configuration, type Editor, type Outcome } from './edit_flow';
@@ -25,6 +26,8 @@ const sessions = new WeakMap<Core, EditSession>();
 export class EditSession {
   readonly flow: EditFlow;
   readonly host: EditHost;
+  /** The driver of each device whose page was shown, as the server says. */
+  readonly drivers = new Map<string, string>();
   private readonly watchers = new Set<() => void>();
   private timer: ReturnType<typeof setInterval> | undefined;
 
@@ -42,7 +45,7 @@ export class EditSession {
         discard: (edit) => void core.request('edit_discard', { edit }),
       },
       check: (component, parameter, value) => {
-        const item = core.model.item(`${component}.configuration.${parameter}`);
+        const item = this.items(component).find((one) => one.path === parameter);
         return item === undefined ? '' : checkValue(item, value);
       },
       now: () => performance.now(),
@@ -60,6 +63,12 @@ export class EditSession {
   watch(callback: () => void): () => void {
     this.watchers.add(callback);
     return () => this.watchers.delete(callback);
+  }
+
+  /** Configuration parameters of a unit, or of a device with the driver that it has. */
+  items(component: string): readonly Item[] {
+    const known = this.core.model.components.get(component);
+    return known?.driverConfiguration.get(this.drivers.get(component) ?? '') ?? known?.configuration ?? [];
   }
 
   /** Who edits now, as the server says. */

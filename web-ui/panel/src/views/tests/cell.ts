@@ -31,10 +31,14 @@ export const cell: DescriptorJson = {
   interfaces: [{ name: 'Motor', summary: 'Turns.', outputs: [{ name: 'ticks', type: 'Place', summary: 'Ticks.' }] }],
   drivers: [
     { name: 'model_motor', driver: 'model', interface: 'Motor', kind: 'simulated', actuates: true, virtual_time: true, summary: 'A model.' },
-    { name: 'can_motor', driver: 'can', interface: 'Motor', kind: 'real', actuates: true, virtual_time: false, summary: 'On a bus.' },
+    {
+      name: 'can_motor', driver: 'can', interface: 'Motor', kind: 'real', actuates: true, virtual_time: false, summary: 'On a bus.',
+      configuration: { type: 'CanConfiguration', parameters: [{ name: 'node', role: 'engineer', default: 1, range: [1, 127] }] },
+    },
   ],
   types: [
     { name: 'Place', summary: 'A place.', hash: '1', size: 16, fields: [number('x', 0), number('y', 8)] },
+    { name: 'CanConfiguration', summary: 'Configuration.', hash: '3', size: 8, fields: [number('node', 0)] },
     { name: 'DriveConfiguration', summary: 'Configuration.', hash: '2', size: 16, fields: [number('lag', 0), number('reach', 8)] },
   ],
   devices: [

@@ -102,6 +102,17 @@ describe('the page of a unit', () => {
   });
 });
 
+describe('the page of a device', () => {
+  it('shows the configuration of the driver that it has', async () => {
+    await shown('flexrf-devices', ['motor']);
+    expect(page().shadowRoot!.querySelector('flexrf-item')).toBeNull();
+    fake.topic('components', [alive('motor', { kind: 'device', driver: 'can', member: null })]);
+    await settled();
+    expect(page().shadowRoot!.querySelector('flexrf-item')).toHaveProperty('item.key', 'motor.configuration.node');
+    expect(text(page())).toContain('can (real): On a bus.');
+  });
+});
+
 describe('a member that is not active', () => {
   it('becomes a clone of one that is', async () => {
     await shown('flexrf-units', ['axis[1]']);
