@@ -47,8 +47,8 @@ export class RobotWidget extends WidgetBase {
         border-radius: var(--radius);
         overflow: hidden;
       }
-      .stage[hidden] {
-        display: none;
+      [hidden] {
+        display: none !important;
       }
       canvas {
         position: absolute;
@@ -135,7 +135,7 @@ export class RobotWidget extends WidgetBase {
     const item: ItemInfo | undefined =
       slot === undefined ? this.item : (this.host.item(`slot:${slot}.position`) ?? this.host.item(slot));
     if (item) this.item = item;
-    else this.note = 'The widget\'s row names no slot with a field “position”: add slots = { joints = "..." }.';
+    this.note = item ? '' : 'The widget\'s row names no slot with a field “position”: add slots = { joints = "..." }.';
     super.begin();
   }
 

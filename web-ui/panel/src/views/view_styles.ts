@@ -6,7 +6,9 @@ export const viewStyles = [
   widgetStyles,
   css`
     :host {
-      padding-block-end: 2rem;
+      content-visibility: visible;
+      contain-intrinsic-size: none;
+      padding: 0;
     }
     h2 {
       font-size: 1.35em;
