@@ -144,7 +144,10 @@ export class PanelCore implements Core {
   async createWidget(what: { item: ItemInfo } | { placement: Placement }): Promise<WidgetElement> {
     try {
       const kind = 'item' in what ? await this.registry.kindFor(what.item) : what.placement.kind;
-      const element = await this.registry.create(kind);
+      const controls = 'item' in what
+        ? what.item.role !== undefined || what.item.widget !== undefined
+        : Object.keys(what.placement.parameters).length > 0;
+      const element = await this.registry.create(kind, controls);
       return Object.assign(element, { host: this.host }, what);
     } catch (error) {
       const name = 'item' in what ? what.item.label : what.placement.label;

@@ -15,9 +15,12 @@ import type { ItemInfo, RegisterWidget, WidgetElement } from '../contract';
 
 type WidgetClass = new () => WidgetElement;
 
-/** What src/widgets/index.ts exports: all built-in widgets in one chunk of their own. */
+/** What src/widgets/index.ts exports. */
 export interface BuiltInWidgets {
+  /** Those that a first view needs. */
   registerBuiltIn(register: RegisterWidget): void;
+  /** All others, in a chunk of their own. */
+  registerFurther(register: RegisterWidget): Promise<void>;
   /** `item.widget` where it fits or is none of the built-in ones, or else what suits the item's type. */
   kindOf(item: ItemInfo): string;
 }
@@ -37,6 +40,7 @@ export const kindPattern = /^[a-z][a-z0-9_-]*$/;
 export class Registry {
   #kinds = new Map<string, string>();
   #builtIn: Promise<BuiltInWidgets> | undefined;
+  #further: Promise<void> | undefined;
   #loading = new Map<string, Promise<void>>();
 
   constructor(
@@ -52,9 +56,13 @@ export class Registry {
     this.#kinds.set(kind, tag);
   };
 
-  /** A new element of the kind; loads the application's own if there is no built-in one. Rejects with the cause. */
-  async create(kind: string): Promise<WidgetElement> {
+  /**
+   * A new element of the kind; loads the application's own if there is no built-in one. Rejects with the cause.
+   * `controls`: what it shows can be changed, so it may make any other of the built-in ones.
+   */
+  async create(kind: string, controls = false): Promise<WidgetElement> {
     await this.#builtIns();
+    if (controls || !this.#kinds.has(kind)) await this.#furtherOnes();
     if (!this.#kinds.has(kind)) await this.#load(kind);
     const tag = this.#kinds.get(kind);
     if (!tag) throw new Error(`/application/widgets/${kind}.js registers no widget "${kind}"`);
@@ -73,6 +81,13 @@ export class Registry {
       return module;
     });
     return this.#builtIn;
+  }
+
+  async #furtherOnes(): Promise<void> {
+    const builtIn = await this.#builtIns();
+    this.#further ??= builtIn.registerFurther(this.register);
+    this.#further.catch(() => { this.#further = undefined; });
+    await this.#further;
   }
 
   #load(kind: string): Promise<void> {

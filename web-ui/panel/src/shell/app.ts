@@ -128,9 +128,9 @@ export class Panel extends LitElement {
   protected override render(): unknown {
     const covered = this.dialog !== 'none';
     return html`
-      <flexrf-header .core=${this.core} @login=${() => this.#open('login')} @settings=${() => this.#open('settings')}></flexrf-header>
+      <flexrf-header role="banner" .core=${this.core} @login=${() => this.#open('login')} @settings=${() => this.#open('settings')}></flexrf-header>
       <flexrf-stop-motion .core=${this.core} role="region" aria-label="Stop motion"></flexrf-stop-motion>
-      <div class="banner">
+      <div class="banner" role="region" aria-label="Warnings">
         ${this.#banner()}
         <flexrf-consent .core=${this.core}></flexrf-consent>
       </div>

@@ -51,8 +51,21 @@ export class Header extends ShellPart {
       }
       @media (max-width: 760px) {
         :host {
+          --target: min(var(--flexrf-target-coarse), 44px);
           gap: 2px 12px;
           padding: 2px 8px;
+        }
+        .session {
+          flex: 1 1 100%;
+          flex-wrap: nowrap;
+          justify-content: space-between;
+        }
+        .link {
+          flex: 1;
+        }
+        .session small,
+        .link {
+          font-size: 0.85em;
         }
       }
     `,
@@ -90,7 +103,7 @@ export class Header extends ShellPart {
       <flexrf-control .core=${core}></flexrf-control>
       <div class="session">
         <span class="link"></span>
-        <span>${session ? `${session.user || session.name}: ${session.role}` : ''}</span>
+        <small>${session ? `${session.user || session.name}: ${session.role}` : ''}</small>
         ${session?.user
           ? html`<button @click=${() => logOut(core)}>Log out</button>`
           : session?.role === 'admin'

@@ -3,10 +3,13 @@ import { vi } from 'vitest';
 import type { Hold, ItemInfo, Outcome, Reading, Value, WidgetElement, WidgetHost } from '../../contract';
 import { kindOf, registerBuiltIn } from '..';
 import { tagOf } from '../../core/registry';
+import { registerFurther } from '../further';
 
-registerBuiltIn((kind, element) => {
-  if (!customElements.get(tagOf(kind))) customElements.define(tagOf(kind), element);
-});
+for (const registerAll of [registerBuiltIn, registerFurther]) {
+  registerAll((kind, element) => {
+    if (!customElements.get(tagOf(kind))) customElements.define(tagOf(kind), element);
+  });
+}
 
 interface Watch {
   readonly key: string;
