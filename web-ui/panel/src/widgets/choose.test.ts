@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, it } from 'vitest';
 import type { ItemInfo } from '../contract';
-import { kindOf, misfit } from './choose';
-import { FakeHost, makeItem, makeParameter, settled, show } from './tests/fake_host';
+import { kindOf, misfit, placedKind } from './choose';
+import { FakeHost, makeItem, makeParameter, mount, settled, show } from './tests/fake_host';
 
 afterEach(() => document.body.replaceChildren());
 
@@ -48,6 +48,20 @@ describe('kindOf', () => {
     expect(shown.text('.note')).toBe(misfit(item));
     expect(misfit(makeItem())).toBe('');
     expect(misfit(makeItem({ widget: 'gauge', range: [0, 1] }))).toBe('');
+  });
+
+  it('does the same for a row of the application', async () => {
+    const host = new FakeHost();
+    host.items.set('jog.step', makeItem({ range: [0, 1] }));
+    const row = { name: 'w', label: '', place: '', slots: {}, parameters: { value: 'jog.step' }, options: {} };
+    expect(placedKind(host, { ...row, kind: 'gauge' })).toBe('gauge');
+    expect(placedKind(host, { ...row, kind: 'traffic_light' })).toBe('traffic_light');
+    expect(placedKind(host, { ...row, kind: 'jog_pad' })).toBe('jog_pad');
+    expect(placedKind(host, { ...row, kind: 'gauge', parameters: { value: 'jog.none' } })).toBe('gauge');
+    const placement = { ...row, kind: 'lamp' };
+    expect(placedKind(host, placement)).toBe('number');
+    const shown = await mount('number', { placement }, host);
+    expect(shown.text('.note')).toBe('The widget “lamp” needs a bool; this is the usual one.');
   });
 
   it('gives each element of a vector a widget for numbers', async () => {

@@ -1,5 +1,5 @@
 // Which built-in widget shows an item: the one that its table names if it fits, or else the one that suits its type.
-import type { ItemInfo, WidgetElement, WidgetHost } from '../contract';
+import type { ItemInfo, Placement, WidgetElement, WidgetHost } from '../contract';
 import { tagOf } from '../core/registry';
 import { isNumeric } from './quantity';
 
@@ -52,7 +52,10 @@ const fits: { readonly [kind: string]: Fit } = {
     fits: (item) => editable(item) && (numbers(item, 1) || numbers(item, 2)),
   },
   jog_pad: { needs: 'a row [widget.NAME] with holds among its parameters', fits: () => false },
+  robot: { needs: 'a row [widget.NAME] with a device and a slot of its joints', fits: () => false },
 };
+/** Made of several items, which only a row [widget.NAME] can name. */
+const several: ReadonlySet<string> = new Set(['jog_pad', 'robot']);
 
 /** Of an item, by its type alone. */
 export function defaultKind(item: ItemInfo): string {
@@ -95,9 +98,23 @@ export function misfit(item: ItemInfo): string {
   return `The widget “${item.widget}” needs ${fit.needs}; this is the usual one.`;
 }
 
+/** The item of a placed widget: `value` among its parameters and slots, or else the first of them. */
+export function placedItem(host: WidgetHost, placement: Placement): ItemInfo | undefined {
+  const names = { ...placement.slots, ...placement.parameters };
+  const name = names['value'] ?? Object.values(names)[0];
+  return name === undefined ? undefined : (host.item(name) ?? host.item(`slot:${name}`));
+}
+
+/** The kind that shows a row [widget.NAME]: its own where that fits. */
+export function placedKind(host: WidgetHost, placement: Placement): string {
+  const item = several.has(placement.kind) ? undefined : placedItem(host, placement);
+  return item ? kindOf({ ...item, widget: placement.kind }) : placement.kind;
+}
+
 /** A built-in widget, ready to be put into the document: for members and elements, which name no others. */
 export function createBuiltIn(host: WidgetHost, item: ItemInfo): WidgetElement {
   const kind = kindOf(item);
-  const tag = fits[kind] ? tagOf(kind) : tagOf(defaultKind(item));
+  // Only a whole slot comes as a picture.
+  const tag = tagOf(kind === 'image' ? 'structure' : fits[kind] ? kind : defaultKind(item));
   return Object.assign(document.createElement(tag) as WidgetElement, { host, item });
 }

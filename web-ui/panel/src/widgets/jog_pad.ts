@@ -47,7 +47,7 @@ export class JogPad extends ControlBase {
       .pad {
         display: inline-grid;
         grid-template-columns: repeat(4, auto);
-        gap: max(16px, var(--gap));
+        gap: max(12px, var(--gap));
         padding: var(--gap) 0;
       }
       .hold {

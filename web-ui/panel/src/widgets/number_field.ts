@@ -44,7 +44,7 @@ export class NumberField extends EditorBase {
   static override styles = [widgetStyles, numberFieldStyles];
 
   protected override render(): TemplateResult {
-    return this.controlFrame(this.stepsAround(html`${this.field()}${this.unitMark()}`));
+    return this.controlFrame(html`${this.stepsAround(html``)}<span class="steps typed">${this.field()}${this.unitMark()}</span>`);
   }
 
   /** −− − [middle] + ++ */

@@ -176,7 +176,7 @@ describe('enumeration and text', () => {
 
   it('marks values that the table calls abnormal', async () => {
     const shown = await show(makeItem({ scalar: 'enumeration', values: ['ok', 'fault'] }), {
-      placement: { name: 'w', kind: 'enumeration', label: '', place: '', slots: {}, parameters: {}, options: { abnormal: ['fault'] } },
+      placement: { name: 'w', kind: 'enumeration', label: '', place: '', slots: {}, parameters: {}, options: { abnormal: 'blocked, fault' } },
     });
     shown.host.publish('jog.step', 'fault');
     expect(shown.text('.value')).toBe('⚠ fault');

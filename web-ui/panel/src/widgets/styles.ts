@@ -75,7 +75,8 @@ export const widgetStyles = css`
   }
   .content {
     flex: 3 1 12rem;
-    min-width: 0;
+    /* Below the label where there is no room beside it. */
+    min-width: fit-content;
     display: flex;
     flex-wrap: wrap;
     align-items: center;

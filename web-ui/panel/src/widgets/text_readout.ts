@@ -28,7 +28,7 @@ export class TextReadout extends WidgetBase {
   }
 }
 
-/** The value's name; with the option `abnormal = ["fault", ...]` those stand out, by a sign and a colour. */
+/** The value's name; with the option `abnormal = "fault, blocked"` those stand out, by a sign and a colour. */
 export class EnumerationReadout extends TextReadout {
   protected override show(value: Value | null): void {
     const element = this.renderRoot.querySelector('.value');
@@ -42,6 +42,6 @@ export class EnumerationReadout extends TextReadout {
 
   private stands(value: Value | null): boolean {
     const { abnormal } = this.options;
-    return value !== null && (abnormal === value || (Array.isArray(abnormal) && abnormal.includes(value)));
+    return typeof value === 'string' && typeof abnormal === 'string' && abnormal.split(/[ ,]+/).includes(value);
   }
 }

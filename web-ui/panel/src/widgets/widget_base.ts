@@ -3,7 +3,7 @@ import { LitElement, html, nothing } from 'lit';
 import type { CSSResultGroup, TemplateResult } from 'lit';
 import type { ItemInfo, Placement, Reading, Value, WidgetElement, WidgetHost } from '../contract';
 import { displayUnits } from '../core/units';
-import { misfit } from './choose';
+import { misfit, placedItem } from './choose';
 import { LiveText } from './live_text';
 import { Quantity } from './quantity';
 import { widgetStyles } from './styles';
@@ -29,9 +29,11 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
-    const placed = this.item ?? this.placedItem();
-    if (placed) this.item = placed;
-    if (this.item && !this.placement && this.note === '') this.note = misfit(this.item);
+    const placed = this.item ?? (this.placement && placedItem(this.host, this.placement));
+    if (placed) {
+      this.item = placed;
+      this.note = misfit(this.placement ? { ...placed, widget: this.placement.kind } : placed);
+    }
     this.prepare();
     this.takeAccess();
     this.until(this.host.watchAccess(() => this.takeAccess()));
@@ -108,11 +110,6 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
     return this.placement?.label || this.item?.label || this.placement?.name || '';
   }
 
-  /** A placed widget without an item of its own shows the first that its row names. */
-  private placedItem(): ItemInfo | undefined {
-    return this.placement ? placedItem(this.host, this.placement) : undefined;
-  }
-
   /** Label, content, and what is to be said about it. With `control`, the label is that of the element of this id. */
   protected frame(content: TemplateResult, control = '', notes: TemplateResult | typeof nothing = nothing): TemplateResult {
     const label = html`${this.label}${this.extraLabel()}`;
@@ -160,11 +157,4 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
   protected find<E extends Element>(selector: string): E {
     return this.renderRoot.querySelector<E>(selector)!;
   }
-}
-
-/** The item of a placed widget: `value` among its parameters and slots, or else the first of them. */
-export function placedItem(host: WidgetHost, placement: Placement): ItemInfo | undefined {
-  const names = { ...placement.slots, ...placement.parameters };
-  const name = names['value'] ?? Object.values(names)[0];
-  return name === undefined ? undefined : (host.item(name) ?? host.item(`slot:${name}`));
 }
