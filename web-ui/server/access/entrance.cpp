@@ -1,0 +1,118 @@
+#include "web-ui/server/access/entrance.hpp"
+
+#include <string>
+
+#include "web-ui/server/http_problem.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+bool is_change(const Approach& approach) noexcept {
+  return approach.upgrade || (approach.method != Method::get && approach.method != Method::head);
+}
+
+/// The page itself holds nothing of the application: whoever is to log in needs it.
+bool is_open(std::string_view path) noexcept {
+  return path == "/api/v1/login" || !(path.starts_with("/api/") || path.starts_with("/application/"));
+}
+
+/// Null data: there is no such parameter.
+std::string_view parameter(std::string_view query, std::string_view name) noexcept {
+  while (!query.empty()) {
+    const std::size_t end = query.find('&');
+    const std::string_view part = query.substr(0, end);
+    query = end == std::string_view::npos ? std::string_view{} : query.substr(end + 1);
+    if (part.size() > name.size() && part.starts_with(name) && part[name.size()] == '=')
+      return part.substr(name.size() + 1);
+  }
+  return {};
+}
+
+std::string cut(std::string_view text) {
+  return std::string{text.substr(0, 100)};
+}
+
+}  // namespace
+
+Entrance::Entrance(PanelAccess& access, LoginLimits& limits, const HostRules& rules, std::uint32_t places,
+                   Clock clock)
+    : access_(access), limits_(limits), rules_(rules), clock_(clock), own_(places) {}
+
+bool Entrance::is_ours(const Approach& approach, Reply& reply) const {
+  if (!rules_.allows_host(approach.host, approach.local_end)) {
+    answer_problem(reply, 421,
+                   "This server is not called " + cut(approach.host) +
+                       ". Ask for it by its address or its machine's name, or start the application with "
+                       "--panel-host NAME.");
+    return false;
+  }
+  if (!is_change(approach)) return true;
+  // A browser that says where it comes from, but not who asks, has something to hide; a script says neither.
+  const bool is_anonymous_page = approach.origin.empty() && approach.has_fetch_site;
+  if (!is_anonymous_page && rules_.allows_origin(approach.origin, approach.host)) return true;
+  answer_problem(
+      reply, 403,
+      "Pages of another origin (" + cut(approach.origin) + ") may not change anything here, nor connect.");
+  return false;
+}
+
+bool Entrance::admit(const Approach& approach, SessionIndex& session, Reply& reply) {
+  session = no_session;
+  if (!is_ours(approach, reply)) return false;
+  const Time now = clock_();
+  session = access_.identify({approach.cookie, approach.remote_address, approach.loopback},
+                             own_[approach.place], now, reply.set_cookie);
+  if (approach.method == Method::get && approach.path == "/" && !approach.upgrade) {
+    const std::string_view token = parameter(approach.query, "token");
+    if (token.data() != nullptr) {
+      use_token(approach, token, session, now, reply);
+      return false;
+    }
+  }
+  if (session != no_session || is_open(approach.path)) return true;
+  if (access_.needs_login()) {
+    answer_problem(reply, 401, "Log in first: open the page, or POST user and password to /api/v1/login.");
+  } else if (approach.loopback) {
+    reply.retry_after = 10;
+    answer_problem(reply, 503, "All sessions are in use. Close a page that is not needed.");
+  } else {
+    answer_problem(reply, 403,
+                   "Only this machine may see the panel as long as there are no passwords; "
+                   "`./flexrf password` makes one.");
+  }
+  return false;
+}
+
+void Entrance::use_token(const Approach& approach, std::string_view token, SessionIndex session, Time now,
+                         Reply& reply) {
+  OneTimeToken* const expected = approach.loopback ? access_.one_time_token() : nullptr;
+  // The printed address may be opened again by the browser that has its session.
+  bool is_admin = access_.has_role(session, Role::admin);
+  if (!is_admin && expected != nullptr && expected->use(token))
+    is_admin = access_.log_in(access_.handle(session), "", Role::admin, approach.remote_address, now,
+                              reply.set_cookie) != no_session;
+  if (is_admin) {
+    reply.status = 303;
+    reply.location = "/";
+    return;
+  }
+  const std::optional<Address> address = Address::parse(approach.remote_address);
+  const Duration wait =
+      limits_.admit(address.value_or(Address{}), access_.is_local(approach.remote_address), now);
+  if (wait > Duration::zero()) {
+    reply.retry_after = seconds_to_wait(wait);
+    answer_problem(reply, 429, "Too many wrong attempts. Wait before the next.");
+    return;
+  }
+  answer_problem(
+      reply, 403,
+      "This address was used already, or the application was started anew since it was printed. Without it "
+      "the page can be seen, at / ; control takes the address of a new start, or passwords "
+      "(`./flexrf password`).");
+}
+
+void Entrance::on_connection_closed(std::uint32_t place) {
+  own_[place] = {};
+}
+
+}  // namespace flexrf::panel

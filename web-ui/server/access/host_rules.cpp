@@ -1,0 +1,112 @@
+#include "web-ui/server/access/host_rules.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <climits>
+
+namespace flexrf::panel {
+namespace {
+
+constexpr std::size_t longest_name = 253;  // RFC 1035
+
+char lower(char character) noexcept {
+  return character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a') : character;
+}
+
+bool is_same_name(std::string_view one, std::string_view other) noexcept {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](char a, char b) { return lower(a) == lower(b); });
+}
+
+bool is_name_character(char character) noexcept {
+  const char letter = lower(character);
+  return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '-' ||
+         letter == '.' || letter == '_';
+}
+
+bool is_name(std::string_view text) noexcept {
+  return !text.empty() && text.size() <= longest_name && text.front() != '.' && text.back() != '.' &&
+         text.find("..") == std::string_view::npos &&
+         std::all_of(text.begin(), text.end(), is_name_character);
+}
+
+struct Authority {
+  std::string_view name;  // of an IPv6 address without brackets
+  bool in_brackets = false;
+  std::uint16_t port = 0;
+};
+
+/// "name", "name:port", "[address]:port" and nothing else: no user, path, blank or empty port.
+std::optional<Authority> parse_authority(std::string_view text, std::uint16_t default_port) noexcept {
+  Authority authority;
+  authority.port = default_port;
+  std::string_view rest;
+  if (text.starts_with('[')) {
+    const std::size_t end = text.find(']');
+    if (end == std::string_view::npos) return std::nullopt;
+    authority.name = text.substr(1, end - 1);
+    authority.in_brackets = true;
+    if (authority.name.find('%') != std::string_view::npos ||
+        authority.name.find(':') == std::string_view::npos || !Address::parse(authority.name))
+      return std::nullopt;
+    rest = text.substr(end + 1);
+  } else {
+    const std::size_t colon = text.find(':');
+    authority.name = text.substr(0, colon);
+    if (!is_name(authority.name)) return std::nullopt;
+    if (colon != std::string_view::npos) rest = text.substr(colon);
+  }
+  if (rest.empty()) return authority;
+  if (rest.front() != ':') return std::nullopt;
+  rest.remove_prefix(1);
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), authority.port);
+  if (error != std::errc{} || end != rest.data() + rest.size() || authority.port == 0) return std::nullopt;
+  return authority;
+}
+
+}  // namespace
+
+HostRules::HostRules(bool secure, std::vector<std::string> names)
+    : secure_(secure), names_(std::move(names)) {}
+
+std::vector<std::string> HostRules::names_of_machine() {
+  char text[HOST_NAME_MAX + 1] = {};
+  if (gethostname(text, sizeof(text) - 1) != 0 || !is_name(text)) return {};
+  std::string name = text;
+  std::string label = name.substr(0, name.find('.'));
+  std::vector<std::string> names{name, label + ".local"};
+  if (label != name) names.push_back(std::move(label));
+  return names;
+}
+
+Status HostRules::check_name(std::string_view name) {
+  if (is_name(name)) return {};
+  return Status::error(
+      StatusCode::invalid_argument,
+      "'%.*s' is no host's name: letters, digits, dashes and dots, without port, as cell7.example.org",
+      static_cast<int>(std::min<std::size_t>(name.size(), 60)), name.data());
+}
+
+bool HostRules::allows_host(std::string_view host, const Address& local_end) const noexcept {
+  const std::optional<Authority> authority = parse_authority(host, 1);
+  if (!authority) return false;
+  if (const std::optional<Address> literal = Address::parse(authority->name)) return *literal == local_end;
+  return is_same_name(authority->name, "localhost") ||
+         std::any_of(names_.begin(), names_.end(),
+                     [&](const std::string& name) { return is_same_name(authority->name, name); });
+}
+
+bool HostRules::allows_origin(std::string_view origin, std::string_view host) const noexcept {
+  if (origin.empty()) return true;
+  const std::string_view scheme = secure_ ? "https://" : "http://";
+  if (!origin.starts_with(scheme)) return false;
+  const std::uint16_t default_port = secure_ ? 443 : 80;
+  const std::optional<Authority> from = parse_authority(origin.substr(scheme.size()), default_port);
+  const std::optional<Authority> ours = parse_authority(host, default_port);
+  return from && ours && from->port == ours->port && from->in_brackets == ours->in_brackets &&
+         is_same_name(from->name, ours->name);
+}
+
+}  // namespace flexrf::panel

@@ -1,0 +1,102 @@
+#include "web-ui/server/access/panel_access.hpp"
+
+#include <sodium.h>
+
+#include "web-ui/server/access/cookie.hpp"
+
+namespace flexrf::panel {
+
+bool prepare_cryptography() noexcept {
+  return sodium_init() >= 0;
+}
+
+PanelAccess::PanelAccess(const AccessSettings& settings)
+    : settings_(settings),
+      cookie_name_("flexrf_session_" + std::to_string(settings.port)),
+      sessions_(settings.sessions, settings.local) {
+  if (!settings_.needs_login) token_.emplace();
+}
+
+SessionIndex PanelAccess::identify(const Visitor& visitor, SessionHandle& own, Time now,
+                                   std::string& set_cookie) {
+  CookieValues values(visitor.cookies, cookie_name_);
+  SessionIndex session = no_session;
+  for (std::string_view value = values.next(); value.data() != nullptr && session == no_session;
+       value = values.next())
+    session = sessions_.find(value);
+  if (session == no_session && own.serial != 0 && sessions_.serial(own.index) == own.serial)
+    session = own.index;
+  if (session != no_session) {
+    sessions_.touch(session, visitor.address, now);
+    return session;
+  }
+  if (settings_.needs_login || !visitor.loopback) return no_session;
+  session = begin("", Role::viewer, visitor.address, now, set_cookie);
+  own = handle(session);
+  return session;
+}
+
+SessionIndex PanelAccess::begin(std::string_view user, Role role, std::string_view address, Time now,
+                                std::string& set_cookie) {
+  if (sessions_.is_full()) end(sessions_.dispensable(control_.holder()));
+  const SessionIndex session = sessions_.begin(user, role, address, now);
+  if (session == no_session) return no_session;
+  ++revision_;
+  write_set_cookie(set_cookie, cookie_name_, sessions_.cookie(session), settings_.sessions.absolute,
+                   settings_.secure);
+  return session;
+}
+
+SessionIndex PanelAccess::log_in(const SessionHandle& former, std::string_view user, Role role,
+                                 std::string_view address, Time now, std::string& set_cookie) {
+  // The former one first: its place may be the only one that can be had.
+  if (former.serial != 0 && sessions_.serial(former.index) == former.serial) end(former.index);
+  return begin(user, role, address, now, set_cookie);
+}
+
+void PanelAccess::log_out(SessionIndex session, std::string& set_cookie) {
+  end(session);
+  write_forget_cookie(set_cookie, cookie_name_, settings_.secure);
+}
+
+void PanelAccess::end(SessionIndex session) {
+  if (sessions_.info(session) == nullptr) return;
+  control_.release(session);
+  for (std::size_t i = 0; i < watcher_count_; ++i) watchers_[i]->on_session_ended(session);
+  sessions_.end(session);
+  ++revision_;
+}
+
+void PanelAccess::update(Time now) {
+  for (SessionIndex over = sessions_.expired(now); over != no_session; over = sessions_.expired(now))
+    end(over);
+  // Who asked and left must not get it: nobody would hold it then.
+  for (const SessionIndex concerned : {control_.wanted_by(), control_.holder()}) {
+    if (concerned != no_session && !sessions_.is_present(concerned, absence, now))
+      control_.release(concerned);
+  }
+  control_.update(now);
+}
+
+bool PanelAccess::watch(SessionWatcher& watcher) noexcept {
+  if (watcher_count_ == watchers_.size()) return false;
+  watchers_[watcher_count_++] = &watcher;
+  return true;
+}
+
+bool PanelAccess::has_role(SessionIndex session, Role role) const {
+  const SessionInfo* const known = sessions_.info(session);
+  return known != nullptr && known->role >= role;
+}
+
+AccessControl::Taking PanelAccess::take(SessionIndex session, Time now) {
+  const SessionInfo* const known = sessions_.info(session);
+  if (known == nullptr) return Taking::refused_role;
+  return control_.take({session, known->role >= Role::operator_, known->local}, now);
+}
+
+bool PanelAccess::answer(SessionIndex session, bool grant, Time) {
+  return control_.answer(session, grant);
+}
+
+}  // namespace flexrf::panel

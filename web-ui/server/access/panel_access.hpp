@@ -1,0 +1,110 @@
+// Access control of the panel, put together: who is who, and who holds the control token.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "web-ui/server/access.hpp"
+#include "web-ui/server/access/control_token.hpp"
+#include "web-ui/server/access/one_time_token.hpp"
+#include "web-ui/server/access/session_table.hpp"
+
+namespace flexrf::panel {
+
+struct AccessSettings {
+  bool needs_login = false;    ///< there is a file of users: nobody is anybody before logging in
+  bool secure = false;         ///< by TLS: the cookie is Secure
+  std::uint16_t port = 8080;   ///< part of the cookie's name, for cookies do not tell ports apart
+  std::vector<Address> local;  ///< what the application's table calls local, beside loopback
+  SessionLimits sessions;
+};
+
+/// One session and no other that gets its place later.
+struct SessionHandle {
+  SessionIndex index = no_session;
+  std::uint32_t serial = 0;
+};
+
+/// Whoever is at the other end of a connection.
+struct Visitor {
+  std::string_view cookies;  ///< the Cookie header; empty: none
+  std::string_view address;  ///< numeric
+  bool loopback = false;     ///< the other end is this machine
+};
+
+/// The server's clock; tests have their own.
+using Clock = Time (*)();
+
+/// Takes its memory in the constructor; needs prepare_cryptography() before. The server's thread.
+class PanelAccess final : public AccessControl {
+ public:
+  static constexpr std::size_t most_watchers = 4;
+  /// A session without an open live connection is gone when it was not heard of for so long.
+  static constexpr Duration absence = std::chrono::seconds{15};
+
+  explicit PanelAccess(const AccessSettings& settings);
+
+  /// The visitor's session. By cookie; else the connection's `own`, for clients that keep no cookies; else,
+  /// on loopback without logins, a new one, whose cookie is put into `set_cookie`. no_session: has to log in
+  /// first (or, without logins, is not on this machine, or all places are in use).
+  SessionIndex identify(const Visitor& visitor, SessionHandle& own, Time now, std::string& set_cookie);
+
+  /// Ends `former`, if there is such a session, so that nobody who knew its cookie profits, and begins a
+  /// session. no_session: all places are in use by holders and open connections.
+  SessionIndex log_in(const SessionHandle& former, std::string_view user, Role role, std::string_view address,
+                      Time now, std::string& set_cookie);
+  void log_out(SessionIndex session, std::string& set_cookie);
+
+  /// Live connections of a session, as they open and close.
+  void link_opened(SessionIndex session) noexcept { sessions_.link_opened(session); }
+  void link_closed(SessionIndex session, Time now) noexcept { sessions_.link_closed(session, now); }
+
+  /// Ends what is over, gives the token to who waited, takes it from who is gone. At least every 250 ms.
+  void update(Time now);
+
+  /// Of the address to be printed; null when people log in. Never for a log that visitors can read.
+  OneTimeToken* one_time_token() noexcept { return token_ ? &*token_ : nullptr; }
+  SessionHandle handle(SessionIndex session) const noexcept { return {session, sessions_.serial(session)}; }
+  /// At the machine: loopback, or an address that the application's table calls local.
+  bool is_local(std::string_view address) const noexcept { return sessions_.is_local(address); }
+  bool needs_login() const noexcept { return settings_.needs_login; }
+  std::size_t session_count() const noexcept { return sessions_.count(); }
+
+  /// Before the server runs. false: there are most_watchers already.
+  bool watch(ControlWatcher& watcher) noexcept { return control_.watch(watcher); }
+  bool watch(SessionWatcher& watcher) noexcept;
+
+  const SessionInfo* session(SessionIndex session) const override { return sessions_.info(session); }
+  bool has_role(SessionIndex session, Role role) const override;
+  SessionIndex holder() const override { return control_.holder(); }
+  SessionIndex wanted_by() const override { return control_.wanted_by(); }
+  Duration answer_within(Time now) const override { return control_.answer_within(now); }
+  Taking take(SessionIndex session, Time now) override;
+  void release(SessionIndex session) override { control_.release(session); }
+  bool answer(SessionIndex session, bool grant, Time now) override;
+  std::uint64_t revision() const override { return revision_ + control_.revision(); }
+
+ private:
+  SessionIndex begin(std::string_view user, Role role, std::string_view address, Time now,
+                     std::string& set_cookie);
+  void end(SessionIndex session);
+
+  AccessSettings settings_;
+  std::string cookie_name_;
+  SessionTable sessions_;
+  ControlToken control_;
+  std::optional<OneTimeToken> token_;
+  std::array<SessionWatcher*, most_watchers> watchers_{};
+  std::size_t watcher_count_ = 0;
+  std::uint64_t revision_ = 0;
+};
+
+/// Once per process, before anything here: false when the system has no source of randomness.
+bool prepare_cryptography() noexcept;
+
+}  // namespace flexrf::panel

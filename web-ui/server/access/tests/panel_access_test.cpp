@@ -1,0 +1,266 @@
+#include "web-ui/server/access/panel_access.hpp"
+
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include "tests/cmocka.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+using Taking = AccessControl::Taking;
+using std::chrono::hours;
+using std::chrono::seconds;
+
+struct Watcher final : ControlWatcher, SessionWatcher {
+  void on_control_changed(SessionIndex, SessionIndex to) override {
+    ++control_changes;
+    holder = to;
+  }
+  void on_session_ended(SessionIndex session) override {
+    ++ended;
+    last_ended = session;
+    // Whoever closes connections still wants to know whose they were.
+    was_known = access->session(session) != nullptr;
+  }
+  const PanelAccess* access = nullptr;
+  int control_changes = 0;
+  int ended = 0;
+  SessionIndex holder = no_session;
+  SessionIndex last_ended = no_session;
+  bool was_known = false;
+};
+
+constexpr Time start{seconds{1000}};
+std::optional<PanelAccess> access_control;
+Watcher watcher;
+SessionHandle own;
+std::string set_cookie;
+std::string cookies;
+
+int begin_with(bool needs_login) {
+  if (!prepare_cryptography()) return -1;
+  AccessSettings settings;
+  settings.needs_login = needs_login;
+  settings.port = 8081;
+  settings.sessions.places = 4;
+  access_control.emplace(settings);
+  watcher = {};
+  watcher.access = &*access_control;
+  own = {};
+  set_cookie.clear();
+  cookies.clear();
+  return access_control->watch(static_cast<ControlWatcher&>(watcher)) &&
+                 access_control->watch(static_cast<SessionWatcher&>(watcher))
+             ? 0
+             : -1;
+}
+int begin(void**) {
+  return begin_with(false);
+}
+int begin_with_logins(void**) {
+  return begin_with(true);
+}
+
+/// A new connection that sends `cookies`.
+SessionIndex visit(Time now = start, bool loopback = true) {
+  own = {};
+  set_cookie.clear();
+  return access_control->identify({cookies, loopback ? "127.0.0.1" : "10.0.0.1", loopback}, own, now,
+                                  set_cookie);
+}
+void keep_cookie() {
+  cookies = set_cookie.substr(0, set_cookie.find(';'));
+}
+SessionIndex log_in(const char* user, Role role, SessionHandle former = {}) {
+  return access_control->log_in(former, user, role, "10.0.0.1", start, set_cookie);
+}
+
+void on_loopback_everybody_is_a_viewer(void**) {
+  const SessionIndex session = visit();
+  assert_int_equal(access_control->session(session)->role, Role::viewer);
+  assert_true(access_control->has_role(session, Role::viewer));
+  assert_false(access_control->has_role(session, Role::operator_));
+  assert_non_null(strstr(set_cookie.c_str(), "flexrf_session_8081="));
+  assert_int_equal(access_control->take(session, start), Taking::refused_role);
+  assert_int_equal(access_control->take(no_session, start), Taking::refused_role);
+  assert_false(access_control->has_role(no_session, Role::viewer));
+}
+
+void a_cookie_brings_the_session_back(void**) {
+  const SessionIndex session = visit();
+  keep_cookie();
+  assert_int_equal(visit(), session);
+  assert_string_equal(set_cookie.c_str(), "");
+  cookies = "flexrf_session_8081=" + std::string(32, '0') + "; a=b; " + cookies;
+  assert_int_equal(visit(), session);
+  assert_int_equal(access_control->session_count(), 1);
+}
+
+void a_connection_without_cookies_keeps_its_session(void**) {
+  const SessionIndex session = visit();
+  for (int i = 0; i < 10; ++i) {
+    set_cookie.clear();
+    assert_int_equal(access_control->identify({"", "127.0.0.1", true}, own, start, set_cookie), session);
+    assert_string_equal(set_cookie.c_str(), "");
+  }
+  const SessionHandle before = own;
+  access_control->log_out(session, set_cookie);
+  // Its place may be another's by now.
+  assert_int_equal(access_control->identify({"", "127.0.0.1", true}, own, start, set_cookie), session);
+  assert_true(own.serial != before.serial);
+}
+
+void without_passwords_only_this_machine(void**) {
+  assert_int_equal(visit(start, false), no_session);
+  assert_non_null(access_control->one_time_token());
+}
+
+void with_passwords_nobody_before_logging_in(void**) {
+  assert_int_equal(visit(), no_session);
+  assert_string_equal(set_cookie.c_str(), "");
+  assert_null(access_control->one_time_token());
+  const SessionIndex session = log_in("ann", Role::operator_);
+  keep_cookie();
+  assert_int_equal(visit(start, false), session);
+  access_control->log_out(session, set_cookie);
+  assert_non_null(strstr(set_cookie.c_str(), "Max-Age=0"));
+  assert_int_equal(visit(), no_session);
+}
+
+void a_login_ends_the_former_session(void**) {
+  const SessionIndex former = visit();
+  keep_cookie();
+  const SessionIndex session = log_in("ann", Role::engineer, access_control->handle(former));
+  assert_int_equal(watcher.ended, 1);
+  assert_int_equal(watcher.last_ended, former);
+  assert_true(watcher.was_known);
+  assert_true(access_control->has_role(session, Role::engineer));
+  // Who had planted the former cookie has nothing.
+  assert_true(visit() != session);
+}
+
+void a_handle_is_not_fooled_by_a_place_used_again(void**) {
+  const SessionIndex first = visit();
+  const SessionHandle handle = access_control->handle(first);
+  access_control->log_out(first, set_cookie);
+  const SessionIndex second = visit();
+  assert_int_equal(second, first);
+  log_in("ann", Role::operator_, handle);
+  assert_non_null(access_control->session(second));
+}
+
+void a_session_that_ends_gives_up_control(void**) {
+  const SessionIndex ann = log_in("ann", Role::operator_);
+  assert_int_equal(access_control->take(ann, start), Taking::taken);
+  assert_int_equal(watcher.holder, ann);
+  access_control->log_out(ann, set_cookie);
+  assert_int_equal(access_control->holder(), no_session);
+  assert_int_equal(watcher.holder, no_session);
+  assert_int_equal(watcher.control_changes, 2);
+}
+
+void a_holder_that_is_gone_loses_control(void**) {
+  const SessionIndex ann = log_in("ann", Role::operator_);
+  access_control->link_opened(ann);
+  access_control->take(ann, start);
+  access_control->update(start + hours{1});
+  assert_int_equal(access_control->holder(), ann);
+  access_control->link_closed(ann, start + hours{1});
+  access_control->update(start + hours{1} + PanelAccess::absence);
+  assert_int_equal(access_control->holder(), ann);
+  access_control->update(start + hours{1} + PanelAccess::absence + seconds{1});
+  assert_int_equal(access_control->holder(), no_session);
+  assert_non_null(access_control->session(ann));
+}
+
+void who_asked_and_left_gets_nothing(void**) {
+  const SessionIndex ann = log_in("ann", Role::operator_);
+  const SessionIndex bob = log_in("bob", Role::operator_);
+  access_control->link_opened(ann);
+  access_control->take(ann, start);
+  assert_int_equal(access_control->take(bob, start), Taking::asked);
+  access_control->update(start + PanelAccess::absence + seconds{1});
+  assert_int_equal(access_control->holder(), ann);
+  assert_int_equal(access_control->wanted_by(), no_session);
+}
+
+void a_waiting_session_gets_control_in_time(void**) {
+  const SessionIndex ann = log_in("ann", Role::operator_);
+  const SessionIndex bob = log_in("bob", Role::operator_);
+  access_control->take(ann, start);
+  access_control->take(bob, start);
+  assert_false(access_control->answer(bob, true, start));
+  access_control->update(start + seconds{10});
+  assert_int_equal(access_control->holder(), bob);
+}
+
+void idle_sessions_end(void**) {
+  visit();
+  access_control->update(start + hours{13});
+  assert_int_equal(access_control->session_count(), 0);
+  assert_int_equal(watcher.ended, 1);
+}
+
+void room_is_made_but_never_by_the_holder(void**) {
+  const SessionIndex ann = log_in("ann", Role::operator_);
+  access_control->take(ann, start);
+  for (int i = 0; i < 100; ++i) assert_true(visit(start + seconds{i}) != no_session);
+  assert_int_equal(access_control->session_count(), 4);
+  assert_int_equal(access_control->holder(), ann);
+  assert_int_equal(watcher.ended, 97);
+  // Open connections make none.
+  for (SessionIndex session = 0; session < 4; ++session) access_control->link_opened(session);
+  assert_int_equal(visit(start + hours{1}), no_session);
+}
+
+void the_one_time_token_is_good_once(void**) {
+  OneTimeToken& token = *access_control->one_time_token();
+  cookies = token.text();
+  assert_int_equal(cookies.size(), OneTimeToken::digits);
+  assert_false(token.use(""));
+  assert_false(token.use(cookies.substr(1)));
+  cookies[0] = cookies[0] == '0' ? '1' : '0';
+  assert_false(token.use(cookies));
+  cookies = token.text();
+  assert_true(token.use(cookies));
+  assert_false(token.use(cookies));
+  assert_int_equal(token.text().size(), 0);
+  assert_false(
+      token.use(std::string_view{"\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 32}));
+}
+
+void changes_show_in_the_revision(void**) {
+  const std::uint64_t first = access_control->revision();
+  const SessionIndex ann = log_in("ann", Role::operator_);
+  const std::uint64_t second = access_control->revision();
+  assert_true(second > first);
+  access_control->take(ann, start);
+  assert_true(access_control->revision() > second);
+}
+
+}  // namespace
+}  // namespace flexrf::panel
+
+int main() {
+  using namespace flexrf::panel;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test_setup(on_loopback_everybody_is_a_viewer, begin),
+      cmocka_unit_test_setup(a_cookie_brings_the_session_back, begin),
+      cmocka_unit_test_setup(a_connection_without_cookies_keeps_its_session, begin),
+      cmocka_unit_test_setup(without_passwords_only_this_machine, begin),
+      cmocka_unit_test_setup(with_passwords_nobody_before_logging_in, begin_with_logins),
+      cmocka_unit_test_setup(a_login_ends_the_former_session, begin),
+      cmocka_unit_test_setup(a_handle_is_not_fooled_by_a_place_used_again, begin),
+      cmocka_unit_test_setup(a_session_that_ends_gives_up_control, begin),
+      cmocka_unit_test_setup(a_holder_that_is_gone_loses_control, begin),
+      cmocka_unit_test_setup(who_asked_and_left_gets_nothing, begin),
+      cmocka_unit_test_setup(a_waiting_session_gets_control_in_time, begin),
+      cmocka_unit_test_setup(idle_sessions_end, begin),
+      cmocka_unit_test_setup(room_is_made_but_never_by_the_holder, begin),
+      cmocka_unit_test_setup(the_one_time_token_is_good_once, begin),
+      cmocka_unit_test_setup(changes_show_in_the_revision, begin),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
