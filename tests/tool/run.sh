@@ -25,6 +25,16 @@ flexrf run keyboard-single -- 0 </dev/null
 expect "an application without one" "$output" "arguments: 0"$'\n'*
 rm "$configuration"
 
+users=$tree/apps/keyboard/panel-users
+touch "$users"
+flexrf run -- 0 x </dev/null
+expect "passwords of the application" "$output" "arguments: --panel-users $users 0 x*"
+flexrf run -- 0 --panel-users mine </dev/null
+expect "passwords that were asked for" "$output" "arguments: 0 --panel-users mine"$'\n'*
+flexrf run keyboard-single -- 0 </dev/null
+expect "an application without passwords" "$output" "arguments: 0"$'\n'*
+rm "$users"
+
 for code in 0 1 2 3; do
   flexrf run keyboard -- "$code" </dev/null
   expect "exit code" "$status" "$code"

@@ -21,6 +21,8 @@ unknown release build --preset relase
 unknown tsan test release tsna
 unknown keyboard check keybord
 unknown unit new unti name
+unknown password pasword
+unknown keyboard password keybord
 
 flexrf run --keys file </dev/null
 expect "exit code of a misplaced argument" "$status" 1
@@ -31,7 +33,7 @@ expect "calls of what was not understood" "$(<"$calls")" ""
 
 flexrf help </dev/null
 expect "exit code of help" "$status" 0
-commands=(run test build check map bench doctor new help)
+commands=(run test build check map bench doctor new password help)
 for command in "${commands[@]}"; do
   expect "help lists" "$output" "*./flexrf $command *"
 done
