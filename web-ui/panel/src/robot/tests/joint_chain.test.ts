@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { jointChain } from './joint_chain';
+import { jointChain } from '../joint_chain';
 
 const joint = (name: string, type: string, parent: string, child: string, more = ''): string =>
   `<joint name="${name}" type="${type}"><parent link="${parent}"/><child link="${child}"/>${more}</joint>`;

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { RateMeter, RateMeters } from './rates';
+import { RateMeter, RateMeters } from '../rates';
 
 describe('RateMeter', () => {
   it('knows nothing of one sample', () => {

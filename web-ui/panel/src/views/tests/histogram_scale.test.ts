@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { budgetUse, bucketBounds, columnsOf, height, histogramPath, LogAxis } from './histogram_scale';
+import { budgetUse, bucketBounds, columnsOf, height, histogramPath, LogAxis } from '../histogram_scale';
 
 // As Histogram::bucket_of of the runtime.
 function bucketOf(value: number): number {

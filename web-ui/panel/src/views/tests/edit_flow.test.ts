@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import type { ApplyAnswer, BeginAnswer, Change, EditLink } from './edit_flow';
-import { EditFlow } from './edit_flow';
+import type { ApplyAnswer, BeginAnswer, Change, EditLink } from '../edit_flow';
+import { EditFlow } from '../edit_flow';
 
 const begun: BeginAnswer = {
   ok: true,

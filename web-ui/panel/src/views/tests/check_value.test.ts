@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
-import type { ItemInfo, Value } from '../contract';
-import { checkValue } from './check_value';
+import type { ItemInfo, Value } from '../../contract';
+import { checkValue } from '../check_value';
 
 const number: ItemInfo = {
   key: 'a.configuration.gain', label: 'Gain', summary: '', scalar: 'f64', shape: [], unit: 'm', range: [0, 2],

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { ageText, countdownText, countText, durationText, rateText } from './durations';
+import { ageText, countdownText, countText, durationText, rateText } from '../durations';
 
 describe('durationText', () => {
   it.each([

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { actionsOf, componentRows, stateText, urgency, type ComponentRow } from './component_actions';
+import { actionsOf, componentRows, stateText, urgency, type ComponentRow } from '../component_actions';
 
 const unit: ComponentRow = {
   name: 'jog', kind: 'unit', type: 'jog', life: 'running', fault: '', active: true, member: null, steps: 5,

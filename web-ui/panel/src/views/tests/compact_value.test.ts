@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import type { ItemInfo, Value } from '../contract';
-import { DisplayUnits } from '../core/units';
-import { compactText } from './compact_value';
+import type { ItemInfo, Value } from '../../contract';
+import { DisplayUnits } from '../../core/units';
+import { compactText } from '../compact_value';
 
 const field = (name: string, more: Partial<ItemInfo> = {}): ItemInfo => ({
   key: `slot:pose.${name}`, label: name, summary: '', scalar: 'f64', shape: [], unit: '', kind: 'slot', ...more,

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { partOf, partsOf, rootOf, withPart } from './value_path';
+import { partOf, partsOf, rootOf, withPart } from '../value_path';
 
 describe('paths of values', () => {
   it('are taken apart', () => {
