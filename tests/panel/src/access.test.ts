@@ -1,0 +1,210 @@
+// Who may do what: passwords, roles, the one control token and its way from one person to another.
+import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { Browser } from 'playwright-core';
+import { Application, Viewer, launch, outerAddress, screenshot, violations, within, type Rest, type User } from './harness';
+
+const anna: User = { name: 'anna', role: 'engineer', password: 'a long password of anna' };
+const otto: User = { name: 'otto', role: 'operator', password: 'a long password of otto' };
+const vera: User = { name: 'vera', role: 'viewer', password: 'a long password of vera' };
+
+let browser: Browser;
+beforeAll(async () => { browser = await launch(); });
+afterAll(async () => { await browser?.close(); });
+
+let running: Application;
+const seeing: Viewer[] = [];
+
+async function open(user?: User, address = running.base): Promise<Viewer> {
+  const viewer = await Viewer.open(browser, address);
+  seeing.push(viewer);
+  viewer.allow(/401|WebSocket/); // before the log-in
+  if (user) await viewer.logIn(user);
+  return viewer;
+}
+
+afterEach(async () => {
+  for (const viewer of seeing.splice(0)) await viewer.close();
+  expect(await running.stop()).toBe('SIGTERM');
+});
+
+describe('with a password file', () => {
+  beforeEach(async () => { running = await Application.start('panel_cell', { users: [anna, otto, vera] }); });
+
+  it('nothing is seen before the log-in, and a wrong password says so', async () => {
+    const rest = running.rest();
+    for (const path of ['descriptor', 'state', 'components', 'components/mover/parameters', 'slots', 'log']) {
+      expect((await rest.ask(path)).status, path).toBe(401);
+    }
+    const viewer = await open();
+    const dialog = viewer.page.getByRole('dialog', { name: 'Log in' });
+    await dialog.getByLabel('User').fill('anna');
+    await dialog.getByLabel('Password').fill('wrong');
+    await dialog.getByRole('button', { name: 'Log in' }).click();
+    await dialog.getByRole('alert').waitFor();
+    await screenshot(viewer.page, 'login-refused');
+    expect(await violations(viewer.page)).toEqual([]);
+    await dialog.getByLabel('Password').fill(anna.password);
+    await dialog.getByRole('button', { name: 'Log in' }).click();
+    await viewer.page.getByText('anna: engineer').waitFor();
+    await viewer.go('units', 'gadget');
+    await viewer.page.getByRole('button', { name: 'Log out' }).click();
+    await viewer.page.getByText('anna: engineer').waitFor({ state: 'hidden' });
+    expect((await rest.ask('descriptor')).status).toBe(401);
+  });
+
+  it('the cookie is kept from scripts and from other sites', async () => {
+    const viewer = await open(anna);
+    const cookies = await viewer.context.cookies();
+    expect(cookies.map((one) => ({ name: one.name, httpOnly: one.httpOnly, sameSite: one.sameSite }))).toEqual([
+      { name: 'flexrf_session', httpOnly: true, sameSite: 'Strict' },
+    ]);
+    expect(await viewer.page.evaluate(() => document.cookie)).toBe('');
+  });
+
+  it('each role may do what it may, on the server', async () => {
+    const setLevel = { method: 'PUT', body: { level: 4 } };
+    const viewing = await running.loggedIn(vera);
+    expect((await viewing.ask('control/take', { method: 'POST' })).status).toBe(403);
+    expect((await viewing.ask('components/gadget/parameters', setLevel)).status).toBe(403);
+
+    const operating = await running.loggedIn(otto);
+    // Without the token not even who has the role.
+    expect((await operating.ask('components/gadget/parameters', setLevel)).status).toBeGreaterThanOrEqual(400);
+    await operating.do('control/take', { method: 'POST' });
+    await operating.do('components/gadget/parameters', setLevel);
+    expect((await operating.ask('components/gadget/parameters', { method: 'PUT', body: { expert: 0.1 } })).status).toBe(403);
+    expect((await operating.ask('components/gadget/actions/stop', { method: 'POST' })).status).toBe(403);
+    await operating.do('control/release', { method: 'POST' });
+
+    const engineering = await running.loggedIn(anna);
+    await engineering.do('control/take', { method: 'POST' });
+    await engineering.do('components/gadget/parameters', { method: 'PUT', body: { expert: 0.1 } });
+    expect((await engineering.ask('components/gadget/parameters', { method: 'PUT', body: { secret: 0.1 } })).status).toBe(403);
+    // All or none: what it may set is not set beside what it may not.
+    const both = { method: 'PUT', body: { level: 2, secret: 0.1 } };
+    expect((await engineering.ask('components/gadget/parameters', both)).status).toBe(403);
+    expect((await engineering.runtime('gadget'))['level']).toBe(4);
+  });
+
+  it('the page locks what the role may not', async () => {
+    const viewer = await open(otto);
+    await viewer.takeControl();
+    await viewer.go('units', 'gadget');
+    expect(await viewer.page.getByRole('slider', { name: 'Level of it' }).isEnabled()).toBe(true);
+    expect(await viewer.page.getByRole('slider', { name: 'Expert' }).isEnabled()).toBe(false);
+    await viewer.page.getByText('Locked: needs engineer').first().waitFor();
+  });
+});
+
+describe('the control token', () => {
+  let first: Viewer;
+  let second: Viewer;
+  let rest: Rest;
+
+  beforeEach(async () => {
+    running = await Application.start('panel_cell', { users: [anna, otto] });
+    rest = await running.loggedIn(anna);
+    first = await open(anna);
+    second = await open(otto);
+    await first.takeControl();
+    await second.page.getByText('anna at').waitFor();
+  });
+
+  async function hold(): Promise<void> {
+    await first.page.getByRole('button', { name: 'Start motion' }).click();
+    await first.page.getByText('Motion enabled').waitFor();
+    await first.go('units', 'mover');
+    const button = first.page.locator('flexrf-item').getByRole('button', { name: 'Forward' });
+    await button.scrollIntoViewIfNeeded();
+    const box = (await button.boundingBox())!;
+    await first.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await first.page.mouse.down();
+    await expect.poll(commanded, { timeout: within }).toBe(1);
+  }
+  async function commanded(): Promise<number> {
+    return (await rest.feedback<{ commanded: number }>('mover')).commanded;
+  }
+
+  it('is handed over with consent, and what was held ends', async () => {
+    await hold();
+    await second.page.getByRole('button', { name: 'Ask for control' }).click();
+    const question = first.page.getByRole('group', { name: 'Request for control' });
+    await question.waitFor();
+    await screenshot(first.page, 'consent');
+    expect(await commanded()).toBe(1); // asking takes nothing
+    expect(await violations(first.page)).toEqual([]);
+    // The hand stays on the button that moves: the answer comes by the keyboard.
+    await question.getByRole('button', { name: 'Hand over' }).focus();
+    await first.page.keyboard.press('Enter');
+    await second.page.getByText('You have control').waitFor();
+    await expect.poll(commanded, { timeout: within }).toBe(0);
+    await first.page.getByText('otto at').waitFor();
+    await first.page.mouse.up();
+  });
+
+  it('stays when its holder refuses', async () => {
+    await second.page.getByRole('button', { name: 'Ask for control' }).click();
+    await first.page.getByRole('button', { name: 'Keep control' }).click();
+    await second.page.getByRole('button', { name: 'Ask for control' }).and(second.page.locator(':enabled')).waitFor();
+    await first.page.getByText('You have control').waitFor();
+    expect(await second.page.getByText('You have control').count()).toBe(0);
+  });
+
+  it('goes over after 10 s without an answer, and what was held ends', async () => {
+    await hold();
+    await second.page.getByRole('button', { name: 'Ask for control' }).click();
+    await second.page.getByText('You have control').waitFor({ timeout: 30_000 });
+    await expect.poll(commanded, { timeout: within }).toBe(0);
+    await first.page.mouse.up();
+  });
+
+  it('is given back, and can be taken at once', async () => {
+    await first.page.getByRole('button', { name: 'Release' }).click();
+    await second.takeControl();
+  });
+});
+
+describe('a session at the machine', () => {
+  const outer = outerAddress();
+
+  it.skipIf(outer === undefined)('cannot be displaced from afar', async () => {
+    running = await Application.start('panel_cell', {
+      listen: '0.0.0.0:0', users: [anna, otto], arguments: ['--insecure-http'],
+    });
+    const { port } = new URL(running.base);
+    const near = await running.rest();
+    const local = Object.assign(near, { base: `http://127.0.0.1:${port}` });
+    await local.do('login', { body: { user: anna.name, password: anna.password } });
+    await local.do('control/take', { method: 'POST' });
+    const far = Object.assign(running.rest(), { base: `http://${outer}:${port}` });
+    await far.do('login', { body: { user: otto.name, password: otto.password } });
+    const refused = await far.ask('control/take', { method: 'POST' });
+    expect(refused.status).toBeGreaterThanOrEqual(400);
+    expect(refused.body.detail).toMatch(/machine|local/);
+    expect((await local.do('state')).body.control.holder).toMatchObject({ user: 'anna', you: true });
+    // The other way round it can.
+    await local.do('control/release', { method: 'POST' });
+    await far.do('control/take', { method: 'POST' });
+    expect((await local.ask('control/take', { method: 'POST' })).status).toBeLessThan(300);
+  });
+});
+
+describe('other addresses than loopback', () => {
+  it('need passwords, and TLS or a word for going without', async () => {
+    await expect(Application.start('panel_cell', { listen: '0.0.0.0:0' })).rejects.toThrow(/password/);
+    await expect(Application.start('panel_cell', { listen: '0.0.0.0:0', users: [anna] })).rejects.toThrow(/TLS|insecure-http/);
+    running = await Application.start('panel_cell');
+  });
+});
+
+describe('the address that is printed', () => {
+  it('lets in once, and loses its token', async () => {
+    running = await Application.start('panel_cell');
+    const first = await open(undefined, running.address);
+    await first.page.getByText(/: admin/).waitFor();
+    expect(first.page.url()).not.toContain('token');
+    const second = await open(undefined, running.address);
+    await second.page.getByText(/: viewer/).waitFor();
+    expect(await second.page.getByRole('button', { name: 'Take control' }).isDisabled()).toBe(true);
+  });
+});

@@ -1,0 +1,135 @@
+// The flow of changing configuration: locked, edited, checked together, applied or rolled back, never half.
+import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from 'vitest';
+import type { Browser } from 'playwright-core';
+import { Application, Viewer, itemOf, launch, screenshot, violations, within, type Rest } from './harness';
+
+let browser: Browser;
+beforeAll(async () => { browser = await launch(); });
+afterAll(async () => { await browser?.close(); });
+
+let running: Application;
+let viewer: Viewer;
+let rest: Rest;
+
+beforeEach(async () => {
+  running = await Application.start('panel_cell');
+  viewer = await Viewer.open(browser, running.address, { size: 'panel' });
+  rest = running.rest();
+  await viewer.takeControl();
+  await viewer.go('units', 'gadget');
+});
+afterEach(async () => {
+  await viewer.close();
+  expect(await running.stop()).toBe('SIGTERM');
+});
+
+const size = () => itemOf(viewer.page, 'Size').first().getByRole('spinbutton');
+const edit = () => viewer.page.getByRole('button', { name: 'Edit', exact: true });
+const apply = () => viewer.page.getByRole('button', { name: 'Apply' });
+
+async function openEdit(): Promise<void> {
+  await edit().click();
+  await viewer.page.getByRole('group', { name: 'Editing configuration' }).waitFor();
+}
+/** mm, as it is shown. */
+async function type(text: string): Promise<void> {
+  await size().fill(text);
+  await size().press('Enter');
+}
+async function expectSize(metres: number): Promise<void> {
+  await expect.poll(async () => (await rest.feedback<{ size: number }>('gadget')).size, { timeout: within }).toBe(metres);
+  expect((await rest.configuration('gadget'))['size']).toBe(metres);
+}
+
+it('is locked while initialised, edited, applied, and ends inhibited', async () => {
+  expect(await size().isDisabled()).toBe(true);
+  await viewer.page.getByRole('button', { name: 'Start motion' }).click();
+  await viewer.page.getByText('Motion enabled').waitFor();
+  await openEdit();
+  await viewer.page.getByText('initialises again').waitFor();
+  await screenshot(viewer.page, 'edit');
+  expect(await violations(viewer.page)).toEqual([]);
+  expect(await apply().isDisabled()).toBe(true);
+  await type('750');
+  await viewer.page.getByText('1 value changed').waitFor();
+  await viewer.page.getByRole('combobox', { name: 'Finish' }).selectOption('amber');
+  await viewer.page.getByText('2 values changed').waitFor();
+  await expectSize(0.5); // nothing before Apply
+  await apply().click();
+  await viewer.page.getByText('Applied. Everything was initialised again').waitFor();
+  await expectSize(0.75);
+  expect((await rest.configuration('gadget'))['finish']).toBe('amber');
+  expect((await rest.do('state')).body.motion.may_move).toBe(false);
+  await viewer.page.getByRole('button', { name: 'Close' }).click();
+  await edit().waitFor();
+});
+
+it('is denied while something moves, which it names', async () => {
+  await viewer.page.getByRole('button', { name: 'Start motion' }).click();
+  await viewer.page.getByText('Motion enabled').waitFor();
+  await viewer.go('units', 'mover');
+  await viewer.page.getByRole('switch', { name: 'Run' }).click();
+  await expect.poll(async () => (await rest.feedback<{ commanded: number }>('mover')).commanded, { timeout: within }).not.toBe(0);
+  await edit().click();
+  await viewer.page.getByText('Edit is not possible now.').waitFor();
+  await viewer.page.getByRole('alert').getByRole('link', { name: 'mover' }).waitFor();
+  expect(await violations(viewer.page)).toEqual([]);
+  await viewer.page.getByRole('button', { name: 'Stop motion' }).click();
+  await viewer.page.getByRole('button', { name: 'Try again' }).click();
+  await viewer.page.getByRole('group', { name: 'Editing configuration' }).waitFor();
+});
+
+it('is not applied with a value outside of its range', async () => {
+  await openEdit();
+  await type('5000');
+  await expect.poll(() => apply().isDisabled(), { timeout: within }).toBe(true);
+  await expectSize(0.5);
+});
+
+it('is rolled back when a unit cannot be initialised, with the cause', async () => {
+  await openEdit();
+  await type('1300');
+  await apply().click();
+  await viewer.page.getByText('a size of 1.3 m does not fit in').first().waitFor();
+  await screenshot(viewer.page, 'rolled-back');
+  expect(await violations(viewer.page)).toEqual([]);
+  await expectSize(0.5);
+  await expect.poll(async () => (await rest.do('components/gadget')).body.life, { timeout: within }).toBe('running');
+});
+
+it('is discarded by hand', async () => {
+  await openEdit();
+  await type('600');
+  await viewer.page.getByText('1 value changed').waitFor();
+  await viewer.page.getByRole('button', { name: 'Discard' }).click();
+  await edit().waitFor();
+  await expect.poll(() => size().inputValue(), { timeout: within }).toBe('500');
+  await expectSize(0.5);
+  expect((await rest.do('state')).body.edit).toBeNull();
+});
+
+it('is discarded with the control token, and another may edit then', async () => {
+  await openEdit();
+  await type('600');
+  await viewer.page.getByRole('button', { name: 'Release' }).click();
+  await viewer.page.getByText('The edit was discarded.', { exact: false }).waitFor();
+  await expect.poll(async () => (await rest.do('state')).body.edit, { timeout: within }).toBeNull();
+  await expectSize(0.5);
+});
+
+it('another page of the same session sees who edits', async () => {
+  await openEdit();
+  const other = await Viewer.open(browser, running.base);
+  await other.go('overview');
+  await other.page.getByText('Being edited').waitFor();
+  await other.go('units', 'gadget');
+  await expect.poll(() => other.page.getByRole('button', { name: 'Edit', exact: true }).isDisabled(), { timeout: within }).toBe(true);
+  await other.close();
+});
+
+it('needs an engineer, and the token', async () => {
+  for (const [path, body] of [['reconfigure', { changes: [{ component: 'gadget', values: { size: 0.9 } }] }]] as const) {
+    expect((await rest.ask(path, { body })).status).toBe(403);
+  }
+  await expectSize(0.5);
+});

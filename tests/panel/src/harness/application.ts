@@ -1,0 +1,120 @@
+// A real application as a process, with its panel on a port of its own.
+import { spawn, spawnSync, type ChildProcess } from 'node:child_process';
+import { rmSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { executableOf, newFolder, passwordTool, type ApplicationName } from './environment';
+import { Rest } from './rest';
+
+export interface User {
+  readonly name: string;
+  readonly role: 'viewer' | 'operator' | 'engineer' | 'admin';
+  readonly password: string;
+}
+
+export interface StartOptions {
+  /** Default: loopback, any port. */
+  readonly listen?: string;
+  readonly users?: readonly User[];
+  readonly arguments?: readonly string[];
+}
+
+const startWithin = 30_000;
+const endWithin = 15_000;
+
+export class Application {
+  private said = '';
+  private ended: Promise<number | NodeJS.Signals | null>;
+  /** "http://127.0.0.1:PORT" */
+  base = '';
+  /** The printed address, with its one-time token if it has one. */
+  address = '';
+
+  private constructor(readonly process: ChildProcess, private readonly folder: string) {
+    const listen = (part: Buffer): void => { this.said += part.toString('utf8'); };
+    process.stdout!.on('data', listen);
+    process.stderr!.on('data', listen);
+    this.ended = new Promise((resolve) => process.once('close', (code, signal) => resolve(signal ?? code)));
+  }
+
+  static async start(name: ApplicationName, options: StartOptions = {}): Promise<Application> {
+    const folder = newFolder();
+    const given = [...(options.arguments ?? [])];
+    if (options.users) given.push('--panel-users', writeUsers(folder, options.users));
+    const child = spawn(executableOf(name), ['--panel', options.listen ?? '127.0.0.1:0', ...given], {
+      cwd: folder,
+      stdio: ['pipe', 'pipe', 'pipe'],
+      // A lock of its own, so that the machine may run the same application beside it.
+      env: { ...process.env, XDG_RUNTIME_DIR: folder, TERM: 'dumb' },
+    });
+    child.stdin.on('error', () => undefined); // it may end before its input does
+    const application = new Application(child, folder);
+    await application.findAddress();
+    return application;
+  }
+
+  get id(): number { return this.process.pid!; }
+  get text(): string { return this.said; }
+  get port(): number { return Number(new URL(this.base).port); }
+
+  /** A script's session of its own: a viewer without a password file. */
+  rest(): Rest {
+    return new Rest(this.base);
+  }
+
+  async loggedIn(user: User): Promise<Rest> {
+    const rest = this.rest();
+    await rest.do('login', { body: { user: user.name, password: user.password } });
+    return rest;
+  }
+
+  press(keys: string): void {
+    this.process.stdin!.write(keys);
+  }
+
+  /** Ends it and gives its exit code. */
+  async stop(signal: NodeJS.Signals = 'SIGTERM'): Promise<number | NodeJS.Signals | null> {
+    this.process.kill('SIGCONT');
+    this.process.kill(signal);
+    const timer = setTimeout(() => this.process.kill('SIGKILL'), endWithin);
+    const how = await this.ended;
+    clearTimeout(timer);
+    rmSync(this.folder, { recursive: true, force: true });
+    return how;
+  }
+
+  private async findAddress(): Promise<void> {
+    const until = Date.now() + startWithin;
+    let over: unknown;
+    void this.ended.then((how) => { over = how ?? 'ended'; });
+    for (;;) {
+      const found = /https?:\/\/[^\s"')]+/.exec(this.said);
+      if (found && this.said.indexOf('\n', found.index) > 0) {
+        this.address = found[0];
+        this.base = new URL(this.address).origin;
+        return;
+      }
+      if (over !== undefined) throw new Error(`the application ended (${String(over)}): ${this.said}`);
+      if (Date.now() > until) {
+        this.process.kill('SIGKILL');
+        throw new Error(`the application printed no address: ${this.said}`);
+      }
+      await new Promise((resolve) => setTimeout(resolve, 20));
+    }
+  }
+}
+
+function writeUsers(folder: string, users: readonly User[]): string {
+  const file = join(folder, 'users');
+  for (const user of users) {
+    const made = spawnSync(passwordTool, ['--role', user.role, '--user', user.name, file], { input: `${user.password}\n` });
+    if (made.status !== 0) throw new Error(`no password for ${user.name}: ${made.stderr.toString()}`);
+  }
+  return file;
+}
+
+/** For a file that an application reads. */
+export function writeText(folder: string, name: string, text: string): string {
+  const file = join(folder, name);
+  writeFileSync(file, text);
+  return file;
+}

@@ -1,0 +1,31 @@
+// What ctest tells in the environment; by hand, the release build beside this folder.
+import { mkdtempSync } from 'node:fs';
+import { networkInterfaces, tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const build = process.env['FLEXRF_BUILD'] ?? fileURLToPath(new URL('../../../../build/release', import.meta.url));
+
+export type ApplicationName = 'keyboard' | 'keyboard-single' | 'panel_cell';
+
+export function executableOf(name: ApplicationName): string {
+  return name === 'panel_cell' ? join(build, 'tests/panel', name) : join(build, 'apps', name, name);
+}
+
+export const passwordTool = join(build, 'web-ui/server/access/flexrf-password');
+export const freezer = join(build, 'tests/panel/freeze_thread');
+export const chromium = process.env['FLEXRF_CHROMIUM'] ?? '/usr/bin/chromium';
+
+/** Folder for screenshots; undefined: none are taken. */
+export const screenshots = process.env['FLEXRF_PANEL_SCREENSHOTS'];
+
+export function newFolder(): string {
+  return mkdtempSync(join(tmpdir(), 'flexrf-panel-'));
+}
+
+/** An address of this machine that is no loopback one: what comes from there is not local. Undefined: there is none. */
+export function outerAddress(): string | undefined {
+  return Object.values(networkInterfaces())
+    .flat()
+    .find((one) => one && !one.internal && one.family === 'IPv4')?.address;
+}

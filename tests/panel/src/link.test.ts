@@ -1,0 +1,89 @@
+// The link: what is old looks old, what comes back is whole, and another start is told from a short break.
+import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from 'vitest';
+import type { Browser } from 'playwright-core';
+import { Application, Cable, Viewer, itemOf, launch, screenshot, violations, within } from './harness';
+
+let browser: Browser;
+beforeAll(async () => { browser = await launch(); });
+afterAll(async () => { await browser?.close(); });
+
+let running: Application;
+let viewer: Viewer;
+beforeEach(async () => { running = await Application.start('panel_cell'); });
+afterEach(async () => {
+  await viewer?.close();
+  expect(await running.stop()).toBe('SIGTERM');
+});
+
+const oldValues = () => viewer.page.getByText('Values are old, controls are dead');
+const level = () => itemOf(viewer.page, 'Level of it').first();
+
+async function open(address: string): Promise<void> {
+  viewer = await Viewer.open(browser, address);
+  viewer.allow(/WebSocket|Failed to load resource|ERR_/);
+  await viewer.takeControl();
+  await viewer.go('units', 'gadget');
+  await expect.poll(() => level().getByRole('slider').isEnabled(), { timeout: within }).toBe(true);
+}
+
+it('an application that is stopped: grey values, dead controls, and back again', async () => {
+  await open(running.address);
+  const { page } = viewer;
+  running.process.kill('SIGSTOP');
+  await oldValues().waitFor();
+  await expect.poll(() => level().getByRole('slider').isEnabled(), { timeout: within }).toBe(false);
+  expect(await page.locator('[stale]').count()).toBeGreaterThan(0);
+  expect(await page.getByRole('button', { name: 'Stop motion' }).getAttribute('aria-disabled')).toBe('true');
+  await page.getByText('use the emergency stop at the machine').waitFor();
+  await screenshot(page, 'stale');
+  expect(await violations(page)).toEqual([]);
+  running.process.kill('SIGCONT');
+  await oldValues().waitFor({ state: 'hidden' });
+  await expect.poll(() => page.locator('[stale]').count(), { timeout: within }).toBe(0);
+  expect(await page.getByRole('button', { name: 'Stop motion' }).getAttribute('aria-disabled')).toBe('false');
+});
+
+it('a cable that is cut and mended: everything is as it is now', async () => {
+  const cable = await Cable.to(running.port);
+  await open(running.address.replace(running.base, cable.base));
+  cable.cut();
+  await oldValues().waitFor();
+  // Changed meanwhile, beside the cable, by the same session.
+  const rest = running.rest();
+  rest.cookie = (await viewer.context.cookies()).map((one) => `${one.name}=${one.value}`).join('; ');
+  const taken = await rest.ask('control/take', { method: 'POST' });
+  expect(taken.status).toBeLessThan(300);
+  await rest.do('components/gadget/parameters', { method: 'PUT', body: { level: 8 } });
+  cable.mend();
+  await oldValues().waitFor({ state: 'hidden', timeout: 30_000 });
+  await expect.poll(() => level().getByRole('spinbutton').inputValue(), { timeout: within }).toBe('8');
+  await viewer.page.getByRole('button', { name: 'Knock' }).waitFor();
+  await viewer.close();
+  await cable.close();
+  viewer = await Viewer.open(browser, running.base);
+});
+
+it('the same application started anew under an open page', async () => {
+  await open(running.address);
+  const { port } = running;
+  expect(await running.stop()).toBe('SIGTERM');
+  await viewer.page.getByText('The application ended').or(oldValues()).first().waitFor();
+  running = await Application.start('panel_cell', { listen: `127.0.0.1:${port}` });
+  await oldValues().waitFor({ state: 'hidden', timeout: 30_000 });
+  await viewer.page.getByText('The application was started anew.').waitFor();
+  // The session of before is nobody's: what one sees is as of a new visitor.
+  await viewer.page.getByText(/: viewer/).waitFor();
+  await viewer.page.getByText('Nobody has control').waitFor();
+  await expect.poll(() => level().getByRole('spinbutton').inputValue(), { timeout: within }).toBe('5');
+});
+
+it('another application at the same address', async () => {
+  await open(running.address);
+  const { port } = running;
+  expect(await running.stop()).toBe('SIGTERM');
+  running = await Application.start('keyboard', { listen: `127.0.0.1:${port}` });
+  await expect.poll(() => viewer.page.title(), { timeout: 30_000 }).toContain('keyboard');
+  await viewer.page.getByText('There is no unit of this name').waitFor();
+  await viewer.go('overview');
+  await viewer.page.getByText('Jog step').first().waitFor();
+});

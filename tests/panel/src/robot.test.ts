@@ -1,0 +1,116 @@
+// The keyboard application: the arm in 3D, keys that move it, the jog step, the jog arrows.
+import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from 'vitest';
+import type { Browser } from 'playwright-core';
+import { Application, Viewer, itemOf, launch, screenshot, within, type Rest } from './harness';
+
+let browser: Browser;
+beforeAll(async () => { browser = await launch(); });
+afterAll(async () => { await browser?.close(); });
+
+let running: Application;
+let viewer: Viewer;
+let rest: Rest;
+beforeEach(async () => {
+  running = await Application.start('keyboard');
+  rest = running.rest();
+  viewer = await Viewer.open(browser, running.address);
+  await viewer.go('overview');
+});
+afterEach(async () => {
+  await viewer.close();
+  expect(await running.stop()).toBe('SIGTERM');
+});
+
+const canvas = () => viewer.page.getByRole('img', { name: /in 3D/ });
+
+async function position(): Promise<number[]> {
+  return (await rest.do('slots/tool_pose')).body.value.position;
+}
+/** Until it is where it was a moment ago. */
+async function atRest(): Promise<number[]> {
+  let before = await position();
+  await expect.poll(async () => {
+    const after = await position();
+    const moved = Math.hypot(...after.map((one, i) => one - before[i]!));
+    before = after;
+    return moved;
+  }, { timeout: within, interval: 200 }).toBeLessThan(2e-4);
+  return before;
+}
+async function speed(): Promise<number> {
+  const { value } = (await rest.do('slots/hand')).body;
+  return Math.hypot(...(value?.linear ?? [0]));
+}
+
+it('the arm is drawn, and moves when a key is pressed', async () => {
+  await canvas().waitFor();
+  const picture = async (): Promise<string> => (await canvas().screenshot()).toString('base64');
+  // Something is drawn: the picture is not of one colour.
+  await expect.poll(async () => (await picture()).length, { timeout: within }).toBeGreaterThan(4000);
+  await atRest();
+  const before = await picture();
+  const from = await position();
+  running.press('wwww');
+  await expect.poll(async () => (await position())[0]! - from[0]!, { timeout: within }).toBeGreaterThan(0.02);
+  await expect.poll(async () => (await picture()) === before, { timeout: within }).toBe(false);
+  await screenshot(viewer.page, 'keyboard-moved');
+});
+
+it('the joints stand in a table, too', async () => {
+  await viewer.page.getByText('Joints as a table').click();
+  const table = viewer.page.getByRole('table', { name: /positions of the joints/ });
+  await expect.poll(() => table.getByRole('row').count(), { timeout: within }).toBe(7);
+  await expect.poll(() => table.innerText(), { timeout: within }).toMatch(/-?\d+(\.\d+)? °/);
+});
+
+it('the 3D view is turned by buttons', async () => {
+  await canvas().waitFor();
+  await atRest();
+  await viewer.page.mouse.move(0, 0);
+  const before = (await canvas().screenshot()).toString('base64');
+  await viewer.page.getByRole('button', { name: 'Turn left' }).click();
+  await expect.poll(async () => (await canvas().screenshot()).toString('base64') === before, { timeout: within }).toBe(false);
+});
+
+it('changing the jog step changes the next jog', async () => {
+  await viewer.takeControl();
+  const step = itemOf(viewer.page, 'Jog step').first().getByRole('spinbutton');
+  const jog = async (millimetres: string): Promise<number> => {
+    await step.fill(millimetres);
+    await step.press('Enter');
+    await expect.poll(async () => (await rest.runtime('jog'))['step'], { timeout: within }).toBeCloseTo(Number(millimetres) / 1000, 9);
+    const from = await atRest();
+    running.press('w');
+    await expect.poll(async () => Math.abs((await position())[0]! - from[0]!), { timeout: within }).toBeGreaterThan(0.004);
+    return Math.abs((await atRest())[0]! - from[0]!);
+  };
+  expect(await jog('10')).toBeCloseTo(0.01, 3);
+  expect(await jog('30')).toBeCloseTo(0.03, 3);
+});
+
+it('the arrows move the arm while they are held, and no longer', async () => {
+  await viewer.takeControl();
+  const arrow = viewer.page.getByRole('button', { name: /Move \+z/ });
+  await arrow.scrollIntoViewIfNeeded();
+  const from = await atRest();
+  const box = (await arrow.boundingBox())!;
+  expect(Math.min(box.width, box.height)).toBeGreaterThanOrEqual(72);
+  await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await viewer.page.mouse.down();
+  await expect.poll(async () => (await position())[2]! - from[2]!, { timeout: within }).toBeGreaterThan(0.01);
+  await screenshot(viewer.page, 'arrow-held');
+  await viewer.page.mouse.up();
+  await expect.poll(speed, { timeout: within }).toBe(0);
+  const rested = await atRest();
+  await new Promise((resolve) => setTimeout(resolve, 500));
+  expect(Math.abs((await position())[2]! - rested[2]!)).toBeLessThan(1e-3);
+});
+
+it('the 3D library is not loaded where no robot is shown', async () => {
+  const other = await Viewer.open(browser, `${running.base}/#/log`);
+  await other.page.getByRole('log').waitFor();
+  const loaded = await other.page.evaluate(() =>
+    performance.getEntriesByType('resource').map((entry) => [entry.name, (entry as PerformanceResourceTiming).decodedBodySize] as const));
+  expect(loaded.filter(([, bytes]) => bytes > 300_000)).toEqual([]);
+  await other.close();
+});

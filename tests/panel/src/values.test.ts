@@ -1,0 +1,202 @@
+// Values: set and read back from the unit, refused, seen by others, left alone while a hand is on them.
+import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { Browser, Locator } from 'playwright-core';
+import { Application, Viewer, itemOf, launch, violations, within, type Rest } from './harness';
+
+let browser: Browser;
+beforeAll(async () => { browser = await launch(); });
+afterAll(async () => { await browser?.close(); });
+
+let running: Application;
+let viewer: Viewer;
+let rest: Rest;
+let seeing: Viewer[];
+
+beforeEach(async () => {
+  running = await Application.start('panel_cell');
+  viewer = await Viewer.open(browser, running.address);
+  rest = running.rest();
+  seeing = [viewer];
+  await viewer.takeControl();
+  await viewer.go('units', 'gadget');
+});
+afterEach(async () => {
+  for (const one of seeing) await one.close();
+  expect(await running.stop()).toBe('SIGTERM');
+});
+
+function item(label: string, of: Viewer = viewer): Locator {
+  return itemOf(of.page, label).first();
+}
+function field(label: string, of: Viewer = viewer): Locator {
+  return item(label, of).getByRole('spinbutton');
+}
+async function expectRuntime(path: string, value: unknown): Promise<void> {
+  await expect.poll(async () => (await rest.runtime('gadget'))[path], { timeout: within }).toEqual(value);
+}
+async function expectFeedback(path: string, value: unknown): Promise<void> {
+  await expect.poll(async () => (await rest.feedback<{ [path: string]: unknown }>('gadget'))[path], { timeout: within }).toEqual(value);
+}
+
+describe('a number with a range', () => {
+  it('is set by typing, and what the unit has in force comes back', async () => {
+    await field('Level of it').fill('6.25');
+    await field('Level of it').press('Enter');
+    await expectFeedback('level', 6.25);
+    await expect.poll(() => field('Level of it').inputValue(), { timeout: within }).toMatch(/^6[.,]25$/);
+  });
+
+  it('is refused outside of its range, and shows what is in force again', async () => {
+    await field('Level of it').fill('11');
+    await field('Level of it').press('Enter');
+    await expect.poll(() => item('Level of it').getByRole('status').innerText(), { timeout: within }).toMatch(/10/);
+    await expect.poll(() => field('Level of it').inputValue(), { timeout: within }).toBe('5');
+    await expectRuntime('level', 5);
+  });
+
+  it('is refused by the unit with its reason', async () => {
+    await field('Level of it').fill('9.5');
+    await field('Level of it').press('Enter');
+    await item('Level of it').getByText('a level above 9 needs it to be enabled').waitFor();
+    await expect.poll(() => field('Level of it').inputValue(), { timeout: within }).toBe('5');
+    expect(await violations(viewer.page)).toEqual([]);
+  });
+
+  it('is set by steps, and reset to its default', async () => {
+    await item('Level of it').getByRole('button', { name: /^Increase/ }).last().click();
+    await expect.poll(async () => (await rest.runtime('gadget'))['level'], { timeout: within }).toBeGreaterThan(5);
+    await item('Level of it').getByRole('button', { name: /^Reset/ }).click();
+    await expectRuntime('level', 5);
+  });
+
+  it('is left alone by echoes while a hand drags it', async () => {
+    const slider = item('Level of it').getByRole('slider');
+    const box = (await slider.boundingBox())!;
+    const at = (part: number): [number, number] => [box.x + box.width * part, box.y + box.height / 2];
+    const { mouse } = viewer.page;
+    await mouse.move(...at(0.5));
+    await mouse.down();
+    await mouse.move(...at(0.8), { steps: 4 });
+    await expect.poll(async () => (await rest.runtime('gadget'))['level'], { timeout: within }).toBeGreaterThan(6);
+    // Somebody else sets it, by a request beside the page's own socket.
+    const other = running.rest();
+    other.cookie = (await viewer.context.cookies()).map((one) => `${one.name}=${one.value}`).join('; ');
+    const held = Number(await slider.inputValue());
+    await other.do('components/gadget/parameters', { method: 'PUT', body: { level: 1 } });
+    await expectFeedback('level', 1);
+    expect(Number(await slider.inputValue())).toBe(held);
+    await mouse.up();
+    // Nothing was sent by letting go: what is in force is shown.
+    await expect.poll(async () => Number(await slider.inputValue()), { timeout: within }).toBeCloseTo(1, 6);
+  });
+});
+
+describe('other kinds', () => {
+  it('a number without a range', async () => {
+    await field('Offset').fill('-250');
+    await field('Offset').press('Enter');
+    await expectRuntime('offset', -0.25); // shown in mm
+  });
+
+  it('a whole number, which takes no fraction', async () => {
+    await field('Count').fill('2.5');
+    await field('Count').press('Enter');
+    await expect.poll(() => item('Count').getByRole('status').innerText(), { timeout: within }).not.toBe('');
+    await expectRuntime('count', 3);
+    await field('Count').fill('42');
+    await field('Count').press('Enter');
+    await expectRuntime('count', 42);
+  });
+
+  it('a switch', async () => {
+    await viewer.page.getByRole('switch', { name: 'Enabled' }).click();
+    await expectFeedback('enabled', true);
+  });
+
+  it('an enumeration', async () => {
+    await viewer.page.getByRole('combobox', { name: 'Tint' }).selectOption('amber');
+    await expectFeedback('tint', 'amber');
+  });
+
+  it('a text, which has so much room', async () => {
+    const text = viewer.page.getByRole('textbox', { name: 'Title', exact: true });
+    await text.fill('Grüße <b>');
+    await text.press('Enter');
+    await expectFeedback('title', 'Grüße <b>');
+    await text.fill('more than twenty-four bytes of text');
+    await text.press('Enter');
+    await expect.poll(() => item('Title').getByRole('status').innerText(), { timeout: within }).not.toBe('');
+    await expectRuntime('title', 'Grüße <b>');
+  });
+
+  it('a matrix, row by row', async () => {
+    const fields = item('Turns').locator('input');
+    await fields.nth(1).fill('9');
+    await fields.nth(1).press('Enter');
+    const apply = item('Turns').getByRole('button', { name: /set|apply/i });
+    if (await apply.count()) await apply.first().click();
+    await expectFeedback('turns', [[1, 9], [3, 4]]);
+  });
+
+  it('a button, once for each press', async () => {
+    const button = viewer.page.getByRole('button', { name: 'Knock' });
+    await button.click();
+    await expectFeedback('knocks', 1);
+    await button.click();
+    await expectFeedback('knocks', 2);
+  });
+});
+
+describe('two browsers', () => {
+  it('see each other\'s change, and who may not change is told why', async () => {
+    const other = await Viewer.open(browser, running.base);
+    seeing.push(other);
+    await other.go('units', 'gadget');
+    expect(await field('Level of it', other).isDisabled()).toBe(true);
+    await field('Level of it').fill('7');
+    await field('Level of it').press('Enter');
+    await expect.poll(() => field('Level of it', other).inputValue(), { timeout: within }).toBe('7');
+    await other.page.getByText('needs operator').first().waitFor({ state: 'attached' });
+  });
+
+  it('a viewer is refused by the server, too', async () => {
+    const answer = await rest.ask('components/gadget/parameters', { method: 'PUT', body: { level: 1 } });
+    expect(answer.status).toBe(403);
+    expect(answer.headers['content-type']).toContain('application/problem+json');
+    await expectRuntime('level', 5);
+  });
+});
+
+describe('by the keyboard alone', () => {
+  it('control is taken, a value set, a button pressed, motion stopped', async () => {
+    const { page } = viewer;
+    const { keyboard } = page;
+    /** Goes on with Tab until this has the focus. */
+    const tabTo = async (target: Locator): Promise<void> => {
+      for (let step = 0; step < 300; step += 1) {
+        if (await target.evaluate((element) => (element.getRootNode() as Document | ShadowRoot).activeElement === element)) return;
+        await keyboard.press('Tab');
+      }
+      throw new Error(`Tab does not lead to ${String(target)}`);
+    };
+    await tabTo(page.getByRole('button', { name: 'Release' }));
+    await keyboard.press('Enter');
+    await page.getByText('Nobody has control').waitFor();
+    await tabTo(page.getByRole('button', { name: 'Take control' }));
+    await keyboard.press('Enter');
+    await page.getByText('You have control').waitFor();
+    await tabTo(page.getByRole('link', { name: 'Units' }));
+    await keyboard.press('Enter');
+    await tabTo(page.getByRole('link', { name: 'gadget', exact: true }));
+    await keyboard.press('Enter');
+    await tabTo(field('Level of it'));
+    await keyboard.press('ArrowUp');
+    await expect.poll(async () => (await rest.runtime('gadget'))['level'], { timeout: within }).toBeGreaterThan(5);
+    await tabTo(page.getByRole('button', { name: 'Knock' }));
+    await keyboard.press('Space');
+    await expectFeedback('knocks', 1);
+    await tabTo(page.getByRole('button', { name: 'Stop motion' }));
+    await keyboard.press('Enter');
+    await page.getByText('Motion stopped', { exact: false }).first().waitFor();
+  });
+});

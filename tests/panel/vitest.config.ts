@@ -1,0 +1,13 @@
+// Each file starts applications and a browser of its own; one file at a time, as two CPUs have enough to do with one.
+import { defineConfig } from 'vitest/config';
+
+export default defineConfig({
+  test: {
+    include: ['src/**/*.test.ts'],
+    pool: 'forks',
+    fileParallelism: false,
+    // Only so that a test which waits for what never comes ends at all.
+    testTimeout: 60_000,
+    hookTimeout: 60_000,
+  },
+});
