@@ -42,9 +42,9 @@ export interface Component {
   readonly population: string;
   readonly unit?: UnitJson;
   readonly device?: DeviceJson;
-  /** Of a device: of the first driver that its row permits. */
+  /** Of a device: its interface's, and that of the first driver that its row permits. */
   readonly configuration: readonly Item[];
-  /** Of a device: of each driver that its row permits, by the driver's name; which was chosen says the server. */
+  /** Of a device: the same with each driver that its row permits, by the driver's name; which was chosen says the server. */
   readonly driverConfiguration: ReadonlyMap<string, readonly Item[]>;
   readonly runtime: readonly Item[];
   readonly feedback: readonly Item[];
@@ -254,7 +254,9 @@ export function makeModel(json: DescriptorJson): Model {
     // The first comes last: where two drivers have a parameter of one name, the key is that of the first's.
     const driverConfiguration = new Map([...device.drivers].reverse().map((choice) => {
       const driver = json.drivers.find((one) => one.name === choice.type);
-      return [choice.driver, block(device.name, 'configuration', driver?.configuration, undefined, device.overrides, choice.configuration)] as const;
+      const items = [face, driver].flatMap((declared) =>
+        block(device.name, 'configuration', declared?.configuration, undefined, device.overrides, choice.configuration));
+      return [choice.driver, items] as const;
     }));
     components.set(device.name, {
       kind: 'device', name: device.name, typeName: device.interface, summary: face?.summary ?? '',

@@ -6,7 +6,7 @@ import {
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
 
-/** Where the files of robots lie; meshes are named relative to it, or as package://PACKAGE/FILE. */
+/** Where the files of robots lie; a URDF names its meshes relative to it. */
 const folder = '/application/robots/';
 
 /** Sharper than this costs more than it shows. */
@@ -66,7 +66,6 @@ export class RobotScene {
       this.invalidate();
     })(manager.itemEnd);
     const loader = new URDFLoader(manager);
-    loader.packages = (name: string) => `${folder}${name}`;
     loader.workingPath = folder;
     this.robot = loader.parse(urdf);
     this.scene.add(this.robot);

@@ -11,6 +11,7 @@ import { countText, durationText } from './durations';
 import './edit_panel';
 import { EditSession } from './edit_session';
 import './item_widget';
+import './placement_widget';
 import { portsOf, type Port } from './ports';
 import './slot_age';
 import { addressOf, ViewBase } from './view_base';
@@ -72,7 +73,7 @@ export class ComponentPage extends ViewBase {
       <nav aria-label="Breadcrumb"><a href="#/${view}">All ${view}</a></nav>
       <h2>${component.name}</h2>
       <p>${component.summary}</p>
-      ${this.state()} ${this.facts()} ${this.configuration()}
+      ${this.state()} ${this.facts()} ${this.placed()} ${this.configuration()}
       ${this.items('Runtime parameters', component.runtime)} ${this.items('Feedback', component.feedback)} ${this.ports()}
       ${this.members()}
     `;
@@ -132,6 +133,21 @@ export class ComponentPage extends ViewBase {
             ${fact('Budget', unit.budget_ns ? durationText(unit.budget_ns) : '')} ${fact('Restart', unit.restart)}`
           : nothing}
       </dl>
+    `;
+  }
+
+  /** What the application's table puts on this page. */
+  private placed(): unknown {
+    const { items, placements } = this.core.model.placed(this.component.name);
+    const others = items.filter((item) => item.component !== this.component.name);
+    return html`
+      ${repeat(placements, (one) => one.name, (one) => html`
+        <section aria-label=${one.label}>
+          <h3>${one.label}</h3>
+          <flexrf-placement .core=${this.core} .placement=${one}></flexrf-placement>
+        </section>
+      `)}
+      ${this.items('From elsewhere', others)}
     `;
   }
 

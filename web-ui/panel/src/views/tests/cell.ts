@@ -28,7 +28,7 @@ export const cell: DescriptorJson = {
       feedback: { type: 'Place', parameters: [{ name: 'x' }, { name: 'y' }] },
     },
   ],
-  interfaces: [{ name: 'Motor', summary: 'Turns.', outputs: [{ name: 'ticks', type: 'Place', summary: 'Ticks.' }] }],
+  interfaces: [{ name: 'Motor', summary: 'Turns.', configuration: { type: 'MotorConfiguration', parameters: [{ name: 'gear', role: 'engineer', default: 9 }] }, outputs: [{ name: 'ticks', type: 'Place', summary: 'Ticks.' }] }],
   drivers: [
     { name: 'model_motor', driver: 'model', interface: 'Motor', kind: 'simulated', actuates: true, virtual_time: true, summary: 'A model.' },
     {
@@ -38,6 +38,7 @@ export const cell: DescriptorJson = {
   ],
   types: [
     { name: 'Place', summary: 'A place.', hash: '1', size: 16, fields: [number('x', 0), number('y', 8)] },
+    { name: 'MotorConfiguration', summary: 'Configuration.', hash: '4', size: 8, fields: [number('gear', 0)] },
     { name: 'CanConfiguration', summary: 'Configuration.', hash: '3', size: 8, fields: [number('node', 0)] },
     { name: 'DriveConfiguration', summary: 'Configuration.', hash: '2', size: 16, fields: [number('lag', 0), number('reach', 8)] },
   ],
@@ -57,6 +58,7 @@ export const cell: DescriptorJson = {
     slot('ticks', 'Place', 'motor.ticks', []),
     slot('axis[0].feedback', 'Place', '', []),
   ],
+  widgets: [{ name: 'wheel', kind: 'wheel', label: 'The wheel', place: 'motor' }],
   queues: [
     {
       name: 'jobs', type: 'Place', capacity: 4, policy: 'drop_oldest', share: 'copies', wall: false,

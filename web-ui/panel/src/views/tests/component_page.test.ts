@@ -105,11 +105,19 @@ describe('the page of a unit', () => {
 describe('the page of a device', () => {
   it('shows the configuration of the driver that it has', async () => {
     await shown('flexrf-devices', ['motor']);
-    expect(page().shadowRoot!.querySelector('flexrf-item')).toBeNull();
+    const keys = (): unknown[] =>
+      [...page().shadowRoot!.querySelectorAll<HTMLElement & { item: { key: string } }>('flexrf-item')].map(({ item }) => item.key);
+    expect(keys()).toEqual(['motor.configuration.gear']);
     fake.topic('components', [alive('motor', { kind: 'device', driver: 'can', member: null })]);
     await settled();
-    expect(page().shadowRoot!.querySelector('flexrf-item')).toHaveProperty('item.key', 'motor.configuration.node');
+    expect(keys()).toEqual(['motor.configuration.gear', 'motor.configuration.node']);
     expect(text(page())).toContain('can (real): On a bus.');
+  });
+
+  it('shows the widgets that the table places there', async () => {
+    await shown('flexrf-devices', ['motor']);
+    expect([...page().shadowRoot!.querySelectorAll('h3')].map((one) => one.textContent)).toContain('The wheel');
+    expect(page().shadowRoot!.querySelector('flexrf-placement')).toHaveProperty('placement.kind', 'wheel');
   });
 });
 
