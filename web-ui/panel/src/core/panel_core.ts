@@ -102,6 +102,10 @@ export class PanelCore implements Core {
     return { link: this.connection.status, session: this.session, state: this.state };
   }
 
+  endHolds(reason: string): void {
+    this.#holds.endAll(reason);
+  }
+
   deniedAction(role: Role): string {
     return deniedAction(this.situation, role);
   }
@@ -143,13 +147,20 @@ export class PanelCore implements Core {
 
   async createWidget(what: { item: ItemInfo } | { placement: Placement }): Promise<WidgetElement> {
     try {
-      const kind = 'item' in what ? await this.registry.kindFor(what.item) : what.placement.kind;
+      const kind = 'item' in what
+        ? await this.registry.kindFor(what.item)
+        : await this.registry.kindForRow(this.host, what.placement);
       const controls = 'item' in what
         ? what.item.role !== undefined || what.item.widget !== undefined
         : Object.keys(what.placement.parameters).length > 0;
       const element = await this.registry.create(kind, controls);
       return Object.assign(element, { host: this.host }, what);
     } catch (error) {
+      if ('item' in what && what.item.widget !== undefined) {
+        const { widget, ...usual } = what.item;
+        const note = `The widget “${widget}” cannot be shown: ${error instanceof Error ? error.message : String(error)}`;
+        return Object.assign(await this.createWidget({ item: usual }), { note });
+      }
       const name = 'item' in what ? what.item.label : what.placement.label;
       const broken = document.createElement('p');
       broken.className = 'broken';

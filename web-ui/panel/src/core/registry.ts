@@ -11,7 +11,7 @@
 // exports `register(register)` instead and calls register('KIND', class) for each. A class is defined as the custom element
 // <flexrf-widget-KIND>; it never calls customElements.define itself. `host`, `item` or `placement` are set before it is
 // connected. What it may use is in contract.ts.
-import type { ItemInfo, RegisterWidget, WidgetElement } from '../contract';
+import type { ItemInfo, Placement, RegisterWidget, WidgetElement, WidgetHost } from '../contract';
 
 type WidgetClass = new () => WidgetElement;
 
@@ -23,6 +23,8 @@ export interface BuiltInWidgets {
   registerFurther(register: RegisterWidget): Promise<void>;
   /** `item.widget` where it fits or is none of the built-in ones, or else what suits the item's type. */
   kindOf(item: ItemInfo): string;
+  /** The kind of a row [widget.NAME] where that fits its item, or else what suits the item's type. */
+  placedKind(host: WidgetHost, placement: Placement): string;
 }
 
 interface CustomModule {
@@ -73,6 +75,11 @@ export class Registry {
   async kindFor(item: ItemInfo): Promise<string> {
     const builtIn = await this.#builtIns();
     return builtIn.kindOf(item);
+  }
+
+  async kindForRow(host: WidgetHost, placement: Placement): Promise<string> {
+    const builtIn = await this.#builtIns();
+    return builtIn.placedKind(host, placement);
   }
 
   #builtIns(): Promise<BuiltInWidgets> {
