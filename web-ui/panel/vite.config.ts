@@ -20,6 +20,7 @@ export default defineConfig({
     chunkSizeWarningLimit: 700, // the 3D view, which is loaded when it is shown
   },
   server: {
+    fs: { allow: ['.', '../../docs'] }, // a test runs the example that is printed there
     proxy: {
       '/api': { target: application, ws: true, changeOrigin: true, headers: { origin: application } },
       '/application': { target: application, changeOrigin: true },

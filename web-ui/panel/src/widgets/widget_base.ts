@@ -17,7 +17,7 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
   host!: WidgetHost;
   item?: ItemInfo;
   placement?: Placement;
-  /** That this is not the widget which was asked for. */
+  /** Why this is not the widget that was asked for; empty when it is. */
   note = '';
 
   /** Newest reading; undefined before the first. */
@@ -32,7 +32,7 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
     const placed = this.item ?? (this.placement && placedItem(this.host, this.placement));
     if (placed) {
       this.item = placed;
-      this.note = misfit(this.placement ? { ...placed, widget: this.placement.kind } : placed);
+      this.note ||= misfit(this.placement ? { ...placed, widget: this.placement.kind } : placed);
     }
     this.prepare();
     this.takeAccess();
