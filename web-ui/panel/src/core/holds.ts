@@ -4,7 +4,7 @@
 // The widget calls release() on pointerup, pointercancel, lostpointercapture and loss of focus. What no widget sees ends
 // all holds here: the window without focus, a hidden or frozen page, a lost link, a lost control token, Stop motion.
 import type { Hold } from '../contract';
-import type { Connection } from './connection';
+import { linkLost, type Connection } from './connection';
 
 export const refreshPeriod = 100;
 const askingTimeout = 1000;
@@ -78,7 +78,7 @@ export class Holds {
       over(reason);
     };
     const forget = this.link.listen(id, (answer) => {
-      if (!answer.ok) finish(answer.problem.detail ?? answer.problem.title);
+      if (!answer.ok) finish(answer.problem === linkLost ? 'the link is lost' : (answer.problem.detail ?? answer.problem.title));
     });
     const release = (reason: string): void => {
       if (this.#leases.has(entry)) this.link.send({ op: 'release', id: this.link.nextId(), lease });

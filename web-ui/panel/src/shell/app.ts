@@ -111,7 +111,10 @@ export class Panel extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
-    const onHash = (): void => { this.route = this.#fromAddress(); };
+    const onHash = (): void => {
+      this.core.endHolds('another view was opened');
+      this.route = this.#fromAddress();
+    };
     window.addEventListener('hashchange', onHash);
     this.#ends = [
       () => window.removeEventListener('hashchange', onHash),
@@ -174,12 +177,14 @@ export class Panel extends LitElement {
       this.#asked = false;
     } else if (link.detail === 'login' && !this.#asked) {
       this.#asked = true; // once: who closes the dialog finds the button
-      this.dialog = 'login';
+      this.#open('login');
     }
     this.requestUpdate();
   }
 
+  /** The views are dead below a dialog: a jog button would not see its release. */
   #open(dialog: 'none' | 'login' | 'settings'): void {
+    if (dialog !== 'none') this.core.endHolds('a dialog was opened');
     this.dialog = dialog;
   }
 

@@ -1,7 +1,7 @@
 // The control token: who holds it, taking and giving it back, and the question to its holder.
 import { css, html, nothing } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
-import { deniedControl, hasControl } from '../core/access';
+import { deniedControl, deniedLink, hasControl } from '../core/access';
 import { textOf } from '../core/host';
 import { ShellPart } from './part';
 import { shellStyles } from './styles';
@@ -38,7 +38,7 @@ export class Control extends ShellPart {
     return html`
       <span class=${mine ? 'mine' : ''}>${mine ? '✓ You have control' : holder ? `${nameOf(holder)} has control` : 'Nobody has control'}</span>
       ${mine
-        ? html`<button ?disabled=${this.busy} @click=${() => this.#ask('release_control')}>Release</button>`
+        ? html`<button ?disabled=${this.busy || deniedLink(this.core.situation) !== ''} @click=${() => this.#ask('release_control')}>Release</button>`
         : html`<button ?disabled=${this.busy || asked || denied !== ''} aria-describedby="why"
             @click=${() => this.#ask('take_control')}>${asked ? 'Asked…' : holder ? 'Ask for control' : 'Take control'}</button>`}
       ${!mine && (denied || asked) ? html`<small id="why">${asked ? 'The holder has 10 s to refuse.' : denied}</small>` : nothing}

@@ -27,7 +27,7 @@ export class Dialog extends LitElement {
         width: min(30rem, 100%);
         box-sizing: border-box;
       }
-      header {
+      .head {
         display: flex;
         justify-content: space-between;
         align-items: start;
@@ -55,17 +55,17 @@ export class Dialog extends LitElement {
   }
 
   protected override firstUpdated(): void {
-    const wanted = this.querySelector<HTMLElement>('[autofocus]') ?? this.renderRoot.querySelector('section');
+    const wanted = this.querySelector<HTMLElement>('[data-first]') ?? this.renderRoot.querySelector('section');
     wanted?.focus();
   }
 
   protected override render(): unknown {
     return html`
       <section role="dialog" aria-labelledby="heading" tabindex="-1">
-        <header>
+        <div class="head">
           <h2 id="heading">${this.heading}</h2>
           <button aria-label="Close" @click=${() => this.#close()}>✕</button>
-        </header>
+        </div>
         <slot></slot>
       </section>
     `;

@@ -46,6 +46,11 @@ export class Header extends ShellPart {
       .link {
         font-variant-numeric: tabular-nums;
       }
+      .stale :is(span, flexrf-control) {
+        color: var(--flexrf-stale);
+        font-style: italic;
+        font-weight: 400;
+      }
       .session {
         margin-inline-start: auto;
       }
@@ -90,17 +95,18 @@ export class Header extends ShellPart {
   protected override render(): unknown {
     const { core } = this;
     const { state, session } = core;
+    const stale = core.link.stale ? 'stale' : '';
     const motion = motionOf(state);
     const abnormal = motion === 'stopped' ? 'alarm' : motion === 'inhibited' ? 'warning' : '';
     return html`
       <h1>${core.application || 'FlexRF'}</h1>
-      <div>
+      <div class=${stale}>
         <span class=${state && state.mode !== 'running' && state.mode !== 'starting' ? 'warning' : ''}>${state ? modeText(state.mode) : '–'}</span>
         <span class=${abnormal}>${abnormal === 'alarm' ? '■ ' : abnormal ? '⚠ ' : ''}${motionText[motion]}</span>
         ${motion === 'stopped' ? this.#action('clear_stop_motion', 'Clear stop') : nothing}
         ${motion === 'inhibited' ? this.#action('start_motion', 'Start motion') : nothing}
       </div>
-      <flexrf-control .core=${core}></flexrf-control>
+      <div class=${stale}><flexrf-control .core=${core}></flexrf-control></div>
       <div class="session">
         <span class="link"></span>
         <small>${session ? `${session.user || session.name}: ${session.role}` : ''}</small>

@@ -33,7 +33,7 @@ export class Login extends LitElement {
     return html`
       <flexrf-dialog heading="Log in" @close=${() => this.#close()}>
         <form @submit=${(event: SubmitEvent) => this.#submit(event)}>
-          <label>User <input name="user" autocomplete="username" autocapitalize="none" autofocus required /></label>
+          <label>User <input name="user" autocomplete="username" autocapitalize="none" data-first required /></label>
           <label>Password <input name="password" type="password" autocomplete="current-password" required /></label>
           ${this.refusal ? html`<p class="alarm" role="alert">✕ ${this.refusal}</p>` : nothing}
           <button class="first" ?disabled=${this.busy}>${this.busy ? 'Logging in…' : 'Log in'}</button>

@@ -54,7 +54,7 @@ export class StopMotion extends ShellPart {
 
   protected override render(): unknown {
     const dead = this.core.link.phase !== 'open' || this.core.link.stale;
-    const stopped = motionOf(this.core.state) === 'stopped';
+    const stopped = !dead && motionOf(this.core.state) === 'stopped';
     return html`
       <button aria-disabled=${dead} aria-pressed=${stopped} aria-describedby="what"
         @pointerdown=${(event: PointerEvent) => event.button === 0 && this.#stop()}

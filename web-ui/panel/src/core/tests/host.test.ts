@@ -1,0 +1,124 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { ConfigurationValues } from '../configuration';
+import { makeModel } from '../descriptor';
+import { Holds } from '../holds';
+import { Host } from '../host';
+import type { Answer } from '../protocol';
+import { Store } from '../store';
+import { Subscriptions } from '../subscriptions';
+import { sample } from './sample';
+
+const model = makeModel(sample);
+let answers: ((answer: object) => void)[] = [];
+const request = vi.fn<(op: string, fields: object) => Promise<Answer>>();
+const fetchValues = vi.fn(() => Promise.resolve({ lag: 0.75 }));
+let host: Host;
+let subscriptions: Subscriptions;
+
+beforeEach(() => {
+  answers = [];
+  request.mockReset().mockImplementation(() => new Promise((resolve) => {
+    answers.push((answer) => resolve(answer as Answer));
+  }));
+  fetchValues.mockClear();
+  const store = new Store({ serverNow: () => 0 });
+  store.reset(model);
+  subscriptions = new Subscriptions({ request, onSlotGone: () => undefined, onProblem: () => undefined });
+  host = new Host({
+    item: (key) => model.item(key), store, subscriptions,
+    configuration: new ConfigurationValues(fetchValues),
+    holds: new Holds({ request: request as never, send: () => true, nextId: () => 1, listen: () => () => undefined }),
+    request: request as never,
+    locked: (item) => (item ? '' : 'unknown'),
+    stale: () => false,
+    watchAccess: () => () => undefined,
+  });
+});
+afterEach(() => vi.unstubAllGlobals());
+
+describe('set', () => {
+  it('sends one value, and of those that follow before the answer only the newest', async () => {
+    const outcomes = [1, 2, 3, 4].map((value) => host.set('jog.step', value));
+    expect(request.mock.calls).toEqual([['set', { component: 'jog', values: { step: 1 } }]]);
+    answers[0]?.({ id: 1, ok: true, sequence: 1, values: { step: 1 } });
+    expect(await outcomes[0]).toEqual({ ok: true, values: { step: 1 } });
+    await vi.waitFor(() => expect(request).toHaveBeenCalledTimes(2));
+    expect(request).toHaveBeenLastCalledWith('set', { component: 'jog', values: { step: 4 } });
+    answers[1]?.({ id: 2, ok: false, problem: { title: 'Refused', detail: 'above 0.05', parameter: 'step' } });
+    const refused = { ok: false, detail: 'above 0.05', parameter: 'step' };
+    expect(await Promise.all(outcomes.slice(1))).toEqual([refused, refused, refused]);
+    void host.set('jog.step', 5);
+    expect(request).toHaveBeenLastCalledWith('set', { component: 'jog', values: { step: 5 } });
+  });
+  it('does not make one parameter wait for another', () => {
+    void host.set('jog.step', 1);
+    void host.set('jog.gains[1][2]', 7);
+    expect(request).toHaveBeenLastCalledWith('set', { component: 'jog', values: { 'gains[1][2]': 7 } });
+  });
+  it('refuses what is no parameter', async () => {
+    expect(await host.set('nothing', 1)).toMatchObject({ ok: false });
+    expect(await host.set('jog.feedback.presses', 1)).toMatchObject({ ok: false });
+    expect(request).not.toHaveBeenCalled();
+  });
+});
+
+describe('other operations', () => {
+  it('press, with a count', async () => {
+    const outcome = host.press('jog.home', 2);
+    expect(request).toHaveBeenCalledWith('press', { component: 'jog', parameter: 'home', count: 2 });
+    answers[0]?.({ id: 1, ok: true });
+    expect(await outcome).toEqual({ ok: true });
+  });
+  it('reset one parameter', () => {
+    void host.reset('jog.step');
+    expect(request).toHaveBeenCalledWith('reset', { component: 'jog', parameters: ['step'] });
+  });
+  it('hold', async () => {
+    const hold = host.hold('jog.forward');
+    answers[0]?.({ id: 1, ok: true, lease: 'a' });
+    (await hold).release();
+    await expect(host.hold('nothing')).rejects.toThrow();
+  });
+});
+
+describe('watch', () => {
+  it('subscribes to the slot behind the item, with rate and width', () => {
+    vi.useFakeTimers();
+    const end = host.watch('jog.feedback.mode', () => undefined, { rate: 5 });
+    host.watch('slot:camera', () => undefined, { rate: 15, width: 320 });
+    subscriptions.resubscribe();
+    expect(request).toHaveBeenLastCalledWith('subscribe', {
+      slots: [{ name: 'jog.feedback', rate: 5 }, { name: 'camera', rate: 15, width: 320 }], topics: [],
+    });
+    end();
+    subscriptions.resubscribe();
+    expect(request).toHaveBeenLastCalledWith('subscribe', { slots: [{ name: 'camera', rate: 15, width: 320 }], topics: [] });
+    vi.useRealTimers();
+  });
+  it('asks once for a component\'s configuration', async () => {
+    const first = vi.fn();
+    const second = vi.fn();
+    host.watch('jog.configuration.lag', first);
+    host.watch('jog.configuration.lag', second);
+    await vi.waitFor(() => expect(second).toHaveBeenCalledWith(expect.objectContaining({ value: 0.75, reason: '' })));
+    expect(first).toHaveBeenCalledOnce();
+    expect(fetchValues).toHaveBeenCalledExactlyOnceWith('jog');
+  });
+  it('says so when nothing has this name', () => {
+    const callback = vi.fn();
+    host.watch('nothing', callback);
+    expect(callback).toHaveBeenCalledWith(expect.objectContaining({ value: null, reason: 'nothing is called nothing' }));
+  });
+});
+
+describe('file', () => {
+  it('is one of the application\'s folder', async () => {
+    const fetched = vi.fn(() => Promise.resolve(new Response('x')));
+    vi.stubGlobal('fetch', fetched);
+    await host.file('robots/./a b.urdf');
+    expect(fetched).toHaveBeenCalledWith('/application/robots/a%20b.urdf');
+    await expect(host.file('../secret')).rejects.toThrow();
+    await expect(host.file('https://elsewhere/x')).rejects.toThrow();
+    expect(fetched).toHaveBeenCalledOnce();
+  });
+});
