@@ -4,6 +4,8 @@ import type { Answer } from './protocol';
 export const longestMessage = 16_000; // bytes; the server takes 16 KiB
 const highestRate = 60;
 const highestTopicRate = 10;
+const lowestRate = 0.01;
+const widestImage = 4096;
 
 interface Wish {
   readonly rate: number;
@@ -28,11 +30,12 @@ export class Subscriptions {
 
   /** `width` in pixels, of an image; 0 for others. Ends with the returned function. */
   addSlot(slot: string, rate: number, width = 0): () => void {
-    return this.#add(this.#slots, slot, { rate: Math.min(rate, highestRate), width }, this.options.onSlotGone);
+    const wish = { rate: within(rate, highestRate), width: Math.min(Math.ceil(width), widestImage) };
+    return this.#add(this.#slots, slot, wish, this.options.onSlotGone);
   }
 
   addTopic(topic: string, rate: number): () => void {
-    return this.#add(this.#topics, topic, { rate: Math.min(rate, highestTopicRate), width: 0 });
+    return this.#add(this.#topics, topic, { rate: within(rate, highestTopicRate), width: 0 });
   }
 
   /** A new connection knows of nothing. */
@@ -81,6 +84,10 @@ export class Subscriptions {
       if (answer.ok && answer.unknown?.length) this.options.onProblem(`The application does not know ${answer.unknown.join(', ')}.`);
     });
   }
+}
+
+function within(rate: number, most: number): number {
+  return Math.min(Math.max(rate, lowestRate), most);
 }
 
 function highest(wishes: ReadonlySet<Wish>, of: (wish: Wish) => number): number {

@@ -113,7 +113,7 @@ export class Overview extends ViewBase {
         <h3>State</h3>
         ${state
           ? html`<dl>
-              <dt>Application</dt><dd>${modeText(state.mode)}${state.cause ? `: ${state.cause}` : ''}</dd>
+              <dt>Application</dt><dd>${modeText(state.mode)}${state.cause && state.cause !== 'none' ? `: ${state.cause}` : ''}</dd>
               <dt>Motion</dt><dd>${motionText[motionOf(state)]}</dd>
               ${state.edit ? html`<dt>Being edited</dt><dd>${state.edit.components.join(', ')}</dd>` : nothing}
               <dt>Pages open</dt><dd>${state.server.connections} of ${state.server.places}</dd>
