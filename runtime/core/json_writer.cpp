@@ -28,7 +28,7 @@ std::size_t utf8_length(std::string_view text) noexcept {
 JsonWriter& JsonWriter::key(std::string_view name) {
   begin_value();
   write_text(name);
-  text_ += ": ";
+  text_ += style_ == Style::compact ? ":" : ": ";
   after_key_ = true;
   return *this;
 }
@@ -73,23 +73,31 @@ JsonWriter& JsonWriter::null() {
   return *this;
 }
 
+JsonWriter& JsonWriter::raw(std::string_view json) {
+  begin_value();
+  text_ += json;
+  return *this;
+}
+
 std::string JsonWriter::take() {
   text_ += '\n';
   std::string text = std::move(text_);
-  *this = {};
+  *this = JsonWriter({}, style_);
   return text;
 }
 
 JsonWriter& JsonWriter::open(char bracket) {
   begin_value();
   text_ += bracket;
-  filled_.push_back(false);
+  filled_ <<= 1;
+  ++depth_;
   return *this;
 }
 
 JsonWriter& JsonWriter::close(char bracket) {
-  const bool filled = filled_.back();
-  filled_.pop_back();
+  const bool filled = (filled_ & 1) != 0;
+  filled_ >>= 1;
+  --depth_;
   if (filled) new_line();
   text_ += bracket;
   return *this;
@@ -100,15 +108,16 @@ void JsonWriter::begin_value() {
     after_key_ = false;
     return;
   }
-  if (filled_.empty()) return;
-  if (filled_.back()) text_ += ',';
-  filled_.back() = true;
+  if (depth_ == 0) return;
+  if ((filled_ & 1) != 0) text_ += ',';
+  filled_ |= 1;
   new_line();
 }
 
 void JsonWriter::new_line() {
+  if (style_ == Style::compact) return;
   text_ += '\n';
-  text_.append(2 * filled_.size(), ' ');
+  text_.append(2 * std::size_t{depth_}, ' ');
 }
 
 void JsonWriter::write_text(std::string_view text) {

@@ -5,16 +5,23 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 namespace flexrf {
 
-/// RFC 8259, UTF-8, a line per member or element, indented by two blanks. Bytes that are no UTF-8 become
-/// U+FFFD; numbers are the shortest that read back the same; NaN and infinities, which JSON has not, are
-/// null. The caller closes what it opened, and gives each member of an object its key. Allocates: not for
-/// real-time threads.
+/// RFC 8259, UTF-8; for people a line per member or element, indented by two blanks, for programs without
+/// blanks. Bytes that are no UTF-8 become U+FFFD; numbers are the shortest that read back the same; NaN and
+/// infinities, which JSON has not, are null. The caller closes what it opened, at most 64 levels, and gives
+/// each member of an object its key. Allocates where its text must grow: not for real-time threads.
 class JsonWriter {
  public:
+  enum class Style : std::uint8_t { indented, compact };
+
+  JsonWriter() = default;
+  /// Appends to `text`, whose memory is used first; release() gives it back.
+  explicit JsonWriter(std::string text, Style style = Style::compact) noexcept
+      : text_(std::move(text)), style_(style) {}
+
   JsonWriter& begin_object() { return open('{'); }
   JsonWriter& end_object() { return close('}'); }
   JsonWriter& begin_array() { return open('['); }
@@ -32,6 +39,8 @@ class JsonWriter {
   template <std::unsigned_integral Integer>
   requires(!std::same_as<Integer, bool>) JsonWriter& value(Integer number) { return unsigned_value(number); }
   JsonWriter& null();
+  /// A value that is JSON already.
+  JsonWriter& raw(std::string_view json);
 
   template <class Value>
   JsonWriter& member(std::string_view name, const Value& member_value) {
@@ -40,6 +49,8 @@ class JsonWriter {
 
   /// The text so far, with a line feed at its end; the writer begins anew.
   std::string take();
+  /// The text so far as it is; the writer is of no more use.
+  std::string release() noexcept { return std::move(text_); }
 
  private:
   JsonWriter& open(char bracket);
@@ -51,7 +62,9 @@ class JsonWriter {
   void write_text(std::string_view text);
 
   std::string text_;
-  std::vector<bool> filled_;  // per open bracket: has something in it
+  std::uint64_t filled_ = 0;  // per open bracket, the innermost lowest: has something in it
+  std::uint32_t depth_ = 0;
+  Style style_ = Style::indented;
   bool after_key_ = false;
 };
 

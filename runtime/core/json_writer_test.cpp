@@ -87,6 +87,21 @@ void a_writer_begins_anew_after_take(void**) {
       "[\n  1\n]\n[\n  2\n]\n");
 }
 
+void compact_text_has_no_blanks_and_keeps_its_memory(void**) {
+  expect(
+      [] {
+        std::string text = "id: ";
+        text.reserve(256);
+        const char* const memory = text.data();
+        JsonWriter json(std::move(text));
+        json.begin_object().member("a", 1).key("b").raw("[2]").key("c").begin_array();
+        json.value("x").null().end_array().key("d").begin_object().end_object().end_object();
+        text = json.release();
+        return text.data() == memory ? text : "another memory";
+      },
+      R"(id: {"a":1,"b":[2],"c":["x",null],"d":{}})");
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -99,6 +114,7 @@ int main() {
       cmocka_unit_test(texts_are_escaped),
       cmocka_unit_test(bytes_that_are_no_text_are_replaced),
       cmocka_unit_test(a_writer_begins_anew_after_take),
+      cmocka_unit_test(compact_text_has_no_blanks_and_keeps_its_memory),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
