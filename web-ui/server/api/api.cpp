@@ -1,0 +1,173 @@
+#include "web-ui/server/api/api.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "web-ui/server/api/live_session.hpp"
+#include "web-ui/server/api/rest_handler.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+/// How often it is looked whether other threads have answered.
+constexpr Duration answer_interval = std::chrono::milliseconds{1};
+/// For sending in one turn: together with the rest it stays below what a turn may take.
+constexpr Duration sending_time = std::chrono::milliseconds{3};
+
+/// Tells this start of the application from all others.
+std::string new_boot() {
+  std::random_device random;
+  char text[20];
+  std::snprintf(text, sizeof(text), "%08x%08x", random(), random());
+  return text;
+}
+
+}  // namespace
+
+struct Api::Parts final : public Ticked, public ControlWatcher, public SessionWatcher {
+  Parts(Executive& executive_to_serve, AccessControl& access_control, LaterReplies& replies,
+        std::uint32_t places)
+      : executive(executive_to_serve), access(access_control), clients(places), answers(clients, replies) {}
+
+  /// What needs the cell's objects, which Executive::prepare() constructs.
+  void make();
+
+  void on_tick(Time now) override;
+  Duration until_next(Time now) const override;
+  void on_control_changed(SessionIndex from, SessionIndex to) override;
+  void on_session_ended(SessionIndex session) override;
+
+  /// All that is made of the application, in the order in which one builds on the other.
+  struct Made {
+    Made(Parts& parts, Executive& executive, AccessControl& access);
+
+    Directory directory;
+    ObservedSlots slots;
+    ConfigurationValues configuration;
+    ComponentValues values;
+    ImageWorker images;
+    ImageRequests pictures;
+    ParameterOperations parameters;
+    EditOperations edits;
+    MotionOperations motion;
+    LifecycleOperations lifecycle;
+    Operations operations;
+    StateEvent state;
+    TopicBodies topics;
+    FrameWriter frames;
+    Subscriptions subscriptions;
+    LiveSession live;
+    RestHandler rest;
+  };
+
+  Executive& executive;
+  AccessControl& access;
+  Clients clients;
+  Answers answers;
+  Permission permission{access, answers};
+  JsonReader reader;
+  std::string boot = new_boot();
+  std::optional<Made> made;
+};
+
+Api::Parts::Made::Made(Parts& parts, Executive& executive, AccessControl& access)
+    : directory(executive.cell()),
+      slots(executive.cell()),
+      configuration(executive.cell(), directory),
+      values(directory, slots, configuration),
+      images(executive.cell()),
+      pictures(images, parts.answers),
+      parameters(executive.cell(), directory, slots, values, parts.answers, parts.permission, parts.boot),
+      edits(executive, directory, configuration, values, parts.answers, parts.permission),
+      motion(executive, access, parts.answers, parts.permission, parameters, edits),
+      lifecycle(executive, directory, parts.answers, parts.permission),
+      operations{directory, parts.answers, parameters, motion, edits, lifecycle},
+      state(executive, directory, access, edits),
+      topics(executive),
+      frames(executive.cell(), slots, images),
+      subscriptions(parts.clients, directory, executive.cell().application(), images, parts.answers),
+      live({executive, access, parts.clients, parts.reader, operations, subscriptions, state, topics, frames,
+            parts.boot}),
+      rest({executive, access, parts.reader, operations, parts.permission, slots, values, images, pictures,
+            state, topics, parts.boot}) {}
+
+void Api::Parts::make() {
+  made.emplace(*this, executive, access);
+}
+
+void Api::Parts::on_tick(Time now) {
+  made->slots.begin_turn();
+  made->parameters.tick(now);
+  made->edits.tick(now);
+  made->lifecycle.tick();
+  made->pictures.tick(now);
+  made->state.update(now);
+  made->live.send_all(now, MonotonicClock::now() + sending_time);
+}
+
+Duration Api::Parts::until_next(Time now) const {
+  Time next = std::min(made->live.next(now), made->state.next());
+  if (made->parameters.is_waiting() || made->edits.is_waiting() || made->lifecycle.is_waiting() ||
+      made->pictures.is_waiting())
+    next = std::min(next, now + answer_interval);
+  return next > now ? next - now : Duration{};
+}
+
+void Api::Parts::on_control_changed(SessionIndex from, SessionIndex /*to*/) {
+  if (from == no_session) return;
+  made->parameters.end_holds_of_session(from, MonotonicClock::now());
+  made->edits.on_control_lost(from);
+}
+
+void Api::Parts::on_session_ended(SessionIndex session) {
+  made->parameters.end_holds_of_session(session, MonotonicClock::now());
+  made->edits.on_control_lost(session);
+  made->live.close_session(session);
+}
+
+Api::Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places)
+    : parts_(std::make_unique<Parts>(executive, access, replies, places)) {}
+
+Api::~Api() = default;
+
+Status Api::prepare() {
+  parts_->make();
+  return parts_->made->parameters.prepare();
+}
+
+Status Api::start() {
+  return parts_->made->images.start();
+}
+
+void Api::stop() noexcept {
+  if (parts_->made) parts_->made->images.stop();
+}
+
+RequestHandler& Api::rest() noexcept {
+  return parts_->made->rest;
+}
+
+LiveHandler& Api::live() noexcept {
+  return parts_->made->live;
+}
+
+Ticked& Api::ticked() noexcept {
+  return *parts_;
+}
+
+ControlWatcher& Api::control_watcher() noexcept {
+  return *parts_;
+}
+
+SessionWatcher& Api::session_watcher() noexcept {
+  return *parts_;
+}
+
+void Api::set_figures(const ServerFigures& figures) noexcept {
+  parts_->made->state.set_figures(figures);
+}
+
+}  // namespace flexrf::panel

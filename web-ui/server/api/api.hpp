@@ -1,0 +1,52 @@
+// What the panel's server says under /api/v1, REST and live, without sockets.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "runtime/core/status.hpp"
+#include "web-ui/server/access.hpp"
+#include "web-ui/server/exchange.hpp"
+#include "web-ui/server/live_link.hpp"
+#include "web-ui/server/server_services.hpp"
+
+namespace flexrf {
+class Executive;
+}
+
+namespace flexrf::panel {
+
+/// All functions but those that say otherwise: the server's thread. None takes longer than 5 ms, none
+/// allocates in the steady state (subscribed values, refreshed holds, reading of values).
+class Api {
+ public:
+  /// `places`: connections that the server has, each LiveLink's place is below. The main thread, before the
+  /// executive runs; all outlive the Api.
+  Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places);
+  Api(const Api&) = delete;
+  Api& operator=(const Api&) = delete;
+  ~Api();
+
+  /// After Executive::prepare(), before anything runs: registers as a requester. The main thread.
+  Status prepare();
+  /// Starts the worker that encodes pictures; it inherits CPUs and signal mask. The main thread.
+  Status start();
+  /// Ends the worker. After the server's thread ended. The main thread.
+  void stop() noexcept;
+
+  /// All paths under /api/v1 but `session`, `login`, `logout` and `live`.
+  RequestHandler& rest() noexcept;
+  LiveHandler& live() noexcept;
+  /// Answers, time-outs, events, frames.
+  Ticked& ticked() noexcept;
+  ControlWatcher& control_watcher() noexcept;
+  SessionWatcher& session_watcher() noexcept;
+  /// For the `state` event; as often as they are known anew.
+  void set_figures(const ServerFigures& figures) noexcept;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace flexrf::panel

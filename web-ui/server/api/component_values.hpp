@@ -1,0 +1,39 @@
+// The parameters of a component as JSON.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/core/json_writer.hpp"
+#include "web-ui/server/api/configuration_values.hpp"
+#include "web-ui/server/api/directory.hpp"
+#include "web-ui/server/api/observed_slots.hpp"
+
+namespace flexrf::panel {
+
+/// The server's thread. What a component has none of is {}; what is not known yet is null.
+class ComponentValues {
+ public:
+  ComponentValues(const Directory& directory, ObservedSlots& slots,
+                  const ConfigurationValues& configuration) noexcept
+      : directory_(&directory), slots_(&slots), configuration_(&configuration) {}
+
+  /// Sequence of the runtime parameters in force; 0: none.
+  std::uint64_t sequence(ComponentIndex component);
+  /// Each writes one value.
+  void write_runtime(JsonWriter& json, ComponentIndex component);
+  void write_feedback(JsonWriter& json, ComponentIndex component);
+  void write_configuration(JsonWriter& json, ComponentIndex component);
+  /// Members "sequence", "configuration", "runtime" and "feedback".
+  void write_all(JsonWriter& json, ComponentIndex component);
+
+ private:
+  void write_slot(JsonWriter& json, std::uint16_t slot, const TypeDescriptor* type);
+
+  const Directory* directory_;
+  ObservedSlots* slots_;
+  const ConfigurationValues* configuration_;
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace flexrf::panel

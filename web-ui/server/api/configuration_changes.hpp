@@ -1,0 +1,24 @@
+// From the values that a client writes to the changes of a reconfiguration.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/parameters/reconfigure.hpp"
+#include "web-ui/server/api/directory.hpp"
+#include "web-ui/server/api/json_reader.hpp"
+
+namespace flexrf::panel {
+
+/// What a client wants changed, and everything that is wrong with it.
+struct WantedChanges {
+  std::vector<ConfigurationChange> changes;
+  std::vector<std::string> causes;  ///< "jog.limits: ...", one per problem; empty when all is right
+  std::vector<ComponentIndex> components;
+  Role role = Role::engineer;  ///< the greatest that the parameters ask for
+};
+
+/// Of `[{"component", "values": {PATH: value}}, ...]`. Allocates.
+WantedChanges read_changes(const Directory& directory, JsonArray changes);
+
+}  // namespace flexrf::panel

@@ -1,0 +1,63 @@
+#include "web-ui/server/api/directory.hpp"
+
+#include <algorithm>
+
+#include "runtime/core/nearest_name.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+std::uint16_t index_of(const Application& application, const SlotControl* control) noexcept {
+  if (control == nullptr) return no_index;
+  for (std::size_t i = 0; i < application.slots.size(); ++i) {
+    if (application.slots[i].control == control) return static_cast<std::uint16_t>(i);
+  }
+  return no_index;
+}
+
+}  // namespace
+
+Directory::Directory(Cell& cell) {
+  const Application& application = cell.application();
+  for (const UnitRecord& unit : application.units) {
+    const auto index = static_cast<ComponentIndex>(components_.size());
+    components_.push_back({unit.name, true, &cell.component(index).type_in_force(),
+                           index_of(application, unit.runtime_slot),
+                           index_of(application, unit.feedback_slot)});
+  }
+  for (const DeviceRecord& device : application.devices) {
+    const auto index = static_cast<ComponentIndex>(components_.size());
+    components_.push_back({device.name, false, &cell.component(index).type_in_force(),
+                           index_of(application, device.runtime_slot),
+                           index_of(application, device.feedback_slot)});
+  }
+  for (std::size_t i = 0; i < components_.size(); ++i)
+    component_names_.emplace(components_[i].name, static_cast<std::uint16_t>(i));
+  for (std::size_t i = 0; i < application.slots.size(); ++i)
+    slot_names_.emplace(application.slots[i].name, static_cast<std::uint16_t>(i));
+}
+
+std::optional<std::uint16_t> Directory::find(const Names& names, std::string_view name) noexcept {
+  const auto found = names.find(name);
+  return found == names.end() ? std::nullopt : std::optional{found->second};
+}
+
+Refusal Directory::unknown(const char* what, const Names& names, std::string_view name) noexcept {
+  NearestName nearest(name);
+  for (const auto& [known, index] : names) nearest.offer(known);
+  const std::string_view best = nearest.best();
+  return Refusal::make(RefusalKind::not_found, "There is no %s '%.*s'%s%.*s%s", what,
+                       static_cast<int>(std::min<std::size_t>(name.size(), 80)), name.data(),
+                       best.empty() ? "; descriptor.json has the names." : "; did you mean '",
+                       static_cast<int>(best.size()), best.data(), best.empty() ? "" : "'?");
+}
+
+Refusal Directory::no_component(std::string_view name) const noexcept {
+  return unknown("unit or device", component_names_, name);
+}
+
+Refusal Directory::no_slot(std::string_view name) const noexcept {
+  return unknown("slot", slot_names_, name);
+}
+
+}  // namespace flexrf::panel

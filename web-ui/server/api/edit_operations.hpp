@@ -1,0 +1,74 @@
+// The configuration flow: edit, apply, discard; and a reconfiguration in one request.
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "runtime/executive/executive.hpp"
+#include "web-ui/server/api/answers.hpp"
+#include "web-ui/server/api/component_values.hpp"
+#include "web-ui/server/api/configuration_changes.hpp"
+#include "web-ui/server/api/json_reader.hpp"
+#include "web-ui/server/api/mailbox.hpp"
+
+namespace flexrf::panel {
+
+/// One edit at a time; while it is open nothing moves. The server's thread.
+class EditOperations {
+ public:
+  /// Since it was begun, or since it was last applied in vain.
+  static constexpr Duration lifetime = std::chrono::minutes{5};
+
+  EditOperations(Executive& executive, const Directory& directory, ConfigurationValues& configuration,
+                 ComponentValues& values, Answers& answers, Permission& permission)
+      : executive_(&executive),
+        directory_(&directory),
+        configuration_(&configuration),
+        values_(&values),
+        answers_(&answers),
+        permission_(&permission) {}
+
+  void begin(const Caller& caller, JsonArray components, Time now);
+  void apply(const Caller& caller, std::string_view edit, JsonArray changes, Time now);
+  void discard(const Caller& caller, std::string_view edit);
+  /// All in one.
+  void reconfigure(const Caller& caller, JsonArray changes, Time now);
+
+  /// An edit that is not being applied ends with its session's control.
+  void on_control_lost(SessionIndex session);
+  void tick(Time now);
+
+  bool is_open() const noexcept { return number_ != 0; }
+  bool is_waiting() const noexcept { return applying_; }
+  SessionIndex owner() const noexcept { return owner_; }
+  const std::vector<ComponentIndex>& components() const noexcept { return components_; }
+  Duration left(Time now) const noexcept { return ends_at_ > now ? ends_at_ - now : Duration{}; }
+  /// Rises when an edit opens or ends.
+  std::uint64_t revision() const noexcept { return revision_; }
+
+ private:
+  bool is_mine(const Caller& caller, std::string_view edit);
+  bool is_at_rest(const Caller& caller);
+  void run(const Caller& caller, const WantedChanges& wanted);
+  void answer(const Caller& caller, const ReconfigureResult& result);
+  void end() noexcept;
+
+  Executive* executive_;
+  const Directory* directory_;
+  ConfigurationValues* configuration_;
+  ComponentValues* values_;
+  Answers* answers_;
+  Permission* permission_;
+  std::shared_ptr<Mailbox<ReconfigureResult>> results_ = std::make_shared<Mailbox<ReconfigureResult>>();
+  std::uint64_t number_ = 0;  // of the open edit; 0: none
+  std::uint64_t last_number_ = 0;
+  std::uint64_t revision_ = 1;
+  SessionIndex owner_ = no_session;
+  std::vector<ComponentIndex> components_;
+  Time ends_at_{};
+  bool applying_ = false;
+  Caller applier_;
+};
+
+}  // namespace flexrf::panel

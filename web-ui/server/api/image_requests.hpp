@@ -1,0 +1,36 @@
+// Pictures asked for by REST: each waits until the worker has looked at its slot.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "web-ui/server/api/answers.hpp"
+#include "web-ui/server/api/image_worker.hpp"
+
+namespace flexrf::panel {
+
+/// The server's thread.
+class ImageRequests {
+ public:
+  ImageRequests(ImageWorker& images, Answers& answers) noexcept : images_(&images), answers_(&answers) {}
+
+  /// Answers `caller` within 2 s.
+  void ask(const Caller& caller, std::uint16_t slot, std::uint32_t width, Time now);
+  void tick(Time now);
+  bool is_waiting() const noexcept { return count_ != 0; }
+
+ private:
+  struct Waiting {
+    Caller caller;  // nobody: the place is free
+    std::uint16_t slot = 0;
+    std::uint64_t version = 0;  // that is too old
+    Time overdue_at{};
+  };
+
+  ImageWorker* images_;
+  Answers* answers_;
+  std::array<Waiting, 16> waiting_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace flexrf::panel

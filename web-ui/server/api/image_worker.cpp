@@ -1,0 +1,138 @@
+#include "web-ui/server/api/image_worker.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <system_error>
+
+namespace flexrf::panel {
+
+ImageWorker::ImageWorker(Cell& cell) : cell_(&cell), slots_(cell.application().slots.size()) {
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const SlotRecord& record = cell.application().slots[i];
+    const PictureLayout layout = PictureLayout::of(*record.control->type());
+    if (!record.control->type()->is_image || record.observer == nullptr || !layout.is_complete()) continue;
+    slots_[i] = std::make_unique<Slot>();
+    slots_[i]->layout = layout;
+  }
+}
+
+Status ImageWorker::start() {
+  const bool has_any =
+      std::any_of(slots_.begin(), slots_.end(), [](const auto& slot) { return slot != nullptr; });
+  if (!has_any || thread_.joinable()) return {};
+  try {
+    thread_ = std::thread([this] {
+      pthread_setname_np(pthread_self(), "panel-pictures");
+      run();
+    });
+  } catch (const std::system_error& error) {
+    return Status::error(StatusCode::unavailable, "the panel's thread for pictures: %s", error.what());
+  }
+  return {};
+}
+
+void ImageWorker::stop() noexcept {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void ImageWorker::demand(std::uint16_t index, std::uint32_t width, Duration interval) {
+  Slot& slot = *slots_[index];
+  {
+    const std::lock_guard lock(mutex_);
+    if (slot.width == width && slot.interval == interval) return;
+    slot.width = width;
+    slot.interval = interval;
+    slot.due = MonotonicClock::now();
+  }
+  wake_.notify_one();
+}
+
+void ImageWorker::demand_once(std::uint16_t index, std::uint32_t width) {
+  Slot& slot = *slots_[index];
+  {
+    const std::lock_guard lock(mutex_);
+    slot.width_once = std::max(slot.width_once, width);
+  }
+  wake_.notify_one();
+}
+
+ImageWorker::Newest ImageWorker::newest(std::uint16_t index) const {
+  const std::lock_guard lock(mutex_);
+  return slots_[index]->newest;
+}
+
+bool ImageWorker::copy(std::uint16_t index, std::string& to, Newest& newest, const char*& cause) const {
+  const Slot& slot = *slots_[index];
+  const std::lock_guard lock(mutex_);
+  newest = slot.newest;
+  cause = slot.cause;
+  if (slot.newest.size == 0) return false;
+  to += slot.jpeg;
+  return true;
+}
+
+void ImageWorker::run() {
+  std::unique_lock lock(mutex_);
+  while (!ends_) {
+    const Time now = MonotonicClock::now();
+    Time next = now + std::chrono::seconds{1};
+    bool encoded = false;
+    for (std::size_t i = 0; i < slots_.size() && !ends_; ++i) {
+      if (slots_[i] == nullptr) continue;
+      Slot& slot = *slots_[i];
+      const bool looked_at = slot.interval.count() > 0;
+      if (slot.width_once == 0 && (!looked_at || now < slot.due)) {
+        if (looked_at) next = std::min(next, slot.due);
+        continue;
+      }
+      const std::uint32_t width = std::max(looked_at ? slot.width : 0, slot.width_once);
+      slot.width_once = 0;
+      if (looked_at) slot.due = std::max(slot.due + slot.interval, now);
+      lock.unlock();
+      encode(static_cast<std::uint16_t>(i), slot, width);
+      lock.lock();
+      encoded = true;
+    }
+    if (encoded || ends_) continue;
+    wake_.wait_for(lock, next - now);
+  }
+}
+
+void ImageWorker::encode(std::uint16_t index, Slot& slot, std::uint32_t width) {
+  const SlotRecord& record = cell_->application().slots[index];
+  const std::size_t size = record.control->type()->size;
+  if (slot.raw.size() != size) slot.raw.resize(size);
+  ItemHeader header{};
+  bool copied = false;
+  {
+    const auto lock = cell_->observe();
+    if (const ItemHeader* const newest = record.observer->newest(); newest != nullptr) {
+      header = *newest;
+      copied = header.sequence != slot.encoded_sequence || width > slot.encoded_width;
+      if (copied) std::memcpy(slot.raw.data(), record.observer->payload(), size);
+    }
+  }
+  NullReason reason = null_reason_of(record.control->writer_state());
+  if (reason == NullReason::none && header.sequence == 0) reason = NullReason::nothing_yet;
+  const std::string_view jpeg =
+      copied ? slot.encoder.encode(slot.layout, slot.raw.data(), width) : std::string_view{};
+  const std::lock_guard lock(mutex_);
+  if (copied) {
+    slot.encoded_sequence = header.sequence;
+    slot.encoded_width = width;
+    slot.jpeg.assign(jpeg);
+    slot.newest.header = header;
+  }
+  slot.cause = reason == NullReason::none ? slot.encoder.cause() : name_of(reason);
+  slot.newest.reason = reason;
+  slot.newest.size = reason == NullReason::none ? slot.jpeg.size() : 0;
+  ++slot.newest.version;
+}
+
+}  // namespace flexrf::panel

@@ -1,0 +1,47 @@
+// Start, stop and initialise of one component, as its lifecycle thread does them.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "runtime/executive/executive.hpp"
+#include "web-ui/server/api/answers.hpp"
+#include "web-ui/server/api/directory.hpp"
+#include "web-ui/server/api/mailbox.hpp"
+
+namespace flexrf::panel {
+
+/// Answers its caller when it is done. The server's thread.
+class LifecycleOperations {
+ public:
+  LifecycleOperations(Executive& executive, const Directory& directory, Answers& answers,
+                      Permission& permission)
+      : executive_(&executive), directory_(&directory), answers_(&answers), permission_(&permission) {}
+
+  void act(const Caller& caller, ComponentIndex component, ComponentAction action);
+  void tick();
+  bool is_waiting() const noexcept { return waiting_count_ != 0; }
+
+ private:
+  static constexpr std::size_t most_waiting = 8;
+
+  struct Waiting {
+    bool used = false;
+    Caller caller;
+    ComponentIndex component = 0;
+  };
+  struct Outcome {
+    std::size_t place;
+    Status status;
+  };
+
+  Executive* executive_;
+  const Directory* directory_;
+  Answers* answers_;
+  Permission* permission_;
+  std::shared_ptr<Mailbox<Outcome>> outcomes_ = std::make_shared<Mailbox<Outcome>>();
+  std::array<Waiting, most_waiting> waiting_{};
+  std::size_t waiting_count_ = 0;
+};
+
+}  // namespace flexrf::panel

@@ -1,0 +1,307 @@
+#include "web-ui/server/api/live_session.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "runtime/core/nearest_name.hpp"
+#include "runtime/executive/report_data.hpp"
+#include "runtime/realtime/realtime_scope.hpp"
+#include "web-ui/server/api/log_lines.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+/// RFC 6455, 7.4.1.
+enum : std::uint16_t { close_no_text = 1007, close_violation = 1008, close_later = 1013 };
+
+/// Of one client before the others have their turn.
+constexpr int messages_per_turn = 16;
+
+const char* name_of_role(const SessionInfo& session) noexcept {
+  constexpr const char* names[] = {"viewer", "operator", "engineer", "admin"};
+  return names[static_cast<std::size_t>(session.role)];
+}
+
+}  // namespace
+
+// ---- connections
+
+void LiveSession::on_open(LiveLink& link) {
+  const Time now = MonotonicClock::now();
+  pump(parts_.clients.open(link, now), now);
+}
+
+void LiveSession::on_close(LiveLink& link) {
+  Client& client = parts_.clients.at(link.place());
+  if (client.link != &link) return;
+  parts_.operations.parameters.end_holds_of_client(link.place(), MonotonicClock::now());
+  parts_.clients.close(client);
+  parts_.subscriptions.update_demand();
+}
+
+void LiveSession::on_writable(LiveLink& link) {
+  Client& client = parts_.clients.at(link.place());
+  if (client.link == &link && !client.pumping) pump(client, MonotonicClock::now());
+}
+
+void LiveSession::close(Client& client, std::uint16_t code, std::string_view reason) {
+  if (!client.is_open()) return;
+  // What it holds ends now, not when the socket does.
+  client.closing = true;
+  LiveLink* const link = client.link;
+  parts_.operations.parameters.end_holds_of_client(link->place(), MonotonicClock::now());
+  link->close(code, reason);
+}
+
+void LiveSession::close_session(SessionIndex session) {
+  for (Client& client : parts_.clients.all()) {
+    if (client.is_open() && client.session == session)
+      close(client, close_violation, "the session has ended");
+  }
+}
+
+// ---- what comes in
+
+void LiveSession::on_text(LiveLink& link, std::string_view text) {
+  Client& client = parts_.clients.at(link.place());
+  if (client.link != &link || client.closing) return;
+  const Time now = MonotonicClock::now();
+  client.last_heard = now;
+  const Result<JsonObject> object = parts_.reader.object(text);
+  if (!object) return close(client, close_no_text, object.status().cause());
+  Fields fields(*object);
+  const std::string_view op = fields.text("op");
+  const std::uint64_t id = fields.integer("id");
+  if (!fields.status() || id == 0)
+    return close(client, close_violation, "a message has an 'op' and an 'id' above 0");
+  Caller caller;
+  caller.kind = Caller::Kind::live;
+  caller.session = client.session;
+  caller.place = link.place();
+  caller.opening = client.opening;
+  caller.id = id;
+  operate(client, caller, op, fields, now);
+  if (client.is_open() && client.outbox.is_full())
+    return close(client, close_later, "too many answers wait to be read");
+  pump(client, now);
+}
+
+void LiveSession::operate(Client& client, const Caller& caller, std::string_view op, Fields& fields,
+                          Time now) {
+  Operations& operations = parts_.operations;
+  Answers& answers = operations.answers;
+  const auto is_right = [&] {
+    if (fields.status()) return true;
+    answers.refuse(caller, Refusal::make(RefusalKind::bad_request, "%.*s: %s.", static_cast<int>(op.size()),
+                                         op.data(), fields.status().cause()));
+    return false;
+  };
+  // First of all: nothing stands between a person and this.
+  if (op == "stop_motion") return operations.motion.stop_motion(caller);
+  if (op == "refresh" || op == "release") {
+    const std::string_view lease = fields.text("lease");
+    if (!is_right()) return;
+    return op == "refresh" ? operations.parameters.refresh(caller, lease, now)
+                           : operations.parameters.release(caller, lease, now);
+  }
+  if (op == "ping") {
+    const double sent = fields.number("sent");
+    if (!is_right()) return;
+    return answers.done(caller, [sent, now](JsonWriter& json) {
+      json.member("sent", sent).member("server_time_ns", nanoseconds(now));
+    });
+  }
+  if (op == "subscribe") return parts_.subscriptions.subscribe(caller, client, fields, now);
+  if (op == "clear_stop_motion") return operations.motion.clear_stop_motion(caller);
+  if (op == "start_motion") return operations.motion.start_motion(caller);
+  if (op == "take_control") return operations.motion.take_control(caller, now);
+  if (op == "release_control") return operations.motion.release_control(caller);
+  if (op == "answer_control") {
+    const bool grant = fields.boolean("grant");
+    if (is_right()) operations.motion.answer_control(caller, grant, now);
+    return;
+  }
+  if (op == "edit_begin") {
+    const auto components = fields.array("components");
+    if (is_right()) operations.edits.begin(caller, *components, now);
+    return;
+  }
+  if (op == "edit_apply") {
+    const std::string_view edit = fields.text("edit");
+    const auto changes = fields.array("changes");
+    if (is_right()) operations.edits.apply(caller, edit, *changes, now);
+    return;
+  }
+  if (op == "edit_discard") {
+    const std::string_view edit = fields.text("edit");
+    if (is_right()) operations.edits.discard(caller, edit);
+    return;
+  }
+  constexpr std::string_view of_components[] = {"set", "reset", "press", "hold", "action"};
+  if (std::find(std::begin(of_components), std::end(of_components), op) == std::end(of_components)) {
+    NearestName nearest(op);
+    for (const char* known :
+         {"subscribe", "set", "reset", "press", "hold", "refresh", "release", "stop_motion",
+          "clear_stop_motion", "start_motion", "take_control", "release_control", "answer_control", "action",
+          "edit_begin", "edit_apply", "edit_discard", "ping"})
+      nearest.offer(known);
+    const std::string_view best = nearest.best();
+    return answers.refuse(
+        caller, Refusal::make(RefusalKind::not_found, "There is no op '%.*s'%s%.*s%s",
+                              static_cast<int>(std::min<std::size_t>(op.size(), 60)), op.data(),
+                              best.empty() ? "." : "; did you mean '", static_cast<int>(best.size()),
+                              best.data(), best.empty() ? "" : "'?"));
+  }
+  const std::string_view name = fields.text("component");
+  if (!is_right()) return;
+  const auto component = operations.directory.component(name);
+  if (!component) return answers.refuse(caller, operations.directory.no_component(name));
+  if (op == "set") return set(caller, *component, fields, now);
+  if (op == "reset") {
+    std::optional<JsonArray> parameters;
+    if (fields.has("parameters")) parameters = fields.array("parameters");
+    if (is_right()) operations.parameters.reset(caller, *component, parameters, now);
+    return;
+  }
+  if (op == "action") {
+    const std::string_view action = fields.text("action");
+    const std::string_view source = fields.text_or("source", "");
+    if (is_right()) operations.act(caller, *component, action, source, now);
+    return;
+  }
+  const std::string_view parameter = fields.text("parameter");
+  const std::uint64_t count = fields.integer_or("count", 1);
+  if (!is_right()) return;
+  if (op == "press") return operations.parameters.press(caller, *component, parameter, count, now);
+  operations.parameters.hold(caller, *component, parameter, now);
+}
+
+void LiveSession::set(const Caller& caller, ComponentIndex component, Fields& fields, Time now) {
+  const auto values = fields.object("values");
+  std::optional<std::uint64_t> expected;
+  if (fields.has("expected")) expected = fields.integer("expected");
+  if (!fields.status()) {
+    return parts_.operations.answers.refuse(
+        caller, Refusal::make(RefusalKind::bad_request, "set: %s.", fields.status().cause()));
+  }
+  parts_.operations.parameters.set(caller, component, *values, expected, now);
+}
+
+// ---- what goes out
+
+void LiveSession::send_all(Time now, Time deadline) {
+  const std::size_t count = parts_.clients.all().size();
+  for (std::size_t i = 0; i < count; ++i) {
+    Client& client = parts_.clients.all()[turn_];
+    turn_ = (turn_ + 1) % count;
+    if (!client.is_open()) continue;
+    if (client.outbox.is_full()) {
+      close(client, close_later, "too many answers wait to be read");
+      continue;
+    }
+    pump(client, now);
+    if (i % 8 == 7 && MonotonicClock::now() > deadline) return;
+  }
+}
+
+Time LiveSession::next(Time now) const noexcept {
+  Time next = now + std::chrono::milliseconds{100};
+  for (const Client& client : parts_.clients.all()) {
+    // Who is being written to comes by itself when that is done.
+    if (!client.is_open() || client.link->is_writing()) continue;
+    next = std::min(next, FrameWriter::next(client));
+    for (const TopicSubscription& topic : client.topics) {
+      if (topic.interval.count() > 0) next = std::min(next, topic.next);
+    }
+  }
+  return next;
+}
+
+void LiveSession::pump(Client& client, Time now) {
+  client.pumping = true;
+  for (int i = 0; i < messages_per_turn && client.is_open() && !client.link->is_writing(); ++i) {
+    bool binary = false;
+    if (!write_next(client, now, client.link->buffer(), binary)) break;
+    client.link->send(binary);
+  }
+  client.pumping = false;
+}
+
+bool LiveSession::write_next(Client& client, Time now, std::string& to, bool& binary) {
+  if (!client.greeted) {
+    write_hello(client, now, to);
+    client.greeted = true;
+    return true;
+  }
+  if (!client.outbox.is_empty()) {
+    client.outbox.take(to);
+    return true;
+  }
+  if (client.state_seen != parts_.state.version()) {
+    to += parts_.state.event_for(client.session);
+    client.state_seen = parts_.state.version();
+    return true;
+  }
+  if (!client.told_of_end && parts_.executive.control().mode() >= Mode::safe) {
+    client.told_of_end = true;
+    write_end(to);
+    return true;
+  }
+  if (write_topic(client, now, to) || write_log(client, now, to)) return true;
+  binary = parts_.frames.write(client, now, to);
+  return binary;
+}
+
+bool LiveSession::write_topic(Client& client, Time now, std::string& to) {
+  for (std::size_t i = 0; i < topic_count; ++i) {
+    const auto topic = static_cast<Topic>(i);
+    TopicSubscription& subscription = client.topics[i];
+    if (topic == Topic::log || subscription.interval.count() == 0 || now < subscription.next) continue;
+    subscription.next = now + subscription.interval;
+    const std::string_view body = parts_.topics.body(topic, now);
+    if (parts_.topics.version(topic) == subscription.seen) continue;
+    subscription.seen = parts_.topics.version(topic);
+    to.append(R"({"event":"topic","name":")").append(name_of(topic)).append(R"(","body":)");
+    to.append(body).append("}");
+    return true;
+  }
+  return false;
+}
+
+bool LiveSession::write_log(Client& client, Time now, std::string& to) {
+  TopicSubscription& log = client.topics[static_cast<std::size_t>(Topic::log)];
+  if (log.interval.count() == 0 || now < log.next) return false;
+  log.next = now + log.interval;
+  if (last_log_line() == log.seen) return false;
+  JsonWriter json(std::move(to));
+  json.begin_object().member("event", "log").key("lines");
+  log.seen = write_log_lines(json, log.seen);
+  json.end_object();
+  to = json.release();
+  return true;
+}
+
+void LiveSession::write_hello(Client& client, Time now, std::string& to) {
+  const Application& application = parts_.executive.cell().application();
+  const SessionInfo* const session = parts_.access.session(client.session);
+  constexpr SessionInfo nobody{};
+  const SessionInfo& info = session == nullptr ? nobody : *session;
+  char hash[17];
+  std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(application.descriptor_hash));
+  JsonWriter json(std::move(to));
+  json.begin_object().member("event", "hello").member("protocol", 1).member("application", application.name);
+  json.member("boot", parts_.boot).member("descriptor", static_cast<const char*>(hash));
+  json.key("session").begin_object().member("name", info.name).member("role", name_of_role(info));
+  json.member("local", info.local).member("user", info.user).end_object();
+  json.member("server_time_ns", nanoseconds(now)).member("allocations", has_allocation_guard()).end_object();
+  to = json.release();
+}
+
+void LiveSession::write_end(std::string& to) {
+  JsonWriter json(std::move(to));
+  json.begin_object().member("event", "ended").member("text", "The application has come to its end");
+  json.member("cause", name_of(parts_.executive.control().cause())).end_object();
+  to = json.release();
+}
+
+}  // namespace flexrf::panel

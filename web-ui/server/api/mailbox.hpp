@@ -1,0 +1,33 @@
+// What another thread hands to the server's.
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace flexrf::panel {
+
+/// Bounded by what was asked for and is not answered yet, which whoever asks counts. push: any thread that is
+/// not real-time. pop: the server's.
+template <class Value>
+class Mailbox {
+ public:
+  void push(Value value) {
+    const std::lock_guard lock(mutex_);
+    values_.push_back(std::move(value));
+  }
+  std::optional<Value> pop() {
+    const std::lock_guard lock(mutex_);
+    if (values_.empty()) return std::nullopt;
+    std::optional<Value> value(std::move(values_.front()));
+    values_.pop_front();
+    return value;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::deque<Value> values_;
+};
+
+}  // namespace flexrf::panel

@@ -1,0 +1,35 @@
+#include "web-ui/server/api/observed_slots.hpp"
+
+#include <cstring>
+
+namespace flexrf::panel {
+
+const ObservedSlot& ObservedSlots::read(std::uint16_t slot) {
+  Cached& cached = slots_[slot];
+  if (cached.turn == turn_) return cached.newest;
+  cached.turn = turn_;
+  const SlotRecord& record = cell_->application().slots[slot];
+  ObservedSlot& newest = cached.newest;
+  newest.value = nullptr;
+  if (record.observer == nullptr) {
+    newest.reason = NullReason::not_registered;
+    return newest;
+  }
+  const std::size_t size = record.control->type()->size;
+  if (cached.bytes.size() != size) cached.bytes.resize(size);
+  {
+    const auto lock = cell_->observe();
+    const ItemHeader* const header = record.observer->newest();
+    if (header != nullptr && header->sequence != newest.header.sequence) {
+      std::memcpy(cached.bytes.data(), record.observer->payload(), size);
+      newest.header = *header;
+    }
+  }
+  newest.reason = null_reason_of(record.control->writer_state());
+  if (newest.reason == NullReason::none && newest.header.sequence == 0)
+    newest.reason = NullReason::nothing_yet;
+  if (newest.reason == NullReason::none) newest.value = cached.bytes.data();
+  return newest;
+}
+
+}  // namespace flexrf::panel

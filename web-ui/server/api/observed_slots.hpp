@@ -1,0 +1,44 @@
+// The newest value of each slot, read once for all who want it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "runtime/executive/cell.hpp"
+
+namespace flexrf::panel {
+
+/// A slot's newest item, or the NULL item with its reason.
+struct ObservedSlot {
+  ItemHeader header{};
+  NullReason reason = NullReason::nothing_yet;
+  const void* value = nullptr;  ///< null unless reason is none
+};
+
+/// The server's thread. Memory for a slot's value is allocated when it is first asked for.
+class ObservedSlots {
+ public:
+  explicit ObservedSlots(Cell& cell) : cell_(&cell), slots_(cell.application().slots.size()) {}
+
+  /// From here on, each slot is read anew once.
+  void begin_turn() noexcept { ++turn_; }
+  /// As of this turn. Not for slots of images. Valid until the slot is read in another turn.
+  const ObservedSlot& read(std::uint16_t slot);
+  std::size_t size(std::uint16_t slot) const noexcept {
+    return cell_->application().slots[slot].control->type()->size;
+  }
+
+ private:
+  struct Cached {
+    ObservedSlot newest;
+    std::uint64_t turn = 0;
+    std::vector<std::byte> bytes;
+  };
+
+  Cell* cell_;
+  std::uint64_t turn_ = 1;
+  std::vector<Cached> slots_;
+};
+
+}  // namespace flexrf::panel

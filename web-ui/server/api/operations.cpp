@@ -1,0 +1,31 @@
+#include "web-ui/server/api/operations.hpp"
+
+#include "runtime/core/nearest_name.hpp"
+
+namespace flexrf::panel {
+
+void Operations::act(const Caller& caller, ComponentIndex component, std::string_view action,
+                     std::string_view source, Time now) {
+  if (action == "start") return lifecycle.act(caller, component, ComponentAction::start);
+  if (action == "stop") return lifecycle.act(caller, component, ComponentAction::stop);
+  if (action == "initialise") return lifecycle.act(caller, component, ComponentAction::initialise);
+  if (action == "activate") return parameters.change_member(caller, component, RequestKind::activate, 0, now);
+  if (action == "retire") return parameters.change_member(caller, component, RequestKind::retire, 0, now);
+  if (action == "clone") {
+    const auto member = directory.component(source);
+    if (!member) return answers.refuse(caller, directory.no_component(source).about("source"));
+    return parameters.change_member(caller, component, RequestKind::clone, *member, now);
+  }
+  NearestName nearest(action);
+  for (const char* known : {"start", "stop", "initialise", "activate", "retire", "clone", "reset", "press"})
+    nearest.offer(known);
+  const std::string_view best = nearest.best();
+  answers.refuse(
+      caller,
+      Refusal::make(RefusalKind::not_found, "There is no action '%.*s'%s%.*s%s",
+                    static_cast<int>(std::min<std::size_t>(action.size(), 60)), action.data(),
+                    best.empty() ? ": start, stop, initialise, activate, retire, clone" : "; did you mean '",
+                    static_cast<int>(best.size()), best.data(), best.empty() ? "." : "'?"));
+}
+
+}  // namespace flexrf::panel

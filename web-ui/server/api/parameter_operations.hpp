@@ -1,0 +1,82 @@
+// What clients ask of runtime parameters: set, reset, press, hold, and of members of populations.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "runtime/executive/cell.hpp"
+#include "web-ui/server/access.hpp"
+#include "web-ui/server/api/answers.hpp"
+#include "web-ui/server/api/component_values.hpp"
+#include "web-ui/server/api/json_reader.hpp"
+#include "web-ui/server/api/leases.hpp"
+#include "web-ui/server/api/pending_requests.hpp"
+
+namespace flexrf::panel {
+
+/// Each operation checks role and control token, and answers its caller, most of them when the component's
+/// thread has. The server's thread; nothing waits or allocates.
+class ParameterOperations {
+ public:
+  /// How long a component's thread may take to answer.
+  static constexpr Duration answer_timeout = std::chrono::seconds{1};
+
+  ParameterOperations(Cell& cell, const Directory& directory, ObservedSlots& slots, ComponentValues& values,
+                      Answers& answers, Permission& permission, std::string_view boot) noexcept
+      : cell_(&cell),
+        directory_(&directory),
+        slots_(&slots),
+        values_(&values),
+        answers_(&answers),
+        permission_(&permission),
+        boot_(boot) {}
+
+  /// Registers where answers come. Before the start.
+  Status prepare();
+
+  void set(const Caller& caller, ComponentIndex component, JsonObject values,
+           std::optional<std::uint64_t> expected, Time now);
+  /// Empty: all.
+  void reset(const Caller& caller, ComponentIndex component, std::optional<JsonArray> parameters, Time now);
+  void press(const Caller& caller, ComponentIndex component, std::string_view parameter, std::uint64_t count,
+             Time now);
+  void hold(const Caller& caller, ComponentIndex component, std::string_view parameter, Time now);
+  void refresh(const Caller& caller, std::string_view lease, Time now);
+  void release(const Caller& caller, std::string_view lease, Time now);
+  /// activate, clone (of `source`), retire.
+  void change_member(const Caller& caller, ComponentIndex component, RequestKind kind, ComponentIndex source,
+                     Time now);
+
+  void end_holds_of_client(std::uint32_t place, Time now);
+  void end_holds_of_session(SessionIndex session, Time now);
+  /// The runtime has ended them: their owners hear of it with the next refresh.
+  void forget_holds();
+
+  /// Fetches answers, gives up on those that do not come.
+  void tick(Time now);
+  bool is_waiting() const noexcept { return pending_.has_any(); }
+
+ private:
+  bool send(ParameterRequest& request, PendingRequest pending, Time now);
+  void send_release(const Lease& lease, Time now);
+  Lease* lease_of(const Caller& caller, std::string_view text);
+  void accept(const PendingRequest& pending, const ParameterAnswer& answer);
+  void refuse(const PendingRequest& pending, const ParameterAnswer& answer);
+
+  Cell* cell_;
+  const Directory* directory_;
+  ObservedSlots* slots_;
+  ComponentValues* values_;
+  Answers* answers_;
+  Permission* permission_;
+  std::string_view boot_;
+  AnswerQueue queue_;
+  std::uint16_t requester_ = 0;
+  PendingRequests pending_;
+  Leases leases_;
+};
+
+/// "BOOT-SEQUENCE" in quotation marks.
+void write_etag(std::string& etag, std::string_view boot, std::uint64_t sequence);
+
+}  // namespace flexrf::panel

@@ -1,0 +1,130 @@
+#include "web-ui/server/api/picture.hpp"
+
+#include <turbojpeg.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "runtime/parameters/value_access.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+constexpr int quality = 80;
+/// Of one side: more is no camera.
+constexpr double largest_side = 16384;
+
+const FieldDescriptor* field(const TypeDescriptor& type, std::string_view name) noexcept {
+  const auto found =
+      std::find_if(type.fields.begin(), type.fields.end(),
+                   [name](const FieldDescriptor& candidate) { return name == candidate.name; });
+  return found == type.fields.end() ? nullptr : &*found;
+}
+
+std::size_t side(const FieldDescriptor& descriptor, const void* image) noexcept {
+  const Result<double> number = read_number(whole(descriptor), image);
+  return number && *number >= 1 && *number <= largest_side ? static_cast<std::size_t>(*number) : 0;
+}
+
+/// Mean of `by` times `by` values, `step` bytes apart in a row.
+unsigned char mean(const std::byte* from, std::size_t step, std::size_t row_bytes, std::size_t by) noexcept {
+  std::size_t sum = 0;
+  for (std::size_t y = 0; y < by; ++y) {
+    for (std::size_t x = 0; x < by; ++x) sum += std::to_integer<std::size_t>(from[y * row_bytes + x * step]);
+  }
+  return static_cast<unsigned char>(sum / (by * by));
+}
+
+unsigned char clamped(double value) noexcept {
+  return static_cast<unsigned char>(std::clamp(value + 0.5, 0.0, 255.0));
+}
+
+/// ITU-R BT.601, full range as JPEG has it, of the two pixels Y0 U Y1 V share.
+void to_rgb(double y, double u, double v, unsigned char* rgb) noexcept {
+  rgb[0] = clamped(y + 1.402 * (v - 128));
+  rgb[1] = clamped(y - 0.344136 * (u - 128) - 0.714136 * (v - 128));
+  rgb[2] = clamped(y + 1.772 * (u - 128));
+}
+
+}  // namespace
+
+PictureLayout PictureLayout::of(const TypeDescriptor& type) noexcept {
+  return {field(type, "width"), field(type, "height"), field(type, "format"), field(type, "data")};
+}
+
+bool PictureLayout::is_complete() const noexcept {
+  return width != nullptr && height != nullptr && format != nullptr && data != nullptr &&
+         format->scalar == Scalar::enumeration && data->scalar == Scalar::u8;
+}
+
+PictureEncoder::~PictureEncoder() {
+  if (compressor_ != nullptr) tjDestroy(compressor_);
+}
+
+bool PictureEncoder::scale(std::string_view format, const std::byte* data, std::size_t size,
+                           std::size_t columns, std::size_t rows, std::size_t by) {
+  const std::size_t pixel = format == "grey8" ? 1 : format == "yuyv" ? 2 : 3;
+  const std::size_t row_bytes = columns * pixel;
+  if (row_bytes * rows > size) {
+    cause_ = "the picture is larger than its data";
+    return false;
+  }
+  columns_ = columns / by;
+  rows_ = rows / by;
+  const std::size_t out = format == "grey8" ? 1 : 3;
+  pixels_.resize(columns_ * rows_ * out);
+  unsigned char* to = pixels_.data();
+  for (std::size_t y = 0; y < rows_; ++y) {
+    const std::byte* const row = data + y * by * row_bytes;
+    for (std::size_t x = 0; x < columns_; ++x, to += out) {
+      const std::byte* const from = row + x * by * pixel;
+      if (format == "yuyv") {
+        // Chroma of the pair in which the block begins; four bytes hold two pixels.
+        const std::byte* const pair = row + (x * by / 2) * 4;
+        to_rgb(mean(from, 2, row_bytes, by), std::to_integer<int>(pair[1]), std::to_integer<int>(pair[3]),
+               to);
+      } else {
+        for (std::size_t channel = 0; channel < out; ++channel)
+          to[channel] = mean(from + channel, pixel, row_bytes, by);
+      }
+    }
+  }
+  pixel_format_ = out == 1 ? TJPF_GRAY : format == "bgr24" ? TJPF_BGR : TJPF_RGB;
+  return true;
+}
+
+std::string_view PictureEncoder::encode(const PictureLayout& layout, const void* image, std::uint32_t width) {
+  const std::size_t columns = side(*layout.width, image);
+  const std::size_t rows = side(*layout.height, image);
+  const auto number = static_cast<std::size_t>(*read_number(whole(*layout.format), image));
+  const auto& formats = layout.format->type->values;
+  const std::string_view format = number < formats.size() ? formats[number].name : "";
+  cause_ = "";
+  if (columns == 0 || rows == 0) {
+    cause_ = "the picture is empty";
+  } else if (format != "grey8" && format != "rgb24" && format != "bgr24" && format != "yuyv") {
+    cause_ = "the picture's format is none of grey8, rgb24, bgr24, yuyv";
+  }
+  if (cause_[0] != '\0') return {};
+  const std::size_t wanted = std::max<std::size_t>(width, 16);
+  const std::size_t by = std::min({(columns + wanted - 1) / wanted, columns, rows});
+  const auto* const data = static_cast<const std::byte*>(image) + layout.data->offset;
+  if (!scale(format, data, layout.data->count, columns, rows, by)) return {};
+  if (compressor_ == nullptr) compressor_ = tjInitCompress();
+  const int sampling = pixel_format_ == TJPF_GRAY ? TJSAMP_GRAY : TJSAMP_420;
+  const auto shown_columns = static_cast<int>(columns_);
+  const auto shown_rows = static_cast<int>(rows_);
+  const unsigned long bound = tjBufSize(shown_columns, shown_rows, sampling);
+  if (jpeg_.size() < bound) jpeg_.resize(bound);
+  unsigned char* buffer = jpeg_.data();
+  unsigned long size = jpeg_.size();
+  if (compressor_ == nullptr ||
+      tjCompress2(compressor_, pixels_.data(), shown_columns, 0, shown_rows, pixel_format_, &buffer, &size,
+                  sampling, quality, TJFLAG_NOREALLOC | TJFLAG_FASTDCT) != 0) {
+    cause_ = "the picture could not be encoded";
+    return {};
+  }
+  return {reinterpret_cast<const char*>(buffer), size};
+}
+
+}  // namespace flexrf::panel

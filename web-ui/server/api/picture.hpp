@@ -1,0 +1,51 @@
+// One picture of an image type, scaled down and encoded as JPEG.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "runtime/core/type_descriptor.hpp"
+
+namespace flexrf::panel {
+
+/// Where the fields of an image type lie: width and height (integers), format (an enumeration), data (u8).
+struct PictureLayout {
+  const FieldDescriptor* width = nullptr;
+  const FieldDescriptor* height = nullptr;
+  const FieldDescriptor* format = nullptr;
+  const FieldDescriptor* data = nullptr;
+
+  static PictureLayout of(const TypeDescriptor& type) noexcept;
+  bool is_complete() const noexcept;
+};
+
+/// Any one thread; keeps its memory.
+class PictureEncoder {
+ public:
+  PictureEncoder() noexcept = default;
+  PictureEncoder(const PictureEncoder&) = delete;
+  PictureEncoder& operator=(const PictureEncoder&) = delete;
+  ~PictureEncoder();
+
+  /// Formats (the enumeration's names): grey8, rgb24, bgr24, yuyv. Scaled by the least whole number that
+  /// makes it at most `width` pixels wide. The JPEG is valid until the next call; empty: cause() says why
+  /// there is none.
+  std::string_view encode(const PictureLayout& layout, const void* image, std::uint32_t width);
+  const char* cause() const noexcept { return cause_; }
+
+ private:
+  bool scale(std::string_view format, const std::byte* data, std::size_t size, std::size_t columns,
+             std::size_t rows, std::size_t by);
+
+  void* compressor_ = nullptr;
+  const char* cause_ = "";
+  std::size_t columns_ = 0;
+  std::size_t rows_ = 0;
+  int pixel_format_ = 0;
+  std::vector<unsigned char> pixels_;
+  std::vector<unsigned char> jpeg_;
+};
+
+}  // namespace flexrf::panel

@@ -1,0 +1,119 @@
+#include "web-ui/server/api/request_builder.hpp"
+
+#include <algorithm>
+
+#include "runtime/core/nearest_name.hpp"
+#include "runtime/parameters/parameter_store.hpp"
+#include "runtime/parameters/scalar_types.hpp"
+#include "web-ui/server/api/value_reader.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+std::optional<Refusal> too_many(const ComponentEntry& component) noexcept {
+  return Refusal::make(RefusalKind::too_large,
+                       "%s: one request takes at most %u values and %u bytes of them; split it into several.",
+                       component.name, ParameterRequest::max_changes, ParameterRequest::max_value_bytes);
+}
+
+int shown(std::string_view path) noexcept {
+  return static_cast<int>(std::min<std::size_t>(path.size(), 80));
+}
+
+}  // namespace
+
+std::optional<Refusal> find_parameter(const ParameterBlock& block, const char* kind,
+                                      const ComponentEntry& component, std::string_view path,
+                                      ParameterPlace& found) noexcept {
+  const std::string_view name = path.substr(0, path.find_first_of(".["));
+  NearestName nearest(name);
+  for (std::size_t i = 0; i < block.parameters.size(); ++i) {
+    nearest.offer(block.parameters[i].field->name);
+    if (name != block.parameters[i].field->name) continue;
+    const Result<FieldPlace> place = find_field(*block.type, path);
+    if (!place)
+      return Refusal::make(RefusalKind::not_found, "%s: %s.", component.name, place.status().cause())
+          .about(path);
+    found = {&block.parameters[i], static_cast<std::uint16_t>(i), *place};
+    return std::nullopt;
+  }
+  const std::string_view best = nearest.best();
+  return Refusal::make(RefusalKind::not_found, "%s has no %s parameter '%.*s'%s%.*s%s", component.name, kind,
+                       shown(path), path.data(), best.empty() ? "." : "; did you mean '",
+                       static_cast<int>(best.size()), best.data(), best.empty() ? "" : "'?")
+      .about(path);
+}
+
+std::optional<Refusal> add_values(const ComponentEntry& component, JsonObject values,
+                                  ParameterRequest& request, Role& role) noexcept {
+  const ParameterBlock& block = component.type->runtime;
+  // The struct that find_field() counts its offsets in; only what a path names is written and read.
+  alignas(cache_line) std::byte structure[max_runtime_size];
+  for (const auto member : values) {
+    ParameterPlace found;
+    if (auto refusal = find_parameter(block, "runtime", component, member.key, found)) return refusal;
+    ValueRange range{};
+    const bool is_member = member.key.find('.') != std::string_view::npos;
+    const Status status = read_value(member.value, found.place, structure,
+                                     is_member ? nullptr : range_of(*found.parameter, range));
+    if (!status) {
+      return Refusal::make(RefusalKind::refused, "%s.%.*s is refused: %s.", component.name, shown(member.key),
+                           member.key.data(), status.cause())
+          .about(member.key)
+          .because(status.cause());
+    }
+    const std::size_t size = found.place.field->scalar == Scalar::text
+                                 ? found.place.field->count
+                                 : found.place.count * element_size(*found.place.field);
+    if (!request.add(found.index, found.offset(), structure + found.place.offset, size))
+      return too_many(component);
+    role = std::max(role, found.parameter->role);
+  }
+  return std::nullopt;
+}
+
+std::optional<Refusal> add_name(const ComponentEntry& component, std::string_view path,
+                                ParameterRequest& request, Role& role) noexcept {
+  ParameterPlace found;
+  if (auto refusal = find_parameter(component.type->runtime, "runtime", component, path, found))
+    return refusal;
+  const Scalar scalar = found.place.field->scalar;
+  const char* act = nullptr;
+  if (request.kind == RequestKind::press && scalar != Scalar::button) act = "pressed: it is no button";
+  if (request.kind == RequestKind::hold && scalar != Scalar::hold) act = "held: it is no hold parameter";
+  if (act != nullptr) {
+    return Refusal::make(RefusalKind::refused, "%s.%.*s cannot be %s.", component.name, shown(path),
+                         path.data(), act)
+        .about(path);
+  }
+  if (!request.add_name(found.index, found.offset())) return too_many(component);
+  role = std::max(role, found.parameter->role);
+  return std::nullopt;
+}
+
+Refusal refusal_of(const ParameterAnswer& answer, const ComponentEntry& component) noexcept {
+  switch (answer.kind) {
+    case AnswerKind::busy:
+      return Refusal::make(RefusalKind::busy, "%s has too many requests waiting; try again in a moment.",
+                           component.name);
+    case AnswerKind::stale:
+      return Refusal::make(
+          RefusalKind::stale,
+          "%s: somebody changed its settings since you read them (now %llu); read them again.",
+          component.name, static_cast<unsigned long long>(answer.sequence));
+    case AnswerKind::accepted:
+    case AnswerKind::refused:
+      break;
+  }
+  if (answer.parameter == no_parameter) {
+    return Refusal::make(RefusalKind::wrong_state, "%s refuses: %s.", component.name, answer.reason)
+        .because(answer.reason);
+  }
+  const char* const parameter = component.type->runtime.parameters[answer.parameter].field->name;
+  return Refusal::make(RefusalKind::refused, "%s.%s is refused: %s.", component.name, parameter,
+                       answer.reason)
+      .about(parameter)
+      .because(answer.reason);
+}
+
+}  // namespace flexrf::panel

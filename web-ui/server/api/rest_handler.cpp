@@ -1,0 +1,335 @@
+#include "web-ui/server/api/rest_handler.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+
+#include "runtime/core/digest.hpp"
+#include "runtime/core/value_json.hpp"
+#include "web-ui/server/api/log_lines.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+constexpr std::string_view prefix = "/api/v1/";
+
+/// The integer `name=` of a query; `otherwise` without one; false: it is no integer from 0.
+bool query_integer(std::string_view query, std::string_view name, std::uint64_t otherwise,
+                   std::uint64_t& number) noexcept {
+  number = otherwise;
+  while (!query.empty()) {
+    const std::size_t end = std::min(query.find('&'), query.size());
+    const std::string_view part = query.substr(0, end);
+    query.remove_prefix(std::min(end + 1, query.size()));
+    if (part.substr(0, part.find('=')) != name) continue;
+    const std::string_view value = part.size() > name.size() ? part.substr(name.size() + 1) : "";
+    const auto [rest, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    return error == std::errc{} && rest == value.data() + value.size();
+  }
+  return true;
+}
+
+void write_hash_tag(std::string& etag, std::uint64_t digest) {
+  char text[20];
+  const int size = std::snprintf(text, sizeof(text), "\"%016llx\"", static_cast<unsigned long long>(digest));
+  etag.assign(text, static_cast<std::size_t>(size));
+}
+
+/// Whether one of a list of entity tags is this one (RFC 9110, 13.1.2: weak comparison).
+bool names_tag(std::string_view list, std::string_view tag) noexcept {
+  if (list == "*") return true;
+  for (std::size_t at = list.find(tag); at != std::string_view::npos; at = list.find(tag, at + 1)) {
+    const std::size_t end = at + tag.size();
+    if (end == list.size() || list[end] == ',' || list[end] == ' ') return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+RestHandler::RestHandler(const RestParts& parts)
+    : parts_(parts), openapi_(openapi_document(parts.executive.cell().application().name)) {}
+
+Handled RestHandler::handle(const Request& request, Reply& reply, Ticket ticket) {
+  const Caller caller = Caller::rest(request.session, ticket);
+  parts_.operations.answers.begin_request(ticket, reply);
+  parts_.slots.begin_turn();
+  serve(request, reply, caller, MonotonicClock::now());
+  return parts_.operations.answers.end_request();
+}
+
+void RestHandler::serve(const Request& request, Reply& reply, const Caller& caller, Time now) {
+  Answers& answers = parts_.operations.answers;
+  if (!request.path.starts_with(prefix))
+    return answers.refuse(caller, Refusal::make(RefusalKind::not_found, "It begins with /api/v1/."));
+  const Match found = match(request.method, request.path.substr(prefix.size()));
+  if (found.route == nullptr) {
+    return answers.refuse(
+        caller, found.known_path ? Refusal::make(RefusalKind::method_not_allowed,
+                                                 "openapi.json has the methods of this path.")
+                                 : Refusal::make(RefusalKind::not_found,
+                                                 "There is no such path; openapi.json lists what there is."));
+  }
+  // The latch comes before everything that could go wrong.
+  if (found.route->resource == Resource::stop_motion) return parts_.operations.motion.stop_motion(caller);
+  if (!parts_.permission.has_role(caller, Role::viewer, "see this")) return;
+  if (found.route->method == Method::get) {
+    read(found, request, reply, caller, now);
+  } else {
+    act(found, request, caller, now);
+  }
+}
+
+// ---- reading
+
+void RestHandler::read(const Match& found, const Request& request, Reply& reply, const Caller& caller,
+                       Time now) {
+  Answers& answers = parts_.operations.answers;
+  const Directory& directory = parts_.operations.directory;
+  const Application& application = parts_.executive.cell().application();
+  const std::string_view name = found.segments[0];
+  const auto list = [&](Topic topic) {
+    reply.text.assign(parts_.topics.body(topic, now));
+    finish(request, reply);
+  };
+  reply.text.clear();
+  switch (found.route->resource) {
+    case Resource::openapi:
+      return finish_fixed(request, reply, openapi_, application.descriptor_hash);
+    case Resource::descriptor:
+      return finish_fixed(request, reply, application.descriptor_json, application.descriptor_hash);
+    case Resource::state:
+      parts_.state.update(now);
+      reply.text.assign("{").append(parts_.state.members_for(caller.session));
+      return finish(request, reply);
+    case Resource::components:
+      return list(Topic::components);
+    case Resource::slots:
+      return list(Topic::slots);
+    case Resource::queues:
+      return list(Topic::queues);
+    case Resource::threads:
+      return list(Topic::threads);
+    case Resource::devices: {
+      JsonWriter json(std::move(reply.text));
+      parts_.topics.write_devices(json);
+      return finish_json(request, reply, json);
+    }
+    case Resource::log: {
+      std::uint64_t after = 0;
+      if (!query_integer(request.query, "after", 0, after))
+        return answers.refuse(caller,
+                              Refusal::make(RefusalKind::bad_request, "'after' is the number of a line."));
+      // The lines come first, as only then their last number is known.
+      JsonWriter json(std::move(reply.text));
+      json.begin_object().key("lines");
+      const std::uint64_t last = write_log_lines(json, after);
+      json.member("last", last).end_object();
+      return finish_json(request, reply, json);
+    }
+    case Resource::slot:
+    case Resource::slot_image: {
+      const auto slot = directory.slot(name);
+      if (!slot) return answers.refuse(caller, directory.no_slot(name));
+      if (found.route->resource == Resource::slot_image) return ask_picture(*slot, request, caller, now);
+      JsonWriter json(std::move(reply.text));
+      write_slot(json, *slot);
+      return finish_json(request, reply, json);
+    }
+    case Resource::component:
+      return write_component(request, reply, name, caller);
+    case Resource::get_parameters: {
+      const auto component = directory.component(name);
+      if (!component) return answers.refuse(caller, directory.no_component(name));
+      JsonWriter json(std::move(reply.text));
+      json.begin_object();
+      parts_.values.write_all(json, *component);
+      json.end_object();
+      reply.text = json.release();
+      // Of the settings alone: feedback changes all the time, and is no reason to refuse a change.
+      write_etag(reply.etag, parts_.boot, parts_.values.sequence(*component));
+      answers.answered();
+      return;
+    }
+    default:
+      return;
+  }
+}
+
+void RestHandler::finish(const Request& request, Reply& reply) {
+  Digest digest;
+  digest.add_text(reply.text);
+  write_hash_tag(reply.etag, digest.value());
+  if (names_tag(request.if_none_match, reply.etag)) {
+    reply.status = 304;
+    reply.text.clear();
+  }
+  parts_.operations.answers.answered();
+}
+
+void RestHandler::finish_json(const Request& request, Reply& reply, JsonWriter& json) {
+  reply.text = json.release();
+  finish(request, reply);
+}
+
+void RestHandler::finish_fixed(const Request& request, Reply& reply, std::string_view text,
+                               std::uint64_t digest) {
+  write_hash_tag(reply.etag, digest);
+  reply.cache_control = "no-cache";
+  if (names_tag(request.if_none_match, reply.etag)) {
+    reply.status = 304;
+  } else {
+    reply.fixed = text;
+  }
+  parts_.operations.answers.answered();
+}
+
+void RestHandler::write_component(const Request& request, Reply& reply, std::string_view name,
+                                  const Caller& caller) {
+  const Directory& directory = parts_.operations.directory;
+  const auto component = directory.component(name);
+  if (!component) return parts_.operations.answers.refuse(caller, directory.no_component(name));
+  JsonWriter json(std::move(reply.text));
+  parts_.topics.write_component(json, *component);
+  finish_json(request, reply, json);
+}
+
+void RestHandler::write_slot(JsonWriter& json, std::uint16_t slot) {
+  const SlotRecord& record = parts_.executive.cell().application().slots[slot];
+  const bool is_picture = parts_.images.is_image(slot);
+  json.begin_object().member("name", record.name).member("type", record.control->type()->name);
+  json.member("published", record.control->published());
+  // A picture is asked for as such; its bytes are no JSON.
+  if (is_picture) {
+    json.member("reason", "").member("sequence", record.control->published());
+    json.member("sampled_at_ns", nanoseconds(record.control->published_at())).key("value").null();
+  } else {
+    const ObservedSlot& newest = parts_.slots.read(slot);
+    json.member("reason", newest.reason == NullReason::none ? "" : name_of(newest.reason));
+    json.member("sequence", newest.header.sequence);
+    json.member("sampled_at_ns", nanoseconds(newest.header.sampled_at)).key("value");
+    if (newest.value == nullptr) {
+      json.null();
+    } else {
+      write_value(json, *record.control->type(), newest.value);
+    }
+  }
+  json.key("readers");
+  parts_.topics.write_readers(json, slot);
+  json.end_object();
+}
+
+void RestHandler::ask_picture(std::uint16_t slot, const Request& request, const Caller& caller, Time now) {
+  Answers& answers = parts_.operations.answers;
+  std::uint64_t width = 0;
+  if (!parts_.images.is_image(slot)) {
+    return answers.refuse(
+        caller, Refusal::make(RefusalKind::not_found, "The slot '%s' holds no picture that is observed.",
+                              parts_.executive.cell().application().slots[slot].name));
+  }
+  if (!query_integer(request.query, "width", 640, width) || width < 1 || width > 4096)
+    return answers.refuse(caller,
+                          Refusal::make(RefusalKind::bad_request, "'width' lies from 1 to 4096 pixels."));
+  parts_.pictures.ask(caller, slot, static_cast<std::uint32_t>(width), now);
+}
+
+// ---- acting
+
+void RestHandler::act(const Match& found, const Request& request, const Caller& caller, Time now) {
+  Operations& operations = parts_.operations;
+  Answers& answers = operations.answers;
+  if (!request.body.empty() && !request.content_type.starts_with("application/json")) {
+    return answers.refuse(caller,
+                          Refusal::make(RefusalKind::wrong_media_type,
+                                        "The body is to be JSON, with Content-Type: application/json."));
+  }
+  const Result<JsonObject> body = parts_.reader.object(request.body.empty() ? "{}" : request.body);
+  if (!body) {
+    const bool too_large = request.body.size() > JsonReader::max_bytes;
+    return answers.refuse(caller, Refusal::make(too_large ? RefusalKind::too_large : RefusalKind::bad_request,
+                                                "The body: %s.", body.status().cause()));
+  }
+  Fields fields(*body);
+  const auto is_right = [&] {
+    if (!fields.status())
+      answers.refuse(caller,
+                     Refusal::make(RefusalKind::bad_request, "The body: %s.", fields.status().cause()));
+    return fields.status().is_ok();
+  };
+  switch (found.route->resource) {
+    case Resource::put_parameters:
+      return put_parameters(found, request, *body, caller, now);
+    case Resource::action:
+      return act_on_component(found, fields, caller, now);
+    case Resource::reconfigure: {
+      const auto changes = fields.array("changes");
+      if (is_right()) operations.edits.reconfigure(caller, *changes, now);
+      return;
+    }
+    case Resource::clear_stop_motion:
+      return operations.motion.clear_stop_motion(caller);
+    case Resource::start_motion:
+      return operations.motion.start_motion(caller);
+    case Resource::take_control:
+      return operations.motion.take_control(caller, now);
+    case Resource::release_control:
+      return operations.motion.release_control(caller);
+    case Resource::answer_control: {
+      const bool grant = fields.boolean("grant");
+      if (is_right()) operations.motion.answer_control(caller, grant, now);
+      return;
+    }
+    default:
+      return;
+  }
+}
+
+void RestHandler::put_parameters(const Match& found, const Request& request, JsonObject values,
+                                 const Caller& caller, Time now) {
+  Operations& operations = parts_.operations;
+  const auto component = operations.directory.component(found.segments[0]);
+  if (!component)
+    return operations.answers.refuse(caller, operations.directory.no_component(found.segments[0]));
+  std::optional<std::uint64_t> expected;
+  if (!request.if_match.empty() && request.if_match != "*") {
+    std::string_view tag = request.if_match;
+    std::uint64_t sequence = 0;
+    const bool quoted = tag.size() > 2 && tag.front() == '"' && tag.back() == '"';
+    if (quoted) tag = tag.substr(1, tag.size() - 2);
+    const bool ours = quoted && tag.starts_with(parts_.boot) && tag.size() > parts_.boot.size() &&
+                      tag[parts_.boot.size()] == '-';
+    if (ours) tag.remove_prefix(parts_.boot.size() + 1);
+    const auto [end, error] = std::from_chars(tag.data(), tag.data() + tag.size(), sequence);
+    if (!ours || error != std::errc{} || end != tag.data() + tag.size()) {
+      return operations.answers.refuse(
+          caller, Refusal::make(RefusalKind::stale,
+                                "If-Match is none of this run's entity tags; the application "
+                                "may have been started again. Read the parameters anew."));
+    }
+    expected = sequence;
+  }
+  operations.parameters.set(caller, *component, values, expected, now);
+}
+
+void RestHandler::act_on_component(const Match& found, Fields& fields, const Caller& caller, Time now) {
+  Operations& operations = parts_.operations;
+  const auto component = operations.directory.component(found.segments[0]);
+  if (!component)
+    return operations.answers.refuse(caller, operations.directory.no_component(found.segments[0]));
+  const std::string_view action = found.segments[1];
+  std::optional<JsonArray> parameters;
+  std::string_view parameter;
+  if (action == "reset" && fields.has("parameters")) parameters = fields.array("parameters");
+  if (action == "press") parameter = fields.text("parameter");
+  const std::uint64_t count = action == "press" ? fields.integer_or("count", 1) : 1;
+  const std::string_view source = action == "clone" ? fields.text("source") : "";
+  if (!fields.status()) {
+    return operations.answers.refuse(
+        caller, Refusal::make(RefusalKind::bad_request, "The body: %s.", fields.status().cause()));
+  }
+  if (action == "reset") return operations.parameters.reset(caller, *component, parameters, now);
+  if (action == "press") return operations.parameters.press(caller, *component, parameter, count, now);
+  operations.act(caller, *component, action, source, now);
+}
+
+}  // namespace flexrf::panel

@@ -1,0 +1,59 @@
+// Requests under /api/v1.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "web-ui/server/api/component_values.hpp"
+#include "web-ui/server/api/image_requests.hpp"
+#include "web-ui/server/api/json_reader.hpp"
+#include "web-ui/server/api/operations.hpp"
+#include "web-ui/server/api/routes.hpp"
+#include "web-ui/server/api/state_event.hpp"
+#include "web-ui/server/api/topic_bodies.hpp"
+
+namespace flexrf::panel {
+
+/// What the handler is made of; all outlive it.
+struct RestParts {
+  Executive& executive;
+  AccessControl& access;
+  JsonReader& reader;
+  Operations& operations;
+  Permission& permission;
+  ObservedSlots& slots;
+  ComponentValues& values;
+  const ImageWorker& images;
+  ImageRequests& pictures;
+  StateEvent& state;
+  TopicBodies& topics;
+  std::string_view boot;
+};
+
+/// The server's thread.
+class RestHandler final : public RequestHandler {
+ public:
+  explicit RestHandler(const RestParts& parts);
+
+  Handled handle(const Request& request, Reply& reply, Ticket ticket) override;
+
+ private:
+  void serve(const Request& request, Reply& reply, const Caller& caller, Time now);
+  void read(const Match& match, const Request& request, Reply& reply, const Caller& caller, Time now);
+  void act(const Match& match, const Request& request, const Caller& caller, Time now);
+  void act_on_component(const Match& match, Fields& fields, const Caller& caller, Time now);
+  void put_parameters(const Match& match, const Request& request, JsonObject values, const Caller& caller,
+                      Time now);
+  void write_component(const Request& request, Reply& reply, std::string_view name, const Caller& caller);
+  void write_slot(JsonWriter& json, std::uint16_t slot);
+  void ask_picture(std::uint16_t slot, const Request& request, const Caller& caller, Time now);
+  /// Makes the text the reply: 304 when the client has it.
+  void finish(const Request& request, Reply& reply);
+  void finish_json(const Request& request, Reply& reply, JsonWriter& json);
+  void finish_fixed(const Request& request, Reply& reply, std::string_view text, std::uint64_t digest);
+
+  RestParts parts_;
+  std::string openapi_;
+};
+
+}  // namespace flexrf::panel

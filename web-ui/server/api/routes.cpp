@@ -1,0 +1,194 @@
+#include "web-ui/server/api/routes.hpp"
+
+#include <algorithm>
+
+#include "runtime/core/json_writer.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+constexpr Route table[] = {
+    {Resource::openapi, Method::get, "openapi.json", "This document", Role::viewer, false, "", "Any", ""},
+    {Resource::descriptor, Method::get, "descriptor",
+     "Types, slots, components and parameters of the application", Role::viewer, false, "", "Any", ""},
+    {Resource::state, Method::get, "state", "Mode, motion, faults, who is in control", Role::viewer, false,
+     "", "State", ""},
+    {Resource::components, Method::get, "components", "All units and devices with their state", Role::viewer,
+     false, "", "Components", ""},
+    {Resource::component, Method::get, "components/{name}", "One unit or device", Role::viewer, false, "",
+     "Component", ""},
+    {Resource::get_parameters, Method::get, "components/{name}/parameters",
+     "Configuration, runtime parameters in force, feedback", Role::viewer, false, "", "Parameters", ""},
+    {Resource::put_parameters, Method::put, "components/{name}/parameters",
+     "Changes runtime parameters, all or none; If-Match refuses what changed since", Role::operator_, true,
+     "Values", "Parameters", ""},
+    {Resource::action, Method::post, "components/{name}/actions/{action}",
+     "start, stop, initialise (engineer), activate, retire, clone, reset, press", Role::operator_, true,
+     "Action", "Parameters", ""},
+    {Resource::reconfigure, Method::post, "reconfigure",
+     "Changes configuration parameters as one transaction while nothing moves", Role::engineer, true,
+     "Changes", "Reconfiguration", ""},
+    {Resource::slots, Method::get, "slots", "All slots with counters", Role::viewer, false, "", "Slots", ""},
+    {Resource::slot, Method::get, "slots/{name}", "One slot with its newest value", Role::viewer, false, "",
+     "Slot", ""},
+    {Resource::slot_image, Method::get, "slots/{name}/image", "The newest picture of an image slot",
+     Role::viewer, false, "", "image/jpeg", "width"},
+    {Resource::queues, Method::get, "queues", "All queues with counters", Role::viewer, false, "", "Queues",
+     ""},
+    {Resource::threads, Method::get, "threads", "All threads with histograms", Role::viewer, false, "",
+     "Threads", ""},
+    {Resource::devices, Method::get, "devices", "All devices with drivers and owners", Role::viewer, false,
+     "", "Devices", ""},
+    {Resource::log, Method::get, "log", "Recent lines of the log", Role::viewer, false, "", "Log", "after"},
+    {Resource::stop_motion, Method::post, "stop-motion",
+     "Stop motion: a latch; neither an emergency stop nor an enabling device", Role::viewer, false, "", "",
+     ""},
+    {Resource::clear_stop_motion, Method::post, "clear-stop-motion",
+     "Clears the latch; nothing moves before Start", Role::operator_, true, "", "", ""},
+    {Resource::start_motion, Method::post, "start-motion", "Start: actuators may move", Role::operator_, true,
+     "", "", ""},
+    {Resource::take_control, Method::post, "control/take",
+     "Takes the control token, or asks its holder for it", Role::operator_, false, "", "Taken", ""},
+    {Resource::release_control, Method::post, "control/release", "Gives the control token up", Role::viewer,
+     false, "", "", ""},
+    {Resource::answer_control, Method::post, "control/answer", "Answers who asks for the control token",
+     Role::operator_, true, "Grant", "", ""},
+};
+
+constexpr std::string_view schemas = R"json({
+"Any":{"type":"object"},
+"Problem":{"type":"object","required":["type","title","status","detail"],"properties":{"type":{"type":"string"},"title":{"type":"string"},"status":{"type":"integer"},"detail":{"type":"string"},"parameter":{"type":"string"},"reason":{"type":"string"},"moving":{"type":"array","items":{"type":"string"}}}},
+"Values":{"type":"object","description":"PATH (gain, gains[2], limits.low): value","additionalProperties":true,"minProperties":1},
+"Parameters":{"type":"object","properties":{"sequence":{"type":"integer"},"configuration":{"type":["object","null"]},"runtime":{"type":["object","null"]},"feedback":{"type":["object","null"]}}},
+"Action":{"type":"object","properties":{"source":{"type":"string"},"parameters":{"type":"array","items":{"type":"string"}},"parameter":{"type":"string"},"count":{"type":"integer","minimum":1,"maximum":100}}},
+"Changes":{"type":"object","required":["changes"],"properties":{"changes":{"type":"array","items":{"type":"object","required":["component","values"],"properties":{"component":{"type":"string"},"values":{"$ref":"#/components/schemas/Values"}}}}}},
+"Reconfiguration":{"type":"object","required":["outcome","causes","owners"],"properties":{"outcome":{"enum":["done","refused","rolled_back","fault"]},"causes":{"type":"array","items":{"type":"string"}},"owners":{"type":"array","items":{"type":"string"}}}},
+"Grant":{"type":"object","required":["grant"],"properties":{"grant":{"type":"boolean"}}},
+"Taken":{"type":"object","required":["taken"],"properties":{"taken":{"type":"boolean"}}},
+"Session":{"type":["object","null"],"properties":{"name":{"type":"string"},"user":{"type":"string"},"address":{"type":"string"},"local":{"type":"boolean"},"you":{"type":"boolean"}}},
+"State":{"type":"object","required":["mode","cause","motion","faults","control","edit","server"],"properties":{"mode":{"enum":["starting","running","finishing","stopping","safe","ended"]},"cause":{"type":"string"},"motion":{"type":"object","required":["stopped","may_move"],"properties":{"stopped":{"type":"boolean"},"may_move":{"type":"boolean"}}},"faults":{"type":"array","items":{"type":"object","required":["component","cause"]}},"control":{"type":"object","properties":{"holder":{"$ref":"#/components/schemas/Session"},"wanted_by":{"$ref":"#/components/schemas/Session"},"answer_within_ms":{"type":"integer"}}},"edit":{"type":["object","null"]},"server":{"type":"object"}}},
+"Component":{"type":"object","required":["name","kind","life","fault","active","member","steps","execution"],"properties":{"name":{"type":"string"},"kind":{"enum":["unit","device"]},"type":{"type":"string"},"driver":{"type":"string"},"life":{"enum":["created","initialised","running","stopped","fault"]},"fault":{"type":"string"},"active":{"type":"boolean"},"member":{"type":["object","null"]},"steps":{"type":"integer"},"execution":{"type":"object"}}},
+"Components":{"type":"array","items":{"$ref":"#/components/schemas/Component"}},
+"Slot":{"type":"object","required":["name","type","published","reason","sequence","sampled_at_ns","value","readers"],"properties":{"name":{"type":"string"},"type":{"type":"string"},"published":{"type":"integer"},"reason":{"type":"string"},"sequence":{"type":"integer"},"sampled_at_ns":{"type":"integer"},"value":{"type":["object","null"]},"readers":{"type":"array"}}},
+"Slots":{"type":"array","items":{"type":"object","required":["name","published","readers"]}},
+"Queues":{"type":"array","items":{"type":"object","required":["name","capacity","writers","readers"]}},
+"Threads":{"type":"array","items":{"type":"object","required":["name","cycles","overruns","skipped","allocations","budget_ns","lateness","execution"]}},
+"Devices":{"type":"array","items":{"type":"object","required":["name","interface","driver","kind","life"]}},
+"Log":{"type":"object","required":["last","lines"],"properties":{"last":{"type":"integer"},"lines":{"type":"array","items":{"type":"object","required":["number","text"]}}}}
+})json";
+
+constexpr std::string_view words_of_methods[] = {"get", "head", "put", "post", "other"};
+constexpr std::string_view words_of_roles[] = {"viewer", "operator", "engineer", "admin"};
+
+/// The first segment of a path, which is taken off.
+std::string_view take_segment(std::string_view& path) noexcept {
+  const std::size_t end = std::min(path.find('/'), path.size());
+  const std::string_view segment = path.substr(0, end);
+  path.remove_prefix(std::min(end + 1, path.size()));
+  return segment;
+}
+
+bool matches(std::string_view pattern, std::string_view path, Match& match) noexcept {
+  std::size_t place = 0;
+  while (!pattern.empty() && !path.empty()) {
+    const std::string_view wanted = take_segment(pattern);
+    const std::string_view segment = take_segment(path);
+    if (wanted.front() == '{') {
+      match.segments[place++] = segment;
+    } else if (wanted != segment) {
+      return false;
+    }
+  }
+  return pattern.empty() && path.empty();
+}
+
+void write_content(JsonWriter& json, std::string_view schema) {
+  json.key("content").begin_object();
+  if (schema == "image/jpeg") {
+    json.key(schema).begin_object().end_object();
+  } else {
+    json.key("application/json").begin_object().key("schema").begin_object();
+    json.member("$ref", "#/components/schemas/" + std::string{schema.empty() ? "Any" : schema});
+    json.end_object().end_object();
+  }
+  json.end_object();
+}
+
+void write_parameter(JsonWriter& json, std::string_view name, const char* in) {
+  json.begin_object()
+      .member("name", name)
+      .member("in", in)
+      .member("required", std::string_view{in} == "path");
+  json.key("schema").begin_object().member("type", std::string_view{in} == "path" ? "string" : "integer");
+  json.end_object().end_object();
+}
+
+void write_operation(JsonWriter& json, const Route& route) {
+  json.key(words_of_methods[static_cast<std::size_t>(route.method)]).begin_object();
+  json.member("summary", route.summary);
+  json.member("x-role", words_of_roles[static_cast<std::size_t>(route.role)]);
+  json.member("x-needs-control", route.control).key("parameters").begin_array();
+  std::string_view path = route.path;
+  while (!path.empty()) {
+    const std::string_view segment = take_segment(path);
+    if (segment.front() == '{') write_parameter(json, segment.substr(1, segment.size() - 2), "path");
+  }
+  if (!route.query.empty()) write_parameter(json, route.query, "query");
+  json.end_array();
+  if (!route.request.empty()) {
+    json.key("requestBody").begin_object();
+    write_content(json, route.request);
+    json.end_object();
+  }
+  json.key("responses").begin_object().key("200").begin_object().member("description", "Done");
+  write_content(json, route.response);
+  json.end_object().key("default").begin_object().member("description", "Refused, and why (RFC 9457)");
+  json.key("content").begin_object().key("application/problem+json").begin_object().key("schema");
+  json.begin_object().member("$ref", "#/components/schemas/Problem").end_object().end_object().end_object();
+  json.end_object().end_object().end_object();
+}
+
+}  // namespace
+
+std::span<const Route> routes() noexcept {
+  return table;
+}
+
+Match match(Method method, std::string_view path) noexcept {
+  const Method wanted = method == Method::head ? Method::get : method;
+  Match found;
+  for (const Route& route : table) {
+    if (!matches(route.path, path, found)) continue;
+    found.known_path = true;
+    if (route.method != wanted) continue;
+    found.route = &route;
+    break;
+  }
+  return found;
+}
+
+std::string openapi_document(std::string_view application) {
+  JsonWriter json({}, JsonWriter::Style::compact);
+  json.begin_object().member("openapi", "3.1.0").key("info").begin_object();
+  json.member("title", "Panel of " + std::string{application}).member("version", "1");
+  json.member(
+      "description",
+      "Values, counters and acts of a FlexRF application. Acts need the role and, where x-needs-control "
+      "says so, the control token; requests of a page need an Origin of the server's own.");
+  json.end_object().key("servers").begin_array().begin_object().member("url", "/api/v1").end_object();
+  json.end_array().key("paths").begin_object();
+  std::string_view open;
+  for (const Route& route : table) {
+    if (route.path != open) {
+      if (!open.empty()) json.end_object();
+      json.key("/" + std::string{route.path}).begin_object();
+      open = route.path;
+    }
+    write_operation(json, route);
+  }
+  json.end_object().end_object().key("components").begin_object().key("schemas").raw(schemas);
+  json.end_object().end_object();
+  return json.release();
+}
+
+}  // namespace flexrf::panel

@@ -1,0 +1,67 @@
+// What there is under /api/v1: one table for answering requests and for openapi.json.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "runtime/parameters/parameter_descriptor.hpp"
+#include "web-ui/server/exchange.hpp"
+
+namespace flexrf::panel {
+
+enum class Resource : std::uint8_t {
+  openapi,
+  descriptor,
+  state,
+  components,
+  component,
+  get_parameters,
+  put_parameters,
+  action,
+  reconfigure,
+  slots,
+  slot,
+  slot_image,
+  queues,
+  threads,
+  devices,
+  log,
+  stop_motion,
+  clear_stop_motion,
+  start_motion,
+  take_control,
+  release_control,
+  answer_control,
+};
+
+struct Route {
+  Resource resource;
+  Method method;
+  std::string_view path;  ///< below /api/v1/; "{...}" stands for one segment
+  std::string_view summary;
+  Role role;
+  bool control;               ///< needs the control token
+  std::string_view request;   ///< name of the schema of the body; empty: no body
+  std::string_view response;  ///< likewise of the answer; empty: {}
+  std::string_view query;     ///< name of its integer parameter in the query; empty: none
+};
+
+std::span<const Route> routes() noexcept;
+
+/// What a path means.
+struct Match {
+  const Route* route = nullptr;                ///< null: no such path, or not for this method
+  bool known_path = false;                     ///< some other method is for it
+  std::array<std::string_view, 2> segments{};  ///< what stood for each "{...}"
+};
+/// `path`: percent-decoded, below /api/v1/.
+Match match(Method method, std::string_view path) noexcept;
+
+/// The document that describes them all (OpenAPI 3.1).
+std::string openapi_document(std::string_view application);
+
+}  // namespace flexrf::panel

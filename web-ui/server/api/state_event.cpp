@@ -1,0 +1,125 @@
+#include "web-ui/server/api/state_event.hpp"
+
+#include "runtime/core/digest.hpp"
+#include "runtime/executive/report_data.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+constexpr std::string_view event_head = R"({"event":"state",)";
+
+const char* word_of(Mode mode) noexcept {
+  return mode == Mode::safe ? "safe" : name_of(mode);
+}
+
+std::int64_t milliseconds(Duration duration) noexcept {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(duration).count();
+}
+
+double microseconds(Duration duration) noexcept {
+  return static_cast<double>(duration.count()) * 1e-3;
+}
+
+}  // namespace
+
+std::uint64_t StateEvent::signature() const noexcept {
+  const Control& control = executive_->control();
+  const Application& application = executive_->cell().application();
+  Digest digest;
+  digest.add(static_cast<std::uint64_t>(control.mode()));
+  digest.add((control.motion_stopped() ? 2U : 0U) + (control.may_move() ? 1U : 0U));
+  digest.add(control.faults());
+  std::uint64_t in_fault = 0;
+  for (const UnitState& unit : application.unit_states)
+    in_fault += unit.life.load(std::memory_order_relaxed) == Life::fault ? 1U : 0U;
+  for (const DeviceState& device : application.device_states)
+    in_fault += device.life.load(std::memory_order_relaxed) == Life::fault ? 1U : 0U;
+  digest.add(in_fault);
+  digest.add(access_->revision());
+  digest.add(edits_->revision());
+  return digest.value();
+}
+
+void StateEvent::update(Time now) {
+  const std::uint64_t signed_now = signature();
+  if (signed_now == seen_ && now < next_) return;
+  seen_ = signed_now;
+  next_ = now + interval;
+  ++version_;
+  holder_ = access_->holder();
+  wanted_by_ = access_->wanted_by();
+  editor_ = edits_->owner();
+  write(texts_[0], holder_, now);
+  write(texts_[1], wanted_by_, now);
+  write(texts_[2], no_session, now);
+}
+
+std::string_view StateEvent::event_for(SessionIndex session) const noexcept {
+  if (session != no_session && session == holder_) return texts_[0];
+  if (session != no_session && session == wanted_by_) return texts_[1];
+  return texts_[2];
+}
+
+std::string_view StateEvent::members_for(SessionIndex session) const noexcept {
+  return event_for(session).substr(event_head.size());
+}
+
+void StateEvent::write_session(JsonWriter& json, SessionIndex session, SessionIndex you) const {
+  const SessionInfo* const info = session == no_session ? nullptr : access_->session(session);
+  if (info == nullptr) {
+    json.null();
+    return;
+  }
+  json.begin_object().member("name", info->name).member("user", info->user).member("address", info->address);
+  json.member("local", info->local).member("you", session == you).end_object();
+}
+
+void StateEvent::write_faults(JsonWriter& json) const {
+  const Application& application = executive_->cell().application();
+  json.key("faults").begin_array();
+  const auto write = [&json](const char* name, const auto& state) {
+    if (state.life.load(std::memory_order_acquire) != Life::fault) return;
+    json.begin_object().member("component", name).member("cause", state.fault.cause()).end_object();
+  };
+  for (std::size_t i = 0; i < application.units.size(); ++i)
+    write(application.units[i].name, application.unit_states[i]);
+  for (std::size_t i = 0; i < application.devices.size(); ++i)
+    write(application.devices[i].name, application.device_states[i]);
+  json.end_array();
+}
+
+void StateEvent::write(std::string& text, SessionIndex you, Time now) const {
+  const Control& control = executive_->control();
+  text.assign(event_head);
+  // What follows are the members of the object that the head has opened.
+  const std::size_t head = text.size();
+  JsonWriter json(std::move(text));
+  json.begin_object();
+  json.member("mode", word_of(control.mode())).member("cause", name_of(control.cause()));
+  json.key("motion").begin_object().member("stopped", control.motion_stopped());
+  json.member("may_move", control.may_move()).end_object();
+  write_faults(json);
+  json.key("control").begin_object().key("holder");
+  write_session(json, holder_, you);
+  json.key("wanted_by");
+  write_session(json, wanted_by_, you);
+  json.member("answer_within_ms", wanted_by_ == no_session ? 0 : milliseconds(access_->answer_within(now)));
+  json.end_object().key("edit");
+  if (edits_->is_open()) {
+    json.begin_object().key("holder");
+    write_session(json, editor_, you);
+    json.key("components").begin_array();
+    for (const ComponentIndex component : edits_->components()) json.value(directory_->entry(component).name);
+    json.end_array().member("left_ms", milliseconds(edits_->left(now))).end_object();
+  } else {
+    json.null();
+  }
+  json.key("server").begin_object().member("connections", figures_.connections);
+  json.member("places", figures_.places).key("loop_delay_us").begin_object();
+  json.member("p99", microseconds(figures_.loop_delay_p99));
+  json.member("max", microseconds(figures_.loop_delay_max)).end_object().end_object().end_object();
+  text = json.release();
+  text.erase(head, 1);  // the second opening bracket
+}
+
+}  // namespace flexrf::panel

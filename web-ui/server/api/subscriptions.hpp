@@ -1,0 +1,43 @@
+// What a page wants to see, and how often.
+#pragma once
+
+#include "web-ui/server/api/answers.hpp"
+#include "web-ui/server/api/directory.hpp"
+#include "web-ui/server/api/image_worker.hpp"
+#include "web-ui/server/api/json_reader.hpp"
+
+namespace flexrf::panel {
+
+/// The server's thread.
+class Subscriptions {
+ public:
+  static constexpr double most_values = 60;  ///< a second
+  static constexpr double most_topics = 10;
+
+  Subscriptions(Clients& clients, const Directory& directory, const Application& application,
+                ImageWorker& images, Answers& answers) noexcept
+      : clients_(&clients),
+        directory_(&directory),
+        application_(&application),
+        images_(&images),
+        answers_(&answers) {}
+
+  /// Replaces what the client had: {"slots": [{"name", "rate", "width"}], "topics": [{"name", "rate"}]}.
+  void subscribe(const Caller& caller, Client& client, Fields& fields, Time now);
+  /// Tells the worker what is looked at, after a client came, changed or went.
+  void update_demand();
+
+ private:
+  const char* read_slots(Client& client, JsonArray slots, Time now);
+  const char* read_topics(Client& client, JsonArray topics, Time now);
+  bool is_observed(std::string_view name, std::uint16_t& slot) const noexcept;
+  void write_unknown(JsonWriter& json, JsonArray entries, bool topics) const;
+
+  Clients* clients_;
+  const Directory* directory_;
+  const Application* application_;
+  ImageWorker* images_;
+  Answers* answers_;
+};
+
+}  // namespace flexrf::panel

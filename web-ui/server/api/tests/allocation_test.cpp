@@ -1,0 +1,72 @@
+// In the steady state no allocation reaches the system: values that are watched, holds that are refreshed,
+// pings, values that are read.
+#include "runtime/realtime/realtime_scope.hpp"
+#include "web-ui/server/api/tests/rig.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+using fixture::ProducerAndConsumer;
+
+void the_steady_state_allocates_nothing() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  rig.access().give(an_operator);
+  PlayedLink& link = rig.connect(an_operator);
+  PlayedLink& other = rig.connect(a_viewer);
+  const json watch{
+      {"op", "subscribe"},
+      {"slots", {{{"name", "values"}, {"rate", 60}}, {{"name", "producer.runtime"}, {"rate", 60}}}},
+      {"topics", {{{"name", "slots"}, {"rate", 10}}, {{"name", "components"}, {"rate", 10}}}}};
+  rig.ask(link, watch);
+  rig.ask(other, watch);
+  const json held = rig.ask(link, {{"op", "hold"}, {"component", "producer"}, {"parameter", "move"}});
+  const std::string refresh = json{{"op", "refresh"}, {"id", 900}, {"lease", held.at("lease")}}.dump();
+  const std::string ping = R"({"op": "ping", "id": 901, "sent": 12345.5})";
+  const std::string path = "/api/v1/slots/values";
+  const std::string parameters = "/api/v1/components/producer/parameters";
+  Request request;
+  request.session = a_viewer;
+  Reply reply;
+  std::uint32_t exchange = 0;
+  const auto turn = [&] {
+    rig.api().live().on_text(link, refresh);
+    rig.api().live().on_text(other, ping);
+    for (const std::string* one : {&path, &parameters}) {
+      request.path = *one;
+      if (rig.api().rest().handle(request, reply, {7, ++exchange}) != Handled::now || reply.status != 200)
+        return false;
+    }
+    rig.tick();
+    return link.closed == 0;
+  };
+  // Until all memory has grown to what it is used for. What is played must not allocate either.
+  link.keep = other.keep = false;
+  const auto run_for = [&](Duration duration) {
+    const Time end = MonotonicClock::now() + duration;
+    while (MonotonicClock::now() < end)
+      if (!turn()) return false;
+    return true;
+  };
+  CHECK(run_for(std::chrono::milliseconds{1500}));
+  AllocationCounter count{0};
+  bool went_well = false;
+  {
+    const RealtimeScope scope(count);
+    went_well = run_for(std::chrono::milliseconds{1500});
+  }
+  CHECK(went_well);
+  CHECK(has_allocation_guard());
+  CHECK_EQUAL(count.load(), 0U);
+  CHECK(link.sent > 100 && other.sent > 100);
+}
+
+}  // namespace
+}  // namespace flexrf::panel
+
+int main() {
+  using namespace flexrf::panel;
+  const CMUnitTest tests[] = {CONTAINED_TEST(the_steady_state_allocates_nothing)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,289 @@
+// The live connection: greeting, state, topics, frames of values, clients that are slow or hostile.
+#include <cstring>
+
+#include "runtime/log/log.hpp"
+#include "web-ui/server/api/tests/rig.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+using fixture::ProducerAndConsumer;
+
+template <class Value>
+Value at(const std::string& bytes, std::size_t offset) {
+  if (offset + sizeof(Value) > bytes.size()) throw fixture::CheckFailed{"a frame is too short"};
+  Value value;
+  std::memcpy(&value, bytes.data() + offset, sizeof(value));
+  return value;
+}
+
+std::uint32_t items(const std::string& frame) {
+  return at<std::uint32_t>(frame, 16);
+}
+
+json subscribe(const json& slots, const json& topics = json::array()) {
+  return {{"op", "subscribe"}, {"slots", slots}, {"topics", topics}};
+}
+
+void a_page_is_greeted_and_told_the_state() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  PlayedLink& link = rig.connect(an_operator);
+  CHECK(link.texts.size() >= 1);
+  const json hello = link.texts.front();
+  CHECK_EQUAL(hello.at("event").get<std::string>(), "hello");
+  CHECK_EQUAL(hello.at("protocol").get<int>(), 1);
+  CHECK_EQUAL(hello.at("application").get<std::string>(), "test_cell");
+  CHECK_EQUAL(hello.at("descriptor").get<std::string>(), "0000000000007e57");
+  CHECK_EQUAL(hello.at("boot").get<std::string>().size(), 16U);
+  CHECK(hello.at("session") ==
+        json({{"name", "panel-2"}, {"role", "operator"}, {"local", true}, {"user", "olga"}}));
+  json state = rig.event(link, "state");
+  CHECK_EQUAL(state.at("mode").get<std::string>(), "running");
+  CHECK(state.at("motion") == json({{"stopped", false}, {"may_move", true}}));
+  CHECK(state.at("control").at("holder").is_null());
+  CHECK(state.at("edit").is_null());
+  // What changes is told at once, and to whom it happens.
+  PlayedLink& other = rig.connect(a_viewer);
+  rig.event(other, "state");
+  link.texts.clear();
+  rig.ask(link, {{"op", "take_control"}});
+  CHECK(rig.event(link, "state").at("control").at("holder").at("you") == true);
+  const json seen = rig.event(other, "state").at("control").at("holder");
+  CHECK(seen.at("you") == false && seen.at("user") == "olga");
+  rig.ask(other, {{"op", "stop_motion"}});
+  CHECK(rig.wait_until([&] { return rig.get("state").body.at("motion").at("stopped") == true; }));
+}
+
+void a_fault_is_told_with_its_cause() {
+  ProducerAndConsumer cell;
+  std::atomic<bool> fails{false};
+  cell.unit(ProducerAndConsumer::producer).script.step = [&fails](fixture::TestUnit& unit, const Tick&) {
+    if (fails) unit.give_up(Status::error(StatusCode::device_fault, "the gripper lost its part"));
+  };
+  Rig rig(cell);
+  rig.start();
+  PlayedLink& link = rig.connect(a_viewer);
+  CHECK(rig.event(link, "state").at("faults").empty());
+  link.texts.clear();
+  fails = true;
+  CHECK(rig.wait_until([&] {
+    for (const json& text : link.texts)
+      if (text.value("event", "") == "state" && !text.at("faults").empty())
+        return text.at("faults").at(0).at("component") == "producer" &&
+               text.at("faults").at(0).at("cause") == "the gripper lost its part";
+    return false;
+  }));
+}
+
+void frames_hold_what_is_new() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  PlayedLink& link = rig.connect(a_viewer);
+  const json answer = rig.ask(link, subscribe({{{"name", "values"}, {"rate", 60}}, {{"name", "valves"}}}));
+  CHECK(answer.at("unknown") == json::array({"valves"}));
+  std::uint64_t sequence = 0;
+  for (int seen = 0; seen < 5; ++seen) {
+    CHECK(rig.wait_until([&] {
+      while (!link.frames.empty() && items(link.frames.front()) == 0) link.frames.pop_front();
+      return !link.frames.empty();
+    }));
+    const std::string frame = link.frames.front();
+    link.frames.pop_front();
+    CHECK_EQUAL(at<std::uint64_t>(frame, 0), 0x7E57U);
+    CHECK_EQUAL(items(frame), 1U);
+    CHECK_EQUAL(frame.size(), 32 + 32 + sizeof(fixture::Item));
+    CHECK_EQUAL(at<std::uint32_t>(frame, 32), 0U);
+    CHECK_EQUAL(at<std::uint32_t>(frame, 36), sizeof(fixture::Item));
+    const auto next = at<std::uint64_t>(frame, 40);
+    CHECK(next > sequence);
+    CHECK_EQUAL(at<std::uint32_t>(frame, 60), sequence == 0 ? 0 : next - sequence - 1);
+    sequence = next;
+    const auto item = at<fixture::Item>(frame, 64);
+    CHECK(item.number > 0 || seen == 0);
+  }
+}
+
+void silence_has_its_heartbeat() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  PlayedLink& link = rig.connect(a_viewer);
+  const Time now = MonotonicClock::now();
+  link.frames.clear();
+  rig.tick(now + std::chrono::milliseconds{300});
+  CHECK_EQUAL(link.frames.size(), 1U);
+  rig.tick(now + std::chrono::milliseconds{400});
+  CHECK_EQUAL(link.frames.size(), 1U);
+  rig.tick(now + std::chrono::milliseconds{600});
+  CHECK_EQUAL(link.frames.size(), 2U);
+  CHECK_EQUAL(items(link.frames.back()), 0U);
+}
+
+void the_reason_of_a_null_comes_too() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  rig.access().give(an_engineer);
+  PlayedLink& link = rig.connect(an_engineer);
+  rig.ask(link, subscribe({{{"name", "values"}, {"rate", 60}}}));
+  rig.ask(link, {{"op", "action"}, {"component", "producer"}, {"action", "stop"}});
+  CHECK(rig.wait_until([&] {
+    for (const std::string& frame : link.frames)
+      if (items(frame) == 1 && at<std::uint32_t>(frame, 36) == 0)
+        return at<std::uint8_t>(frame, 56) == static_cast<std::uint8_t>(NullReason::writer_stopped);
+    return false;
+  }));
+}
+
+void a_slow_client_delays_nobody() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  PlayedLink& slow = rig.connect(a_viewer);
+  PlayedLink& quick = rig.connect(a_viewer);
+  for (PlayedLink* link : {&slow, &quick}) rig.ask(*link, subscribe({{{"name", "values"}, {"rate", 50}}}));
+  slow.frames.clear();
+  slow.stuck = true;
+  CHECK(rig.wait_until([&] { return slow.is_writing(); }));
+  const std::size_t before = slow.sent;
+  quick.frames.clear();
+  CHECK(rig.wait_until([&] { return quick.frames.size() >= 15; }));
+  CHECK_EQUAL(slow.sent, before);
+  CHECK(rig.api().ticked().until_next(MonotonicClock::now()) <= std::chrono::milliseconds{100});
+  slow.frames.clear();
+  slow.unstick(rig.api().live());
+  CHECK(rig.wait_until([&] { return !slow.frames.empty() && items(slow.frames.back()) == 1; }));
+  // It gets what is newest, and is told how much was left out.
+  CHECK(at<std::uint32_t>(slow.frames.back(), 20) >= 10);
+  CHECK(slow.frames.size() <= 2);
+}
+
+void topics_come_when_they_change() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  PlayedLink& link = rig.connect(a_viewer);
+  json topics = json::array();
+  for (const char* const name : {"components", "slots", "queues", "threads", "log"})
+    topics.push_back({{"name", name}, {"rate", 10}});
+  topics.push_back({{"name", "weather"}});
+  CHECK(rig.ask(link, subscribe(json::array(), topics)).at("unknown") == json::array({"weather"}));
+  std::map<std::string, json> bodies;
+  CHECK(rig.wait_until([&] {
+    for (const json& text : link.texts)
+      if (text.value("event", "") == "topic") bodies[text.at("name").get<std::string>()] = text.at("body");
+    return bodies.size() == 4;
+  }));
+  CHECK_EQUAL(bodies["components"].size(), 3U);
+  CHECK_EQUAL(bodies["components"][0].at("name").get<std::string>(), "producer");
+  CHECK_EQUAL(bodies["slots"][0].at("readers").at(0).at("name").get<std::string>(), "consumer.first");
+  CHECK_EQUAL(bodies["queues"][0].at("writers").at(0).at("name").get<std::string>(), "producer.orders");
+  CHECK(bodies["threads"][0].at("lateness").contains("p99.9_ns"));
+  log_info("test", "a line for the page");
+  drain_log(-1);
+  CHECK(rig.wait_until([&] {
+    for (const json& text : link.texts)
+      if (text.value("event", "") == "log")
+        for (const json& line : text.at("lines"))
+          if (line.at("text").get<std::string>().find("a line for the page") != std::string::npos)
+            return true;
+    return false;
+  }));
+}
+
+void what_is_no_message_closes_the_connection() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  struct Case {
+    const char* text;
+    std::uint16_t code;
+  };
+  for (const Case& one : {Case{"hello", 1007}, Case{"[1]", 1007}, Case{R"({"op": "ping"})", 1008},
+                          Case{R"({"op": "ping", "id": 0})", 1008}, Case{R"({"id": 1})", 1008},
+                          Case{R"({"op": "ping", "id": -1})", 1008}, Case{R"({"op": 7, "id": 1})", 1008}}) {
+    PlayedLink& link = rig.connect(a_viewer);
+    rig.api().live().on_text(link, one.text);
+    CHECK_EQUAL(link.closed, one.code);
+    rig.disconnect(link);
+  }
+  PlayedLink& link = rig.connect(a_viewer);
+  CHECK_CONTAINS(rig.ask(link, {{"op", "pong"}}).at("problem").at("detail").get<std::string>(),
+                 "did you mean 'ping'?");
+  CHECK_CONTAINS(rig.ask(link, {{"op", "ping"}}).at("problem").at("detail").get<std::string>(),
+                 "'sent' is missing");
+  CHECK_CONTAINS(rig.ask(link, subscribe({{{"name", "values"}, {"rate", 1000}}}))
+                     .at("problem")
+                     .at("detail")
+                     .get<std::string>(),
+                 "60 a second");
+  CHECK_CONTAINS(rig.ask(link, {{"op", "set"}, {"component", "producr"}, {"values", {{"gain", 1}}}})
+                     .at("problem")
+                     .at("detail")
+                     .get<std::string>(),
+                 "did you mean 'producer'?");
+  CHECK_EQUAL(rig.ask(link, {{"op", "ping"}, {"sent", 17.25}}).at("sent").get<double>(), 17.25);
+}
+
+void who_asks_and_never_reads_is_closed() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  PlayedLink& link = rig.connect(a_viewer);
+  PlayedLink& other = rig.connect(a_viewer);
+  link.stuck = true;
+  CHECK(rig.wait_until([&] { return link.is_writing(); }));
+  for (int i = 1; i < 100'000 && link.closed == 0; ++i)
+    rig.send(link, {{"op", "ping"}, {"id", i}, {"sent", i}});
+  CHECK_EQUAL(link.closed, 1013);
+  CHECK(rig.ask(other, {{"op", "ping"}, {"sent", 1}}).at("ok") == true);
+}
+
+void two_pages_see_each_others_changes() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  rig.access().give(an_operator);
+  PlayedLink& hand = rig.connect(an_operator);
+  PlayedLink& eye = rig.connect(a_viewer);
+  rig.ask(eye, subscribe({{{"name", "producer.runtime"}, {"rate", 60}}}));
+  rig.ask(hand, {{"op", "set"}, {"component", "producer"}, {"values", {{"gain", 7.5}}}});
+  CHECK(rig.wait_until([&] {
+    for (const std::string& frame : eye.frames)
+      if (items(frame) == 1 && at<double>(frame, 64) == 7.5) return true;
+    return false;
+  }));
+}
+
+void the_end_is_told() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  PlayedLink& link = rig.connect(a_viewer);
+  rig.executive().request_end();
+  CHECK(rig.event(link, "ended").contains("text"));
+}
+
+}  // namespace
+}  // namespace flexrf::panel
+
+int main() {
+  using namespace flexrf::panel;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(a_page_is_greeted_and_told_the_state),
+      CONTAINED_TEST(a_fault_is_told_with_its_cause),
+      CONTAINED_TEST(frames_hold_what_is_new),
+      CONTAINED_TEST(silence_has_its_heartbeat),
+      CONTAINED_TEST(the_reason_of_a_null_comes_too),
+      CONTAINED_TEST(a_slow_client_delays_nobody),
+      CONTAINED_TEST(topics_come_when_they_change),
+      CONTAINED_TEST(what_is_no_message_closes_the_connection),
+      CONTAINED_TEST(who_asks_and_never_reads_is_closed),
+      CONTAINED_TEST(two_pages_see_each_others_changes),
+      CONTAINED_TEST(the_end_is_told),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

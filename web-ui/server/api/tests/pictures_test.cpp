@@ -1,0 +1,221 @@
+// Pictures: formats, scaling, one encoding for all, by frame and by REST.
+#include <turbojpeg.h>
+
+#include <cstddef>
+#include <cstring>
+#include <memory>
+
+#include "web-ui/server/api/picture.hpp"
+#include "web-ui/server/api/tests/rig.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+constexpr std::size_t columns = 64;
+constexpr std::size_t rows = 48;
+
+struct Picture {
+  std::uint32_t width;
+  std::uint32_t height;
+  std::uint8_t format;
+  std::uint8_t data[columns * rows * 3];
+};
+
+constexpr EnumerationValue formats[] = {
+    {"none", ""}, {"grey8", ""}, {"rgb24", ""}, {"bgr24", ""}, {"yuyv", ""}};
+constexpr TypeDescriptor format_type{"PixelFormat", "", 1, 1, 1, {}, {}, formats, false};
+constexpr FieldDescriptor picture_fields[] = {
+    {"width", Scalar::u32, 0, {0, 0}, 1, offsetof(Picture, width), "1", "", nullptr},
+    {"height", Scalar::u32, 0, {0, 0}, 1, offsetof(Picture, height), "1", "", nullptr},
+    {"format", Scalar::enumeration, 0, {0, 0}, 1, offsetof(Picture, format), "", "", &format_type},
+    {"data",
+     Scalar::u8,
+     1,
+     {columns * rows * 3, 0},
+     columns* rows * 3,
+     offsetof(Picture, data),
+     "1",
+     "",
+     nullptr}};
+constexpr TypeDescriptor picture_type{
+    "Picture", "", sizeof(Picture), alignof(Picture), 0x99, picture_fields, {}, {}, true};
+
+enum Format : std::uint8_t { none, grey8, rgb24, bgr24, yuyv };
+
+/// Left half red (grey: dark), right half green (grey: bright).
+void draw(Picture& picture, Format format) {
+  picture.width = columns;
+  picture.height = rows;
+  picture.format = format;
+  for (std::size_t y = 0; y < rows; ++y) {
+    for (std::size_t x = 0; x < columns; ++x) {
+      const bool left = x < columns / 2;
+      std::uint8_t* const pixel = picture.data + (y * columns + x) * (format == grey8  ? 1
+                                                                      : format == yuyv ? 2
+                                                                                       : 3);
+      if (format == grey8) {
+        pixel[0] = left ? 40 : 200;
+      } else if (format == yuyv) {
+        // BT.601: red is Y 76, U 85, V 255; green Y 150, U 44, V 21.
+        pixel[0] = left ? 76 : 150;
+        pixel[1] = x % 2 == 0 ? (left ? 85 : 44) : (left ? 255 : 21);
+      } else {
+        pixel[format == rgb24 ? 0 : 2] = left ? 255 : 0;
+        pixel[1] = left ? 0 : 255;
+        pixel[format == rgb24 ? 2 : 0] = 0;
+      }
+    }
+  }
+}
+
+struct Decoded {
+  int width = 0;
+  int height = 0;
+  std::vector<unsigned char> rgb;
+  int at(int x, int y, int channel) const {
+    return rgb[static_cast<std::size_t>((y * width + x) * 3 + channel)];
+  }
+};
+
+Decoded decode(std::string_view jpeg) {
+  Decoded decoded;
+  int sampling = 0;
+  int colours = 0;
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(jpeg.data());
+  const auto close = [](void* handle) { tjDestroy(handle); };
+  const std::unique_ptr<void, decltype(close)> handle(tjInitDecompress(), close);
+  CHECK(tjDecompressHeader3(handle.get(), bytes, jpeg.size(), &decoded.width, &decoded.height, &sampling,
+                            &colours) == 0);
+  decoded.rgb.resize(static_cast<std::size_t>(decoded.width * decoded.height * 3));
+  CHECK(tjDecompress2(handle.get(), bytes, jpeg.size(), decoded.rgb.data(), decoded.width, 0, decoded.height,
+                      TJPF_RGB, 0) == 0);
+  return decoded;
+}
+
+bool is_near(int value, int wanted) {
+  return std::abs(value - wanted) < 12;
+}
+
+void every_format_keeps_its_colours() {
+  const PictureLayout layout = PictureLayout::of(picture_type);
+  CHECK(layout.is_complete());
+  const auto picture = std::make_unique<Picture>();
+  PictureEncoder encoder;
+  for (const Format format : {grey8, rgb24, bgr24, yuyv}) {
+    draw(*picture, format);
+    const Decoded decoded = decode(encoder.encode(layout, picture.get(), 640));
+    CHECK_EQUAL(decoded.width, 64);
+    CHECK_EQUAL(decoded.height, 48);
+    CHECK(is_near(decoded.at(8, 24, 0), format == grey8 ? 40 : 254));
+    CHECK(is_near(decoded.at(8, 24, 1), format == grey8 ? 40 : 0));
+    CHECK(is_near(decoded.at(56, 24, 0), format == grey8 ? 200 : 0));
+    CHECK(is_near(decoded.at(56, 24, 1), format == grey8 ? 200 : 255));
+  }
+}
+
+void it_is_no_larger_than_it_is_shown() {
+  const PictureLayout layout = PictureLayout::of(picture_type);
+  const auto picture = std::make_unique<Picture>();
+  PictureEncoder encoder;
+  for (const Format format : {grey8, rgb24, yuyv}) {
+    draw(*picture, format);
+    const Decoded decoded = decode(encoder.encode(layout, picture.get(), 30));
+    CHECK_EQUAL(decoded.width, 21);
+    CHECK_EQUAL(decoded.height, 16);
+    CHECK(is_near(decoded.at(18, 8, 1), format == grey8 ? 200 : 255));
+  }
+}
+
+void what_is_no_picture_says_why() {
+  const PictureLayout layout = PictureLayout::of(picture_type);
+  const auto picture = std::make_unique<Picture>();
+  PictureEncoder encoder;
+  CHECK(encoder.encode(layout, picture.get(), 640).empty());
+  CHECK_CONTAINS(encoder.cause(), "empty");
+  draw(*picture, none);
+  CHECK(encoder.encode(layout, picture.get(), 640).empty());
+  CHECK_CONTAINS(encoder.cause(), "format");
+  draw(*picture, rgb24);
+  picture->height = rows + 1;
+  CHECK(encoder.encode(layout, picture.get(), 640).empty());
+  CHECK_CONTAINS(encoder.cause(), "larger than its data");
+}
+
+/// A cell with a slot of pictures, that the test publishes.
+class PictureCell : public fixture::ProducerAndConsumer {
+ public:
+  PictureCell() : memory_(std::make_unique<SlotMemory<Picture, 3>>()) {}
+
+  void add_to(Application& application) {
+    records_.assign(application.slots.begin(), application.slots.end());
+    records_.push_back({"camera", "", &control_, &observer_, "", no_index, no_index, 0, false});
+    application.slots = records_;
+  }
+  void publish(Format format) {
+    const std::uint8_t buffer = control_.loan();
+    draw(*reinterpret_cast<Picture*>(control_.payload(buffer)), format);
+    control_.publish(buffer, MonotonicClock::now());
+  }
+
+ private:
+  std::unique_ptr<SlotMemory<Picture, 3>> memory_;
+  SlotControl control_{&picture_type, memory_->view(1, true)};
+  SlotReader observer_{&control_};
+  std::vector<SlotRecord> records_;
+};
+
+template <class Value>
+Value at(const std::string& bytes, std::size_t offset) {
+  Value value;
+  std::memcpy(&value, bytes.data() + offset, sizeof(value));
+  return value;
+}
+
+void pictures_come_to_all_who_look() {
+  PictureCell cell;
+  // The application is the fixture's to keep and the test's to complete.
+  cell.add_to(const_cast<Application&>(cell.application()));
+  Rig rig(cell);
+  rig.start();
+  PlayedLink& first = rig.connect(a_viewer);
+  PlayedLink& second = rig.connect(a_viewer);
+  const auto look = [](int width) {
+    return json{{"op", "subscribe"}, {"slots", {{{"name", "camera"}, {"rate", 50}, {"width", width}}}}};
+  };
+  CHECK(rig.ask(first, look(16)).at("unknown").empty());
+  rig.ask(second, look(64));
+  cell.publish(rgb24);
+  for (PlayedLink* link : {&first, &second}) {
+    std::string item;
+    CHECK(rig.wait_until([&] {
+      for (const std::string& frame : link->frames)
+        if (at<std::uint32_t>(frame, 16) == 1 && at<std::uint32_t>(frame, 36) > 0) item = frame;
+      return !item.empty();
+    }));
+    CHECK_EQUAL(at<std::uint8_t>(item, 57), 1);
+    CHECK_EQUAL(at<std::uint64_t>(item, 40), 1U);
+    const Decoded decoded = decode(std::string_view{item}.substr(64, at<std::uint32_t>(item, 36)));
+    CHECK_EQUAL(decoded.width, 64);  // for the one who sees it largest
+    link->frames.clear();
+  }
+  const Answer picture = rig.request(Method::get, "slots/camera/image", a_viewer, "", "", "", "width=64");
+  CHECK_EQUAL(picture.status, 200U);
+  CHECK_EQUAL(picture.reply.content_type, "image/jpeg");
+  CHECK(is_near(decode(picture.reply.text).at(8, 24, 0), 254));
+  CHECK_EQUAL(rig.request(Method::get, "slots/camera/image", a_viewer, "", "", "", "width=0").status, 400U);
+  CHECK(rig.get("slots/camera").body.at("value").is_null());
+}
+
+}  // namespace
+}  // namespace flexrf::panel
+
+int main() {
+  using namespace flexrf::panel;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(every_format_keeps_its_colours),
+      CONTAINED_TEST(it_is_no_larger_than_it_is_shown),
+      CONTAINED_TEST(what_is_no_picture_says_why),
+      CONTAINED_TEST(pictures_come_to_all_who_look),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

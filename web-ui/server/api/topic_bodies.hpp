@@ -1,0 +1,75 @@
+// The lists of components, slots, queues, threads and devices with their counters.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/core/json_writer.hpp"
+#include "runtime/executive/executive.hpp"
+#include "web-ui/server/api/clients.hpp"
+
+namespace flexrf::panel {
+
+/// The server's thread. Each list is made at most ten times a second, for all who want it.
+class TopicBodies {
+ public:
+  static constexpr Duration shortest_interval = std::chrono::milliseconds{100};
+
+  /// When everything is constructed.
+  explicit TopicBodies(Executive& executive);
+
+  /// Not for the log. Made anew when it is older than shortest_interval.
+  std::string_view body(Topic topic, Time now);
+  /// Rises with each change of what body() gives.
+  std::uint64_t version(Topic topic) const noexcept {
+    return bodies_[static_cast<std::size_t>(topic)].version;
+  }
+  /// One entry of the list of components.
+  void write_component(JsonWriter& json, ComponentIndex component) const;
+  void write_devices(JsonWriter& json) const;
+  /// Readers of one slot with their counters, a list.
+  void write_readers(JsonWriter& json, std::uint16_t slot) const;
+
+ private:
+  struct Body {
+    std::string text;
+    std::string former;
+    Time made_at{};
+    std::uint64_t version = 0;
+  };
+  // An input of a unit that reads a slot.
+  struct Reader {
+    std::string name;
+    std::uint16_t unit;
+    std::uint16_t input;
+    std::uint32_t member;
+  };
+  struct ThreadFigures {
+    int cpu = -1;
+    std::uint64_t minor_faults = 0;
+    std::uint64_t major_faults = 0;
+  };
+
+  void write(JsonWriter& json, Topic topic, Time now);
+  void write_unit(JsonWriter& json, std::size_t unit) const;
+  void write_device(JsonWriter& json, std::size_t device) const;
+  void write_slots(JsonWriter& json) const;
+  void write_queues(JsonWriter& json) const;
+  void write_threads(JsonWriter& json, Time now);
+
+  Executive* executive_;
+  const Application* application_;
+  std::array<Body, topic_count> bodies_;
+  std::vector<std::vector<Reader>> readers_;                 // per slot
+  std::vector<std::optional<Duration>> response_estimates_;  // per thread
+  std::vector<ThreadFigures> figures_;                       // per thread, looked up once a second
+  Time figures_at_{};
+};
+
+const char* name_of(Topic topic) noexcept;
+
+}  // namespace flexrf::panel
