@@ -113,6 +113,7 @@ export class Panel extends LitElement {
     super.connectedCallback();
     const onHash = (): void => {
       this.core.endHolds('another view was opened');
+      this.#turnPage();
       this.route = this.#fromAddress();
     };
     window.addEventListener('hashchange', onHash);
@@ -180,6 +181,13 @@ export class Panel extends LitElement {
       this.#open('login');
     }
     this.requestUpdate();
+  }
+
+  /** Another page begins at its top, and takes along the focus of whoever followed a link in the one before. */
+  #turnPage(): void {
+    const main = this.renderRoot.querySelector('main');
+    if (main) main.scrollTop = 0;
+    if ((this.renderRoot as ShadowRoot).activeElement?.localName === 'flexrf-outlet') main?.focus({ preventScroll: true });
   }
 
   /** The views are dead below a dialog: a jog button would not see its release. */
