@@ -37,15 +37,16 @@ export class ComponentButtons extends ViewBase {
     const locked = offer.locked || noSource;
     const note = `note-${offer.action}`;
     const reason = denied === '' ? locked : '';
+    const dead = denied !== '' || locked !== '' || this.busy !== '';
     return html`
       <div>
         ${offer.action === 'clone' && this.sources.length > 0 ? this.choice(denied !== '' || locked !== '') : nothing}
         <button
-          ?disabled=${denied !== '' || locked !== '' || this.busy !== ''}
+          aria-disabled=${dead ? 'true' : nothing}
           aria-busy=${this.busy === offer.action ? 'true' : nothing}
           aria-describedby=${note}
           title=${offer.effect}
-          @click=${() => this.act(offer)}
+          @click=${() => !dead && this.act(offer)}
         >
           ${offer.label}
         </button>
@@ -74,10 +75,5 @@ export class ComponentButtons extends ViewBase {
     this.busy = '';
     if (answer.ok) this.core.notify(`${component}: ${offer.label} done.`);
     else this.core.notify(`${component}: ${offer.label} failed: ${answer.problem.detail ?? answer.problem.title}`, 'alarm');
-    // The button that was pressed may be locked now: the focus stays near.
-    await this.updateComplete;
-    const focused = (this.renderRoot as ShadowRoot).activeElement;
-    if (focused === null && this.matches(':focus-within, :focus')) return;
-    if (focused === null) this.renderRoot.querySelector<HTMLButtonElement>('button:not(:disabled)')?.focus();
   }
 }

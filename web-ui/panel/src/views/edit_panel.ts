@@ -69,7 +69,13 @@ export class EditPanel extends ViewBase {
       <p class="muted" id="why">
         ${denied === '' ? 'Locked while initialised. Edit needs that nothing moves, and stops what uses these values.' : `Locked: ${denied}`}
       </p>
-      <button data-first aria-describedby="why" ?disabled=${denied !== ''} aria-busy=${opening ? 'true' : nothing} @click=${() => this.open()}>
+      <button
+        data-first
+        aria-describedby="why"
+        aria-disabled=${denied === '' ? nothing : 'true'}
+        aria-busy=${opening ? 'true' : nothing}
+        @click=${() => this.open()}
+      >
         Edit
       </button>
     `;
@@ -89,7 +95,7 @@ export class EditPanel extends ViewBase {
               <p>Use Stop motion, then try again.</p>`}
       </div>
       <div class="buttons">
-        <button data-first ?disabled=${this.session.denied !== ''} @click=${() => this.open()}>Try again</button>
+        <button data-first aria-disabled=${this.session.denied === '' ? nothing : 'true'} @click=${() => this.open()}>Try again</button>
         <button @click=${() => this.session.flow.discard()}>Close</button>
       </div>
     `;
@@ -115,12 +121,17 @@ export class EditPanel extends ViewBase {
         <div role="alert">${this.failure(draft)}</div>
         <div class="buttons">
           <div>
-            <button ?disabled=${cannot !== ''} aria-busy=${applying ? 'true' : nothing} aria-describedby="cannot" @click=${() => flow.apply()}>
+            <button
+              aria-disabled=${cannot === '' ? nothing : 'true'}
+              aria-busy=${applying ? 'true' : nothing}
+              aria-describedby="cannot"
+              @click=${() => flow.apply()}
+            >
               Apply
             </button>
             <small id="cannot">${cannot}</small>
           </div>
-          <div><button ?disabled=${applying} @click=${() => flow.discard()}>Discard</button></div>
+          <div><button aria-disabled=${applying ? 'true' : nothing} @click=${() => flow.discard()}>Discard</button></div>
         </div>
       </div>
     `;
@@ -169,6 +180,6 @@ export class EditPanel extends ViewBase {
   }
 
   private open(): void {
-    void this.session.flow.open([this.component]);
+    if (this.session.denied === '') void this.session.flow.open([this.component]);
   }
 }

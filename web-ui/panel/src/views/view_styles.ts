@@ -81,6 +81,13 @@ export const viewStyles = [
         line-height: 44px;
       }
     }
+    /* Locked, but still to be reached by the keyboard: a button that acts does not lose the focus by it. */
+    [aria-disabled='true'] {
+      color: var(--stale);
+      background: transparent;
+      border-style: dashed;
+      cursor: not-allowed;
+    }
     .buttons {
       display: flex;
       flex-wrap: wrap;
