@@ -86,6 +86,11 @@ export class Connection {
     this.#connect();
   }
 
+  /** Ends this connection, and makes another after a while: what came with it is of no use. */
+  retry(detail: string): void {
+    this.#drop(detail, true);
+  }
+
   get status(): LinkStatus {
     return {
       phase: this.#phase, stale: this.#stale, roundTrip: this.#roundTrip, detail: this.#detail,

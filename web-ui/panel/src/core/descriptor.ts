@@ -218,14 +218,17 @@ export function makeModel(json: DescriptorJson): Model {
 
   const block = (component: string, kind: Origin['kind'], declared: BlockJson | undefined, slotName: string | undefined,
                  overrides: readonly OverrideJson[] | undefined,
-                 values: { readonly [name: string]: Value } | undefined): Item[] => {
+                 values: { readonly [name: string]: Value } | undefined,
+                 before: readonly (BlockJson | undefined)[] = []): Item[] => {
     if (!declared) return [];
     const slot = slotName === undefined ? undefined : slotsByName.get(slotName);
     const prefix = kind === 'runtime' ? component : `${component}.${kind}`;
     const made: Item[] = [];
     for (const field of types.get(declared.type)?.fields ?? []) {
       const parameter = declared.parameters.find((one) => one.name === field.name);
-      const change = overrides?.find((one) => one.parameter === field.name || one.parameter === `${kind}.${field.name}`);
+      // Of several of one name the first is meant, in the order: runtime, configuration, feedback.
+      const isMeant = !before.some((other) => other?.parameters.some((one) => one.name === field.name));
+      const change = isMeant ? overrides?.find((one) => one.parameter === field.name) : undefined;
       const initial = values?.[field.name]; // the application's own default goes before the type's
       const merged = parameter && initial !== undefined ? { ...parameter, default: initial } : parameter;
       const item = makeItem(types, `${prefix}.${field.name}`, field, field.name,
@@ -244,9 +247,11 @@ export function makeModel(json: DescriptorJson): Model {
       kind: 'unit', name: unit.name, typeName: unit.type, summary: type?.summary ?? '', thread: unit.thread ?? '',
       population: unit.population ?? '', unit,
       driverConfiguration: new Map(),
-      configuration: block(unit.name, 'configuration', type?.configuration, undefined, unit.overrides, unit.configuration),
+      configuration: block(unit.name, 'configuration', type?.configuration, undefined, unit.overrides, unit.configuration,
+        [type?.runtime]),
       runtime: block(unit.name, 'runtime', type?.runtime, unit.values_slot, unit.overrides, unit.runtime),
-      feedback: block(unit.name, 'feedback', type?.feedback, unit.feedback_slot, unit.overrides, undefined),
+      feedback: block(unit.name, 'feedback', type?.feedback, unit.feedback_slot, unit.overrides, undefined,
+        [type?.runtime, type?.configuration]),
     });
   }
   for (const device of json.devices) {
@@ -255,7 +260,8 @@ export function makeModel(json: DescriptorJson): Model {
     const driverConfiguration = new Map([...device.drivers].reverse().map((choice) => {
       const driver = json.drivers.find((one) => one.name === choice.type);
       const items = [face, driver].flatMap((declared) =>
-        block(device.name, 'configuration', declared?.configuration, undefined, device.overrides, choice.configuration));
+        block(device.name, 'configuration', declared?.configuration, undefined, device.overrides, choice.configuration,
+          declared === face ? [face?.runtime] : [face?.runtime, face?.configuration, face?.feedback]));
       return [choice.driver, items] as const;
     }));
     components.set(device.name, {
@@ -264,7 +270,8 @@ export function makeModel(json: DescriptorJson): Model {
       configuration: driverConfiguration.get(device.drivers[0]?.driver ?? '') ?? [],
       driverConfiguration,
       runtime: block(device.name, 'runtime', face?.runtime, device.values_slot, device.overrides, device.runtime),
-      feedback: block(device.name, 'feedback', face?.feedback, device.feedback_slot, device.overrides, undefined),
+      feedback: block(device.name, 'feedback', face?.feedback, device.feedback_slot, device.overrides, undefined,
+        [face?.runtime, face?.configuration]),
     });
   }
 

@@ -180,8 +180,7 @@ export class PanelCore implements Core {
     if (this.#model?.hash !== hello.descriptor) {
       const json = await getJson<DescriptorJson>('/api/v1/descriptor');
       if (!json.ok) {
-        this.options.onNotice(`The application's description could not be loaded: ${json.detail}`, 'alarm');
-        return this.connection.restart();
+        return this.connection.retry(`The application's description could not be loaded: ${json.detail}`);
       }
       this.#model = makeModel(json.body);
       this.#store.reset(this.#model);

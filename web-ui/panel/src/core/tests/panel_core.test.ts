@@ -81,6 +81,14 @@ describe('the core', () => {
     expect(onModel).toHaveBeenCalledTimes(2);
     expect(core.model.hash).toBe(hash);
   });
+  it('tries again, after a while, when the description cannot be had', async () => {
+    fetched.mockImplementation(() => Promise.resolve(new Response('{"title":"No"}', { status: 500 })));
+    await reconnect({ boot: 'b', descriptor: '0000000000000009' });
+    expect(core.link).toMatchObject({ phase: 'waiting', detail: expect.stringContaining('No') as string });
+    const tried = sockets.length;
+    await vi.advanceTimersByTimeAsync(400);
+    expect(sockets).toHaveLength(tried + 1);
+  });
   it('hands values to who watches, and none from before a loss', async () => {
     const seen: unknown[] = [];
     core.host.watch('jog.step', (reading) => seen.push(reading.value));
