@@ -2,6 +2,7 @@
 import { css, html, nothing } from 'lit';
 import { customElement, query, state } from 'lit/decorators.js';
 import { repeat } from 'lit/directives/repeat.js';
+import type { QueueJson } from '../core/descriptor_json';
 import { ownerOf, slotColumns, SlotRow, type SlotCounters } from './blackboard_rows';
 import { countText, rateText } from './durations';
 import { RateMeters } from './rates';
@@ -192,7 +193,7 @@ export class Blackboard extends ViewBase {
     `;
   }
 
-  private queueRow(queue: Blackboard['core']['model']['queues'][number], writer: string, index: number): unknown {
+  private queueRow(queue: QueueJson, writer: string, index: number): unknown {
     const counters = this.queues.get(queue.name)?.writers[index];
     const count = (value: number | undefined): string => (value === undefined ? '–' : countText(value));
     const dropped = counters !== undefined && counters.dropped > 0;

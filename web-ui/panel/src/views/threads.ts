@@ -106,7 +106,8 @@ export class Threads extends ViewBase {
   }
 
   protected override updated(changed: Map<PropertyKey, unknown>): void {
-    if (!changed.has('path')) return;
+    // The first figures push what is below them away.
+    if (!changed.has('path') && !(changed.has('rows') && (changed.get('rows') as Map<string, ThreadRow>).size === 0)) return;
     const name = this.path[0];
     if (name !== undefined) this.renderRoot.querySelector(`[data-thread="${CSS.escape(name)}"]`)?.scrollIntoView();
   }
