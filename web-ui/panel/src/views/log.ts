@@ -7,7 +7,7 @@ import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
 const linesShown = 1000;
-const signs: { readonly [severity in LogSeverity]: string } = { information: '', warning: '⚠ ', error: '✕ ' };
+const signs: { readonly [severity in LogSeverity]: string } = { debug: '', info: '', warning: '⚠ ', error: '✕ ' };
 
 @customElement('flexrf-log')
 export class Log extends ViewBase {
@@ -66,7 +66,7 @@ export class Log extends ViewBase {
 
   @state() private lines: readonly LogLine[] = [];
   @state() private follow = true;
-  @state() private least: LogSeverity = 'information';
+  @state() private least: LogSeverity = 'debug';
   @state() private wanted = '';
   @query('.lines') private box!: HTMLElement;
 

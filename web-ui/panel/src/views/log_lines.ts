@@ -1,16 +1,15 @@
 // Lines of the application's log: their severity, and which of them a person wants to see.
 import type { LogLine } from '../core/protocol';
 
-export type LogSeverity = 'information' | 'warning' | 'error';
+export type LogSeverity = 'debug' | 'info' | 'warning' | 'error';
 
-/** The application writes "error: ..." and "warning: ...", after a time or a name or at the beginning. */
+export const severities: readonly LogSeverity[] = ['debug', 'info', 'warning', 'error'];
+
+/** A line is "[  12.345678] warning jog: ...", as runtime/log/log.hpp writes it. */
 export function severityOf(text: string): LogSeverity {
-  const word = /(?:^|[\s\]:])(fatal|error|fault|warning)\b/i.exec(text)?.[1]?.toLowerCase();
-  if (word === undefined) return 'information';
-  return word === 'warning' ? 'warning' : 'error';
+  const word = /^\[[^\]]*\]\s+(\w+)/.exec(text)?.[1];
+  return severities.find((severity) => severity === word) ?? 'info';
 }
-
-export const severities: readonly LogSeverity[] = ['information', 'warning', 'error'];
 
 /** Lines of at least this severity that contain the text, in whatever case. */
 export function filterLines(lines: readonly LogLine[], least: LogSeverity, wanted: string): readonly LogLine[] {
