@@ -49,11 +49,11 @@ bool read_line(std::string& line) {
 }
 
 Result<std::string> ask(const char* question, const std::string& user) {
-  std::fprintf(stderr, "%s for %s: ", question, user.c_str());
   std::string line;
   bool is_read = false;
   {
     const Silence silence;
+    std::fprintf(stderr, "%s for %s: ", question, user.c_str());
     is_read = read_line(line);
   }
   std::fputc('\n', stderr);
