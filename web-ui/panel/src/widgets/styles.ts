@@ -83,6 +83,9 @@ export const widgetStyles = css`
     justify-content: flex-end;
     gap: var(--gap);
   }
+  .head.hidden + .content {
+    justify-content: flex-start;
+  }
   .notes {
     flex: 1 0 100%;
     display: flex;

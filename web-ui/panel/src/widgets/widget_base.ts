@@ -113,6 +113,9 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
   /** Label, content, and what is to be said about it. With `control`, the label is that of the element of this id. */
   protected frame(content: TemplateResult, control = '', notes: TemplateResult | typeof nothing = nothing): TemplateResult {
     const label = html`${this.label}${this.extraLabel()}`;
+    const controls = this.headControls();
+    // A placed readout stands below a heading of its name.
+    const named = this.placement !== undefined && control === '' && controls === nothing;
     return html`
       <div
         class="row"
@@ -120,10 +123,10 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
         aria-labelledby=${control === '' ? 'label' : nothing}
         aria-describedby=${control === '' ? 'summary' : nothing}
       >
-        <div class="head" title=${this.item?.summary ?? ''}>
+        <div class="head ${named ? 'hidden' : ''}" title=${this.item?.summary ?? ''}>
           ${control === ''
             ? html`<span id="label">${label}</span>`
-            : html`<label id="label" for=${control}>${label}</label>`}${this.headControls()}
+            : html`<label id="label" for=${control}>${label}</label>`}${controls}
         </div>
         <div class="content">${content}</div>
         <div class="notes">

@@ -1,3 +1,4 @@
+// @vitest-environment node
 import { describe, expect, it } from 'vitest';
 import { labelOf, makeModel, rowsOf } from '../descriptor';
 import { sample } from './sample';
@@ -16,6 +17,18 @@ describe('makeModel', () => {
     expect(model.item('jog.feedback.presses')).toMatchObject({ kind: 'feedback', label: 'Presses', hidden: true });
     expect(model.item('jog.feedback.presses')?.role).toBeUndefined();
     expect(model.item('jog.feedback.mode')?.values).toEqual(['off', 'manual']);
+  });
+  it('takes what an application changes to be the runtime parameter\'s, where feedback has the same name', () => {
+    const twice = makeModel({
+      ...sample,
+      unit_types: sample.unit_types.map((type) => ({
+        ...type,
+        ...(type.runtime && type.feedback && {
+          runtime: { ...type.runtime, parameters: [...type.runtime.parameters, { name: 'presses' }] },
+        }),
+      })),
+    });
+    expect(twice.item('jog.feedback.presses')).toMatchObject({ hidden: false, place: '' });
   });
   it('makes rows of a matrix that the descriptor lists by columns', () => {
     expect(model.item('jog.gains')?.default).toEqual([[1, 3, 5], [2, 4, 6]]);
