@@ -1,6 +1,5 @@
 // Holds, and everything that ends one; Stop motion, clearing it, and Start.
 import { spawn } from 'node:child_process';
-import { readFileSync, readdirSync } from 'node:fs';
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { Browser } from 'playwright-core';
 import {
@@ -151,8 +150,7 @@ describe('a hold', () => {
 
   it('ends while the server\'s thread is held still', async (context) => {
     await hold();
-    const thread = serverThread(running.id);
-    const frozen = spawn(freezer, [String(running.id), thread], { stdio: ['pipe', 'pipe', 'pipe'] });
+    const frozen = spawn(freezer, [String(running.id), 'panel'], { stdio: ['pipe', 'pipe', 'pipe'] });
     const said = await new Promise<string>((resolve) => {
       frozen.stdout.once('data', (part: Buffer) => resolve(part.toString()));
       frozen.once('close', () => resolve(''));
@@ -290,11 +288,3 @@ describe('Stop motion', () => {
     await other.close();
   });
 });
-
-/** The panel's own thread, by its name. */
-function serverThread(id: number): string {
-  const names = readdirSync(`/proc/${id}/task`).map((task) => readFileSync(`/proc/${id}/task/${task}/comm`, 'utf8').trim());
-  const found = names.find((name) => /panel/.test(name) && !/cell/.test(name) && !/jpeg|image|encod/.test(name));
-  if (found === undefined) throw new Error(`no thread of the panel among ${names.join(', ')}`);
-  return found;
-}

@@ -87,9 +87,9 @@ export class Application {
     let over: unknown;
     void this.ended.then((how) => { over = how ?? 'ended'; });
     for (;;) {
-      const found = /https?:\/\/[^\s"')]+/.exec(this.said);
-      if (found && this.said.indexOf('\n', found.index) > 0) {
-        this.address = found[0];
+      const found = /Panel: (https?:\/\/\S+)\n/.exec(this.said);
+      if (found) {
+        this.address = found[1]!;
         this.base = new URL(this.address).origin;
         return;
       }

@@ -16,7 +16,7 @@ class Camera final : public CameraUnit {
     constexpr std::uint32_t rows = 120;
     loan->width = columns;
     loan->height = rows;
-    loan->format = 1;
+    loan->format = PixelFormat::rgb24;
     const auto wandering = static_cast<std::uint32_t>(tick.number % columns);
     std::size_t place = 0;
     for (std::uint32_t row = 0; row < rows; ++row) {
