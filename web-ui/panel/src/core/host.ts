@@ -24,9 +24,14 @@ interface Applied {
   readonly values: { [path: string]: Value };
 }
 
+interface Wanted {
+  readonly value: Value;
+  readonly done: readonly ((outcome: Outcome) => void)[];
+}
+
 /** One parameter that is being set: a newer value waits for the answer to the one before, those between are left out. */
 interface Setting {
-  next: { readonly value: Value; readonly done: ((outcome: Outcome) => void)[] } | undefined;
+  next: Wanted | undefined;
 }
 
 const unknownKey: Outcome = { ok: false, detail: 'There is no such parameter.' };
@@ -78,7 +83,7 @@ export class Host implements WidgetHost {
       }
       const setting: Setting = { next: undefined };
       this.#settings.set(key, setting);
-      void this.#send(key, setting, component, path, value, [resolve]);
+      void this.#send(key, setting, component, path, { value, done: [resolve] });
     });
   }
 
@@ -106,14 +111,13 @@ export class Host implements WidgetHost {
     return fetch(`/application/${parts.map(encodeURIComponent).join('/')}`);
   }
 
-  async #send(key: string, setting: Setting, component: string, path: string, value: Value,
-              done: readonly ((outcome: Outcome) => void)[]): Promise<void> {
-    const outcome = outcomeOf(await this.parts.request<Applied>('set', { component, values: { [path]: value } }));
-    done.forEach((resolve) => resolve(outcome));
-    const { next } = setting;
-    setting.next = undefined;
-    if (next) await this.#send(key, setting, component, path, next.value, next.done);
-    else this.#settings.delete(key);
+  async #send(key: string, setting: Setting, component: string, path: string, first: Wanted): Promise<void> {
+    for (let wanted: Wanted | undefined = first; wanted; wanted = setting.next) {
+      setting.next = undefined;
+      const outcome = outcomeOf(await this.parts.request<Applied>('set', { component, values: { [path]: wanted.value } }));
+      wanted.done.forEach((resolve) => resolve(outcome));
+    }
+    this.#settings.delete(key);
   }
 }
 

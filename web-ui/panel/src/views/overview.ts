@@ -112,7 +112,7 @@ export class Overview extends ViewBase {
       <section>
         <h3>State</h3>
         ${state
-          ? html`<dl>
+          ? html`<dl class=${this.core.link.stale ? 'stale' : ''}>
               <dt>Application</dt><dd>${modeText(state.mode)}${state.cause && state.cause !== 'none' ? `: ${state.cause}` : ''}</dd>
               <dt>Motion</dt><dd>${motionText[motionOf(state)]}</dd>
               ${state.edit ? html`<dt>Being edited</dt><dd>${state.edit.components.join(', ')}</dd>` : nothing}

@@ -1,3 +1,4 @@
+// @vitest-environment node
 import { describe, expect, it } from 'vitest';
 import type { Role } from '../../contract';
 import { deniedAction, deniedControl, includes, locked, type Situation } from '../access';

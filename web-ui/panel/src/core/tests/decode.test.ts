@@ -1,3 +1,4 @@
+// @vitest-environment node
 import { describe, expect, it } from 'vitest';
 import { decodeFrame, decodeField, decodeStructure, reasonText } from '../decode';
 import { makeTypes } from '../types';

@@ -1,3 +1,4 @@
+// @vitest-environment node
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import type { Reading } from '../../contract';
 import { decodeFrame } from '../decode';
