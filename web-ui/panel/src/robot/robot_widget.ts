@@ -139,6 +139,11 @@ export class RobotWidget extends WidgetBase {
     super.begin();
   }
 
+  /** Enough to see motion; without a graphics processor each picture costs. */
+  protected override watchOptions(): { rate: number } {
+    return { rate: 30 };
+  }
+
   protected override render(): unknown {
     return html`
       <section aria-label=${this.label}>

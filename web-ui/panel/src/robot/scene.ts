@@ -12,6 +12,9 @@ const folder = '/application/robots/';
 /** Sharper than this costs more than it shows. */
 const most_pixels = 2;
 
+/** rad or m: less than a pixel at any size, more than the noise of a sensor at rest. */
+const least_motion = 2e-4;
+
 /** How much more than the robot as it stands is seen: it moves. */
 const room = 1.05;
 
@@ -75,7 +78,11 @@ export class RobotScene {
   /** rad or m, by the joints' names. */
   setJoints(positions: Iterable<readonly [string, number]>): void {
     let moved = false;
-    for (const [name, position] of positions) moved = (this.robot?.joints[name]?.setJointValue(position) ?? false) || moved;
+    for (const [name, position] of positions) {
+      const joint = this.robot?.joints[name];
+      if (!joint || Math.abs(Number(joint.jointValue[0]) - position) < least_motion) continue;
+      moved = joint.setJointValue(position) || moved;
+    }
     if (moved) this.invalidate();
   }
 
