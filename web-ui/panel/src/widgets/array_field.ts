@@ -5,6 +5,7 @@ import type { Value } from '../contract';
 import { arrayStyles, elementAt, elementName, gridOf } from './array_readout';
 import { Edit } from './edit';
 import { EditorBase } from './editor_base';
+import { Keypad, keypadStyles } from './keypad';
 import { setAttribute } from './live_text';
 import { stepOfKey } from './number_field';
 import { widgetStyles } from './styles';
@@ -14,6 +15,7 @@ export class ArrayField extends EditorBase {
   static override styles = [
     widgetStyles,
     arrayStyles,
+    keypadStyles,
     css`
       .cell input,
       td input {
@@ -23,6 +25,8 @@ export class ArrayField extends EditorBase {
     `,
   ];
   private cells: Edit[] = [];
+  private whole: Value | null = null;
+  private readonly keypad = new Keypad(() => this.requestUpdate());
 
   protected override prepare(): void {
     super.prepare();
@@ -57,8 +61,8 @@ export class ArrayField extends EditorBase {
       return this.controlFrame(html`<span class="cells">
           ${fields.map(
             (field, i) => html`<span class="cell"><span class="index" aria-hidden="true">${elementName(item, i)}</span>${field}</span>`,
-          )}${this.unitMark()}
-        </span>`);
+          )}${this.unitMark()} </span
+        >${this.keypad.render()}`);
     }
     return this.controlFrame(html`<div class="scroll">
         <table role="presentation">
@@ -69,7 +73,7 @@ export class ArrayField extends EditorBase {
             </tr>`,
           )}
         </table></div
-      >${this.unitMark()}`);
+      >${this.unitMark()}${this.keypad.render()}`);
   }
 
   private field(i: number): TemplateResult {
@@ -77,14 +81,15 @@ export class ArrayField extends EditorBase {
     return html`<input
       data-cell=${i}
       type="text"
-      inputmode="text"
+      inputmode=${this.keypad.inputMode('text')}
       autocomplete="off"
       spellcheck="false"
       aria-label=${`${this.label} ${this.nameOf(i)}`}
       aria-describedby="refusal lock"
       ?disabled=${this.locked !== ''}
       @input=${() => edit.touch()}
-      @blur=${() => this.commitCell(i)}
+      @focus=${(event: Event) => this.keypad.focus(event.target as HTMLInputElement)}
+      @blur=${() => this.leave(i)}
       @keydown=${(event: KeyboardEvent) => this.onKey(event, i)}
     />`;
   }
@@ -106,6 +111,11 @@ export class ArrayField extends EditorBase {
     edit.put(quantity.toSi(quantity.clamped(quantity.rounded(quantity.toShown(from) + step))));
   }
 
+  private leave(i: number): void {
+    this.commitCell(i);
+    this.keypad.blur();
+  }
+
   private commitCell(i: number): void {
     const edit = this.cells[i]!;
     if (!edit.touched || this.locked !== '' || this.question.open) return;
@@ -123,6 +133,7 @@ export class ArrayField extends EditorBase {
   protected override onLocked(): void {
     super.onLocked();
     this.cells.forEach((cell) => cell.cancel());
+    this.keypad.blur();
   }
 
   /** The whole: from a reading, or after a reset. */
@@ -130,8 +141,11 @@ export class ArrayField extends EditorBase {
     const { columns } = gridOf(this.item!);
     const matrix = this.item!.shape.length === 2;
     if (Array.isArray(value)) this.quantity.seeAll(value);
+    // Once each: an element's own answer is newer than the whole before it.
+    const isNew = value !== this.whole;
+    this.whole = value;
     this.cells.forEach((cell, i) => {
-      cell.echo(elementAt(value, Math.floor(i / columns), i % columns, matrix) ?? null);
+      if (isNew) cell.echo(elementAt(value, Math.floor(i / columns), i % columns, matrix) ?? null);
       this.presentCell(i);
     });
   }

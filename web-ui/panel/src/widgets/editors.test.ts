@@ -222,6 +222,52 @@ describe('number field', () => {
   });
 });
 
+describe('keypad', () => {
+  afterEach(() => void delete document.documentElement.dataset['touch']);
+
+  const open = async (): Promise<Shown & { field: HTMLInputElement; press: (sign: string) => void }> => {
+    document.documentElement.dataset['touch'] = 'large';
+    const shown = await show(makeParameter());
+    shown.host.publish('jog.step', 7);
+    const field = shown.find<HTMLInputElement>('#field');
+    field.focus();
+    await settled(shown.widget);
+    return { ...shown, field, press: (sign) => shown.find<HTMLButtonElement>(`[data-key="${sign}"]`).click() };
+  };
+
+  it('types into the field that has the focus, and keeps it there', async () => {
+    const { host, field, press, find, root } = await open();
+    expect(field.inputMode).toBe('none');
+    for (const sign of ['1', '2', '⌫', '.', '5', '±']) press(sign);
+    expect(field.value).toBe('-1.5');
+    expect(host.set).not.toHaveBeenCalled();
+    const down = new MouseEvent('mousedown', { bubbles: true, cancelable: true });
+    find('[data-key="1"]').dispatchEvent(down);
+    expect(down.defaultPrevented).toBe(true);
+    press('✓');
+    expect(host.set).toHaveBeenCalledExactlyOnceWith('jog.step', -1.5);
+    expect(root.querySelector('.keypad')).not.toBeNull();
+  });
+
+  it('gives up, and goes with the focus', async () => {
+    const { host, field, press, root, widget } = await open();
+    press('9');
+    press('✕');
+    expect(field.value).toBe('7.000');
+    field.blur();
+    await settled(widget);
+    expect(root.querySelector('.keypad')).toBeNull();
+    expect(host.set).not.toHaveBeenCalled();
+  });
+
+  it('is not there for a mouse', async () => {
+    const { find, root, widget } = await show(makeParameter());
+    find<HTMLInputElement>('#field').focus();
+    await settled(widget);
+    expect(root.querySelector('.keypad')).toBeNull();
+  });
+});
+
 describe('lock and stale', () => {
   it('makes controls dead, with the reason', async () => {
     const { host, widget, find, root } = await show(makeParameter());
@@ -363,7 +409,7 @@ describe('text field', () => {
 
 describe('array field', () => {
   it('sends one element by its path, and shows what the unit answered', async () => {
-    const { host, find, root } = await show(makeParameter({ key: 'jog.gains', path: 'gains', shape: [3], default: [1, 2, 3] }));
+    const { host, find, root, widget } = await show(makeParameter({ key: 'jog.gains', path: 'gains', shape: [3], default: [1, 2, 3] }));
     host.publish('jog.gains', [1, 2, 3]);
     const inputs = [...root.querySelectorAll<HTMLInputElement>('input')];
     expect(inputs.map((input) => input.value)).toEqual(['1.000', '2.000', '3.000']);
@@ -374,6 +420,9 @@ describe('array field', () => {
     key(inputs[1]!, 'keydown', 'Enter');
     await settled();
     expect(host.set).toHaveBeenCalledExactlyOnceWith('jog.gains[1]', 5);
+    expect(inputs[1]!.value).toBe('4.500');
+    host.lock('take control first');
+    await settled(widget);
     expect(inputs[1]!.value).toBe('4.500');
     expect(inputs[1]!.getAttribute('aria-label')).toBe('Step 1');
     expect(find('.index').textContent).toBe('0');

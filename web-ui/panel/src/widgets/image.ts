@@ -61,6 +61,13 @@ export class ImageView extends WidgetBase {
     this.until(() => observer.disconnect());
     this.ask(picture.clientWidth);
     this.until(() => this.stop());
+    // Scrolled away, it costs the server nothing.
+    const scrolled = (event: Event & { skipped?: boolean }): void => {
+      if (event.skipped) this.stop();
+      else this.ask(picture.clientWidth);
+    };
+    this.addEventListener('contentvisibilityautostatechange', scrolled);
+    this.until(() => this.removeEventListener('contentvisibilityautostatechange', scrolled));
   }
 
   private ask(shown: number): void {

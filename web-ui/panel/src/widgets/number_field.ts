@@ -1,8 +1,9 @@
 // A number to be typed in, with buttons and keys for fine and coarse steps.
 import { css, html } from 'lit';
-import type { TemplateResult } from 'lit';
+import type { CSSResultGroup, TemplateResult } from 'lit';
 import type { Value } from '../contract';
 import { EditorBase } from './editor_base';
+import { Keypad, keypadStyles } from './keypad';
 import { setAttribute } from './live_text';
 import { widgetStyles } from './styles';
 import { dash } from './widget_base';
@@ -41,10 +42,11 @@ export const numberFieldStyles = css`
 `;
 
 export class NumberField extends EditorBase {
-  static override styles = [widgetStyles, numberFieldStyles];
+  static override styles: CSSResultGroup = [widgetStyles, numberFieldStyles, keypadStyles];
+  protected readonly keypad = new Keypad(() => this.requestUpdate());
 
   protected override render(): TemplateResult {
-    return this.controlFrame(html`${this.stepsAround(html``)}<span class="steps typed">${this.field()}${this.unitMark()}</span>`);
+    return this.controlFrame(html`${this.stepsAround(html``)}<span class="steps typed">${this.field()}${this.unitMark()}</span>${this.keypad.render()}`);
   }
 
   /** −− − [middle] + ++ */
@@ -78,14 +80,15 @@ export class NumberField extends EditorBase {
       class="field"
       type="text"
       role="spinbutton"
-      inputmode=${range && range[0] >= 0 ? 'decimal' : 'text'}
+      inputmode=${this.keypad.inputMode(range && range[0] >= 0 ? 'decimal' : 'text')}
       autocomplete="off"
       spellcheck="false"
       aria-labelledby="label"
       aria-describedby="summary refusal lock"
       ?disabled=${this.locked !== ''}
       @input=${() => this.edit.touch()}
-      @blur=${() => this.commitTyped()}
+      @focus=${(event: Event) => this.keypad.focus(event.target as HTMLInputElement)}
+      @blur=${() => this.leave()}
       @keydown=${(event: KeyboardEvent) => this.onKey(event)}
     />`;
   }
@@ -101,6 +104,16 @@ export class NumberField extends EditorBase {
       event.preventDefault();
       this.step(step);
     }
+  }
+
+  protected override onLocked(): void {
+    super.onLocked();
+    this.keypad.blur();
+  }
+
+  private leave(): void {
+    this.commitTyped();
+    this.keypad.blur();
   }
 
   protected commitTyped(): void {

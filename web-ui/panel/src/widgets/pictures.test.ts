@@ -76,6 +76,17 @@ describe('image', () => {
     expect(host.watches).toHaveLength(1);
   });
 
+  it('asks for nothing while it is scrolled away', async () => {
+    const { host, widget } = await show(item);
+    const scroll = (skipped: boolean): boolean =>
+      widget.dispatchEvent(Object.assign(new Event('contentvisibilityautostatechange'), { skipped }));
+    scroll(true);
+    expect(host.watches).toHaveLength(0);
+    expect(addresses).toEqual([]);
+    scroll(false);
+    expect(host.watches).toHaveLength(1);
+  });
+
   it('says why there is none', async () => {
     const { host, text, find } = await show(item);
     host.publish('slot:camera', null, { reason: 'nobody has published yet' });

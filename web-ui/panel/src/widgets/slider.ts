@@ -1,15 +1,17 @@
 // A number by a slider, with fine and coarse steps, and a field to type it in.
 import { css, html } from 'lit';
-import type { TemplateResult } from 'lit';
+import type { CSSResultGroup, TemplateResult } from 'lit';
 import type { Value } from '../contract';
+import { keypadStyles } from './keypad';
 import { setAttribute } from './live_text';
 import { NumberField, numberFieldStyles, stepOfKey } from './number_field';
 import { widgetStyles } from './styles';
 
 export class Slider extends NumberField {
-  static override styles = [
+  static override styles: CSSResultGroup = [
     widgetStyles,
     numberFieldStyles,
+    keypadStyles,
     css`
       .steps {
         flex: 1 1 14rem;
@@ -49,7 +51,7 @@ export class Slider extends NumberField {
       @input=${() => this.drag()}
       @keydown=${(event: KeyboardEvent) => this.onSliderKey(event)}
     />`;
-    return this.controlFrame(html`${this.stepsAround(slider)}<span class="steps typed">${this.field()}${this.unitMark()}</span>`);
+    return this.controlFrame(html`${this.stepsAround(slider)}<span class="steps typed">${this.field()}${this.unitMark()}</span>${this.keypad.render()}`);
   }
 
   override connectedCallback(): void {
