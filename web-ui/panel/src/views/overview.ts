@@ -89,7 +89,7 @@ export class Overview extends ViewBase {
 
   private faults(): unknown {
     const faults = this.core.state?.faults ?? [];
-    if (faults.length === 0) return html`<section><h3>Faults</h3><p>None.</p></section>`;
+    if (faults.length === 0) return nothing;
     return html`
       <section class="wide box abnormal-box" role="alert">
         <h3 class="alarm">✕ ${faults.length === 1 ? 'A fault' : `${faults.length} faults`}</h3>
@@ -115,6 +115,7 @@ export class Overview extends ViewBase {
           ? html`<dl class=${this.core.link.stale ? 'stale' : ''}>
               <dt>Application</dt><dd>${modeText(state.mode)}${state.cause && state.cause !== 'none' ? `: ${state.cause}` : ''}</dd>
               <dt>Motion</dt><dd>${motionText[motionOf(state)]}</dd>
+              <dt>Faults</dt><dd>${state.faults.length === 0 ? 'none' : html`<strong class="alarm">✕ ${state.faults.length}</strong>`}</dd>
               ${state.edit ? html`<dt>Being edited</dt><dd>${state.edit.components.join(', ')}</dd>` : nothing}
               <dt>Pages open</dt><dd>${state.server.connections} of ${state.server.places}</dd>
               <dt>Panel's delay</dt><dd>p99 ${(state.server.loop_delay_us.p99 / 1000).toFixed(2)} ms, most ${(state.server.loop_delay_us.max / 1000).toFixed(2)} ms</dd>
