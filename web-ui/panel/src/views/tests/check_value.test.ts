@@ -1,3 +1,4 @@
+// @vitest-environment node
 import { expect, it } from 'vitest';
 import type { ItemInfo, Value } from '../../contract';
 import { checkValue } from '../check_value';

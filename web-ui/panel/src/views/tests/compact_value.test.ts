@@ -1,3 +1,4 @@
+// @vitest-environment node
 import { describe, expect, it } from 'vitest';
 import type { ItemInfo, Value } from '../../contract';
 import { DisplayUnits } from '../../core/units';

@@ -1,3 +1,4 @@
+// @vitest-environment node
 import { describe, expect, it } from 'vitest';
 import { actionsOf, componentRows, stateText, urgency, type ComponentRow } from '../component_actions';
 

@@ -1,3 +1,4 @@
+// @vitest-environment node
 import { describe, expect, it } from 'vitest';
 import { ageText, countdownText, countText, durationText, rateText } from '../durations';
 

@@ -1,3 +1,4 @@
+// @vitest-environment node
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { ApplyAnswer, BeginAnswer, Change, EditLink } from '../edit_flow';
 import { EditFlow } from '../edit_flow';

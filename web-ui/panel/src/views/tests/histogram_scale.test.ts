@@ -1,3 +1,4 @@
+// @vitest-environment node
 import { describe, expect, it } from 'vitest';
 import { budgetUse, bucketBounds, columnsOf, height, histogramPath, LogAxis } from '../histogram_scale';
 
