@@ -29,7 +29,7 @@ export class SlotAge extends HTMLElement {
           this.receivedAt = performance.now();
           this.show();
         },
-        { rate: 4, width: 16 },
+        { rate: 4, width: 64 },
       ),
     ];
     this.show();
