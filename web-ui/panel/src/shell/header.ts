@@ -15,8 +15,8 @@ export function linkText(link: LinkStatus): string {
   if (link.phase === 'connecting') return 'Connecting…';
   if (link.phase === 'waiting') return '✕ No connection';
   if (link.stale) return `⚠ Silent for ${(link.silence / 1000).toFixed(1)} s`;
-  const trip = link.roundTrip === undefined ? '' : `round trip ${link.roundTrip.toFixed(link.roundTrip < 10 ? 1 : 0)} ms, `;
-  return `Connected: ${trip}data ${(link.silence / 1000).toFixed(1)} s old`;
+  const trip = link.roundTrip === undefined ? 'Connected' : `Round trip ${link.roundTrip.toFixed(link.roundTrip < 10 ? 1 : 0)} ms`;
+  return `${trip}\ndata ${(link.silence / 1000).toFixed(1)} s old`;
 }
 
 /** Says `login` and `settings` (Events) when the person wants these dialogs. */
@@ -44,15 +44,24 @@ export class Header extends ShellPart {
         gap: 4px 8px;
       }
       .link {
+        font-size: 0.85em;
         font-variant-numeric: tabular-nums;
+        white-space: pre-line;
+        min-width: 7.5rem;
+      }
+      .session {
+        margin-inline-start: auto;
+        flex-wrap: nowrap;
       }
       .stale :is(span, flexrf-control) {
         color: var(--flexrf-stale);
         font-style: italic;
         font-weight: 400;
       }
-      .session {
-        margin-inline-start: auto;
+      @media (max-height: 500px) {
+        :host {
+          --target: min(var(--flexrf-target-coarse), 44px);
+        }
       }
       @media (max-width: 760px) {
         :host {
@@ -62,15 +71,9 @@ export class Header extends ShellPart {
         }
         .session {
           flex: 1 1 100%;
-          flex-wrap: nowrap;
-          justify-content: space-between;
         }
         .link {
           flex: 1;
-        }
-        .session small,
-        .link {
-          font-size: 0.85em;
         }
       }
     `,

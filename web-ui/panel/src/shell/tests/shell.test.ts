@@ -24,7 +24,7 @@ describe('router', () => {
 describe('words', () => {
   it('say how the link is', () => {
     const link = { phase: 'open', stale: false, roundTrip: 3.21, silence: 120, detail: '' } as const;
-    expect(linkText(link)).toBe('Connected: round trip 3.2 ms, data 0.1 s old');
+    expect(linkText(link)).toBe('Round trip 3.2 ms\ndata 0.1 s old');
     expect(linkText({ ...link, stale: true, silence: 1400 })).toBe('⚠ Silent for 1.4 s');
     expect(linkText({ ...link, phase: 'waiting' })).toBe('✕ No connection');
   });
