@@ -112,7 +112,7 @@ void Answers::refuse(const Caller& caller, const Refusal& refusal) {
 }
 
 bool Permission::has_role(const Caller& caller, Role role, std::string_view act) {
-  if (access_->has_role(caller.session, role)) return true;
+  if (caller.session != no_session && access_->has_role(caller.session, role)) return true;
   answers_->refuse(caller, Refusal::make(RefusalKind::role_missing,
                                          "To %.*s needs the role %s; log in as somebody who has it.",
                                          static_cast<int>(act.size()), act.data(), name_of_role(role)));

@@ -63,7 +63,6 @@ struct Client {
   bool greeted = false;
   bool told_of_end = false;
   bool pumping = false;
-  Time last_heard{};
   Time last_frame{};
   std::uint64_t frames = 0;
   std::uint32_t left_out = 0;  ///< frames that were due while another was under way

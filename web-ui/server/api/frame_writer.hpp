@@ -19,6 +19,8 @@ class FrameWriter {
   FrameWriter(const Cell& cell, ObservedSlots& slots, const ImageWorker& images) noexcept
       : descriptor_(cell.application().descriptor_hash), slots_(&slots), images_(&images) {}
 
+  /// From here on the newest values are looked at anew.
+  void begin_turn() noexcept { slots_->begin_turn(); }
   /// When there may be something to send.
   static Time next(const Client& client) noexcept;
   /// Appends what is due; false, and nothing is appended: nothing is. What is due while another message is

@@ -30,9 +30,11 @@ Status check_names(JsonObject object) noexcept {
 }
 
 Status check_names(JsonElement element) noexcept {
-  if (element.is<JsonObject>()) return check_names(element.get<JsonObject>().value_unsafe());
-  if (!element.is<JsonArray>()) return {};
-  for (const JsonElement one : element.get<JsonArray>().value_unsafe()) {
+  JsonObject object;
+  if (element.get(object) == simdjson::SUCCESS) return check_names(object);
+  JsonArray array;
+  if (element.get(array) != simdjson::SUCCESS) return {};
+  for (const JsonElement one : array) {
     // Lists of numbers are long, and hold no names.
     const element_type type = one.type();
     if (type != element_type::OBJECT && type != element_type::ARRAY) continue;

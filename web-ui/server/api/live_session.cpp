@@ -41,7 +41,9 @@ void LiveSession::on_close(LiveLink& link) {
 
 void LiveSession::on_writable(LiveLink& link) {
   Client& client = parts_.clients.at(link.place());
-  if (client.link == &link && !client.pumping) pump(client, MonotonicClock::now());
+  if (client.link != &link || client.pumping) return;
+  parts_.frames.begin_turn();
+  pump(client, MonotonicClock::now());
 }
 
 void LiveSession::close(Client& client, std::uint16_t code, std::string_view reason) {
@@ -66,7 +68,7 @@ void LiveSession::on_text(LiveLink& link, std::string_view text) {
   Client& client = parts_.clients.at(link.place());
   if (client.link != &link || client.closing) return;
   const Time now = MonotonicClock::now();
-  client.last_heard = now;
+  parts_.frames.begin_turn();
   const Result<JsonObject> object = parts_.reader.object(text);
   if (!object) return close(client, close_no_text, object.status().cause());
   Fields fields(*object);
@@ -209,6 +211,7 @@ Time LiveSession::next(Time now) const noexcept {
   for (const Client& client : parts_.clients.all()) {
     // Who is being written to comes by itself when that is done.
     if (!client.is_open() || client.link->is_writing()) continue;
+    if (!client.outbox.is_empty() || client.state_seen != parts_.state.version()) return now;
     next = std::min(next, FrameWriter::next(client));
     for (const TopicSubscription& topic : client.topics) {
       if (topic.interval.count() > 0) next = std::min(next, topic.next);

@@ -3,10 +3,7 @@
 namespace flexrf::panel {
 
 void MotionOperations::stop_motion(const Caller& caller) {
-  if (!access_->has_role(caller.session, Role::viewer)) {
-    permission_->has_role(caller, Role::viewer, "stop motion");
-    return;
-  }
+  if (!permission_->has_role(caller, Role::viewer, "stop motion")) return;
   executive_->control().stop_motion();
   parameters_->forget_holds();
   answers_->done(caller);
