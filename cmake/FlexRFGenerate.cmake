@@ -5,10 +5,12 @@
 #   flexrf_add_interface([NAME name] [SOURCES ...] [LIBRARIES ...])  NAME.toml, and types/ beside it
 #   flexrf_add_driver([NAME name] [SOURCES ...] [LIBRARIES ...])     NAME.toml
 #   flexrf_add_unit([NAME name] [SOURCES ...] [LIBRARIES ...])       NAME.toml, and types/ beside it
-#   flexrf_add_application([NAME name] [SOURCES ...] [LIBRARIES ...])  NAME.toml, types/ and units/*/ of its own
+#   flexrf_add_application([NAME name] [SOURCES ...] [LIBRARIES ...] [WITHOUT_PANEL])
+#                                                                    NAME.toml, types/, units/*/, widgets/ of its own
 #
 # NAME is the folder's name unless given. A unit `jog` is the target FlexRF::unit_jog, an interface FlexRF::interface_NAME,
 # a driver FlexRF::driver_NAME; an application is the executable NAME, and NAME_application is all of it but main().
+# Where the panel was built, an application carries it, unless WITHOUT_PANEL.
 # LIBRARIES are what the author's sources need beyond the runtime, the types and the interfaces that the table names.
 # Order matters as for add_library: types and interfaces before what uses them, applications last.
 
@@ -126,7 +128,7 @@ endfunction()
 
 # What is meant by NAME, DIRECTORY, and the names that the emitter gives.
 macro(_flexrf_arguments function)
-  cmake_parse_arguments(PARSE_ARGV 0 argument "" "NAME;DIRECTORY" "SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 0 argument "${_flexrf_flags}" "NAME;DIRECTORY" "SOURCES;LIBRARIES")
   if(argument_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "${function}: unknown argument '${argument_UNPARSED_ARGUMENTS}'")
   endif()
@@ -283,6 +285,7 @@ function(flexrf_add_unit)
 endfunction()
 
 function(flexrf_add_application)
+  set(_flexrf_flags WITHOUT_PANEL)
   _flexrf_arguments(flexrf_add_application)
   set(name ${argument_NAME})
   string(REPLACE "-" "_" stem ${name})
@@ -326,7 +329,7 @@ function(flexrf_add_application)
   endforeach()
 
   set(output "${CMAKE_CURRENT_BINARY_DIR}/generated/${name}")
-  set(generated application.cpp descriptor.cpp)
+  set(generated application.cpp descriptor.cpp panel.cpp)
   _flexrf_all(TYPES types)
   _flexrf_generated_library(${name}_application "${output}"
     GENERATED ${generated} SOURCES ${argument_SOURCES} LIBRARIES ${parts} ${types} ${argument_LIBRARIES})
@@ -334,4 +337,8 @@ function(flexrf_add_application)
     diagram.mmd memory_map.txt)
   add_executable(${name} "${output}/main.cpp")
   target_link_libraries(${name} PRIVATE ${name}_application FlexRF::allocation_guard)
+  if(NOT argument_WITHOUT_PANEL)  # known when all targets are
+    target_link_libraries(${name} PRIVATE $<TARGET_NAME_IF_EXISTS:FlexRF::panel>)
+    target_compile_definitions(${name} PRIVATE $<$<TARGET_EXISTS:FlexRF::panel>:FLEXRF_WITH_PANEL=1>)
+  endif()
 endfunction()

@@ -59,7 +59,12 @@ file(WRITE "${PROJECT_BINARY_DIR}/FlexRFRegistry.cmake" "${registry}")
 
 target_include_directories(flexrf_options INTERFACE
   $<INSTALL_INTERFACE:${headers}> $<INSTALL_INTERFACE:${headers}/hal> $<INSTALL_INTERFACE:${headers}/generated>)
-_flexrf_needed(needed flexrf_runtime flexrf_allocation_guard ${made})
+set(panel "")
+if(TARGET flexrf_panel)  # where it was built; of its headers an application needs this one
+  set(panel flexrf_panel)
+  install(FILES web-ui/server/panel.hpp DESTINATION ${headers}/web-ui/server)
+endif()
+_flexrf_needed(needed flexrf_runtime flexrf_allocation_guard ${panel} ${made})
 foreach(target IN LISTS needed)
   string(REGEX REPLACE "^flexrf_" "" exported ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${exported})

@@ -57,10 +57,14 @@ void emit_application_record(const Model& model, Text& out) {
     return "{" + string_literal(rename.from) + ", " + string_literal(rename.to) + "}";
   });
   emit_array("constexpr Rename", "renames_table", renames, out);
+  Text ranges;
+  emit_ranges(model, ranges);
+  out << ranges.str();
   const auto table = [](std::string_view name, std::size_t count) {
     return count == 0 ? "{}" : std::string(name);
   };
-  out << "extern const char descriptor_json[];\nextern const Application application;\n"
+  out << "extern const char descriptor_json[];\nextern const PanelRecord panel_record;\n"
+      << "extern const Application application;\n"
       << "constinit const Application application{\n    .name = \"" << application.name
       << "\",\n    .summary = " << string_literal(application.summary)
       << ",\n    .descriptor_hash = " << hash_literal(descriptor_text(model).hash)
@@ -76,6 +80,8 @@ void emit_application_record(const Model& model, Text& out) {
       << ",\n    .populations = " << table("populations_table", model.populations.size())
       << ",\n    .threads = " << table("threads_table", model.threads.size())
       << ",\n    .renames = " << table("renames_table", model.renames.size())
+      << ",\n    .ranges = " << (ranges.str().empty() ? "{}" : "ranges_table")
+      << ",\n    .panel = &panel_record"
       << ",\n    .unit_states = " << table("states_of_units", model.units.size())
       << ",\n    .device_states = " << table("states_of_devices", model.devices.size())
       << ",\n    .thread_states = " << table("states_of_threads", model.threads.size()) << ",\n};\n";

@@ -29,6 +29,7 @@ void emit_units(const Model& model, const ApplicationNames& names, Text& out,
 void emit_slot_records(const Model& model, const ApplicationNames& names, Text& out);
 void emit_queue_records(const Model& model, const ApplicationNames& names, Text& out);
 void emit_thread_records(const Model& model, const ApplicationNames& names, Text& out);
+void emit_ranges(const Model& model, Text& out);  // "ranges_table", or nothing
 
 // "a, b, c" of what `make` gives for each; and the array of it with a name, or nothing when there is none.
 template <class Rows, class Make>

@@ -3,6 +3,7 @@
 
 #include "config-gen/emit/application_names.hpp"
 #include "config-gen/emit/component.hpp"
+#include "config-gen/emit/descriptor_panel.hpp"
 #include "config-gen/emit/emit.hpp"
 #include "config-gen/emit/plain_struct.hpp"
 #include "config-gen/model/layout.hpp"
@@ -243,6 +244,7 @@ Json override_json(const ParameterOverride& change) {
   if (change.widget) json["widget"] = *change.widget;
   if (change.menu) json["menu"] = *change.menu;
   if (change.place) json["place"] = *change.place;
+  if (change.confirm) json["confirm"] = *change.confirm;
   return json;
 }
 
@@ -310,6 +312,10 @@ Json device_json(const Model& model, const Device& device) {
   if (device.values_slot) json["values_slot"] = model.slots[*device.values_slot].name;
   if (device.feedback_slot) json["feedback_slot"] = model.slots[*device.feedback_slot].name;
   add_values(model, "runtime", interface.runtime, device.runtime, json);
+  for (const ParameterOverride& change : device.overrides) json["overrides"].push_back(override_json(change));
+  const std::string robot = "robots/" + device.name + ".urdf";
+  for (const PanelFile& file : model.panel.files)
+    if (file.path == robot) json["robot"] = robot;
   return json;
 }
 
@@ -429,6 +435,8 @@ Json application_json(const Model& model) {
   add_all("slots", model.slots, [&](const Slot& row) { return slot_json(model, row); });
   add_all("queues", model.queues, [&](const Queue& row) { return queue_json(model, row); });
   add_all("threads", model.threads, [&](const Thread& row) { return thread_json(model, row); });
+  json["panel"] = {{"connections", model.panel.connections}};
+  json["widgets"] = widgets_json(model);
   return json;
 }
 

@@ -59,6 +59,7 @@ void emit_driver(const Model& model, const Driver& driver, Files& files) {
 void emit_application(const Model& model, Diagnostics& diagnostics, Files& files) {
   files.push_back({"application.cpp", application_source(model, diagnostics)});
   files.push_back({"descriptor.cpp", descriptor_source(model)});
+  files.push_back({"panel.cpp", panel_source(model)});
   files.push_back({"main.cpp", main_source(model)});
   files.push_back({"descriptor.json", descriptor_text(model).json});
   files.push_back({"reference.md", application_reference(model)});
@@ -71,12 +72,22 @@ void emit_application(const Model& model, Diagnostics& diagnostics, Files& files
 
 std::string main_source(const Model& model) {
   return generated_note(model.application->file) +
-         "#include \"runtime/executive/application.hpp\"\n\n"
+         "#include \"runtime/executive/application.hpp\"\n"
+         "#ifdef FLEXRF_WITH_PANEL\n"
+         "#include \"web-ui/server/panel.hpp\"\n"
+         "#endif\n\n"
          "namespace flexrf::application {\n"
          "extern const Application application;\n"
          "}  // namespace flexrf::application\n\n"
          "int main(int argument_count, char** arguments) {\n"
-         "  return flexrf::run_application(flexrf::application::application, argument_count, arguments);\n"
+         "#ifdef FLEXRF_WITH_PANEL\n"
+         "  if (const auto code = flexrf::panel::run_helper(argument_count, arguments)) return *code;\n"
+         "  constexpr flexrf::MakeObserver observer = flexrf::panel::make_panel;\n"
+         "#else\n"
+         "  constexpr flexrf::MakeObserver observer = nullptr;\n"
+         "#endif\n"
+         "  return flexrf::run_application(flexrf::application::application, argument_count, arguments, "
+         "observer);\n"
          "}\n";
 }
 

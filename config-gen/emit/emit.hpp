@@ -22,7 +22,8 @@ struct DescriptorText {
 DescriptorText descriptor_text(const Model& model);
 std::string descriptor_source(const Model& model);  // descriptor.cpp, which embeds it
 
-std::string main_source(const Model& model);  // main.cpp
+std::string panel_source(const Model& model);  // panel.cpp: settings and files for the panel
+std::string main_source(const Model& model);   // main.cpp
 
 std::string unit_reference(const Model& model, const UnitType& unit);  // Markdown
 std::string interface_reference(const Model& model, const Interface& interface);

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -385,6 +386,22 @@ struct DriverChoice {
   std::vector<Literal> configuration;  // per parameter of the driver's own block
 };
 
+// What an application changes in how the panel shows one parameter.
+struct ParameterOverride {
+  std::string parameter;
+  Parameter::Kind kind = Parameter::Kind::runtime;
+  Position position;
+  std::optional<std::string> label;
+  std::optional<bool> hidden;
+  std::optional<Literal> low;  // both or none; inside the parameter's own range, and enforced
+  std::optional<Literal> high;
+  std::optional<std::string> widget;
+  std::optional<std::string> menu;
+  std::optional<std::string> place;
+  Position place_position;
+  std::optional<std::string> confirm;  // what a person is asked before it is changed or pressed
+};
+
 struct Device {
   std::string name;
   Position position;
@@ -400,23 +417,11 @@ struct Device {
   std::vector<DeviceResource> resources;  // in the interface's order
   std::vector<Literal> configuration;     // per parameter of the interface's block
   std::vector<Literal> runtime;
+  std::vector<ParameterOverride> overrides;
   Nanoseconds initialise_timeout = 5'000'000'000;
   std::optional<Index> feedback_slot;  // none when it has no feedback
   std::optional<Index> values_slot;    // runtime values in force; none when it has no runtime parameters
   bool partial = false;                // as of a slot
-};
-
-// What an application changes in how the panel shows one parameter.
-struct ParameterOverride {
-  std::string parameter;
-  Position position;
-  std::optional<std::string> label;
-  std::optional<bool> hidden;
-  std::optional<Literal> low;  // both or none; inside the unit's own range
-  std::optional<Literal> high;
-  std::optional<std::string> widget;
-  std::optional<std::string> menu;
-  std::optional<std::string> place;
 };
 
 struct Unit {
@@ -459,6 +464,41 @@ struct Rename {
   Position position;
 };
 
+// ---- The panel
+// ---------------------------------------------------------------------------------------------------
+
+// [widget.NAME]: what the page shows beside what it builds by itself.
+struct PanelWidget {
+  using Option = std::variant<bool, std::int64_t, double, std::string>;
+  using Roles = std::vector<std::pair<std::string, std::string>>;
+  std::string name;
+  Position position;
+  std::string kind;
+  bool custom = false;             // made by widgets/KIND.js beside the table
+  std::string label;               // empty: made from the name
+  std::string place = "overview";  // or a unit's or device's name
+  Roles slots;                     // role, name
+  Roles parameters;  // role, and "jog.step", "jog.configuration.limit" or "jog.feedback.presses"
+  std::optional<Index> device;
+  std::vector<std::pair<std::string, Option>> options;
+  std::string summary;
+};
+
+// What the application carries for the page.
+struct PanelFile {
+  std::string path;  // as it is served: "widgets/jog_arrows.js"
+  std::string content_type;
+  std::filesystem::path file;
+};
+
+struct Panel {
+  std::size_t connections = 32;
+  std::vector<std::string> local;  // addresses
+  Nanoseconds session_timeout = Nanoseconds{12} * 3600 * 1'000'000'000;
+  std::vector<PanelWidget> widgets;
+  std::vector<PanelFile> files;
+};
+
 struct GroupInstance {  // kept for the diagram and the panel; everything in it is already flattened
   std::string name;     // "axis[2]"
   std::string table;    // "axis"
@@ -493,6 +533,7 @@ struct Model {
   std::vector<Unit> units;
   std::vector<Population> populations;
   std::vector<Rename> renames;
+  Panel panel;
   std::vector<Slot> slots;
   std::vector<Queue> queues;
   std::vector<Thread> threads;  // declared threads, then IO threads

@@ -69,10 +69,19 @@ void connect_inputs(Assembly& assembly);
 void read_threads(Assembly& assembly);
 void read_renames(Assembly& assembly, const Node& table);  // [renamed]
 void derive(Assembly& assembly);                           // readers, doorbells, parameter slots, order
+void read_panel(Assembly& assembly);                       // [panel], [widget.N]
 
 // `section`.P = v for parameters of `block`, under `table` (may be null): a value for each parameter.
 std::vector<Literal> read_values(Assembly& assembly, const Node* table, const ParameterBlock& block,
                                  const std::string& section, const std::string& row_name);
+
+// parameter.P = {...} under `table` (may be null), for parameters of `blocks`; `owner` is as "'arm'".
+std::vector<ParameterOverride> read_overrides(Assembly& assembly, const Node* table,
+                                              const std::vector<const ParameterBlock*>& blocks,
+                                              const std::string& owner, const std::string& row_name);
+// The values of `block` that a narrowed range would leave out.
+void check_narrowed(Assembly& assembly, const std::vector<ParameterOverride>& changes,
+                    const ParameterBlock& block, const std::vector<Literal>& values);
 
 // Marks every slot that a broken row names.
 void mark_broken(Assembly& assembly, const FlatRow& row);

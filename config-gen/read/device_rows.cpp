@@ -97,6 +97,19 @@ void read_resources(Assembly& assembly, Row& row, Device& device) {
   }
 }
 
+void read_device_overrides(Assembly& assembly, Row& row, Device& device) {
+  const Interface& kind = assembly.model.interfaces[device.interface];
+  std::vector<const ParameterBlock*> blocks{&kind.runtime, &kind.configuration, &kind.feedback};
+  for (const DriverChoice& choice : device.drivers)
+    blocks.push_back(&assembly.model.drivers[choice.driver].configuration);
+  device.overrides = read_overrides(assembly, row.table("parameter"), blocks, quote(device.name), row.name());
+  check_narrowed(assembly, device.overrides, kind.configuration, device.configuration);
+  check_narrowed(assembly, device.overrides, kind.runtime, device.runtime);
+  for (const DriverChoice& choice : device.drivers)
+    check_narrowed(assembly, device.overrides, assembly.model.drivers[choice.driver].configuration,
+                   choice.configuration);
+}
+
 }  // namespace
 
 void read_device_row(Assembly& assembly, const FlatRow& flat) {
@@ -127,6 +140,7 @@ void read_device_row(Assembly& assembly, const FlatRow& flat) {
   device.configuration =
       read_values(assembly, row.table("configuration"), kind.configuration, "configuration", row.name());
   device.runtime = read_values(assembly, row.table("runtime"), kind.runtime, "runtime", row.name());
+  read_device_overrides(assembly, row, device);
   read_io_thread(assembly, row, index);
   row.finish();
 }

@@ -280,7 +280,7 @@ std::vector<const Node*> named_rows(Library& library, const Node& root, std::str
           "write rows as " + header);
       continue;
     }
-    check_name(row, what, kind == "thread", diagnostics);
+    check_name(row, what, kind == "thread" || kind == "widget", diagnostics);
     rows.push_back(&row);
   }
   return rows;

@@ -12,10 +12,9 @@ namespace {
 // Members of Component, of Unit or Device, and of every generated base.
 const std::vector<std::string>& inherited_by(Heir heir) {
   static const std::vector<std::string> common = {
-      "accept",        "accept_runtime", "clear_fault", "component_type",
-      "configuration", "connect",        "fail",        "fault",
-      "feedback",      "initialise",     "name",        "parameter_memory",
-      "runtime",       "set_fault",      "set_name",    "stop"};
+      "accept",  "accept_runtime", "clear_fault", "component_type",    "configuration", "connect",
+      "fail",    "fault",          "feedback",    "initialise",        "name",          "parameter_memory",
+      "runtime", "set_fault",      "set_name",    "set_type_in_force", "stop",          "type_in_force"};
   static const auto with = [](std::vector<std::string> more) {
     more.insert(more.end(), common.begin(), common.end());
     return more;

@@ -32,7 +32,8 @@ void read_application(Library& library, const std::filesystem::path& file) {
   application.autostart = row.boolean("autostart").value_or(false);
   application.stop_timeout = row.positive_duration("stop_timeout").value_or(application.stop_timeout);
   application.finish_timeout = row.positive_duration("finish_timeout").value_or(application.finish_timeout);
-  for (const char* section : {"device", "unit", "slot", "queue", "thread", "group", "renamed"})
+  for (const char* section :
+       {"device", "unit", "slot", "queue", "thread", "group", "renamed", "panel", "widget"})
     row.also(section);
   row.finish();
   model.application = std::move(application);
@@ -54,6 +55,7 @@ void read_application(Library& library, const std::filesystem::path& file) {
   read_threads(assembly);
   if (renames) read_renames(assembly, *renames);
   derive(assembly);
+  read_panel(assembly);
   for (Device& device : model.devices)
     device.partial = device.partial || assembly.broken_owners.contains(device.name);
   for (Slot& slot : model.slots) slot.partial = assembly.broken_places.contains(array_base(slot.name));

@@ -1,83 +1,9 @@
 // [unit.N] rows of applications and groups.
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
-#include "config-gen/read/literal.hpp"
 
 namespace flexrf::config_gen {
 namespace {
-
-const Parameter* find_parameter(const UnitType& type, const std::string& name) {
-  for (const ParameterBlock* block : {&type.runtime, &type.configuration, &type.feedback})
-    for (const Parameter& parameter : block->parameters)
-      if (parameter.field.name == name) return &parameter;
-  return nullptr;
-}
-
-void read_override_range(Assembly& assembly, Row& row, const Parameter& parameter,
-                         ParameterOverride& change) {
-  const Node* range = row.any("range");
-  if (range == nullptr) return;
-  if (range->kind != Node::Kind::array || range->children.size() != 2) {
-    assembly.diagnostics.error(range->position, "'range' of " + row.name() + " must be a list of two numbers",
-                               "write it as [lowest, highest]");
-    return;
-  }
-  Parameter bound = parameter;
-  bound.field.shape.clear();
-  const std::string what = "a bound of the range of " + row.name();
-  auto low = read_parameter_value(assembly.model, bound, range->children[0], what, assembly.diagnostics);
-  auto high = read_parameter_value(assembly.model, bound, range->children[1], what, assembly.diagnostics);
-  if (!low || !high) return;
-  if (number_of(*low) > number_of(*high)) {
-    assembly.diagnostics.error(range->position,
-                               "the range of " + row.name() + " is empty: " + literal_text(*low) +
-                                   " is above " + literal_text(*high),
-                               "write the lower bound first");
-    return;
-  }
-  low->position = high->position = range->position;
-  change.low = std::move(low);
-  change.high = std::move(high);
-}
-
-std::vector<ParameterOverride> read_overrides(Assembly& assembly, const Node* table, const UnitType& type,
-                                              const std::string& row_name) {
-  std::vector<ParameterOverride> changes;
-  if (table == nullptr) return changes;
-  for (const Node& child : table->children) {
-    const Parameter* parameter = find_parameter(type, child.key);
-    if (parameter == nullptr) {
-      std::vector<std::string> known;
-      for (const ParameterBlock* block : {&type.runtime, &type.configuration, &type.feedback})
-        for (const Parameter& one : block->parameters) known.push_back(one.field.name);
-      assembly.diagnostics.error(
-          child.key_position,
-          "unknown parameter " + quote(child.key) + " of the unit type " + quote(type.name),
-          suggest(child.key, known, "parameters", "it has none: remove this line"));
-      continue;
-    }
-    if (child.kind != Node::Kind::table) {
-      assembly.diagnostics.error(child.position,
-                                 quote("parameter." + child.key) + " of " + row_name +
-                                     " must be a table, not " + kind_text(child.kind),
-                                 "write it as { label = \"Speed\" }");
-      continue;
-    }
-    Row row(child, quote("parameter." + child.key) + " of " + row_name, assembly.diagnostics);
-    ParameterOverride change;
-    change.parameter = child.key;
-    change.position = child.key_position;
-    change.label = row.text("label");
-    change.hidden = row.boolean("hidden");
-    change.widget = row.text("widget");
-    change.menu = row.text("menu");
-    change.place = row.text("place");
-    read_override_range(assembly, row, *parameter, change);
-    row.finish();
-    changes.push_back(std::move(change));
-  }
-  return changes;
-}
 
 void add_population(Assembly& assembly, Row& row, Unit unit, std::size_t capacity, std::size_t active) {
   Model& model = assembly.model;
@@ -133,7 +59,11 @@ void read_unit_row(Assembly& assembly, const FlatRow& flat) {
   unit.configuration =
       read_values(assembly, row.table("configuration"), type.configuration, "configuration", row.name());
   unit.runtime = read_values(assembly, row.table("runtime"), type.runtime, "runtime", row.name());
-  unit.overrides = read_overrides(assembly, row.table("parameter"), type, row.name());
+  unit.overrides =
+      read_overrides(assembly, row.table("parameter"), {&type.runtime, &type.configuration, &type.feedback},
+                     "the unit type " + quote(type.name), row.name());
+  check_narrowed(assembly, unit.overrides, type.configuration, unit.configuration);
+  check_narrowed(assembly, unit.overrides, type.runtime, unit.runtime);
   const auto capacity = row.integer("capacity", 1, 4096);
   const auto active = row.integer("active", 0, 4096);
   row.finish();

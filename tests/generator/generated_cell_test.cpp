@@ -10,6 +10,7 @@
 #include "tests/cmocka.hpp"
 #include "types/everything.hpp"
 #include "types/picture.hpp"
+#include "types/thumbnail.hpp"
 #include "units/source/source.hpp"
 
 namespace flexrf::application {
@@ -180,6 +181,81 @@ void former_names_are_told(void**) {
   assert_string_equal(cell.renames[1].to, "source.vector");
 }
 
+void an_image_is_read_as_any_slot(void**) {
+  const SlotRecord& slot = row(cell.slots, "thumbnail");
+  assert_true(slot.control->type()->is_image);
+  assert_non_null(slot.observer);
+  const ItemHeader* item = slot.observer->newest();
+  assert_non_null(item);
+  const auto& thumbnail = *static_cast<const Thumbnail*>(slot.observer->payload());
+  assert_int_equal(thumbnail.width, 16);
+  assert_int_equal(thumbnail.height, 12);
+  assert_int_equal(thumbnail.data[191], (item->sequence - 1) & 0xFF);
+}
+
+void the_panel_has_its_settings_and_files(void**) {
+  const PanelRecord& panel = *cell.panel;
+  assert_int_equal(panel.connections, 8);
+  assert_int_equal(panel.local.size(), 2);
+  assert_string_equal(panel.local[1], "fd00::20");
+  assert_true(panel.session_timeout == std::chrono::minutes{30});
+  assert_int_equal(panel.files.size(), 1);
+  assert_true(panel.files[0].path == "widgets/spectrum.js");
+  assert_true(panel.files[0].content_type == "text/javascript");
+  static std::string file;
+  std::ifstream stream(WIDGET);
+  file.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  assert_true(panel.files[0].bytes == file);
+}
+
+void ranges_that_rows_narrow_are_told(void**) {
+  assert_int_equal(cell.ranges.size(), 2);
+  assert_int_equal(cell.ranges[0].component, 0);
+  assert_string_equal(cell.ranges[0].parameter, "gain");
+  assert_true(cell.ranges[0].minimum == 0.0 && cell.ranges[0].maximum == 2.0);
+  assert_int_equal(cell.ranges[1].component, cell.units.size() + 1);
+  assert_true(cell.ranges[1].kind == ParameterKind::runtime);
+  assert_true(cell.ranges[1].minimum == 1.0 && cell.ranges[1].maximum == 6.0);
+}
+
+void text_equals(const nlohmann::json& json, const char* wanted) {
+  static std::string text;
+  text = json.get<std::string>();
+  assert_string_equal(text.c_str(), wanted);
+}
+
+void the_descriptor_tells_what_a_page_needs(void**) {
+  static nlohmann::json json;
+  json = nlohmann::json::parse(cell.descriptor_json);
+  assert_int_equal(json.at("panel").at("connections").get<int>(), 8);
+  const auto& spectrum = json.at("widgets").at(0);
+  assert_true(spectrum.at("custom").get<bool>());
+  text_equals(spectrum.at("place"), "overview");
+  text_equals(spectrum.at("slots").at("picture"), "thumbnail");
+  assert_int_equal(spectrum.at("options").at("bars").get<int>(), 64);
+  assert_true(spectrum.at("options").at("grid").get<bool>());
+  const auto& gain = json.at("widgets").at(1);
+  assert_false(gain.at("custom").get<bool>());
+  text_equals(gain.at("place"), "source");
+  text_equals(gain.at("parameters").at("value"), "source.gain");
+  text_equals(gain.at("parameters").at("presses"), "source.feedback.presses");
+  text_equals(gain.at("parameters").at("first"), "source.configuration.first");
+  text_equals(gain.at("device"), "station");
+  const auto& station = json.at("devices").at(1);
+  text_equals(station.at("overrides").at(0).at("confirm"), "Really?");
+  assert_true(station.at("overrides").at(0).at("range").at(1).get<double>() == 6.0);
+  text_equals(station.at("values_slot"), "station.values");
+  text_equals(station.at("feedback_slot"), "station.feedback");
+  assert_true(json.at("interfaces").at(1).contains("runtime") &&
+              json.at("interfaces").at(1).contains("feedback"));
+  text_equals(json.at("units").at(1).at("population"), "worker");
+  static std::string images;
+  images.clear();
+  for (const auto& type : json.at("types"))
+    if (type.value("image", false)) images += type.at("name").get<std::string>() + " ";
+  assert_string_equal(images.c_str(), "Picture Thumbnail ");
+}
+
 void the_descriptor_is_embedded(void**) {
   std::ifstream stream(DESCRIPTOR_JSON);
   const std::string file{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -222,6 +298,10 @@ int main() {
                               cmocka_unit_test(padding_is_not_significant),
                               cmocka_unit_test(former_names_are_told),
                               cmocka_unit_test(the_descriptor_is_embedded),
-                              cmocka_unit_test(it_runs)};
+                              cmocka_unit_test(the_descriptor_tells_what_a_page_needs),
+                              cmocka_unit_test(the_panel_has_its_settings_and_files),
+                              cmocka_unit_test(ranges_that_rows_narrow_are_told),
+                              cmocka_unit_test(it_runs),
+                              cmocka_unit_test(an_image_is_read_as_any_slot)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

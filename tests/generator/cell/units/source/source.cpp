@@ -14,6 +14,13 @@ void Source::step(const Tick& tick) {
     loan->width = 4;
     loan.publish();
   }
+  if (auto loan = thumbnail.loan()) {
+    *loan = {};
+    loan->width = 16;
+    loan->height = 12;
+    loan->data.fill(static_cast<std::uint8_t>(tick.number));
+    loan.publish();
+  }
   for (std::uint32_t job = 0; job < 2; ++job) {  // one for each worker that is active
     jobs.push({static_cast<double>(job), static_cast<std::uint32_t>(tick.number)});
   }

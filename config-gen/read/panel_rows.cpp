@@ -1,0 +1,297 @@
+// [panel] and [widget.N] of applications.
+#include <algorithm>
+
+#include "config-gen/model/words.hpp"
+#include "config-gen/read/assembly.hpp"
+#include "config-gen/read/panel_files.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+const std::vector<std::string>& built_in_kinds() {
+  static const std::vector<std::string> kinds = {
+      "number",  "vector",       "matrix",    "lamp",       "enumeration", "text",   "image", "gauge",
+      "pose_2d", "robot",        "histogram", "structure",  "records",     "button", "hold",  "toggle",
+      "slider",  "number_field", "select",    "text_field", "array_field", "jog_pad"};
+  return kinds;
+}
+
+/// What a widget's row can name, as the panel calls it.
+struct Names {
+  std::vector<std::string> places;      // "overview", units and devices
+  std::vector<std::string> slots;       // observed or not
+  std::vector<std::string> parameters;  // "jog.step", "arm.configuration.noise", "jog.feedback.presses"
+  std::vector<std::string> devices;
+};
+
+void add_parameters(const std::string& owner, const ParameterBlock& block, std::vector<std::string>& names) {
+  constexpr const char* middle[] = {".configuration.", ".", ".feedback."};
+  for (const Parameter& parameter : block.parameters)
+    names.push_back(owner + middle[static_cast<std::size_t>(parameter.kind)] + parameter.field.name);
+}
+
+Names names_of(const Model& model) {
+  Names names;
+  names.places.push_back("overview");
+  for (const Slot& slot : model.slots) names.slots.push_back(slot.name);
+  for (const Unit& unit : model.units) {
+    names.places.push_back(unit.name);
+    const UnitType& type = model.unit_types[unit.type];
+    for (const ParameterBlock* block : {&type.runtime, &type.configuration, &type.feedback})
+      add_parameters(unit.name, *block, names.parameters);
+  }
+  for (const Device& device : model.devices) {
+    names.places.push_back(device.name);
+    names.devices.push_back(device.name);
+    const Interface& type = model.interfaces[device.interface];
+    for (const ParameterBlock* block : {&type.runtime, &type.configuration, &type.feedback})
+      add_parameters(device.name, *block, names.parameters);
+    for (const DriverChoice& choice : device.drivers)
+      add_parameters(device.name, model.drivers[choice.driver].configuration, names.parameters);
+  }
+  return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+class Reader {
+ public:
+  explicit Reader(Assembly& assembly) : assembly_(assembly), names_(names_of(assembly.model)) {}
+
+  void read_settings(const Node& node);
+  void read_widget(const Node& node);
+  void check_overrides();
+
+ private:
+  void check_place(const std::string& place, const Position& position);
+  void check_kind(Row& row, PanelWidget& widget);
+  void read_slots(Row& row, PanelWidget& widget);
+  void read_parameters(Row& row, PanelWidget& widget);
+  void read_device(Row& row, PanelWidget& widget);
+  void read_options(Row& row, PanelWidget& widget);
+  /// The texts of a table { role = "name" }.
+  std::vector<const Node*> roles(Row& row, const char* key);
+  bool is_broken(const std::string& owner) const { return assembly_.broken_owners.contains(owner); }
+
+  Assembly& assembly_;
+  Names names_;
+};
+
+void Reader::read_settings(const Node& node) {
+  Row row(node, "[panel]", assembly_.diagnostics);
+  Panel& panel = assembly_.model.panel;
+  if (const auto connections = row.integer("connections", 4, 256))
+    panel.connections = static_cast<std::size_t>(*connections);
+  panel.session_timeout = row.positive_duration("session_timeout").value_or(panel.session_timeout);
+  if (const Node* local = row.list_of_texts("local"); local != nullptr) {
+    for (const Node& address : local->children) {
+      if (is_address(address.text)) {
+        panel.local.push_back(address.text);
+      } else {
+        assembly_.diagnostics.error(address.position, quote(address.text) + " is not an address",
+                                    "write it in numbers, as \"192.168.1.20\" or \"fd00::20\"");
+      }
+    }
+  }
+  row.finish();
+}
+
+void Reader::check_place(const std::string& place, const Position& position) {
+  if (contains(names_.places, place) || is_broken(place)) return;
+  assembly_.diagnostics.error(position, "there is no place " + quote(place) + " on the panel",
+                              suggest(place, names_.places, "places", ""));
+}
+
+void Reader::check_overrides() {
+  const auto check = [this](const std::vector<ParameterOverride>& changes) {
+    for (const ParameterOverride& change : changes)
+      if (change.place) check_place(*change.place, change.place_position);
+  };
+  std::optional<Index> population;
+  for (const Unit& unit : assembly_.model.units) {
+    // Members share their row.
+    if (!unit.population || unit.population != population) check(unit.overrides);
+    population = unit.population;
+  }
+  for (const Device& device : assembly_.model.devices) check(device.overrides);
+}
+
+void Reader::check_kind(Row& row, PanelWidget& widget) {
+  const auto kind = row.required_text("kind", "add kind = \"gauge\", or the name of a file in widgets/");
+  if (!kind) return;
+  widget.kind = *kind;
+  if (contains(built_in_kinds(), *kind)) return;
+  if (!is_snake_case(*kind)) {
+    assembly_.diagnostics.error(row.position("kind"), quote(*kind) + " is not a name for a kind of widget",
+                                "names are lower_snake_case: small letters, digits and single underscores");
+    return;
+  }
+  widget.custom = true;
+  const std::filesystem::path file =
+      assembly_.model.application->file.parent_path() / "widgets" / (*kind + ".js");
+  if (std::filesystem::is_regular_file(file)) {
+    add_panel_file(assembly_.model, {"widgets/" + *kind + ".js", "text/javascript", file});
+    return;
+  }
+  std::string hint = suggest(*kind, built_in_kinds(), "kinds", "");
+  if (nearest(*kind, built_in_kinds()).empty())
+    hint = "write the file, or use a built-in kind: " + listed(built_in_kinds());
+  assembly_.diagnostics.error(row.position("kind"),
+                              quote(*kind) + " is neither a built-in kind of widget nor a file " +
+                                  quote("widgets/" + *kind + ".js") + " beside this table",
+                              hint);
+}
+
+std::vector<const Node*> Reader::roles(Row& row, const char* key) {
+  std::vector<const Node*> texts;
+  const Node* table = row.table(key);
+  if (table == nullptr) return texts;
+  for (const Node& child : table->children) {
+    if (child.kind == Node::Kind::text) {
+      texts.push_back(&child);
+    } else {
+      assembly_.diagnostics.error(child.position,
+                                  quote(std::string(key) + "." + child.key) + " of " + row.name() +
+                                      " must be a text, not " + kind_text(child.kind),
+                                  "write the name in double quotes");
+    }
+  }
+  return texts;
+}
+
+void Reader::read_slots(Row& row, PanelWidget& widget) {
+  for (const Node* child : roles(row, "slots")) {
+    const auto& slots = assembly_.model.slots;
+    const auto found =
+        std::find_if(slots.begin(), slots.end(), [&](const Slot& slot) { return slot.name == child->text; });
+    if (found == slots.end()) {
+      if (!assembly_.broken_places.contains(array_base(child->text)))
+        assembly_.diagnostics.error(child->position, "unknown slot " + quote(child->text),
+                                    suggest(child->text, names_.slots, "slots", "there is none"));
+    } else if (!found->observe) {
+      assembly_.diagnostics.error(child->position,
+                                  "the slot " + quote(child->text) + " is not observed: no panel can show it",
+                                  "remove observe = false from its row at " + to_string(found->position));
+    } else {
+      widget.slots.emplace_back(child->key, child->text);
+    }
+  }
+}
+
+void Reader::read_parameters(Row& row, PanelWidget& widget) {
+  for (const Node* child : roles(row, "parameters")) {
+    const std::size_t dot = child->text.rfind('.');
+    const std::string owner = child->text.substr(0, dot);
+    const std::string name = dot == std::string::npos ? "" : child->text.substr(dot + 1);
+    const std::string candidates[] = {child->text, owner + ".configuration." + name,
+                                      owner + ".feedback." + name};
+    const auto found =
+        std::find_if(std::begin(candidates), std::end(candidates),
+                     [&](const std::string& candidate) { return contains(names_.parameters, candidate); });
+    if (found != std::end(candidates)) {
+      widget.parameters.emplace_back(child->key, *found);
+    } else if (!is_broken(owner)) {
+      // Of a known owner all parameters, else the owners.
+      std::vector<std::string> known;
+      for (const std::string& parameter : names_.parameters)
+        if (parameter.starts_with(owner + ".")) known.push_back(parameter);
+      assembly_.diagnostics.error(child->position, "unknown parameter " + quote(child->text),
+                                  known.empty()
+                                      ? suggest(child->text, names_.parameters, "parameters", "there is none")
+                                      : suggest(child->text, known, "parameters", ""));
+    }
+  }
+}
+
+void Reader::read_device(Row& row, PanelWidget& widget) {
+  const auto name = row.text("device");
+  if (name) {
+    const auto found = assembly_.devices.find(*name);
+    if (found != assembly_.devices.end()) {
+      widget.device = found->second;
+    } else if (!is_broken(*name)) {
+      assembly_.diagnostics.error(
+          row.position("device"), "unknown device " + quote(*name),
+          suggest(*name, names_.devices, "devices", "declare it as [device." + *name + "]"));
+    }
+  }
+  if (widget.kind != "robot") return;
+  const Node* slots = row.node().find("slots");
+  if (slots == nullptr || slots->find("joints") == nullptr)
+    row.missing("slots.joints", "add slots = { joints = \"NAME\" }: the slot with the joints' positions");
+  if (!name) {
+    row.missing("device", "add device = \"arm\": the robot to be shown");
+  } else if (widget.device && !robot_of(assembly_.model, *widget.device)) {
+    assembly_.diagnostics.error(row.position("device"), quote(*name) + " has no URDF that could be shown",
+                                "name a device whose row has urdf = \"FILE\"");
+  }
+}
+
+void Reader::read_options(Row& row, PanelWidget& widget) {
+  const Node* table = row.table("options");
+  if (table == nullptr) return;
+  for (const Node& child : table->children) {
+    switch (child.kind) {
+      case Node::Kind::boolean:
+        widget.options.emplace_back(child.key, child.boolean);
+        break;
+      case Node::Kind::integer:
+        widget.options.emplace_back(child.key, child.integer);
+        break;
+      case Node::Kind::real:
+        widget.options.emplace_back(child.key, child.real);
+        break;
+      case Node::Kind::text:
+        widget.options.emplace_back(child.key, child.text);
+        break;
+      default:
+        assembly_.diagnostics.error(
+            child.position,
+            quote("options." + child.key) + " of " + row.name() + " is " + kind_text(child.kind),
+            "an option is one value: a number, a text, true or false");
+    }
+  }
+}
+
+void Reader::read_widget(const Node& node) {
+  Row row(node, "[widget." + node.key + "]", assembly_.diagnostics);
+  PanelWidget widget;
+  widget.name = node.key;
+  widget.position = node.key_position;
+  widget.label = row.text("label").value_or("");
+  widget.summary = row.text("summary").value_or("");
+  if (const auto place = row.text("place")) {
+    widget.place = *place;
+    check_place(*place, row.position("place"));
+  }
+  check_kind(row, widget);
+  read_slots(row, widget);
+  read_parameters(row, widget);
+  read_device(row, widget);
+  read_options(row, widget);
+  row.finish();
+  assembly_.model.panel.widgets.push_back(std::move(widget));
+}
+
+}  // namespace
+
+void read_panel(Assembly& assembly) {
+  const Node& root = assembly.flat.scopes.front().tree;
+  for (Index device = 0; device < assembly.model.devices.size(); ++device) add_robot_files(assembly, device);
+  Reader reader(assembly);
+  if (const Node* panel = root.find("panel"); panel != nullptr) {
+    if (panel->kind == Node::Kind::table) {
+      reader.read_settings(*panel);
+    } else {
+      assembly.diagnostics.error(panel->position, "'panel' must be a table, not " + kind_text(panel->kind),
+                                 "write it as [panel], and its keys below");
+    }
+  }
+  for (const Node* widget : named_rows(assembly.library, root, "widget", "a widget"))
+    reader.read_widget(*widget);
+  reader.check_overrides();
+}
+
+}  // namespace flexrf::config_gen
