@@ -4,7 +4,10 @@ import { defineConfig } from 'vitest/config';
 import { shortTemplates } from './short_templates';
 
 // `npm run dev` serves the sources and passes everything else on to a running application, at FLEXRF_PANEL.
-const application = loadEnv('', '.', 'FLEXRF_')['FLEXRF_PANEL'] ?? 'http://127.0.0.1:8080';
+const environment = loadEnv('', '.', 'FLEXRF_');
+const application = environment['FLEXRF_PANEL'] ?? 'http://127.0.0.1:8080';
+// Tests try what the documentation shows; the build's copy of this folder lies elsewhere.
+const documentation = environment['FLEXRF_DOCUMENTATION'] ?? decodeURIComponent(new URL('../../docs', import.meta.url).pathname);
 
 export default defineConfig({
   base: '/',
@@ -20,13 +23,14 @@ export default defineConfig({
     chunkSizeWarningLimit: 700, // the 3D view, which is loaded when it is shown
   },
   server: {
-    fs: { allow: ['.', '../../docs'] }, // a test runs the example that is printed there
+    fs: { allow: ['.', documentation] },
     proxy: {
       '/api': { target: application, ws: true, changeOrigin: true, headers: { origin: application } },
       '/application': { target: application, changeOrigin: true },
     },
   },
   test: {
+    alias: { documentation },
     environment: 'jsdom',
     include: ['src/**/*.test.ts'],
   },

@@ -1,6 +1,6 @@
 // The custom widget of docs/panel-widgets.md works as it is printed there.
 import { afterEach, expect, it } from 'vitest';
-import page from '../../../../docs/panel-widgets.md?raw';
+import page from 'documentation/panel-widgets.md?raw';
 import type { WidgetElement } from '../contract';
 import { Registry } from '../core/registry';
 import * as builtIn from '.';
