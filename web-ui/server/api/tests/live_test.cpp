@@ -12,7 +12,7 @@ using fixture::ProducerAndConsumer;
 template <class Value>
 Value at(const std::string& bytes, std::size_t offset) {
   if (offset + sizeof(Value) > bytes.size()) throw fixture::CheckFailed{"a frame is too short"};
-  Value value;
+  Value value{};
   std::memcpy(&value, bytes.data() + offset, sizeof(value));
   return value;
 }
@@ -87,7 +87,10 @@ void frames_hold_what_is_new() {
   std::uint64_t sequence = 0;
   for (int seen = 0; seen < 5; ++seen) {
     CHECK(rig.wait_until([&] {
-      while (!link.frames.empty() && items(link.frames.front()) == 0) link.frames.pop_front();
+      const auto has_value = [](const std::string& frame) {
+        return items(frame) == 1 && at<std::uint32_t>(frame, 36) != 0;
+      };
+      while (!link.frames.empty() && !has_value(link.frames.front())) link.frames.pop_front();
       return !link.frames.empty();
     }));
     const std::string frame = link.frames.front();

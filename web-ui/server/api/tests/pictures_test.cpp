@@ -166,7 +166,7 @@ class PictureCell : public fixture::ProducerAndConsumer {
 
 template <class Value>
 Value at(const std::string& bytes, std::size_t offset) {
-  Value value;
+  Value value{};
   std::memcpy(&value, bytes.data() + offset, sizeof(value));
   return value;
 }

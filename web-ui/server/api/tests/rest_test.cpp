@@ -53,6 +53,7 @@ void unchanged_bodies_are_not_sent_again() {
   ProducerAndConsumer cell;
   Rig rig(cell);
   rig.start();
+  CHECK(rig.wait_until([&] { return rig.get("devices").body.at(0).at("inhibited") == false; }));
   for (const char* const path : {"descriptor", "openapi.json", "devices"}) {
     const Answer first = rig.get(path);
     CHECK_EQUAL(first.status, 200U);

@@ -115,12 +115,14 @@ Rig::Rig(fixture::TestApplication& application)
 
 Rig::~Rig() {
   access_.watcher = nullptr;
-  running_.stop();
+  // Its threads answer until they have ended: the API outlives them.
+  if (started_) running_.finish();
   api_.stop();
 }
 
 void Rig::start() {
   running_.start();
+  started_ = true;
   if (!wait_until([this] { return executive().control().mode() >= Mode::running; }))
     throw CheckFailed{"the cell does not run"};
 }

@@ -133,6 +133,7 @@ class Rig {
   Api api_;
   std::deque<PlayedLink> links_;
   std::vector<bool> connected_ = std::vector<bool>(places);
+  bool started_ = false;
   std::uint32_t exchange_ = 0;
   std::uint64_t id_ = 0;
 };
