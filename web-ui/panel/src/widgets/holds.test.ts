@@ -172,6 +172,11 @@ describe('jog pad', () => {
     expect(buttons.map((button) => button.style.gridColumn)).toEqual(['1', '3', '']);
   });
 
+  it('is not said to be another widget than was asked for', async () => {
+    const { widget } = await make();
+    expect(widget).toHaveProperty('note', '');
+  });
+
   it('holds one direction at a time', async () => {
     const { host, root } = await make();
     const hold = makeHold();

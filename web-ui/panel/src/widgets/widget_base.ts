@@ -3,7 +3,7 @@ import { LitElement, html, nothing } from 'lit';
 import type { CSSResultGroup, TemplateResult } from 'lit';
 import type { ItemInfo, Placement, Reading, Value, WidgetElement, WidgetHost } from '../contract';
 import { displayUnits } from '../core/units';
-import { misfit, placedItem } from './choose';
+import { misfit, placedItem, placedKind } from './choose';
 import { LiveText } from './live_text';
 import { Quantity } from './quantity';
 import { widgetStyles } from './styles';
@@ -32,7 +32,8 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
     const placed = this.item ?? (this.placement && placedItem(this.host, this.placement));
     if (placed) {
       this.item = placed;
-      this.note ||= misfit(this.placement ? { ...placed, widget: this.placement.kind } : placed);
+      if (!this.placement) this.note ||= misfit(placed);
+      else if (placedKind(this.host, this.placement) !== this.placement.kind) this.note ||= misfit({ ...placed, widget: this.placement.kind });
     }
     this.prepare();
     this.takeAccess();
