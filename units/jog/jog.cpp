@@ -8,23 +8,33 @@ namespace {
 // However fast keys come, a step ends.
 constexpr int most_keys_per_step = 64;
 
+double towards(bool plus, bool minus) {
+  return (plus ? 1.0 : 0.0) - (minus ? 1.0 : 0.0);
+}
+
 }  // namespace
 
 Status Jog::initialise() {
   target_.reset();
+  left_behind_ = false;
   return {};
 }
 
 void Jog::step(const Tick& tick) {
-  if (tick.motion_inhibited) {
-    // A key pressed while nothing may move is not kept for when it may, and the target stays with the arm.
+  const bool held = publish_velocity(tick);
+  if (tick.motion_inhibited || held) {
+    // A key pressed while nothing may move, or a hand moves the arm, is not kept for afterwards.
     for (int n = 0; n < most_keys_per_step && keys.pop(); ++n) continue;
-    target_.reset();
   }
+  // The target stays with an arm that may not move. One that is moved by hand leaves its target behind,
+  // until a key asks for a new one.
+  left_behind_ = left_behind_ || held;
+  if (tick.motion_inhibited || (left_behind_ && !keys.is_empty())) target_.reset();
   if (!target_) {
     const auto pose = actual.latest();
     if (!pose) return;  // keys wait until it is known where the arm is
     target_ = *pose;
+    left_behind_ = false;
   }
   for (int n = 0; n < most_keys_per_step; ++n) {
     const auto key = keys.pop();
@@ -32,6 +42,18 @@ void Jog::step(const Tick& tick) {
     if (move_by_key(*target_, *key, runtime.step, runtime.turn)) ++feedback.presses;
   }
   target.publish(*target_);
+}
+
+/// Whether any arrow is held.
+bool Jog::publish_velocity(const Tick& tick) {
+  const Eigen::Vector3d direction{towards(runtime.plus_x, runtime.minus_x),
+                                  towards(runtime.plus_y, runtime.minus_y),
+                                  towards(runtime.plus_z, runtime.minus_z)};
+  const bool held = !direction.isZero(0) && !tick.motion_inhibited && !tick.stop_requested;
+  Velocity wanted{};
+  if (held) wanted.linear_map() = runtime.speed * direction.normalized();
+  velocity.publish(wanted);
+  return held;
 }
 
 }  // namespace flexrf

@@ -1,4 +1,7 @@
-// Jog: key presses move a target pose.
+// Jog: key presses move a target pose; arrows, as long as they are held, give the tool a velocity.
+//
+// A held arrow is no target: nothing can run ahead of the arm, and when the hold ends, for whatever reason,
+// the wanted velocity is zero in the next step.
 #pragma once
 
 #include <optional>
@@ -14,7 +17,10 @@ class Jog final : public JogUnit {
   bool is_idle() const noexcept override { return keys.is_empty(); }
 
  private:
+  bool publish_velocity(const Tick& tick);
+
   std::optional<Pose> target_;
+  bool left_behind_ = false;  // the arm was moved by a velocity since the target was seeded
 };
 
 }  // namespace flexrf

@@ -20,13 +20,16 @@ Status RobotControl::initialise() {
   motion_.use(arm->kinematic_chain());
   handled_.reset();
   held_ = false;
+  tool_velocity_.setZero();
   last_cycle_ = Time{};
   return {};
 }
 
 void RobotControl::step(const Tick& tick) {
+  const double elapsed = elapsed_in(tick);
   const auto state = arm->state();
   if (state) publish(*state);
+  if (tick.motion_inhibited) tool_velocity_.setZero();
   if (tick.motion_inhibited || !motion_.is_seeded()) {
     // The first set-point is where the arm is, and a target from before the Start is not followed after it.
     if (state) motion_.seed(state->position_map());
@@ -37,7 +40,9 @@ void RobotControl::step(const Tick& tick) {
     idle_ = true;
     return;
   }
-  if (!state) {
+  if (follow_velocity(state && !tick.motion_inhibited && !tick.stop_requested, elapsed)) {
+    held_ = false;
+  } else if (!state) {
     hold("the arm no longer tells its joint positions");
   } else if (tick.motion_inhibited) {
     hold("motion is inhibited");
@@ -46,14 +51,14 @@ void RobotControl::step(const Tick& tick) {
   } else {
     follow_target();
   }
-  command(tick);
+  command(elapsed);
 
   const bool settled =
       !state || (state->position_map() - motion_.set_point()).cwiseAbs().maxCoeff() < arrived;
   const auto wanted = target.latest();
   const bool more = wanted && !tick.stop_requested && !(handled_ && same(*wanted, *handled_));
-  idle_ = !motion_.is_moving() && settled && !more;
-  feedback.moving = motion_.is_moving();
+  feedback.moving = motion_.is_moving() || !tool_velocity_.isZero(0);
+  idle_ = !feedback.moving && settled && !more;
   feedback.set_point_map() = motion_.set_point();
 }
 
@@ -74,10 +79,39 @@ void RobotControl::follow_target() noexcept {
   if (planned) ++feedback.motions;
 }
 
-void RobotControl::command(const Tick& tick) noexcept {
+/// While a velocity is wanted (and `allowed`), and until the tool is at rest again; false: there is nothing
+/// to do.
+bool RobotControl::follow_velocity(bool allowed, double elapsed) noexcept {
+  Eigen::Vector3d wanted = Eigen::Vector3d::Zero();
+  if (const auto asked = velocity.latest(); asked && allowed) wanted = asked->linear_map();
+  if (!wanted.allFinite()) wanted.setZero();
+  if (const double speed = wanted.norm(); speed > configuration.hand_speed)
+    wanted *= configuration.hand_speed / speed;
+  if (wanted.isZero(0) && tool_velocity_.isZero(0)) return false;
+  // A target from before is not gone back to.
+  if (const auto left_behind = target.latest()) handled_ = *left_behind;
+  if (motion_.is_moving()) {
+    motion_.stop();
+    return true;
+  }
+  const Eigen::Vector3d change = wanted - tool_velocity_;
+  const double most = configuration.hand_acceleration * elapsed;
+  tool_velocity_ = change.norm() <= most ? wanted : tool_velocity_ + change.normalized() * most;
+  const Status moved = motion_.shift(tool_velocity_ * elapsed, elapsed);
+  if (!moved) tool_velocity_.setZero();
+  feedback.set_holding(moved.cause());
+  return true;
+}
+
+/// Since the cycle before, in s.
+double RobotControl::elapsed_in(const Tick& tick) noexcept {
   const double elapsed = last_cycle_ == Time{} ? 0.0 : seconds(tick.nominal - last_cycle_);
   last_cycle_ = tick.nominal;
-  motion_.advance(std::clamp(elapsed, 0.0, configuration.longest_advance));
+  return std::clamp(elapsed, 0.0, configuration.longest_advance);
+}
+
+void RobotControl::command(double elapsed) noexcept {
+  motion_.advance(elapsed);
   JointPositions positions{};
   positions.position_map() = motion_.set_point();
   arm->command(positions);

@@ -3,6 +3,9 @@
 // The target is a pose of the tool; the motion is planned in joint space: all joints start and arrive
 // together on a jerk-limited profile. So every posture on the way can be reached and no singularity asks for
 // infinite rates; the price is that the tool does not run on a straight line between two targets.
+//
+// A velocity, as somebody at the machine holds it, goes before targets: the tool then moves on a straight
+// line, with limited acceleration, and slower where joints would have to be too fast.
 #pragma once
 
 #include <optional>
@@ -21,13 +24,16 @@ class RobotControl final : public RobotControlUnit {
 
  private:
   void follow_target() noexcept;
-  void command(const Tick& tick) noexcept;
+  bool follow_velocity(bool allowed, double elapsed) noexcept;
+  double elapsed_in(const Tick& tick) noexcept;
+  void command(double elapsed) noexcept;
   void publish(const JointState& state) noexcept;
   void hold(std::string_view reason) noexcept;
 
   ArmMotion motion_;
-  std::optional<Pose> handled_;  // the target that was moved to or refused
-  bool held_ = false;            // the last cycle did not follow a target
+  std::optional<Pose> handled_;                              // the target that was moved to or refused
+  bool held_ = false;                                        // the last cycle did not follow a target
+  Eigen::Vector3d tool_velocity_ = Eigen::Vector3d::Zero();  // m/s, of the tool as a hand moves it
   Time last_cycle_{};
   bool idle_ = true;
 };

@@ -17,8 +17,9 @@ struct World {
   QueueBench<KeyEvent> keys;
   SlotBench<Pose> actual;
   SlotBench<Pose> target;
+  SlotBench<Velocity> velocity;
   InputBinding inputs[1] = {actual.input(std::chrono::milliseconds(500))};
-  SlotControl* outputs[1] = {&target.control()};
+  SlotControl* outputs[2] = {&target.control(), &velocity.control()};
   QueueSource* sources[1] = {&keys.ring()};
 
   World() {
@@ -44,6 +45,11 @@ struct World {
     const auto pose = target.latest();
     return pose && std::abs(pose->position[0] - x) < 1e-12 && std::abs(pose->position[1] - y) < 1e-12 &&
            std::abs(pose->position[2] - z) < 1e-12 && pose->orientation[1] == 1.0;
+  }
+  bool velocity_is(double x, double y, double z) {
+    const auto now = velocity.latest();
+    return now && std::abs(now->linear[0] - x) < 1e-12 && std::abs(now->linear[1] - y) < 1e-12 &&
+           std::abs(now->linear[2] - z) < 1e-12;
   }
   bool initialised = false;
 };
@@ -114,6 +120,73 @@ bool an_old_pose_is_no_seed() {
   return !world.target.latest();
 }
 
+bool a_held_arrow_is_a_velocity() {
+  World world;
+  world.arm_is_at(0.7, 0, 1);
+  world.bench.runtime().speed = 0.1;
+  world.bench.step(interval);
+  if (!world.velocity_is(0, 0, 0)) return false;
+  world.bench.runtime().minus_y = true;
+  world.bench.step(interval);
+  if (!world.velocity_is(0, -0.1, 0)) return false;
+  // Two arrows are no faster than one; opposite ones are none.
+  world.bench.runtime().plus_z = true;
+  world.bench.step(interval);
+  if (!world.velocity_is(0, -0.1 * std::sqrt(0.5), 0.1 * std::sqrt(0.5))) return false;
+  world.bench.runtime().plus_y = true;
+  world.bench.runtime().plus_z = false;
+  world.bench.step(interval);
+  if (!world.velocity_is(0, 0, 0)) return false;
+  world.bench.runtime().plus_y = false;
+  world.bench.runtime().minus_y = false;
+  world.bench.step(interval);
+  return world.velocity_is(0, 0, 0) && world.target_is(0.7, 0, 1);
+}
+
+// Also before the target is known.
+bool no_velocity_while_inhibited_or_stopping() {
+  World world;
+  world.bench.runtime().plus_x = true;
+  world.bench.tick().motion_inhibited = true;
+  world.bench.step(interval);
+  if (!world.velocity_is(0, 0, 0)) return false;
+  world.bench.tick().motion_inhibited = false;
+  world.bench.step(interval);
+  if (!world.velocity_is(0.05, 0, 0)) return false;
+  world.bench.tick().stop_requested = true;
+  world.bench.step(interval);
+  return world.velocity_is(0, 0, 0);
+}
+
+bool a_key_after_an_arrow_begins_where_the_arm_is() {
+  World world;
+  world.arm_is_at(0.7, 0, 1);
+  world.bench.step(interval);
+  world.bench.runtime().plus_x = true;
+  world.press("q");  // lost: a hand moves the arm
+  world.bench.step(interval);
+  world.arm_is_at(0.8, 0, 1);
+  world.bench.runtime().plus_x = false;
+  world.bench.step(interval);
+  if (!world.target_is(0.7, 0, 1) || world.bench.feedback().presses != 0) return false;
+  world.press("w");
+  world.bench.step(interval);
+  if (!world.target_is(0.81, 0, 1)) return false;
+  world.arm_is_at(0.9, 0, 1);
+  world.press("w");
+  world.bench.step(interval);
+  return world.target_is(0.82, 0, 1);
+}
+
+void gives_a_velocity_while_held(void**) {
+  assert_true(a_held_arrow_is_a_velocity());
+}
+void gives_none_while_inhibited(void**) {
+  assert_true(no_velocity_while_inhibited_or_stopping());
+}
+void leaves_the_target_behind(void**) {
+  assert_true(a_key_after_an_arrow_begins_where_the_arm_is());
+}
 void waits_for_the_pose(void**) {
   assert_true(keys_wait_for_the_arms_pose());
 }
@@ -137,9 +210,11 @@ void old_pose_is_no_seed(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(waits_for_the_pose),      cmocka_unit_test(counts_every_press),
-      cmocka_unit_test(publishes_in_every_step), cmocka_unit_test(does_not_follow_the_arm),
-      cmocka_unit_test(forgets_while_inhibited), cmocka_unit_test(old_pose_is_no_seed),
+      cmocka_unit_test(waits_for_the_pose),          cmocka_unit_test(counts_every_press),
+      cmocka_unit_test(publishes_in_every_step),     cmocka_unit_test(does_not_follow_the_arm),
+      cmocka_unit_test(forgets_while_inhibited),     cmocka_unit_test(old_pose_is_no_seed),
+      cmocka_unit_test(gives_a_velocity_while_held), cmocka_unit_test(gives_none_while_inhibited),
+      cmocka_unit_test(leaves_the_target_behind),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
