@@ -210,6 +210,8 @@ Status Lifecycle::stop_unit(std::uint16_t index) noexcept {
   bring_to_rest(index);
   if (const Status status = take_back(state.ownership, record.thread, record.name); !status) return status;
   cell_->set_writer_state(index, WriterState::stopped);
+  // Nobody steps it, so nobody would end what is held.
+  cell_->parameters(index).end_all_leases(stamp());
   begin_operation(record.name, record.stop_timeout);
   const Status status = guarded([&] {
     state.unit->stop();
@@ -326,6 +328,7 @@ Status Lifecycle::stop_device(std::uint16_t index) noexcept {
   if (state.life.load() == Life::created || state.life.load() == Life::stopped) return {};
   if (const Status status = take_back(state.ownership, record.thread, record.name); !status) return status;
   cell_->set_device_writer_state(index, WriterState::stopped);
+  cell_->parameters(cell_->component_of_device(index)).end_all_leases(stamp());
   begin_operation(record.name, record.initialise_timeout);
   const Status status = guarded([&] {
     state.device->stop();

@@ -89,6 +89,34 @@ void what_is_started_again_waits_for_start() {
   CHECK(machine.executive().control().may_move());
 }
 
+void what_is_held_ends_with_the_unit() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{1});
+  RunningCell running(cell);
+  const std::uint16_t requester = running.add_requester();
+  running.start();
+  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::producer).steps > 5; }));
+  ParameterRequest request;
+  request.kind = RequestKind::hold;
+  request.component = Cell::producer;
+  request.requester = requester;
+  request.lease = new_lease_number();
+  request.lease_sequence = 1;
+  request.add_name(2);
+  CHECK_EQUAL(running.ask(request).kind, AnswerKind::accepted);
+  std::atomic<bool> stopped{false};
+  running.executive().act(ComponentAction::stop, Cell::producer, [&](const Status&) { stopped = true; });
+  CHECK(RunningCell::wait_until([&] { return stopped.load(); }));
+  const auto lock = running.executive().cell().observe();
+  for (const SlotRecord& slot : cell.application().slots) {
+    if (std::strcmp(slot.name, "producer.runtime") != 0) continue;
+    CHECK(slot.observer->newest() != nullptr);
+    CHECK(!static_cast<const Settings*>(slot.observer->payload())->move);
+    return;
+  }
+  CHECK(false);
+}
+
 void a_unit_without_an_actuator_stops_alone() {
   Machine machine;
   CHECK(machine.act(ComponentAction::stop, Cell::producer).is_ok());
@@ -219,7 +247,6 @@ void a_narrowed_range_is_enforced() {
   CHECK(type.configuration.parameters[0].has_range);
   CHECK_EQUAL(type.runtime.parameters[0].minimum, 2.0);
   CHECK_EQUAL(&executive.cell().component_type(Cell::consumer), &TestUnit::type);
-  executive.cell().destroy();
 }
 
 }  // namespace
@@ -231,6 +258,7 @@ int main() {
       CONTAINED_TEST(a_unit_that_owns_an_actuator_comes_to_rest_before_it_is_stopped),
       CONTAINED_TEST(who_does_not_come_to_rest_has_its_devices_made_safe),
       CONTAINED_TEST(what_is_started_again_waits_for_start),
+      CONTAINED_TEST(what_is_held_ends_with_the_unit),
       CONTAINED_TEST(a_unit_without_an_actuator_stops_alone),
       CONTAINED_TEST(a_device_stops_after_its_unit_and_starts_before_it),
       CONTAINED_TEST(after_a_fault_initialise_constructs_it_anew),
