@@ -1,10 +1,11 @@
 #include "web-ui/server/connection.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "web-ui/server/http_problem.hpp"
 #include "web-ui/server/reply_head.hpp"
-#include "web-ui/server/request_target.hpp"
 
 namespace flexrf::panel {
 namespace {
@@ -136,7 +137,11 @@ void Connection::read_request() {
 }
 
 void Connection::read_more() {
-  if (header_end_ > 0 && input_begin_ == input_end_) input_begin_ = input_end_ = header_end_;
+  if (header_end_ > 0) {  // of the body only what is not yet parsed has to stay
+    std::memmove(input_ + header_end_, input_ + input_begin_, input_end_ - input_begin_);
+    input_end_ -= input_begin_ - header_end_;
+    input_begin_ = header_end_;
+  }
   if (input_end_ == input_size) {
     refuse_and_end(431, "the header is larger than 8 KiB");
     return;
@@ -207,117 +212,6 @@ void Connection::on_header_done() {
                                 --under_way_;
                                 if (state_ == State::shut) release_if_idle();
                               }));
-}
-
-// ---- handling
-
-unsigned Connection::fault_of_header(std::string_view& detail) const {
-  const RequestHeader& header = parser_->header();
-  if (header.hosts != 1 || header.host.empty()) {
-    detail = "a request needs exactly one Host field";
-    return 400;
-  }
-  if (header.origins > 1) {
-    detail = "a request has one Origin field at most";
-    return 400;
-  }
-  if (header.expects_other) {
-    detail = "nothing but 100-continue can be expected of this server";
-    return 417;
-  }
-  if (header.method == Method::other) {
-    detail = "this server knows GET, HEAD, PUT and POST";
-    return 405;
-  }
-  const bool changes = header.method == Method::put || header.method == Method::post;
-  if (changes && !parser_->body().empty() && !is_media_type(header.content_type, "application/json")) {
-    detail = "the body has to be application/json";
-    return 415;
-  }
-  return 0;
-}
-
-void Connection::handle() {
-  ++exchange_;
-  const RequestHeader& header = parser_->header();
-  keep_alive_ = header.version == 11 && parser_->keep_alive();
-  clear_reply(reply_);
-  const std::optional<RequestTarget> target = decode_target(header.target, path_);
-  std::string_view detail = "the request's target has to be a path";
-  const unsigned fault = target ? fault_of_header(detail) : 400;
-  if (fault != 0) {
-    if (fault == 405) reply_.allow = "GET, HEAD, PUT, POST";
-    refuse(fault, detail);
-    return;
-  }
-  if (!admit(*target)) {
-    send_reply();
-  } else if (target->path == "/api/v1/live") {
-    upgrade();
-  } else {
-    serve(*target);
-  }
-}
-
-bool Connection::admit(const RequestTarget& target) {
-  const RequestHeader& header = parser_->header();
-  Approach approach;
-  approach.place = place_;
-  approach.method = header.method;
-  approach.path = target.path;
-  approach.query = target.query;
-  approach.host = header.host;
-  approach.origin = header.origin;
-  approach.cookie = header.cookie;
-  approach.remote_address = remote_address_;
-  approach.local_end = local_end_;
-  approach.loopback = loopback_;
-  approach.has_fetch_site = header.has_fetch_site;
-  approach.upgrade = wants_upgrade();
-  return surroundings_.watch(target.path,
-                             [&] { return surroundings_.gate.admit(approach, session_, reply_); });
-}
-
-void Connection::serve(const RequestTarget& target) {
-  const RequestHeader& header = parser_->header();
-  Request request;
-  request.method = header.method;
-  request.path = target.path;
-  request.query = target.query;
-  request.body = parser_->body();
-  request.content_type = header.content_type;
-  request.if_match = header.if_match;
-  request.if_none_match = header.if_none_match;
-  request.accepts_gzip = accepts_gzip(header.accept_encoding);
-  request.remote_address = remote_address_;
-  request.loopback = loopback_;
-  request.session = session_;
-  const Ticket ticket{place_, exchange_};
-  completed_ = false;
-  handler_runs_ = true;
-  const Handled handled = surroundings_.watch(
-      target.path, [&] { return surroundings_.requests.handle(request, reply_, ticket); });
-  handler_runs_ = false;
-  if (handled == Handled::now || completed_) {
-    send_reply();
-    return;
-  }
-  state_ = State::answering;
-  wait_at_most(surroundings_.settings.reply_timeout);
-}
-
-Reply* Connection::reply_of(std::uint32_t exchange) noexcept {
-  const bool waits = state_ == State::answering || handler_runs_;
-  return waits && exchange == exchange_ ? &reply_ : nullptr;
-}
-
-void Connection::complete(std::uint32_t exchange) {
-  if (reply_of(exchange) == nullptr) return;
-  if (handler_runs_) {
-    completed_ = true;
-  } else {
-    send_reply();
-  }
 }
 
 // ---- refusing

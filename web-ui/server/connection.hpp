@@ -29,7 +29,6 @@ class Connection final : public LiveLink {
   Connection& operator=(const Connection&) = delete;
 
   bool is_free() const noexcept { return state_ == State::free; }
-  bool is_live() const noexcept { return state_ == State::live || state_ == State::closing; }
   void open(Socket socket);
   /// Ends what has taken too long.
   void check(Time now);
@@ -79,10 +78,6 @@ class Connection final : public LiveLink {
   void on_read(error_code error, std::size_t size);
   void parse();
   void on_header_done();
-  void handle();
-  unsigned fault_of_header(std::string_view& detail) const;
-  bool admit(const RequestTarget& target);
-  void serve(const RequestTarget& target);
   void refuse(unsigned status, std::string_view detail);
   void refuse_input(error_code error);
   void refuse_and_end(unsigned status, std::string_view detail);
@@ -90,6 +85,12 @@ class Connection final : public LiveLink {
   void write_more();
   void on_written(error_code error, std::size_t size);
   void linger();
+
+  // ---- connection_requests.cpp
+  void handle();
+  unsigned fault_of_header(std::string_view& detail) const;
+  bool admit(const RequestTarget& target);
+  void serve(const RequestTarget& target);
 
   // ---- live_connection.cpp: WebSocket
   bool wants_upgrade() const;

@@ -26,7 +26,8 @@ bool gunzip(std::string_view compressed, std::string& text) {
   boost::beast::zlib::inflate_stream stream;
   boost::beast::zlib::z_params parameters;
   parameters.next_in = compressed.data() + header_size;
-  parameters.avail_in = compressed.size() - header_size - trailer_size;
+  // With the trailer: Beast looks some bits ahead of what it needs.
+  parameters.avail_in = compressed.size() - header_size;
   parameters.next_out = text.data() + before;
   parameters.avail_out = size;
   error_code error;

@@ -1,0 +1,208 @@
+#include "web-ui/server/panel.hpp"
+
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/executive/executive.hpp"
+#include "runtime/realtime/thread_setup.hpp"
+#include "web-ui/server/access/access_endpoints.hpp"
+#include "web-ui/server/access/entrance.hpp"
+#include "web-ui/server/access/password_helper.hpp"
+#include "web-ui/server/access/start_rules.hpp"
+#include "web-ui/server/api/api.hpp"
+#include "web-ui/server/encryption.hpp"
+#include "web-ui/server/files.hpp"
+#include "web-ui/server/listen_address.hpp"
+#include "web-ui/server/panel_routes.hpp"
+#include "web-ui/server/server.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+const PanelRecord& record_of(const Application& application) noexcept {
+  static constexpr PanelRecord defaults{};
+  return application.panel == nullptr ? defaults : *application.panel;
+}
+
+/// Puts server, access control and API together; owns the server's thread.
+class Panel final : public Observer {
+ public:
+  explicit Panel(Executive& executive)
+      : executive_(executive), record_(record_of(executive.cell().application())) {}
+  ~Panel() override { Panel::stop(); }
+
+  Status prepare() override;
+  Status start() override;
+  void stop() noexcept override;
+
+ private:
+  Status read_options();
+  Status listen();
+  void make_access();
+  Status make_api();
+  void print_address();
+
+  Executive& executive_;
+  const PanelRecord& record_;
+  ListenAddress address_;
+  Users users_;
+  std::unique_ptr<net::ssl::context> encryption_;
+  bool is_secure_ = false;
+  PanelRoutes routes_;
+  std::optional<Server> server_;
+  std::optional<PanelAccess> access_;
+  std::optional<HostRules> rules_;
+  LoginLimits limits_;
+  PasswordCheck password_check_;
+  std::optional<Entrance> entrance_;
+  std::optional<AccessEndpoints> endpoints_;
+  std::optional<Files> files_;
+  std::optional<Api> api_;
+  RunningThread thread_;
+  bool api_runs_ = false;
+};
+
+Status Panel::prepare() {
+  if (!prepare_cryptography()) {
+    return Status::error(StatusCode::unavailable, "the panel: this system has no source of randomness");
+  }
+  if (const Status status = read_options(); !status) return status;
+  if (const Status status = listen(); !status) return status;
+  make_access();
+  if (const Status status = make_api(); !status) return status;
+  print_address();
+  return {};
+}
+
+Status Panel::read_options() {
+  const Options& options = executive_.options();
+  const Result<ListenAddress> address = parse_listen_address(options.panel);
+  if (!address) return address.status();
+  address_ = *address;
+  for (const std::string& name : options.panel_hosts) {
+    if (const Status status = HostRules::check_name(name); !status) return status;
+  }
+  if (options.tls_certificate.empty() != options.tls_key.empty()) {
+    return Status::error(StatusCode::invalid_argument,
+                         "--tls-certificate and --tls-key go together; one of them is missing");
+  }
+  is_secure_ = !options.tls_certificate.empty();
+  Exposure exposure;
+  exposure.address = Address::parse(address_.address).value_or(Address{});
+  exposure.has_users = !options.panel_users.empty();
+  exposure.secure = is_secure_;
+  exposure.insecure_http = options.insecure_http;
+  if (const Status status = check_exposure(exposure); !status) {
+    if (!is_secure_) {
+      std::fprintf(stderr, "A certificate of your own:\n  %s\n",
+                   certificate_command(address_.address).c_str());
+    }
+    return status;
+  }
+  if (exposure.has_users) {
+    Result<Users> users = users_to_start_with(options.panel_users);
+    if (!users) return users.status();
+    users_ = std::move(*users);
+  }
+  if (!is_secure_) return {};
+  Result<std::unique_ptr<net::ssl::context>> encryption =
+      make_encryption(options.tls_certificate, options.tls_key);
+  if (!encryption) {
+    std::fprintf(stderr, "Certificate and key of your own:\n  %s\n",
+                 certificate_command(address_.address).c_str());
+    return encryption.status();
+  }
+  encryption_ = std::move(*encryption);
+  return {};
+}
+
+Status Panel::listen() {
+  ServerSettings settings;
+  settings.places = record_.connections;
+  server_.emplace(settings, std::move(encryption_), ServerParts{routes_, routes_, routes_, routes_});
+  Status status = server_->listen(address_);
+  // Nobody asked for the default address: another application's panel is no reason not to start.
+  if (status.code() == StatusCode::busy && !executive_.options().panel_given) {
+    const std::string taken = address_.text();
+    address_.port = 0;
+    status = server_->listen(address_);
+    if (status) {
+      std::fprintf(stderr, "%s is another program's; the panel takes a port that is free.\n", taken.c_str());
+    }
+  }
+  address_.port = server_->port();
+  return status;
+}
+
+void Panel::make_access() {
+  AccessSettings settings;
+  settings.needs_login = !users_.list.empty();
+  settings.secure = is_secure_;
+  settings.port = address_.port;
+  settings.sessions.idle = record_.session_timeout;
+  // Each connection may be another's, and others come back to theirs.
+  settings.sessions.places = std::size_t{2} * record_.connections;
+  for (const char* local : record_.local) {
+    if (const std::optional<Address> address = Address::parse(local)) settings.local.push_back(*address);
+  }
+  access_.emplace(settings);
+  std::vector<std::string> names = HostRules::names_of_machine();
+  for (const std::string& name : executive_.options().panel_hosts) names.push_back(name);
+  rules_.emplace(is_secure_, std::move(names));
+  entrance_.emplace(*access_, limits_, *rules_, record_.connections);
+  endpoints_.emplace(*access_, limits_, users_, password_check_, *server_);
+}
+
+Status Panel::make_api() {
+  files_.emplace(page_files(), record_.files);
+  api_.emplace(executive_, *access_, *server_, record_.connections);
+  routes_.connect({*server_, *access_, *entrance_, *endpoints_, *api_, *files_}, record_.connections);
+  return api_->prepare();
+}
+
+void Panel::print_address() {
+  ListenAddress shown = address_;
+  std::string host = shown.text();
+  if (shown.is_any()) {
+    const std::vector<std::string> names = HostRules::names_of_machine();
+    host = (names.empty() ? "localhost" : names.front()) + ":" + std::to_string(shown.port);
+  }
+  std::string address = (is_secure_ ? "https://" : "http://") + host + "/";
+  // Whoever can read this terminal started the application, and may control it.
+  if (const OneTimeToken* token = access_->one_time_token())
+    address += "?token=" + std::string{token->text()};
+  std::fprintf(stderr, "Panel: %s\n", address.c_str());
+}
+
+Status Panel::start() {
+  if (const Status status = api_->start(); !status) return status;
+  api_runs_ = true;
+  ThreadSettings settings;
+  settings.name = "panel";
+  settings.stack_size = observer_stack_size;
+  return thread_.start(
+      settings, [](void* server) { static_cast<Server*>(server)->run(); }, &*server_);
+}
+
+void Panel::stop() noexcept {
+  if (thread_.is_started()) {
+    server_->stop();
+    thread_.join();
+  }
+  if (std::exchange(api_runs_, false)) api_->stop();
+}
+
+}  // namespace
+
+std::unique_ptr<Observer> make_panel(Executive& executive) {
+  return std::make_unique<Panel>(executive);
+}
+
+std::optional<int> run_helper(int argument_count, char** arguments) {
+  return run_password_helper(argument_count, arguments);
+}
+
+}  // namespace flexrf::panel

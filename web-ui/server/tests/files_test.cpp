@@ -1,0 +1,112 @@
+#include "web-ui/server/files.hpp"
+
+#include <string>
+
+#include "tests/cmocka.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+using namespace std::string_view_literals;
+
+// "hello, hello, hello, hello\n" by gzip, as our build writes it.
+constexpr auto hello =
+    "\x1F\x8B\x08\x00\x00\x00\x00\x00\x02\x03\xCB\x48\xCD\xC9\xC9\xD7\x51\xC8\xC0\xA4\xB8\x00\x4B\x21\xA1\x29"
+    "\x1B"
+    "\x00\x00\x00"sv;
+constexpr PageFile page[] = {
+    {"/index.html", "text/html; charset=utf-8", "11", false, false, "<!doctype html>"},
+    {"/assets/page-1a2b.js", "text/javascript; charset=utf-8", "22", true, true, hello},
+    {"/assets/broken.js", "text/javascript; charset=utf-8", "33", true, true, hello.substr(0, 25)},
+};
+constexpr PanelFile application[] = {{"arm.urdf", "application/xml", "<robot/>"}};
+
+Files files(page, application);
+Reply reply;
+
+const Reply& ask(std::string_view path, bool gzip = true, std::string_view if_none_match = {},
+                 Method method = Method::get) {
+  Request request;
+  request.method = method;
+  request.path = path;
+  request.accepts_gzip = gzip;
+  request.if_none_match = if_none_match;
+  reply = Reply{};
+  assert_true(files.handle(request, reply, {}) == Handled::now);
+  return reply;
+}
+
+void is(std::string_view actual, std::string_view expected) {
+  assert_string_equal(std::string{actual}.c_str(), std::string{expected}.c_str());
+}
+
+void the_page_is_asked_for_anew_each_time(void**) {
+  ask("/");
+  assert_int_equal(reply.status, 200);
+  is(reply.cache_control, "no-cache");
+  is(reply.content_type, "text/html; charset=utf-8");
+  is(reply.etag, "\"11\"");
+  assert_true(reply.fixed == page[0].bytes);
+  assert_false(reply.varies_by_encoding);
+}
+
+void hashed_names_last(void**) {
+  ask("/assets/page-1a2b.js");
+  is(reply.cache_control, "public, max-age=31536000, immutable");
+  is(reply.content_encoding, "gzip");
+  assert_true(reply.varies_by_encoding);
+  assert_true(reply.fixed == hello);
+}
+
+void what_is_unchanged_is_not_sent(void**) {
+  assert_int_equal(ask("/", true, "\"11\"").status, 304);
+  assert_int_equal(ask("/", true, "\"10\", W/\"11\"").status, 304);
+  assert_int_equal(ask("/", true, "*").status, 304);
+  assert_int_equal(ask("/", true, "\"10\"").status, 200);
+  assert_int_equal(ask("/assets/page-1a2b.js", false, "\"22\"").status, 200);
+  assert_int_equal(ask("/assets/page-1a2b.js", false, "\"22-i\"").status, 304);
+}
+
+void clients_without_gzip_get_plain_bytes(void**) {
+  ask("/assets/page-1a2b.js", false);
+  assert_int_equal(reply.status, 200);
+  is(reply.content_encoding, "");
+  is(reply.etag, "\"22-i\"");
+  is(reply.text, "hello, hello, hello, hello\n");
+  assert_int_equal(ask("/assets/broken.js", false).status, 500);
+}
+
+void the_applications_files_are_served(void**) {
+  ask("/application/arm.urdf");
+  assert_int_equal(reply.status, 200);
+  is(reply.content_type, "application/xml");
+  is(reply.cache_control, "no-cache");
+  assert_true(reply.fixed == "<robot/>");
+  const std::string tag = reply.etag;
+  assert_int_equal(ask("/application/arm.urdf", true, tag).status, 304);
+  assert_int_equal(ask("/application/other.urdf").status, 404);
+  assert_int_equal(ask("/arm.urdf").status, 404);
+}
+
+void files_can_only_be_read(void**) {
+  assert_int_equal(ask("/", true, {}, Method::head).status, 200);
+  assert_int_equal(ask("/", true, {}, Method::post).status, 405);
+  is(reply.allow, "GET, HEAD");
+  is(reply.content_type, "application/problem+json");
+}
+
+}  // namespace
+}  // namespace flexrf::panel
+
+int main() {
+  using namespace flexrf::panel;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_page_is_asked_for_anew_each_time),
+      cmocka_unit_test(hashed_names_last),
+      cmocka_unit_test(what_is_unchanged_is_not_sent),
+      cmocka_unit_test(clients_without_gzip_get_plain_bytes),
+      cmocka_unit_test(the_applications_files_are_served),
+      cmocka_unit_test(files_can_only_be_read),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,121 @@
+#include "web-ui/server/tests/served.hpp"
+
+#include <cstdlib>
+#include <utility>
+
+#include "web-ui/server/encryption.hpp"
+#include "web-ui/server/http_problem.hpp"
+#include "web-ui/server/server.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+const std::string& large() {
+  static const std::string text(8U << 20U, 'x');
+  return text;
+}
+
+}  // namespace
+
+bool TestHandlers::admit(const Approach& approach, SessionIndex& session, Reply& reply) {
+  const bool changes = approach.upgrade || approach.method == Method::put || approach.method == Method::post;
+  session = 0;
+  if (approach.host != "panel.test") {
+    answer_problem(reply, 421, "unknown host");
+    return false;
+  }
+  if (changes && !approach.origin.empty() && approach.origin != "http://panel.test") {
+    answer_problem(reply, 403, "foreign origin");
+    return false;
+  }
+  return true;
+}
+
+Handled TestHandlers::handle(const Request& request, Reply& reply, Ticket ticket) {
+  if (request.path == "/hello") {
+    reply.text = R"({"hello":true})";
+    reply.etag = "\"1\"";
+  } else if (request.path == "/echo") {
+    reply.text = request.body;
+  } else if (request.path == "/large") {
+    reply.fixed = large();
+  } else if (request.path == "/later") {
+    waiting_.push_back(ticket);
+    return Handled::later;
+  } else if (request.path == "/never") {
+    return Handled::later;
+  } else {
+    answer_problem(reply, 404, "no such path");
+  }
+  return Handled::now;
+}
+
+void TestHandlers::on_text(LiveLink& link, std::string_view text) {
+  ++texts;
+  if (text == "close") {
+    link.close(4000, "as you wish");
+    return;
+  }
+  floods_[link.place()] = text == "flood";
+  if (link.is_writing()) return;
+  link.buffer() = text;
+  link.send(false);
+}
+
+void TestHandlers::on_writable(LiveLink& link) {
+  if (!floods_[link.place()]) return;
+  link.buffer().assign(64U << 10U, 'f');
+  link.send(true);
+}
+
+void TestHandlers::on_close(LiveLink& link) {
+  floods_[link.place()] = false;
+  ++closed;
+}
+
+void TestHandlers::on_tick(Time) {
+  for (const Ticket ticket : waiting_) {
+    if (Reply* reply = replies->reply_of(ticket); reply != nullptr) {
+      reply->text = "later";
+      replies->complete(ticket);
+    }
+  }
+  waiting_.clear();
+}
+
+Served::Served(const ServerSettings& settings, Ticked* ticked, const std::string& certificate_file,
+               const std::string& key_file) {
+  std::unique_ptr<net::ssl::context> encryption;
+  if (!certificate_file.empty()) {
+    auto made = make_encryption(certificate_file, key_file);
+    if (!made) std::abort();
+    encryption = std::move(*made);
+  }
+  server =
+      std::make_unique<Server>(settings, std::move(encryption),
+                               ServerParts{handlers, handlers, handlers,
+                                           ticked == nullptr ? static_cast<Ticked&>(handlers) : *ticked});
+  handlers.replies = server.get();
+  if (!server->listen({"127.0.0.1", 0})) std::abort();
+  thread = std::thread([this] { server->run(); });
+}
+
+Served::~Served() {
+  stop();
+  thread.join();
+}
+
+std::uint16_t Served::port() const {
+  return server->port();
+}
+
+void Served::stop() {
+  server->stop();
+}
+
+std::string fault_of_encryption(const std::string& certificate_file, const std::string& key_file) {
+  const auto made = make_encryption(certificate_file, key_file);
+  return made ? "" : made.status().cause();
+}
+
+}  // namespace flexrf::panel

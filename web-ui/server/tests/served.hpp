@@ -1,0 +1,75 @@
+// A server with handlers that do what its tests need.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "web-ui/server/gate.hpp"
+#include "web-ui/server/live_link.hpp"
+#include "web-ui/server/server_services.hpp"
+#include "web-ui/server/settings.hpp"
+#include "web-ui/server/tests/client.hpp"
+
+namespace flexrf::panel {
+
+class Server;
+
+/// Knows the host "panel.test" and its origin. Paths: /hello, /echo (the body), /large (8 MiB), /later
+/// (answered at a later tick), /never. Live: a text comes back; "flood" is answered with message after
+/// message; "close" with a close.
+class TestHandlers final : public Gate, public RequestHandler, public LiveHandler, public Ticked {
+ public:
+  LaterReplies* replies = nullptr;
+  std::atomic<int> opened{0};
+  std::atomic<int> closed{0};
+  std::atomic<int> texts{0};
+  std::atomic<int> connections_closed{0};
+
+  bool admit(const Approach& approach, SessionIndex& session, Reply& reply) override;
+  void on_connection_closed(std::uint32_t) override { ++connections_closed; }
+  Handled handle(const Request& request, Reply& reply, Ticket ticket) override;
+  void on_open(LiveLink&) override { ++opened; }
+  void on_text(LiveLink& link, std::string_view text) override;
+  void on_writable(LiveLink& link) override;
+  void on_close(LiveLink& link) override;
+  void on_tick(Time now) override;
+  Duration until_next(Time) const override { return std::chrono::milliseconds{50}; }
+
+ private:
+  std::vector<Ticket> waiting_ = [] {
+    std::vector<Ticket> tickets;
+    tickets.reserve(64);
+    return tickets;
+  }();
+  std::array<bool, 256> floods_{};
+};
+
+/// The state of a test: where an assertion jumps to, this is taken down. Shows nothing of Asio, whose names
+/// and CMocka's macros do not go together.
+struct Served {
+  /// `ticked` null: the handlers' own; files of TLS empty: plain.
+  explicit Served(const ServerSettings& settings, Ticked* ticked = nullptr,
+                  const std::string& certificate_file = {}, const std::string& key_file = {});
+  ~Served();
+
+  std::uint16_t port() const;
+  /// Begins to end; the destructor waits for it.
+  void stop();
+
+  TestHandlers handlers;
+  std::unique_ptr<Server> server;
+  std::thread thread;
+  std::array<Client, 40> clients;
+  std::string text;
+};
+
+/// What make_encryption() finds wrong; empty: nothing.
+std::string fault_of_encryption(const std::string& certificate_file, const std::string& key_file);
+
+}  // namespace flexrf::panel
