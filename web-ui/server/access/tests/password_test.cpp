@@ -1,8 +1,8 @@
 #include "web-ui/server/access/password.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -139,6 +139,8 @@ void one_that_takes_too_long_is_ended(void**) {
   assert_int_equal(outcome, Outcome::failed);
 }
 
+constexpr int leaked = 9;
+
 /// A script in the helper's place writes down what it finds of itself.
 void nothing_is_inherited(void**) {
   char folder[] = "/tmp/flexrf-inherit-XXXXXX";
@@ -149,15 +151,16 @@ void nothing_is_inherited(void**) {
   seen = std::string{folder} + "/seen";
   std::FILE* const file = std::fopen(script.c_str(), "w");
   assert_non_null(file);
-  std::fprintf(
-      file,
-      "#!/bin/sh\n"
-      "{ echo argument $1; echo descriptors $(ls /proc/$$/fd | grep -c '^[3-9]$');"
-      " grep -E '^(SigBlk|SigIgn|VmLck)' /proc/$$/status; env | grep -c FLEXRF_SECRET; } > %s\nexit 42\n",
-      seen.c_str());
+  std::fprintf(file,
+               "#!/bin/sh\n"
+               "status() { sed -n \"s/^$1:[[:space:]]*//p\" /proc/$$/status; }\n"
+               "{ echo argument $1; [ -e /proc/$$/fd/%d ] && echo leaked; echo locked $(status VmLck);"
+               " echo blocked $(status SigBlk); echo ignored $((0x$(status SigIgn) & 0x7fffffff));"
+               " env | grep FLEXRF_SECRET; } > %s\nexit 42\n",
+               leaked, seen.c_str());
   std::fclose(file);
   assert_int_equal(chmod(script.c_str(), 0700), 0);
-  const int leaked = open("/dev/null", O_RDONLY);  // without O_CLOEXEC
+  assert_int_equal(dup2(STDIN_FILENO, leaked), leaked);  // without O_CLOEXEC
   assert_int_equal(setenv("FLEXRF_SECRET", "1", 1), 0);
   std::signal(SIGPIPE, SIG_IGN);
   check.emplace(script);
@@ -174,11 +177,61 @@ void nothing_is_inherited(void**) {
   rmdir(folder);
   assert_string_equal(text,
                       "argument --panel-verify-password\n"
-                      "descriptors 0\n"
-                      "VmLck:\t       0 kB\n"
-                      "SigBlk:\t0000000000000000\n"
-                      "SigIgn:\t0000000000000000\n"
-                      "0\n");
+                      "locked 0 kB\n"
+                      "blocked 0000000000000000\n"
+                      "ignored 0\n");
+}
+
+/// The value of a field of /proc/PID/status; empty: there is none.
+std::string status_of(pid_t process, const char* field) {
+  std::FILE* const file = std::fopen(("/proc/" + std::to_string(process) + "/status").c_str(), "r");
+  if (file == nullptr) return "";
+  char line[256];
+  std::string value;
+  const std::string wanted = std::string{field} + ":\t";
+  while (value.empty() && std::fgets(line, sizeof(line), file) != nullptr) {
+    if (std::string_view{line}.starts_with(wanted)) value = line + wanted.size();
+  }
+  std::fclose(file);
+  return value;
+}
+
+void the_helper_has_no_rights(void**) {
+  int input[2];
+  assert_int_equal(pipe(input), 0);
+  const pid_t helper = fork();
+  if (helper == 0) {
+    dup2(input[0], STDIN_FILENO);
+    close(input[1]);
+    execl("/proc/self/exe", "helper", password_helper_argument, nullptr);
+    _exit(127);
+  }
+  assert_true(helper > 0);
+  // It waits for its input once it has given up everything; no_new_privs is what it gives up last but limits.
+  static std::string state;
+  for (state = "R"; status_of(helper, "NoNewPrivs") != "1\n" || state[0] != 'S';
+       state = status_of(helper, "State")) {
+    assert_false(state.starts_with('Z'));
+    poll(nullptr, 0, 2);
+  }
+  static std::string user;
+  static std::string group;
+  static std::string capabilities;
+  static std::string name;
+  user = status_of(helper, "Uid");
+  group = status_of(helper, "Gid");
+  capabilities = status_of(helper, "CapEff") + status_of(helper, "CapPrm");
+  name = status_of(helper, "Name");
+  close(input[0]);
+  close(input[1]);
+  int status = 0;
+  assert_int_equal(waitpid(helper, &status, 0), helper);
+  assert_int_equal(WEXITSTATUS(status), 1);  // it got nothing to check
+  assert_string_equal(name.c_str(), "password-check\n");
+  assert_string_equal(capabilities.c_str(), "0000000000000000\n0000000000000000\n");
+  if (geteuid() != 0) return;
+  assert_string_equal(user.c_str(), "65534\t65534\t65534\t65534\n");
+  assert_string_equal(group.c_str(), "65534\t65534\t65534\t65534\n");
 }
 
 void another_start_is_an_ordinary_one(void**) {
@@ -209,6 +262,7 @@ int main(int argument_count, char** arguments) {
       cmocka_unit_test_setup_teardown(an_executable_that_is_not_there_or_not_ours, begin, end),
       cmocka_unit_test_setup_teardown(one_that_takes_too_long_is_ended, begin, end),
       cmocka_unit_test_setup_teardown(nothing_is_inherited, begin, end),
+      cmocka_unit_test(the_helper_has_no_rights),
       cmocka_unit_test(another_start_is_an_ordinary_one),
   };
   return cmocka_run_group_tests(tests, begin_group, nullptr);
