@@ -11,7 +11,8 @@ namespace flexrf::panel {
 /// A bucket of one second's tokens, filled at `rate` per second.
 class RateLimit {
  public:
-  explicit RateLimit(std::uint32_t rate) noexcept : gap_(std::chrono::seconds{1} / std::max(rate, 1U)) {}
+  explicit RateLimit(std::uint32_t rate) noexcept
+      : gap_(Duration{std::chrono::seconds{1}} / std::max(rate, 1U)) {}
 
   void reset() noexcept { spent_until_ = Time{}; }
   /// False: too often. Time may stand still between calls.
