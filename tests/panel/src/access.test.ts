@@ -1,7 +1,7 @@
 // Who may do what: passwords, roles, the one control token and its way from one person to another.
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { Browser } from 'playwright-core';
-import { Application, Viewer, launch, outerAddress, screenshot, violations, within, type Rest, type User } from './harness';
+import { Application, Viewer, launch, outerAddress, screenshot, tidyUp, violations, within, type Rest, type User } from './harness';
 
 const anna: User = { name: 'anna', role: 'engineer', password: 'a long password of anna' };
 const otto: User = { name: 'otto', role: 'operator', password: 'a long password of otto' };
@@ -23,8 +23,7 @@ async function open(user?: User, address = running.base): Promise<Viewer> {
 }
 
 afterEach(async () => {
-  for (const viewer of seeing.splice(0)) await viewer.close();
-  expect(await running.stop()).toBe('SIGTERM');
+  await tidyUp(...seeing.splice(0).map((viewer) => () => viewer.close()), () => running.end());
 });
 
 describe('with a password file', () => {
@@ -56,7 +55,7 @@ describe('with a password file', () => {
     const viewer = await open(anna);
     const cookies = await viewer.context.cookies();
     expect(cookies.map((one) => ({ name: one.name, httpOnly: one.httpOnly, sameSite: one.sameSite }))).toEqual([
-      { name: 'flexrf_session', httpOnly: true, sameSite: 'Strict' },
+      { name: `flexrf_session_${running.port}`, httpOnly: true, sameSite: 'Strict' },
     ]);
     expect(await viewer.page.evaluate(() => document.cookie)).toBe('');
   });

@@ -1,7 +1,7 @@
 // The flow of changing configuration: locked, edited, checked together, applied or rolled back, never half.
 import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from 'vitest';
 import type { Browser } from 'playwright-core';
-import { Application, Viewer, itemOf, launch, screenshot, violations, within, type Rest } from './harness';
+import { Application, Viewer, itemOf, launch, screenshot, tidyUp, violations, within, type Rest } from './harness';
 
 let browser: Browser;
 beforeAll(async () => { browser = await launch(); });
@@ -19,8 +19,7 @@ beforeEach(async () => {
   await viewer.go('units', 'gadget');
 });
 afterEach(async () => {
-  await viewer.close();
-  expect(await running.stop()).toBe('SIGTERM');
+  await tidyUp(() => viewer.close(), () => running.end());
 });
 
 const size = () => itemOf(viewer.page, 'Size').first().getByRole('spinbutton');

@@ -1,7 +1,7 @@
 // The link: what is old looks old, what comes back is whole, and another start is told from a short break.
 import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from 'vitest';
 import type { Browser } from 'playwright-core';
-import { Application, Cable, Viewer, itemOf, launch, screenshot, violations, within } from './harness';
+import { Application, Cable, Viewer, itemOf, launch, screenshot, tidyUp, violations, within } from './harness';
 
 let browser: Browser;
 beforeAll(async () => { browser = await launch(); });
@@ -11,8 +11,7 @@ let running: Application;
 let viewer: Viewer;
 beforeEach(async () => { running = await Application.start('panel_cell'); });
 afterEach(async () => {
-  await viewer?.close();
-  expect(await running.stop()).toBe('SIGTERM');
+  await tidyUp(() => viewer?.close(), () => running.end());
 });
 
 const oldValues = () => viewer.page.getByText('Values are old, controls are dead');
@@ -66,7 +65,7 @@ it('a cable that is cut and mended: everything is as it is now', async () => {
 it('the same application started anew under an open page', async () => {
   await open(running.address);
   const { port } = running;
-  expect(await running.stop()).toBe('SIGTERM');
+  await running.end();
   await viewer.page.getByText('The application ended').or(oldValues()).first().waitFor();
   running = await Application.start('panel_cell', { listen: `127.0.0.1:${port}` });
   await oldValues().waitFor({ state: 'hidden', timeout: 30_000 });
@@ -80,7 +79,7 @@ it('the same application started anew under an open page', async () => {
 it('another application at the same address', async () => {
   await open(running.address);
   const { port } = running;
-  expect(await running.stop()).toBe('SIGTERM');
+  await running.end();
   running = await Application.start('keyboard', { listen: `127.0.0.1:${port}` });
   await expect.poll(() => viewer.page.title(), { timeout: 30_000 }).toContain('keyboard');
   await viewer.page.getByText('There is no unit of this name').waitFor();

@@ -3,7 +3,7 @@ import { spawn } from 'node:child_process';
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { Browser } from 'playwright-core';
 import {
-  Application, Cable, Viewer, familyOf, freezer, launch, launchProcess, signal, violations, within, type Rest,
+  Application, Cable, Viewer, familyOf, freezer, launch, launchProcess, signal, tidyUp, violations, within, type Rest,
 } from './harness';
 
 interface Feedback {
@@ -64,8 +64,7 @@ beforeEach(async () => {
 describe('a hold', () => {
   beforeEach(async () => { await begin(browser, running.address); });
   afterEach(async () => {
-    await viewer.close();
-    expect(await running.stop()).toBe('SIGTERM');
+    await tidyUp(() => viewer.close(), () => running.end());
   });
 
   it('lives as long as the button is pressed, and ends with the release', async () => {
@@ -192,9 +191,7 @@ describe('a hold over a cable', () => {
   });
   afterEach(async () => {
     viewer.allow(/WebSocket|Failed to load resource|ERR_/);
-    await viewer.close();
-    await cable.close();
-    expect(await running.stop()).toBe('SIGTERM');
+    await tidyUp(() => viewer.close(), () => cable.close(), () => running.end());
   });
 
   it('ends when it is cut, and does not begin again when it is mended', async () => {
@@ -236,7 +233,7 @@ describe('a hold and the browser\'s process', () => {
         signal(family, 'SIGCONT');
         signal(family, 'SIGKILL');
         await server.close().catch(() => undefined);
-        expect(await running.stop()).toBe('SIGTERM');
+        await running.end();
       }
     });
   }
@@ -245,8 +242,7 @@ describe('a hold and the browser\'s process', () => {
 describe('Stop motion', () => {
   beforeEach(async () => { await begin(browser, running.address); });
   afterEach(async () => {
-    await viewer.close();
-    expect(await running.stop()).toBe('SIGTERM');
+    await tidyUp(() => viewer.close(), () => running.end());
   });
 
   it('stops, and after it come Clear and Start, one after the other', async () => {

@@ -1,7 +1,7 @@
 // The keyboard application: the arm in 3D, keys that move it, the jog step, the jog arrows.
 import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from 'vitest';
 import type { Browser } from 'playwright-core';
-import { Application, Viewer, itemOf, launch, screenshot, within, type Rest } from './harness';
+import { Application, Viewer, itemOf, launch, screenshot, tidyUp, within, type Rest } from './harness';
 
 let browser: Browser;
 beforeAll(async () => { browser = await launch(); });
@@ -17,8 +17,7 @@ beforeEach(async () => {
   await viewer.go('overview');
 });
 afterEach(async () => {
-  await viewer.close();
-  expect(await running.stop()).toBe('SIGTERM');
+  await tidyUp(() => viewer.close(), () => running.end());
 });
 
 const canvas = () => viewer.page.getByRole('img', { name: /in 3D/ });

@@ -1,7 +1,7 @@
 // Values: set and read back from the unit, refused, seen by others, left alone while a hand is on them.
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { Browser, Locator } from 'playwright-core';
-import { Application, Viewer, itemOf, launch, violations, within, type Rest } from './harness';
+import { Application, Viewer, itemOf, launch, tidyUp, violations, within, type Rest } from './harness';
 
 let browser: Browser;
 beforeAll(async () => { browser = await launch(); });
@@ -21,8 +21,7 @@ beforeEach(async () => {
   await viewer.go('units', 'gadget');
 });
 afterEach(async () => {
-  for (const one of seeing) await one.close();
-  expect(await running.stop()).toBe('SIGTERM');
+  await tidyUp(...seeing.map((one) => () => one.close()), () => running.end());
 });
 
 function item(label: string, of: Viewer = viewer): Locator {

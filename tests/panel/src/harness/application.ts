@@ -1,6 +1,6 @@
 // A real application as a process, with its panel on a port of its own.
 import { spawn, spawnSync, type ChildProcess } from 'node:child_process';
-import { rmSync, writeFileSync } from 'node:fs';
+import { rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { executableOf, newFolder, passwordTool, type ApplicationName } from './environment';
 import { Rest } from './rest';
@@ -82,6 +82,12 @@ export class Application {
     return how;
   }
 
+  /** Ends it, and throws what it said unless it ended as it was told to, and without a fault. */
+  async end(): Promise<void> {
+    const how = await this.stop();
+    if (how !== 'SIGTERM') throw new Error(`the application ended with ${String(how)}:\n${this.said}`);
+  }
+
   private async findAddress(): Promise<void> {
     const until = Date.now() + startWithin;
     let over: unknown;
@@ -112,9 +118,15 @@ function writeUsers(folder: string, users: readonly User[]): string {
   return file;
 }
 
-/** For a file that an application reads. */
-export function writeText(folder: string, name: string, text: string): string {
-  const file = join(folder, name);
-  writeFileSync(file, text);
-  return file;
+/** Does all of it, in this order, whatever fails; then throws what did. */
+export async function tidyUp(...acts: readonly (() => unknown)[]): Promise<void> {
+  const failures: string[] = [];
+  for (const act of acts) {
+    try {
+      await act();
+    } catch (failure) {
+      failures.push(failure instanceof Error ? failure.message : String(failure));
+    }
+  }
+  if (failures.length > 0) throw new Error(failures.join('\n\n'));
 }
