@@ -246,6 +246,8 @@ void Executive::run_on_the_wall_clock(RunSummary& summary) {
   // Every thread inherits the mask: only the supervising thread takes these signals, and it waits for them.
   const sigset_t ending = ending_set();
   pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+  alignas(16) static std::byte handler_stack[last_gasp::handler_stack_size];
+  const last_gasp::AlternateStack crash_stack(handler_stack);
   Status status = last_gasp::install();
   last_gasp::expect_no_exit(true);
   prepare_allocation_guard();

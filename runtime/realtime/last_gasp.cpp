@@ -43,7 +43,6 @@ constinit Terminal terminal;
 constinit std::atomic<bool> crashing{false};
 constinit std::atomic<bool> exit_is_unexpected{false};
 constinit thread_local const char* stepped [[gnu::tls_model("initial-exec")]] = nullptr;
-alignas(16) constinit std::byte main_stack[handler_stack_size]{};
 
 struct Prepared {
   int descriptor = none;
@@ -195,12 +194,6 @@ void at_exit() noexcept {
 }  // namespace
 
 Status install() noexcept {
-  stack_t stack{};
-  stack.ss_sp = main_stack;
-  stack.ss_size = sizeof(main_stack);
-  if (sigaltstack(&stack, nullptr) != 0)
-    return Status::error(StatusCode::internal, "no alternate stack for crash signals: %s",
-                         strerrordesc_np(errno));
   struct sigaction action {};
   action.sa_sigaction = &handle;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;

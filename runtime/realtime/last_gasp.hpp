@@ -19,7 +19,7 @@ inline constexpr std::size_t handler_stack_size = 64 * 1024;
 
 /// Handles SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT: writes everything prepared, restores the terminal,
 /// says which signal and which unit, and lets the signal's default action end the process. Once, by the main
-/// thread, which gets an alternate stack; other threads take an AlternateStack.
+/// thread. It and every other thread that may crash take an AlternateStack.
 Status install() noexcept;
 
 /// While on, an exit() from anywhere does as a crash does: prepared bytes, terminal, a message. The process

@@ -26,7 +26,8 @@ bool is_moving(Running& running) {
 
 bool is_at_rest(Running& running) {
   if (is_moving(running)) return false;
-  for (const nlohmann::json& velocity : running.newest("joints").at("velocity"))
+  const nlohmann::json joints = running.newest("joints");
+  for (const nlohmann::json& velocity : joints.at("velocity"))
     if (std::abs(velocity.get<double>()) > 1e-3) return false;
   return true;
 }

@@ -27,14 +27,7 @@ RunningCell::~RunningCell() {
 }
 
 void RunningCell::start() {
-  thread_ = std::thread([this] {
-    // run() gives its thread a stack for signal handlers and expects to be the main thread, which keeps it to
-    // the end of the process. The address sanitizer frees whatever stack a thread ends with: its own, please.
-    stack_t own{};
-    sigaltstack(nullptr, &own);
-    summary_ = executive_.run();
-    sigaltstack(&own, nullptr);
-  });
+  thread_ = std::thread([this] { summary_ = executive_.run(); });
 }
 
 bool RunningCell::wait_until(const std::function<bool()>& condition) {
