@@ -17,6 +17,11 @@ import './slot_age';
 import { addressOf, ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
+/** Buttons and holds bear their own labels and need no line each. */
+function isPressed(item: Item): boolean {
+  return item.scalar === 'button' || item.scalar === 'hold';
+}
+
 @customElement('flexrf-component-page')
 export class ComponentPage extends ViewBase {
   static override styles = [
@@ -33,6 +38,11 @@ export class ComponentPage extends ViewBase {
       .item.edited {
         border-inline-start: 4px solid var(--modified);
         padding-inline-start: 8px;
+      }
+      .presses {
+        display: flex;
+        flex-wrap: wrap;
+        gap: 4px;
       }
       .edited-note {
         display: flex;
@@ -199,10 +209,15 @@ export class ComponentPage extends ViewBase {
     return html`
       <section aria-label=${title}>
         <h3>${title}</h3>
-        ${repeat(items, (item) => item.key, (item) =>
-          html`<flexrf-item class="item" .core=${this.core} .host=${undefined} .item=${item}></flexrf-item>`)}
+        ${this.widgets(items.filter((item) => !isPressed(item)), 'item')}
+        <div class="presses">${this.widgets(items.filter(isPressed), '')}</div>
       </section>
     `;
+  }
+
+  private widgets(items: readonly Item[], style: string): unknown {
+    return repeat(items, (item) => item.key, (item) =>
+      html`<flexrf-item class=${style} .core=${this.core} .host=${undefined} .item=${item}></flexrf-item>`);
   }
 
   private ports(): unknown {

@@ -3,9 +3,13 @@ import type { Reading, WidgetHost } from '../contract';
 import { LiveText, setAttribute } from '../widgets/live_text';
 import { ageText } from './durations';
 
-/** How old a reading is by now, s: its age when it came, and the time since then. */
+/** ms within which the next value comes, of a slot that is published often enough: until then none is missing. */
+const next_is_due = 600;
+
+/** How old a value is by now, s: its age when it came, and, when no other followed, the time since then. */
 export function ageNow(reading: Reading, receivedAt: number, now: number): number {
-  return Math.max(0, reading.age + (now - receivedAt) / 1000);
+  const since = now - receivedAt;
+  return Math.max(0, reading.age + (since < next_is_due ? 0 : since / 1000));
 }
 
 export class SlotAge extends HTMLElement {
