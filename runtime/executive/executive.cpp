@@ -142,22 +142,21 @@ ReconfigureResult Executive::reconfigure(std::vector<ConfigurationChange> change
 }
 
 void Executive::reconfigure(std::vector<ConfigurationChange> changes, ReconfigureDone done) {
-  const auto refused = [this] {
-    return ReconfigureResult{
-        ReconfigureOutcome::refused,
-        {std::string{"the application is "} + name_of(cell_.control().mode()) + ", not running"},
-        {}};
-  };
-  const bool posted = lifecycle_.post([this, refused, done, changes = std::move(changes)] {
-    if (cell_.control().mode() != Mode::running) return done(refused());
+  const auto job = [this, changes = std::move(changes), done = std::move(done)](bool ended) {
+    if (const Mode mode = cell_.control().mode(); ended || mode != Mode::running) {
+      return done({ReconfigureOutcome::refused,
+                   {std::string{"the application is "} + name_of(mode) + ", not running"},
+                   {}});
+    }
     Reconfiguration host(cell_, lifecycle_);
     done(flexrf::reconfigure(host, changes));
-  });
-  if (!posted) done(refused());
+  };
+  if (!lifecycle_.post([job] { job(false); })) job(true);
 }
 
 void Executive::act(ComponentAction action, ComponentIndex component, ActionDone done) {
-  const bool posted = lifecycle_.post([this, action, component, done] {
+  const auto job = [this, action, component, done = std::move(done)](bool ended) {
+    if (ended) return done(Status::error(StatusCode::not_permitted, "the application has ended"));
     const Status status = ComponentActions(cell_, lifecycle_).run(action, component);
     if (status) {
       log_info(cell_.component_name(component), "{}: done", StaticText{name_of(action)});
@@ -165,8 +164,8 @@ void Executive::act(ComponentAction action, ComponentIndex component, ActionDone
       log_warning(cell_.application().name, "{}: {}", StaticText{name_of(action)}, status.cause());
     }
     done(status);
-  });
-  if (!posted) done(Status::error(StatusCode::not_permitted, "the application has ended"));
+  };
+  if (!lifecycle_.post([job] { job(false); })) job(true);
 }
 
 std::vector<ComponentIndex> Executive::owners_of(std::span<const ComponentIndex> changed) {
