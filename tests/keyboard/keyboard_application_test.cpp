@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "hal/interfaces/robot_arm/pose_conversion.hpp"
@@ -151,6 +152,90 @@ void a_flood_of_keys_loses_none(void**) {
   assert_true(passed);
 }
 
+/// The number of a unit and of one of its runtime parameters; false: this application has no such unit.
+bool find_hold(const char* unit, const char* parameter, ParameterRequest& request) {
+  for (std::size_t i = 0; i < application.units.size(); ++i) {
+    if (std::strcmp(application.units[i].name, unit) != 0) continue;
+    request.component = static_cast<std::uint16_t>(i);
+    const std::span<const ParameterDescriptor> all = application.units[i].type->runtime.parameters;
+    for (std::size_t p = 0; p < all.size(); ++p) {
+      if (std::strcmp(all[p].field->name, parameter) == 0)
+        return request.add_name(static_cast<std::uint16_t>(p));
+    }
+  }
+  return false;
+}
+
+bool wait_until(const std::function<bool()>& condition) {
+  for (int patience = 0; patience < 2000; ++patience) {
+    if (condition()) return true;
+    usleep(10'000);
+  }
+  return false;
+}
+
+/// As the observer, while it runs; 0 before it is known.
+double tool_x() {
+  for (const SlotRecord& slot : application.slots) {
+    if (std::strcmp(slot.name, "tool_pose") != 0 || slot.observer->newest() == nullptr) continue;
+    return static_cast<const Pose*>(slot.observer->payload())->position[0];
+  }
+  return 0;
+}
+
+bool is_held(const ParameterRequest& request) {
+  const UnitRecord& unit = application.units[request.component];
+  const FieldDescriptor& field = *unit.type->runtime.parameters[request.changes[0].parameter].field;
+  for (const SlotRecord& slot : application.slots) {
+    if (slot.control != unit.runtime_slot) continue;
+    slot.observer->newest();
+    return static_cast<const bool*>(slot.observer->payload())[field.offset];
+  }
+  return true;
+}
+
+/// As somebody at the panel: holds an arrow until the arm has moved, is then lost, and looks on.
+bool move_while_held(Executive& executive, ParameterRequest request) {
+  Cell& cell = executive.cell();
+  request.kind = RequestKind::hold;
+  request.lease = new_lease_number();
+  if (!wait_until([&] { return cell.control().may_move() && tool_x() > 0; })) return false;
+  const double begin = tool_x();
+  const bool moved = wait_until([&] {
+    ++request.lease_sequence;
+    cell.send(request);
+    request.kind = RequestKind::refresh;
+    return tool_x() > begin + 0.02;
+  });
+  // Nobody refreshes the lease: it ends, and so does the motion.
+  const bool ended = wait_until([&] { return !is_held(request); });
+  const bool rests = wait_until([] { return application.unit_states[1].idle.load(); });
+  const double rest = tool_x();
+  usleep(200'000);
+  return moved && ended && rests && std::abs(tool_x() - rest) < tolerance;
+}
+
+void an_arrow_moves_the_arm_only_while_it_is_held(void**) {
+  ParameterRequest request;
+  if (!find_hold("jog", "plus_x", request)) skip();
+  const bool passed = in_a_process([&request] {
+                        int ends[2];
+                        if (pipe(ends) != 0) _exit(1);
+                        dup2(ends[0], STDIN_FILENO);  // a keyboard that nobody touches
+                        Executive executive(application, on_the_wall_clock());
+                        if (!executive.prepare()) return Outcome{};
+                        bool as_expected = false;
+                        std::thread person([&] {
+                          as_expected = move_while_held(executive, request);
+                          executive.request_end();
+                        });
+                        const RunSummary summary = executive.run();
+                        person.join();
+                        return Outcome{as_expected && summary.exit_code == 0 && !summary.cut_short, 0};
+                      }).passed;
+  assert_true(passed);
+}
+
 void no_keys_no_motion(void**) {
   const bool passed = in_a_process([] {
                         pipe_in("");
@@ -208,9 +293,13 @@ int remove_script(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(piped_keys_move_the_arm), cmocka_unit_test(a_flood_of_keys_loses_none),
-      cmocka_unit_test(no_keys_no_motion),       cmocka_unit_test(a_script_moves_the_arm_in_virtual_time),
-      cmocka_unit_test(same_seed_same_run),      cmocka_unit_test(a_broken_script_is_cited),
+      cmocka_unit_test(piped_keys_move_the_arm),
+      cmocka_unit_test(a_flood_of_keys_loses_none),
+      cmocka_unit_test(no_keys_no_motion),
+      cmocka_unit_test(a_script_moves_the_arm_in_virtual_time),
+      cmocka_unit_test(same_seed_same_run),
+      cmocka_unit_test(a_broken_script_is_cited),
+      cmocka_unit_test(an_arrow_moves_the_arm_only_while_it_is_held),
   };
   return cmocka_run_group_tests(tests, nullptr, remove_script);
 }

@@ -22,14 +22,18 @@ struct World {
   DeviceBench<SimulatedArm> arm{&six_axis};
   UnitBench<RobotControl> bench;
   SlotBench<Pose> target;
+  SlotBench<Velocity> velocity;
   SlotBench<Pose> pose;
   SlotBench<JointState> joints;
-  InputBinding inputs[1] = {target.input(std::chrono::milliseconds(500))};
+  InputBinding inputs[2] = {target.input(std::chrono::milliseconds(500)),
+                            velocity.input(std::chrono::milliseconds(100))};
   SlotControl* outputs[2] = {&pose.control(), &joints.control()};
   Device* device = &arm.driver();
   Device* const* devices[1] = {&device};
   Pose wanted{};
   bool target_lives = true;
+  double hand[3] = {0, 0, 0};  // m/s
+  bool hand_lives = true;
 
   World() {
     UnitBinding binding;
@@ -47,6 +51,7 @@ struct World {
   void run(double duration) {
     for (double time = 0; time < duration; time += cycle_seconds) {
       if (target_lives) target.publish(wanted, bench.now());
+      if (hand_lives) velocity.publish({{hand[0], hand[1], hand[2]}}, bench.now());
       arm.receive(cycle);
       bench.step(cycle);
       arm.send();
@@ -59,8 +64,8 @@ struct World {
     if (watching) {
       for (std::size_t i = 0; i < six_axis.joint_count; ++i) {
         const auto index = static_cast<Eigen::Index>(i);
-        const double velocity = std::abs(now[index] - last[index]) / cycle_seconds;
-        worst = std::max(worst, velocity / six_axis.joints[i].velocity);
+        const double rate = std::abs(now[index] - last[index]) / cycle_seconds;
+        worst = std::max(worst, rate / six_axis.joints[i].velocity);
       }
     }
     last = now;
@@ -224,6 +229,109 @@ bool a_late_cycle_is_no_jump() {
   return world.at(0, 0, -0.4);
 }
 
+// Where the set-points have the tool, without the servos' lag.
+Eigen::Vector3d commanded(World& world) {
+  return forward_kinematics(six_axis, world.bench.feedback().set_point_map()).translation();
+}
+
+bool a_hand_moves_the_tool_on_a_straight_line() {
+  World world;
+  world.run(0.1);
+  const Eigen::Vector3d begin = commanded(world);
+  world.hand[1] = -0.1;
+  world.run(1.0);
+  const Eigen::Vector3d middle = commanded(world);
+  world.run(1.0);
+  const Eigen::Vector3d end = commanded(world);
+  if (std::abs((end - middle).y() + 0.1) > 1e-3 || !world.bench.feedback().moving) return false;
+  if (std::abs((end - begin).x()) > 1e-5 || std::abs((end - begin).z()) > 1e-5) return false;
+  // No faster than is allowed.
+  world.hand[1] = 0;
+  world.hand[0] = -3;
+  world.run(1.0);
+  const Eigen::Vector3d before = commanded(world);
+  world.run(cycle_seconds * 10);
+  const double speed = (commanded(world) - before).norm() / (cycle_seconds * 10);
+  return speed < 0.25 + 1e-3 && world.smooth();
+}
+
+// From the cycle in which the hand is gone, each cycle is slower than the one before.
+bool begins_to_rest_at_once(World& world) {
+  world.run(0.1);
+  world.hand[2] = -0.1;
+  world.run(1.0);
+  Eigen::Vector3d last = commanded(world);
+  world.run(cycle_seconds);
+  double speed = (commanded(world) - last).norm();
+  const Eigen::Vector3d begin = commanded(world);
+  world.hand[2] = 0;
+  for (int cycles = 0; world.bench.feedback().moving; ++cycles) {
+    if (cycles > 40) return false;  // 0.1 m/s at 0.5 m/s^2
+    last = commanded(world);
+    world.run(cycle_seconds);
+    const double slower = (commanded(world) - last).norm();
+    if (slower > speed - 1e-6) return false;
+    speed = slower;
+  }
+  if ((commanded(world) - begin).norm() > 0.012) return false;
+  // The target from before is not gone back to; a new one is followed.
+  const Eigen::Vector3d rest = commanded(world);
+  world.run(1.0);
+  if ((commanded(world) - rest).norm() > 1e-9 || !world.bench.unit().is_idle()) return false;
+  world.wanted.position[0] -= 0.02;
+  world.run(2.0);
+  return world.at(-0.02, 0, 0) && world.smooth();
+}
+
+bool it_rests_when_the_hand_is_gone() {
+  World world;
+  return begins_to_rest_at_once(world);
+}
+
+bool it_rests_when_nobody_tells_of_the_hand() {
+  World world;
+  world.run(0.1);
+  world.hand[2] = -0.1;
+  world.run(1.0);
+  world.hand_lives = false;
+  world.run(0.1 + 0.2 + 0.05);  // too old, come to rest
+  return !world.bench.feedback().moving && world.bench.unit().is_idle() && world.smooth();
+}
+
+bool a_hand_takes_over_from_a_motion_on_its_path() {
+  World world;
+  world.run(0.1);
+  const Eigen::Vector3d begin = commanded(world);
+  world.wanted.position[2] -= 0.3;
+  world.run(0.05);
+  world.hand[0] = -0.1;
+  world.run(2.0);
+  // It came to rest early, and then went where the hand wanted.
+  const Eigen::Vector3d way = commanded(world) - begin;
+  return world.bench.feedback().moving && way.x() < -0.1 && way.z() < 0 && way.z() > -0.2 && world.smooth();
+}
+
+bool a_stop_request_ends_what_a_hand_holds() {
+  World world;
+  world.run(0.1);
+  world.hand[0] = -0.1;
+  world.run(0.5);
+  world.bench.tick().stop_requested = true;
+  world.run(0.5);
+  return world.bench.unit().is_idle() && world.holding("stop requested") && world.smooth();
+}
+
+bool a_hand_stays_within_reach() {
+  World world;
+  world.run(0.1);
+  world.hand[0] = 0.25;
+  world.run(10.0);
+  if (!world.holding("cannot go on") || !world.smooth()) return false;
+  world.hand[0] = -0.25;
+  world.run(1.0);
+  return world.holding("") && world.bench.feedback().moving && world.smooth();
+}
+
 template <bool (*Run)()>
 void passes(void**) {
   assert_true(Run());
@@ -244,6 +352,14 @@ int main() {
       {"waits for the arm's sensors", passes<waits_for_the_arms_sensors>, nullptr, nullptr, nullptr},
       {"stops without sensors", passes<stops_without_sensors>, nullptr, nullptr, nullptr},
       {"a late cycle is no jump", passes<a_late_cycle_is_no_jump>, nullptr, nullptr, nullptr},
+      {"a hand moves the tool straight", passes<a_hand_moves_the_tool_on_a_straight_line>, nullptr, nullptr,
+       nullptr},
+      {"rests when the hand is gone", passes<it_rests_when_the_hand_is_gone>, nullptr, nullptr, nullptr},
+      {"rests when nobody tells", passes<it_rests_when_nobody_tells_of_the_hand>, nullptr, nullptr, nullptr},
+      {"a hand takes over", passes<a_hand_takes_over_from_a_motion_on_its_path>, nullptr, nullptr, nullptr},
+      {"a stop request ends a hand's motion", passes<a_stop_request_ends_what_a_hand_holds>, nullptr, nullptr,
+       nullptr},
+      {"a hand stays within reach", passes<a_hand_stays_within_reach>, nullptr, nullptr, nullptr},
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
