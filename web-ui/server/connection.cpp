@@ -185,14 +185,17 @@ void Connection::parse() {
       return;
     }
   }
-  error_code error;
-  input_begin_ += parser_->put(net::const_buffer(input_ + input_begin_, input_end_ - input_begin_), error);
-  if (error && error != http::error::need_more) {
-    refuse_input(error);
-    return;
-  }
-  if (parser_->is_header_done() && header_end_ == 0) on_header_done();
-  if (state_ != State::reading) return;
+  bool header_was_done = false;
+  do {
+    error_code error;
+    header_was_done = parser_->is_header_done();
+    input_begin_ += parser_->put(net::const_buffer(input_ + input_begin_, input_end_ - input_begin_), error);
+    if (error && error != http::error::need_more) {
+      refuse_input(error);
+      return;
+    }
+    if (parser_->is_header_done() && !header_was_done) on_header_done();
+  } while (!header_was_done && parser_->is_header_done() && !parser_->is_done() && input_begin_ < input_end_);
   if (parser_->is_done()) {
     handle();
   } else {
@@ -202,6 +205,7 @@ void Connection::parse() {
 
 void Connection::on_header_done() {
   header_end_ = input_begin_;
+  parser_->eager(true);
   wait_at_most(surroundings_.settings.body_timeout);
   if (parser_->is_done() || !parser_->header().expects_continue) return;
   // Nothing else is under way, and the few bytes always find room.

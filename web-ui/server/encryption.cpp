@@ -1,13 +1,23 @@
 #include "web-ui/server/encryption.hpp"
 
+#include <openssl/err.h>
 #include <openssl/ssl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "web-ui/server/access/address.hpp"
 
 namespace flexrf::panel {
 namespace {
 
 Status wrong_file(const char* option, const std::string& file, const error_code& error) {
-  return Status::error(StatusCode::invalid_argument, "%s %s: %s; a PEM file is wanted", option, file.c_str(),
-                       error.message().c_str());
+  // Asio's own text of an error of OpenSSL 3 says nothing.
+  const char* reason = ERR_reason_error_string(static_cast<unsigned long>(error.value()));
+  if (access(file.c_str(), R_OK) != 0) reason = std::strerror(errno);
+  return Status::error(StatusCode::invalid_argument, "%s %s: %s; a readable PEM file is wanted", option,
+                       file.c_str(), reason == nullptr ? "not understood" : reason);
 }
 
 }  // namespace
@@ -31,9 +41,11 @@ Result<std::unique_ptr<net::ssl::context>> make_encryption(const std::string& ce
   return context;
 }
 
-std::string certificate_command(const std::string& address) {
+std::string certificate_command(const std::string& host) {
+  const bool is_numeric = Address::parse(host).has_value();
   return "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 825 -subj \"/CN=" +
-         address + "\" -addext \"subjectAltName=IP:" + address + "\" -keyout panel.key -out panel.crt";
+         host + "\" -addext \"subjectAltName=" + (is_numeric ? "IP:" : "DNS:") + host +
+         "\" -keyout panel.key -out panel.crt";
 }
 
 }  // namespace flexrf::panel

@@ -14,7 +14,7 @@ namespace flexrf::panel {
 Result<std::unique_ptr<net::ssl::context>> make_encryption(const std::string& certificate_file,
                                                            const std::string& key_file);
 
-/// The command that makes a certificate of our own for this address, for a person to copy.
-std::string certificate_command(const std::string& address);
+/// The command that makes a certificate of our own for this name or numeric address, for a person to copy.
+std::string certificate_command(const std::string& host);
 
 }  // namespace flexrf::panel

@@ -44,6 +44,8 @@ class Panel final : public Observer {
   void make_access();
   Status make_api();
   void print_address();
+  std::string shown_host() const;
+  void print_certificate_command() const;
 
   Executive& executive_;
   const PanelRecord& record_;
@@ -111,8 +113,7 @@ Status Panel::read_options() {
   Result<std::unique_ptr<net::ssl::context>> encryption =
       make_encryption(options.tls_certificate, options.tls_key);
   if (!encryption) {
-    std::fprintf(stderr, "Certificate and key of your own:\n  %s\n",
-                 certificate_command(address_.address).c_str());
+    print_certificate_command();
     return encryption.status();
   }
   encryption_ = std::move(*encryption);
@@ -163,14 +164,21 @@ Status Panel::make_api() {
   return api_->prepare();
 }
 
+/// What a browser on another machine would ask for.
+std::string Panel::shown_host() const {
+  if (!address_.is_any()) return address_.address;
+  const std::vector<std::string> names = HostRules::names_of_machine();
+  return names.empty() ? "localhost" : names.front();
+}
+
+void Panel::print_certificate_command() const {
+  std::fprintf(stderr, "A certificate and its key of your own:\n  %s\n",
+               certificate_command(shown_host()).c_str());
+}
+
 void Panel::print_address() {
-  ListenAddress shown = address_;
-  std::string host = shown.text();
-  if (shown.is_any()) {
-    const std::vector<std::string> names = HostRules::names_of_machine();
-    host = (names.empty() ? "localhost" : names.front()) + ":" + std::to_string(shown.port);
-  }
-  std::string address = (is_secure_ ? "https://" : "http://") + host + "/";
+  const std::string where = ListenAddress{shown_host(), address_.port}.text();
+  std::string address = (is_secure_ ? "https://" : "http://") + where + "/";
   // Whoever can read this terminal started the application, and may control it.
   if (const OneTimeToken* token = access_->one_time_token())
     address += "?token=" + std::string{token->text()};

@@ -25,7 +25,6 @@ Method method_of(http::verb verb) noexcept {
 RequestParser::RequestParser(char* body) : body_(body) {
   header_limit(static_cast<std::uint32_t>(panel::header_limit));
   body_limit(panel::body_limit);
-  eager(true);
 }
 
 void RequestParser::on_request_impl(http::verb method, View, View target, int version, error_code&) {

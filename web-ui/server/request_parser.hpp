@@ -27,7 +27,7 @@ struct RequestHeader {
   bool expects_other = false;  ///< an expectation that nobody here can meet
 };
 
-/// For one request.
+/// For one request. Stops at the header's end, until it is told to be eager.
 class RequestParser final : public http::basic_parser<true> {
  public:
   /// The body is copied to `body`, of body_limit bytes.
