@@ -261,6 +261,8 @@ void clear_terminal() noexcept {
 }
 
 int fire() noexcept {
+  // What a crash or an exit() writes is written once.
+  if (crashing.load(std::memory_order_acquire)) return 0;
   const int written = write_prepared();
   restore_terminal();
   return written;

@@ -44,7 +44,7 @@ void clear_terminal() noexcept;
 
 /// Writes everything prepared now and restores the terminal; the process goes on. For a supervising thread
 /// when an owner does not answer. A descriptor that would block for more than 10 ms is left out.
-/// Async-signal-safe.
+/// Async-signal-safe. Not when a crash or an exit() is writing them already.
 /// @returns number of slots written in full.
 int fire() noexcept;
 
