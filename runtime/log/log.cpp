@@ -4,6 +4,7 @@
 
 #include <cinttypes>
 #include <cstdio>
+#include <cstring>
 #include <mutex>
 
 namespace flexrf {
@@ -27,19 +28,36 @@ struct Drained {
   char text[recent_lines][line_capacity]{};
   std::uint16_t size[recent_lines]{};
 
-  char* next() noexcept { return text[lines % recent_lines]; }
-  void keep(std::size_t length, int descriptor) noexcept {
-    char* const line = next();
+  void keep(const char* line, std::size_t length) noexcept {
+    std::memcpy(text[lines % recent_lines], line, length);
     size[lines % recent_lines] = static_cast<std::uint16_t>(length);
     ++lines;
-    if (descriptor < 0) return;
-    // One write per line, so that lines of several processes do not mix; nobody can be told when it fails.
-    line[length] = '\n';
-    [[maybe_unused]] const ssize_t written = write(descriptor, line, length + 1);
-    line[length] = '\0';
   }
+  /// Formats what was recorded next and keeps it; its length, or 0 when there is nothing.
+  std::size_t take(char* line) noexcept;
 };
 constinit Drained drained;
+
+std::size_t Drained::take(char* line) noexcept {
+  const Time zero{Duration{origin.load(std::memory_order_relaxed)}};
+  std::size_t length = 0;
+  if (const LogRecord* const record = ring.front(); record != nullptr) {
+    // One character is left for the newline.
+    length = format_log_record(*record, zero, line, line_capacity - 1);
+    ring.pop();
+  } else if (const std::uint64_t dropped = ring.dropped(); dropped != drops_said) {
+    LogRecord said{};
+    said.time = log_time();
+    said.source = "log";
+    said.format = "{} messages dropped, the ring was full";
+    said.severity = Severity::warning;
+    said.set(0, dropped - drops_said);
+    drops_said = dropped;
+    length = format_log_record(said, zero, line, line_capacity - 1);
+  }
+  if (length != 0) keep(line, length);
+  return length;
+}
 
 }  // namespace
 
@@ -68,29 +86,22 @@ void set_log_origin(Time time) noexcept {
 }
 
 std::size_t drain_log(int descriptor) noexcept {
-  const std::lock_guard lock(drained.mutex);
-  const Time zero{Duration{origin.load(std::memory_order_relaxed)}};
-  const std::uint64_t before = drained.lines;
-  for (std::uint32_t i = 0; i < LogRing::capacity; ++i) {
-    const LogRecord* const record = ring.front();
-    if (record == nullptr) break;
-    // One character is left for the newline.
-    const std::size_t length = format_log_record(*record, zero, drained.next(), line_capacity - 1);
-    ring.pop();
-    drained.keep(length, descriptor);
+  char line[line_capacity];
+  std::size_t lines = 0;
+  for (; lines <= LogRing::capacity; ++lines) {
+    std::size_t length = 0;
+    {
+      const std::lock_guard lock(drained.mutex);
+      length = drained.take(line);
+    }
+    if (length == 0) break;
+    if (descriptor < 0) continue;
+    // One write per line, so that lines of several processes do not mix; nobody can be told when it fails.
+    // Without the lock: whoever looks at the recent lines does not wait for a terminal that takes nothing.
+    line[length] = '\n';
+    [[maybe_unused]] const ssize_t written = write(descriptor, line, length + 1);
   }
-  const std::uint64_t dropped = ring.dropped();
-  if (dropped != drained.drops_said) {
-    LogRecord record{};
-    record.time = log_time();
-    record.source = "log";
-    record.format = "{} messages dropped, the ring was full";
-    record.severity = Severity::warning;
-    record.set(0, dropped - drained.drops_said);
-    drained.drops_said = dropped;
-    drained.keep(format_log_record(record, zero, drained.next(), line_capacity - 1), descriptor);
-  }
-  return drained.lines - before;
+  return lines;
 }
 
 std::uint64_t visit_recent_log(std::uint64_t after, void* context,
