@@ -22,6 +22,19 @@ const char* name_of_role(const SessionInfo& session) noexcept {
   return names[static_cast<std::size_t>(session.role)];
 }
 
+Refusal unknown_op(std::string_view op) noexcept {
+  NearestName nearest(op);
+  for (const char* known : {"subscribe", "set", "reset", "press", "hold", "refresh", "release", "stop_motion",
+                            "clear_stop_motion", "start_motion", "take_control", "release_control",
+                            "answer_control", "action", "edit_begin", "edit_apply", "edit_discard", "ping"})
+    nearest.offer(known);
+  const std::string_view best = nearest.best();
+  return Refusal::make(RefusalKind::not_found, "There is no op '%.*s'%s%.*s%s",
+                       static_cast<int>(std::min<std::size_t>(op.size(), 60)), op.data(),
+                       best.empty() ? "." : "; did you mean '", static_cast<int>(best.size()), best.data(),
+                       best.empty() ? "" : "'?");
+}
+
 }  // namespace
 
 // ---- connections
@@ -92,12 +105,7 @@ void LiveSession::operate(Client& client, const Caller& caller, std::string_view
                           Time now) {
   Operations& operations = parts_.operations;
   Answers& answers = operations.answers;
-  const auto is_right = [&] {
-    if (fields.status()) return true;
-    answers.refuse(caller, Refusal::make(RefusalKind::bad_request, "%.*s: %s.", static_cast<int>(op.size()),
-                                         op.data(), fields.status().cause()));
-    return false;
-  };
+  const auto is_right = [&] { return LiveSession::is_right(caller, op, fields); };
   // First of all: nothing stands between a person and this.
   if (op == "stop_motion") return operations.motion.stop_motion(caller);
   if (op == "refresh" || op == "release") {
@@ -140,24 +148,28 @@ void LiveSession::operate(Client& client, const Caller& caller, std::string_view
     return;
   }
   constexpr std::string_view of_components[] = {"set", "reset", "press", "hold", "action"};
-  if (std::find(std::begin(of_components), std::end(of_components), op) == std::end(of_components)) {
-    NearestName nearest(op);
-    for (const char* known :
-         {"subscribe", "set", "reset", "press", "hold", "refresh", "release", "stop_motion",
-          "clear_stop_motion", "start_motion", "take_control", "release_control", "answer_control", "action",
-          "edit_begin", "edit_apply", "edit_discard", "ping"})
-      nearest.offer(known);
-    const std::string_view best = nearest.best();
-    return answers.refuse(
-        caller, Refusal::make(RefusalKind::not_found, "There is no op '%.*s'%s%.*s%s",
-                              static_cast<int>(std::min<std::size_t>(op.size(), 60)), op.data(),
-                              best.empty() ? "." : "; did you mean '", static_cast<int>(best.size()),
-                              best.data(), best.empty() ? "" : "'?"));
+  if (std::find(std::begin(of_components), std::end(of_components), op) != std::end(of_components)) {
+    operate_on_component(caller, op, fields, now);
+  } else {
+    answers.refuse(caller, unknown_op(op));
   }
+}
+
+bool LiveSession::is_right(const Caller& caller, std::string_view op, const Fields& fields) {
+  if (fields.status()) return true;
+  parts_.operations.answers.refuse(
+      caller, Refusal::make(RefusalKind::bad_request, "%.*s: %s.", static_cast<int>(op.size()), op.data(),
+                            fields.status().cause()));
+  return false;
+}
+
+void LiveSession::operate_on_component(const Caller& caller, std::string_view op, Fields& fields, Time now) {
+  Operations& operations = parts_.operations;
+  const auto is_right = [&] { return LiveSession::is_right(caller, op, fields); };
   const std::string_view name = fields.text("component");
   if (!is_right()) return;
   const auto component = operations.directory.component(name);
-  if (!component) return answers.refuse(caller, operations.directory.no_component(name));
+  if (!component) return operations.answers.refuse(caller, operations.directory.no_component(name));
   if (op == "set") return set(caller, *component, fields, now);
   if (op == "reset") {
     std::optional<JsonArray> parameters;

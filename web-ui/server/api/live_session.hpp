@@ -51,6 +51,9 @@ class LiveSession final : public LiveHandler {
   void write_hello(Client& client, Time now, std::string& to);
   void write_end(std::string& to);
   void operate(Client& client, const Caller& caller, std::string_view op, Fields& fields, Time now);
+  void operate_on_component(const Caller& caller, std::string_view op, Fields& fields, Time now);
+  /// False: the first of the fields that is wrong was answered.
+  bool is_right(const Caller& caller, std::string_view op, const Fields& fields);
   void set(const Caller& caller, ComponentIndex component, Fields& fields, Time now);
   void close(Client& client, std::uint16_t code, std::string_view reason);
 
