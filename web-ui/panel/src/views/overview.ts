@@ -34,7 +34,7 @@ export class Overview extends ViewBase {
     css`
       .cards {
         display: grid;
-        grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr));
+        grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr));
         gap: 12px;
         align-items: start;
       }
@@ -117,7 +117,7 @@ export class Overview extends ViewBase {
               <dt>Motion</dt><dd>${motionText[motionOf(state)]}</dd>
               <dt>Faults</dt><dd>${state.faults.length === 0 ? 'none' : html`<strong class="alarm">✕ ${state.faults.length}</strong>`}</dd>
               ${state.edit ? html`<dt>Being edited</dt><dd>${state.edit.components.join(', ')}</dd>` : nothing}
-              <dt>Pages open</dt><dd>${state.server.connections} of ${state.server.places}</dd>
+              <dt>Connections</dt><dd>${state.server.connections} of ${state.server.places}</dd>
               <dt>Panel's delay</dt><dd>p99 ${(state.server.loop_delay_us.p99 / 1000).toFixed(2)} ms, most ${(state.server.loop_delay_us.max / 1000).toFixed(2)} ms</dd>
             </dl>`
           : html`<p>Not known yet.</p>`}
