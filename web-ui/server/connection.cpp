@@ -113,6 +113,7 @@ void Connection::check(Time now) {
     ++exchange_;
     refuse_and_end(504, "the application did not answer in time");
   } else {
+    if (state_ == State::replying) transport_.discard();
     shut();
   }
 }

@@ -151,6 +151,7 @@ void Connection::on_sent(error_code error) {
 void Connection::check_live(Time now) {
   const ServerSettings& settings = surroundings_.settings;
   if (writing_ && now > write_deadline_) {
+    transport_.discard();
     shut();
     return;
   }

@@ -29,6 +29,11 @@ class Transport {
     error_code ignored;
     socket_.close(ignored);
   }
+  /// What was not yet taken by the other side is not sent any more, once this is closed.
+  void discard() noexcept {
+    error_code ignored;
+    socket_.set_option(net::socket_base::linger{true, 0}, ignored);
+  }
   /// Only when nothing is under way any more.
   void reset() noexcept { encrypted_.reset(); }
   /// Tells the other side that no more will come.
