@@ -14,7 +14,7 @@ constexpr ComponentIndex actuator = 2;  // units come first
 
 /// A cell that runs; its consumer steps every millisecond and commands ever new positions.
 struct Machine {
-  explicit Machine(std::function<void(Cell&)> change = nullptr) {
+  explicit Machine(const std::function<void(Cell&)>& change = nullptr) {
     cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{1});
     if (change) change(cell);
     running.emplace(cell);
