@@ -54,7 +54,7 @@ class Control {
   /// Stop motion: a latch, handled by each thread in its next control period. Any thread, any signal handler.
   void stop_motion() noexcept {
     stop_motion_.store(true, std::memory_order_seq_cst);
-    started_.store(false, std::memory_order_seq_cst);
+    withdraw();
     wake_all();
   }
   /// Clears the latch; nothing moves before start_motion().
@@ -79,9 +79,12 @@ class Control {
   }
   /// After a restart or a reconfiguration nothing moves before the next Start.
   void require_start() noexcept {
-    started_.store(false, std::memory_order_seq_cst);
+    withdraw();
     wake_all();
   }
+  /// How often the permission to move was withdrawn, so that nobody overlooks one that was given again at
+  /// once.
+  std::uint32_t withdrawals() const noexcept { return withdrawals_.load(std::memory_order_acquire); }
   bool motion_stopped() const noexcept { return stop_motion_.load(std::memory_order_acquire); }
   bool may_move() const noexcept {
     return started_.load(std::memory_order_acquire) && !stop_motion_.load(std::memory_order_acquire);
@@ -96,11 +99,17 @@ class Control {
   }
 
  private:
+  void withdraw() noexcept {
+    started_.store(false, std::memory_order_seq_cst);
+    withdrawals_.fetch_add(1, std::memory_order_seq_cst);
+  }
+
   std::span<Doorbell* const> bells_;
   std::atomic<Mode> mode_{Mode::starting};
   std::atomic<EndCause> cause_{EndCause::none};
   std::atomic<bool> stop_motion_{false};
   std::atomic<bool> started_{false};
+  std::atomic<std::uint32_t> withdrawals_{0};
   std::atomic<std::uint32_t> faults_{0};
 };
 

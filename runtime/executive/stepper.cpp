@@ -130,16 +130,21 @@ void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t uni
 
 void Stepper::follow_motion_permission(Time now) noexcept {
   const Control& control = cell_->control();
-  const bool may_move = control.may_move() && control.mode() < Mode::safe;
-  if (may_move == may_move_) return;
-  may_move_ = may_move;
+  const std::uint32_t withdrawals = control.withdrawals();
+  const bool could_move = may_move_;
+  may_move_ = control.may_move() && control.mode() < Mode::safe;
+  // Every time, not only when it changes: the lifecycle thread has judged by itself when it initialised a
+  // device, and may have seen the moment before.
   for (const std::uint16_t device : record_->devices) {
     DeviceState& state = application_->device_states[device];
-    if (cell_->driver(device).actuates && state.life.load(std::memory_order_relaxed) != Life::fault) {
-      state.device->set_inhibited(!may_move);
-    }
+    if (!cell_->driver(device).actuates || state.life.load(std::memory_order_relaxed) == Life::fault)
+      continue;
+    const bool inhibited = !may_move_ || state.make_safe.load(std::memory_order_relaxed);
+    if (state.device->is_inhibited() != inhibited) state.device->set_inhibited(inhibited);
   }
-  if (may_move) return;
+  // A permission that was withdrawn and given again between two looks was withdrawn.
+  if (withdrawals == withdrawals_ && (may_move_ || !could_move)) return;
+  withdrawals_ = withdrawals;
   // What a person holds ends with the permission to move, and only a new press begins it again.
   for (const std::uint16_t unit : record_->units) {
     if (application_->unit_states[unit].ownership.load(std::memory_order_acquire) == Ownership::thread) {

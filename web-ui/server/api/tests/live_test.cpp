@@ -135,8 +135,9 @@ void the_reason_of_a_null_comes_too() {
   rig.ask(link, {{"op", "action"}, {"component", "producer"}, {"action", "stop"}});
   CHECK(rig.wait_until([&] {
     for (const std::string& frame : link.frames)
-      if (items(frame) == 1 && at<std::uint32_t>(frame, 36) == 0)
-        return at<std::uint8_t>(frame, 56) == static_cast<std::uint8_t>(NullReason::writer_stopped);
+      if (items(frame) == 1 && at<std::uint32_t>(frame, 36) == 0 &&
+          at<std::uint8_t>(frame, 56) == static_cast<std::uint8_t>(NullReason::writer_stopped))
+        return true;
     return false;
   }));
 }
