@@ -86,6 +86,25 @@ void start_lets_move_and_stop_motion_ends_it_in_the_next_period() {
   }
 }
 
+/// The device was initialised while motion was permitted, and its thread has not looked yet.
+void stop_motion_counts_before_the_first_step() {
+  Cell cell;
+  cell.autostart = true;
+  std::optional<Executive> executive;
+  std::vector<bool> inhibited;
+  cell.unit(Cell::producer).script.initialise = [&](TestUnit&) {
+    executive->control().stop_motion();
+    return Status{};
+  };
+  cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick&) {
+    inhibited.push_back(unit.device->is_inhibited());
+  };
+  executive.emplace(cell.application(), in_virtual_time(milliseconds{10}));
+  run_to_the_end(*executive);
+  CHECK(!inhibited.empty());
+  for (const bool one : inhibited) CHECK(one);
+}
+
 void a_hold_lasts_as_long_as_its_lease_is_refreshed() {
   const std::uint64_t lease = new_lease_number();
   Machine machine(true, milliseconds{800}, [lease](Machine& self, std::uint64_t number) {
@@ -182,6 +201,7 @@ int main() {
       CONTAINED_TEST(nothing_moves_before_start),
       CONTAINED_TEST(autostart_lifts_it_at_power_on),
       CONTAINED_TEST(start_lets_move_and_stop_motion_ends_it_in_the_next_period),
+      CONTAINED_TEST(stop_motion_counts_before_the_first_step),
       CONTAINED_TEST(a_hold_lasts_as_long_as_its_lease_is_refreshed),
       CONTAINED_TEST(a_lease_counts_from_the_persons_act),
       CONTAINED_TEST(stop_motion_ends_holds_for_good),
