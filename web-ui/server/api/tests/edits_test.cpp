@@ -169,8 +169,10 @@ void members_come_and_go() {
     cell.add(plan);
   }
   cell.add(fixture::PopulationPlan{"walker", 0, 2, 1});
-  cell.add(
-      fixture::ThreadPlan{"walking", fixture::TriggerPlan::periodic(std::chrono::milliseconds{1}), {0, 1}});
+  cell.add(fixture::ThreadPlan{.name = "walking",
+                               .trigger = fixture::TriggerPlan::periodic(std::chrono::milliseconds{1}),
+                               .units = {0, 1},
+                               .devices = {}});
   Rig rig(cell);
   rig.start();
   rig.access().give(an_operator);
