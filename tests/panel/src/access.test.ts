@@ -35,7 +35,8 @@ describe('with a password file', () => {
       expect((await rest.ask(path)).status, path).toBe(401);
     }
     const viewer = await open();
-    const dialog = viewer.page.getByRole('dialog', { name: 'Log in' });
+    viewer.allow(/403/); // the wrong password
+    const dialog = viewer.page.locator('flexrf-login');
     await dialog.getByLabel('User').fill('anna');
     await dialog.getByLabel('Password').fill('wrong');
     await dialog.getByRole('button', { name: 'Log in' }).click();
@@ -111,7 +112,7 @@ describe('the control token', () => {
 
   async function hold(): Promise<void> {
     await first.page.getByRole('button', { name: 'Start motion' }).click();
-    await first.page.getByText('Motion enabled').waitFor();
+    await first.page.getByText('Motion enabled').first().waitFor();
     await first.go('units', 'mover');
     const button = first.page.locator('flexrf-item').getByRole('button', { name: 'Forward' });
     await button.scrollIntoViewIfNeeded();
@@ -193,6 +194,7 @@ describe('other addresses than loopback', () => {
     await expect(Application.start('panel_cell', { listen: '0.0.0.0:0' })).rejects.toThrow(/password/);
     await expect(Application.start('panel_cell', { listen: '0.0.0.0:0', users: [anna] })).rejects.toThrow(/TLS|insecure-http/);
     running = await Application.start('panel_cell');
+    await running.rest().do('session');
   });
 });
 
@@ -202,7 +204,10 @@ describe('the address that is printed', () => {
     const first = await open(undefined, running.address);
     await first.page.getByText(/: admin/).waitFor();
     expect(first.page.url()).not.toContain('token');
-    const second = await open(undefined, running.address);
+    const again = await running.rest().ask(new URL(running.address).pathname + new URL(running.address).search);
+    expect(again.status).toBe(403);
+    expect(again.body.detail).toContain('used already');
+    const second = await open();
     await second.page.getByText(/: viewer/).waitFor();
     expect(await second.page.getByRole('button', { name: 'Take control' }).isDisabled()).toBe(true);
   });

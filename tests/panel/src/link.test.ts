@@ -55,7 +55,7 @@ it('a cable that is cut and mended: everything is as it is now', async () => {
   await rest.do('components/gadget/parameters', { method: 'PUT', body: { level: 8 } });
   cable.mend();
   await oldValues().waitFor({ state: 'hidden', timeout: 30_000 });
-  await expect.poll(() => level().getByRole('spinbutton').inputValue(), { timeout: within }).toBe('8');
+  await expect.poll(async () => Number(await level().getByRole('spinbutton').inputValue()), { timeout: within }).toBe(8);
   await viewer.page.getByRole('button', { name: 'Knock' }).waitFor();
   await viewer.close();
   await cable.close();
@@ -73,7 +73,7 @@ it('the same application started anew under an open page', async () => {
   // The session of before is nobody's: what one sees is as of a new visitor.
   await viewer.page.getByText(/: viewer/).waitFor();
   await viewer.page.getByText('Nobody has control').waitFor();
-  await expect.poll(() => level().getByRole('spinbutton').inputValue(), { timeout: within }).toBe('5');
+  await expect.poll(async () => Number(await level().getByRole('spinbutton').inputValue()), { timeout: within }).toBe(5);
 });
 
 it('another application at the same address', async () => {

@@ -24,7 +24,7 @@ async function begin(at: Browser, address: string): Promise<void> {
   viewer = await Viewer.open(at, address);
   await viewer.takeControl();
   await viewer.page.getByRole('button', { name: 'Start motion' }).click();
-  await viewer.page.getByText('Motion enabled').waitFor();
+  await viewer.page.getByText('Motion enabled').first().waitFor();
   await viewer.go('units', 'mover');
 }
 
@@ -208,7 +208,7 @@ describe('a hold over a cable', () => {
     await hold();
     cable.drop();
     await expectStayingAtRest();
-    await viewer.page.getByText('Connected: ').waitFor();
+    await viewer.page.getByText(/^Round trip/).waitFor();
     await expectStayingAtRest();
   });
 });
@@ -226,7 +226,7 @@ describe('a hold and the browser\'s process', () => {
         await expectStayingAtRest();
         if (name === 'SIGSTOP') {
           signal(family, 'SIGCONT');
-          await viewer.page.getByText('Connected: ').waitFor();
+          await viewer.page.getByText(/^Round trip/).waitFor();
           await expectStayingAtRest();
         }
       } finally {
@@ -255,10 +255,10 @@ describe('Stop motion', () => {
     expect(await violations(page)).toEqual([]);
     expect(await page.getByRole('button', { name: 'Start motion' }).count()).toBe(0);
     await page.getByRole('button', { name: 'Clear stop' }).click();
-    await page.getByText('Motion inhibited').waitFor();
+    await page.getByText('Motion inhibited').first().waitFor();
     await expectAtRest(); // cleared is not started
     await page.getByRole('button', { name: 'Start motion' }).click();
-    await page.getByText('Motion enabled').waitFor();
+    await page.getByText('Motion enabled').first().waitFor();
     await expectMoving();
     await page.getByRole('switch', { name: 'Run' }).click();
     await expectAtRest();

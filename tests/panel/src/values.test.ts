@@ -30,6 +30,9 @@ function item(label: string, of: Viewer = viewer): Locator {
 function field(label: string, of: Viewer = viewer): Locator {
   return item(label, of).getByRole('spinbutton');
 }
+async function expectShown(level: number, of: Viewer = viewer): Promise<void> {
+  await expect.poll(async () => Number(await field('Level of it', of).inputValue()), { timeout: within }).toBe(level);
+}
 async function expectRuntime(path: string, value: unknown): Promise<void> {
   await expect.poll(async () => (await rest.runtime('gadget'))[path], { timeout: within }).toEqual(value);
 }
@@ -42,14 +45,14 @@ describe('a number with a range', () => {
     await field('Level of it').fill('6.25');
     await field('Level of it').press('Enter');
     await expectFeedback('level', 6.25);
-    await expect.poll(() => field('Level of it').inputValue(), { timeout: within }).toMatch(/^6[.,]25$/);
+    await expectShown(6.25);
   });
 
   it('is refused outside of its range, and shows what is in force again', async () => {
     await field('Level of it').fill('11');
     await field('Level of it').press('Enter');
     await expect.poll(() => item('Level of it').getByRole('status').innerText(), { timeout: within }).toMatch(/10/);
-    await expect.poll(() => field('Level of it').inputValue(), { timeout: within }).toBe('5');
+    await expectShown(5);
     await expectRuntime('level', 5);
   });
 
@@ -57,7 +60,7 @@ describe('a number with a range', () => {
     await field('Level of it').fill('9.5');
     await field('Level of it').press('Enter');
     await item('Level of it').getByText('a level above 9 needs it to be enabled').waitFor();
-    await expect.poll(() => field('Level of it').inputValue(), { timeout: within }).toBe('5');
+    await expectShown(5);
     expect(await violations(viewer.page)).toEqual([]);
   });
 
@@ -70,6 +73,7 @@ describe('a number with a range', () => {
 
   it('is left alone by echoes while a hand drags it', async () => {
     const slider = item('Level of it').getByRole('slider');
+    await slider.scrollIntoViewIfNeeded();
     const box = (await slider.boundingBox())!;
     const at = (part: number): [number, number] => [box.x + box.width * part, box.y + box.height / 2];
     const { mouse } = viewer.page;
@@ -118,7 +122,7 @@ describe('other kinds', () => {
   });
 
   it('a text, which has so much room', async () => {
-    const text = viewer.page.getByRole('textbox', { name: 'Title', exact: true });
+    const text = viewer.page.getByRole('textbox', { name: /^Title/ });
     await text.fill('Grüße <b>');
     await text.press('Enter');
     await expectFeedback('title', 'Grüße <b>');
@@ -132,8 +136,6 @@ describe('other kinds', () => {
     const fields = item('Turns').locator('input');
     await fields.nth(1).fill('9');
     await fields.nth(1).press('Enter');
-    const apply = item('Turns').getByRole('button', { name: /set|apply/i });
-    if (await apply.count()) await apply.first().click();
     await expectFeedback('turns', [[1, 9], [3, 4]]);
   });
 
@@ -154,7 +156,7 @@ describe('two browsers', () => {
     expect(await field('Level of it', other).isDisabled()).toBe(true);
     await field('Level of it').fill('7');
     await field('Level of it').press('Enter');
-    await expect.poll(() => field('Level of it', other).inputValue(), { timeout: within }).toBe('7');
+    await expectShown(7, other);
     await other.page.getByText('needs operator').first().waitFor({ state: 'attached' });
   });
 
@@ -184,7 +186,7 @@ describe('by the keyboard alone', () => {
     await tabTo(page.getByRole('button', { name: 'Take control' }));
     await keyboard.press('Enter');
     await page.getByText('You have control').waitFor();
-    await tabTo(page.getByRole('link', { name: 'Units' }));
+    await tabTo(page.getByRole('link', { name: 'Units', exact: true }));
     await keyboard.press('Enter');
     await tabTo(page.getByRole('link', { name: 'gadget', exact: true }));
     await keyboard.press('Enter');

@@ -151,7 +151,7 @@ describe('what the views show', () => {
 
   it('the header: mode, motion, round trip, age of data, session', async () => {
     await expectText('flexrf-header', /panel_cell[\s\S]*Running[\s\S]*Motion inhibited/);
-    await expectText('flexrf-header', /round trip [\d.]+ ms, data [\d.]+ s old/);
+    await expectText('flexrf-header', /Round trip [\d.]+ ms\s+data [\d.]+ s old/);
     await expectText('flexrf-header', /: admin/);
     expect(await viewer.page.title()).toContain('panel_cell');
   });

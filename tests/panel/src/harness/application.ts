@@ -85,7 +85,7 @@ export class Application {
   /** Ends it, and throws what it said unless it ended as it was told to, and without a fault. */
   async end(): Promise<void> {
     const how = await this.stop();
-    if (how !== 'SIGTERM') throw new Error(`the application ended with ${String(how)}:\n${this.said}`);
+    if (how !== 143) throw new Error(`the application ended with ${String(how)}:\n${this.said}`);
   }
 
   private async findAddress(): Promise<void> {

@@ -93,8 +93,8 @@ export class Viewer {
 
   async logIn(user: { readonly name: string; readonly password: string }): Promise<void> {
     const { page } = this;
-    const dialog = page.getByRole('dialog', { name: 'Log in' });
-    if (!(await dialog.isVisible())) await page.getByRole('button', { name: 'Log in' }).click();
+    const dialog = page.locator('flexrf-login'); // what it holds is slotted, so no descendant of the element with the role
+    await page.getByRole('dialog', { name: 'Log in' }).waitFor(); // which opens by itself
     await dialog.getByLabel('User').fill(user.name);
     await dialog.getByLabel('Password').fill(user.password);
     await dialog.getByRole('button', { name: 'Log in' }).click();
@@ -120,9 +120,9 @@ export class Viewer {
   }
 }
 
-/** The row of a parameter in a list of them, by its label. */
+/** The row of a parameter in a list of them, by its label, which may bear the mark of a modified value. */
 export function itemOf(page: Page, label: string): Locator {
-  return page.locator('flexrf-item').filter({ has: page.getByText(label, { exact: true }) });
+  return page.locator('flexrf-item').filter({ has: page.getByText(new RegExp(`^${label}( ●.*)?$`)) });
 }
 
 const axeSource = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
