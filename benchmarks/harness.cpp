@@ -1,5 +1,6 @@
 #include "benchmarks/harness.hpp"
 
+#include <fcntl.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/utsname.h>
@@ -116,6 +117,18 @@ void leave_real_time() {
   pthread_setschedparam(pthread_self(), SCHED_OTHER, &parameters);
 }
 
+NoDeepIdle::NoDeepIdle() : descriptor_(open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC)) {
+  const std::int32_t microseconds = 0;
+  if (descriptor_ >= 0 && write(descriptor_, &microseconds, sizeof(microseconds)) < 0) {
+    close(descriptor_);
+    descriptor_ = -1;
+  }
+}
+
+NoDeepIdle::~NoDeepIdle() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
 Report::Report(const char* name, int argument_count, char** arguments) : name_(name) {
   for (int i = 1; i < argument_count; ++i) {
     if (std::strcmp(arguments[i], "--quick") == 0) {
@@ -136,8 +149,9 @@ void Report::add(Row row) {
 }
 
 void Report::add_ratio(std::string what, const Pairs& pairs, double goal, const char* unit,
-                       const std::string& note) {
+                       const std::string& note, Goal kind) {
   Row row{std::move(what), "", pairs.ratio(), goal, true, ""};
+  row.at_least = kind == Goal::at_least;
   row.ours = number(pairs.ours().median) + " " + unit;
   row.floor = number(pairs.floor().median) + " " + unit;
   row.note = "ours " + row.ours + ", floor " + row.floor + (note.empty() ? "" : "; " + note);

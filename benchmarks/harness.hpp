@@ -94,6 +94,19 @@ bool settle_thread(int cpu, int priority);
 /// Back to an ordinary thread: what it starts from now on is ordinary too, but still pinned.
 void leave_real_time();
 
+/// While it lives the processors stay out of idle states that take long to leave, as far as the right is
+/// there.
+class NoDeepIdle {
+ public:
+  NoDeepIdle();
+  NoDeepIdle(const NoDeepIdle&) = delete;
+  NoDeepIdle& operator=(const NoDeepIdle&) = delete;
+  ~NoDeepIdle();
+
+ private:
+  int descriptor_;
+};
+
 /// What was measured, and against which goal.
 struct Row {
   std::string what;
@@ -106,6 +119,8 @@ struct Row {
   std::string ours{};     ///< of a ratio: the two medians, with unit
   std::string floor{};
 };
+
+enum class Goal { at_most, at_least };
 
 /// Command line, text on standard output, JSON on request.
 ///
@@ -125,7 +140,7 @@ class Report {
 
   void add(Row row);
   void add_ratio(std::string what, const Pairs& pairs, double goal, const char* unit,
-                 const std::string& note = "");
+                 const std::string& note = "", Goal kind = Goal::at_most);
   /// Prints everything, writes the JSON; the process's exit code: 0, or 1 when the file could not be written.
   int finish();
 

@@ -1,6 +1,5 @@
 // How late the releases of a periodic real-time thread are, against cyclictest with the same period, priority
 // and CPU.
-#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -34,27 +33,6 @@ struct Lateness {
 Lateness of(std::vector<double> microseconds) {
   return {quantile(microseconds, 0.5), quantile(microseconds, 0.99)};
 }
-
-/// Idle states cost either side the same: cyclictest forbids the deep ones while it runs, so they are
-/// forbidden throughout.
-class NoDeepIdle {
- public:
-  NoDeepIdle() : descriptor_(open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC)) {
-    const std::int32_t microseconds = 0;
-    if (descriptor_ >= 0 && write(descriptor_, &microseconds, sizeof(microseconds)) < 0) {
-      close(descriptor_);
-      descriptor_ = -1;
-    }
-  }
-  NoDeepIdle(const NoDeepIdle&) = delete;
-  NoDeepIdle& operator=(const NoDeepIdle&) = delete;
-  ~NoDeepIdle() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-
- private:
-  int descriptor_;
-};
 
 /// What the child that runs the application tells; the samples lie behind it.
 struct alignas(cache_line) Shared {
@@ -154,6 +132,7 @@ int run(int argument_count, char** arguments) {
   const int other_cpu = machine->rest(cpus).lowest();
   const int blocks = 20;
   const std::size_t releases = report.choose<std::size_t>(10'000, 500) + warming_up;
+  // cyclictest forbids deep idle states while it runs: they cost either side the same.
   const NoDeepIdle no_deep_idle;
   OurBlocks ours{releases};
   Pairs p50;
