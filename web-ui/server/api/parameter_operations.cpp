@@ -161,6 +161,7 @@ void ParameterOperations::send_release(const Lease& lease, Time now) {
   request.component = lease.component;
   request.lease = lease.number;
   request.lease_sequence = lease.sequence + 1;
+  request.requester = requester_;  // nobody else's release counts
   request.issued_at = now;
   request.add_name(lease.parameter, lease.offset);
   cell_->send(request);
