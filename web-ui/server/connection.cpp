@@ -25,7 +25,7 @@ Connection::Connection(Surroundings& surroundings, std::uint32_t place)
     : surroundings_(surroundings),
       place_(place),
       transport_(surroundings.context),
-      memory_(new char[input_size + panel::body_limit + panel::header_limit]),
+      memory_(make_ordinary_memory(input_size + panel::body_limit + panel::header_limit)),
       input_(memory_.get()),
       body_(input_ + input_size),
       path_(body_ + panel::body_limit),

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include "web-ui/server/access/address.hpp"
 #include "web-ui/server/asio.hpp"
 #include "web-ui/server/handler_memory.hpp"
+#include "web-ui/server/ordinary_memory.hpp"
 #include "web-ui/server/rate_limit.hpp"
 #include "web-ui/server/request_parser.hpp"
 #include "web-ui/server/request_target.hpp"
@@ -29,6 +29,8 @@ class Connection final : public LiveLink {
   Connection& operator=(const Connection&) = delete;
 
   bool is_free() const noexcept { return state_ == State::free; }
+  /// Its buffers take no memory until a client comes. While it is free.
+  void unlock_memory() noexcept { unlock(memory_); }
   void open(Socket socket);
   /// Ends what has taken too long.
   void check(Time now);
@@ -119,7 +121,7 @@ class Connection final : public LiveLink {
   SessionIndex session_ = no_session;
 
   // ---- the request
-  std::unique_ptr<char[]> memory_;  // input, body, decoded path
+  OrdinaryMemory memory_;  // input, body, decoded path
   char* input_;
   char* body_;
   char* path_;

@@ -16,6 +16,7 @@
 #include "web-ui/server/encryption.hpp"
 #include "web-ui/server/files.hpp"
 #include "web-ui/server/listen_address.hpp"
+#include "web-ui/server/ordinary_memory.hpp"
 #include "web-ui/server/panel_routes.hpp"
 #include "web-ui/server/server.hpp"
 
@@ -186,6 +187,7 @@ void Panel::print_address() {
 }
 
 Status Panel::start() {
+  unlock_libraries();
   if (const Status status = api_->start(); !status) return status;
   api_runs_ = true;
   ThreadSettings settings;

@@ -83,6 +83,7 @@ Status Server::listen(const ListenAddress& address) {
 // ---- the thread
 
 void Server::run() {
+  for (Connection& connection : connections_) connection.unlock_memory();
   surroundings_.now = MonotonicClock::now();
   accept();
   beat_timer_.expires_at(on_asios_clock(surroundings_.now + beat_interval));
