@@ -144,15 +144,12 @@ describe('what the views show', () => {
     await tidyUp(() => viewer?.close(), () => running?.end());
   });
 
-  /** The text of a place in the page, until it fits. */
-  async function expectText(selector: string, pattern: RegExp): Promise<void> {
-    await expect.poll(() => viewer.page.locator(selector).first().innerText(), { timeout: within }).toMatch(pattern);
-  }
-
   it('the header: mode, motion, round trip, age of data, session', async () => {
-    await expectText('flexrf-header', /panel_cell[\s\S]*Running[\s\S]*Motion inhibited/);
-    await expectText('flexrf-header', /Round trip [\d.]+ ms\s+data [\d.]+ s old/);
-    await expectText('flexrf-header', /: admin/);
+    const header = viewer.page.locator('flexrf-header');
+    await header.getByRole('heading', { name: 'panel_cell' }).waitFor();
+    for (const text of ['Running', 'Motion inhibited', /Round trip [\d.]+ ms/, /data [\d.]+ s old/, /: admin/]) {
+      await header.getByText(text).first().waitFor();
+    }
     expect(await viewer.page.title()).toContain('panel_cell');
   });
 

@@ -34,6 +34,7 @@ export class Application {
     process.stdout!.on('data', listen);
     process.stderr!.on('data', listen);
     this.ended = new Promise((resolve) => process.once('close', (code, signal) => resolve(signal ?? code)));
+    process.once('error', (error) => { this.said += error.message; });
   }
 
   static async start(name: ApplicationName, options: StartOptions = {}): Promise<Application> {
