@@ -16,8 +16,7 @@ namespace {
 }
 
 /// The signal is wanted, not a sanitizer's word for what causes it.
-[[gnu::no_sanitize_address, gnu::no_sanitize_thread, gnu::no_sanitize_undefined]] void
-write_where_nothing_is() {
+__attribute__((no_sanitize("address", "thread", "undefined"))) void write_where_nothing_is() {
   volatile int* volatile nowhere = nullptr;
   *nowhere = 1;
 }
