@@ -39,6 +39,13 @@ void check_ends(Rig& rig, PlayedLink& link, Held& held, const std::string& lease
   }));
 }
 
+/// By its release, not with its lease: what was asked before this request is in force when it is answered.
+void check_is_released(Rig& rig, PlayedLink& link) {
+  const json answer = rig.ask(link, {{"op", "set"}, {"component", "producer"}, {"values", {{"gain", 2}}}});
+  CHECK(answer.at("ok") == true);
+  CHECK(answer.at("values").at("move") == false);
+}
+
 void a_hold_lives_while_it_is_refreshed() {
   Held held;
   Rig rig(held.cell);
@@ -71,6 +78,7 @@ void a_release_ends_it() {
   PlayedLink& link = rig.connect(an_operator);
   const std::string lease = begin(rig, link, held);
   CHECK(rig.ask(link, {{"op", "release"}, {"lease", lease}}).at("ok") == true);
+  check_is_released(rig, link);
   check_ends(rig, link, held, lease);
   const std::string second = begin(rig, link, held);
   CHECK(second != lease);
@@ -85,6 +93,7 @@ void a_lost_connection_ends_it() {
   const std::string lease = begin(rig, link, held);
   rig.disconnect(link);
   PlayedLink& next = rig.connect(an_operator);
+  check_is_released(rig, next);
   // Not even from the same place with the same number.
   CHECK(rig.ask(next, {{"op", "refresh"}, {"lease", lease}}).at("ok") == false);
   CHECK(rig.wait_until([&] { return !held.moves.load(); }));
@@ -101,6 +110,7 @@ void lost_control_ends_it() {
   const json asked = rig.ask(other, {{"op", "take_control"}});
   CHECK(asked.at("ok") == true && asked.at("taken") == false);
   CHECK(rig.ask(link, {{"op", "answer_control"}, {"grant", true}}).at("ok") == true);
+  check_is_released(rig, other);
   check_ends(rig, link, held, lease);
   CHECK_EQUAL(rig.ask(link, hold).at("problem").at("type").get<std::string>(), "/problems/control-missing");
 }
