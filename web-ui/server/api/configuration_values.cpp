@@ -9,7 +9,7 @@ ConfigurationValues::ConfigurationValues(Cell& cell, const Directory& directory)
 
 void ConfigurationValues::refresh() {
   const std::lock_guard lock(mutex_);
-  for (ComponentIndex i = 0; i < values_.size(); ++i) {
+  for (ComponentIndex i = 0; i < cell_->component_count(); ++i) {
     const TypeDescriptor* const type = directory_->entry(i).type->configuration.type;
     const auto* const memory =
         static_cast<const std::byte*>(cell_->component(i).parameter_memory().configuration);

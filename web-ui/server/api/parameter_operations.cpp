@@ -230,8 +230,8 @@ void ParameterOperations::accept(const PendingRequest& pending, const ParameterA
             Refusal::make(RefusalKind::wrong_state, "The hold ended before it began; press again."));
       }
       char digits[24];
-      const std::string_view text(digits,
-                                  std::to_chars(digits, digits + sizeof(digits), pending.lease).ptr - digits);
+      const char* const end = std::to_chars(digits, digits + sizeof(digits), pending.lease).ptr;
+      const std::string_view text(digits, static_cast<std::size_t>(end - digits));
       return answers_->done(pending.caller, [text](JsonWriter& json) { json.member("lease", text); });
     }
     case Purpose::values:
