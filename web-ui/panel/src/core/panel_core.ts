@@ -224,6 +224,7 @@ export class PanelCore implements Core {
 
   /** Holds end at once; who watches is told in the next animation frame, or soon in a hidden page. */
   #changed(): void {
+    if (this.link.phase !== 'open' && this.link.detail === 'login') this.session = undefined; // logged out, or too long away
     if (this.#holds.alive > 0 && (this.link.phase !== 'open' || this.link.stale)) this.#holds.endAll('the link is lost');
     if (this.#holds.alive > 0 && this.state && !hasControl(this.situation)) this.#holds.endAll('control was lost');
     if (this.#holds.alive > 0 && this.state?.motion.stopped) this.#holds.endAll('motion is stopped');
