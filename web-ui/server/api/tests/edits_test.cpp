@@ -35,7 +35,7 @@ void an_edit_is_applied_and_ends_inhibited() {
   CHECK(begun.at("ok") == true);
   CHECK(begun.at("reinitialised") == json::array({"consumer"}));
   CHECK(begun.at("configuration").at("consumer").contains("offset"));
-  const json edit = begun.at("edit");
+  const json& edit = begun.at("edit");
   const json wrong = rig.ask(
       link,
       {{"op", "edit_apply"},
