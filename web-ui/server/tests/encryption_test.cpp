@@ -83,7 +83,7 @@ std::string ask_encrypted(std::uint16_t port, const std::string& request, int ne
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  connect(socket_of_ours, reinterpret_cast<const sockaddr*>(&address), sizeof(address));
+  assert_int_equal(connect(socket_of_ours, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
   SSL_CTX* context = SSL_CTX_new(TLS_client_method());
   SSL_CTX_set_max_proto_version(context, newest_version);
   SSL* stream = SSL_new(context);
