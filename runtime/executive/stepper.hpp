@@ -68,7 +68,7 @@ class Stepper {
   Tick tick_{};
   bool may_move_ = false;
   std::uint32_t withdrawals_ = 0;  // of the permission to move, as seen last
-  bool receives_ = false;  // has any device at all
+  bool receives_ = false;          // has any device at all
   bool making_safe_ = false;
   bool stopping_ = false;  // the whole application
 };
