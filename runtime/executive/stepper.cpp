@@ -33,9 +33,10 @@ bool Stepper::owns_device(std::uint16_t device) const noexcept {
 
 void Stepper::serve(Time now) noexcept {
   if (state_->asked_back.load(std::memory_order_acquire)) give_back();
+  // Before the requests: a hold is judged by the permission as it is now.
+  follow_motion_permission(now);
   if (cell_->requests(static_cast<std::uint16_t>(record_ - application_->threads.data())).has_any())
     apply_requests(now);
-  follow_motion_permission(now);
 }
 
 void Stepper::give_back() noexcept {
