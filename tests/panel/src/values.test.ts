@@ -73,7 +73,8 @@ describe('a number with a range', () => {
 
   it('is left alone by echoes while a hand drags it', async () => {
     const slider = item('Level of it').getByRole('slider');
-    await slider.scrollIntoViewIfNeeded();
+    // Widgets that were loaded late replace those that stood in for them.
+    await expect.poll(() => slider.scrollIntoViewIfNeeded().then(() => true, () => false), { timeout: within }).toBe(true);
     const box = (await slider.boundingBox())!;
     const at = (part: number): [number, number] => [box.x + box.width * part, box.y + box.height / 2];
     const { mouse } = viewer.page;

@@ -182,6 +182,9 @@ describe('what the views show', () => {
   });
 
   it('the log, narrowed by a filter', async () => {
+    await viewer.takeControl();
+    await viewer.go('units', 'fragile');
+    await viewer.page.getByRole('button', { name: 'Initialise' }).click();
     await viewer.go('log');
     const lines = viewer.page.getByRole('log').getByRole('listitem');
     await expect.poll(() => lines.count(), { timeout: within }).toBeGreaterThan(0);
