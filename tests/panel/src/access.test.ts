@@ -90,8 +90,8 @@ describe('with a password file', () => {
     const viewer = await open(otto);
     await viewer.takeControl();
     await viewer.go('units', 'gadget');
-    expect(await viewer.page.getByRole('slider', { name: 'Level of it' }).isEnabled()).toBe(true);
-    expect(await viewer.page.getByRole('slider', { name: 'Expert' }).isEnabled()).toBe(false);
+    await expect.poll(() => viewer.page.getByRole('slider', { name: 'Level of it' }).isEnabled(), { timeout: within }).toBe(true);
+    await expect.poll(() => viewer.page.getByRole('slider', { name: 'Expert' }).isEnabled(), { timeout: within }).toBe(false);
     await viewer.page.getByText('Locked: needs engineer').first().waitFor();
   });
 });
@@ -209,6 +209,6 @@ describe('the address that is printed', () => {
     expect(again.body.detail).toContain('used already');
     const second = await open();
     await second.page.getByText(/: viewer/).waitFor();
-    expect(await second.page.getByRole('button', { name: 'Take control' }).isDisabled()).toBe(true);
+    await expect.poll(() => second.page.getByRole('button', { name: 'Take control' }).isDisabled(), { timeout: within }).toBe(true);
   });
 });

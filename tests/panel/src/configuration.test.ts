@@ -41,12 +41,12 @@ async function expectSize(metres: number): Promise<void> {
 }
 
 it('is locked while initialised, edited, applied, and ends inhibited', async () => {
-  expect(await size().isDisabled()).toBe(true);
+  await expect.poll(() => size().isDisabled(), { timeout: within }).toBe(true);
   await openEdit();
   await viewer.page.getByText('initialises again').waitFor();
   await screenshot(viewer.page, 'edit');
   expect(await violations(viewer.page)).toEqual([]);
-  expect(await apply().isDisabled()).toBe(true);
+  await expect.poll(() => apply().isDisabled(), { timeout: within }).toBe(true);
   await type('750');
   await viewer.page.getByText('1 value changed').waitFor();
   await viewer.page.getByRole('combobox', { name: 'Finish' }).selectOption('amber');

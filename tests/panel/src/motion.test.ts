@@ -276,7 +276,7 @@ describe('Stop motion', () => {
     const other = await Viewer.open(browser, running.base);
     await other.page.getByRole('button', { name: 'Stop motion' }).click();
     await other.page.getByText('Motion stopped').first().waitFor();
-    expect(await other.page.getByRole('button', { name: 'Clear stop' }).isDisabled()).toBe(true);
+    await expect.poll(() => other.page.getByRole('button', { name: 'Clear stop' }).isDisabled(), { timeout: within }).toBe(true);
     for (const path of ['clear-stop-motion', 'start-motion']) {
       expect((await rest.ask(path, { method: 'POST' })).status).toBe(403);
     }

@@ -154,7 +154,7 @@ describe('two browsers', () => {
     const other = await Viewer.open(browser, running.base);
     seeing.push(other);
     await other.go('units', 'gadget');
-    expect(await field('Level of it', other).isDisabled()).toBe(true);
+    await expect.poll(() => field('Level of it', other).isDisabled(), { timeout: within }).toBe(true);
     await field('Level of it').fill('7');
     await field('Level of it').press('Enter');
     await expectShown(7, other);
