@@ -147,7 +147,7 @@ void a_real_overrun_is_noticed_on_the_wall_clock() {
   Cell cell;
   cell.thread(Cell::producing).overrun = OverrunPolicy::fault;
   cell.unit(Cell::producer).script.step = [](TestUnit&, const Tick& tick) {
-    if (tick.number != 3) return;
+    if (tick.number < 3) return;  // on a loaded machine the third itself may be skipped
     const Time until = MonotonicClock::now() + milliseconds{5};
     while (MonotonicClock::now() < until) {
     }

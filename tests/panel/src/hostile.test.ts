@@ -46,7 +46,7 @@ describe('passwords', () => {
     await expectUnmoved(rest);
     // No helper process is left behind.
     await expect.poll(() => familyOf(running.id).length, { timeout: within }).toBe(1);
-  });
+  }, 240_000);
 });
 
 describe('a server that somebody wishes ill', () => {
