@@ -131,12 +131,12 @@ Status Lifecycle::start_unit(std::uint16_t index) noexcept {
   const ParameterMemory memory = state.unit->parameter_memory();
   if (status && memory.runtime != nullptr) status = cell_->parameters(index).adopt(memory.runtime, stamp());
   if (!status) {
-    state.fault = status;
+    state.fault.publish(status);
     state.life.store(Life::fault, std::memory_order_release);
     cell_->set_writer_state(index, WriterState::faulted);
     return Status::error(status.code(), "%s: initialise: %s", record.name, status.cause());
   }
-  state.fault = {};
+  state.fault.publish({});
   state.steps.store(0, std::memory_order_relaxed);
   state.idle.store(true, std::memory_order_relaxed);
   for (std::size_t d = 0; d < cell_->application().devices.size(); ++d) {
@@ -305,13 +305,13 @@ Status Lifecycle::start_device(std::uint16_t index) noexcept {
     status = cell_->parameters(cell_->component_of_device(index)).adopt(memory.runtime, stamp());
   }
   if (!status) {
-    state.fault = status;
+    state.fault.publish(status);
     state.life.store(Life::fault, std::memory_order_release);
     cell_->set_device_writer_state(index, WriterState::faulted);
     return Status::error(status.code(), "%s (driver %s): initialise: %s", record.name,
                          cell_->driver(index).name, status.cause());
   }
-  state.fault = {};
+  state.fault.publish({});
   state.make_safe.store(false);
   state.safe.store(false);
   cell_->set_device_writer_state(index, WriterState::running);

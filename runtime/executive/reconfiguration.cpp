@@ -65,12 +65,12 @@ Status Reconfiguration::initialise(std::uint16_t owner) {
 void Reconfiguration::fault(std::uint16_t owner, const Status& cause) {
   const Application& application = cell_->application();
   if (is_unit(owner)) {
-    application.unit_states[owner].fault = cause;
+    application.unit_states[owner].fault.publish(cause);
     application.unit_states[owner].life.store(Life::fault, std::memory_order_release);
     cell_->set_writer_state(owner, WriterState::faulted);
   } else {
     const std::uint16_t device = device_of(owner);
-    application.device_states[device].fault = cause;
+    application.device_states[device].fault.publish(cause);
     application.device_states[device].life.store(Life::fault, std::memory_order_release);
     cell_->set_device_writer_state(device, WriterState::faulted);
   }

@@ -58,7 +58,7 @@ std::vector<ComponentReport> collect_units(const Application& application) {
     unit.execution_maximum = Duration{state.execution_maximum.load()};
     if (unit.steps > 0)
       unit.execution_mean = Duration{state.execution_total.load() / static_cast<std::int64_t>(unit.steps)};
-    if (unit.life == Life::fault) unit.fault = state.fault.cause();
+    if (unit.life == Life::fault) unit.fault = state.fault.read().cause();
   }
   return units;
 }
@@ -72,7 +72,7 @@ std::vector<ComponentReport> collect_devices(const Cell& cell) {
     device.name = application.devices[i].name;
     device.driver = cell.driver(static_cast<std::uint16_t>(i)).name;
     device.life = state.life.load();
-    if (device.life == Life::fault) device.fault = state.fault.cause();
+    if (device.life == Life::fault) device.fault = state.fault.read().cause();
   }
   return devices;
 }

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "runtime/core/histogram.hpp"
-#include "runtime/core/status.hpp"
+#include "runtime/core/shared_status.hpp"
 #include "runtime/core/time.hpp"
 #include "runtime/device/device.hpp"
 
@@ -36,7 +36,7 @@ struct UnitState {
       false};  ///< it alone is to come to rest: the lifecycle thread will stop it
   std::atomic<std::uint64_t> steps{0};
   Time stepped_at{};                               ///< the unit's thread only
-  Status fault;                                    ///< read while life is fault
+  SharedStatus fault;                              ///< why; published before life becomes fault
   std::atomic<std::int64_t> execution_maximum{0};  ///< ns, longest step
   std::atomic<std::int64_t> execution_total{0};    ///< ns, all steps
 };
@@ -48,7 +48,7 @@ struct DeviceState {
   std::atomic<Ownership> ownership{Ownership::lifecycle};
   std::atomic<bool> make_safe{false};  ///< its unit or itself is in fault: its thread makes it safe
   std::atomic<bool> safe{false};       ///< make_safe() said so
-  Status fault;                        ///< read while life is fault
+  SharedStatus fault;                  ///< why; published before life becomes fault
   DeviceEnvironment environment;
 };
 

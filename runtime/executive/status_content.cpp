@@ -84,14 +84,14 @@ std::vector<StatusLine> StatusContent::faults() const {
   for (std::size_t i = 0; i < application.devices.size(); ++i) {
     const DeviceState& state = application.device_states[i];
     if (state.life.load(std::memory_order_acquire) == Life::fault)
-      lines.push_back(
-          {Style::alarm, "fault: " + std::string{application.devices[i].name} + ": " + state.fault.cause()});
+      lines.push_back({Style::alarm, "fault: " + std::string{application.devices[i].name} + ": " +
+                                         state.fault.read().cause()});
   }
   for (std::size_t i = 0; i < application.units.size(); ++i) {
     const UnitState& state = application.unit_states[i];
     if (state.life.load(std::memory_order_acquire) == Life::fault)
-      lines.push_back(
-          {Style::alarm, "fault: " + std::string{application.units[i].name} + ": " + state.fault.cause()});
+      lines.push_back({Style::alarm, "fault: " + std::string{application.units[i].name} + ": " +
+                                         state.fault.read().cause()});
   }
   return lines;
 }

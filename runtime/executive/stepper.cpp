@@ -326,18 +326,19 @@ bool Stepper::needs_attention() const noexcept {
 void Stepper::check_device(std::uint16_t index) noexcept {
   DeviceState& state = application_->device_states[index];
   if (state.device->fault().is_ok() || state.life.load(std::memory_order_relaxed) == Life::fault) return;
-  state.fault = state.device->fault();
+  const Status cause = state.device->fault();
+  state.fault.publish(cause);
   state.life.store(Life::fault, std::memory_order_release);
   state.make_safe.store(true, std::memory_order_relaxed);
   state.device->set_inhibited(true);
   cell_->set_device_writer_state(index, WriterState::faulted);
   cell_->control().note_fault();
-  log_error(application_->devices[index].name, "fault: {}", state.fault.cause());
+  log_error(application_->devices[index].name, "fault: {}", cause.cause());
 }
 
 void Stepper::fault_unit(std::uint16_t index, const Status& cause) noexcept {
   UnitState& state = application_->unit_states[index];
-  state.fault = cause;
+  state.fault.publish(cause);
   state.life.store(Life::fault, std::memory_order_release);
   state.idle.store(true, std::memory_order_release);
   cell_->set_writer_state(index, WriterState::faulted);

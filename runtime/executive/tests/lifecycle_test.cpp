@@ -55,7 +55,7 @@ void check_failed_start(Cell& cell, const RunSummary& summary, const char* cause
   CHECK_EQUAL(summary.exit_code, 2);
   CHECK_EQUAL(summary.cause, EndCause::fault);
   CHECK_EQUAL(cell.unit_state(Cell::consumer).life.load(), Life::fault);
-  CHECK_CONTAINS(cell.unit_state(Cell::consumer).fault.cause(), cause);
+  CHECK_CONTAINS(cell.unit_state(Cell::consumer).fault.read().cause(), cause);
   CHECK_EQUAL(cell.events().count_of("consumer: initialise"), 1U);
   // What was begun is undone.
   CHECK_EQUAL(cell.events().count_of("producer: stop"), 1U);
@@ -92,7 +92,7 @@ void a_device_that_cannot_be_initialised_ends_the_start() {
   Executive executive(cell.application(), in_virtual_time(milliseconds{10}));
   CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
   CHECK_EQUAL(cell.device_state(Cell::actuator).life.load(), Life::fault);
-  CHECK_CONTAINS(cell.device_state(Cell::actuator).fault.cause(), "no such port");
+  CHECK_CONTAINS(cell.device_state(Cell::actuator).fault.read().cause(), "no such port");
   CHECK_EQUAL(cell.events().count_of("producer: initialise"), 0U);
 }
 
@@ -115,7 +115,7 @@ void an_exception_in_a_step_is_that_units_fault() {
     };
     CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
     CHECK_EQUAL(cell.unit_state(Cell::producer).life.load(), Life::fault);
-    CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.cause(), "joint 7 of 6");
+    CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.read().cause(), "joint 7 of 6");
     CHECK_EQUAL(cell.unit_state(Cell::producer).steps.load(), 5U);
     CHECK(steps_after >= 10U);
     // It is stopped all the same, so that what it opened is closed.
@@ -128,7 +128,7 @@ void what_is_no_exception_of_the_library_too() {
   cell.unit(Cell::producer).script.step = [](TestUnit&, const Tick&) { throw 42; };
   Executive executive(cell.application(), in_virtual_time(milliseconds{5}));
   CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
-  CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.cause(), "unknown type");
+  CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.read().cause(), "unknown type");
 }
 
 // ---- restart policies

@@ -64,7 +64,8 @@ void an_overrun_may_be_a_fault() {
   CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
   CHECK_EQUAL(ticks.size(), 1U);
   CHECK_EQUAL(cell.unit_state(Cell::producer).life.load(), Life::fault);
-  CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.cause(), "thread producing reached its overrun limit");
+  CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.read().cause(),
+                 "thread producing reached its overrun limit");
   // The other thread's unit is not concerned.
   CHECK_EQUAL(cell.unit_state(Cell::consumer).life.load(), Life::stopped);
 }
@@ -157,7 +158,7 @@ void a_real_overrun_is_noticed_on_the_wall_clock() {
   running.start();
   CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::producer).life == Life::fault; }));
   CHECK_EQUAL(running.finish().exit_code, 2);
-  CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.cause(), "overrun limit");
+  CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.read().cause(), "overrun limit");
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ void StateEvent::write_faults(JsonWriter& json) const {
   json.key("faults").begin_array();
   const auto write = [&json](const char* name, const auto& state) {
     if (state.life.load(std::memory_order_acquire) != Life::fault) return;
-    json.begin_object().member("component", name).member("cause", state.fault.cause()).end_object();
+    json.begin_object().member("component", name).member("cause", state.fault.read().cause()).end_object();
   };
   for (std::size_t i = 0; i < application.units.size(); ++i)
     write(application.units[i].name, application.unit_states[i]);

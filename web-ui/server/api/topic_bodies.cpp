@@ -130,7 +130,8 @@ void TopicBodies::write_unit(JsonWriter& json, std::size_t index) const {
   const Life life = state.life.load(std::memory_order_acquire);
   const std::uint64_t steps = state.steps.load(std::memory_order_relaxed);
   json.begin_object().member("name", unit.name).member("kind", "unit").member("type", unit.type->name);
-  json.member("life", flexrf::name_of(life)).member("fault", life == Life::fault ? state.fault.cause() : "");
+  json.member("life", flexrf::name_of(life))
+      .member("fault", life == Life::fault ? state.fault.read().cause() : "");
   json.member("active", state.active.load(std::memory_order_relaxed)).key("member");
   if (unit.population == no_index) {
     json.null();
@@ -149,7 +150,8 @@ void TopicBodies::write_device(JsonWriter& json, std::size_t index) const {
   const Life life = state.life.load(std::memory_order_acquire);
   json.begin_object().member("name", application_->devices[index].name).member("kind", "device");
   json.member("driver", executive_->cell().driver(static_cast<std::uint16_t>(index)).name);
-  json.member("life", flexrf::name_of(life)).member("fault", life == Life::fault ? state.fault.cause() : "");
+  json.member("life", flexrf::name_of(life))
+      .member("fault", life == Life::fault ? state.fault.read().cause() : "");
   json.member("active", true).key("member").null().member("steps", 0).key("execution").begin_object();
   json.member("mean_ns", 0).member("max_ns", 0).end_object().end_object();
 }
@@ -168,7 +170,7 @@ void TopicBodies::write_devices(JsonWriter& json) const {
     json.member("bus", device.bus == no_index ? "" : application_->devices[device.bus].name);
     json.member("thread", application_->threads[device.thread].name);
     json.member("life", flexrf::name_of(life))
-        .member("fault", life == Life::fault ? state.fault.cause() : "");
+        .member("fault", life == Life::fault ? state.fault.read().cause() : "");
     json.member("inhibited", driver.actuates && state.device->is_inhibited()).end_object();
   }
   json.end_array();
