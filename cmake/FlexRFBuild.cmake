@@ -29,7 +29,7 @@ find_package(Threads REQUIRED)
 pkg_check_modules(cmocka REQUIRED IMPORTED_TARGET cmocka)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
-foreach(label unit stress whole long)
+foreach(label unit stress whole long guest)
   add_custom_target(tests_${label})
 endforeach()
 
@@ -58,6 +58,21 @@ function(flexrf_add_test)
   foreach(label IN LISTS test_LABELS)
     add_dependencies(tests_${label} ${test_NAME})
   endforeach()
+endfunction()
+
+# flexrf_add_guest_test(NAME name SOURCES file... LIBRARIES target...)
+# One CMocka executable, guest/<name> of the build folder, that needs devices and drivers of a real kernel: ctest does not
+# know it, `flexrf test --guest` runs it as root in the guest (docs/guest.md), and 0 means passed. Built with everything
+# only where the generator is built too, which is the release preset; tests_guest builds them anywhere.
+function(flexrf_add_guest_test)
+  cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME" "SOURCES;LIBRARIES")
+  add_executable(${test_NAME} ${test_SOURCES})
+  target_link_libraries(${test_NAME} PRIVATE FlexRF::options ${test_LIBRARIES} PkgConfig::cmocka)
+  set_target_properties(${test_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/guest)
+  if(FLEXRF_HOST_TOOLS)
+    set_target_properties(${test_NAME} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
+  add_dependencies(tests_guest ${test_NAME})
 endfunction()
 
 # flexrf_add_benchmark(NAME name SOURCES file... LIBRARIES target...)
