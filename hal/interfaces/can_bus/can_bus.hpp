@@ -1,0 +1,110 @@
+// CanBus: a CAN bus and the devices on it.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "can_bus_interface.hpp"
+#include "hal/interfaces/can_bus/can_frame.hpp"
+#include "hal/interfaces/can_bus/can_inbox.hpp"
+#include "hal/interfaces/can_bus/can_send_queue.hpp"
+#include "types/can_bus_state.hpp"
+
+namespace flexrf {
+
+class CanWire;
+
+/// Which frames a device wants.
+struct CanIdentifier {
+  std::uint32_t value = 0;  ///< 11 bits, or 29 when extended
+  bool extended = false;
+  friend bool operator==(const CanIdentifier&, const CanIdentifier&) = default;
+};
+
+/// A cycle is: the bus receives everything that came, at once, and puts it into its devices' inboxes; they
+/// take it in their receive(); they queue what they have to say in their send(), in any order; the bus sends
+/// it at once, in the order of priority. So SYNC leaves before the process data, whichever device says it.
+///
+/// The bus and the devices on it live in one thread, without an IO thread: nothing here waits.
+///
+/// A bus that is off, down or gone is no fault of this device: state() says so, it comes back by itself, and
+/// feedback.recoveries counts it. What a device does meanwhile is for the device to say.
+class CanBus : public CanBusInterface {
+ public:
+  // ---- for devices on the bus: in initialise() and stop(), the lifecycle thread
+
+  /// From now on frames with these identifiers go into `inbox`, which keeps the newest `capacity` (rounded up
+  /// to a power of two). Several inboxes may want the same identifier. An inbox that is open is opened anew.
+  /// Error: an identifier has too many bits, or none was named.
+  Status open(CanInbox& inbox, std::span<const CanIdentifier> identifiers, std::uint32_t capacity = 32);
+  /// Before the inbox goes; nothing when it is not open.
+  void close(CanInbox& inbox);
+
+  // ---- for devices on the bus: while they live in its thread
+
+  /// Sends this frame at the end of the cycle; what does not fit into the controller's queue then waits for
+  /// the next one. False, counted in feedback.frames_refused: this queue is full, the bus is not usable, or
+  /// the frame is not valid. Frames of one identifier keep their order.
+  bool queue(const CanFrame& frame) noexcept { return put(frame, false); }
+  /// As queue(), but takes the place of a frame with this identifier that was posted and has not left: for
+  /// what is said in every cycle, where only the newest counts (set-points), and for what several devices
+  /// may say and is to be said once (SYNC).
+  bool post(const CanFrame& frame) noexcept { return put(frame, true); }
+
+  CanBusState state() const noexcept { return feedback.state; }
+  bool is_usable() const noexcept { return feedback.state >= CanBusState::error_passive; }
+  /// As of this cycle.
+  const Feedback& counters() const noexcept { return feedback; }
+
+  /// Of a simulated bus: where simulated devices are attached (hal/simulated/in_process_can_bus). Else null.
+  virtual CanWire* wire() noexcept { return nullptr; }
+
+ protected:
+  // ---- for drivers
+
+  /// Begins anew: no queue, no counters, state gone. The inboxes stay open.
+  void restart() noexcept;
+  /// The identifiers that somebody wants have changed. The lifecycle thread, beside the bus's own.
+  virtual void listen_to(std::span<const CanIdentifier> /*identifiers*/) {}
+  /// To be called by listen_to()'s driver when it begins.
+  std::vector<CanIdentifier> wanted() const;
+
+  /// Between begin_delivery() and end_delivery(): into the inboxes of those who want it.
+  void deliver(const CanFrame& frame) noexcept;
+  /// False: a device is just coming or going; receive in the next cycle.
+  bool begin_delivery() noexcept;
+  void end_delivery() noexcept;
+
+  CanSendQueue& waiting() noexcept { return waiting_; }
+  /// Counts the way there and back, and gives up what is queued when the bus is not usable.
+  void enter(CanBusState state) noexcept;
+
+ private:
+  static constexpr std::uint16_t nobody = 0;
+  /// One inbox's wish for one identifier; of those for the same, a list.
+  struct Wish {
+    CanIdentifier identifier;
+    CanInbox* inbox = nullptr;
+    std::uint16_t next = nobody;
+  };
+
+  bool put(const CanFrame& frame, bool replaces) noexcept;
+  void forget(const CanInbox& inbox);
+  void index_wishes();
+  void deliver_to(std::uint16_t wish, const CanFrame& frame) noexcept;
+  void seize();
+  void release() noexcept;
+
+  CanSendQueue waiting_;
+  bool was_usable_ = false;
+
+  // Whoever has set `in_use_` may touch what follows. The bus's thread only tries; it never waits for it.
+  std::atomic<bool> in_use_{false};
+  std::vector<Wish> wishes_;             // [0] is nobody's
+  std::vector<std::uint16_t> standard_;  // first wish for each 11-bit identifier
+  std::vector<std::uint16_t> extended_;  // first wish for each 29-bit identifier, in their order
+};
+
+}  // namespace flexrf
