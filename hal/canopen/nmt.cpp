@@ -1,0 +1,43 @@
+#include "hal/canopen/nmt.hpp"
+
+namespace flexrf::canopen {
+namespace {
+
+constexpr std::uint8_t toggle_bit = 0x80;  // of node guarding; without meaning in a heartbeat
+
+}  // namespace
+
+const char* name_of(NmtState state) noexcept {
+  switch (state) {
+    case NmtState::boot_up:
+      return "boot-up";
+    case NmtState::stopped:
+      return "stopped";
+    case NmtState::operational:
+      return "operational";
+    case NmtState::pre_operational:
+      return "pre-operational";
+  }
+  return "a state of its own";
+}
+
+Message nmt_message(NmtCommand command, std::uint8_t node) noexcept {
+  return {nmt_identifier, 2, {static_cast<std::uint8_t>(command), node}};
+}
+
+Message heartbeat_message(NmtState state, std::uint8_t node) noexcept {
+  return {identifier_of(heartbeat_base, node), 1, {static_cast<std::uint8_t>(state)}};
+}
+
+std::optional<NmtState> heartbeat_of(const Message& message, std::uint8_t node) noexcept {
+  if (message.identifier != identifier_of(heartbeat_base, node) || message.size != 1) return std::nullopt;
+  return static_cast<NmtState>(message.data[0] & ~toggle_bit);
+}
+
+std::optional<NmtCommand> nmt_command_for(const Message& message, std::uint8_t node) noexcept {
+  if (message.identifier != nmt_identifier || message.size != 2) return std::nullopt;
+  if (message.data[1] != 0 && message.data[1] != node) return std::nullopt;
+  return static_cast<NmtCommand>(message.data[0]);
+}
+
+}  // namespace flexrf::canopen
