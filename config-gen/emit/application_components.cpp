@@ -59,6 +59,13 @@ std::string emit_resources(const Model& model, const Device& device, const std::
                            Diagnostics& diagnostics, Text& out) {
   std::string list;
   for (const DeviceResource& resource : device.resources) {
+    const std::string constant =
+        prefix + "_" + model.interfaces[device.interface].resources[resource.resource].name + "_resource";
+    if (resource.registers) {
+      emit_register_map(*resource.registers, constant, out);
+      list += (list.empty() ? "&" : ", &") + constant;
+      continue;
+    }
     const UrdfResult urdf = read_urdf(resource.file);
     for (const UrdfError& error : urdf.errors) {
       diagnostics.error({intern(error.file), static_cast<std::uint32_t>(error.line),
@@ -66,10 +73,8 @@ std::string emit_resources(const Model& model, const Device& device, const std::
                         error.message, error.hint);
     }
     if (!urdf.chain) continue;
-    const std::string& name = model.interfaces[device.interface].resources[resource.resource].name;
-    out << "constexpr KinematicChain " << prefix << "_" << name
-        << "_resource = " << emit_kinematic_chain(*urdf.chain) << ";\n";
-    list += (list.empty() ? "&" : ", &") + prefix + "_" + name + "_resource";
+    out << "constexpr KinematicChain " << constant << " = " << emit_kinematic_chain(*urdf.chain) << ";\n";
+    list += (list.empty() ? "&" : ", &") + constant;
   }
   emit_array("constexpr const void*", prefix + "_resources", list, out);
   return array_or_none(prefix + "_resources", list);

@@ -24,6 +24,8 @@ void emit_devices(const Model& model, const ApplicationNames& names, Diagnostics
                   std::vector<std::string>& sizes);
 void emit_units(const Model& model, const ApplicationNames& names, Text& out,
                 std::vector<std::string>& sizes);
+// A constant of the type ModbusRegisterMap.
+void emit_register_map(const RegisterMap& map, const std::string& constant, Text& out);
 
 // Tables: what the executive reads.
 void emit_slot_records(const Model& model, const ApplicationNames& names, Text& out);

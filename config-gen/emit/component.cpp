@@ -137,6 +137,8 @@ std::string resource_type(Resource::Reader reader) {
   switch (reader) {
     case Resource::Reader::urdf:
       return "KinematicChain";
+    case Resource::Reader::register_map:
+      return "ModbusRegisterMap";
   }
   return "";
 }
@@ -145,6 +147,8 @@ std::string resource_header(Resource::Reader reader) {
   switch (reader) {
     case Resource::Reader::urdf:
       return "hal/interfaces/robot_arm/kinematic_chain.hpp";
+    case Resource::Reader::register_map:
+      return "hal/interfaces/modbus_link/register_map.hpp";
   }
   return "";
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "config-gen/model/position.hpp"
+#include "config-gen/model/register_map.hpp"
 
 namespace flexrf::config_gen {
 
@@ -168,7 +169,7 @@ struct UnitType {
 };
 
 struct Resource {
-  enum class Reader { urdf };
+  enum class Reader { urdf, register_map };
   std::string name;
   Position position;
   Reader reader = Reader::urdf;
@@ -379,6 +380,7 @@ struct DeviceResource {
   Index resource = 0;  // into the interface's resources
   std::filesystem::path file;
   Position position;
+  std::optional<RegisterMap> registers;  // of a register map without errors
 };
 
 struct DriverChoice {

@@ -3,6 +3,7 @@
 
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
+#include "config-gen/read/register_map.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -93,7 +94,9 @@ void read_resources(Assembly& assembly, Row& row, Device& device) {
                                  "it is looked for at " + file.generic_string());
     else
       assembly.model.files.push_back(file);
-    device.resources.push_back({i, file, row.position(resource.key)});
+    device.resources.push_back({i, file, row.position(resource.key), std::nullopt});
+    if (resource.reader == Resource::Reader::register_map && std::filesystem::is_regular_file(file))
+      device.resources.back().registers = read_register_map(file, assembly.diagnostics);
   }
 }
 

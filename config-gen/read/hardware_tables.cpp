@@ -21,8 +21,10 @@ Resource read_resource(const Node& node, Diagnostics& diagnostics) {
   resource.position = node.key_position;
   resource.summary = row.summary();
   row.required_text("from", "add from = \"urdf\": the device row's key, and what reads the file");
-  row.word("from", {"urdf"});
-  resource.key = "urdf";
+  const std::vector<std::string> readers = {"urdf", "register_map"};
+  const std::size_t reader = row.word("from", readers).value_or(0);
+  resource.reader = static_cast<Resource::Reader>(reader);
+  resource.key = readers[reader];
   row.finish();
   return resource;
 }

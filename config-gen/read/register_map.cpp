@@ -1,0 +1,285 @@
+// Register maps of Modbus stations: every row is checked by itself, then all rows against each other.
+#include "config-gen/read/register_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "config-gen/model/words.hpp"
+#include "config-gen/read/csv.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+enum Column { name, address, type, area, word_order, scale, unit, access, poll_group, safe_value, columns };
+constexpr std::array<const char*, columns> column_names = {
+    "name", "address", "type", "area", "word_order", "scale", "unit", "access", "poll_group", "safe_value"};
+
+enum Area : std::size_t { coil, discrete_input, holding_register, input_register };
+constexpr std::size_t boolean = 0;       // in register_types
+constexpr std::size_t read_only = 0;     // in register_accesses
+constexpr std::size_t write_only = 1;    // likewise
+constexpr std::size_t first_double = 3;  // types from here on have two registers
+
+struct Range {
+  double least;
+  double most;
+};
+// Of the raw value, in the order of register_types.
+constexpr std::array<Range, 6> raw_ranges = {{{0, 1},
+                                              {-32768, 32767},
+                                              {0, 65535},
+                                              {-2147483648.0, 2147483647.0},
+                                              {0, 4294967295.0},
+                                              {-3.4e38, 3.4e38}}};
+
+std::size_t words_of(const ModbusRegister& entry) {
+  return entry.type >= first_double ? 2 : 1;
+}
+
+class MapReader {
+ public:
+  MapReader(const CsvTable& table, Diagnostics& diagnostics) : table_(table), diagnostics_(diagnostics) {}
+
+  std::optional<RegisterMap> read() {
+    if (!find_columns()) return std::nullopt;
+    for (const CsvRow& row : table_.rows) {
+      row_ = &row;
+      read_row();
+    }
+    if (table_.rows.empty())
+      error(table_.header.front(), "this register map has no registers", "add a row for each value");
+    check_sizes();
+    if (failed_) return std::nullopt;
+    return std::move(map_);
+  }
+
+ private:
+  void error(const CsvCell& cell, std::string text, std::string hint) {
+    failed_ = true;
+    diagnostics_.error(cell.position, std::move(text), std::move(hint));
+  }
+
+  bool find_columns() {
+    const std::vector<std::string> known(column_names.begin(), column_names.end());
+    for (const CsvCell& cell : table_.header) {
+      if (std::find(known.begin(), known.end(), cell.text) == known.end())
+        error(cell, "a register map has no column " + quote(cell.text),
+              suggest(cell.text, known, "columns", "remove it"));
+    }
+    for (std::size_t i = 0; i < columns; ++i) places_[i] = table_.column(column_names[i]);
+    for (const Column needed : {name, address, type, access}) {
+      if (!table_.required_column(column_names[needed], diagnostics_)) failed_ = true;
+    }
+    return !failed_;
+  }
+
+  // Null when the list has no such column or the cell is empty.
+  const CsvCell* cell(Column column) const {
+    if (!places_[column]) return nullptr;
+    const CsvCell& found = (*row_)[*places_[column]];
+    return found.text.empty() ? nullptr : &found;
+  }
+  // The cell, or the row's first where there is none: something to point at.
+  const CsvCell& place(Column column) const {
+    return places_[column] ? (*row_)[*places_[column]] : row_->cells.front();
+  }
+
+  std::optional<std::size_t> word(Column column, const std::vector<std::string>& words) {
+    const CsvCell* found = cell(column);
+    if (found == nullptr) return std::nullopt;
+    for (std::size_t i = 0; i < words.size(); ++i)
+      if (words[i] == found->text) return i;
+    error(*found, quote(found->text) + " is no " + std::string(column_names[column]),
+          suggest(found->text, words, "ones", "write one of " + listed(words)));
+    return std::nullopt;
+  }
+  std::optional<std::size_t> required_word(Column column, const std::vector<std::string>& words) {
+    if (cell(column) == nullptr) {
+      error(place(column), "the register " + quote(entry_.name) + " has no " + column_names[column],
+            "write one of " + listed(words));
+      return std::nullopt;
+    }
+    return word(column, words);
+  }
+
+  void read_row() {
+    const bool failed_before = failed_;
+    failed_ = false;
+    entry_ = {};
+    read_name();
+    const auto type_word = required_word(type, register_types);
+    const auto access_word = required_word(access, register_accesses);
+    entry_.type = type_word.value_or(boolean);
+    entry_.access = access_word.value_or(read_only);
+    entry_.poll_group = word(poll_group, register_poll_groups).value_or(0);
+    if (const CsvCell* found = cell(unit)) entry_.unit = found->text;
+    if (type_word && access_word) {
+      read_area();
+      read_word_order();
+      read_scale();
+      read_safe_value();
+    }
+    read_address();
+    if (!failed_) {
+      check_against_others();
+      map_.registers.push_back(entry_);
+    }
+    failed_ = failed_ || failed_before;
+  }
+
+  void read_name() {
+    entry_.name = place(name).text;
+    if (!is_snake_case(entry_.name))
+      error(place(name), quote(entry_.name) + " is not a name for a register",
+            "write it in lower_snake_case, as tank_pressure");
+    const auto [known, fresh] = names_.emplace(entry_.name, place(name).position);
+    if (!fresh)
+      error(place(name), "the register " + quote(entry_.name) + " is there twice",
+            "rename one; the other is at " + to_string(known->second));
+  }
+
+  void read_area() {
+    const bool writes = entry_.access != read_only;
+    const bool is_bit = entry_.type == boolean;
+    const std::size_t usual = !is_bit ? holding_register : writes ? coil : discrete_input;
+    entry_.area = word(area, register_areas).value_or(usual);
+    const std::string& called = register_areas[entry_.area];
+    if (is_bit != (entry_.area == coil || entry_.area == discrete_input))
+      error(place(area), quote(called) + " cannot be a " + register_types[entry_.type],
+            is_bit ? "a bool is a coil or a discrete_input; a bit of a register is read as u16"
+                   : "a coil and a discrete_input are a bool");
+    else if (writes && (entry_.area == discrete_input || entry_.area == input_register))
+      error(place(access), quote(called) + " cannot be written",
+            std::string("make its access read, or it a ") + (is_bit ? "coil" : "holding_register"));
+  }
+
+  void read_word_order() {
+    const auto order = word(word_order, register_word_orders);
+    entry_.word_order = order.value_or(0);
+    if (order && words_of(entry_) == 1)
+      error(place(word_order), quote(register_types[entry_.type]) + " has no word_order",
+            "leave the cell empty: only what has two registers has one");
+  }
+
+  void read_scale() {
+    const CsvCell* found = cell(scale);
+    if (found == nullptr) return;
+    const auto value = CsvTable::number(*found, diagnostics_);
+    if (!value) {
+      failed_ = true;
+      return;
+    }
+    if (!std::isfinite(*value) || *value == 0)
+      error(*found, "the scale " + quote(found->text) + " would lose the value",
+            "write how much one count of the register is, as 0.1");
+    else if (entry_.type == boolean && *value != 1)
+      error(*found, "a bool has no scale", "leave the cell empty");
+    entry_.scale = *value;
+  }
+
+  void read_safe_value() {
+    const CsvCell* found = cell(safe_value);
+    if (entry_.access == read_only) {
+      if (found != nullptr)
+        error(*found, "what is only read has no safe_value",
+              "leave the cell empty, or make the register's access read_write");
+      return;
+    }
+    if (found == nullptr) {
+      error(place(safe_value), "the register " + quote(entry_.name) + " is written and has no safe_value",
+            "write what it shall be while nothing may move, in its unit");
+      return;
+    }
+    const auto value = CsvTable::number(*found, diagnostics_);
+    if (!value) {
+      failed_ = true;
+      return;
+    }
+    entry_.safe_value = *value;
+    const double raw = *value / entry_.scale;
+    const Range range = raw_ranges[entry_.type];
+    if (!(raw >= range.least && raw <= range.most))
+      error(*found,
+            "the safe_value " + found->text + " does not fit a " + register_types[entry_.type] +
+                (entry_.scale == 1 ? "" : " with the scale of " + quote(entry_.name)),
+            "change the value, the type or the scale");
+  }
+
+  void read_address() {
+    const CsvCell& found = place(address);
+    const auto value = CsvTable::integer(found, diagnostics_);
+    if (!value) {
+      failed_ = true;
+      return;
+    }
+    const auto last = *value + static_cast<std::int64_t>(words_of(entry_)) - 1;
+    if (*value < 0 || *value > 65535)
+      error(found, "the address " + found.text + " is not from 0 to 65535",
+            "addresses are as in the request: what a manual calls 40001 is the holding_register 0");
+    else if (last > 65535)
+      error(found, quote(entry_.name) + " has two registers, and there is none after 65535",
+            "give it a lower address, or a type that takes one register");
+    else
+      entry_.address = static_cast<std::uint16_t>(*value);
+  }
+
+  // Each word is read once and written once.
+  void check_against_others() {
+    for (std::uint32_t i = 0; i < words_of(entry_); ++i) {
+      for (const bool writing : {false, true}) {
+        if (writing ? entry_.access == read_only : entry_.access == write_only) continue;
+        const auto key = std::array<std::uint32_t, 3>{static_cast<std::uint32_t>(entry_.area),
+                                                      entry_.address + i, writing ? 1U : 0U};
+        const auto [known, fresh] = taken_.emplace(key, entry_.name);
+        if (fresh) {
+          ++(writing ? written_ : read_);
+          continue;
+        }
+        error(place(address),
+              "the " + register_areas[entry_.area] + " " + std::to_string(entry_.address + i) + " of " +
+                  quote(entry_.name) + " is " + (writing ? "written" : "read") + " as " +
+                  quote(known->second) + " too",
+              "give each its own address; an i32, u32 or f32 takes two");
+        return;
+      }
+    }
+  }
+
+  void check_sizes() {
+    const CsvCell& start = table_.header.front();
+    const auto limit = [&](std::size_t count, std::size_t most, const char* what) {
+      if (count > most)
+        error(start,
+              "this register map has " + std::to_string(count) + " " + what + ", at most " +
+                  std::to_string(most) + " are possible",
+              "leave out what the cell does not need, or make two stations of it");
+    };
+    limit(map_.registers.size(), max_registers_of_station, "rows");
+    limit(read_, max_input_words_of_station, "words to read");
+    limit(written_, max_output_words_of_station, "words to write");
+  }
+
+  const CsvTable& table_;
+  Diagnostics& diagnostics_;
+  std::array<std::optional<std::size_t>, columns> places_;
+  const CsvRow* row_ = nullptr;
+  ModbusRegister entry_;
+  RegisterMap map_;
+  std::map<std::string, Position> names_;
+  std::map<std::array<std::uint32_t, 3>, std::string> taken_;
+  std::size_t read_ = 0;
+  std::size_t written_ = 0;
+  bool failed_ = false;
+};
+
+}  // namespace
+
+std::optional<RegisterMap> read_register_map(const std::filesystem::path& file, Diagnostics& diagnostics) {
+  const std::optional<CsvTable> table = read_csv(file, diagnostics);
+  if (!table) return std::nullopt;
+  return MapReader(*table, diagnostics).read();
+}
+
+}  // namespace flexrf::config_gen
