@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <thread>
 
 #include "runtime/log/log.hpp"
 
@@ -17,27 +16,27 @@ Status CanBus::open(CanInbox& inbox, std::span<const CanIdentifier> identifiers,
   if (identifiers.empty())
     return Status::error(StatusCode::invalid_argument, "a device on %s asked for no identifier", name());
   for (const CanIdentifier& identifier : identifiers) {
-    if (identifier.value > (identifier.extended ? 0x1FFF'FFFFU : 0x7FFU)) {
+    if (!identifier.is_valid()) {
       return Status::error(StatusCode::invalid_argument,
                            "a device on %s asked for identifier 0x%X, which has more than %s bits", name(),
                            identifier.value, identifier.extended ? "29" : "11");
     }
   }
-  seize();
+  registry_.take();
   forget(inbox);
   inbox.reset(std::bit_ceil(std::max(capacity, 1U)));
   for (const CanIdentifier& identifier : identifiers) wishes_.push_back({identifier, &inbox, nobody});
   index_wishes();
-  release();
+  registry_.give_back();
   listen_to(wanted());
   return {};
 }
 
 void CanBus::close(CanInbox& inbox) {
-  seize();
+  registry_.take();
   forget(inbox);
   index_wishes();
-  release();
+  registry_.give_back();
   listen_to(wanted());
 }
 
@@ -125,23 +124,6 @@ void CanBus::enter(CanBusState state) noexcept {
   feedback.frames_discarded += waiting_.size();
   waiting_.clear();
   log_warning(name(), "the bus is not usable: {}", StaticText{name_of(state)});
-}
-
-bool CanBus::begin_delivery() noexcept {
-  return !in_use_.exchange(true, std::memory_order_acquire);
-}
-
-void CanBus::end_delivery() noexcept {
-  release();
-}
-
-void CanBus::seize() {
-  // The bus's thread is done with a batch within microseconds.
-  while (in_use_.exchange(true, std::memory_order_acquire)) std::this_thread::yield();
-}
-
-void CanBus::release() noexcept {
-  in_use_.store(false, std::memory_order_release);
 }
 
 }  // namespace flexrf

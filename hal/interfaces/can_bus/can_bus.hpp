@@ -1,8 +1,8 @@
 // CanBus: a CAN bus and the devices on it.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -10,18 +10,12 @@
 #include "hal/interfaces/can_bus/can_frame.hpp"
 #include "hal/interfaces/can_bus/can_inbox.hpp"
 #include "hal/interfaces/can_bus/can_send_queue.hpp"
+#include "hal/interfaces/can_bus/turn.hpp"
 #include "types/can_bus_state.hpp"
 
 namespace flexrf {
 
 class CanWire;
-
-/// Which frames a device wants.
-struct CanIdentifier {
-  std::uint32_t value = 0;  ///< 11 bits, or 29 when extended
-  bool extended = false;
-  friend bool operator==(const CanIdentifier&, const CanIdentifier&) = default;
-};
 
 /// A cycle is: the bus receives everything that came, at once, and puts it into its devices' inboxes; they
 /// take it in their receive(); they queue what they have to say in their send(), in any order; the bus sends
@@ -39,6 +33,10 @@ class CanBus : public CanBusInterface {
   /// to a power of two). Several inboxes may want the same identifier. An inbox that is open is opened anew.
   /// Error: an identifier has too many bits, or none was named.
   Status open(CanInbox& inbox, std::span<const CanIdentifier> identifiers, std::uint32_t capacity = 32);
+  Status open(CanInbox& inbox, std::initializer_list<CanIdentifier> identifiers,
+              std::uint32_t capacity = 32) {
+    return open(inbox, std::span(identifiers.begin(), identifiers.size()), capacity);
+  }
   /// Before the inbox goes; nothing when it is not open.
   void close(CanInbox& inbox);
 
@@ -68,14 +66,14 @@ class CanBus : public CanBusInterface {
   void restart() noexcept;
   /// The identifiers that somebody wants have changed. The lifecycle thread, beside the bus's own.
   virtual void listen_to(std::span<const CanIdentifier> /*identifiers*/) {}
-  /// To be called by listen_to()'s driver when it begins.
+  /// As for listen_to(); the lifecycle thread.
   std::vector<CanIdentifier> wanted() const;
 
   /// Between begin_delivery() and end_delivery(): into the inboxes of those who want it.
   void deliver(const CanFrame& frame) noexcept;
   /// False: a device is just coming or going; receive in the next cycle.
-  bool begin_delivery() noexcept;
-  void end_delivery() noexcept;
+  bool begin_delivery() noexcept { return registry_.try_take(); }
+  void end_delivery() noexcept { registry_.give_back(); }
 
   CanSendQueue& waiting() noexcept { return waiting_; }
   /// Counts the way there and back, and gives up what is queued when the bus is not usable.
@@ -94,14 +92,11 @@ class CanBus : public CanBusInterface {
   void forget(const CanInbox& inbox);
   void index_wishes();
   void deliver_to(std::uint16_t wish, const CanFrame& frame) noexcept;
-  void seize();
-  void release() noexcept;
-
   CanSendQueue waiting_;
   bool was_usable_ = false;
 
-  // Whoever has set `in_use_` may touch what follows. The bus's thread only tries; it never waits for it.
-  std::atomic<bool> in_use_{false};
+  // Who has the turn may touch what follows.
+  Turn registry_;
   std::vector<Wish> wishes_;             // [0] is nobody's
   std::vector<std::uint16_t> standard_;  // first wish for each 11-bit identifier
   std::vector<std::uint16_t> extended_;  // first wish for each 29-bit identifier, in their order

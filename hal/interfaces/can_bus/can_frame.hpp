@@ -10,6 +10,8 @@ namespace flexrf {
 
 /// A frame of classical CAN (ISO 11898-1).
 struct CanFrame {
+  static constexpr std::uint8_t most_bytes = 8;
+
   Time time{};  ///< of a received frame: when it had come, on the clock of Tick::now; to send: not looked at
   std::array<std::uint8_t, 8> data{};
   std::uint32_t identifier = 0;  ///< 11 bits, or 29 when extended
@@ -19,10 +21,18 @@ struct CanFrame {
 
   /// Whether a controller would take it.
   constexpr bool is_valid() const noexcept {
-    return length <= 8 && identifier <= (extended ? 0x1FFF'FFFFU : 0x7FFU);
+    return length <= most_bytes && identifier <= (extended ? 0x1FFF'FFFFU : 0x7FFU);
   }
 };
 static_assert(sizeof(CanFrame) == 24, "frames are copied by the batch");
+
+/// Which frames somebody wants.
+struct CanIdentifier {
+  std::uint32_t value = 0;  ///< 11 bits, or 29 when extended
+  bool extended = false;
+  friend bool operator==(const CanIdentifier&, const CanIdentifier&) = default;
+  constexpr bool is_valid() const noexcept { return value <= (extended ? 0x1FFF'FFFFU : 0x7FFU); }
+};
 
 /// The bits that the wire arbitrates by, in their order: the lower value is sent first. Of a valid frame.
 constexpr std::uint32_t arbitration_key(const CanFrame& frame) noexcept {

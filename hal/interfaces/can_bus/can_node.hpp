@@ -26,7 +26,8 @@ class CanNode {
   /// When it next does something by itself (a heartbeat, an event timer, the end of a delay); Time::max():
   /// never. Asked again after each call of the other functions.
   virtual Time next_event() const noexcept = 0;
-  /// That time has come; `now` may be later. May send. Afterwards next_event() lies behind `now`.
+  /// That time has come; `now` may be later. May send. Afterwards next_event() lies behind `now`. Also the
+  /// first call of all, right after the node was attached: so it learns what time it is.
   virtual void on_time(Time now, CanPort& port) noexcept = 0;
 
  protected:

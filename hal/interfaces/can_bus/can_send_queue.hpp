@@ -35,6 +35,7 @@ class CanSendQueue {
     return true;
   }
 
+  bool is_empty() const noexcept { return size_ == 0; }
   std::size_t size() const noexcept { return size_; }
   const CanFrame& operator[](std::size_t index) const noexcept { return waiting_[index].frame; }
 
@@ -42,6 +43,14 @@ class CanSendQueue {
   void drop_first(std::size_t count) noexcept {
     for (std::size_t i = count; i < size_; ++i) waiting_[i - count] = waiting_[i];
     size_ -= count;
+  }
+  /// The first with this key.
+  void drop_one_of(std::uint32_t key) noexcept {
+    std::size_t place = 0;
+    while (place < size_ && waiting_[place].key != key) ++place;
+    if (place == size_) return;
+    for (std::size_t i = place + 1; i < size_; ++i) waiting_[i - 1] = waiting_[i];
+    --size_;
   }
   void clear() noexcept { size_ = 0; }
 
