@@ -41,13 +41,21 @@ class Device : public Component {
   virtual void receive(const Tick& /*tick*/) noexcept {}
   /// After the units stepped, buses last: send what they commanded.
   virtual void send(const Tick& /*tick*/) noexcept {}
-  /// Brings what it moves to its safe state, one non-blocking act per call; true when it is there.
+  /// Brings what it moves to its safe state, one non-blocking act per call; true when it is there. It then
+  /// stays there while inhibited; after an emergency stop that was cleared, commands of a new Start are
+  /// followed without an initialise().
   virtual bool make_safe() noexcept { return true; }
 
   /// A descriptor that becomes readable when there is something to receive; −1: none. For device triggers.
   virtual int descriptor() const noexcept { return -1; }
   /// In virtual time: when there will be something to receive; Time::max(): not known to come.
   virtual Time next_event() const noexcept { return Time::max(); }
+  /// It is an emergency-stop input: unless it permits, nothing moves. As its configuration says; the
+  /// lifecycle thread, also before initialise().
+  virtual bool guards_motion() const noexcept { return false; }
+  /// Of one that guards motion, after receive(): everything that moves is to be made safe now. What is not
+  /// known to be released demands it.
+  virtual bool demands_safe_state() const noexcept { return false; }
   /// No more input will ever come (end of file): the application finishes.
   virtual bool is_closed() const noexcept { return false; }
 

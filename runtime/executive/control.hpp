@@ -57,8 +57,27 @@ class Control {
     withdraw();
     wake_all();
   }
-  /// Clears the latch; nothing moves before start_motion().
-  void clear_stop_motion() noexcept { stop_motion_.store(false, std::memory_order_seq_cst); }
+  /// Clears the latch; nothing moves before start_motion(). An emergency-stop input that still demands the
+  /// safe state latches it again in its next cycle.
+  void clear_stop_motion() noexcept {
+    safe_state_.store(false, std::memory_order_seq_cst);
+    stop_motion_.store(false, std::memory_order_seq_cst);
+  }
+
+  /// A device that guards motion does not permit it: until end_demand() there is no Start, and nothing moves.
+  /// Any thread.
+  void begin_demand() noexcept { demands_.fetch_add(1, std::memory_order_seq_cst); }
+  void end_demand() noexcept {
+    demands_.fetch_sub(1, std::memory_order_seq_cst);
+    wake_all();
+  }
+  /// Stop motion, and each thread makes its actuators safe, until somebody clears it. Any thread.
+  void latch_safe_state() noexcept {
+    safe_state_.store(true, std::memory_order_seq_cst);
+    stop_motion();
+  }
+  bool safe_state_latched() const noexcept { return safe_state_.load(std::memory_order_acquire); }
+
   /// autostart: actuators may move from power-on. Before anything is initialised, so that no unit takes the
   /// moment in between for an inhibition.
   void permit_motion_at_power_on() noexcept { started_.store(true, std::memory_order_seq_cst); }
@@ -68,12 +87,18 @@ class Control {
     if (stop_motion_.load(std::memory_order_seq_cst)) {
       return Status::error(StatusCode::not_permitted, "Stop motion is latched; clear it before Start");
     }
+    if (demands_.load(std::memory_order_seq_cst) != 0) {
+      return Status::error(
+          StatusCode::not_permitted,
+          "an emergency-stop input does not permit motion; release it, or see to its wiring");
+    }
     if (mode() != Mode::running) {
       return Status::error(StatusCode::not_permitted, "the application is %s, not running", name_of(mode()));
     }
     started_.store(true, std::memory_order_seq_cst);
     // A stop that came in between wins.
-    if (stop_motion_.load(std::memory_order_seq_cst)) started_.store(false, std::memory_order_seq_cst);
+    if (stop_motion_.load(std::memory_order_seq_cst) || demands_.load(std::memory_order_seq_cst) != 0)
+      started_.store(false, std::memory_order_seq_cst);
     wake_all();
     return {};
   }
@@ -87,7 +112,8 @@ class Control {
   std::uint32_t withdrawals() const noexcept { return withdrawals_.load(std::memory_order_acquire); }
   bool motion_stopped() const noexcept { return stop_motion_.load(std::memory_order_acquire); }
   bool may_move() const noexcept {
-    return started_.load(std::memory_order_acquire) && !stop_motion_.load(std::memory_order_acquire);
+    return started_.load(std::memory_order_acquire) && !stop_motion_.load(std::memory_order_acquire) &&
+           demands_.load(std::memory_order_acquire) == 0;
   }
 
   /// Counts units and devices that went into fault. Any thread.
@@ -108,7 +134,9 @@ class Control {
   std::atomic<Mode> mode_{Mode::starting};
   std::atomic<EndCause> cause_{EndCause::none};
   std::atomic<bool> stop_motion_{false};
+  std::atomic<bool> safe_state_{false};
   std::atomic<bool> started_{false};
+  std::atomic<std::uint32_t> demands_{0};
   std::atomic<std::uint32_t> withdrawals_{0};
   std::atomic<std::uint32_t> faults_{0};
 };

@@ -91,6 +91,11 @@ Executive::~Executive() {
 Status Executive::prepare() {
   if (const Status status = cell_.construct(); !status) return status;
   if (const Status status = load_values(); !status) return status;
+  for (DeviceState& state : cell_.application().device_states) {
+    state.demands = state.device->guards_motion();
+    state.guards.store(state.demands);
+    if (state.demands) cell_.control().begin_demand();
+  }
   if (options_.virtual_time) {
     cell_.prepare_virtual_time(options_.digest);
     return {};

@@ -295,6 +295,7 @@ Status Lifecycle::start_device(std::uint16_t index) noexcept {
   cell_->note_configuration(cell_->component_of_device(index));
   begin_operation(record.name, record.initialise_timeout);
   state.device->clear_fault();
+  state.guards.store(state.device->guards_motion(), std::memory_order_release);
   // An actuator is inhibited until its thread has seen a Start.
   state.device->set_inhibited(!cell_->control().may_move());
   Status status = guarded([&] { return state.device->initialise(); });

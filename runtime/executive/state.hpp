@@ -48,7 +48,9 @@ struct DeviceState {
   std::atomic<Ownership> ownership{Ownership::lifecycle};
   std::atomic<bool> make_safe{false};  ///< its unit or itself is in fault: its thread makes it safe
   std::atomic<bool> safe{false};       ///< make_safe() said so
-  SharedStatus fault;                  ///< why; published before life becomes fault
+  std::atomic<bool> guards{false};     ///< guards_motion(), as it was or is to be initialised
+  bool demands = false;  ///< counted in Control; its thread only, before the start the main thread
+  SharedStatus fault;    ///< why; published before life becomes fault
   DeviceEnvironment environment;
 };
 

@@ -134,6 +134,7 @@ void Stepper::follow_motion_permission(Time now) noexcept {
   const std::uint32_t withdrawals = control.withdrawals();
   const bool could_move = may_move_;
   may_move_ = control.may_move() && control.mode() < Mode::safe;
+  follow_safe_state();
   // Every time, not only when it changes: the lifecycle thread has judged by itself when it initialised a
   // device, and may have seen the moment before.
   for (const std::uint16_t device : record_->devices) {
@@ -154,6 +155,50 @@ void Stepper::follow_motion_permission(Time now) noexcept {
   }
   for (const std::uint16_t device : record_->devices) {
     if (owns_device(device)) cell_->parameters(cell_->component_of_device(device)).end_all_leases(now);
+  }
+}
+
+/// An emergency stop that begins, and one that was cleared: what was safe before counts no more.
+void Stepper::follow_safe_state() noexcept {
+  const bool latched = cell_->control().safe_state_latched();
+  if (latched == safe_state_) return;
+  safe_state_ = latched;
+  for (const std::uint16_t device : record_->devices) {
+    DeviceState& state = application_->device_states[device];
+    if (!state.make_safe.load(std::memory_order_relaxed) && cell_->control().mode() < Mode::safe)
+      state.safe.store(false, std::memory_order_release);
+  }
+}
+
+/// After the devices received: one that guards motion and does not permit it has this thread act in this very
+/// cycle, and all others woken. While it is not this thread's, or in fault, nobody knows whether it permits.
+void Stepper::follow_demands(Time now) noexcept {
+  Control& control = cell_->control();
+  for (const std::uint16_t index : record_->devices) {
+    DeviceState& state = application_->device_states[index];
+    const bool owned = owns_device(index);
+    const bool demands = state.guards.load(std::memory_order_acquire) &&
+                         (!owned || state.life.load(std::memory_order_relaxed) == Life::fault ||
+                          state.device->demands_safe_state());
+    if (demands != state.demands) {
+      state.demands = demands;
+      if (demands) {
+        control.begin_demand();
+      } else {
+        control.end_demand();
+      }
+    }
+    // Before it was initialised for the first time it only holds up the Start.
+    const Mode mode = control.mode();
+    if (!demands || control.safe_state_latched() || mode >= Mode::safe || (!owned && mode < Mode::running))
+      continue;
+    control.latch_safe_state();
+    log_warning(application_->devices[index].name,
+                "emergency stop: every actuator is made safe; release it, clear the stop and give Start");
+  }
+  if (!safe_state_ && control.safe_state_latched()) {
+    follow_motion_permission(now);
+    tick_.motion_inhibited = true;
   }
 }
 
@@ -214,6 +259,7 @@ void Stepper::receive(Time now) noexcept {
     }
     check_device(index);
   }
+  follow_demands(now);
 }
 
 bool Stepper::step(std::size_t place, Time now) noexcept {
@@ -292,11 +338,15 @@ void Stepper::make_safe() noexcept {
   for (std::size_t place = record_->devices.size(); place-- > 0;) {
     const std::uint16_t index = record_->devices[place];
     DeviceState& state = application_->device_states[index];
-    const bool wanted = making_safe_ || state.make_safe.load(std::memory_order_relaxed);
-    if (!wanted || state.safe.load(std::memory_order_relaxed) || !owns_device(index)) continue;
+    if (!is_to_be_safe(index) || state.safe.load(std::memory_order_relaxed) || !owns_device(index)) continue;
     if (cell_->driver(index).actuates) state.device->set_inhibited(true);
     if (state.device->make_safe()) state.safe.store(true, std::memory_order_release);
   }
+}
+
+bool Stepper::is_to_be_safe(std::uint16_t device) const noexcept {
+  return making_safe_ || application_->device_states[device].make_safe.load(std::memory_order_relaxed) ||
+         (safe_state_ && cell_->driver(device).actuates);
 }
 
 bool Stepper::is_safe() const noexcept {
@@ -318,8 +368,7 @@ bool Stepper::needs_attention() const noexcept {
   }
   return std::any_of(record_->devices.begin(), record_->devices.end(), [this](std::uint16_t index) {
     const DeviceState& state = application_->device_states[index];
-    return state.make_safe.load(std::memory_order_relaxed) && !state.safe.load(std::memory_order_relaxed) &&
-           owns_device(index);
+    return is_to_be_safe(index) && !state.safe.load(std::memory_order_relaxed) && owns_device(index);
   });
 }
 

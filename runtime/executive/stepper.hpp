@@ -53,7 +53,10 @@ class Stepper {
   void apply(const ParameterRequest& request, Time now) noexcept;
   void apply_to_member(const ParameterRequest& request, std::uint16_t unit, Time now) noexcept;
   void follow_motion_permission(Time now) noexcept;
+  void follow_safe_state() noexcept;
+  void follow_demands(Time now) noexcept;
   void make_safe() noexcept;
+  bool is_to_be_safe(std::uint16_t device) const noexcept;
   void check_device(std::uint16_t device) noexcept;
   void fault_unit(std::uint16_t unit, const Status& cause) noexcept;
   void publish_feedback(SlotControl* slot, const ParameterBlock& block, const void* values,
@@ -70,7 +73,8 @@ class Stepper {
   std::uint32_t withdrawals_ = 0;  // of the permission to move, as seen last
   bool receives_ = false;          // has any device at all
   bool making_safe_ = false;
-  bool stopping_ = false;  // the whole application
+  bool safe_state_ = false;  // demanded by a device and not cleared, as seen last
+  bool stopping_ = false;    // the whole application
 };
 
 }  // namespace flexrf

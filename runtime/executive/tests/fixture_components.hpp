@@ -73,6 +73,7 @@ struct DeviceScript {
   std::function<int()> descriptor;
   std::function<Time()> next_event;
   std::function<bool()> is_closed;
+  std::function<bool()> demands_safe_state;  ///< given: the device guards motion
 };
 
 class TestUnit final : public Unit {
@@ -142,6 +143,10 @@ class TestDevice final : public Device {
     return script_->next_event ? script_->next_event() : Time::max();
   }
   bool is_closed() const noexcept override { return script_->is_closed && script_->is_closed(); }
+  bool guards_motion() const noexcept override { return static_cast<bool>(script_->demands_safe_state); }
+  bool demands_safe_state() const noexcept override {
+    return script_->demands_safe_state && script_->demands_safe_state();
+  }
 
   const ComponentType& component_type() const noexcept override { return type; }
   ParameterMemory parameter_memory() noexcept override { return {}; }
