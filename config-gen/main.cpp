@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "config-gen/model/file_contents.hpp"
 #include "config-gen/model/target.hpp"
 #include "config-gen/model/words.hpp"
 
@@ -84,11 +85,6 @@ Command parse(const std::vector<std::string>& words) {
   if (command.dependencies.empty() != command.stamp.empty())
     throw std::invalid_argument("--dependencies and --stamp belong together");
   return command;
-}
-
-std::string contents_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 void write(const fs::path& file, const std::string& contents) {

@@ -6,14 +6,10 @@
 #include "config-gen/emit/application_parts.hpp"
 #include "config-gen/emit/emit.hpp"
 #include "config-gen/emit/plain_struct.hpp"
+#include "config-gen/model/file_contents.hpp"
 
 namespace flexrf::config_gen {
 namespace {
-
-std::string contents_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 // Lines of a text, pieces of what has none: a compiler's limit on the length of a line is no limit here.
 void emit_bytes(std::string_view bytes, Text& out) {

@@ -5,6 +5,8 @@
 #include <functional>
 #include <numeric>
 
+#include "config-gen/model/footprint.hpp"
+
 namespace flexrf::config_gen {
 namespace {
 
@@ -25,10 +27,6 @@ constexpr std::array<ScalarRow, 12> scalars{{{"bool", 1},
                                              {"f32", 4},
                                              {"f64", 8},
                                              {"text", 1}}};
-
-std::size_t round_up(std::size_t value, std::size_t to) {
-  return (value + to - 1) / to * to;
-}
 
 const ParameterBlock* block_of(const Model& model, const SlotType& type) {
   switch (type.kind) {

@@ -9,17 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "config-gen/model/file_contents.hpp"
 #include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 void remove_comments(std::string& xml) {
   for (std::size_t begin = xml.find("<!--"); begin != std::string::npos; begin = xml.find("<!--", begin)) {

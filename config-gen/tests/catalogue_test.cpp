@@ -8,6 +8,7 @@
 #include <iterator>
 #include <vector>
 
+#include "config-gen/model/file_contents.hpp"
 #include "config-gen/tests/tables.hpp"
 #include "tests/cmocka.hpp"
 
@@ -15,11 +16,6 @@ namespace flexrf::config_gen::tests {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

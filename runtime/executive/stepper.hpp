@@ -41,6 +41,8 @@ class Stepper {
   void fault_all(const Status& cause) noexcept;
   /// Every device of the thread says it is safe.
   bool is_safe() const noexcept;
+  /// How often a thread is released without a trigger while it needs attention.
+  static constexpr Duration attention_interval = std::chrono::milliseconds{5};
   /// Must be released soon even if nothing triggers it: a stop is to be seen, a device to be made safe.
   bool needs_attention() const noexcept;
 

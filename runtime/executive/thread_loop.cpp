@@ -18,9 +18,6 @@
 namespace flexrf {
 namespace {
 
-/// How often a thread is released without a trigger while a stop is to be seen or a device to be made safe.
-constexpr Duration attention_interval = std::chrono::milliseconds{5};
-
 rusage usage_of_this_thread() noexcept {
   rusage usage{};
   getrusage(RUSAGE_THREAD, &usage);
@@ -76,8 +73,8 @@ void ThreadLoop::turn(std::uint32_t heard) noexcept {
   const Time now = MonotonicClock::now();
   stepper_.serve(now);
   Due due = trigger_.due(now, readable_);
-  if (stepper_.needs_attention() && due.at > trigger_.last_release() + attention_interval) {
-    due = Due{trigger_.last_release() + attention_interval, due.fired, true};
+  if (stepper_.needs_attention() && due.at > trigger_.last_release() + Stepper::attention_interval) {
+    due = Due{trigger_.last_release() + Stepper::attention_interval, due.fired, true};
   }
   if (due.at <= now) {
     // A period is late against its own instant; everything else is due when it is noticed.

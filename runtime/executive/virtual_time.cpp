@@ -13,8 +13,6 @@ namespace {
 constexpr Time beginning{std::chrono::seconds{1}};
 constexpr Duration least_budget = std::chrono::microseconds{1};
 constexpr std::uint32_t events_between_drains = 64;
-constexpr Duration attention_interval = std::chrono::milliseconds{5};
-
 }  // namespace
 
 VirtualTime::Thread::Thread(Cell& cell, std::uint16_t index)
@@ -52,7 +50,8 @@ Duration VirtualTime::run(Duration duration) noexcept {
     Thread* thread = next_event();
     Time at = thread == nullptr ? Time::max() : thread->next;
     // With nothing to come the clock still has to reach what supervision waits for.
-    at = std::min(at, now_ + (control.mode() == Mode::running ? Duration{limit - now_} : attention_interval));
+    at = std::min(
+        at, now_ + (control.mode() == Mode::running ? Duration{limit - now_} : Stepper::attention_interval));
     if (control.mode() == Mode::running && at >= limit) {
       now_ = limit;
       control.set_cause(EndCause::virtual_time_over);
@@ -110,7 +109,7 @@ void VirtualTime::look_for_release(Thread& thread) noexcept {
   thread.stepper.serve(now_);
   thread.due = thread.trigger.due(now_, false);
   if (thread.stepper.needs_attention()) {
-    const Time attention = thread.trigger.last_release() + attention_interval;
+    const Time attention = thread.trigger.last_release() + Stepper::attention_interval;
     if (thread.due.at > attention) thread.due = Due{attention, thread.due.fired, true};
   }
   // Never twice at one instant: that would be without end.
