@@ -1,28 +1,17 @@
 // Values: set and read back from the unit, refused, seen by others, left alone while a hand is on them.
-import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
-import type { Browser, Locator } from 'playwright-core';
-import { Application, Viewer, itemOf, launch, tidyUp, violations, within, type Rest } from './harness';
+import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
+import type { Locator } from 'playwright-core';
+import { Viewer, itemOf, useBrowser, useOperator, violations, within, type Rest } from './harness';
 
-let browser: Browser;
-beforeAll(async () => { browser = await launch(); });
-afterAll(async () => { await browser?.close(); });
+const browser = useBrowser();
 
-let running: Application;
+const operator = useOperator(browser, 'panel_cell', ['units', 'gadget'], async ({ beside }) => {
+  await beside.do('components/gadget/actions/reset', { method: 'POST' });
+  if ((await beside.do('state')).body.motion.stopped) await beside.do('clear-stop-motion', { method: 'POST' });
+});
 let viewer: Viewer;
 let rest: Rest;
-let seeing: Viewer[];
-
-beforeEach(async () => {
-  running = await Application.start('panel_cell');
-  viewer = await Viewer.open(browser, running.address);
-  rest = running.rest();
-  seeing = [viewer];
-  await viewer.takeControl();
-  await viewer.go('units', 'gadget');
-});
-afterEach(async () => {
-  await tidyUp(...seeing.map((one) => () => one.close()), () => running.end());
-});
+beforeEach(() => { ({ viewer, rest } = operator); });
 
 function item(label: string, of: Viewer = viewer): Locator {
   return itemOf(of.page, label).first();
@@ -35,6 +24,9 @@ async function expectShown(level: number, of: Viewer = viewer): Promise<void> {
 }
 async function expectRuntime(path: string, value: unknown): Promise<void> {
   await expect.poll(async () => (await rest.runtime('gadget'))[path], { timeout: within }).toEqual(value);
+}
+async function knocks(): Promise<number> {
+  return (await rest.feedback<{ knocks: number }>('gadget')).knocks;
 }
 async function expectFeedback(path: string, value: unknown): Promise<void> {
   await expect.poll(async () => (await rest.feedback<{ [path: string]: unknown }>('gadget'))[path], { timeout: within }).toEqual(value);
@@ -81,12 +73,12 @@ describe('a number with a range', () => {
     await mouse.move(...at(0.5));
     await mouse.down();
     await mouse.move(...at(0.8), { steps: 4 });
-    await expect.poll(async () => (await rest.runtime('gadget'))['level'], { timeout: within }).toBeGreaterThan(6);
-    // Somebody else sets it, by a request beside the page's own socket.
-    const other = running.rest();
-    other.cookie = (await viewer.context.cookies()).map((one) => `${one.name}=${one.value}`).join('; ');
+    // All of what the hand did has arrived, also what the page sends at its own rate.
+    await expect.poll(async () => Number(await slider.inputValue()), { timeout: within }).toBeGreaterThan(6);
     const held = Number(await slider.inputValue());
-    await other.do('components/gadget/parameters', { method: 'PUT', body: { level: 1 } });
+    await expect.poll(async () => (await rest.runtime('gadget'))['level'], { timeout: within }).toBeCloseTo(held, 6);
+    // Somebody else sets it, by a request beside the page's own socket.
+    await operator.beside.do('components/gadget/parameters', { method: 'PUT', body: { level: 1 } });
     await expectFeedback('level', 1);
     expect(Number(await slider.inputValue())).toBe(held);
     await mouse.up();
@@ -142,17 +134,18 @@ describe('other kinds', () => {
 
   it('a button, once for each press', async () => {
     const button = viewer.page.getByRole('button', { name: 'Knock' });
+    const before = await knocks();
     await button.click();
-    await expectFeedback('knocks', 1);
+    await expectFeedback('knocks', before + 1);
     await button.click();
-    await expectFeedback('knocks', 2);
+    await expectFeedback('knocks', before + 2);
   });
 });
 
 describe('two browsers', () => {
   it('see each other\'s change, and who may not change is told why', async () => {
-    const other = await Viewer.open(browser, running.base);
-    seeing.push(other);
+    const other = await Viewer.open(browser(), operator.running.base);
+    onTestFinished(() => other.close());
     await other.go('units', 'gadget');
     await expect.poll(() => field('Level of it', other).isDisabled(), { timeout: within }).toBe(true);
     await field('Level of it').fill('7');
@@ -195,8 +188,9 @@ describe('by the keyboard alone', () => {
     await keyboard.press('ArrowUp');
     await expect.poll(async () => (await rest.runtime('gadget'))['level'], { timeout: within }).toBeGreaterThan(5);
     await tabTo(page.getByRole('button', { name: 'Knock' }));
+    const before = await knocks();
     await keyboard.press('Space');
-    await expectFeedback('knocks', 1);
+    await expectFeedback('knocks', before + 1);
     await tabTo(page.getByRole('button', { name: 'Stop motion' }));
     await keyboard.press('Enter');
     await page.getByText('Motion stopped', { exact: false }).first().waitFor();
