@@ -33,14 +33,17 @@ template <class Driver>
 class DeviceBench {
  public:
   /// `resource`: of interfaces that have one, else null. `sinks`: where the device's queue output goes.
-  explicit DeviceBench(const void* resource, std::span<QueueSink* const> sinks = {})
+  /// `bus`: of a device on one, else null.
+  explicit DeviceBench(const void* resource, std::span<QueueSink* const> sinks = {}, Device* bus = nullptr)
       : resources_{resource}, queue_outputs_{sinks} {
     driver_.set_environment(&environment_);
     driver_.set_inhibited(false);
     DeviceBinding binding;
     binding.context = &context_;
+    binding.outputs = outputs_;
     binding.queue_outputs = queue_outputs_;
     binding.resources = resources_;
+    binding.bus = bus;
     driver_.connect(binding);
   }
 
@@ -68,6 +71,7 @@ class DeviceBench {
   Tick tick_{.nominal = Time{std::chrono::seconds(1)}, .now = Time{std::chrono::seconds(1)}};
   DeviceEnvironment environment_{.seed = 1, .virtual_time = true};
   const void* resources_[1];
+  SlotControl* outputs_[1] = {};  // not connected
   std::span<QueueSink* const> queue_outputs_[1];
   Driver driver_;
 };

@@ -1,0 +1,72 @@
+// A Modbus master that serves the stations of one link: what is due is asked, what changed is written, what
+// fails is tried again after a growing pause, and no station keeps the others from their turn.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+
+#include "hal/interfaces/modbus_link/modbus_transport.hpp"
+#include "runtime/core/status.hpp"
+#include "runtime/core/time.hpp"
+
+namespace flexrf {
+
+struct ModbusExchange;
+struct ModbusStationSetup;
+
+class ModbusMaster {
+ public:
+  static constexpr std::size_t max_stations = 32;
+
+  ModbusMaster() noexcept;
+  ~ModbusMaster();
+
+  /// Lifecycle thread; allocates. The exchange stays the link's.
+  Result<ModbusExchange*> attach(const ModbusStationSetup& setup);
+  /// Lifecycle thread. The link may be in the middle of a request of this station, and ends it.
+  static void detach(ModbusExchange& exchange) noexcept;
+
+  /// Lifecycle thread. `name` is the link's, for messages; all outlive the last serve().
+  void start(const char* name, ModbusTransport& transport, Duration shortest, Duration longest) noexcept;
+  void stop() noexcept;
+
+  /// The link's thread: everything that is due, one request after the other. A request that fails ends it, so
+  /// that one call waits for at most one of them.
+  void serve() noexcept;
+  /// Every station has its safe values, as of its last answer.
+  bool is_safe() const noexcept;
+
+  bool is_connected() const noexcept { return transport_ != nullptr && transport_->is_open(); }
+  std::uint64_t connections() const noexcept { return connections_; }
+  std::uint64_t requests() const noexcept { return requests_; }
+  /// Empty before the first.
+  const char* last_error() const noexcept { return last_error_.cause(); }
+
+ private:
+  bool open() noexcept;
+  bool serve_station(ModbusExchange& exchange) noexcept;
+  bool write_what_is_due(ModbusExchange& exchange) noexcept;
+  bool read_what_is_due(ModbusExchange& exchange) noexcept;
+  /// False when the station, or the link, must be left alone for a while.
+  bool judge(ModbusExchange& exchange, const ModbusBlock& block, const char* verb, const ModbusReply& reply,
+             Time asked) noexcept;
+  void fail(ModbusExchange& exchange, const ModbusReply& reply) noexcept;
+  void note_lost() noexcept;
+  Duration pause_after(std::uint32_t failures) const noexcept;
+
+  std::array<std::atomic<ModbusExchange*>, max_stations> exchanges_{};
+  std::array<std::unique_ptr<ModbusExchange>, max_stations> owned_;  // the lifecycle thread's
+
+  const char* name_ = "";
+  ModbusTransport* transport_ = nullptr;
+  Duration shortest_{};
+  Duration longest_{};
+  Time open_at_{};
+  std::uint32_t open_failures_ = 0;
+  std::uint64_t connections_ = 0;
+  std::uint64_t requests_ = 0;
+  Status last_error_;
+};
+
+}  // namespace flexrf

@@ -1,0 +1,56 @@
+// What the registers of a station mean: constants that config-gen makes from a list in CSV.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace flexrf {
+
+// In the order of config-gen's words for them (config-gen/model/register_map.hpp).
+enum class ModbusArea : std::uint8_t { coil, discrete_input, holding_register, input_register };
+enum class ModbusType : std::uint8_t { boolean, i16, u16, i32, u32, f32 };
+/// How the bytes of a 32-bit value come over the wire; A is the most significant.
+enum class ModbusWordOrder : std::uint8_t { abcd, cdab, badc, dcba };
+enum class ModbusAccess : std::uint8_t { read, write, read_write };
+/// Which of the station's periods it is read with.
+enum class ModbusPollGroup : std::uint8_t { fast, normal, slow };
+
+struct ModbusRegister {
+  std::string_view name;
+  std::uint16_t address = 0;  ///< as in the request, from 0
+  ModbusArea area = ModbusArea::holding_register;
+  ModbusType type = ModbusType::u16;
+  ModbusWordOrder word_order = ModbusWordOrder::abcd;
+  ModbusAccess access = ModbusAccess::read;
+  ModbusPollGroup poll_group = ModbusPollGroup::fast;
+  double scale = 1;       ///< units per count; not 0
+  std::string_view unit;  ///< unit of measure of the scaled value
+  double safe_value = 0;  ///< scaled; of what is written
+
+  constexpr bool is_read() const noexcept { return access != ModbusAccess::write; }
+  constexpr bool is_written() const noexcept { return access != ModbusAccess::read; }
+  constexpr bool is_bit() const noexcept {
+    return area == ModbusArea::coil || area == ModbusArea::discrete_input;
+  }
+  /// Registers (or coils) that it takes.
+  constexpr std::uint16_t words() const noexcept { return type >= ModbusType::i32 ? 2 : 1; }
+};
+
+struct ModbusRegisterMap {
+  std::span<const ModbusRegister> registers;  ///< at most max_registers
+};
+
+inline constexpr std::size_t max_modbus_registers = 256;
+
+/// For messages: "holding_register", ...
+const char* name_of(ModbusArea area) noexcept;
+
+/// The scaled value in the register's words.
+double decode_register(const ModbusRegister& meaning, const std::uint16_t* words) noexcept;
+/// The words of a scaled value: rounded to the nearest count, what does not fit becomes the nearest that
+/// does; not a number becomes the safe value.
+void encode_register(const ModbusRegister& meaning, double value, std::uint16_t* words) noexcept;
+
+}  // namespace flexrf

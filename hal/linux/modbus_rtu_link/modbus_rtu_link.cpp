@@ -1,0 +1,41 @@
+#include "hal/linux/modbus_rtu_link/modbus_rtu_link.hpp"
+
+#include <string>
+
+namespace flexrf {
+namespace {
+
+Duration duration_of(double seconds) {
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+}
+
+char letter_of(ModbusParity parity) {
+  switch (parity) {
+    case ModbusParity::even:
+      return 'E';
+    case ModbusParity::odd:
+      return 'O';
+    case ModbusParity::none:
+      break;
+  }
+  return 'N';
+}
+
+}  // namespace
+
+Status ModbusRtuLink::initialise() {
+  const std::string device(configuration.device_view());
+  const Status status = client_.use_rtu(
+      {device.c_str(), configuration.baud, letter_of(configuration.parity), configuration.stop_bits},
+      duration_of(configuration.response_timeout));
+  if (!status) return status;
+  master().start(name(), client_, duration_of(configuration.reconnect_shortest),
+                 duration_of(configuration.reconnect_longest));
+  return {};
+}
+
+void ModbusRtuLink::stop() {
+  master().stop();
+}
+
+}  // namespace flexrf
