@@ -1,0 +1,63 @@
+#include "hal/simulated/in_process_can_bus/can_station.hpp"
+
+#include <algorithm>
+
+namespace flexrf {
+namespace {
+
+constexpr unsigned passive_above = 127;
+constexpr unsigned off_above = 255;
+constexpr unsigned most_receive_errors = 135;  // a passive receiver counts no further
+
+}  // namespace
+
+bool CanStation::send(const CanFrame& frame) noexcept {
+  if (off_ || !frame.is_valid() || !waiting_.put(frame, false)) return false;
+  // Alone on its piece of cable it repeats itself, is never acknowledged, and becomes passive within
+  // milliseconds; that spares the wire the repetitions.
+  if (!connected_) transmit_errors_ = std::max(transmit_errors_, passive_above + 1);
+  return true;
+}
+
+CanBusState CanStation::state() const noexcept {
+  if (off_) return CanBusState::bus_off;
+  const bool passive = transmit_errors_ > passive_above || receive_errors_ > passive_above;
+  return passive ? CanBusState::error_passive : CanBusState::error_active;
+}
+
+void CanStation::reset() noexcept {
+  waiting_.clear();
+  transmit_errors_ = receive_errors_ = corrupted_ = 0;
+  failed_ = sent_ = arbitrations_lost_ = 0;
+  connected_ = true;
+  off_ = false;
+  restart_at_ = Time::max();
+  silent_until_ = Time{};
+  node_event_ = Time{};
+}
+
+void CanStation::count_transmit_error(bool unacknowledged) noexcept {
+  ++failed_;
+  // A passive node that nobody acknowledges counts no further: alone on the bus, it never leaves it.
+  if (unacknowledged && transmit_errors_ > passive_above) return;
+  transmit_errors_ += 8;
+  if (transmit_errors_ > off_above) {
+    off_ = true;
+    waiting_.clear();
+  }
+}
+
+void CanStation::count_receive_error() noexcept {
+  receive_errors_ = std::min(receive_errors_ + 1, most_receive_errors);
+}
+
+void CanStation::count_success_as_sender() noexcept {
+  ++sent_;
+  if (transmit_errors_ > 0) --transmit_errors_;
+}
+
+void CanStation::count_success_as_receiver() noexcept {
+  if (receive_errors_ > 0) receive_errors_ = std::min(receive_errors_ - 1, passive_above);
+}
+
+}  // namespace flexrf

@@ -1,0 +1,62 @@
+// CanStation: a node's controller on a simulated wire.
+#pragma once
+
+#include "hal/interfaces/can_bus/can_bus.hpp"
+#include "hal/interfaces/can_bus/can_node.hpp"
+#include "hal/interfaces/can_bus/can_send_queue.hpp"
+
+namespace flexrf {
+
+/// Fault confinement as in ISO 11898-1: a transmit error counts 8, a receive error 1, a frame that went well
+/// takes 1 back; above 127 the controller is passive, above 255 transmit errors it is off the bus. The wire's
+/// thread.
+class CanStation final : public CanPort {
+ public:
+  bool send(const CanFrame& frame) noexcept override;
+
+  /// bus_off, error_passive or error_active.
+  CanBusState state() const noexcept;
+  /// Frames not yet on the wire, the one that is being sent included.
+  std::size_t waiting() const noexcept { return waiting_.size(); }
+  unsigned transmit_errors() const noexcept { return transmit_errors_; }
+  unsigned receive_errors() const noexcept { return receive_errors_; }
+  /// Transmissions that failed.
+  std::uint64_t failed() const noexcept { return failed_; }
+  std::uint64_t sent() const noexcept { return sent_; }
+  std::uint64_t arbitrations_lost() const noexcept { return arbitrations_lost_; }
+
+  // ---- faults
+
+  /// This node's plug: out, nobody hears it and it hears nobody; what it sends is never acknowledged.
+  void set_connected(bool on) noexcept { connected_ = on; }
+  /// What waits to be sent never will be.
+  void give_up() noexcept { waiting_.clear(); }
+  /// The next `transmissions` of this node are hit on the wire and fail, repetitions included.
+  void corrupt_next(unsigned transmissions) noexcept { corrupted_ = transmissions; }
+
+ private:
+  friend class CanWire;
+
+  void reset() noexcept;
+  bool takes_part() const noexcept { return connected_ && !off_; }
+  void count_transmit_error(bool unacknowledged) noexcept;
+  void count_receive_error() noexcept;
+  void count_success_as_sender() noexcept;
+  void count_success_as_receiver() noexcept;
+
+  CanNode* node_ = nullptr;
+  Time node_event_{};  // as the node said last
+  CanSendQueue waiting_;
+  unsigned transmit_errors_ = 0;
+  unsigned receive_errors_ = 0;
+  std::uint64_t failed_ = 0;
+  std::uint64_t sent_ = 0;
+  std::uint64_t arbitrations_lost_ = 0;
+  unsigned corrupted_ = 0;
+  bool connected_ = true;
+  bool off_ = false;
+  Time restart_at_ = Time::max();  // when off
+  Time silent_until_{};            // after a transmission, when passive
+};
+
+}  // namespace flexrf
