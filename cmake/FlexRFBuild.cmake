@@ -32,6 +32,8 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 foreach(label unit stress whole long guest)
   add_custom_target(tests_${label})
 endforeach()
+file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/guest_tests.txt
+  CONTENT "$<JOIN:$<TARGET_PROPERTY:tests_guest,flexrf_names>,\n>\n")
 
 # flexrf_add_test(NAME name SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT seconds] [SERIAL])
 # One CMocka executable that ctest runs. Labels: unit (default), stress, whole; long beside one of these for what only
@@ -73,6 +75,7 @@ function(flexrf_add_guest_test)
     set_target_properties(${test_NAME} PROPERTIES EXCLUDE_FROM_ALL ON)
   endif()
   add_dependencies(tests_guest ${test_NAME})
+  set_property(TARGET tests_guest APPEND PROPERTY flexrf_names ${test_NAME})
 endfunction()
 
 # flexrf_add_benchmark(NAME name SOURCES file... LIBRARIES target...)
