@@ -35,12 +35,13 @@ endforeach()
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/guest_tests.txt
   CONTENT "$<JOIN:$<TARGET_PROPERTY:tests_guest,flexrf_names>,\n>\n")
 
-# flexrf_add_test(NAME name SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT seconds] [SERIAL])
+# flexrf_add_test(NAME name SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT seconds] [SERIAL]
+#                 [PRECOMPILED target])
 # One CMocka executable that ctest runs. Labels: unit (default), stress, whole; long beside one of these for what only
-# `flexrf test --full` runs. SERIAL: nothing else runs meanwhile, for a test that needs the CPUs to itself. The target
-# tests_<label> builds the tests of a label.
+# `flexrf test --full` runs. SERIAL: nothing else runs meanwhile, for a test that needs the CPUs to itself. PRECOMPILED: the
+# library of LIBRARIES whose precompiled headers the test is built with. The target tests_<label> builds the tests of a label.
 function(flexrf_add_test)
-  cmake_parse_arguments(PARSE_ARGV 0 test "SERIAL" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 0 test "SERIAL" "NAME;TIMEOUT;PRECOMPILED" "SOURCES;LIBRARIES;LABELS")
   if(NOT test_LABELS)
     set(test_LABELS unit)
   endif()
@@ -52,6 +53,9 @@ function(flexrf_add_test)
   endif()
   add_executable(${test_NAME} ${test_SOURCES})
   target_link_libraries(${test_NAME} PRIVATE FlexRF::options ${test_LIBRARIES} PkgConfig::cmocka)
+  if(test_PRECOMPILED)
+    target_precompile_headers(${test_NAME} REUSE_FROM ${test_PRECOMPILED})
+  endif()
   add_test(NAME ${test_NAME} COMMAND ${test_NAME})
   set_tests_properties(${test_NAME} PROPERTIES LABELS "${test_LABELS}" TIMEOUT ${test_TIMEOUT})
   if(test_SERIAL)
