@@ -52,6 +52,7 @@ class Panel final : public Observer {
   const PanelRecord& record_;
   ListenAddress address_;
   Users users_;
+  UserFileWatch user_watch_;
   std::unique_ptr<net::ssl::context> encryption_;
   bool is_secure_ = false;
   PanelRoutes routes_;
@@ -106,6 +107,7 @@ Status Panel::read_options() {
     return status;
   }
   if (exposure.has_users) {
+    user_watch_ = UserFileWatch{options.panel_users};
     Result<Users> users = users_to_start_with(options.panel_users);
     if (!users) return users.status();
     users_ = std::move(*users);
@@ -155,7 +157,7 @@ void Panel::make_access() {
   for (const std::string& name : executive_.options().panel_hosts) names.push_back(name);
   rules_.emplace(is_secure_, std::move(names));
   entrance_.emplace(*access_, limits_, *rules_, record_.connections);
-  endpoints_.emplace(*access_, limits_, users_, password_check_, *server_);
+  endpoints_.emplace(*access_, limits_, users_, user_watch_, password_check_, *server_);
 }
 
 Status Panel::make_api() {

@@ -3,8 +3,11 @@
 #include <sodium.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "runtime/core/text.hpp"
+#include "runtime/log/log.hpp"
 #include "web-ui/server/access/login_body.hpp"
 #include "web-ui/server/http_problem.hpp"
 #include "web-ui/server/json_text.hpp"
@@ -37,9 +40,15 @@ void clear(LoginBody& body) noexcept {
 
 }  // namespace
 
-AccessEndpoints::AccessEndpoints(PanelAccess& access, LoginLimits& limits, const Users& users,
+AccessEndpoints::AccessEndpoints(PanelAccess& access, LoginLimits& limits, Users& users, UserFileWatch& watch,
                                  PasswordCheck& check, LaterReplies& replies, Clock clock)
-    : access_(access), limits_(limits), users_(users), check_(check), replies_(replies), clock_(clock) {}
+    : access_(access),
+      limits_(limits),
+      users_(users),
+      watch_(watch),
+      check_(check),
+      replies_(replies),
+      clock_(clock) {}
 
 AccessEndpoints::~AccessEndpoints() {
   for (Attempt& attempt : attempts_) forget(attempt);
@@ -76,7 +85,7 @@ Handled AccessEndpoints::log_in(const Request& request, Reply& reply, Ticket tic
     answer_problem(reply, status, detail);
     return Handled::now;
   };
-  if (!access_.needs_login() || users_.list.empty())
+  if (!access_.needs_login())
     return refuse(
         409,
         "Nobody logs in here: there are no passwords. Control takes the address that the application "
@@ -109,6 +118,7 @@ Handled AccessEndpoints::log_in(const Request& request, Reply& reply, Ticket tic
   // One too long is nobody's, and takes as long to refuse.
   set_text(place->user,
            body.user.size() <= Users::longest_name ? std::string_view{body.user} : std::string_view{});
+  place->shown_user = shown_name(body.user);
   place->password_size = body.password.size() <= longest_password ? body.password.size() : 0;
   std::copy_n(body.password.begin(), place->password_size, place->password.begin());
   clear(body);
@@ -133,10 +143,14 @@ void AccessEndpoints::start_next(Time now) {
       if (attempt.order != 0 && (next == nullptr || rank(attempt) < rank(*next))) next = &attempt;
     }
     if (next == nullptr) return;
+    checked_ = next;
+    if (users_.list.empty()) {
+      finish(PasswordCheck::Outcome::wrong, now);
+      continue;
+    }
     // A name that nobody has costs as much time as any.
     const User* const user = users_.find(text_view(next->user));
     const std::string& hash = user != nullptr ? user->password_hash : users_.list.front().password_hash;
-    checked_ = next;
     if (!check_.start(hash, {next->password.data(), next->password_size}, now))
       finish(PasswordCheck::Outcome::failed, now);
     else
@@ -147,6 +161,9 @@ void AccessEndpoints::start_next(Time now) {
 void AccessEndpoints::finish(PasswordCheck::Outcome outcome, Time now) {
   Attempt& attempt = *checked_;
   checked_ = nullptr;
+  // Said even if nobody waits for the answer any more.
+  if (outcome != PasswordCheck::Outcome::failed && !is_right(attempt, outcome))
+    log_failed_login(attempt.shown_user, text_view(attempt.address_text));
   if (Reply* const reply = replies_.reply_of(attempt.ticket)) {
     answer(attempt, outcome, now, *reply);
     replies_.complete(attempt.ticket);
@@ -154,8 +171,11 @@ void AccessEndpoints::finish(PasswordCheck::Outcome outcome, Time now) {
   forget(attempt);
 }
 
+bool AccessEndpoints::is_right(const Attempt& attempt, PasswordCheck::Outcome outcome) const noexcept {
+  return outcome == PasswordCheck::Outcome::right && users_.find(text_view(attempt.user)) != nullptr;
+}
+
 void AccessEndpoints::answer(Attempt& attempt, PasswordCheck::Outcome outcome, Time now, Reply& reply) {
-  const User* const user = users_.find(text_view(attempt.user));
   if (outcome == PasswordCheck::Outcome::failed) {
     reply.retry_after = 5;
     answer_problem(reply, 503,
@@ -163,10 +183,11 @@ void AccessEndpoints::answer(Attempt& attempt, PasswordCheck::Outcome outcome, T
                    "processes. Try again.");
     return;
   }
-  if (outcome != PasswordCheck::Outcome::right || user == nullptr) {
+  if (!is_right(attempt, outcome)) {
     answer_problem(reply, 403, "User or password is wrong.");
     return;
   }
+  const User* const user = users_.find(text_view(attempt.user));
   limits_.succeeded(attempt.address);
   const SessionIndex session = access_.log_in(attempt.former, user->name, user->role,
                                               text_view(attempt.address_text), now, reply.set_cookie);
@@ -183,7 +204,25 @@ void AccessEndpoints::forget(Attempt& attempt) noexcept {
   attempt = {};
 }
 
+void AccessEndpoints::use(Users users) {
+  for (const User& before : users_.list) {
+    const User* const after = users.find(before.name);
+    if (after != nullptr && *after == before) continue;
+    access_.end_sessions_of(before.name);
+    log_info("panel", "{} {}: sessions of this user end", before.name,
+             after == nullptr ? "may log in no longer" : "has another role or password");
+  }
+  // Whose password is being checked against what is no longer, or was not yet, this user's, is nobody.
+  if (checked_ != nullptr) {
+    const User* const before = users_.find(text_view(checked_->user));
+    const User* const after = users.find(text_view(checked_->user));
+    if (before == nullptr || after == nullptr || *before != *after) checked_->user = {};
+  }
+  users_ = std::move(users);
+}
+
 void AccessEndpoints::on_tick(Time now) {
+  if (std::optional<Users> users = watch_.update(now)) use(std::move(*users));
   access_.update(now);
   const PasswordCheck::Outcome outcome = check_.update(now);
   if (outcome != PasswordCheck::Outcome::none && checked_ != nullptr) finish(outcome, now);

@@ -7,10 +7,12 @@
 #include <string_view>
 
 #include "web-ui/server/access/login_limits.hpp"
+#include "web-ui/server/access/login_log.hpp"
 #include "web-ui/server/access/panel_access.hpp"
 #include "web-ui/server/access/password.hpp"
 #include "web-ui/server/access/password_check.hpp"
 #include "web-ui/server/access/user_file.hpp"
+#include "web-ui/server/access/user_watch.hpp"
 #include "web-ui/server/exchange.hpp"
 #include "web-ui/server/server_services.hpp"
 
@@ -23,9 +25,9 @@ class AccessEndpoints final : public RequestHandler, public Ticked {
   /// Attempts that wait or are under way; those over the network get no more than half.
   static constexpr std::size_t places = 4;
 
-  /// All outlive it.
-  AccessEndpoints(PanelAccess& access, LoginLimits& limits, const Users& users, PasswordCheck& check,
-                  LaterReplies& replies, Clock clock = &MonotonicClock::now);
+  /// All outlive it; `users` change with their file.
+  AccessEndpoints(PanelAccess& access, LoginLimits& limits, Users& users, UserFileWatch& watch,
+                  PasswordCheck& check, LaterReplies& replies, Clock clock = &MonotonicClock::now);
   ~AccessEndpoints();
   AccessEndpoints(const AccessEndpoints&) = delete;
   AccessEndpoints& operator=(const AccessEndpoints&) = delete;
@@ -45,6 +47,7 @@ class AccessEndpoints final : public RequestHandler, public Ticked {
     Address address;
     std::array<char, 48> address_text{};
     std::array<char, Users::longest_name + 1> user{};
+    ShownName shown_user{};
     std::array<char, longest_password> password{};
     std::size_t password_size = 0;
   };
@@ -55,10 +58,13 @@ class AccessEndpoints final : public RequestHandler, public Ticked {
   void finish(PasswordCheck::Outcome outcome, Time now);
   void answer(Attempt& attempt, PasswordCheck::Outcome outcome, Time now, Reply& reply);
   void forget(Attempt& attempt) noexcept;
+  bool is_right(const Attempt& attempt, PasswordCheck::Outcome outcome) const noexcept;
+  void use(Users users);
 
   PanelAccess& access_;
   LoginLimits& limits_;
-  const Users& users_;
+  Users& users_;
+  UserFileWatch& watch_;
   PasswordCheck& check_;
   LaterReplies& replies_;
   Clock clock_;

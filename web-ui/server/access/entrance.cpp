@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "web-ui/server/access/login_log.hpp"
 #include "web-ui/server/http_problem.hpp"
 
 namespace flexrf::panel {
@@ -104,6 +105,7 @@ void Entrance::use_token(const Approach& approach, std::string_view token, Sessi
     answer_problem(reply, 429, "Too many wrong attempts. Wait before the next.");
     return;
   }
+  log_failed_token(approach.remote_address);
   answer_problem(
       reply, 403,
       "This address was used already, or the application was started anew since it was printed. Without it "

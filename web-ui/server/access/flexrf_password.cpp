@@ -86,8 +86,8 @@ Status set(const Request& request, Users& users) {
   if (user == nullptr) user = &users.list.emplace_back();
   *user = {request.user, role, std::move(*hash)};
   if (const Status status = flexrf::panel::write_users(request.file, users); !status) return status;
-  std::fprintf(stderr, "%s may log in as %s when the application starts next: %s\n", request.user.c_str(),
-               flexrf::panel::name_of(role), request.file.c_str());
+  std::fprintf(stderr, "%s may log in as %s, at once where the panel runs with this file: %s\n",
+               request.user.c_str(), flexrf::panel::name_of(role), request.file.c_str());
   return {};
 }
 

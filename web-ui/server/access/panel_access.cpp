@@ -59,6 +59,10 @@ void PanelAccess::log_out(SessionIndex session, std::string& set_cookie) {
   write_forget_cookie(set_cookie, cookie_name_, settings_.secure);
 }
 
+void PanelAccess::end_sessions_of(std::string_view user) {
+  for (SessionIndex one = sessions_.of_user(user); one != no_session; one = sessions_.of_user(user)) end(one);
+}
+
 void PanelAccess::end(SessionIndex session) {
   if (sessions_.info(session) == nullptr) return;
   control_.release(session);

@@ -59,6 +59,8 @@ class PanelAccess final : public AccessControl {
   SessionIndex log_in(const SessionHandle& former, std::string_view user, Role role, std::string_view address,
                       Time now, std::string& set_cookie);
   void log_out(SessionIndex session, std::string& set_cookie);
+  /// Of whoever logged in by this name.
+  void end_sessions_of(std::string_view user);
 
   /// Live connections of a session, as they open and close.
   void link_opened(SessionIndex session) noexcept { sessions_.link_opened(session); }

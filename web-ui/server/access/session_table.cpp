@@ -127,6 +127,13 @@ bool SessionTable::is_present(SessionIndex session, Duration span, Time now) con
   return known != nullptr && (known->links > 0 || now - known->used <= span);
 }
 
+SessionIndex SessionTable::of_user(std::string_view user) const noexcept {
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (entries_[i].serial != 0 && entries_[i].info.user == user) return static_cast<SessionIndex>(i);
+  }
+  return no_session;
+}
+
 SessionIndex SessionTable::expired(Time now) const noexcept {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& known = entries_[i];

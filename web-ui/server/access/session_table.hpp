@@ -49,6 +49,8 @@ class SessionTable {
   std::uint32_t serial(SessionIndex session) const noexcept;
   /// A live connection is open, or it was used within the last `span`.
   bool is_present(SessionIndex session, Duration span, Time now) const noexcept;
+  /// One of who logged in by this name; no_session: there is none.
+  SessionIndex of_user(std::string_view user) const noexcept;
   /// One whose time is over; no_session: none.
   SessionIndex expired(Time now) const noexcept;
   /// Who makes room for a new one: of those without a live connection and other than `kept`, the viewer that

@@ -17,7 +17,7 @@ constexpr std::array roles{Role::viewer, Role::operator_, Role::engineer, Role::
 
 constexpr const char* header =
     "# Who may log in to the panel: name:role:password, the password as Argon2id leaves it.\n"
-    "# Made by `./flexrf password`; read when the application starts. Keep it from others' eyes.\n";
+    "# Made by `./flexrf password`; read anew when it changes. Keep it from others' eyes.\n";
 
 int width(std::string_view text) noexcept {
   return static_cast<int>(std::min<std::size_t>(text.size(), 60));

@@ -15,6 +15,7 @@ struct User {
   std::string name;
   Role role = Role::viewer;
   std::string password_hash;  ///< as hash_password() makes it
+  bool operator==(const User&) const = default;
 };
 
 /// Lines `name:role:hash`, comments from '#', in the order of the file.

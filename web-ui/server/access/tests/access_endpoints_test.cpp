@@ -2,12 +2,17 @@
 
 #include <poll.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 
+#include "runtime/log/log.hpp"
 #include "tests/cmocka.hpp"
 #include "web-ui/server/access/password_helper.hpp"
 
@@ -30,16 +35,18 @@ struct Connections final : LaterReplies {
 };
 
 struct World {
-  explicit World(bool needs_login, const Users& known)
+  explicit World(bool needs_login, const Users& known, const std::string& file = "")
       : users(known),
+        watch(file),
         access(settings(needs_login)),
-        endpoints(access, limits, users, check, connections, &test_clock) {}
+        endpoints(access, limits, users, watch, check, connections, &test_clock) {}
   static AccessSettings settings(bool needs_login) {
     AccessSettings made;
     made.needs_login = needs_login;
     return made;
   }
   Users users;
+  UserFileWatch watch;
   PanelAccess access;
   LoginLimits limits;
   PasswordCheck check;
@@ -49,6 +56,8 @@ struct World {
 std::optional<World> world;
 Users users;
 std::string body;
+std::string folder;
+std::string file;
 
 int begin_group(void**) {
   if (!prepare_cryptography()) return -1;
@@ -65,6 +74,21 @@ int begin(void**) {
 int begin_without_logins(void**) {
   now = Time{std::chrono::seconds{1000}};
   world.emplace(false, Users{});
+  return 0;
+}
+int begin_with_file(void**) {
+  now = Time{std::chrono::seconds{1000}};
+  char name[] = "/tmp/flexrf-logins-XXXXXX";
+  if (mkdtemp(name) == nullptr) return -1;
+  folder = name;
+  file = folder + "/panel-users";
+  if (!write_users(file, users)) return -1;
+  world.emplace(true, users, file);
+  return 0;
+}
+int end_with_file(void**) {
+  world.reset();
+  std::filesystem::remove_all(folder);
   return 0;
 }
 int end(void**) {
@@ -229,6 +253,111 @@ void a_thousand_wrong_passwords_lock_nobody_out(void**) {
   assert_int_equal(log_in("ann", "the right one"), 200);
 }
 
+/// The lines of the log that were not yet looked at.
+std::string log_lines() {
+  static std::uint64_t seen = 0;
+  while (drain_log(-1) > 0) {
+  }
+  std::string lines;
+  seen = visit_recent_log(seen, &lines, [](void* context, std::uint64_t, std::string_view line) {
+    static_cast<std::string*>(context)->append(line).append("\n");
+  });
+  return lines;
+}
+
+void who_fails_is_told_without_the_password(void**) {
+  static std::string lines;
+  static Time log_now;
+  // A line a second, and later than all that other tests said.
+  log_now = MonotonicClock::now() + std::chrono::hours{1};
+  set_log_clock(&log_now);
+  log_lines();
+  assert_int_equal(log_in("ann", "the wrong one", "10.0.0.7"), 403);
+  lines = log_lines();
+  assert_non_null(strstr(lines.c_str(), "'ann' from 10.0.0.7 did not get in"));
+  assert_null(strstr(lines.c_str(), "the wrong one"));
+  log_now += std::chrono::seconds{2};
+  assert_int_equal(log_in("ann", "the right one"), 200);
+  assert_string_equal(log_lines().c_str(), "");
+  // What would move a terminal's cursor or begin a line of its own does neither.
+  assert_int_equal(log_in("eve\\n\\u001b[2J'", "the wrong one"), 403);
+  lines = log_lines();
+  assert_non_null(strstr(lines.c_str(), R"('eve\x0a\x1b[2J\x27' from 127.0.0.1)"));
+  log_now += std::chrono::seconds{2};
+  assert_int_equal(log_in("a-name-that-is-longer-than-any-user-may-be-called", "the wrong one"), 403);
+  lines = log_lines();
+  assert_non_null(strstr(lines.c_str(), "'a-name-that-is-longer-than-any-u...' from"));
+  // Somebody who does not stop is counted.
+  log_now += std::chrono::seconds{2};
+  for (int i = 0; i < 3; ++i) assert_int_equal(log_in("ann", "the wrong one", "127.0.0.2"), 403);
+  log_now += std::chrono::seconds{2};
+  assert_int_equal(log_in("ann", "the wrong one", "127.0.0.2"), 403);
+  lines = log_lines();
+  assert_int_equal(std::count(lines.begin(), lines.end(), '\n'), 2);
+  assert_non_null(strstr(lines.c_str(), "(2 more since)"));
+  set_log_clock(nullptr);
+}
+
+/// As time goes on until a changed file was seen, and was left alone for a while.
+void let_the_file_be_read() {
+  for (int i = 0; i < 3; ++i) {
+    now += UserFileWatch::interval;
+    world->endpoints.on_tick(now);
+  }
+}
+
+void who_is_removed_or_changed_loses_his_sessions(void**) {
+  static Users changed;
+  assert_int_equal(log_in("ann", "the right one"), 200);
+  assert_int_equal(log_in("bob", "the right one"), 200);
+  assert_int_equal(log_in("bob", "the right one"), 200);
+  assert_int_equal(world->access.session_count(), 3);
+  assert_true(world->access.take(0, now) == AccessControl::Taking::taken);
+  let_the_file_be_read();
+  assert_int_equal(world->access.session_count(), 3);
+  // Removed: his session ends, and control with it; those of others go on.
+  changed = users;
+  changed.list.erase(changed.list.begin());
+  assert_true(write_users(file, changed).is_ok());
+  let_the_file_be_read();
+  assert_int_equal(world->access.session_count(), 2);
+  assert_int_equal(world->access.holder(), no_session);
+  assert_int_equal(log_in("ann", "the right one"), 403);
+  // Of another role: both of his.
+  changed.list[0].role = Role::operator_;
+  assert_true(write_users(file, changed).is_ok());
+  let_the_file_be_read();
+  assert_int_equal(world->access.session_count(), 0);
+  assert_int_equal(log_in("bob", "the right one"), 200);
+  assert_true(world->access.has_role(0, Role::operator_));
+  // A file that cannot be read changes nothing,
+  std::ofstream{file} << "bob:king:\n";
+  let_the_file_be_read();
+  assert_int_equal(world->access.session_count(), 1);
+  std::filesystem::remove(file);
+  let_the_file_be_read();
+  assert_int_equal(world->access.session_count(), 1);
+  // but one without users shuts everybody out.
+  assert_true(write_users(file, Users{}).is_ok());
+  let_the_file_be_read();
+  assert_int_equal(world->access.session_count(), 0);
+  assert_int_equal(log_in("bob", "the right one"), 403);
+}
+
+void who_is_removed_while_his_password_is_checked_does_not_get_in(void**) {
+  static Users changed;
+  assert_int_equal(ask_to_log_in(0, "ann", "the right one"), Handled::later);
+  changed = users;
+  changed.list.erase(changed.list.begin());
+  assert_true(write_users(file, changed).is_ok());
+  // Its process is started, and asked only when the file was read.
+  world->endpoints.on_tick(now);
+  let_the_file_be_read();
+  if (world->connections.completed[0] == 0) wait_for(0);
+  assert_int_equal(world->connections.replies[0].status, 403);
+  assert_int_equal(world->access.session_count(), 0);
+}
+
 void without_passwords_nobody_logs_in(void**) {
   assert_int_equal(log_in("ann", "the right one"), 409);
 }
@@ -248,6 +377,11 @@ int main(int argument_count, char** arguments) {
       cmocka_unit_test_setup_teardown(who_is_at_the_machine_comes_first, begin, end),
       cmocka_unit_test_setup_teardown(a_client_that_is_gone_gets_no_session, begin, end),
       cmocka_unit_test_setup_teardown(a_thousand_wrong_passwords_lock_nobody_out, begin, end),
+      cmocka_unit_test_setup_teardown(who_fails_is_told_without_the_password, begin, end),
+      cmocka_unit_test_setup_teardown(who_is_removed_or_changed_loses_his_sessions, begin_with_file,
+                                      end_with_file),
+      cmocka_unit_test_setup_teardown(who_is_removed_while_his_password_is_checked_does_not_get_in,
+                                      begin_with_file, end_with_file),
       cmocka_unit_test_setup_teardown(without_passwords_nobody_logs_in, begin_without_logins, end),
   };
   return cmocka_run_group_tests(tests, begin_group, nullptr);

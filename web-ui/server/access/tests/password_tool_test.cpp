@@ -64,7 +64,7 @@ bool is_in_file(const char* name, Role role, const char* password) {
 
 void a_first_user_is_an_admin(void**) {
   assert_int_equal(run("first secret\\n", ""), 0);
-  assert_true(has("admin may log in as admin when the application starts next"));
+  assert_true(has("admin may log in as admin, at once where"));
   assert_true(is_in_file("admin", Role::admin, "first secret"));
   struct stat status {};
   assert_int_equal(stat(file.c_str(), &status), 0);
