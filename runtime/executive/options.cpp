@@ -27,6 +27,7 @@ constexpr std::array flags{
     Flag{"--panel", "ADDRESS:PORT|off", "where the panel listens (default 127.0.0.1:8080)"},
     Flag{"--panel-users", "FILE", "who may log in to the panel (`./flexrf password` writes it)"},
     Flag{"--panel-host", "NAME", "another name of this machine in the panel's address"},
+    Flag{"--panel-edit-timeout", "DURATION", "how long an edit may be left open (default `5min`)"},
     Flag{"--tls-certificate", "FILE", "serve the panel by TLS: certificate (PEM)"},
     Flag{"--tls-key", "FILE", "and its key (PEM)"},
     Flag{"--insecure-http", nullptr, "let other machines use the panel without TLS"},
@@ -62,6 +63,12 @@ std::optional<Duration> parse_duration(std::string_view text) {
   if (unit == "us") scale = 1e3;
   if (scale == 0 || number * scale > 9e18 || number * scale < 1) return std::nullopt;
   return Duration{static_cast<std::int64_t>(number * scale)};
+}
+
+Status no_duration(std::string_view name, std::string_view value) {
+  return Status::error(
+      StatusCode::invalid_argument, "%.*s %.*s: give a duration with its unit (us, ms, s, min, h), as `60s`",
+      static_cast<int>(name.size()), name.data(), static_cast<int>(value.size()), value.data());
 }
 
 const DeviceRecord* find_device(const Application& application, std::string_view name) {
@@ -147,13 +154,13 @@ Status take(const Application& application, std::string_view name, std::string_v
     options.tls_certificate = value;
   } else if (name == "--tls-key") {
     options.tls_key = value;
+  } else if (name == "--panel-edit-timeout") {
+    const std::optional<Duration> timeout = parse_duration(value);
+    if (!timeout) return no_duration(name, value);
+    options.panel_edit_timeout = *timeout;
   } else if (name == "--virtual-time") {
     options.virtual_time = parse_duration(value);
-    if (!options.virtual_time) {
-      return Status::error(StatusCode::invalid_argument,
-                           "--virtual-time %.*s: give a duration with its unit (us, ms, s, min, h), as `60s`",
-                           static_cast<int>(value.size()), value.data());
-    }
+    if (!options.virtual_time) return no_duration(name, value);
   } else if (name == "--seed") {
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), options.seed);
     if (error != std::errc{} || end != value.data() + value.size()) {

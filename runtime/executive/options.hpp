@@ -31,6 +31,8 @@ struct Options {
   std::string tls_key;                   ///< PEM file
   bool insecure_http = false;            ///< the panel may be served to other machines without TLS
   bool observed = false;                 ///< somebody observes: memory is locked for its threads too
+  /// Of an edit of the configuration that nobody applies.
+  Duration panel_edit_timeout = std::chrono::minutes{5};
   std::uint64_t seed = 1;
   bool realtime = true;
   bool status_view = false;  ///< show the live status while standard output is a terminal

@@ -139,6 +139,7 @@ void wrong_usage_is_1_and_names_the_nearest() {
   CHECK_EQUAL(unknown.exit_code, 1);
   CHECK_CONTAINS(unknown.errors, "did you mean `--virtual-time`?");
   CHECK_EQUAL(run(folder, {application, "--keys"}).exit_code, 1);
+  CHECK_CONTAINS(run(folder, {application, "--panel-edit-timeout", "5"}).errors, "with its unit");
   CHECK_EQUAL(run(folder, {application, "--hardware", "arm=real"}).exit_code, 1);
   const Ending no_file = run(folder, {application, "--virtual-time", "2s", "--keys", "not_there"});
   CHECK(no_file.exit_code != 0);

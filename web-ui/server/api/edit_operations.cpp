@@ -33,11 +33,16 @@ bool EditOperations::is_at_rest(const Caller& caller) {
   return false;
 }
 
+void EditOperations::count_anew(Time now) noexcept {
+  ends_at_ = now + executive_->options().panel_edit_timeout;
+}
+
 bool EditOperations::is_mine(const Caller& caller, std::string_view edit) {
   if (is_open() && edit == std::to_string(number_) && caller.session == owner_) return true;
   answers_->refuse(
-      caller, Refusal::make(RefusalKind::wrong_state,
-                            "This edit is over (after 5 minutes, or when control was lost); begin anew."));
+      caller,
+      Refusal::make(RefusalKind::wrong_state,
+                    "This edit is over (it was left open too long, or control was lost); begin anew."));
   return false;
 }
 
@@ -69,7 +74,7 @@ void EditOperations::begin(const Caller& caller, JsonArray components, Time now)
   number_ = ++last_number_;
   owner_ = caller.session;
   components_ = std::move(wanted);
-  ends_at_ = now + lifetime;
+  count_anew(now);
   ++revision_;
   answers_->done(caller, [this](JsonWriter& json) {
     json.member("edit", std::to_string(number_)).key("reinitialised").begin_array();
@@ -97,7 +102,7 @@ void EditOperations::apply(const Caller& caller, std::string_view edit, JsonArra
                             " is not part of this edit; discard it and begin one with this component");
   }
   if (!permission_->has_role(caller, wanted.role, "change these parameters") || !is_at_rest(caller)) return;
-  ends_at_ = now + lifetime;
+  count_anew(now);
   run(caller, wanted);
 }
 
@@ -123,7 +128,7 @@ void EditOperations::reconfigure(const Caller& caller, JsonArray changes, Time n
   number_ = ++last_number_;
   owner_ = caller.session;
   components_ = wanted.components;
-  ends_at_ = now + lifetime;
+  count_anew(now);
   ++revision_;
   run(caller, wanted);
   // What was refused at once is over; there is nobody who would correct it in this edit.
@@ -169,7 +174,7 @@ void EditOperations::tick(Time now) {
   if (is_over || applier_.kind == Caller::Kind::rest || owner_ == no_session) {
     end();
   } else {
-    ends_at_ = now + lifetime;
+    count_anew(now);
   }
 }
 

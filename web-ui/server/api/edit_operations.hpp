@@ -17,9 +17,6 @@ namespace flexrf::panel {
 /// One edit at a time; while it is open nothing moves. The server's thread.
 class EditOperations {
  public:
-  /// Since it was begun, or since it was last applied in vain.
-  static constexpr Duration lifetime = std::chrono::minutes{5};
-
   EditOperations(Executive& executive, const Directory& directory, ConfigurationValues& configuration,
                  ComponentValues& values, Answers& answers, Permission& permission)
       : executive_(&executive),
@@ -48,6 +45,8 @@ class EditOperations {
   std::uint64_t revision() const noexcept { return revision_; }
 
  private:
+  /// From now: what was left open too long, since it was begun or was last applied in vain, is discarded.
+  void count_anew(Time now) noexcept;
   bool is_mine(const Caller& caller, std::string_view edit);
   bool is_at_rest(const Caller& caller);
   void run(const Caller& caller, const WantedChanges& wanted);
