@@ -1,0 +1,55 @@
+// GpioChip: a chip whose lines are digital inputs and outputs. A bus: devices on it ask for lines by name.
+#pragma once
+
+#include <optional>
+
+#include "gpio_chip_interface.hpp"
+#include "types/line_bias.hpp"
+#include "types/line_direction.hpp"
+
+namespace flexrf {
+
+struct GpioLineSettings {
+  const char* name = "";  ///< as the chip calls the line
+  LineDirection direction = LineDirection::input;
+  LineBias bias = LineBias::as_is;
+  bool active_low = false;    ///< on is 0 V, everywhere below
+  bool initially_on = false;  ///< an output: from when it is ours
+};
+
+struct GpioEdge {
+  bool on = false;
+  Time at{};  ///< when the line changed, as the kernel saw it
+};
+
+/// One line that a device asked for. Everything: the thread of that device, never blocking, never allocating.
+class GpioLine {
+ public:
+  /// Once in each cycle, before anything else: takes in what the line is now, and notices a chip that went
+  /// away or came back.
+  virtual void receive(Time now) noexcept = 0;
+  /// As of receive(); nothing while the chip is away.
+  virtual std::optional<bool> level() const noexcept = 0;
+  /// The next change of an input, oldest first. What came and went between two cycles is two edges.
+  virtual std::optional<GpioEdge> next_edge() noexcept = 0;
+  /// An output. False: the chip is away. After it came back the line is as `initially_on` says.
+  virtual bool set(bool on) noexcept = 0;
+  /// Readable when an edge has come; −1: none, or away.
+  virtual int descriptor() const noexcept { return -1; }
+  /// In virtual time: when the next edge will come, as far as known.
+  virtual Time next_event() const noexcept { return Time::max(); }
+
+ protected:
+  ~GpioLine() = default;
+};
+
+class GpioChip : public GpioChipInterface {
+ public:
+  /// From initialise() of the device that will use the line; valid until release(). Fails with a cause for
+  /// the operator: no such line, in use by somebody else, no permission, no chip. Lifecycle thread.
+  virtual Result<GpioLine*> request(const GpioLineSettings& settings) = 0;
+  /// From its stop(). Lifecycle thread.
+  virtual void release(GpioLine* line) noexcept = 0;
+};
+
+}  // namespace flexrf

@@ -1,0 +1,31 @@
+// GpioSim: the far end of the guest's simulated chip, through its sysfs and configfs.
+#pragma once
+
+#include <string>
+
+namespace flexrf {
+
+/// The chip that the guest prepares (docs/guest.md). A check that fails says so on standard error and in
+/// is_good().
+class GpioSim {
+ public:
+  static constexpr const char* label = "flexrf-sim";
+
+  void pull(const std::string& line, bool high);
+  bool is_high(const std::string& line);
+  /// The chip goes and comes back, with all lines pulled down.
+  void unplug();
+  void plug_in();
+  bool is_plugged() const { return plugged_; }
+  bool is_good() const { return good_; }
+
+ private:
+  std::string folder_of(const std::string& line);
+  void write(const std::string& file, const std::string& text);
+  std::string read(const std::string& file);
+
+  bool plugged_ = true;
+  bool good_ = true;
+};
+
+}  // namespace flexrf

@@ -1,0 +1,22 @@
+#include "hal/interfaces/digital_io/conformance/virtual_world.hpp"
+#include "hal/mock/mock_digital_io/mock_digital_io.hpp"
+#include "hal/mock/mock_gpio_chip/mock_gpio_chip.hpp"
+
+namespace {
+
+using namespace flexrf;
+
+class MockWorld final : public VirtualDigitalIoWorld<MockGpioChip, MockDigitalIo> {
+ public:
+  bool forbid() override {
+    chip().refuse(Status::error(StatusCode::not_permitted, "scripted: this user may not open the chip"));
+    return true;
+  }
+};
+
+}  // namespace
+
+int main() {
+  return run_digital_io_conformance(
+      "mock digital io", []() -> std::unique_ptr<DigitalIoWorld> { return std::make_unique<MockWorld>(); });
+}

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "watcher_unit.hpp"
+
+namespace flexrf {
+
+class Watcher final : public WatcherUnit {
+ public:
+  void step(const Tick& tick) override { lamp->command(tick.motion_inhibited); }
+};
+
+}  // namespace flexrf
