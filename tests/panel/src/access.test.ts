@@ -1,21 +1,21 @@
 // Who may do what: passwords, roles, the one control token and its way from one person to another.
-import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
-import type { Browser } from 'playwright-core';
-import { Application, Viewer, launch, outerAddress, screenshot, tidyUp, violations, within, type Rest, type User } from './harness';
+import { afterEach, beforeAll, beforeEach, describe, expect, it, onTestFinished } from 'vitest';
+import {
+  Application, Rest, Viewer, outerAddress, screenshot, tidyUp, useApplication, useBrowser, violations, within,
+  type StartOptions, type User,
+} from './harness';
 
 const anna: User = { name: 'anna', role: 'engineer', password: 'a long password of anna' };
 const otto: User = { name: 'otto', role: 'operator', password: 'a long password of otto' };
 const vera: User = { name: 'vera', role: 'viewer', password: 'a long password of vera' };
 
-let browser: Browser;
-beforeAll(async () => { browser = await launch(); });
-afterAll(async () => { await browser?.close(); });
+const browser = useBrowser();
 
 let running: Application;
 const seeing: Viewer[] = [];
 
 async function open(user?: User, address = running.base): Promise<Viewer> {
-  const viewer = await Viewer.open(browser, address);
+  const viewer = await Viewer.open(browser(), address);
   seeing.push(viewer);
   viewer.allow(/401|WebSocket/); // before the log-in
   if (user) await viewer.logIn(user);
@@ -23,11 +23,19 @@ async function open(user?: User, address = running.base): Promise<Viewer> {
 }
 
 afterEach(async () => {
-  await tidyUp(...seeing.splice(0).map((viewer) => () => viewer.close()), () => running.end());
+  await tidyUp(...seeing.splice(0).map((viewer) => () => viewer.close()));
 });
 
+/** One of the test's own. */
+async function start(options: StartOptions = {}): Promise<void> {
+  running = await Application.start('panel_cell', options);
+  const mine = running;
+  onTestFinished(() => mine.end());
+}
+
 describe('with a password file', () => {
-  beforeEach(async () => { running = await Application.start('panel_cell', { users: [anna, otto, vera] }); });
+  const application = useApplication('panel_cell', { users: [anna, otto, vera] });
+  beforeEach(() => { running = application(); });
 
   it('nothing is seen before the log-in, and a wrong password says so', async () => {
     const rest = running.rest();
@@ -84,6 +92,7 @@ describe('with a password file', () => {
     const both = { method: 'PUT', body: { level: 2, secret: 0.1 } };
     expect((await engineering.ask('components/gadget/parameters', both)).status).toBe(403);
     expect((await engineering.runtime('gadget'))['level']).toBe(4);
+    await engineering.do('control/release', { method: 'POST' });
   });
 
   it('the page locks what the role may not', async () => {
@@ -100,14 +109,22 @@ describe('the control token', () => {
   let first: Viewer;
   let second: Viewer;
   let rest: Rest;
+  const application = useApplication('panel_cell', { users: [anna, otto] });
+  beforeAll(async () => { rest = await application().loggedIn(anna); });
 
   beforeEach(async () => {
-    running = await Application.start('panel_cell', { users: [anna, otto] });
-    rest = await running.loggedIn(anna);
+    running = application();
     first = await open(anna);
     second = await open(otto);
     await first.takeControl();
     await second.page.getByText('anna at').waitFor();
+  });
+
+  afterEach(async () => {
+    const act = (path: string) => () => rest.do(path, { method: 'POST' });
+    await tidyUp(
+      ...[first, second].map((viewer) => async () => (await viewer.script()).do('control/release', { method: 'POST' })),
+      act('control/take'), act('stop-motion'), act('clear-stop-motion'), act('control/release'));
   });
 
   async function hold(): Promise<void> {
@@ -168,9 +185,7 @@ describe('a session at the machine', () => {
   const outer = outerAddress();
 
   it.skipIf(outer === undefined)('cannot be displaced from afar', async () => {
-    running = await Application.start('panel_cell', {
-      listen: '0.0.0.0:0', users: [anna, otto], arguments: ['--insecure-http'],
-    });
+    await start({ listen: '0.0.0.0:0', users: [anna, otto], arguments: ['--insecure-http'] });
     const { port } = new URL(running.base);
     const near = await running.rest();
     const local = Object.assign(near, { base: `http://127.0.0.1:${port}` });
@@ -193,14 +208,31 @@ describe('other addresses than loopback', () => {
   it('need passwords, and TLS or a word for going without', async () => {
     await expect(Application.start('panel_cell', { listen: '0.0.0.0:0' })).rejects.toThrow(/password/);
     await expect(Application.start('panel_cell', { listen: '0.0.0.0:0', users: [anna] })).rejects.toThrow(/TLS|insecure-http/);
-    running = await Application.start('panel_cell');
+    await start();
     await running.rest().do('session');
+  });
+});
+
+describe('by TLS', () => {
+  it('logs in at an address of the network, with a cookie that never goes without TLS', async () => {
+    const address = outerAddress() ?? '127.0.0.1';
+    await start({ listen: '0.0.0.0:0', users: [anna], certificateFor: address });
+    expect(running.base).toMatch(/^https:/);
+    const viewer = await open(anna, `https://${address}:${running.port}`);
+    expect((await viewer.context.cookies()).map((one) => ({ name: one.name, httpOnly: one.httpOnly, sameSite: one.sameSite, secure: one.secure })))
+      .toEqual([{ name: `flexrf_session_${running.port}`, httpOnly: true, sameSite: 'Strict', secure: true }]);
+    // What it does then comes by the encrypted socket.
+    await viewer.takeControl();
+    await viewer.go('units', 'gadget');
+    await expect.poll(() => viewer.page.getByRole('slider', { name: 'Level of it' }).isEnabled(), { timeout: within }).toBe(true);
+    // Who comes without TLS gets no answer.
+    await expect(new Rest(`http://${address}:${running.port}`).ask('session')).rejects.toThrow();
   });
 });
 
 describe('the address that is printed', () => {
   it('lets in once, and loses its token', async () => {
-    running = await Application.start('panel_cell');
+    await start();
     const first = await open(undefined, running.address);
     await first.page.getByText(/: admin/).waitFor();
     expect(first.page.url()).not.toContain('token');

@@ -1,6 +1,6 @@
 // A real application as a process, with its panel on a port of its own.
 import { spawn, spawnSync, type ChildProcess } from 'node:child_process';
-import { rmSync } from 'node:fs';
+import { chmodSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { executableOf, newFolder, passwordTool, type ApplicationName } from './environment';
 import { Rest } from './rest';
@@ -15,6 +15,8 @@ export interface StartOptions {
   /** Default: loopback, any port. */
   readonly listen?: string;
   readonly users?: readonly User[];
+  /** By TLS, with a new certificate for this address. */
+  readonly certificateFor?: string;
   readonly arguments?: readonly string[];
 }
 
@@ -40,6 +42,7 @@ export class Application {
   static async start(name: ApplicationName, options: StartOptions = {}): Promise<Application> {
     const folder = newFolder();
     const given = [...(options.arguments ?? [])];
+    if (options.certificateFor) given.push(...makeCertificate(folder, options.certificateFor));
     if (options.users) given.push('--panel-users', writeUsers(folder, options.users));
     const child = spawn(executableOf(name), ['--panel', options.listen ?? '127.0.0.1:0', ...given], {
       cwd: folder,
@@ -65,6 +68,13 @@ export class Application {
   async loggedIn(user: User): Promise<Rest> {
     const rest = this.rest();
     await rest.do('login', { body: { user: user.name, password: user.password } });
+    return rest;
+  }
+
+  /** A script with all rights: it uses up the token of the printed address. */
+  async admin(): Promise<Rest> {
+    const rest = this.rest();
+    await rest.do(this.address);
     return rest;
   }
 
@@ -117,6 +127,18 @@ function writeUsers(folder: string, users: readonly User[]): string {
     if (made.status !== 0) throw new Error(`no password for ${user.name}: ${made.stderr.toString()}`);
   }
   return file;
+}
+
+/** As docs/panel-access.md tells to make it; the arguments that name it. */
+function makeCertificate(folder: string, address: string): string[] {
+  const [key, certificate] = [join(folder, 'key.pem'), join(folder, 'certificate.pem')];
+  const made = spawnSync('openssl', [
+    'req', '-x509', '-newkey', 'ec', '-pkeyopt', 'ec_paramgen_curve:prime256v1', '-nodes', '-days', '1',
+    '-keyout', key, '-out', certificate, '-subj', '/CN=cell', '-addext', `subjectAltName=IP:${address}`,
+  ]);
+  if (made.status !== 0) throw new Error(`no certificate: ${made.stderr?.toString() ?? made.error?.message}`);
+  chmodSync(key, 0o600);
+  return ['--tls-certificate', certificate, '--tls-key', key];
 }
 
 /** Does all of it, in this order, whatever fails; then throws what did. */

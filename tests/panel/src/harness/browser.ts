@@ -2,7 +2,8 @@
 import { createRequire } from 'node:module';
 import { readFileSync } from 'node:fs';
 import { chromium as chromiumType, type Browser, type BrowserContext, type BrowserServer, type Locator, type Page } from 'playwright-core';
-import { chromium } from './environment';
+import { chromium, outerAddress } from './environment';
+import { Rest } from './rest';
 
 export const within = 10_000;
 
@@ -14,8 +15,8 @@ const options = {
     '--enable-unsafe-swiftshader',
     '--disable-background-networking',
     '--disable-component-update',
-    // Whatever a page asks for, there is no other host.
-    '--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1',
+    // Whatever a page asks for, there is no other host than this machine.
+    `--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1, EXCLUDE ${outerAddress() ?? '127.0.0.1'}`,
   ],
 };
 
@@ -40,6 +41,8 @@ export interface ViewerOptions {
   readonly size?: Size;
   readonly touch?: boolean;
   readonly dark?: boolean;
+  /** A cookie: the page is of this script's session. */
+  readonly session?: string;
 }
 
 /** One person before one browser of their own: cookies, storage and pages are nobody else's. */
@@ -55,8 +58,13 @@ export class Viewer {
       hasTouch: given.touch ?? false,
       colorScheme: given.dark ? 'dark' : 'light',
       reducedMotion: 'reduce',
+      ignoreHTTPSErrors: true, // certificates are the tests' own
     });
     context.setDefaultTimeout(within);
+    if (given.session) {
+      const [name, value] = given.session.split('=') as [string, string];
+      await context.addCookies([{ name, value, url: address }]);
+    }
     await context.addInitScript(() => {
       document.addEventListener('securitypolicyviolation', (event) =>
         console.error(`content policy: ${event.violatedDirective} ${event.blockedURI}`));
@@ -91,6 +99,19 @@ export class Viewer {
     await this.page.getByText('You have control').waitFor();
   }
 
+  /** The page as it is when it is opened, in the same session. */
+  async again(): Promise<void> {
+    await this.page.reload();
+    await this.page.locator('flexrf-stop-motion button').waitFor();
+  }
+
+  /** A script of this person's session, beside the page. */
+  async script(): Promise<Rest> {
+    const rest = new Rest(new URL(this.page.url()).origin);
+    rest.cookie = (await this.context.cookies()).map((one) => `${one.name}=${one.value}`).join('; ');
+    return rest;
+  }
+
   async logIn(user: { readonly name: string; readonly password: string }): Promise<void> {
     const { page } = this;
     const dialog = page.locator('flexrf-login'); // what it holds is slotted, so no descendant of the element with the role
@@ -103,7 +124,13 @@ export class Viewer {
 
   async close(): Promise<void> {
     await this.context.close();
+    this.check();
+  }
+
+  /** Throws what was wrong with the page so far, once. */
+  check(): void {
     const unexpected = this.problems.filter((problem) => !this.allowed.some((pattern) => pattern.test(problem)));
+    this.problems.length = 0;
     if (unexpected.length > 0) throw new Error(`the page had problems:\n${unexpected.join('\n')}`);
   }
 

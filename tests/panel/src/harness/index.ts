@@ -6,3 +6,4 @@ export * from './processes';
 export * from './rest';
 export * from './screenshot';
 export * from './socket';
+export * from './stage';

@@ -23,7 +23,7 @@ export class Rest {
 
   /** The path is below /api/v1, or absolute. */
   async ask(path: string, options: RestOptions = {}): Promise<RestAnswer> {
-    const address = new URL(path.startsWith('/') ? path : `/api/v1/${path}`, this.base);
+    const address = new URL(/^(\/|http)/.test(path) ? path : `/api/v1/${path}`, this.base);
     const body = options.body === undefined ? undefined : JSON.stringify(options.body);
     const answer = await new Promise<RestAnswer>((resolve, reject) => {
       const asked = request(
@@ -60,7 +60,7 @@ export class Rest {
   /** Throws unless it was done. */
   async do(path: string, options: RestOptions = {}): Promise<RestAnswer> {
     const answer = await this.ask(path, options);
-    if (answer.status >= 300) throw new Error(`${path}: ${answer.status} ${answer.text}`);
+    if (answer.status >= 400) throw new Error(`${path}: ${answer.status} ${answer.text}`);
     return answer;
   }
 
