@@ -6,15 +6,21 @@ import { PanelCore } from '../core/panel_core';
 import { views } from '../views';
 import './control';
 import './header';
-import './login';
 import './notices';
 import type { Notices } from './notices';
 import './outlet';
 import { Preferences } from './preferences';
 import { addressOfRoute, parseRoute, type Route } from './router';
-import './settings';
 import './stop_motion';
 import { shellStyles } from './styles';
+
+type DialogName = 'login' | 'settings';
+
+/** Loaded when they are opened first: few pages ever open one. */
+const dialogs: { readonly [name in DialogName]: () => Promise<unknown> } = {
+  login: () => import('./login'),
+  settings: () => import('./settings'),
+};
 
 @customElement('flexrf-panel')
 export class Panel extends LitElement {
@@ -92,7 +98,7 @@ export class Panel extends LitElement {
   ];
 
   @state() private route: Route = this.#fromAddress();
-  @state() private dialog: 'none' | 'login' | 'settings' = 'none';
+  @state() private dialog: DialogName | 'none' = 'none';
   @state() private generation = '';
   @state() private ended = '';
   @query('flexrf-notices') private notices!: Notices;
@@ -132,7 +138,7 @@ export class Panel extends LitElement {
   protected override render(): unknown {
     const covered = this.dialog !== 'none';
     return html`
-      <flexrf-header role="banner" .core=${this.core} @login=${() => this.#open('login')} @settings=${() => this.#open('settings')}></flexrf-header>
+      <flexrf-header role="banner" .core=${this.core} @login=${() => void this.#open('login')} @settings=${() => void this.#open('settings')}></flexrf-header>
       <flexrf-stop-motion .core=${this.core} role="region" aria-label="Stop motion"></flexrf-stop-motion>
       <div class="banner" role="region" aria-label="Warnings">
         ${this.#banner()}
@@ -147,8 +153,8 @@ export class Panel extends LitElement {
           : html`<p>Waiting for the application…</p>`}
         </main>
         <flexrf-notices></flexrf-notices>
-        ${this.dialog === 'login' ? html`<flexrf-login .core=${this.core} @close=${() => this.#open('none')}></flexrf-login>` : nothing}
-        ${this.dialog === 'settings' ? html`<flexrf-settings .preferences=${this.#preferences} @close=${() => this.#open('none')}></flexrf-settings>` : nothing}
+        ${this.dialog === 'login' ? html`<flexrf-login .core=${this.core} @close=${() => this.#close()}></flexrf-login>` : nothing}
+        ${this.dialog === 'settings' ? html`<flexrf-settings .preferences=${this.#preferences} @close=${() => this.#close()}></flexrf-settings>` : nothing}
       </div>
     `;
   }
@@ -178,7 +184,7 @@ export class Panel extends LitElement {
       this.#asked = false;
     } else if (link.detail === 'login' && !this.#asked) {
       this.#asked = true; // once: who closes the dialog finds the button
-      this.#open('login');
+      void this.#open('login');
     }
     this.requestUpdate();
   }
@@ -191,9 +197,19 @@ export class Panel extends LitElement {
   }
 
   /** The views are dead below a dialog: a jog button would not see its release. */
-  #open(dialog: 'none' | 'login' | 'settings'): void {
-    if (dialog !== 'none') this.core.endHolds('a dialog was opened');
+  async #open(dialog: DialogName): Promise<void> {
+    try {
+      await dialogs[dialog]();
+    } catch {
+      this.notices?.add('The dialog could not be loaded. Load the page again when the application answers.', 'warning');
+      return;
+    }
+    this.core.endHolds('a dialog was opened');
     this.dialog = dialog;
+  }
+
+  #close(): void {
+    this.dialog = 'none';
   }
 
   #fromAddress(): Route {

@@ -4,7 +4,7 @@ import { customElement, query } from 'lit/decorators.js';
 import { textOf } from '../core/host';
 import type { LinkStatus } from '../core/core';
 import './control';
-import { logOut } from './login';
+import { logOut } from './log_out';
 import { ShellPart } from './part';
 import { shellStyles } from './styles';
 import { modeText, motionOf, motionText } from './words';

@@ -1,4 +1,4 @@
-// Logging in and out. A session gets another role by it, so the connection is made anew.
+// Logging in. A session gets another role by it, so the connection is made anew.
 import { LitElement, css, html, nothing } from 'lit';
 import { customElement, property, state } from 'lit/decorators.js';
 import { postJson } from '../core/http';
@@ -60,10 +60,4 @@ export class Login extends LitElement {
   #close(): void {
     this.dispatchEvent(new Event('close'));
   }
-}
-
-export async function logOut(core: PanelCore): Promise<void> {
-  const answer = await postJson('/api/v1/logout');
-  if (!answer.ok) core.notify(`Logging out failed: ${answer.detail}`, 'warning');
-  core.connection.restart();
 }
