@@ -1,24 +1,16 @@
 // The keyboard application: the arm in 3D, keys that move it, the jog step, the jog arrows.
-import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from 'vitest';
-import type { Browser } from 'playwright-core';
-import { Application, Viewer, itemOf, launch, screenshot, tidyUp, within, type Rest } from './harness';
+import { beforeEach, expect, it } from 'vitest';
+import { Viewer, itemOf, screenshot, useBrowser, useOperator, within, type Application, type Rest } from './harness';
 
-let browser: Browser;
-beforeAll(async () => { browser = await launch(); });
-afterAll(async () => { await browser?.close(); });
+const browser = useBrowser();
 
+const operator = useOperator(browser, 'keyboard', ['overview'], async ({ beside }) => {
+  await beside.do('components/jog/actions/reset', { method: 'POST' });
+});
 let running: Application;
 let viewer: Viewer;
 let rest: Rest;
-beforeEach(async () => {
-  running = await Application.start('keyboard');
-  rest = running.rest();
-  viewer = await Viewer.open(browser, running.address);
-  await viewer.go('overview');
-});
-afterEach(async () => {
-  await tidyUp(() => viewer.close(), () => running.end());
-});
+beforeEach(() => { ({ running, viewer, rest } = operator); });
 
 const canvas = () => viewer.page.getByRole('img', { name: /in 3D/ });
 
@@ -72,7 +64,6 @@ it('the 3D view is turned by buttons', async () => {
 });
 
 it('changing the jog step changes the next jog', async () => {
-  await viewer.takeControl();
   const step = itemOf(viewer.page, 'Jog step').first().getByRole('spinbutton');
   const jog = async (millimetres: string): Promise<number> => {
     await step.fill(millimetres);
@@ -88,7 +79,6 @@ it('changing the jog step changes the next jog', async () => {
 });
 
 it('the arrows move the arm while they are held, and no longer', async () => {
-  await viewer.takeControl();
   const arrow = viewer.page.getByRole('button', { name: /Move \+z/ });
   await arrow.scrollIntoViewIfNeeded();
   const from = await atRest();
@@ -106,7 +96,7 @@ it('the arrows move the arm while they are held, and no longer', async () => {
 });
 
 it('the 3D library is not loaded where no robot is shown', async () => {
-  const other = await Viewer.open(browser, `${running.base}/#/log`);
+  const other = await Viewer.open(browser(), `${running.base}/#/log`);
   await other.page.getByRole('log').waitFor();
   const loaded = await other.page.evaluate(() =>
     performance.getEntriesByType('resource').map((entry) => [entry.name, (entry as PerformanceResourceTiming).decodedBodySize] as const));

@@ -1,7 +1,9 @@
 // Each view: there, without a problem, accessible, and within its window at every size.
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import type { Browser, Page } from 'playwright-core';
-import { Application, Viewer, launch, screenshot, tidyUp, sizes, violations, within, type ApplicationName, type Size } from './harness';
+import type { Page } from 'playwright-core';
+import {
+  Application, Viewer, screenshot, sizes, useApplication, useBrowser, violations, within, type ApplicationName, type Size,
+} from './harness';
 
 interface Place {
   readonly name: string;
@@ -32,9 +34,7 @@ const cellPlaces: readonly Place[] = [
   { name: 'menu', path: ['menu', 'Tuning'], shows: 'Count' },
 ];
 
-let browser: Browser;
-beforeAll(async () => { browser = await launch(); });
-afterAll(async () => { await browser?.close(); });
+const browser = useBrowser();
 
 /** Nothing beside the window, and Stop motion within it with nothing above. */
 async function expectFitting(page: Page): Promise<void> {
@@ -58,19 +58,15 @@ async function expectFitting(page: Page): Promise<void> {
   expect(seen.top).toContain('Stop motion');
 }
 
-function describeViews(application: ApplicationName, places: readonly Place[], withAddress: (one: Application) => string): void {
+function describeViews(application: ApplicationName, places: readonly Place[]): void {
   describe(`${application}'s views`, () => {
-    let running: Application;
-    beforeAll(async () => { running = await Application.start(application); });
-    afterAll(async () => { await running?.end(); });
+    const running = useApplication(application);
 
-    let address: string | undefined;
     for (const size of Object.keys(sizes) as Size[]) {
       it(`at the size of a ${size}`, async () => {
-        address ??= withAddress(running);
         // The token in the address works once; the others see the page as viewers.
-        const viewer = await Viewer.open(browser, address, { size, touch: size === 'phone' });
-        address = running.base;
+        const address = size === 'phone' ? running().address : running().base;
+        const viewer = await Viewer.open(browser(), address, { size, touch: size === 'phone' });
         const found: string[] = [];
         for (const place of places) {
           await viewer.go(...place.path);
@@ -87,16 +83,21 @@ function describeViews(application: ApplicationName, places: readonly Place[], w
   });
 }
 
-describeViews('keyboard', keyboardPlaces, (one) => one.address);
-describeViews('panel_cell', cellPlaces, (one) => one.address);
+describeViews('keyboard', keyboardPlaces);
+describeViews('panel_cell', cellPlaces);
 
-describe('dialogs and themes', () => {
+describe('dialogs, themes, and what the views show', () => {
+  const application = useApplication('panel_cell');
   let running: Application;
-  beforeAll(async () => { running = await Application.start('panel_cell'); });
-  afterAll(async () => { await running?.end(); });
+  let viewer: Viewer;
+  beforeAll(async () => {
+    running = application();
+    viewer = await Viewer.open(browser(), running.address);
+  });
+  afterAll(async () => { await viewer?.close(); });
 
   it('are accessible, and leave Stop motion free', async () => {
-    const viewer = await Viewer.open(browser, running.base, { size: 'phone' });
+    const viewer = await Viewer.open(browser(), running.base, { size: 'phone' });
     const found: string[] = [];
     for (const name of ['Log in', 'Settings']) {
       await viewer.page.getByRole('button', { name }).click();
@@ -112,7 +113,7 @@ describe('dialogs and themes', () => {
   });
 
   it('in the dark too', async () => {
-    const viewer = await Viewer.open(browser, running.base, { size: 'panel', dark: true });
+    const viewer = await Viewer.open(browser(), running.base, { size: 'panel', dark: true });
     const found: string[] = [];
     for (const place of cellPlaces) {
       await viewer.go(...place.path);
@@ -125,23 +126,11 @@ describe('dialogs and themes', () => {
   }, 180_000);
 
   it('an unknown view is said to be unknown', async () => {
-    const viewer = await Viewer.open(browser, `${running.base}/#/nowhere`);
+    const viewer = await Viewer.open(browser(), `${running.base}/#/nowhere`);
     await viewer.page.getByText('There is no view "nowhere"').waitFor();
     await viewer.go('units', 'nobody');
     await viewer.page.getByText('There is no unit of this name').waitFor();
     await viewer.close();
-  });
-});
-
-describe('what the views show', () => {
-  let running: Application;
-  let viewer: Viewer;
-  beforeAll(async () => {
-    running = await Application.start('panel_cell');
-    viewer = await Viewer.open(browser, running.address);
-  });
-  afterAll(async () => {
-    await tidyUp(() => viewer?.close(), () => running?.end());
   });
 
   it('the header: mode, motion, round trip, age of data, session', async () => {
@@ -212,7 +201,7 @@ describe('what the views show', () => {
 describe('a fault', () => {
   it('is shown with its cause and what to do, and can be put right', async () => {
     const running = await Application.start('panel_cell');
-    const viewer = await Viewer.open(browser, running.address);
+    const viewer = await Viewer.open(browser(), running.address);
     await viewer.takeControl();
     await viewer.go('units', 'fragile');
     await viewer.page.getByRole('button', { name: 'Drop it' }).click();
