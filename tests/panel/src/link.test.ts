@@ -1,11 +1,8 @@
 // The link: what is old looks old, what comes back is whole, and another start is told from a short break.
-import { afterAll, afterEach, beforeAll, beforeEach, expect, it } from 'vitest';
-import type { Browser } from 'playwright-core';
-import { Application, Cable, Viewer, itemOf, launch, screenshot, tidyUp, violations, within } from './harness';
+import { afterEach, beforeEach, expect, it } from 'vitest';
+import { Application, Cable, Viewer, itemOf, useBrowser, screenshot, tidyUp, violations, within } from './harness';
 
-let browser: Browser;
-beforeAll(async () => { browser = await launch(); });
-afterAll(async () => { await browser?.close(); });
+const browser = useBrowser();
 
 let running: Application;
 let viewer: Viewer;
@@ -18,7 +15,7 @@ const oldValues = () => viewer.page.getByText('Values are old, controls are dead
 const level = () => itemOf(viewer.page, 'Level of it').first();
 
 async function open(address: string): Promise<void> {
-  viewer = await Viewer.open(browser, address);
+  viewer = await Viewer.open(browser(), address);
   viewer.allow(/WebSocket|Failed to load resource|ERR_/);
   await viewer.takeControl();
   await viewer.go('units', 'gadget');
@@ -59,7 +56,7 @@ it('a cable that is cut and mended: everything is as it is now', async () => {
   await viewer.page.getByRole('button', { name: 'Knock' }).waitFor();
   await viewer.close();
   await cable.close();
-  viewer = await Viewer.open(browser, running.base);
+  viewer = await Viewer.open(browser(), running.base);
 });
 
 it('the same application started anew under an open page', async () => {

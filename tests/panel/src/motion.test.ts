@@ -1,9 +1,10 @@
 // Holds, and everything that ends one; Stop motion, clearing it, and Start.
 import { spawn } from 'node:child_process';
-import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import { afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { Browser } from 'playwright-core';
 import {
-  Application, Cable, Viewer, familyOf, freezer, launch, launchProcess, signal, tidyUp, violations, within, type Rest,
+  Cable, Viewer, familyOf, freezer, launchProcess, signal, tidyUp, useApplication, useBrowser, violations, within,
+  type Application, type Rest,
 } from './harness';
 
 interface Feedback {
@@ -12,16 +13,30 @@ interface Feedback {
   readonly ended_at: number;
 }
 
-let browser: Browser;
-beforeAll(async () => { browser = await launch(); });
-afterAll(async () => { await browser?.close(); });
+const browser = useBrowser();
+
+const application = useApplication('panel_cell');
 
 let running: Application;
 let rest: Rest;
+let admin: Rest;
 let viewer: Viewer;
 
+beforeAll(async () => {
+  running = application();
+  rest = running.rest();
+  admin = await running.admin();
+});
+/** At rest, as after the start, and without anybody in control. */
+afterEach(async () => {
+  const act = (path: string) => () => admin.do(path, { method: 'POST' });
+  await tidyUp(
+    act('control/take'), act('stop-motion'), act('components/mover/actions/reset'), act('clear-stop-motion'), act('control/release'),
+    expectAtRest);
+});
+
 async function begin(at: Browser, address: string): Promise<void> {
-  viewer = await Viewer.open(at, address);
+  viewer = await Viewer.open(at, address, { session: admin.cookie });
   await viewer.takeControl();
   await viewer.page.getByRole('button', { name: 'Start motion' }).click();
   await viewer.page.getByText('Motion enabled').first().waitFor();
@@ -56,15 +71,10 @@ async function hold(): Promise<void> {
   await expectMoving();
 }
 
-beforeEach(async () => {
-  running = await Application.start('panel_cell');
-  rest = running.rest();
-});
-
 describe('a hold', () => {
-  beforeEach(async () => { await begin(browser, running.address); });
+  beforeEach(async () => { await begin(browser(), running.base); });
   afterEach(async () => {
-    await tidyUp(() => viewer.close(), () => running.end());
+    await viewer.close();
   });
 
   it('lives as long as the button is pressed, and ends with the release', async () => {
@@ -131,15 +141,13 @@ describe('a hold', () => {
 
   it('ends with the control token', async () => {
     await hold();
-    const same = running.rest();
-    same.cookie = (await viewer.context.cookies()).map((one) => `${one.name}=${one.value}`).join('; ');
-    await same.do('control/release', { method: 'POST' });
+    await admin.do('control/release', { method: 'POST' });
     await expectStayingAtRest();
     await viewer.page.getByText('Nobody has control').waitFor();
   });
 
   it('ends with Stop motion by somebody who only looks', async () => {
-    const other = await Viewer.open(browser, running.base);
+    const other = await Viewer.open(browser(), running.base);
     await hold();
     await other.page.getByRole('button', { name: 'Stop motion' }).click();
     await expectStayingAtRest();
@@ -175,10 +183,11 @@ describe('a hold', () => {
 
   it('is not begun by a second finger, or a right button', async () => {
     const box = (await forward().boundingBox())!;
+    const { begun } = await feedback();
     await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     await viewer.page.mouse.down({ button: 'right' });
     await expectStayingAtRest();
-    expect((await feedback()).begun).toBe(0);
+    expect((await feedback()).begun).toBe(begun);
     await viewer.page.mouse.up({ button: 'right' });
   });
 });
@@ -187,11 +196,11 @@ describe('a hold over a cable', () => {
   let cable: Cable;
   beforeEach(async () => {
     cable = await Cable.to(running.port);
-    await begin(browser, running.address.replace(running.base, cable.base));
+    await begin(browser(), cable.base);
   });
   afterEach(async () => {
     viewer.allow(/WebSocket|Failed to load resource|ERR_/);
-    await tidyUp(() => viewer.close(), () => cable.close(), () => running.end());
+    await tidyUp(() => viewer.close(), () => cable.close());
   });
 
   it('ends when it is cut, and does not begin again when it is mended', async () => {
@@ -219,7 +228,7 @@ describe('a hold and the browser\'s process', () => {
       const { server, browser: own } = await launchProcess();
       const family = familyOf(server.process().pid!);
       try {
-        await begin(own, running.address);
+        await begin(own, running.base);
         await hold();
         family.splice(0, family.length, ...familyOf(server.process().pid!));
         signal(family, name);
@@ -233,16 +242,15 @@ describe('a hold and the browser\'s process', () => {
         signal(family, 'SIGCONT');
         signal(family, 'SIGKILL');
         await server.close().catch(() => undefined);
-        await running.end();
       }
     });
   }
 });
 
 describe('Stop motion', () => {
-  beforeEach(async () => { await begin(browser, running.address); });
+  beforeEach(async () => { await begin(browser(), running.base); });
   afterEach(async () => {
-    await tidyUp(() => viewer.close(), () => running.end());
+    await viewer.close();
   });
 
   it('stops, and after it come Clear and Start, one after the other', async () => {
@@ -273,7 +281,7 @@ describe('Stop motion', () => {
   });
 
   it('may be given, and neither cleared nor started, by who only looks', async () => {
-    const other = await Viewer.open(browser, running.base);
+    const other = await Viewer.open(browser(), running.base);
     await other.page.getByRole('button', { name: 'Stop motion' }).click();
     await other.page.getByText('Motion stopped').first().waitFor();
     await expect.poll(() => other.page.getByRole('button', { name: 'Clear stop' }).isDisabled(), { timeout: within }).toBe(true);
