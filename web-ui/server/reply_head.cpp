@@ -1,6 +1,8 @@
 #include "web-ui/server/reply_head.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <utility>
 
 #include "web-ui/server/http_problem.hpp"
@@ -17,10 +19,11 @@ void append_number(std::string& text, std::size_t number) {
 void append_line(std::string& text, std::string_view name, std::string_view value) {
   if (value.empty()) return;
   text += name;
-  for (const char character : value) {
-    const bool is_control = static_cast<unsigned char>(character) < 0x20 || character == 0x7F;
-    text += is_control ? ' ' : character;
-  }
+  const auto begin = static_cast<std::ptrdiff_t>(text.size());
+  text += value;
+  std::replace_if(
+      text.begin() + begin, text.end(),
+      [](char character) { return static_cast<unsigned char>(character) < 0x20 || character == 0x7F; }, ' ');
   text += "\r\n";
 }
 

@@ -134,6 +134,7 @@ void Server::on_beat() {
 void Server::check_connections() {
   write_date(surroundings_.date);
   close_refused();
+  loop_delay_p99_ = loop_delay_.quantile(0.99);
   for (Connection& connection : connections_) connection.check(surroundings_.now);
   if (!accepts_) accept();
   surroundings_.handled = true;
@@ -229,7 +230,7 @@ ServerFigures Server::figures() const noexcept {
   figures.connections = surroundings_.connections;
   figures.places = settings_.places;
   figures.refused = refused_;
-  figures.loop_delay_p99 = loop_delay_.quantile(0.99);
+  figures.loop_delay_p99 = loop_delay_p99_;
   figures.loop_delay_max = loop_delay_.maximum();
   figures.slow_calls = surroundings_.slow_calls;
   return figures;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 
 #include "runtime/core/digest.hpp"
 #include "runtime/core/value_json.hpp"
@@ -30,9 +29,10 @@ bool query_integer(std::string_view query, std::string_view name, std::uint64_t 
 }
 
 void write_hash_tag(std::string& etag, std::uint64_t digest) {
-  char text[20];
-  const int size = std::snprintf(text, sizeof(text), "\"%016llx\"", static_cast<unsigned long long>(digest));
-  etag.assign(text, static_cast<std::size_t>(size));
+  constexpr int digits = 16;
+  etag.assign(digits + 2, '"');
+  for (int digit = digits; digit > 0; --digit, digest >>= 4U)
+    etag[static_cast<std::size_t>(digit)] = "0123456789abcdef"[digest & 15U];
 }
 
 /// Whether one of a list of entity tags is this one (RFC 9110, 13.1.2: weak comparison).

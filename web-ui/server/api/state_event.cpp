@@ -44,7 +44,9 @@ void StateEvent::update(Time now) {
   const std::uint64_t signed_now = signature();
   if (signed_now == seen_ && now < next_) return;
   seen_ = signed_now;
-  next_ = now + interval;
+  // Values are due at whole multiples of their intervals; what has no such haste goes in between, and delays
+  // none.
+  next_ = Time{now.time_since_epoch() / interval * interval} + interval + beside_values;
   ++version_;
   holder_ = access_->holder();
   wanted_by_ = access_->wanted_by();

@@ -18,13 +18,14 @@ namespace flexrf::panel {
 class StateEvent {
  public:
   static constexpr Duration interval = std::chrono::seconds{1};
+  static constexpr Duration beside_values = std::chrono::milliseconds{7};
 
   StateEvent(Executive& executive, const Directory& directory, const AccessControl& access,
              const EditOperations& edits) noexcept
       : executive_(&executive), directory_(&directory), access_(&access), edits_(&edits) {}
 
   void set_figures(const ServerFigures& figures) noexcept { figures_ = figures; }
-  /// Makes it anew when something changed or a second has passed.
+  /// Makes it anew when something changed, and once in each second.
   void update(Time now);
   /// Rises when it was made anew; 0: never.
   std::uint64_t version() const noexcept { return version_; }
