@@ -263,6 +263,16 @@ void Connection::write_more() {
   wait_at_most(surroundings_.settings.write_timeout);
   const std::array<net::const_buffer, 2> buffers{net::const_buffer(output_[0].data(), output_[0].size()),
                                                  net::const_buffer(output_[1].data(), output_[1].size())};
+  // What the socket takes at once needs no operation that comes back later. But who has sent the next request
+  // along already waits for the others' turn.
+  if (!transport_.is_encrypted() && input_begin_ == input_end_) {
+    error_code error;
+    const std::size_t size = transport_.socket().write_some(buffers, error);
+    if (error != net::error::would_block) {
+      on_written(error, size);
+      return;
+    }
+  }
   transport_.async_write_some(
       buffers, under_way([this](error_code error, std::size_t size) { on_written(error, size); }));
 }
