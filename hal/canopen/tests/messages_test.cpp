@@ -5,6 +5,7 @@
 #include "hal/canopen/emergency.hpp"
 #include "hal/canopen/nmt.hpp"
 #include "hal/canopen/pdo.hpp"
+#include "hal/canopen/sdo_abort.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf::canopen {
@@ -92,10 +93,16 @@ void emergencies_are_decoded_and_named(void**) {
   assert_true(emergency_of({0x084, 8, {}}, 4)->is_reset());
   assert_false(emergency_of({0x084, 7, {}}, 4).has_value());
   assert_false(emergency_of({0x085, 8, {}}, 4).has_value());
-  assert_non_null(strstr(describe_error_code(0x8130), "heartbeat"));
+  assert_non_null(std::strstr(describe_error_code(0x8130), "heartbeat"));
   assert_string_equal(describe_error_code(0x8150), "monitoring");
   assert_string_equal(describe_error_code(0x2310), "current at the device's output");
   assert_string_equal(describe_error_code(0xB000), "an error that CiA 301 does not name");
+}
+
+void aborts_of_transfers_have_words(void**) {
+  assert_string_equal(describe_sdo_abort(sdo_abort::too_long), "the value is too long");
+  assert_string_equal(describe_sdo_abort(0x08000024), "there is no data");
+  assert_string_equal(describe_sdo_abort(0x12345678), "a reason of the device's own");
 }
 
 PdoPlan command_plan() {
@@ -224,6 +231,7 @@ int main() {
       cmocka_unit_test(silence_counts_from_the_first_heartbeat_on),
       cmocka_unit_test(our_heartbeat_comes_once_a_period_without_bursts),
       cmocka_unit_test(emergencies_are_decoded_and_named),
+      cmocka_unit_test(aborts_of_transfers_have_words),
       cmocka_unit_test(pdos_are_packed_in_order_least_byte_first),
       cmocka_unit_test(odd_widths_share_bytes),
       cmocka_unit_test(pdos_that_are_too_short_change_nothing),

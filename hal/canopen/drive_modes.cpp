@@ -1,0 +1,93 @@
+#include "hal/canopen/drive_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexrf::canopen::cia402 {
+
+double CyclicSetPoint::next(Duration elapsed) noexcept {
+  const double most = fastest_ * seconds(elapsed);
+  // Not by adding the clamped difference alone: what is in reach is met exactly.
+  const double difference = wanted_ - set_point_;
+  set_point_ = std::abs(difference) <= most ? wanted_ : set_point_ + std::clamp(difference, -most, most);
+  return set_point_;
+}
+
+void SetPointHandshake::reset() noexcept {
+  step_ = Step::free;
+  waiting_.reset();
+  problem_ = {};
+}
+
+std::uint16_t SetPointHandshake::advance(std::uint16_t statusword, Time now) noexcept {
+  const bool acknowledged = (statusword & status_bit::set_point_acknowledged) != 0;
+  if (step_ == Step::offered && acknowledged) {
+    step_ = Step::withdrawn;
+    since_ = now;
+  } else if (step_ == Step::withdrawn && !acknowledged) {
+    step_ = Step::free;
+  }
+  if (step_ == Step::free && waiting_ && !acknowledged) {
+    target_ = *waiting_;
+    waiting_.reset();
+    step_ = Step::offered;
+    since_ = now;
+  }
+  if (step_ != Step::free && now - since_ > timeout_ && problem_.is_ok()) {
+    problem_ = Status::error(StatusCode::timeout, "the drive does not %s a new set-point (statusword %04X)",
+                             step_ == Step::offered ? "acknowledge" : "let go of", unsigned{statusword});
+  }
+  if (step_ == Step::offered) return control_bit::new_set_point | control_bit::change_immediately;
+  return control_bit::change_immediately;
+}
+
+void HomingRun::start() noexcept {
+  state_ = State::running;
+  lowered_ = false;
+  saw_it_running_ = false;
+  problem_ = {};
+}
+
+void HomingRun::interrupt() noexcept {
+  if (state_ != State::running) return;
+  fail(Status::error(StatusCode::unavailable,
+                     "the homing was interrupted: the drive is not enabled any more"));
+}
+
+std::uint16_t HomingRun::advance(std::uint16_t statusword, Time now) noexcept {
+  if (state_ != State::running) return 0;
+  if (!lowered_) {
+    lowered_ = true;
+    since_ = now;
+    return 0;
+  }
+  const bool attained = (statusword & status_bit::homing_attained) != 0;
+  const bool reached = (statusword & status_bit::target_reached) != 0;
+  const bool error = (statusword & status_bit::homing_error) != 0;
+  if (!attained && !error && !reached) saw_it_running_ = true;
+  if (saw_it_running_ || now - since_ > settle_) {
+    if (error) {
+      fail(Status::error(StatusCode::device_fault,
+                         "the drive could not home (statusword %04X): does the method fit its switches?",
+                         unsigned{statusword}));
+      return 0;
+    }
+    if (attained && reached) {
+      state_ = State::done;
+      return 0;
+    }
+  }
+  if (now - since_ > timeout_) {
+    fail(Status::error(StatusCode::timeout, "the drive did not home within %lld ms (statusword %04X)",
+                       static_cast<long long>(timeout_.count() / 1'000'000), unsigned{statusword}));
+    return 0;
+  }
+  return control_bit::start_homing;
+}
+
+void HomingRun::fail(const Status& problem) noexcept {
+  state_ = State::failed;
+  problem_ = problem;
+}
+
+}  // namespace flexrf::canopen::cia402

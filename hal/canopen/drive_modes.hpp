@@ -1,0 +1,97 @@
+// What the modes of CiA 402 ask for beside the state machine: handshakes, and set-points that do not jump.
+#pragma once
+
+#include <optional>
+
+#include "hal/canopen/cia402.hpp"
+#include "runtime/core/status.hpp"
+#include "runtime/core/time.hpp"
+
+namespace flexrf::canopen::cia402 {
+
+/// Cyclic set-points: the drive follows them without a profile of its own, so that none may jump. In the
+/// drive's increments, or increments/s.
+class CyclicSetPoint {
+ public:
+  /// `fastest`: change per second, above 0.
+  explicit CyclicSetPoint(double fastest) noexcept : fastest_{fastest} {}
+
+  /// At every enabling, and after whatever else moved the axis: the set-point is where it is now, and so is
+  /// what is wanted.
+  void seed(double actual) noexcept { set_point_ = wanted_ = actual; }
+  void command(double wanted) noexcept { wanted_ = wanted; }
+  /// The set-point of this cycle, `elapsed` after the one before: as near to what is wanted as may be.
+  double next(Duration elapsed) noexcept;
+  double set_point() const noexcept { return set_point_; }
+  /// What is wanted is farther away than the axis may go in the cycle.
+  bool is_limited() const noexcept { return set_point_ != wanted_; }
+
+ private:
+  double fastest_;
+  double set_point_ = 0;
+  double wanted_ = 0;
+};
+
+/// Profile position: hands one set-point after the other to the drive, by new set-point (controlword bit 4)
+/// and its acknowledge (statusword bit 12).
+class SetPointHandshake {
+ public:
+  explicit SetPointHandshake(Duration timeout) noexcept : timeout_{timeout} {}
+
+  /// At every enabling: nothing is on its way.
+  void reset() noexcept;
+  /// The newest one counts: one that has not been offered yet is forgotten.
+  void command(std::int32_t target) noexcept { waiting_ = target; }
+  /// Once for each cycle in which operation is enabled: the bits to add to the controlword.
+  std::uint16_t advance(std::uint16_t statusword, Time now) noexcept;
+  /// For object 607A, beside the bits.
+  std::int32_t target() const noexcept { return target_; }
+  /// The drive took the last command and says that it is there; before it took it, it may say so of the one
+  /// before.
+  bool is_reached(std::uint16_t statusword) const noexcept {
+    return step_ == Step::free && !waiting_ && (statusword & status_bit::target_reached) != 0;
+  }
+  const Status& problem() const noexcept { return problem_; }
+
+ private:
+  enum class Step : std::uint8_t { free, offered, withdrawn };
+
+  Duration timeout_;
+  Step step_ = Step::free;
+  std::optional<std::int32_t> waiting_;
+  std::int32_t target_ = 0;
+  Time since_{};
+  Status problem_;
+};
+
+/// A homing run, by start (controlword bit 4) and the statusword's bits 10, 12 and 13.
+class HomingRun {
+ public:
+  enum class State : std::uint8_t { idle, running, done, failed };
+
+  /// `timeout`: for the whole run. `settle`: so long after the start the drive may still say what it said of
+  /// the run before.
+  HomingRun(Duration timeout, Duration settle) noexcept : timeout_{timeout}, settle_{settle} {}
+
+  void start() noexcept;
+  /// Once for each cycle in which operation is enabled in mode homing: the bits to add to the controlword.
+  std::uint16_t advance(std::uint16_t statusword, Time now) noexcept;
+  /// Operation is not enabled any more: what was running has failed.
+  void interrupt() noexcept;
+
+  State state() const noexcept { return state_; }
+  const Status& problem() const noexcept { return problem_; }
+
+ private:
+  void fail(const Status& problem) noexcept;
+
+  Duration timeout_;
+  Duration settle_;
+  State state_ = State::idle;
+  bool lowered_ = false;         // bit 4 was sent low, so that it rises
+  bool saw_it_running_ = false;  // what the drive says is of this run
+  Time since_{};
+  Status problem_;
+};
+
+}  // namespace flexrf::canopen::cia402

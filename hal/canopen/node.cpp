@@ -1,0 +1,266 @@
+#include "hal/canopen/node.hpp"
+
+#include "hal/canopen/sdo_abort.hpp"
+
+namespace flexrf::canopen {
+namespace {
+
+using Act = ConfigurationStep::Act;
+
+long long milliseconds_of(Duration duration) {
+  return static_cast<long long>(duration.count() / 1'000'000);
+}
+
+bool fits_u16(Duration duration) {
+  return duration >= Duration{} && duration <= std::chrono::milliseconds(0xFFFF);
+}
+
+}  // namespace
+
+const char* name_of(NodeState state) noexcept {
+  switch (state) {
+    case NodeState::off:
+      return "off";
+    case NodeState::awaited:
+      return "awaited";
+    case NodeState::configuring:
+      return "configuring";
+    case NodeState::starting:
+      return "starting";
+    case NodeState::operational:
+      return "operational";
+    case NodeState::refused:
+      return "refused";
+  }
+  return "unknown";
+}
+
+Status Node::begin(const NodePlan& plan, Time now, Outbox& outbox) noexcept {
+  if (plan.node < lowest_node || plan.node > highest_node || plan.master < lowest_node ||
+      plan.master > highest_node || plan.master == plan.node) {
+    return Status::error(StatusCode::invalid_argument,
+                         "node %u with master %u: both are numbers from 1 to 127, and not the same",
+                         unsigned{plan.node}, unsigned{plan.master});
+  }
+  if (!fits_u16(plan.heartbeat_period) || !fits_u16(plan.master_heartbeat_limit)) {
+    return Status::error(StatusCode::invalid_argument,
+                         "node %u: a heartbeat's time is at most 65.535 s, as the node counts it",
+                         unsigned{plan.node});
+  }
+  if (plan.heartbeat_period > Duration{} && plan.heartbeat_limit <= plan.heartbeat_period) {
+    return Status::error(StatusCode::invalid_argument,
+                         "node %u: its heartbeat comes each %lld ms and would be lost after %lld ms: give it "
+                         "at least twice its period",
+                         unsigned{plan.node}, milliseconds_of(plan.heartbeat_period),
+                         milliseconds_of(plan.heartbeat_limit));
+  }
+  plan_ = plan;
+  plan_.configuration.write(objects::producer_heartbeat, 2,
+                            static_cast<std::uint32_t>(milliseconds_of(plan.heartbeat_period)));
+  if (plan.master_heartbeat_limit > Duration{}) {
+    plan_.configuration.write(objects::consumer_heartbeat, 4,
+                              std::uint32_t{plan.master} << 16 |
+                                  static_cast<std::uint32_t>(milliseconds_of(plan.master_heartbeat_limit)));
+  }
+  if (!plan_.configuration.is_complete()) {
+    return Status::error(StatusCode::invalid_argument, "node %u is to be told more than %zu objects",
+                         unsigned{plan.node}, Configuration::capacity);
+  }
+  client_ = SdoClient{plan.node, plan.sdo_timeout};
+  problem_ = {};
+  emergency_.reset();
+  ask_to_boot(now, outbox);
+  return {};
+}
+
+void Node::receive(const Message& message, Time now, Outbox& outbox) noexcept {
+  if (state_ == NodeState::off) return;
+  if (const auto heard = heartbeat_of(message, plan_.node)) {
+    observe(*heard, now, outbox);
+  } else if (const auto emergency = emergency_of(message, plan_.node)) {
+    ++emergencies_;
+    if (emergency->is_reset()) {
+      emergency_.reset();
+    } else {
+      emergency_ = emergency;
+    }
+  } else {
+    client_.receive(message, now, outbox);
+    if (state_ == NodeState::configuring) configure(now, outbox);
+  }
+}
+
+void Node::advance(Time now, Outbox& outbox) noexcept {
+  client_.advance(now, outbox);
+  switch (state_) {
+    case NodeState::off:
+    case NodeState::refused:
+      return;
+    case NodeState::awaited:
+      if (now <= deadline_) return;
+      if (problem_.is_ok()) {
+        problem_ = Status::error(StatusCode::timeout,
+                                 "node %u does not say boot-up within %lld ms: is it powered, is this its "
+                                 "number, does the bit rate fit?",
+                                 unsigned{plan_.node}, milliseconds_of(plan_.boot_timeout));
+      }
+      ask_to_boot(now, outbox);
+      return;
+    case NodeState::configuring:
+      configure(now, outbox);
+      return;
+    case NodeState::starting:
+      if (now <= deadline_) return;
+      begin_again(
+          Status::error(StatusCode::timeout, "node %u was started and is not operational after %lld ms",
+                        unsigned{plan_.node}, milliseconds_of(plan_.start_timeout)),
+          now, outbox);
+      return;
+    case NodeState::operational:
+      if (!heartbeat_.is_lost(now)) return;
+      ++silences_;
+      begin_again(Status::error(StatusCode::unavailable,
+                                "no heartbeat of node %u for %lld ms: is it powered, is the cable in?",
+                                unsigned{plan_.node}, milliseconds_of(plan_.heartbeat_limit)),
+                  now, outbox);
+      return;
+  }
+}
+
+void Node::end(Outbox& outbox) noexcept {
+  if (state_ == NodeState::off) return;
+  client_.cancel(outbox);
+  outbox.push(nmt_message(NmtCommand::enter_pre_operational, plan_.node));
+  state_ = NodeState::off;
+}
+
+void Node::ask_to_boot(Time now, Outbox& outbox) noexcept {
+  outbox.push(nmt_message(NmtCommand::reset_communication, plan_.node));
+  state_ = NodeState::awaited;
+  deadline_ = now + plan_.boot_timeout;
+}
+
+void Node::begin_again(const Status& problem, Time now, Outbox& outbox) noexcept {
+  problem_ = problem;
+  ask_to_boot(now, outbox);
+}
+
+void Node::refuse(const Status& problem) noexcept {
+  problem_ = problem;
+  state_ = NodeState::refused;
+}
+
+void Node::observe(NmtState heard, Time now, Outbox& outbox) noexcept {
+  if (heard == NmtState::boot_up) {
+    if (state_ != NodeState::awaited) ++resets_;
+    if (state_ == NodeState::operational || state_ == NodeState::starting) {
+      problem_ = Status::error(StatusCode::unavailable,
+                               "node %u reset itself: is its supply steady? It is configured anew",
+                               unsigned{plan_.node});
+    }
+    // Whatever it was told before is gone.
+    client_.cancel(outbox);
+    emergency_.reset();
+    state_ = NodeState::configuring;
+    step_ = 0;
+    mapping_is_fixed_ = false;
+    begin_step(now, outbox);
+    return;
+  }
+  if (state_ == NodeState::starting && heard == NmtState::operational) {
+    state_ = NodeState::operational;
+    ++times_operational_;
+    problem_ = {};
+  } else if (state_ == NodeState::operational && heard != NmtState::operational) {
+    begin_again(Status::error(StatusCode::unavailable, "node %u left operation by itself: it is %s",
+                              unsigned{plan_.node}, name_of(heard)),
+                now, outbox);
+    return;
+  }
+  if (is_operational()) heartbeat_.observe(now);
+}
+
+void Node::configure(Time now, Outbox& outbox) noexcept {
+  if (client_.state() == SdoClient::State::done || client_.state() == SdoClient::State::failed) {
+    end_step(now, outbox);
+  }
+}
+
+void Node::begin_step(Time now, Outbox& outbox) noexcept {
+  if (step_ == plan_.configuration.size()) {
+    start(now, outbox);
+    return;
+  }
+  const ConfigurationStep& step = plan_.configuration[step_];
+  if (step.act != Act::map) mapping_is_fixed_ = false;
+  if (reads(step)) {
+    client_.read(step.object, now, outbox);
+    return;
+  }
+  std::array<std::uint8_t, 4> value{};
+  write_number(value.data(), value.size(), step.value);
+  client_.write(step.object, {value.data(), step.size}, now, outbox);
+}
+
+void Node::end_step(Time now, Outbox& outbox) noexcept {
+  const ConfigurationStep& step = plan_.configuration[step_];
+  if (client_.state() == SdoClient::State::failed) {
+    if (client_.status().code() == StatusCode::timeout) {
+      begin_again(client_.status(), now, outbox);
+      return;
+    }
+    if (!tells_of_fixed_mapping(step)) {
+      refuse(client_.status());
+      return;
+    }
+    mapping_is_fixed_ = true;
+  } else if (reads(step)) {
+    const auto found = static_cast<std::uint32_t>(client_.number());
+    const bool is_mapping = step.act == Act::map;
+    if ((found & step.mask) != (step.value & step.mask)) {
+      refuse(is_mapping
+                 ? Status::error(
+                       StatusCode::device_fault,
+                       "node %u has a fixed PDO mapping, and object %04X:%02X is %08lX, where %08lX "
+                       "is needed: choose another of its PDOs",
+                       unsigned{plan_.node}, unsigned{step.object.index}, unsigned{step.object.subindex},
+                       static_cast<unsigned long>(found), static_cast<unsigned long>(step.value))
+                 : Status::error(
+                       StatusCode::device_fault,
+                       "node %u is not the one that was declared: its %s is %08lX and not %08lX; is "
+                       "the number set right on the device?",
+                       unsigned{plan_.node}, step.meaning, static_cast<unsigned long>(found & step.mask),
+                       static_cast<unsigned long>(step.value & step.mask)));
+      return;
+    }
+  }
+  ++step_;
+  begin_step(now, outbox);
+}
+
+bool Node::reads(const ConfigurationStep& step) const noexcept {
+  return step.act == Act::expect || (step.act == Act::map && mapping_is_fixed_);
+}
+
+// Taking the mapping out of use is the first thing that such a node refuses.
+bool Node::tells_of_fixed_mapping(const ConfigurationStep& step) const noexcept {
+  if (step.act != Act::map || step.object.subindex != 0 || step.value != 0 || mapping_is_fixed_) return false;
+  const std::uint32_t code = client_.abort_code();
+  return code == sdo_abort::access || code == sdo_abort::read_only || code == sdo_abort::not_mappable;
+}
+
+void Node::start(Time now, Outbox& outbox) noexcept {
+  heartbeat_.begin(plan_.heartbeat_limit);
+  outbox.push(nmt_message(NmtCommand::start, plan_.node));
+  if (plan_.heartbeat_period > Duration{}) {
+    state_ = NodeState::starting;
+    deadline_ = now + plan_.start_timeout;
+    return;
+  }
+  // Nothing will tell: it is believed.
+  state_ = NodeState::operational;
+  ++times_operational_;
+  problem_ = {};
+}
+
+}  // namespace flexrf::canopen

@@ -1,0 +1,93 @@
+// A node as its master sees it: brought up, supervised, and brought up anew whenever it was gone (CiA 301,
+// 302-2).
+#pragma once
+
+#include "hal/canopen/configuration.hpp"
+#include "hal/canopen/emergency.hpp"
+#include "hal/canopen/nmt.hpp"
+#include "hal/canopen/sdo_client.hpp"
+
+namespace flexrf::canopen {
+
+struct NodePlan {
+  std::uint8_t node = 1;
+  std::uint8_t master = 127;  ///< the node whose heartbeat we send
+  Duration boot_timeout =
+      std::chrono::seconds(1);  ///< from a reset to the boot-up message; longer than the node takes
+  Duration sdo_timeout = std::chrono::milliseconds(500);
+  Duration start_timeout =
+      std::chrono::seconds(1);  ///< from the start command to the first operational heartbeat
+  Duration heartbeat_period = std::chrono::milliseconds(100);  ///< of the node; whole ms
+  Duration heartbeat_limit = std::chrono::milliseconds(250);   ///< the longest silence of the node
+  Duration master_heartbeat_limit =
+      std::chrono::milliseconds(250);  ///< the longest of ours; 0: it does not look
+  /// What else it is asked and told: identity first, then its own objects, then its PDOs.
+  Configuration configuration{};
+};
+
+enum class NodeState : std::uint8_t {
+  off,          ///< nothing was begun
+  awaited,      ///< it was told to reset its communication, and has not said boot-up
+  configuring,  ///< it is asked who it is, and told how to work
+  starting,     ///< it was told to start, and no heartbeat says that it has
+  operational,
+  refused,  ///< it is not what was declared, or does not take its configuration; until it boots anew
+};
+const char* name_of(NodeState state) noexcept;
+
+/// A state machine without I/O; never blocks, never allocates. One thread. What goes wrong for want of an
+/// answer is tried again, from the reset on; what a node refuses is not, until it boots anew or begin() is
+/// called again.
+class Node {
+ public:
+  /// Error: the plan makes no sense.
+  Status begin(const NodePlan& plan, Time now, Outbox& outbox) noexcept;
+  /// Of whichever message on the bus.
+  void receive(const Message& message, Time now, Outbox& outbox) noexcept;
+  void advance(Time now, Outbox& outbox) noexcept;
+  /// Tells the node to leave its operation; nothing is supervised any more.
+  void end(Outbox& outbox) noexcept;
+
+  NodeState state() const noexcept { return state_; }
+  bool is_operational() const noexcept { return state_ == NodeState::operational; }
+  /// Why it is not operational, or was not last time; ok from the moment at which it is.
+  const Status& problem() const noexcept { return problem_; }
+  /// What it said last of what is wrong in it; none while nothing is.
+  const std::optional<Emergency>& emergency() const noexcept { return emergency_; }
+
+  std::uint64_t emergencies() const noexcept { return emergencies_; }
+  std::uint64_t times_operational() const noexcept { return times_operational_; }
+  /// Boot-ups that nobody had asked for.
+  std::uint64_t resets() const noexcept { return resets_; }
+  /// Silences of its heartbeat.
+  std::uint64_t silences() const noexcept { return silences_; }
+  std::uint64_t dropped_answers() const noexcept { return client_.dropped(); }
+
+ private:
+  void ask_to_boot(Time now, Outbox& outbox) noexcept;
+  void begin_again(const Status& problem, Time now, Outbox& outbox) noexcept;
+  void refuse(const Status& problem) noexcept;
+  void observe(NmtState heard, Time now, Outbox& outbox) noexcept;
+  void configure(Time now, Outbox& outbox) noexcept;
+  void begin_step(Time now, Outbox& outbox) noexcept;
+  void end_step(Time now, Outbox& outbox) noexcept;
+  bool reads(const ConfigurationStep& step) const noexcept;
+  bool tells_of_fixed_mapping(const ConfigurationStep& step) const noexcept;
+  void start(Time now, Outbox& outbox) noexcept;
+
+  NodePlan plan_;
+  NodeState state_ = NodeState::off;
+  SdoClient client_{1, std::chrono::milliseconds(500)};
+  HeartbeatConsumer heartbeat_;
+  std::size_t step_ = 0;
+  bool mapping_is_fixed_ = false;  // of the PDO that is being configured
+  Time deadline_{};
+  Status problem_;
+  std::optional<Emergency> emergency_;
+  std::uint64_t emergencies_ = 0;
+  std::uint64_t times_operational_ = 0;
+  std::uint64_t resets_ = 0;
+  std::uint64_t silences_ = 0;
+};
+
+}  // namespace flexrf::canopen

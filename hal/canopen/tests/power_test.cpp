@@ -1,0 +1,241 @@
+// The state machine of a drive, statusword by statusword.
+#include <cstring>
+
+#include "hal/canopen/drive_modes.hpp"
+#include "hal/canopen/drive_power.hpp"
+#include "tests/cmocka.hpp"
+
+namespace flexrf::canopen::cia402 {
+namespace {
+
+using std::chrono::milliseconds;
+
+Time at(int ms) {
+  return Time{std::chrono::seconds(1) + milliseconds(ms)};
+}
+
+void states_are_told_by_their_bits_alone(void**) {
+  struct Case {
+    std::uint16_t statusword;
+    DriveState state;
+  };
+  const Case cases[] = {
+      {0x0000, DriveState::not_ready},
+      {0x0020, DriveState::not_ready},
+      {0x0250, DriveState::switch_on_disabled},
+      {0x0270, DriveState::switch_on_disabled},
+      {0x0221, DriveState::ready_to_switch_on},
+      {0x0233, DriveState::switched_on},
+      {0x2700, DriveState::not_ready},
+      {0x1637, DriveState::operation_enabled},
+      {0x0027, DriveState::operation_enabled},
+      {0x0217, DriveState::quick_stop_active},
+      {0x021F, DriveState::fault_reaction},
+      {0x023F, DriveState::fault_reaction},
+      {0x0218, DriveState::fault},
+      {0x0238, DriveState::fault},
+      {0x0041, DriveState::unknown},
+      {0x0003, DriveState::unknown},
+  };
+  for (const Case& each : cases) assert_true(state_of(each.statusword) == each.state);
+  assert_true(has_torque(DriveState::unknown));
+  assert_false(has_torque(DriveState::switched_on));
+}
+
+void each_state_is_left_by_its_command(void**) {
+  DrivePower power;
+  power.begin({});
+  assert_int_equal(power.advance(0x0040, true, at(0)), 0x0000);
+  assert_true(power.is_off());
+  power.pursue(DrivePower::Goal::enabled);
+  assert_int_equal(power.advance(0x0000, true, at(1)), 0x0000);
+  assert_int_equal(power.advance(0x0240, true, at(2)), 0x0006);
+  assert_int_equal(power.advance(0x0221, true, at(3)), 0x0007);
+  assert_int_equal(power.advance(0x0233, true, at(4)), 0x000F);
+  assert_false(power.is_enabled());
+  assert_int_equal(power.advance(0x0237, true, at(5)), 0x000F);
+  assert_true(power.is_enabled() && power.was_just_enabled());
+  assert_int_equal(power.advance(0x0237, false, at(6)), 0x000F);
+  assert_false(power.was_just_enabled());
+  power.pursue(DrivePower::Goal::off);
+  assert_int_equal(power.advance(0x0237, false, at(7)), 0x0002);
+  assert_int_equal(power.advance(0x0217, false, at(8)), 0x0002);
+  assert_false(power.is_off());
+  assert_int_equal(power.advance(0x0217, true, at(9)), 0x0000);
+  assert_int_equal(power.advance(0x0240, true, at(10)), 0x0000);
+  assert_true(power.is_off());
+}
+
+void a_drive_found_enabled_is_off_only_when_it_was_seen_so(void**) {
+  DrivePower power;
+  power.begin({});
+  assert_false(power.is_off());
+  assert_int_equal(power.advance(0x0237, false, at(0)), 0x0002);
+  assert_false(power.is_off());
+}
+
+void a_drive_found_in_quick_stop_goes_by_way_of_off(void**) {
+  DrivePower power;
+  power.begin({});
+  power.pursue(DrivePower::Goal::enabled);
+  assert_int_equal(power.advance(0x0217, true, at(0)), 0x0000);
+  assert_int_equal(power.advance(0x0240, true, at(1)), 0x0006);
+}
+
+void each_hop_has_its_time(void**) {
+  struct Case {
+    std::uint16_t statusword;
+    int limit;
+    const char* words;
+  };
+  const Case cases[] = {
+      {0x0000, 500, "not ready to switch on"}, {0x0240, 500, "switch on disabled"},
+      {0x0221, 500, "ready to switch on"},     {0x0233, 1000, "switched on"},
+      {0x021F, 5000, "fault reaction active"}, {0x0003, 500, "in no state of CiA 402"},
+  };
+  for (const Case& each : cases) {
+    DrivePower power;
+    power.begin({});
+    power.advance(each.statusword, true, at(-100000));  // waiting for nothing takes no time
+    power.pursue(DrivePower::Goal::enabled);
+    power.advance(each.statusword, true, at(0));
+    power.advance(each.statusword, true, at(each.limit));
+    assert_true(power.problem().is_ok());
+    assert_int_equal(power.advance(each.statusword, true, at(each.limit + 1)), 0x0000);
+    assert_true(power.problem().code() == StatusCode::timeout);
+    assert_non_null(std::strstr(power.problem().cause(), each.words));
+  }
+}
+
+void a_drive_that_does_not_stop_loses_its_voltage(void**) {
+  DrivePower power;
+  power.begin({});
+  power.pursue(DrivePower::Goal::enabled);
+  power.advance(0x0237, false, at(0));
+  power.pursue(DrivePower::Goal::off);
+  assert_int_equal(power.advance(0x0237, false, at(1)), 0x0002);
+  assert_int_equal(power.advance(0x0237, false, at(5001)), 0x0002);
+  assert_int_equal(power.advance(0x0237, false, at(5002)), 0x0000);
+  assert_non_null(std::strstr(power.problem().cause(), "on its way to off"));
+}
+
+void a_fault_is_reset_by_a_rising_bit(void**) {
+  DrivePower power;
+  power.begin({.fault_resets = 2});
+  power.advance(0x0218, true, at(0));
+  power.pursue(DrivePower::Goal::enabled);
+  assert_int_equal(power.advance(0x0218, true, at(1)), 0x0000);
+  assert_int_equal(power.advance(0x0218, true, at(2)), 0x0080);
+  assert_int_equal(power.advance(0x0218, true, at(3)), 0x0080);
+  assert_int_equal(power.advance(0x0218, true, at(503)), 0x0080);
+  assert_int_equal(power.advance(0x0218, true, at(504)), 0x0000);
+  assert_int_equal(power.advance(0x0218, true, at(505)), 0x0080);
+  assert_int_equal(power.fault_resets(), 2);
+  assert_int_equal(power.advance(0x0240, true, at(506)), 0x0006);
+  assert_true(power.problem().is_ok());
+}
+
+void what_leaves_operation_by_itself_stops_and_stays_off(void**) {
+  DrivePower power;
+  power.begin({});
+  power.pursue(DrivePower::Goal::enabled);
+  power.advance(0x0237, false, at(0));
+  assert_true(power.was_just_enabled());
+  assert_int_equal(power.advance(0x0217, false, at(1)), 0x0002);
+  assert_non_null(
+      std::strstr(power.problem().cause(), "left its operation by itself: it is 'quick stop active'"));
+  assert_int_equal(power.advance(0x0240, true, at(2)), 0x0000);
+  assert_int_equal(power.advance(0x0237, true, at(3)), 0x0000);
+  assert_false(power.is_enabled());
+}
+
+void cyclic_set_points_go_no_faster_than_they_may(void**) {
+  CyclicSetPoint set_point(1000);
+  set_point.seed(50);
+  assert_true(set_point.next(milliseconds(10)) == 50);
+  set_point.command(75);
+  assert_true(set_point.next(milliseconds(10)) == 60);
+  assert_true(set_point.is_limited());
+  assert_true(set_point.next(milliseconds(10)) == 70);
+  assert_true(set_point.next(milliseconds(10)) == 75);
+  assert_false(set_point.is_limited());
+  set_point.command(-1000);
+  assert_true(set_point.next(milliseconds(10)) == 65);
+  set_point.seed(0);
+  assert_true(set_point.next(milliseconds(10)) == 0);
+}
+
+void a_set_point_is_offered_once_and_the_newest_counts(void**) {
+  SetPointHandshake handshake(milliseconds(100));
+  handshake.command(1);
+  handshake.command(2);
+  assert_false(handshake.is_reached(0x0400));
+  assert_int_equal(handshake.advance(0x0400, at(0)), 0x0030);
+  assert_int_equal(handshake.target(), 2);
+  assert_false(handshake.is_reached(0x0400));  // of the one before
+  handshake.command(3);
+  assert_int_equal(handshake.advance(0x0000, at(1)), 0x0030);
+  assert_int_equal(handshake.target(), 2);
+  assert_int_equal(handshake.advance(0x1000, at(2)), 0x0020);
+  assert_int_equal(handshake.advance(0x1000, at(3)), 0x0020);
+  assert_int_equal(handshake.advance(0x0000, at(4)), 0x0030);
+  assert_int_equal(handshake.target(), 3);
+  handshake.advance(0x0000, at(104));
+  assert_true(handshake.problem().is_ok());
+  handshake.advance(0x0000, at(105));
+  assert_non_null(std::strstr(handshake.problem().cause(), "does not acknowledge"));
+  handshake.reset();
+  assert_true(handshake.problem().is_ok());
+  assert_int_equal(handshake.advance(0x0000, at(106)), 0x0020);
+}
+
+void what_homing_said_before_does_not_count(void**) {
+  HomingRun homing(milliseconds(1000), milliseconds(50));
+  assert_int_equal(homing.advance(0x1400, at(0)), 0);
+  homing.start();
+  assert_int_equal(homing.advance(0x1400, at(0)), 0x0000);
+  assert_int_equal(homing.advance(0x1400, at(7)), 0x0010);
+  assert_int_equal(homing.advance(0x0000, at(14)), 0x0010);
+  assert_int_equal(homing.advance(0x1000, at(21)), 0x0010);  // attained, and still moving
+  assert_int_equal(homing.advance(0x1400, at(28)), 0x0000);
+  assert_true(homing.state() == HomingRun::State::done);
+}
+
+void homing_that_fails_says_why(void**) {
+  HomingRun homing(milliseconds(1000), milliseconds(50));
+  homing.start();
+  homing.advance(0x0000, at(0));
+  homing.advance(0x0000, at(1));
+  homing.advance(0x2400, at(2));
+  assert_true(homing.state() == HomingRun::State::failed);
+  assert_non_null(std::strstr(homing.problem().cause(), "could not home"));
+  homing.start();
+  homing.advance(0x0000, at(3));
+  homing.advance(0x0000, at(1004));
+  assert_true(homing.problem().code() == StatusCode::timeout);
+  homing.start();
+  homing.interrupt();
+  assert_true(homing.problem().code() == StatusCode::unavailable);
+}
+
+}  // namespace
+}  // namespace flexrf::canopen::cia402
+
+int main() {
+  using namespace flexrf::canopen::cia402;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(states_are_told_by_their_bits_alone),
+      cmocka_unit_test(each_state_is_left_by_its_command),
+      cmocka_unit_test(a_drive_found_enabled_is_off_only_when_it_was_seen_so),
+      cmocka_unit_test(a_drive_found_in_quick_stop_goes_by_way_of_off),
+      cmocka_unit_test(each_hop_has_its_time),
+      cmocka_unit_test(a_drive_that_does_not_stop_loses_its_voltage),
+      cmocka_unit_test(a_fault_is_reset_by_a_rising_bit),
+      cmocka_unit_test(what_leaves_operation_by_itself_stops_and_stays_off),
+      cmocka_unit_test(cyclic_set_points_go_no_faster_than_they_may),
+      cmocka_unit_test(a_set_point_is_offered_once_and_the_newest_counts),
+      cmocka_unit_test(what_homing_said_before_does_not_count),
+      cmocka_unit_test(homing_that_fails_says_why),
+  };
+  return cmocka_run_group_tests_name("cia402 power", tests, nullptr, nullptr);
+}

@@ -1,0 +1,70 @@
+// The object dictionary of a simulated CiA 402 drive.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "hal/canopen/pdo.hpp"
+#include "hal/canopen/sdo_server.hpp"
+
+namespace flexrf {
+
+/// Numbers by their address, as an SDO server and PDOs read and write them.
+class DriveObjects final : public canopen::ObjectDictionary {
+ public:
+  struct Object {
+    canopen::ObjectAddress address;
+    std::uint8_t size = 4;  ///< bytes
+    bool writable = true;
+    bool mappable = false;
+    std::uint64_t first = 0;  ///< what it is after power-on
+    std::uint64_t value = 0;
+  };
+
+  /// As a reset of the node finds them.
+  DriveObjects();
+
+  std::uint32_t read(canopen::ObjectAddress address, std::span<std::uint8_t> value,
+                     std::size_t& size) override;
+  std::uint32_t write(canopen::ObjectAddress address, std::span<const std::uint8_t> value) override;
+
+  /// 0 when there is none.
+  std::uint64_t get(canopen::ObjectAddress address) const;
+  std::int64_t get_signed(canopen::ObjectAddress address) const;
+  /// Whether or not others may write it.
+  void set(canopen::ObjectAddress address, std::int64_t value);
+  void set_first(canopen::ObjectAddress address, std::uint64_t value);
+  /// Communication objects (index below 2000) only, or all.
+  void reset(bool all);
+
+  /// On purpose: mappings cannot be written.
+  void fix_mapping() { fixed_mapping_ = true; }
+  /// On purpose: writes of this object end with this abort code; 0 ends it.
+  void refuse(canopen::ObjectAddress address, std::uint32_t code) {
+    refused_ = address;
+    refusal_ = code;
+  }
+  /// Mappings are written only in pre-operational.
+  void set_pre_operational(bool on) { pre_operational_ = on; }
+
+  /// As its objects say; `number` 1 or 2. Nothing: not in use, or none of its objects exists.
+  std::optional<canopen::PdoPlan> pdo(canopen::PdoDirection direction, std::uint16_t number) const;
+
+ private:
+  Object* find(canopen::ObjectAddress address);
+  const Object* find(canopen::ObjectAddress address) const;
+  void add(canopen::ObjectAddress address, std::uint8_t size, bool writable, bool mappable,
+           std::uint64_t first = 0);
+  std::uint32_t check_mapping(canopen::ObjectAddress address, std::uint64_t value) const;
+
+  static constexpr std::size_t capacity = 96;
+
+  std::array<Object, capacity> objects_{};
+  std::size_t count_ = 0;
+  bool fixed_mapping_ = false;
+  bool pre_operational_ = true;
+  canopen::ObjectAddress refused_{};
+  std::uint32_t refusal_ = 0;
+};
+
+}  // namespace flexrf

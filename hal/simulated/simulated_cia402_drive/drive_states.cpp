@@ -1,0 +1,198 @@
+// The simulated drive's state machine and modes (CiA 402).
+#include "hal/canopen/cia402.hpp"
+#include "hal/simulated/simulated_cia402_drive/simulated_cia402_drive.hpp"
+
+namespace flexrf {
+namespace {
+
+using canopen::Outbox;
+using canopen::cia402::DriveState;
+using canopen::cia402::Mode;
+namespace axis = canopen::cia402::objects;
+namespace control_bit = canopen::cia402::control_bit;
+namespace status_bit = canopen::cia402::status_bit;
+
+constexpr double longest_step = 0.1;  // s; what is slept through beyond it is not moved
+constexpr double fault_deceleration = 400000;
+
+constexpr std::uint16_t bits_of(DriveState state) {
+  switch (state) {
+    case DriveState::switch_on_disabled:
+      return 0x0040;
+    case DriveState::ready_to_switch_on:
+      return 0x0021;
+    case DriveState::switched_on:
+      return 0x0033;
+    case DriveState::operation_enabled:
+      return 0x0037;
+    case DriveState::quick_stop_active:
+      return 0x0017;
+    case DriveState::fault_reaction:
+      return 0x001F;
+    case DriveState::fault:
+      return 0x0018;
+    default:
+      return 0x0000;
+  }
+}
+
+}  // namespace
+
+void SimulatedCia402Drive::enter(DriveState state, Time now) {
+  if (state == state_ || stuck_ == state_) return;
+  state_ = state;
+  entered_ = now;
+  mode_bits_ = 0;
+  if (state == DriveState::operation_enabled) {
+    targets_fresh_ = false;
+    profile_target_ = motion_.position();
+  }
+  publish();
+}
+
+// Transitions that the controlword asks for.
+void SimulatedCia402Drive::command(Time now) {
+  const auto word = static_cast<std::uint16_t>(objects_.get(axis::controlword));
+  const auto risen = static_cast<std::uint16_t>(word & ~last_command_);
+  last_command_ = word;
+  if (!ignores_mode_) objects_.set(axis::mode_display, objects_.get_signed(axis::mode));
+  const bool shutdown = (word & 0x87) == 0x06;
+  const bool switch_on = (word & 0x8F) == 0x07;
+  const bool enable = (word & 0x8F) == 0x0F;
+  const bool disable_voltage = (word & 0x82) == 0x00;
+  const bool quick_stop = (word & 0x86) == 0x02;
+  switch (state_) {
+    case DriveState::switch_on_disabled:
+      if (shutdown) enter(DriveState::ready_to_switch_on, now);
+      break;
+    case DriveState::ready_to_switch_on:
+      if (disable_voltage || quick_stop) enter(DriveState::switch_on_disabled, now);
+      if (switch_on || enable) enter(DriveState::switched_on, now);
+      break;
+    case DriveState::switched_on:
+      if (disable_voltage || quick_stop) enter(DriveState::switch_on_disabled, now);
+      if (shutdown) enter(DriveState::ready_to_switch_on, now);
+      if (enable && now - entered_ >= options_.brake_delay) enter(DriveState::operation_enabled, now);
+      break;
+    case DriveState::operation_enabled:
+      if (switch_on) enter(DriveState::switched_on, now);
+      if (shutdown) enter(DriveState::ready_to_switch_on, now);
+      if (disable_voltage) enter(DriveState::switch_on_disabled, now);
+      if (quick_stop) enter(DriveState::quick_stop_active, now);
+      if ((risen & control_bit::new_set_point) != 0) {
+        profile_target_ = static_cast<double>(objects_.get_signed(axis::target_position));
+        mode_bits_ = status_bit::set_point_acknowledged;
+        if (objects_.get_signed(axis::mode) == static_cast<int>(Mode::homing)) mode_bits_ = 0;
+      }
+      if (objects_.get_signed(axis::mode) == static_cast<int>(Mode::profile_position) &&
+          (word & control_bit::new_set_point) == 0) {
+        mode_bits_ &= static_cast<std::uint16_t>(~status_bit::set_point_acknowledged);
+      }
+      break;
+    case DriveState::quick_stop_active:
+      if (disable_voltage) enter(DriveState::switch_on_disabled, now);
+      break;
+    case DriveState::fault:
+      if ((risen & 0x80) != 0 && !cause_persists_) {
+        objects_.set(axis::error_code, 0);
+        enter(DriveState::switch_on_disabled, now);
+      }
+      break;
+    default:
+      break;
+  }
+  publish();
+}
+
+void SimulatedCia402Drive::move(Time now, Outbox& outbox) {
+  const double time = std::min(seconds(now - moved_), longest_step);
+  if (time <= 0) return;
+  moved_ = now;
+  switch (state_) {
+    case DriveState::operation_enabled:
+      move_in_mode(time, outbox);
+      break;
+    case DriveState::quick_stop_active:
+      motion_.ramp(0, static_cast<double>(objects_.get(axis::quick_stop_deceleration)), time);
+      // Options 1 to 4 end in off, 5 to 8 stay here.
+      if (motion_.is_at_rest() && objects_.get_signed(axis::quick_stop_option) < 5) {
+        enter(DriveState::switch_on_disabled, now);
+      }
+      break;
+    case DriveState::fault_reaction:
+      motion_.ramp(0, fault_deceleration, time);
+      if (motion_.is_at_rest()) enter(DriveState::fault, now);
+      break;
+    default:
+      motion_.brake();
+      break;
+  }
+  publish();
+}
+
+void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
+  const auto word = static_cast<std::uint16_t>(objects_.get(axis::controlword));
+  const auto acceleration = static_cast<double>(objects_.get(axis::profile_acceleration));
+  const auto profile_velocity = static_cast<double>(objects_.get(axis::profile_velocity));
+  const auto mode = static_cast<Mode>(objects_.get_signed(axis::mode));
+  const bool halts = (word & control_bit::halt) != 0;
+  if (halts && mode != Mode::cyclic_position && mode != Mode::cyclic_velocity) {
+    motion_.ramp(0, acceleration, time);
+    return;
+  }
+  switch (mode) {
+    case Mode::cyclic_position: {
+      if (!targets_fresh_) break;
+      const auto target = static_cast<double>(objects_.get_signed(axis::target_position));
+      mode_bits_ = status_bit::follows;
+      if (cyclic_speed_ > options_.fastest) mode_bits_ |= status_bit::internal_limit;
+      motion_.follow(target, std::min(cyclic_speed_, options_.fastest), time);
+      const double error = std::abs(target - motion_.position());
+      objects_.set(axis::following_error, static_cast<std::int64_t>(target - motion_.position()));
+      if (error > static_cast<double>(objects_.get(axis::following_window))) {
+        mode_bits_ |= status_bit::following_error;
+        trip(0x8611, false, outbox);
+      }
+      break;
+    }
+    case Mode::cyclic_velocity:
+    case Mode::profile_velocity: {
+      if (!targets_fresh_) break;
+      const auto wanted = static_cast<double>(objects_.get_signed(axis::target_velocity));
+      const double velocity = std::clamp(wanted, -options_.fastest, options_.fastest);
+      motion_.ramp(velocity, acceleration, time);
+      const bool cyclic = mode == Mode::cyclic_velocity;
+      mode_bits_ = cyclic ? status_bit::follows : 0;
+      if (!cyclic && motion_.is_at_rest()) mode_bits_ |= status_bit::speed_is_zero;
+      if (!cyclic && motion_.velocity() == velocity) mode_bits_ |= status_bit::target_reached;
+      if (velocity != wanted) mode_bits_ |= status_bit::internal_limit;
+      break;
+    }
+    case Mode::profile_position:
+      if (!targets_fresh_) break;
+      mode_bits_ &= static_cast<std::uint16_t>(~status_bit::target_reached);
+      if (motion_.travel(profile_target_, profile_velocity, acceleration, time)) {
+        mode_bits_ |= status_bit::target_reached;
+      }
+      break;
+    case Mode::homing:
+      if ((word & control_bit::start_homing) == 0) {
+        mode_bits_ |= status_bit::target_reached;
+      } else if (motion_.travel(0, profile_velocity, acceleration, time)) {
+        mode_bits_ = status_bit::target_reached | status_bit::homing_attained;
+      } else {
+        mode_bits_ = 0;
+      }
+      break;
+    case Mode::none:
+      break;
+  }
+}
+
+void SimulatedCia402Drive::publish() {
+  objects_.set(axis::statusword, bits_of(state_) | mode_bits_);
+  objects_.set(axis::actual_position, std::llround(motion_.position()));
+  objects_.set(axis::actual_velocity, std::llround(motion_.velocity()));
+}
+
+}  // namespace flexrf

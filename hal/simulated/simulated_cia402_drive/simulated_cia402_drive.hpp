@@ -1,0 +1,101 @@
+// A CiA 402 drive with one axis, from the other end of the bus, with faults on purpose.
+#pragma once
+
+#include "hal/canopen/cia402.hpp"
+#include "hal/canopen/emergency.hpp"
+#include "hal/canopen/nmt.hpp"
+#include "hal/simulated/simulated_cia402_drive/drive_motion.hpp"
+#include "hal/simulated/simulated_cia402_drive/drive_objects.hpp"
+#include "runtime/core/time.hpp"
+
+namespace flexrf {
+
+/// It speaks CANopen through messages, without I/O, and reads no clock: it is told what time it is, in steps
+/// of at most some milliseconds while it moves. One thread.
+class SimulatedCia402Drive {
+ public:
+  struct Options {
+    std::uint8_t node = 1;
+    Duration boot_delay = std::chrono::milliseconds(20);
+    Duration brake_delay = std::chrono::milliseconds(50);  ///< from switched on to enabled
+    double fastest = 50000;                                ///< increments/s, of the motor
+    double first_position = 1000;                          ///< increments
+  };
+
+  explicit SimulatedCia402Drive(const Options& options);
+
+  /// Supply on: it boots.
+  void power_on(Time now);
+  /// Supply off: it says and does nothing, and forgets.
+  void power_off();
+
+  void receive(const canopen::Message& message, Time now, canopen::Outbox& outbox);
+  void advance(Time now, canopen::Outbox& outbox);
+
+  // ---- faults, on purpose
+
+  /// As when its supply sags: it is off at once and boots again.
+  void reset_itself(Time now);
+  void silence_heartbeat(bool on) { silent_ = on; }
+  /// Commands no longer lead out of this state; nothing: they do.
+  void stick_in(std::optional<canopen::cia402::DriveState> state) { stuck_ = state; }
+  /// Goes into fault with this error code. While `persists`, resetting the fault does not help.
+  void trip(std::uint16_t error_code, bool persists, canopen::Outbox& outbox);
+  /// It keeps the mode that it is in.
+  void ignore_mode(bool on) { ignores_mode_ = on; }
+  void heal() { cause_persists_ = false; }
+  DriveObjects& objects() { return objects_; }
+
+  // ---- what it is doing
+
+  canopen::NmtState nmt_state() const { return nmt_; }
+  canopen::cia402::DriveState state() const { return state_; }
+  const DriveMotion& motion() const { return motion_; }
+  /// The farthest that a cyclic target ever was from the axis, in increments.
+  double longest_jump() const { return longest_jump_; }
+
+ private:
+  void boot(Time now, bool all);
+  void obey(canopen::NmtCommand command, Time now);
+  void take_pdo(const canopen::Message& message, canopen::Outbox& outbox);
+  void synchronise(canopen::Outbox& outbox);
+  void apply(const canopen::PdoPlan& plan, const canopen::Message& message, canopen::Outbox& outbox);
+  bool is_cyclic_position() const;
+  void supervise(Time now, canopen::Outbox& outbox);
+  void emit(std::uint16_t error_code, canopen::Outbox& outbox);
+
+  void command(Time now);
+  void enter(canopen::cia402::DriveState state, Time now);
+  void move(Time now, canopen::Outbox& outbox);
+  void move_in_mode(double time, canopen::Outbox& outbox);
+  void publish();
+
+  Options options_;
+  DriveObjects objects_;
+  canopen::SdoServer server_;
+  DriveMotion motion_;
+  bool powered_ = false;
+  bool booted_ = false;
+  bool silent_ = false;
+  canopen::NmtState nmt_ = canopen::NmtState::boot_up;
+  Time boots_at_{};
+  Time beats_at_{};
+  canopen::HeartbeatConsumer master_;
+  bool master_lost_ = false;
+  std::array<std::optional<canopen::Message>, 2> pending_;  // synchronous RPDOs wait for SYNC
+
+  canopen::cia402::DriveState state_ = canopen::cia402::DriveState::not_ready;
+  std::optional<canopen::cia402::DriveState> stuck_;
+  bool cause_persists_ = false;
+  bool ignores_mode_ = false;
+  std::uint16_t last_command_ = 0;
+  Time entered_{};
+  Time moved_{};
+  std::uint16_t mode_bits_ = 0;
+  bool targets_fresh_ = false;  // a target came since it was enabled
+  double cyclic_speed_ = 0;     // increments/s that the last cyclic target asks for
+  double profile_target_ = 0;
+  double longest_jump_ = 0;
+};
+
+}  // namespace flexrf
