@@ -12,6 +12,10 @@ add_library(flexrf_options INTERFACE)
 add_library(FlexRF::options ALIAS flexrf_options)
 target_compile_features(flexrf_options INTERFACE cxx_std_20)
 target_compile_options(flexrf_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+if(CMAKE_UNITY_BUILD)
+  # What a source file keeps to itself looks like a header's to the compiler when files are compiled in batches.
+  target_compile_options(flexrf_options INTERFACE -Wno-subobject-linkage)
+endif()
 # Includes name their layer from the repository's root: "runtime/blackboard/slot.hpp".
 target_include_directories(flexrf_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 if(FLEXRF_CHECKED)
