@@ -1,0 +1,205 @@
+#include "hal/interfaces/servo_drive/conformance/servo_drive_conformance.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/cmocka.hpp"
+
+namespace flexrf {
+namespace {
+
+constexpr Duration cycle = std::chrono::milliseconds(7);
+constexpr double cycle_seconds = 0.007;
+constexpr double tolerance = 2e-3;  // an increment of a coarse drive, and its rounding
+constexpr double start = 1;         // where the world's axis is
+
+MakeServoDriveWorld make_world = nullptr;
+
+// Each case runs in here, so that a failing assertion jumps over no destructor.
+enum class Verdict { passed, failed, skipped };
+Verdict verdict(bool good) {
+  return good ? Verdict::passed : Verdict::failed;
+}
+template <Verdict (*Run)(ServoDriveWorld&), bool TakesVelocities = false>
+void judged(void**) {
+  Verdict result = Verdict::failed;
+  {
+    const std::unique_ptr<ServoDriveWorld> world = make_world(TakesVelocities);
+    result = Run(*world);
+  }
+  if (result == Verdict::skipped) skip();
+  assert_true(result == Verdict::passed);
+}
+
+void idle_for(ServoDriveWorld& world, double duration) {
+  for (double time = 0; time < duration; time += cycle_seconds) {
+    world.receive(cycle);
+    world.send();
+  }
+}
+
+void command_for(ServoDriveWorld& world, double position, double duration) {
+  for (double time = 0; time < duration; time += cycle_seconds) {
+    world.receive(cycle);
+    world.drive().command_position(position);
+    world.send();
+  }
+}
+
+void drive_for(ServoDriveWorld& world, double velocity, double duration) {
+  for (double time = 0; time < duration; time += cycle_seconds) {
+    world.receive(cycle);
+    world.drive().command_velocity(velocity);
+    world.send();
+  }
+}
+
+// Cycles without a command, until the drive is enabled; a drive may take its time, and is not waited for for
+// ever.
+bool is_enabled_in_time(ServoDriveWorld& world) {
+  for (int cycles = 0; cycles < 1000; ++cycles) {
+    idle_for(world, cycle_seconds / 2);
+    const auto state = world.drive().state();
+    if (state && state->enabled) return true;
+  }
+  return false;
+}
+
+bool is_at(ServoDriveWorld& world, double position) {
+  const auto state = world.drive().state();
+  return state && std::abs(state->position - position) <= tolerance;
+}
+
+Verdict enables_itself_where_it_is(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  idle_for(world, 0.5);
+  return verdict(is_at(world, start) && world.drive().state()->velocity == 0 &&
+                 world.drive().fault().is_ok());
+}
+
+Verdict follows_positions_and_holds(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  command_for(world, 4, 1);
+  if (!is_at(world, 4)) return Verdict::failed;
+  idle_for(world, 0.5);  // the last command stands
+  return verdict(is_at(world, 4) && std::abs(world.drive().state()->following_error) <= tolerance);
+}
+
+Verdict goes_no_faster_than_it_may(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  double before = world.drive().state()->position;
+  for (int cycles = 0; cycles < 300; ++cycles) {
+    command_for(world, cycles < 100 ? 9 : -9, cycle_seconds / 2);
+    const auto state = world.drive().state();
+    if (!state || std::abs(state->position - before) > 20 * cycle_seconds + tolerance) return Verdict::failed;
+    before = state->position;
+  }
+  return verdict(is_at(world, -9));
+}
+
+Verdict keeps_to_its_range(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  command_for(world, 1e9, 2);
+  if (!is_at(world, 10)) return Verdict::failed;
+  command_for(world, -1e9, 3);
+  return verdict(is_at(world, -10) && world.drive().fault().is_ok());
+}
+
+Verdict follows_velocities(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  drive_for(world, -2, 1);
+  const auto state = world.drive().state();
+  if (!state || std::abs(state->velocity + 2) > tolerance || state->position > 0) return Verdict::failed;
+  drive_for(world, 0, 1);
+  const double rest = world.drive().state()->position;
+  idle_for(world, 0.5);
+  return verdict(is_at(world, rest) && world.drive().state()->velocity == 0);
+}
+
+Verdict ends_velocities_beyond_its_range(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  drive_for(world, 4, 5);
+  const auto state = world.drive().state();
+  return verdict(state && state->velocity == 0 && state->position >= 10 - tolerance && state->position < 11);
+}
+
+Verdict an_inhibited_drive_is_off_and_forgets(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  command_for(world, 9, 0.1);
+  world.drive().set_inhibited(true);
+  command_for(world, 9, 1);
+  const auto state = world.drive().state();
+  if (!state || state->enabled || state->velocity != 0) return Verdict::failed;
+  const double rest = state->position;
+  world.drive().set_inhibited(false);
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  idle_for(world, 0.5);
+  return verdict(rest < 9 - tolerance && is_at(world, rest));
+}
+
+template <int Which>
+Verdict nonsense_is_a_fault_and_never_followed(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  using Limits = std::numeric_limits<double>;
+  command_for(world, Which == 0 ? Limits::quiet_NaN() : Limits::infinity(), 0.3);
+  idle_for(world, 0.3);
+  return verdict(world.drive().fault().code() == StatusCode::invalid_argument && is_at(world, start));
+}
+
+Verdict can_be_made_safe(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  command_for(world, 9, 0.1);
+  for (int cycles = 0; cycles < 300; ++cycles) {
+    idle_for(world, cycle_seconds / 2);
+    if (!world.drive().make_safe()) continue;
+    world.drive().set_inhibited(true);
+    const auto state = world.drive().state();
+    if (!state) return Verdict::failed;
+    const double rest = state->position;
+    idle_for(world, 0.3);
+    return verdict(is_at(world, rest) && !world.drive().state()->enabled);
+  }
+  return Verdict::failed;
+}
+
+Verdict says_nothing_when_it_is_not_heard(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  if (!world.lose_drive()) return Verdict::skipped;
+  idle_for(world, 0.5);
+  return verdict(!world.drive().state());
+}
+
+Verdict reports_a_tripped_drive(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  if (!world.trip_drive()) return Verdict::skipped;
+  idle_for(world, 0.3);
+  const Status& fault = world.drive().fault();
+  return verdict(fault.code() == StatusCode::device_fault && fault.cause()[0] != '\0');
+}
+
+CMUnitTest test(const char* name, CMUnitTestFunction run) {
+  return {name, run, nullptr, nullptr, nullptr};
+}
+
+}  // namespace
+
+int run_servo_drive_conformance(const char* driver, MakeServoDriveWorld make) {
+  make_world = make;
+  const CMUnitTest tests[] = {
+      test("enables itself where it is", judged<enables_itself_where_it_is>),
+      test("follows positions and holds the last", judged<follows_positions_and_holds>),
+      test("goes no faster than it may", judged<goes_no_faster_than_it_may>),
+      test("keeps to its range", judged<keeps_to_its_range>),
+      test("follows velocities", judged<follows_velocities, true>),
+      test("ends velocities beyond its range", judged<ends_velocities_beyond_its_range, true>),
+      test("is off while inhibited and forgets", judged<an_inhibited_drive_is_off_and_forgets>),
+      test("never follows what is no number", judged<nonsense_is_a_fault_and_never_followed<0>>),
+      test("never follows what is infinite", judged<nonsense_is_a_fault_and_never_followed<1>>),
+      test("can be made safe", judged<can_be_made_safe>),
+      test("is silent when it is not heard", judged<says_nothing_when_it_is_not_heard>),
+      test("reports a tripped drive", judged<reports_a_tripped_drive>),
+  };
+  return cmocka_run_group_tests_name(driver, tests, nullptr, nullptr);
+}
+
+}  // namespace flexrf

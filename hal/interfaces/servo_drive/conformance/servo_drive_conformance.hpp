@@ -1,0 +1,33 @@
+// What every driver of ServoDrive must do. A driver's test makes a world, which is the driver and its far
+// end, and runs the cases in it.
+#pragma once
+
+#include <memory>
+
+#include "hal/interfaces/servo_drive/servo_drive.hpp"
+
+namespace flexrf {
+
+class ServoDriveWorld {
+ public:
+  virtual ~ServoDriveWorld() = default;
+
+  /// Initialised, at rest at 1, permitted to move; range from -10 to 10, at most 20 a second.
+  virtual ServoDrive& drive() = 0;
+  /// The thread's cycle: receive, then what the unit does, then send; `elapsed` after the last one.
+  virtual void receive(Duration elapsed) = 0;
+  virtual void send() = 0;
+
+  /// The far end is no longer heard. False: cannot be made to happen with this driver.
+  virtual bool lose_drive() { return false; }
+  /// The drive trips. False: cannot be made to happen with this driver.
+  virtual bool trip_drive() { return false; }
+};
+
+/// `takes_velocities`: as the configuration says.
+using MakeServoDriveWorld = std::unique_ptr<ServoDriveWorld> (*)(bool takes_velocities);
+
+/// Runs all cases, each in a world of its own; returns the number that failed, for main().
+int run_servo_drive_conformance(const char* driver, MakeServoDriveWorld make);
+
+}  // namespace flexrf

@@ -1,0 +1,67 @@
+// The real driver, its messages on a simulated bus, and a simulated drive at the other end.
+#include "hal/interfaces/device_bench.hpp"
+#include "hal/interfaces/servo_drive/conformance/servo_drive_conformance.hpp"
+#include "hal/linux/canopen_servo_drive/canopen_servo_drive.hpp"
+#include "hal/simulated/in_process_can_bus/in_process_can_bus.hpp"
+#include "hal/simulated/simulated_cia402_drive/drive_on_can.hpp"
+
+namespace {
+
+using namespace flexrf;
+
+class CanopenWorld final : public ServoDriveWorld {
+ public:
+  explicit CanopenWorld(bool takes_velocities) {
+    auto& configuration = drive_.configuration();
+    configuration.takes_velocities = takes_velocities;
+    configuration.lowest = -10;
+    configuration.highest = 10;
+    configuration.fastest = 20;
+    configuration.node = node;
+    configuration.vendor = 0x123;
+    configuration.product = 0x456;
+    configuration.increments_per_unit = 1000;
+    initialised_ = bus_.driver().initialise().is_ok() && drive_.driver().initialise().is_ok() &&
+                   bus_.driver().wire()->attach(far_end_) != nullptr;
+  }
+  ~CanopenWorld() override {
+    drive_.driver().stop();
+    bus_.driver().wire()->detach(far_end_);
+    bus_.driver().stop();
+  }
+
+  ServoDrive& drive() override { return drive_.driver(); }
+  void receive(Duration elapsed) override {
+    bus_.receive(elapsed);
+    drive_.receive(elapsed);
+  }
+  void send() override {
+    drive_.send();
+    bus_.send();
+  }
+  bool lose_drive() override {
+    far_end_.drive().power_off();
+    return initialised_;
+  }
+  bool trip_drive() override {
+    far_end_.drive().trip(0x2310, false, far_end_.said());
+    return initialised_;
+  }
+
+ private:
+  static constexpr std::uint8_t node = 5;
+
+  DeviceBench<InProcessCanBus> bus_{nullptr};
+  DeviceBench<CanopenServoDrive> drive_{nullptr, {}, &bus_.driver()};
+  DriveOnCan far_end_{{.node = node, .first_position = 1000}, bus_.now()};
+  bool initialised_ = false;
+};
+
+}  // namespace
+
+int main() {
+  return run_servo_drive_conformance("canopen servo drive",
+                                     [](bool takes_velocities) -> std::unique_ptr<ServoDriveWorld> {
+                                       return std::make_unique<CanopenWorld>(takes_velocities);
+                                     });
+}
