@@ -28,8 +28,7 @@ Result<ModbusExchange*> ModbusMaster::attach(const ModbusStationSetup& setup) {
     if (owned_[i] != nullptr &&
         owned_[i]->state.load(std::memory_order_acquire) != ModbusExchange::State::free)
       continue;
-    const bool fresh = owned_[i] == nullptr;
-    if (fresh) owned_[i] = std::make_unique<ModbusExchange>();
+    if (owned_[i] == nullptr) owned_[i] = std::make_unique<ModbusExchange>();
     ModbusExchange& exchange = *owned_[i];
     exchange.setup = setup;
     if (const Status status = plan_requests(*setup.map, exchange.plan); !status) return status;
@@ -41,7 +40,7 @@ Result<ModbusExchange*> ModbusMaster::attach(const ModbusStationSetup& setup) {
     exchange.image_output.publish(ModbusImage{}, Time{});
     exchange.commands.publish(ModbusCommand{}, Time{});
     exchange.state.store(ModbusExchange::State::active, std::memory_order_release);
-    if (fresh) exchanges_[i].store(&exchange, std::memory_order_release);
+    exchanges_[i].store(&exchange, std::memory_order_release);
     return &exchange;
   }
   return Status::error(StatusCode::busy,

@@ -34,6 +34,15 @@ Status ModbusRtuLink::initialise() {
   return {};
 }
 
+Result<ModbusExchange*> ModbusRtuLink::attach(const ModbusStationSetup& setup) {
+  if (setup.unit_id < 1 || setup.unit_id > 247) {
+    return Status::error(StatusCode::invalid_argument,
+                         "unit_id %d is no station's on a serial line: 1 to 247 are (0 would be all of them)",
+                         int{setup.unit_id});
+  }
+  return ModbusRtuLinkDriver::attach(setup);
+}
+
 void ModbusRtuLink::stop() {
   master().stop();
 }

@@ -11,6 +11,7 @@ class ModbusRtuLink final : public ModbusRtuLinkDriver {
  public:
   Status initialise() override;
   void stop() override;
+  Result<ModbusExchange*> attach(const ModbusStationSetup& setup) override;
 
  private:
   ModbusClient client_;

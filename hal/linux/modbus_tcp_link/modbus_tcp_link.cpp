@@ -21,6 +21,16 @@ Status ModbusTcpLink::initialise() {
   return {};
 }
 
+Result<ModbusExchange*> ModbusTcpLink::attach(const ModbusStationSetup& setup) {
+  if (setup.unit_id > 247 && setup.unit_id < 255) {
+    return Status::error(StatusCode::invalid_argument,
+                         "unit_id %d is reserved: 255 is a station with its own network socket, 1 to 247 are "
+                         "behind a gateway",
+                         int{setup.unit_id});
+  }
+  return ModbusTcpLinkDriver::attach(setup);
+}
+
 void ModbusTcpLink::stop() {
   master().stop();
 }
