@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # `test` runs every stage whatever fails, selects by preset, and ends with the sum.
 source "$(dirname "$0")/stand_in.sh"
+source "$(dirname "$0")/stand_in_guest.sh"
 shopt -s extglob
 
 stand_in ctest <<'BODY'
@@ -18,8 +19,8 @@ last_line() { printf '%s\n' "${output##*$'\n'}"; }
 
 flexrf test </dev/null
 expect "exit code" "$status" 0
-expect "last line" "$(last_line)" "100% tests passed, 0 tests failed out of 26"
-for stage in "source layout" "static analysis" panel {build,test}\ {release,checked,asan,tsan}; do
+expect "last line" "$(last_line)" "100% tests passed, 0 tests failed out of 28"
+for stage in "source layout" "static analysis" panel guest {build,test}\ {release,checked,asan,tsan}; do
   expect "time of $stage" "$output" "*"$'\n'"$stage *[0-9] s   passed*"
 done
 expect "tests of checked" "$(grep "^ctest .*/checked " "$calls")" "!(* -L *) -LE ^long\$"
@@ -49,7 +50,7 @@ touch "$work/failing"
 flexrf test </dev/null
 expect "exit code of a failure" "$status" 1
 expect "stages after a failure" "$output" "*test checked *FAILED*test tsan *passed*"
-expect "last line of a failure" "$(last_line)" "96% tests passed, 1 tests failed out of 26"
+expect "last line of a failure" "$(last_line)" "96% tests passed, 1 tests failed out of 28"
 
 touch "$work/broken"
 flexrf test release </dev/null

@@ -23,17 +23,24 @@ unknown keyboard check keybord
 unknown unit new unti name
 unknown password pasword
 unknown keyboard password keybord
+unknown guest guesst
 
 flexrf run --keys file </dev/null
 expect "exit code of a misplaced argument" "$status" 1
 expect "message of a misplaced argument" "$errors" "*unknown option '--keys'*after --*"
 flexrf build --preset </dev/null
 expect "exit code of a preset left out" "$status" 1
+flexrf guest uname </dev/null
+expect "exit code of a command without --" "$status" 1
+expect "message of a command without --" "$errors" "*unexpected 'uname'*after --*"
+flexrf guest </dev/null
+expect "exit code of a console without a terminal" "$status" 1
+expect "message of a console without a terminal" "$errors" "*needs a terminal*"
 expect "calls of what was not understood" "$(<"$calls")" ""
 
 flexrf help </dev/null
 expect "exit code of help" "$status" 0
-commands=(run test build check map bench doctor new password help)
+commands=(run test build guest check map bench doctor new password help)
 for command in "${commands[@]}"; do
   expect "help lists" "$output" "*./flexrf $command *"
 done

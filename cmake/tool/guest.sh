@@ -1,0 +1,210 @@
+# Sourced by flexrf: boots the guest, a PREEMPT_RT machine with devices (image/guest, docs/guest.md), and has it do things.
+# The guest answers each request with a line; nothing is waited for without a limit.
+# shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
+
+boot_limit=300 # s, on a machine that does much else; alone it takes about 5
+test_limit=${FLEXRF_GUEST_TEST_LIMIT:-180} # s for one test
+guest_folder=$root/build/guest
+guest_console=$guest_folder/console.log
+guest_run='' guest_pid='' heard='' lost=''
+
+guest_obstacle() {  # prints why there can be no guest on this machine; nothing when there can
+  if [[ $(uname -m) != x86_64 ]]; then
+    printf 'it needs an amd64 machine\n'
+  elif ! command -v dpkg-query >/dev/null; then
+    printf 'its kernel is made from packages, and this is not a Debian system\n'
+  fi
+}
+
+make_kernel() {  # once, and anew when what it is made by has changed
+  local recipe start log=$guest_folder/kernel.log
+  recipe=$(cat "$root"/image/guest/{fetch_kernel.sh,modules.txt} | sha256sum)
+  [[ -f $guest_folder/recipe && -d $guest_folder/kernel && $(<"$guest_folder/recipe") == "$recipe" ]] && return
+  say "making the guest's kernel from packages of Debian 12 (220 MB to download, once)"
+  start=$(microseconds)
+  if ! bash "$root/image/guest/fetch_kernel.sh" "$guest_folder/kernel" >"$log" 2>&1; then
+    cat "$log" >&2
+    say "making the guest's kernel failed"
+    return 1
+  fi
+  printf '%s\n' "$recipe" >"$guest_folder/recipe"
+  say "made the guest's kernel: $(since "$start")"
+}
+
+guest_executables() {  # what is built and may be started in the guest
+  find "$root"/build/release/{guest,apps,hal} -name CMakeFiles -prune -o -type f -perm -100 ! -name '*.so*' -print 2>/dev/null
+}
+
+prepare_guest() {
+  local -a executables
+  mkdir -p "$guest_folder"
+  (flock 9 && make_kernel 9>&-) 9>"$guest_folder/.lock" || return
+  guest_run=$(mktemp -d "${TMPDIR:-/tmp}/flexrf-guest.XXXXXX")
+  trap 'stop_guest; rm -rf "$guest_run"' EXIT
+  mapfile -t executables < <(guest_executables)
+  bash "$root/image/guest/make_initramfs.sh" "$guest_folder/kernel" "$guest_run/initramfs" "${executables[@]}" &&
+    mkfifo "$guest_run"/control.{in,out} &&
+    exec {to_guest}<>"$guest_run/control.in" {from_guest}<>"$guest_run/control.out"
+}
+
+start_machine() {  # start_machine [QEMU'S ARGUMENT...]: its standard input and output are the caller's
+  local -a machine=(-accel tcg,thread=multi -cpu max -smp 2 -m 1024 -nodefaults -no-reboot -display none
+    -kernel "$guest_folder/kernel/vmlinuz" -initrd "$guest_run/initramfs"
+    # Nothing is told of real time here: protection against the processor's own leaks would only cost time, and a host
+    # that is busy must not look like a kernel that hangs.
+    -append "console=ttyS0 panic=-1 quiet net.ifnames=0 mitigations=off nosoftlockup rcupdate.rcu_cpu_stall_timeout=300"
+    -device isa-serial,chardev=console
+    -chardev "socket,id=line_a,path=$guest_run/line,server=on,wait=off" -chardev "socket,id=line_b,path=$guest_run/line"
+    -device isa-serial,chardev=line_a -device isa-serial,chardev=line_b
+    -object can-bus,id=bus -device kvaser_pci,canbus=bus -device kvaser_pci,canbus=bus
+    -device i6300esb -action watchdog=reset
+    -virtfs "local,path=${root//,/,,},mount_tag=repository,security_model=none,readonly=on"
+    -device virtio-serial-pci
+    -chardev "pipe,id=control,path=$guest_run/control" -device virtserialport,chardev=control,name=control)
+  # It ends with this script, however that ends.
+  setpriv --pdeathsig KILL qemu-system-x86_64 "${machine[@]}" "$@" <&0 &
+  guest_pid=$!
+}
+
+hear() {  # hear [SECONDS]: sets heard to the guest's next line; fails, with the reason in lost, when none comes in time
+  local part limit=${1-} start=$SECONDS
+  heard=''
+  while :; do
+    IFS= read -r -t 1 -u "$from_guest" part && heard+=$part && return
+    heard+=$part
+    if ! kill -0 "$guest_pid" 2>/dev/null; then
+      lost="the machine ended by itself"
+      return 1
+    elif [[ $limit ]] && ((SECONDS - start > limit)); then
+      lost="no answer in $limit s"
+      return 1
+    fi
+  done
+}
+
+tell() { printf '%s\n' "$*" >&"$to_guest"; }
+
+boot_guest() {  # boot_guest [QEMU'S ARGUMENT...]: until it answers
+  local start
+  start=$(microseconds)
+  start_machine "$@"
+  if ! hear "$boot_limit" || ! tell "mount_repository $(printf %q "$root")" || ! hear 60; then
+    stop_guest
+    say "the guest did not boot: $lost. Its console (build/guest/console.log) ends with:"
+    tail -n 60 "$guest_console" | tr -d '\r' >&2
+    return 1
+  fi
+  say "booted the guest: $(since "$start")"
+}
+
+stop_guest() {
+  [[ $guest_pid ]] || return 0
+  kill -KILL "$guest_pid" 2>/dev/null
+  wait "$guest_pid" 2>/dev/null
+  guest_pid=''
+  # What was under way to or from it is nobody's any more.
+  while read -r -t 0.01 -n 4096 -u "$to_guest"; do :; done
+  while read -r -t 0.01 -n 4096 -u "$from_guest"; do :; done
+}
+
+boot_apart() {  # the machine whose console nobody sees unless something fails
+  boot_guest -chardev "file,id=console,path=${guest_console//,/,,},append=on" </dev/null
+}
+
+guest_console() {  # a shell in the guest, for the person at this terminal
+  local rows columns
+  read -r rows columns < <(stty size)
+  : >"$guest_console"
+  boot_guest -chardev "stdio,id=console,signal=off,logfile=${guest_console//,/,,}" || return
+  say "exit leaves the guest"
+  tell "run_console $rows $columns"
+  hear || say "$lost"
+  stop_guest
+  stty sane
+}
+
+guest_command() {  # guest_command WORD...: with this standard input unless it is a terminal; ends with its exit code
+  local input=stdio,signal=on name status=0
+  local -a ports=()
+  [[ -t 0 ]] && input=null
+  : >"$guest_console"
+  # Files take whatever comes, so that nothing is under way any more when the machine is stopped.
+  for name in output errors; do
+    : >"$guest_run/$name"
+    ports+=(-chardev "file,id=$name,path=$guest_run/$name" -device "virtserialport,chardev=$name,name=$name")
+  done
+  boot_guest -chardev "file,id=console,path=${guest_console//,/,,},append=on" \
+    -chardev "$input,id=input" -device virtserialport,chardev=input,name=input "${ports[@]}" || return
+  tail -q -c +1 -f --pid="$guest_pid" "$guest_run/output" &
+  tail -q -c +1 -f --pid="$guest_pid" "$guest_run/errors" >&2 &
+  tell "run_command$(printf ' %q' "$@")"
+  hear || status=1
+  stop_guest
+  wait
+  if ((status)); then
+    say "$lost. The guest's console ends with:"
+    tail -n 60 "$guest_console" | tr -d '\r' >&2
+    return 1
+  fi
+  return "$heard"
+}
+
+show_console() {  # show_console OFFSET MARK: what came to the guest's console from there until the mark
+  local waited
+  for ((waited = 0; waited < 50; ++waited)); do # the last of it may be on its way
+    tail -c "+$(($1 + 1))" "$guest_console" | grep -q -F -e "$2" && break
+    [[ $guest_pid ]] || break
+    sleep 0.1
+  done
+  tail -c "+$(($1 + 1))" "$guest_console" | tr -d '\r' | grep -v -F -e "$2"
+}
+
+guest_test() {  # guest_test NAME: sets result and taken (microseconds)
+  local mark="end of $1" offset status
+  if [[ $guest_pid == '' ]] && { ((unbootable)) || ! boot_apart; }; then
+    result='Not Run' taken=0 unbootable=1
+    return
+  fi
+  offset=$(stat -c %s "$guest_console")
+  tell "run_test $(printf '%q %q %q' "$mark" "$test_limit" "$root/build/release/guest/$1")"
+  if hear $((test_limit + 60)); then
+    read -r status taken <<<"$heard"
+    case $status in
+      0) result=Passed ;;
+      late) result="Timeout after $test_limit s" ;;
+      *) result="Failed with $status" ;;
+    esac
+  else
+    # The next one gets a machine of its own.
+    stop_guest
+    result="Failed: $lost" taken=0
+  fi
+  [[ $result == Passed ]] && return
+  printf 'The console of the guest during %s:\n' "$1"
+  show_console "$offset" "$mark"
+}
+
+guest_tests() {  # all of them, each in a line as ctest's; counts them in tests_run and tests_failed
+  local name result taken number=0 line unbootable=0
+  local -a names failed=()
+  mapfile -t names <"$root/build/release/guest_tests.txt"
+  # What did not build is a test that fails.
+  ((${#names[@]})) && prepare_guest || { ((++tests_failed, ++tests_run)); return 1; }
+  : >"$guest_console"
+  for name in "${names[@]}"; do
+    ((++number))
+    guest_test "$name"
+    line=$(printf '%3d/%d Test #%d: %s ' "$number" "${#names[@]}" "$number" "$name")
+    while ((${#line} < 60)); do line+=.; done
+    printf '%s   %s  %d.%02d sec\n' "$line" "$result" $((taken / 1000000)) $((taken % 1000000 / 10000))
+    [[ $result == Passed ]] || failed+=("$name ($result)")
+  done
+  stop_guest
+  ((tests_run += number, tests_failed += ${#failed[@]}))
+  printf '\n%d%% tests passed, %d tests failed out of %d\n' \
+    $(((number - ${#failed[@]}) * 100 / number)) ${#failed[@]} "$number"
+  ((${#failed[@]})) || return 0
+  printf '\nThe following tests FAILED in the guest:\n'
+  printf '\t%s\n' "${failed[@]}"
+  return 1
+}

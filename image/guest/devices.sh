@@ -1,0 +1,41 @@
+# Sourced by the guest's init: the devices that the tests find, as docs/guest.md lists them. prepare_devices is run before
+# each test, and mends only what the one before took down.
+# shellcheck shell=bash
+
+gpio_lines=(ESTOP REED_OPEN REED_CLOSED VALVE_OPEN VALVE_CLOSE LAMP BUTTON SPARE)
+
+prepare_link() {  # prepare_link NAME ARGUMENT...: brings the network interface up; ARGUMENTs are set while it is down
+  local name=$1
+  shift
+  ip link show dev "$name" up 2>/dev/null | grep -q . && return
+  if (($#)); then ip link set dev "$name" "$@"; fi
+  ip link set dev "$name" up
+}
+
+prepare_gpio() {
+  local chip=/sys/kernel/config/gpio-sim/chip line
+  if [[ -d $chip ]]; then
+    # A chip that was unplugged while somebody held its lines comes back under another number.
+    [[ $(<"$chip/live") == 1 && -e /dev/gpiochip0 ]] && return
+    echo 0 >"$chip/live"
+    echo 1 >"$chip/live"
+    return
+  fi
+  mkdir -p "$chip/lines"
+  echo "${#gpio_lines[@]}" >"$chip/lines/num_lines"
+  echo flexrf-sim >"$chip/lines/label"
+  for line in "${!gpio_lines[@]}"; do
+    mkdir "$chip/lines/line$line"
+    echo "${gpio_lines[line]}" >"$chip/lines/line$line/name"
+  done
+  echo 1 >"$chip/live"
+}
+
+prepare_devices() {
+  prepare_link lo
+  [[ -e /sys/class/net/vcan0 ]] || ip link add dev vcan0 type vcan
+  prepare_link vcan0
+  prepare_link can0 type can bitrate 500000
+  prepare_link can1 type can bitrate 500000
+  prepare_gpio
+}

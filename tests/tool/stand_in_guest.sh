@@ -1,0 +1,43 @@
+# Sourced after stand_in.sh: a stand-in for QEMU and what is in it, which answers as image/guest/init does. The tests `first`
+# and `second` are in it. What a test does there is in $work/guest/NAME: nothing (it passes), `ends STATUS`, or `takes the
+# machine down`. What does not boot is told by $work/guest/broken.
+# shellcheck shell=bash disable=SC2154 # tree and work are stand_in.sh's
+
+mkdir -p "$tree/image/guest" "$tree/build/release" "$work/guest"
+touch "$tree/image/guest/modules.txt"
+echo 'mkdir -p "$1"' >"$tree/image/guest/fetch_kernel.sh"
+echo 'touch "$2"' >"$tree/image/guest/make_initramfs.sh"
+printf '%s\n' first second >"$tree/build/release/guest_tests.txt"
+
+stand_in uname <<'BODY'
+[[ -e $STAND_IN/guest/other_machine ]] && echo aarch64 || echo x86_64
+BODY
+stand_in qemu-system-x86_64 <<'BODY'
+for word; do
+  case $word in
+    pipe,id=control,path=*) control=${word#pipe,id=control,path=} ;;
+    file,id=console,path=*) console=${word#file,id=console,path=} console=${console%,append=on} ;;
+    file,id=output,path=*) output=${word#file,id=output,path=} ;;
+    file,id=errors,path=*) errors=${word#file,id=errors,path=} ;;
+  esac
+done
+exec 8<>"$control.in" 9<>"$control.out"
+[[ -e $STAND_IN/guest/broken ]] && { echo "Kernel panic" >>"$console"; exit 0; }
+mount_repository() { echo mounted >&9; }
+run_test() {
+  local does='' word status
+  echo "hello from ${3##*/}" >>"$console"
+  [[ -e $STAND_IN/guest/${3##*/} ]] && does=$(<"$STAND_IN/guest/${3##*/}")
+  read -r word status <<<"$does"
+  [[ $word == takes ]] && exit 0
+  echo "$1" >>"$console"
+  echo "${status:-0} 1230000" >&9
+}
+run_command() {
+  echo "in the guest: $*; input: $(cat)" >"$output"
+  echo "an error" >"$errors"
+  echo 7 >&9
+}
+echo ready >&9
+while IFS= read -r -u 8 request; do eval "$request"; done
+BODY
