@@ -1,0 +1,102 @@
+#include "hal/linux/socket_can_bus/can_link_watch.hpp"
+
+#include <linux/netlink.h>
+#include <linux/rtnetlink.h>
+#include <net/if.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+namespace flexrf {
+namespace {
+
+constexpr int longest_pause_milliseconds = 200;
+
+int open_link_events() noexcept {
+  const int descriptor = socket(AF_NETLINK, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, NETLINK_ROUTE);
+  if (descriptor < 0) return -1;
+  sockaddr_nl address{};
+  address.nl_family = AF_NETLINK;
+  address.nl_groups = RTMGRP_LINK;
+  if (bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0) return descriptor;
+  close(descriptor);
+  return -1;
+}
+
+}  // namespace
+
+Status CanLinkWatch::start(const char* interface, CanSocket& socket) {
+  stop();
+  interface_ = interface;
+  socket_ = &socket;
+  bound_ = 0;
+  events_ = open_link_events();
+  wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (events_ < 0 || wake_ < 0)
+    return Status::error(StatusCode::unavailable, "%s cannot be watched: %s", interface,
+                         std::strerror(errno));
+  look();
+  try {
+    thread_ = std::thread([this] { run(); });
+  } catch (const std::system_error& error) {
+    return Status::error(StatusCode::unavailable, "%s cannot be watched: %s", interface, error.what());
+  }
+  return {};
+}
+
+void CanLinkWatch::stop() noexcept {
+  if (thread_.joinable()) {
+    constexpr std::uint64_t one = 1;
+    // An eventfd that counts one takes it.
+    static_cast<void>(!write(wake_, &one, sizeof(one)));
+    thread_.join();
+  }
+  for (int* descriptor : {&events_, &wake_}) {
+    if (*descriptor >= 0) close(*descriptor);
+    *descriptor = -1;
+  }
+  view_.store(0, std::memory_order_release);
+}
+
+void CanLinkWatch::run() noexcept {
+  std::array<pollfd, 2> sources{{{events_, POLLIN, 0}, {wake_, POLLIN, 0}}};
+  while (true) {
+    const int ready = poll(sources.data(), sources.size(), longest_pause_milliseconds);
+    if (ready > 0 && sources[1].revents != 0) return;
+    // What changed does not matter: it is asked for anyway.
+    std::array<char, 4096> message{};
+    while (recv(events_, message.data(), message.size(), MSG_DONTWAIT) > 0) {
+    }
+    look();
+  }
+}
+
+void CanLinkWatch::look() noexcept {
+  int index = 0;
+  Link link = ask(index);
+  // An index is never given twice, so another one is another interface of the same name.
+  if (index != 0 && index != bound_) {
+    bound_ = socket_->bind(index) ? index : 0;
+    if (bound_ == 0) link = Link::gone;
+  }
+  view_.store(++looks_ << 8U | static_cast<std::uint8_t>(link), std::memory_order_release);
+}
+
+CanLinkWatch::Link CanLinkWatch::ask(int& index) noexcept {
+  ifreq request{};
+  std::strncpy(request.ifr_name, interface_.c_str(), IFNAMSIZ - 1);
+  if (ioctl(socket_->descriptor(), SIOCGIFINDEX, &request) != 0) return Link::gone;
+  index = request.ifr_ifindex;
+  if (ioctl(socket_->descriptor(), SIOCGIFFLAGS, &request) != 0) return Link::gone;
+  const auto flags = static_cast<unsigned>(request.ifr_flags);
+  if ((flags & IFF_UP) == 0) return Link::down;
+  return (flags & IFF_RUNNING) == 0 ? Link::no_carrier : Link::up;
+}
+
+}  // namespace flexrf
