@@ -14,12 +14,18 @@
 namespace flexrf::bench {
 namespace {
 
-[[noreturn]] void become(const std::vector<std::string>& arguments, const std::string& log) {
+[[noreturn]] void become_logged(const std::vector<std::string>& arguments, const std::string& log) {
   const int input = open("/dev/null", O_RDONLY | O_CLOEXEC);
   const int output = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   dup2(input, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
+  become(arguments);
+}
+
+}  // namespace
+
+void become(const std::vector<std::string>& arguments) {
   std::vector<char*> pointers;
   for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
   pointers.push_back(nullptr);
@@ -28,13 +34,11 @@ namespace {
   _exit(127);
 }
 
-}  // namespace
-
 ProgramRun run_program(const std::vector<std::string>& arguments, const std::string& log) {
   ProgramRun run;
   const Time begin = MonotonicClock::now();
   const pid_t child = fork();
-  if (child == 0) become(arguments, log);
+  if (child == 0) become_logged(arguments, log);
   int status = 0;
   rusage usage{};
   if (child < 0 || wait4(child, &status, 0, &usage) != child) return run;

@@ -9,6 +9,9 @@
 
 namespace flexrf::bench {
 
+/// In a child process: is this program from now on, the first argument; ends where it cannot be run.
+[[noreturn]] void become(const std::vector<std::string>& arguments);
+
 struct ProgramRun {
   int exit_code = -1;              ///< -1: it could not be run, or a signal ended it
   Duration wall_time{};            ///< from before it is started to its end

@@ -15,6 +15,8 @@
 #include <sstream>
 #include <thread>
 
+#include "benchmarks/program.hpp"
+
 namespace flexrf::bench {
 namespace {
 
@@ -24,15 +26,6 @@ void pin_thread(pid_t thread, int cpu) {
   CPU_ZERO(&set);
   CPU_SET(static_cast<std::size_t>(cpu), &set);
   sched_setaffinity(thread, sizeof(set), &set);
-}
-
-[[noreturn]] void become(const std::vector<std::string>& arguments) {
-  std::vector<char*> pointers;
-  for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
-  pointers.push_back(nullptr);
-  execvp(pointers[0], pointers.data());
-  std::perror(pointers[0]);
-  _exit(127);
 }
 
 }  // namespace
