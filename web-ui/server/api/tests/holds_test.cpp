@@ -19,25 +19,38 @@ struct Held {
   }
 };
 
-/// Holds, and returns the lease.
-std::string begin(Rig& rig, PlayedLink& link, Held& held) {
-  const json answer = rig.ask(link, hold);
-  if (answer.at("ok") != true) throw fixture::CheckFailed{answer.dump()};
-  CHECK(rig.wait_until([&] { return held.moves.load(); }));
-  return answer.at("lease").get<std::string>();
-}
+/// It runs; an operator has control, and is connected.
+struct Operated : Held {
+  Rig rig{cell};
+  PlayedLink& link;
 
-void refresh(Rig& rig, PlayedLink& link, const std::string& lease) {
-  rig.send(link, {{"op", "refresh"}, {"id", 1'000'000}, {"lease", lease}});
-}
+  Operated() : link(connect()) {}
 
-/// Refreshes until the hold is over in spite of it.
-void check_ends(Rig& rig, PlayedLink& link, Held& held, const std::string& lease) {
-  CHECK(rig.wait_until([&] {
-    if (link.closed == 0) refresh(rig, link, lease);
-    return !held.moves.load();
-  }));
-}
+  /// Holds, and returns the lease.
+  std::string begin() {
+    const json answer = rig.ask(link, hold);
+    if (answer.at("ok") != true) throw fixture::CheckFailed{answer.dump()};
+    CHECK(rig.wait_until([&] { return moves.load(); }));
+    return answer.at("lease").get<std::string>();
+  }
+  void refresh(const std::string& lease) {
+    rig.send(link, {{"op", "refresh"}, {"id", 1'000'000}, {"lease", lease}});
+  }
+  /// Refreshes until the hold is over in spite of it.
+  void check_ends(const std::string& lease) {
+    CHECK(rig.wait_until([&] {
+      if (link.closed == 0) refresh(lease);
+      return !moves.load();
+    }));
+  }
+
+ private:
+  PlayedLink& connect() {
+    rig.start();
+    rig.access().give(an_operator);
+    return rig.connect(an_operator);
+  }
+};
 
 /// By its release, not with its lease: what was asked before this request is in force when it is answered.
 void check_is_released(Rig& rig, PlayedLink& link) {
@@ -47,16 +60,14 @@ void check_is_released(Rig& rig, PlayedLink& link) {
 }
 
 void a_hold_lives_while_it_is_refreshed() {
-  Held held;
-  Rig rig(held.cell);
-  rig.start();
-  rig.access().give(an_operator);
-  PlayedLink& link = rig.connect(an_operator);
-  const std::string lease = begin(rig, link, held);
+  Operated held;
+  Rig& rig = held.rig;
+  PlayedLink& link = held.link;
+  const std::string lease = held.begin();
   link.texts.clear();
   const Time until = MonotonicClock::now() + std::chrono::milliseconds{600};
   CHECK(rig.wait_until([&] {
-    refresh(rig, link, lease);
+    held.refresh(lease);
     return MonotonicClock::now() > until;
   }));
   CHECK(held.moves);
@@ -71,26 +82,22 @@ void a_hold_lives_while_it_is_refreshed() {
 }
 
 void a_release_ends_it() {
-  Held held;
-  Rig rig(held.cell);
-  rig.start();
-  rig.access().give(an_operator);
-  PlayedLink& link = rig.connect(an_operator);
-  const std::string lease = begin(rig, link, held);
+  Operated held;
+  Rig& rig = held.rig;
+  PlayedLink& link = held.link;
+  const std::string lease = held.begin();
   CHECK(rig.ask(link, {{"op", "release"}, {"lease", lease}}).at("ok") == true);
   check_is_released(rig, link);
-  check_ends(rig, link, held, lease);
-  const std::string second = begin(rig, link, held);
+  held.check_ends(lease);
+  const std::string second = held.begin();
   CHECK(second != lease);
 }
 
 void a_lost_connection_ends_it() {
-  Held held;
-  Rig rig(held.cell);
-  rig.start();
-  rig.access().give(an_operator);
-  PlayedLink& link = rig.connect(an_operator);
-  const std::string lease = begin(rig, link, held);
+  Operated held;
+  Rig& rig = held.rig;
+  PlayedLink& link = held.link;
+  const std::string lease = held.begin();
   rig.disconnect(link);
   PlayedLink& next = rig.connect(an_operator);
   check_is_released(rig, next);
@@ -100,44 +107,38 @@ void a_lost_connection_ends_it() {
 }
 
 void lost_control_ends_it() {
-  Held held;
-  Rig rig(held.cell);
-  rig.start();
-  rig.access().give(an_operator);
-  PlayedLink& link = rig.connect(an_operator);
+  Operated held;
+  Rig& rig = held.rig;
+  PlayedLink& link = held.link;
   PlayedLink& other = rig.connect(an_engineer);
-  const std::string lease = begin(rig, link, held);
+  const std::string lease = held.begin();
   const json asked = rig.ask(other, {{"op", "take_control"}});
   CHECK(asked.at("ok") == true && asked.at("taken") == false);
   CHECK(rig.ask(link, {{"op", "answer_control"}, {"grant", true}}).at("ok") == true);
   check_is_released(rig, other);
-  check_ends(rig, link, held, lease);
+  held.check_ends(lease);
   CHECK_EQUAL(rig.ask(link, hold).at("problem").at("type").get<std::string>(), "/problems/control-missing");
 }
 
 void an_ended_session_ends_it() {
-  Held held;
-  Rig rig(held.cell);
-  rig.start();
-  rig.access().give(an_operator);
-  PlayedLink& link = rig.connect(an_operator);
-  const std::string lease = begin(rig, link, held);
+  Operated held;
+  Rig& rig = held.rig;
+  PlayedLink& link = held.link;
+  const std::string lease = held.begin();
   rig.access().end(an_operator);
   CHECK_EQUAL(link.closed, 1008);
-  check_ends(rig, link, held, lease);
+  held.check_ends(lease);
 }
 
 void stop_motion_ends_it_whoever_gives_it() {
-  Held held;
-  Rig rig(held.cell);
-  rig.start();
-  rig.access().give(an_operator);
-  PlayedLink& link = rig.connect(an_operator);
+  Operated held;
+  Rig& rig = held.rig;
+  PlayedLink& link = held.link;
   PlayedLink& watcher = rig.connect(a_viewer);
-  const std::string lease = begin(rig, link, held);
+  const std::string lease = held.begin();
   rig.send(watcher, {{"op", "stop_motion"}, {"id", 1}});
   CHECK(rig.executive().control().motion_stopped());
-  check_ends(rig, link, held, lease);
+  held.check_ends(lease);
   CHECK(rig.ask(link, hold).at("ok") == false);
   // Clearing and Start are the holder's, and two acts.
   CHECK(rig.ask(watcher, {{"op", "clear_stop_motion"}}).at("ok") == false);
