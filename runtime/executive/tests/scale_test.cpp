@@ -1,4 +1,6 @@
 // 500 units in one thread, 1000 slots.
+#include <array>
+
 #include "runtime/executive/tests/running_cell.hpp"
 
 namespace flexrf::fixture {
@@ -24,12 +26,15 @@ class Chain : public TestApplication {
       unit.budget = microseconds{1};
       if (i > 0) unit.inputs = {InputPlan{.slot = static_cast<std::uint16_t>(i - 1)}};
       unit.outputs = {i, static_cast<std::uint16_t>(units + i)};
-      unit.script.step = [](TestUnit& self, const Tick& tick) {
+      unit.script.step = [this, i](TestUnit& self, const Tick& tick) {
         // Virtual time may end within a release, on the wall clock a stop is seen by whole releases only.
         if (tick.stop_requested) return;
+        // The first are released while the last are still to be initialised: a round begins with all of them.
+        if (i == 0 ? unit_state(units - 1).life.load() != Life::running : rounds_[i] == rounds_[i - 1u])
+          return;
         const View<Item> before = self.inputs[0].latest();
         self.outputs[0].publish(Item{before ? before->number + 1 : 1, 0});
-        self.outputs[1].publish(Item{static_cast<std::int64_t>(tick.number), 0});
+        self.outputs[1].publish(Item{rounds_[i]++, 0});
       };
       thread.units.push_back(add(std::move(unit)));
     }
@@ -39,6 +44,9 @@ class Chain : public TestApplication {
     SlotReader* observer = application().slots[slot].observer;
     return observer->newest() == nullptr ? -1 : static_cast<const Item*>(observer->payload())->number;
   }
+
+ private:
+  std::array<std::int64_t, units> rounds_{};  ///< of each unit, for the unit's thread
 };
 
 void check(Chain& cell) {
