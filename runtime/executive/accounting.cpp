@@ -23,8 +23,11 @@ bool Accounting::count(const Release& release, Time ended, std::uint64_t past_re
                           std::memory_order_relaxed);
   }
   if (record_->overrun == OverrunPolicy::fault && record_->limit.limit == 0) return true;
-  ++level_;
-  return record_->limit.limit != 0 && level_ >= record_->limit.limit;
+  if (record_->limit.limit == 0 || ++level_ < record_->limit.limit) return false;
+  // Counted anew for what is started again, and for what was not yet running when it happened.
+  level_ = 0;
+  good_ = 0;
+  return true;
 }
 
 }  // namespace flexrf

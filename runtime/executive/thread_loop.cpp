@@ -90,8 +90,7 @@ void ThreadLoop::release(Time nominal, Time now, const Due& due) noexcept {
   trigger_.released(nominal, now);
   const Time ended = stepper_.run(release);
   const std::uint64_t past = trigger_.finished(ended, record_->overrun);
-  if (accounting_.count(release, ended, past) && !in_fault_) {
-    in_fault_ = true;
+  if (accounting_.count(release, ended, past)) {
     stepper_.fault_all(
         Status::error(StatusCode::timeout, "thread %s reached its overrun limit: %lld us after it was due",
                       record_->name, static_cast<long long>((ended - release.nominal).count() / 1000)));

@@ -37,7 +37,6 @@ class ThreadLoop {
   std::unique_ptr<std::byte[]> handler_stack_;  // for crash signals
   int event_descriptor_ = -1;
   bool readable_ = false;
-  bool in_fault_ = false;
 };
 
 }  // namespace flexrf

@@ -166,8 +166,7 @@ void VirtualTime::end(Thread& thread) noexcept {
   thread.stepper.state().step_began.store(0, std::memory_order_relaxed);
   for (const std::uint16_t device : record.devices) cell_->commit_device(device);
   const std::uint64_t past = thread.trigger.finished(now_, record.overrun);
-  if (thread.accounting.count(thread.release, now_, past) && !thread.in_fault) {
-    thread.in_fault = true;
+  if (thread.accounting.count(thread.release, now_, past)) {
     thread.stepper.fault_all(
         Status::error(StatusCode::timeout, "thread %s reached its overrun limit", record.name));
   }

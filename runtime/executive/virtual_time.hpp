@@ -44,7 +44,6 @@ class VirtualTime {
     Time released_at{};
     std::uint32_t heard = 0;
     bool receives = false;  // has devices that publish
-    bool in_fault = false;
   };
 
   Thread* next_event() noexcept;

@@ -111,6 +111,18 @@ void consecutive_overruns_are_forgotten_by_one_good_cycle() {
   CHECK_EQUAL(counting.state.overruns.load(), 23U);
 }
 
+/// What ran was put in fault; what is started again, or was only about to start, has its limit, too.
+void a_limit_that_was_reached_is_counted_anew() {
+  Counting counting(OverrunPolicy::skip, OverrunLimit{false, 3, 0});
+  for (int round = 0; round < 4; ++round) {
+    CHECK(!counting.bad());
+    CHECK(!counting.bad());
+    CHECK(counting.bad());
+  }
+  Counting strict(OverrunPolicy::fault, OverrunLimit{});
+  for (int i = 0; i < 4; ++i) CHECK(strict.bad());
+}
+
 void a_leaky_limit_drains_by_good_cycles() {
   // Rises by one per overrun, falls by one per 4 good cycles, faults at 3.
   Counting steady(OverrunPolicy::skip, OverrunLimit{true, 3, 4});
@@ -172,6 +184,7 @@ int main() {
       CONTAINED_TEST(an_overrun_may_be_a_fault),
       CONTAINED_TEST(so_many_in_a_row_are_a_fault),
       CONTAINED_TEST(consecutive_overruns_are_forgotten_by_one_good_cycle),
+      CONTAINED_TEST(a_limit_that_was_reached_is_counted_anew),
       CONTAINED_TEST(a_leaky_limit_drains_by_good_cycles),
       CONTAINED_TEST(without_a_limit_overruns_are_only_counted),
       CONTAINED_TEST(a_late_beginning_counts_too),
