@@ -61,17 +61,31 @@ BEGIN { database = out "/compile_commands.json"; printf "[\n" > database }
   gsub(/ -Winvalid-pch| -include [^ ]*cmake_pch\.hxx| -Werror/, "", command)
 }
 
-/^ *"file": / {
-  file = value_of($0)
-  if (index(file, root "/") != 1 || index(file, root "/build/") == 1 || file in seen) next
+function add(file, key) {
+  if (index(file, root "/") != 1 || index(file, root "/build/") == 1 || file in seen) return
   seen[file] = 1
-  key = directory SUBSEP command
   directory_of[key] = directory
   command_of[key] = command
   if (file !~ /\/tests\/|_test\.cpp$|_stress\.cpp$|\/benchmarks\//)
     product[key] = product[key] file "\n"
   else if (all)
     rest[key] = rest[key] file "\n" # tests have the same names again and again
+}
+
+/^ *"file": / {
+  file = value_of($0)
+  if (file !~ /\/Unity\/unity_[0-9]+_cxx\.cxx$/) {
+    add(file, directory SUBSEP command)
+    next
+  }
+  # The build's own batch, of what belongs to one library.
+  while ((getline line < file) > 0)
+    if (line ~ /^#include "/) {
+      sub(/^#include "/, "", line)
+      sub(/"$/, "", line)
+      add(line, directory SUBSEP command)
+    }
+  close(file)
 }
 
 END {
