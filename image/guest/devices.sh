@@ -15,10 +15,7 @@ prepare_link() {  # prepare_link NAME ARGUMENT...: brings the network interface 
 prepare_gpio() {
   local chip=/sys/kernel/config/gpio-sim/chip line
   if [[ -d $chip ]]; then
-    # A chip that was unplugged while somebody held its lines comes back under another number.
-    [[ $(<"$chip/live") == 1 && -e /dev/gpiochip0 ]] && return
-    echo 0 >"$chip/live"
-    echo 1 >"$chip/live"
+    [[ $(<"$chip/live") == 1 ]] || echo 1 >"$chip/live"
     return
   fi
   mkdir -p "$chip/lines"

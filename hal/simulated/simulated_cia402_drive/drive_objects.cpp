@@ -13,9 +13,9 @@ namespace sdo_abort = canopen::sdo_abort;
 
 constexpr std::uint32_t not_in_use = 0x80000000;
 constexpr std::uint16_t own_objects = 0x2000;
-constexpr std::uint16_t pdos = 2;
 
 constexpr bool is_mapping(std::uint16_t index) {
+  constexpr std::uint16_t pdos = DriveObjects::pdos;
   return (index >= 0x1600 && index < 0x1600 + pdos) || (index >= 0x1A00 && index < 0x1A00 + pdos);
 }
 

@@ -47,7 +47,9 @@ class DriveObjects final : public canopen::ObjectDictionary {
   /// Mappings are written only in pre-operational.
   void set_pre_operational(bool on) { pre_operational_ = on; }
 
-  /// As its objects say; `number` 1 or 2. Nothing: not in use, or none of its objects exists.
+  /// PDOs that it has in each direction.
+  static constexpr std::uint16_t pdos = 2;
+  /// As its objects say; `number` from 1 to pdos. Nothing: not in use, or none of its objects exists.
   std::optional<canopen::PdoPlan> pdo(canopen::PdoDirection direction, std::uint16_t number) const;
 
  private:

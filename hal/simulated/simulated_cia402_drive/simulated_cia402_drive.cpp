@@ -13,7 +13,6 @@ using canopen::cia402::DriveState;
 namespace axis = canopen::cia402::objects;
 
 constexpr std::uint8_t last_synchronous = 240;
-constexpr std::uint16_t pdos = 2;
 
 }  // namespace
 
@@ -126,7 +125,7 @@ void SimulatedCia402Drive::obey(NmtCommand command, Time now) {
 }
 
 void SimulatedCia402Drive::take_pdo(const Message& message, Outbox& outbox) {
-  for (std::uint16_t number = 1; number <= pdos; ++number) {
+  for (std::uint16_t number = 1; number <= DriveObjects::pdos; ++number) {
     const auto plan = objects_.pdo(PdoDirection::received_by_node, number);
     if (!plan || plan->identifier != message.identifier) continue;
     if (plan->transmission <= last_synchronous) {
@@ -138,14 +137,14 @@ void SimulatedCia402Drive::take_pdo(const Message& message, Outbox& outbox) {
 }
 
 void SimulatedCia402Drive::synchronise(Outbox& outbox) {
-  for (std::uint16_t number = 1; number <= pdos; ++number) {
+  for (std::uint16_t number = 1; number <= DriveObjects::pdos; ++number) {
     auto& pending = pending_[number - 1U];
     const auto plan = objects_.pdo(PdoDirection::received_by_node, number);
     if (plan && pending) apply(*plan, *pending, outbox);
     pending.reset();
   }
   publish();
-  for (std::uint16_t number = 1; number <= pdos; ++number) {
+  for (std::uint16_t number = 1; number <= DriveObjects::pdos; ++number) {
     const auto plan = objects_.pdo(PdoDirection::sent_by_node, number);
     if (!plan || plan->transmission > last_synchronous) continue;
     std::uint64_t values[canopen::PdoPlan::most_entries] = {};
