@@ -8,7 +8,7 @@
 namespace flexrf::bench {
 namespace {
 
-constexpr int outputs = 2;
+constexpr int outputs_of_each = 2;
 
 /// Runs a program that has to succeed; false, and said why, when it does not.
 bool run_or_say(const std::vector<std::string>& arguments, const std::string& log, ProgramRun& run) {
@@ -21,7 +21,7 @@ bool run_or_say(const std::vector<std::string>& arguments, const std::string& lo
 
 bool measure_generator(Report& report, const std::string& folder, const std::string& log) {
   constexpr int units = 1000;
-  if (!write_scale_tables(folder, units, outputs)) return false;
+  if (!write_scale_tables(folder, units, outputs_of_each)) return false;
   std::vector<double> seconds_taken;
   for (int i = 0; i < report.choose(20, 3); ++i) {
     const std::string output = folder + text("/output-%d", i);
@@ -33,8 +33,8 @@ bool measure_generator(Report& report, const std::string& folder, const std::str
     }
     seconds_taken.push_back(seconds(run.wall_time));
   }
-  report.add({text("generate %d units and %d slots", units, units * outputs), "s", estimate(seconds_taken), 1,
-              true, "tables read, checked, everything written"});
+  report.add({text("generate %d units and %d slots", units, units * outputs_of_each), "s",
+              estimate(seconds_taken), 1, true, "tables read, checked, everything written"});
   return true;
 }
 
@@ -44,7 +44,7 @@ bool measure_compiler(Report& report, const std::string& folder, const std::stri
   const std::string prefix = folder + "/prefix";
   const std::string build = folder + "/build";
   ProgramRun run;
-  if (!write_scale_tables(folder, units, outputs) ||
+  if (!write_scale_tables(folder, units, outputs_of_each) ||
       !run_or_say({"cmake", "--install", FLEXRF_BUILD, "--prefix", prefix}, log, run) ||
       !run_or_say({"cmake", "-S", folder, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
                    "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -g1 -DNDEBUG", "-DCMAKE_PREFIX_PATH=" + prefix},
@@ -63,7 +63,7 @@ bool measure_compiler(Report& report, const std::string& folder, const std::stri
     memory_mib = std::max(memory_mib, run.greatest_memory_mib);
   }
   const double size = static_cast<double>(std::filesystem::file_size(build + "/scale")) * 1e-6;
-  const std::string what = text("%d units and %d slots: ", units, units * outputs);
+  const std::string what = text("%d units and %d slots: ", units, units * outputs_of_each);
   report.add({what + "generate and compile on 2 cores", "s", estimate(seconds_taken), 60, true,
               "from an installed FlexRF, -O2 -g1"});
   report.add(
