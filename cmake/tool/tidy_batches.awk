@@ -19,7 +19,7 @@ function write_batch(name, from, to, file, body, i) {
   head = "" # before all else: what one file defines must not meet the libraries of the next
   body = ""
   for (i = from; i <= to; ++i) {
-    system_includes(files[i])
+    if (from < to) system_includes(files[i])
     body = body "#define main main_of_" i "\n#include \"" files[i] "\"\n#undef main\n"
   }
   printf "%s%s", head, body > file

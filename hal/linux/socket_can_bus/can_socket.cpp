@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
-#include <vector>
 
 namespace flexrf {
 namespace {
@@ -71,30 +70,35 @@ Status CanSocket::bind(int interface) noexcept {
   address.can_ifindex = interface;
   if (::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0)
     return failure("the CAN socket cannot be bound");
-  return {};
+  // The kernel forgot the filters with the interface that the socket was on before, if that is gone.
+  const std::lock_guard guard(wanted_guard_);
+  return set_filters();
 }
 
 Status CanSocket::listen_to(std::span<const CanIdentifier> identifiers) {
-  std::vector<can_filter> filters;
+  const std::lock_guard guard(wanted_guard_);
+  wanted_.clear();
   for (const CanIdentifier& identifier : identifiers) {
-    filters.push_back(identifier.extended
+    wanted_.push_back(identifier.extended
                           ? can_filter{identifier.value | CAN_EFF_FLAG, CAN_EFF_MASK | CAN_EFF_FLAG}
                           : can_filter{identifier.value, CAN_SFF_MASK | CAN_EFF_FLAG});
   }
-  constexpr can_err_mask_t errors = CAN_ERR_MASK;
-  if (setsockopt(socket_, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(),
-                 static_cast<socklen_t>(filters.size() * sizeof(can_filter))) != 0 ||
-      !set(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors))
-    return failure("the CAN socket takes no filter for its identifiers");
-  return {};
+  wanted_errors_ = CAN_ERR_MASK;
+  return set_filters();
 }
 
-Status CanSocket::listen_to_all() noexcept {
-  constexpr can_filter everything{0, 0};
-  constexpr can_err_mask_t no_errors = 0;
-  if (!set(socket_, SOL_CAN_RAW, CAN_RAW_FILTER, everything) ||
-      !set(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, no_errors))
-    return failure("the CAN socket takes no filter");
+Status CanSocket::listen_to_all() {
+  const std::lock_guard guard(wanted_guard_);
+  wanted_.assign(1, can_filter{0, 0});
+  wanted_errors_ = 0;
+  return set_filters();
+}
+
+Status CanSocket::set_filters() const noexcept {
+  if (setsockopt(socket_, SOL_CAN_RAW, CAN_RAW_FILTER, wanted_.data(),
+                 static_cast<socklen_t>(wanted_.size() * sizeof(can_filter))) != 0 ||
+      !set(socket_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, wanted_errors_))
+    return failure("the CAN socket takes no filter for its identifiers");
   return {};
 }
 

@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <mutex>
 #include <span>
+#include <vector>
 
 #include "hal/interfaces/can_bus/can_frame.hpp"
 #include "hal/interfaces/can_bus/can_send_queue.hpp"
@@ -37,11 +39,11 @@ class CanSocket {
   int descriptor() const noexcept { return socket_; }
 
   /// From now on on this interface (its index), with frames of these identifiers and all error frames. Any
-  /// thread, beside receive() and send().
+  /// thread that is not real-time, beside receive() and send().
   Status bind(int interface) noexcept;
   Status listen_to(std::span<const CanIdentifier> identifiers);
   /// Hears everything, and no error frames.
-  Status listen_to_all() noexcept;
+  Status listen_to_all();
 
   /// Everything that has come, at most most_received: one system call. The number of frames; 0: none.
   std::size_t receive() noexcept;
@@ -60,10 +62,14 @@ class CanSocket {
   static constexpr std::size_t control_bytes =
       CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
 
+  Status set_filters() const noexcept;
   Sent hand_over(std::size_t count) noexcept;
   void put(std::size_t index, const CanFrame& frame) noexcept;
 
   int socket_ = -1;
+  std::mutex wanted_guard_;  // between who listens to more and who binds anew
+  std::vector<can_filter> wanted_;
+  can_err_mask_t wanted_errors_ = 0;
   std::uint32_t dropped_ = 0;
   std::int64_t to_monotonic_ = 0;  // ns, from the clock on the wall, as of the last receive()
   Time received_at_{};
