@@ -35,12 +35,12 @@ sources() {  # every C++ file that a person wrote
 
 check_format() { sources | xargs -0 -r -n 50 clang-format --dry-run -Werror; }
 
-check_tidy() {  # the files of the release build's list that lie outside build/; tests and benchmarks only with --full
+check_tidy() {  # the files of the release build's list that lie outside build/
   local headers analysis=$root/build/release/analysis
   headers="^$root/($(cd "$root" && find . -mindepth 1 -maxdepth 1 -type d ! -name build ! -name '.*' -printf '%f|')"
   rm -rf "$analysis"
   mkdir -p "$analysis"
-  awk -v root="$root" -v out="$analysis" -v size=8 -v all="${FLEXRF_LONG:-0}" -f "$tool/tidy_batches.awk" \
+  awk -v root="$root" -v out="$analysis" -v size=8 -f "$tool/tidy_batches.awk" \
     "$root/build/release/compile_commands.json" | tr '\n' '\0' |
     xargs -0 -r -n 1 -P "$(nproc)" bash "$tool/tidy.sh" "$analysis" "${headers%|})/"
 }

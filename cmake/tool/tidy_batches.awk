@@ -1,7 +1,7 @@
 # Reads BUILD/compile_commands.json and writes, for `flexrf test`, what clang-tidy analyses: files in `out` that include
 # a few of ours each, and a compile database for them. Nearly all of an analysis goes into the headers, which are much
 # the same for all files of a batch, so a batch takes hardly longer than one of its files. Prints the batches.
-# Variables: root, out, size (files of a batch), all (1: also tests and benchmarks, each alone).
+# Variables: root, out, size (files of a batch; tests and benchmarks are each alone).
 
 function system_includes(file, line) {
   while ((getline line < file) > 0)
@@ -68,7 +68,7 @@ function add(file, key) {
   command_of[key] = command
   if (file !~ /\/tests\/|_test\.cpp$|_stress\.cpp$|\/benchmarks\//)
     product[key] = product[key] file "\n"
-  else if (all)
+  else
     rest[key] = rest[key] file "\n" # tests have the same names again and again
 }
 
