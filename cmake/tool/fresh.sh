@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# fresh.sh ROOT: tries the two set-up commands on the current commit in an empty Debian 12 (minbase with git and
+# fresh.sh ROOT [--full]: tries the two set-up commands on the current commit in an empty Debian 12 (minbase with git and
 # ca-certificates). The root is made with the mirrors, the apt settings and the npm settings of this machine, so that what
 # works here behind a proxy works there too, and it is gone afterwards.
 set -eu -o pipefail
-root=$1
+root=$1 extent=${2-}
 suite=bookworm
 # shellcheck source=cmake/tool/npm_settings.sh
 source "$root/cmake/tool/npm_settings.sh"
@@ -15,7 +15,7 @@ if ((EUID != 0)); then
   }
   export npm_config_userconfig=${npm_config_userconfig-$HOME/.npmrc} # the user's, not root's
   kept=$(compgen -e npm_config_ | paste -s -d ,)
-  exec sudo --preserve-env="http_proxy,https_proxy,no_proxy,TMPDIR,NODE_EXTRA_CA_CERTS,$kept" bash "${BASH_SOURCE[0]}" "$root" </dev/null
+  exec sudo --preserve-env="http_proxy,https_proxy,no_proxy,TMPDIR,NODE_EXTRA_CA_CERTS,$kept" bash "${BASH_SOURCE[0]}" "$@" </dev/null
 fi
 
 work=$(mktemp -d "${TMPDIR:-/var/tmp}/flexrf-fresh.XXXXXX")
@@ -60,8 +60,8 @@ git -c advice.detachedHead=false clone --quiet flexrf.bundle flexrf
 cd flexrf
 echo "== ./flexrf run keyboard, in an empty Debian 12"
 printf 'wwwwddd' | ./flexrf run keyboard
-echo "== ./flexrf test, in an empty Debian 12"
-./flexrf test </dev/null
+echo "== ./flexrf test $*, in an empty Debian 12"
+./flexrf test "$@" </dev/null
 TRY
 
 # shellcheck disable=SC2016 # expands inside
@@ -72,4 +72,4 @@ unshare --mount --pid --fork --kill-child bash -c '
   mount --rbind /dev "$1/dev"
   exec chroot "$1" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root TERM=dumb LANG=C.UTF-8 \
     ${http_proxy+"http_proxy=$http_proxy"} ${https_proxy+"https_proxy=$https_proxy"} ${no_proxy+"no_proxy=$no_proxy"} \
-    /bin/bash /root/try' fresh "$fresh" </dev/null
+    /bin/bash /root/try $2' fresh "$fresh" "$extent" </dev/null
