@@ -1,0 +1,69 @@
+// Gripper: two fingers that open and close.
+#pragma once
+
+#include <optional>
+
+#include "gripper_interface.hpp"
+#include "types/gripper_object.hpp"
+
+namespace flexrf {
+
+/// What a gripper can do. What it cannot is not pretended: it does not exist in its state, and a command that
+/// needs it is refused.
+struct GripperCapabilities {
+  double open_width = 0;          ///< m between the fingertips when fully open
+  double closed_width = 0;        ///< m, when fully closed
+  bool positions = false;         ///< goes to any opening; else to fully open and fully closed alone
+  bool measures_opening = false;  ///< everywhere; else the opening is known at the two ends alone
+  bool speed = false;             ///< of a goal is followed; else without effect
+  bool force = false;             ///< likewise
+  bool detects_object = false;    ///< else `object` is never gripped, gripped_inside or lost
+  bool halts = false;             ///< the fingers can stop anywhere; else they go on to the end
+};
+
+struct GripperGoal {
+  double opening = 0;             ///< m between the fingertips; kept within closed_width and open_width
+  std::optional<double> speed{};  ///< m/s, kept within what it can; nothing: as configured
+  std::optional<double> force{};  ///< N, likewise
+};
+
+struct GripperState {
+  std::optional<double> opening{};  ///< m; nothing: it is not known where the fingers are
+  bool activated = false;           ///< it follows commands
+  bool moving = false;              ///< from command() or activate() on, until the fingers rest
+  GripperObject object = GripperObject::unknown;
+
+  bool holds_object() const noexcept {
+    return object == GripperObject::gripped || object == GripperObject::gripped_inside;
+  }
+};
+
+/// Everything: the thread the gripper lives in. Commands are sent at the end of the cycle; without effect
+/// while is_inhibited(), and not remembered: what it was at is ended, and the fingers stay as they are.
+class Gripper : public GripperInterface {
+ public:
+  /// From initialise() on, always the same.
+  virtual GripperCapabilities capabilities() const noexcept = 0;
+
+  /// What it said last, with what was commanded since; nothing while it says nothing.
+  virtual std::optional<GripperState> state() const noexcept = 0;
+  /// What is wrong, and what a person can do; ok while nothing is. device_fault, timeout, unavailable. It
+  /// goes when the cause has gone, what it reports as its own fault with activate().
+  virtual const Status& trouble() const noexcept = 0;
+
+  /// Makes it follow commands, after power-on and after a fault: the fingers may go all their way to both
+  /// ends, and drop what they hold. Without effect while it is activated and nothing is wrong, so a unit may
+  /// call it whenever a person starts it.
+  virtual void activate() noexcept = 0;
+  /// Towards an opening, gripping what is in the way. Without effect while it is not activated. Replaces the
+  /// goal before. Not a finite number, or an opening that it cannot go to: fault.
+  virtual void command(const GripperGoal& goal) noexcept = 0;
+  /// Ends the motion where the fingers are, and holds what they hold; else, as capabilities() say, at the
+  /// end.
+  virtual void halt() noexcept = 0;
+
+  void open() noexcept { command({.opening = capabilities().open_width}); }
+  void close() noexcept { command({.opening = capabilities().closed_width}); }
+};
+
+}  // namespace flexrf
