@@ -4,6 +4,7 @@
 
 boot_limit=300 # s, on a machine that does much else; alone it takes about 5
 test_limit=${FLEXRF_GUEST_TEST_LIMIT:-180} # s for one test
+long_test_limit=1200 # s for one test that has the long tests too
 guest_folder=$root/build/guest
 guest_console=$guest_folder/console.log
 guest_run='' guest_pid='' heard='' lost=''
@@ -160,18 +161,19 @@ show_console() {  # show_console OFFSET MARK: what came to the guest's console f
 }
 
 guest_test() {  # guest_test NAME: sets result and taken (microseconds)
-  local mark="end of $1" offset status
+  local mark="end of $1" offset status limit=$test_limit
+  [[ ${FLEXRF_LONG-} ]] && limit=$long_test_limit
   if [[ $guest_pid == '' ]] && { ((unbootable)) || ! boot_apart; }; then
     result='Not Run' taken=0 unbootable=1
     return
   fi
   offset=$(stat -c %s "$guest_console")
-  tell "run_test $(printf '%q %q %q' "$mark" "$test_limit" "$root/build/release/guest/$1")"
-  if hear $((test_limit + 60)); then
+  tell "run_test$(printf ' %q' "$mark" "$limit" "FLEXRF_LONG=${FLEXRF_LONG-}" "$root/build/release/guest/$1")"
+  if hear $((limit + 60)); then
     read -r status taken <<<"$heard"
     case $status in
       0) result=Passed ;;
-      late) result="Timeout after $test_limit s" ;;
+      late) result="Timeout after $limit s" ;;
       *) result="Failed with $status" ;;
     esac
   else

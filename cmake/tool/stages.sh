@@ -82,7 +82,7 @@ test_guest() {  # what needs real drivers, in the machine that has them; built w
   if [[ $obstacle ]]; then skip guest "$obstacle"; else stage guest guest_tests; fi
 }
 
-test_stages() {  # test_stages [--full | --guest | PRESET...]
+test_stages() {  # test_stages [--full | --guest [--long] | PRESET...]
   local start preset index failed=0
   local -a chosen=("$@")
   local -A extent=([release]=full [checked]=full [debug]=full [asan]=some [tsan]=some)
@@ -91,8 +91,8 @@ test_stages() {  # test_stages [--full | --guest | PRESET...]
   mkdir -p "$root/build"
   start=$(microseconds)
   unset FLEXRF_LONG
+  [[ $* == *--full || $* == *--long ]] && export FLEXRF_LONG=1
   if [[ ${1-} == --full ]]; then
-    export FLEXRF_LONG=1
     extent[asan]=full extent[tsan]=full
   fi
   if [[ ${1-} == --guest ]]; then
