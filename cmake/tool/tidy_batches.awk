@@ -1,7 +1,7 @@
 # Reads BUILD/compile_commands.json and writes, for `flexrf test`, what clang-tidy analyses: files in `out` that include
 # a few of ours each, and a compile database for them. Nearly all of an analysis goes into the headers, which are much
 # the same for all files of a batch, so a batch takes hardly longer than one of its files. Prints the batches.
-# Variables: root, out, size (files of a batch; tests and benchmarks are each alone).
+# Variables: root, out, size (files of a batch).
 
 function system_includes(file, line) {
   while ((getline line < file) > 0)
@@ -44,6 +44,48 @@ function write_list(list, most, names, n, i) {
   }
 }
 
+# The names that a file gives at its left margin: what stands before the first bracket, brace, = or ; there.
+function names_of(file, line, found) {
+  found = " "
+  while ((getline line < file) > 0) {
+    if (line !~ /^[A-Za-z]/ || line ~ /^(using )?namespace |^int main\(/) continue
+    sub(/[({=;\[].*/, "", line)
+    sub(/[^A-Za-z0-9_]+$/, "", line)
+    sub(/.*[^A-Za-z0-9_]/, "", line)
+    found = found line " "
+  }
+  close(file)
+  return found
+}
+
+function share_a_name(left, right, names, n, i) {
+  n = split(left, names, " ")
+  for (i = 1; i <= n; ++i)
+    if (index(right, " " names[i] " ")) return 1
+  return 0
+}
+
+# Tests and benchmarks have the same names again and again: each goes into the first batch that has none of its own.
+function write_packed(list, most, names, n, i, b, bins, given, content, count) {
+  n = split(list, names, "\n") - 1
+  bins = 0
+  for (i = 1; i <= n; ++i) {
+    given = names_of(names[i])
+    for (b = 1; b <= bins; ++b)
+      if (count[b] < most && !share_a_name(given, content[b])) break
+    if (b > bins) {
+      bins = b
+      count[b] = 0
+      content[b] = " "
+      packed[b] = ""
+    }
+    ++count[b]
+    content[b] = content[b] given
+    packed[b] = packed[b] names[i] "\n"
+  }
+  for (b = 1; b <= bins; ++b) write_list(packed[b], most)
+}
+
 function value_of(line) {
   sub(/^ *"[a-z]+": "/, "", line)
   sub(/",?$/, "", line)
@@ -69,7 +111,7 @@ function add(file, key) {
   if (file !~ /\/tests\/|_test\.cpp$|_stress\.cpp$|\/benchmarks\//)
     product[key] = product[key] file "\n"
   else
-    rest[key] = rest[key] file "\n" # tests have the same names again and again
+    rest[key] = rest[key] file "\n"
 }
 
 /^ *"file": / {
@@ -90,6 +132,6 @@ function add(file, key) {
 
 END {
   for (key in product) write_list(product[key], size)
-  for (key in rest) write_list(rest[key], 1)
+  for (key in rest) write_packed(rest[key], size)
   printf "\n]\n" > database
 }
