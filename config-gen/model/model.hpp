@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "config-gen/model/object_list.hpp"
 #include "config-gen/model/position.hpp"
 #include "config-gen/model/register_map.hpp"
 
@@ -209,6 +210,8 @@ struct Driver {
   bool waits = false;
   std::optional<Index> bus_interface;  // the device must be on a bus with this interface
   ParameterBlock configuration;        // the driver's own; the interface's come before
+  bool takes_eds = false;              // a device may name its EDS file, which is checked against:
+  std::vector<NeededObject> objects;
 };
 
 // ---- The application: slots and queues
@@ -386,6 +389,8 @@ struct DeviceResource {
 struct DriverChoice {
   Index driver = 0;
   std::vector<Literal> configuration;  // per parameter of the driver's own block
+  std::string eds;                     // the EDS file as the row names it; empty: none
+  Position eds_position;
 };
 
 // What an application changes in how the panel shows one parameter.

@@ -3,6 +3,7 @@
 
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
+#include "config-gen/read/eds_check.hpp"
 #include "config-gen/read/register_map.hpp"
 
 namespace flexrf::config_gen {
@@ -71,6 +72,10 @@ void read_drivers(Assembly& assembly, Row& row, Device& device) {
     if (values != nullptr) {
       Row own(*values, quote(name.text) + " in " + row.name(), assembly.diagnostics);
       configuration = own.table("configuration");
+      if (assembly.model.drivers[*driver].takes_eds) {
+        choice.eds = own.text("eds").value_or("");
+        choice.eds_position = own.position("eds");
+      }
       own.finish();
     }
     choice.configuration = read_values(assembly, configuration, assembly.model.drivers[*driver].configuration,
@@ -97,6 +102,35 @@ void read_resources(Assembly& assembly, Row& row, Device& device) {
     device.resources.push_back({i, file, row.position(resource.key), std::nullopt});
     if (resource.reader == Resource::Reader::register_map && std::filesystem::is_regular_file(file))
       device.resources.back().registers = read_register_map(file, assembly.diagnostics);
+  }
+}
+
+// What the vendor says of the device, against what the driver asks of it.
+void check_data_sheets(Assembly& assembly, const Device& device) {
+  const Interface& interface = assembly.model.interfaces[device.interface];
+  for (const DriverChoice& choice : device.drivers) {
+    if (choice.eds.empty()) continue;
+    const Driver& driver = assembly.model.drivers[choice.driver];
+    const std::filesystem::path file =
+        (assembly.model.application->file.parent_path() / choice.eds).lexically_normal();
+    if (!std::filesystem::is_regular_file(file)) {
+      assembly.diagnostics.error(choice.eds_position, "there is no file " + quote(choice.eds),
+                                 "it is looked for at " + file.generic_string());
+      continue;
+    }
+    assembly.model.files.push_back(file);
+    const auto eds = read_eds(file, assembly.diagnostics);
+    if (!eds) continue;
+    const auto parameter = [&](const std::string& name) -> const Literal* {
+      const auto in = [&](const ParameterBlock& block, const std::vector<Literal>& values) -> const Literal* {
+        for (std::size_t i = 0; i < block.parameters.size() && i < values.size(); ++i)
+          if (block.parameters[i].field.name == name) return &values[i];
+        return nullptr;
+      };
+      const Literal* own = in(driver.configuration, choice.configuration);
+      return own != nullptr ? own : in(interface.configuration, device.configuration);
+    };
+    check_eds({*eds, choice.eds, choice.eds_position, driver.objects, parameter}, assembly.diagnostics);
   }
 }
 
@@ -143,6 +177,7 @@ void read_device_row(Assembly& assembly, const FlatRow& flat) {
   device.configuration =
       read_values(assembly, row.table("configuration"), kind.configuration, "configuration", row.name());
   device.runtime = read_values(assembly, row.table("runtime"), kind.runtime, "runtime", row.name());
+  check_data_sheets(assembly, device);
   read_device_overrides(assembly, row, device);
   read_io_thread(assembly, row, index);
   row.finish();

@@ -2,6 +2,7 @@
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/library.hpp"
 #include "config-gen/read/members.hpp"
+#include "config-gen/read/object_list.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -27,6 +28,29 @@ Resource read_resource(const Node& node, Diagnostics& diagnostics) {
   resource.key = readers[reader];
   row.finish();
   return resource;
+}
+
+// objects = "FILE": what the driver asks of a device that is described by an EDS file.
+void read_objects(Library& library, const std::string& name, const Position& position, Driver& driver) {
+  const std::filesystem::path file = (driver.file.parent_path() / name).lexically_normal();
+  if (!std::filesystem::is_regular_file(file)) {
+    library.diagnostics().error(position, "there is no file " + quote(name),
+                                "it is looked for at " + file.generic_string());
+    return;
+  }
+  library.model().files.push_back(file);
+  std::vector<ListParameter> parameters;
+  for (const ParameterBlock* block :
+       {&library.model().interfaces[driver.interface].configuration, &driver.configuration}) {
+    for (const Parameter& parameter : block->parameters) {
+      parameters.push_back({parameter.field.name, {}});
+      if (parameter.field.type.kind != FieldType::Kind::declared) continue;
+      for (const EnumerationValue& value : library.model().types[parameter.field.type.declared].values)
+        parameters.back().values.push_back(value.name);
+    }
+  }
+  driver.takes_eds = true;
+  driver.objects = read_object_list(file, parameters, library.diagnostics());
 }
 
 // What units and the panel see of a device is the same whichever driver it has.
@@ -121,6 +145,7 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
                         "name an interface whose table says bus = true");
   }
   row.also("configuration");
+  const auto objects = row.text("objects");
   refuse_sections_of_interface(row, interface.value_or(""), diagnostics);
   row.finish();
   read_parameters(library, root, Parameter::Kind::configuration, driver.configuration);
@@ -138,6 +163,8 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
                           "the name " + quote(parameter.field.name) + " is used twice: every driver of " +
                               *interface + " has it",
                           "rename it; the other is at " + to_string(common.field.position));
+
+  if (objects) read_objects(library, *objects, row.position("objects"), driver);
 
   model.drivers.push_back(std::move(driver));
   return model.drivers.size() - 1;

@@ -1,0 +1,196 @@
+#include "config-gen/read/object_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "config-gen/model/words.hpp"
+#include "config-gen/read/csv.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+enum Column { index, subindex, name, type, access, pdo, presence, when, value, mask, without, columns };
+constexpr std::array<const char*, columns> column_names = {
+    "index", "subindex", "name", "type", "access", "pdo", "presence", "when", "value", "mask", "without"};
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+class ListReader {
+ public:
+  ListReader(const CsvTable& table, const std::vector<ListParameter>& parameters, Diagnostics& diagnostics)
+      : table_(table), parameters_(parameters), diagnostics_(diagnostics) {}
+
+  std::vector<NeededObject> read() {
+    if (!find_columns()) return {};
+    for (const CsvRow& row : table_.rows) {
+      row_ = &row;
+      good_ = true;
+      entry_ = {};
+      read_row();
+      if (good_) objects_.push_back(entry_);
+    }
+    return std::move(objects_);
+  }
+
+ private:
+  void error(const CsvCell& cell, std::string text, std::string hint) {
+    good_ = false;
+    diagnostics_.error(cell.position, std::move(text), std::move(hint));
+  }
+
+  bool find_columns() {
+    const std::vector<std::string> known(column_names.begin(), column_names.end());
+    bool good = true;
+    for (const CsvCell& cell : table_.header) {
+      if (std::find(known.begin(), known.end(), cell.text) != known.end()) continue;
+      good = false;
+      diagnostics_.error(cell.position, "a list of objects has no column " + quote(cell.text),
+                         suggest(cell.text, known, "columns", "remove it"));
+    }
+    for (std::size_t i = 0; i < columns; ++i) places_[i] = table_.column(column_names[i]);
+    for (const Column needed : {index, name, type, access})
+      if (!table_.required_column(column_names[needed], diagnostics_)) good = false;
+    return good;
+  }
+
+  // Null when the list has no such column or the cell is empty.
+  const CsvCell* cell(Column column) const {
+    if (!places_[column]) return nullptr;
+    const CsvCell& found = (*row_)[*places_[column]];
+    return found.text.empty() ? nullptr : &found;
+  }
+
+  std::optional<std::size_t> word(Column column, const std::vector<std::string>& words) {
+    const CsvCell* found = cell(column);
+    if (found == nullptr) return std::nullopt;
+    const auto place = std::find(words.begin(), words.end(), found->text);
+    if (place != words.end()) return static_cast<std::size_t>(place - words.begin());
+    error(*found, quote(found->text) + " is no " + std::string(column_names[column]) + " of an object",
+          suggest(found->text, words, "ones", "write one of " + listed(words)));
+    return std::nullopt;
+  }
+
+  std::optional<std::size_t> required_word(Column column, const std::vector<std::string>& words) {
+    if (cell(column) == nullptr)
+      error((*row_)[*places_[column]], std::string("this object has no ") + column_names[column],
+            "write one of " + listed(words));
+    return word(column, words);
+  }
+
+  std::int64_t integer(Column column, std::int64_t least, std::int64_t most, std::int64_t otherwise) {
+    const CsvCell* found = cell(column);
+    if (found == nullptr) return otherwise;
+    const auto number = CsvTable::integer(*found, diagnostics_);
+    if (!number) {
+      good_ = false;
+    } else if (*number < least || *number > most) {
+      error(*found, quote(found->text) + " is no " + column_names[column] + " of an object",
+            "it is from " + std::to_string(least) + " to " + std::to_string(most));
+    }
+    return number.value_or(otherwise);
+  }
+
+  void read_row() {
+    entry_.position = row_->cells.front().position;
+    if (cell(index) == nullptr) error(row_->cells.front(), "this object has no index", "write it as 0x6040");
+    entry_.index = static_cast<std::uint16_t>(integer(index, 1, 0xFFFF, 0));
+    entry_.subindex = static_cast<std::uint8_t>(integer(subindex, 0, 0xFF, 0));
+    if (const CsvCell* found = cell(name)) entry_.name = found->text;
+    if (const CsvCell* found = cell(without)) entry_.without = found->text;
+    entry_.type = required_word(type, object_types).value_or(0);
+    entry_.access = static_cast<NeededObject::Access>(required_word(access, object_accesses).value_or(0));
+    if (const auto direction = word(pdo, object_pdos))
+      entry_.pdo = *direction == 0 ? NeededObject::Pdo::received : NeededObject::Pdo::sent;
+    entry_.optional = word(presence, object_presences).value_or(0) == 1;
+    entry_.mask = static_cast<std::uint32_t>(integer(mask, 1, 0xFFFFFFFF, 0xFFFFFFFF));
+    read_when();
+    read_value();
+  }
+
+  // "homing_method", "not takes_velocities", "mode = cyclic_position | profile_position".
+  void read_when() {
+    const CsvCell* found = cell(when);
+    if (found == nullptr) return;
+    std::string_view text = found->text;
+    constexpr std::string_view negation = "not ";
+    entry_.unless = text.starts_with(negation);
+    if (entry_.unless) text.remove_prefix(negation.size());
+    const std::size_t equals = text.find('=');
+    entry_.when = trimmed(text.substr(0, equals));
+    const ListParameter* parameter = find_parameter(*found, entry_.when);
+    if (parameter == nullptr || equals == std::string_view::npos) return;
+    for (std::size_t at = equals; at < text.size();) {
+      const std::size_t end = std::min(text.find('|', at + 1), text.size());
+      read_condition(*found, *parameter, std::string(trimmed(text.substr(at + 1, end - at - 1))));
+      at = end;
+    }
+  }
+
+  void read_condition(const CsvCell& found, const ListParameter& parameter, const std::string& wanted) {
+    const auto place = std::find(parameter.values.begin(), parameter.values.end(), wanted);
+    if (place != parameter.values.end())
+      entry_.values.push_back(place - parameter.values.begin());
+    else
+      error(found, quote(parameter.name) + " cannot be " + quote(wanted),
+            suggest(wanted, parameter.values, "values", "it is no enumeration: name it alone"));
+  }
+
+  void read_value() {
+    const CsvCell* found = cell(value);
+    if (found == nullptr) return;
+    if (is_snake_case(found->text)) {
+      entry_.value = found->text;
+      find_parameter(*found, found->text);
+    } else if (const auto number = CsvTable::integer(*found, diagnostics_)) {
+      entry_.value = *number;
+    } else {
+      good_ = false;
+    }
+  }
+
+  const ListParameter* find_parameter(const CsvCell& found, const std::string& wanted) {
+    std::vector<std::string> names;
+    for (const ListParameter& parameter : parameters_) {
+      if (parameter.name == wanted) return &parameter;
+      names.push_back(parameter.name);
+    }
+    error(found, "the driver has no configuration parameter " + quote(wanted),
+          suggest(wanted, names, "parameters", "leave the cell empty"));
+    return nullptr;
+  }
+
+  const CsvTable& table_;
+  const std::vector<ListParameter>& parameters_;
+  Diagnostics& diagnostics_;
+  std::array<std::optional<std::size_t>, columns> places_;
+  const CsvRow* row_ = nullptr;
+  NeededObject entry_;
+  std::vector<NeededObject> objects_;
+  bool good_ = true;
+};
+
+}  // namespace
+
+std::string object_text(std::uint16_t index, std::uint8_t subindex) {
+  std::array<char, 16> text{};
+  if (subindex == 0) {
+    std::snprintf(text.data(), text.size(), "0x%04X", unsigned{index});
+  } else {
+    std::snprintf(text.data(), text.size(), "0x%04X:%02X", unsigned{index}, unsigned{subindex});
+  }
+  return text.data();
+}
+
+std::vector<NeededObject> read_object_list(const std::filesystem::path& file,
+                                           const std::vector<ListParameter>& parameters,
+                                           Diagnostics& diagnostics) {
+  const std::optional<CsvTable> table = read_csv(file, diagnostics);
+  if (!table) return {};
+  return ListReader(*table, parameters, diagnostics).read();
+}
+
+}  // namespace flexrf::config_gen

@@ -1,0 +1,162 @@
+// EDS files as vendors write them: what is read of good ones, and what is said of bad ones. What a driver
+// asks of them is in the catalogue.
+#include "config-gen/read/eds.hpp"
+
+#include <cstring>
+#include <sstream>
+
+#include "config-gen/tests/find.hpp"
+#include "config-gen/tests/tables.hpp"
+#include "tests/cmocka.hpp"
+
+namespace flexrf::config_gen::tests {
+namespace {
+
+struct Parsed {
+  std::optional<Eds> eds;
+  std::string messages;
+};
+
+Parsed parse(std::string_view text) {
+  Diagnostics diagnostics;
+  Parsed parsed;
+  parsed.eds = parse_eds(text, "drive.eds", diagnostics);
+  std::ostringstream out;
+  diagnostics.print(out);
+  parsed.messages = out.str();
+  return parsed;
+}
+
+void a_variable(void**) {
+  const Parsed parsed = parse(
+      "[DeviceInfo]\nVendorNumber=0x1A\nProductNumber=17\n[607A]\nParameterName=Target position\n"
+      "DataType=0x0004\nAccessType=RWW\nDefaultValue=-5\nLowLimit=0x80000000\nPDOMapping=1\n");
+  assert_string_equal(parsed.messages.c_str(), "");
+  const EdsVariable* target = parsed.eds->find(0x607A, 0);
+  assert_non_null(target);
+  assert_string_equal(target->name.c_str(), "Target position");
+  assert_string_equal(target->access.c_str(), "rww");
+  assert_int_equal(target->data_type->value, 4);
+  assert_int_equal(target->value->value, -5);
+  assert_int_equal(target->low->value, 0x80000000);
+  assert_true(target->mappable);
+  assert_int_equal(target->position.line, 4);
+  assert_int_equal(target->access_position.line, 7);
+  assert_int_equal(target->access_position.column, 12);
+  assert_int_equal(parsed.eds->vendor->value, 0x1A);
+  assert_int_equal(parsed.eds->product->value, 17);
+  assert_null(parsed.eds->find(0x607A, 1));
+  assert_null(parsed.eds->find(0x6064, 0));
+}
+
+void line_ends_capitals_and_comments(void**) {
+  const Parsed parsed = parse(
+      "\xEF\xBB\xBF; a comment\r\n# another\r\n\r\n[1018SUB0A]\r\n  DATATYPE = 0X7 ; u32\r\n accesstype=Ro "
+      "\r\n"
+      "PDOMAPPING=0x0\r\n[60ff]\r\nDataType=7");
+  assert_string_equal(parsed.messages.c_str(), "");
+  const EdsVariable* entry = parsed.eds->find(0x1018, 0x0A);
+  assert_non_null(entry);
+  assert_int_equal(entry->data_type->value, 7);
+  assert_string_equal(entry->access.c_str(), "ro");
+  assert_false(entry->mappable);
+  assert_int_equal(parsed.eds->find(0x60FF, 0)->data_type->value, 7);
+}
+
+void numbers(void**) {
+  const Parsed parsed = parse(
+      "[2000]\nDataType=7\nDefaultValue=$NODEID+0x180\n[2001]\nDataType=7\nDefaultValue= 0x200 + $nodeid\n"
+      "[2002]\nDataType=7\nDefaultValue=$NODEID\n[2003]\nDataType=7\nDefaultValue=$NODEID*2\n"
+      "[2004]\nDataType=010\nDefaultValue=099\n[2005]\nDataType=9\nDefaultValue=Version 3\n");
+  assert_string_equal(parsed.messages.c_str(), "");
+  assert_true(parsed.eds->find(0x2000, 0)->value->of_node);
+  assert_int_equal(parsed.eds->find(0x2000, 0)->value->value, 0x180);
+  assert_true(parsed.eds->find(0x2001, 0)->value->of_node);
+  assert_int_equal(parsed.eds->find(0x2001, 0)->value->value, 0x200);
+  assert_true(parsed.eds->find(0x2002, 0)->value->of_node);
+  assert_false(parsed.eds->find(0x2003, 0)->value.has_value());
+  assert_int_equal(parsed.eds->find(0x2004, 0)->data_type->value, 8);
+  assert_int_equal(parsed.eds->find(0x2004, 0)->value->value, 99);
+  assert_false(parsed.eds->find(0x2005, 0)->value.has_value());
+}
+
+void compact_arrays_and_configured_values(void**) {
+  const Parsed parsed = parse(
+      "[1016]\nParameterName=Consumer\nObjectType=8\nCompactSubObj=3\nDataType=7\nAccessType=rw\n"
+      "[1016sub2]\nDataType=6\nAccessType=ro\nDefaultValue=1\nParameterValue=2\n");
+  assert_string_equal(parsed.messages.c_str(), "");
+  assert_int_equal(parsed.eds->find(0x1016, 0)->data_type->value, 5);
+  assert_string_equal(parsed.eds->find(0x1016, 3)->access.c_str(), "rw");
+  assert_null(parsed.eds->find(0x1016, 4));
+  assert_int_equal(parsed.eds->find(0x1016, 2)->data_type->value, 6);
+  assert_int_equal(parsed.eds->find(0x1016, 2)->value->value, 2);
+}
+
+void what_is_no_eds_file(void**) {
+  const auto says = [](std::string_view text, const char* part) {
+    const Parsed parsed = parse(text);
+    return !parsed.eds && std::strstr(parsed.messages.c_str(), part) != nullptr;
+  };
+  using namespace std::string_view_literals;
+  assert_true(says("", "drive.eds:1:1: error: this is no EDS file: it is empty"));
+  assert_true(says(" \r\n\n", "it is empty"));
+  assert_true(says("<?xml version=\"1.0\"?>", "it is a text in XML"));
+  assert_true(says("\xFF\xFE[\0"sv, "it is a text in UTF-16"));
+  assert_true(says("[6040]\n\0\x01"sv, "it is no text"));
+  assert_true(says("index,type\n0x6040,u16\n", "it has no [section]"));
+  assert_true(says("[FileInfo]\nFileName=x.eds\n", "this EDS file has no object"));
+}
+
+// Wherever a file is cut off, and whatever byte of it is another: read or refused, in words.
+void every_cut_and_every_damage_ends_in_words(void**) {
+  const std::string whole =
+      "[DeviceInfo]\r\nVendorNumber=0x1\r\n[OptionalObjects]\r\nSupportedObjects=2\r\n1=0x1016\r\n2="
+      "0x6040\r\n"
+      "[1016]\r\nCompactSubObj=2\r\nDataType=7\r\n[1018sub1]\r\nDefaultValue=$NODEID+1\r\n[6040]\r\n"
+      "DataType=0x6\r\nAccessType=rww ; both\r\nPDOMapping=1\r\n";
+  std::size_t tried = 0;
+  const auto is_told = [&tried](const std::string& text) {
+    const Parsed parsed = parse(text);
+    ++tried;
+    return parsed.eds.has_value() || parsed.messages.find(": error: ") != std::string::npos;
+  };
+  for (std::size_t size = 0; size <= whole.size(); ++size) assert_true(is_told(whole.substr(0, size)));
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    for (const char other : {'\0', '[', ']', '=', '$', '-', '\n', '\xFF'}) {
+      std::string damaged = whole;
+      damaged[at] = other;
+      assert_true(is_told(damaged));
+    }
+  }
+  assert_true(tried > 1000);
+}
+
+void a_cell_with_an_odd_but_good_file(void**) {
+  std::filesystem::current_path(TESTS_FOLDER);
+  const Result result = read_cell("cells/eds");
+  assert_string_equal(result.messages.c_str(), "");
+  const auto depends_on = [&](std::string_view name) {
+    for (const std::filesystem::path& file : result.model.files)
+      if (file.generic_string().ends_with(name)) return true;
+    return false;
+  };
+  assert_true(depends_on("cells/eds/servo.eds"));
+  assert_true(depends_on("canopen_servo/objects.csv"));
+  const Driver& driver = result.model.drivers[named(result.model.devices, "servo").drivers[0].driver];
+  assert_int_equal(driver.objects.size(), 13);
+}
+
+}  // namespace
+}  // namespace flexrf::config_gen::tests
+
+int main() {
+  using namespace flexrf::config_gen::tests;
+  const CMUnitTest tests[] = {cmocka_unit_test(a_variable),
+                              cmocka_unit_test(line_ends_capitals_and_comments),
+                              cmocka_unit_test(numbers),
+                              cmocka_unit_test(compact_arrays_and_configured_values),
+                              cmocka_unit_test(what_is_no_eds_file),
+                              cmocka_unit_test(every_cut_and_every_damage_ends_in_words),
+                              cmocka_unit_test(a_cell_with_an_odd_but_good_file)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
