@@ -33,9 +33,10 @@ template <class Driver>
 class DeviceBench {
  public:
   /// `resource`: of interfaces that have one, else null. `sinks`: where the device's queue output goes.
-  /// `bus`: of a device on one, else null.
-  explicit DeviceBench(const void* resource, std::span<QueueSink* const> sinks = {}, Device* bus = nullptr)
-      : resources_{resource}, queue_outputs_{sinks} {
+  /// `bus`: of a device on one, else null. `output`: the slot of its first output, or null.
+  explicit DeviceBench(const void* resource, std::span<QueueSink* const> sinks = {}, Device* bus = nullptr,
+                       SlotControl* output = nullptr)
+      : resources_{resource}, outputs_{output}, queue_outputs_{sinks} {
     driver_.set_environment(&environment_);
     driver_.set_inhibited(false);
     DeviceBinding binding;
@@ -52,6 +53,10 @@ class DeviceBench {
   auto& configuration() {
     return *static_cast<typename Driver::Configuration*>(driver_.parameter_memory().configuration);
   }
+  const auto& feedback() {
+    return *static_cast<const typename Driver::Feedback*>(driver_.parameter_memory().feedback);
+  }
+  auto& runtime() { return *static_cast<typename Driver::Runtime*>(driver_.parameter_memory().runtime); }
   Time now() const { return tick_.now; }
   const Tick& tick() const { return tick_; }
 
@@ -71,7 +76,7 @@ class DeviceBench {
   Tick tick_{.nominal = Time{std::chrono::seconds(1)}, .now = Time{std::chrono::seconds(1)}};
   DeviceEnvironment environment_{.seed = 1, .virtual_time = true};
   const void* resources_[1];
-  SlotControl* outputs_[1] = {};  // not connected
+  SlotControl* outputs_[1];
   std::span<QueueSink* const> queue_outputs_[1];
   Driver driver_;
 };

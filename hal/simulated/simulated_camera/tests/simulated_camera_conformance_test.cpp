@@ -1,0 +1,127 @@
+#include <poll.h>
+
+#include <cmath>
+
+#include "hal/interfaces/camera/conformance/camera_eye.hpp"
+#include "hal/interfaces/camera/conformance/virtual_world.hpp"
+#include "hal/simulated/simulated_camera/camera_scene.hpp"
+#include "hal/simulated/simulated_camera/simulated_camera.hpp"
+#include "tests/cmocka.hpp"
+
+namespace flexrf {
+namespace {
+
+using SimulatedBench = CameraBench<SimulatedCamera>;
+using std::chrono::milliseconds;
+
+/// Middle of what is red in the row in the middle, in widths of the picture; below 0: nothing is.
+double red_middle(const CameraImage& image) {
+  const std::uint8_t* const row = image.data.data() + std::size_t{image.height / 2} * image.stride;
+  std::uint32_t sum = 0;
+  std::uint32_t count = 0;
+  for (std::uint32_t x = 0; x < image.width; ++x) {
+    const std::uint8_t* const pixel = row + std::size_t{x} * 3;
+    if (pixel[0] != CameraScene::part_colour.red || pixel[1] != CameraScene::part_colour.green) continue;
+    sum += x;
+    ++count;
+  }
+  return count == 0 ? -1 : static_cast<double>(sum) / count / image.width;
+}
+
+bool the_part_passes_by() {
+  SimulatedBench camera(CameraRequest{.format = PixelFormat::rgb24});
+  camera.bench().configuration().part_period = 2;
+  if (!camera.driver().initialise()) return false;
+  Time origin{};
+  int judged = 0;
+  for (int cycle = 0; cycle < 300; ++cycle) {
+    camera.bench().receive(milliseconds(10));
+    const auto image = camera.driver().frame();
+    if (!image) continue;
+    if (origin == Time{}) origin = image->time;
+    const double passed = seconds(image->time - origin) / 2;
+    const double where = passed - static_cast<double>(static_cast<int>(passed));
+    if (where < 0.2 || where > 0.8) continue;  // it is cut at the edges
+    if (std::abs(red_middle(*image) - where) > 0.01) return false;
+    ++judged;
+  }
+  return judged > 20;
+}
+
+void part(void**) {
+  assert_true(the_part_passes_by());
+}
+
+bool faults_come_as_configured() {
+  SimulatedBench camera(CameraRequest{});
+  camera.bench().configuration().lose_every = 5;
+  camera.bench().configuration().damage_every = 7;
+  if (!camera.driver().initialise()) return false;
+  for (int cycle = 0; cycle < 400; ++cycle) camera.bench().receive(milliseconds(10));
+  const CameraFeedback& told = camera.bench().feedback();
+  return told.lost_frames > 10 && told.damaged_frames > 10 && told.frames > 60 && told.losses == 0;
+}
+
+void faults(void**) {
+  assert_true(faults_come_as_configured());
+}
+
+std::uint64_t sum_of_three(PixelFormat format) {
+  SimulatedBench camera(CameraRequest{.format = format, .into_slot = true});
+  if (!camera.driver().initialise()) return 0;
+  SlotReader reader(camera.slot());
+  std::uint64_t sum = 0;
+  for (std::uint64_t seen = 0; seen < 3;) {
+    camera.bench().receive(milliseconds(10));
+    const ItemHeader* const header = reader.newest();
+    if (header == nullptr || header->sequence == seen) continue;
+    seen = header->sequence;
+    // All of the item, to its last byte.
+    const auto& frame = *static_cast<const CameraFrame*>(reader.payload());
+    sum = sum * 31 + checksum({.data = frame.data});
+  }
+  return sum;
+}
+
+void the_same_run_gives_the_same_items(void**) {
+  for (const PixelFormat format : {PixelFormat::yuyv, PixelFormat::grey8}) {
+    const std::uint64_t sum = sum_of_three(format);
+    assert_int_not_equal(sum, 0);
+    assert_int_equal(sum, sum_of_three(format));
+  }
+}
+
+/// Its descriptor wakes whoever waits for the next picture.
+bool pictures_come_by_the_clock_on_the_wall() {
+  SimulatedBench camera(CameraRequest{});
+  camera.bench().environment().virtual_time = false;
+  if (!camera.driver().initialise()) return false;
+  for (int turn = 0; turn < 1000; ++turn) {
+    pollfd wanted{camera.driver().descriptor(), POLLIN, 0};
+    if (poll(&wanted, 1, 30'000) != 1) return false;
+    camera.bench().receive(MonotonicClock::now() - camera.bench().now());
+    if (camera.bench().feedback().frames >= 3) return true;
+  }
+  return false;
+}
+
+void by_the_clock(void**) {
+  assert_true(pictures_come_by_the_clock_on_the_wall());
+}
+
+}  // namespace
+}  // namespace flexrf
+
+int main() {
+  using namespace flexrf;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(part),
+      cmocka_unit_test(faults),
+      cmocka_unit_test(the_same_run_gives_the_same_items),
+      cmocka_unit_test(by_the_clock),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr) +
+         run_camera_conformance("simulated camera", []() -> std::unique_ptr<CameraWorld> {
+           return std::make_unique<VirtualCameraWorld<SimulatedCamera>>();
+         });
+}
