@@ -26,8 +26,11 @@ inline constexpr ObjectAddress actual_velocity{0x606C, 0};          ///< i32
 inline constexpr ObjectAddress target_position{0x607A, 0};          ///< i32
 inline constexpr ObjectAddress profile_velocity{0x6081, 0};         ///< u32
 inline constexpr ObjectAddress profile_acceleration{0x6083, 0};     ///< u32
+inline constexpr ObjectAddress profile_deceleration{0x6084, 0};     ///< u32
 inline constexpr ObjectAddress quick_stop_deceleration{0x6085, 0};  ///< u32
 inline constexpr ObjectAddress homing_method{0x6098, 0};            ///< i8
+inline constexpr ObjectAddress homing_search_speed{0x6099, 1};      ///< u32: towards the switch
+inline constexpr ObjectAddress homing_creep_speed{0x6099, 2};       ///< u32: towards the zero
 inline constexpr ObjectAddress period_value{0x60C2, 1};             ///< u8
 inline constexpr ObjectAddress period_exponent{0x60C2, 2};          ///< i8: of ten, in s
 inline constexpr ObjectAddress following_error{0x60F4, 0};          ///< i32

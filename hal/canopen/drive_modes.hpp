@@ -18,8 +18,11 @@ class CyclicSetPoint {
 
   /// At every enabling, and after whatever else moved the axis: the set-point is where it is now, and so is
   /// what is wanted.
-  void seed(double actual) noexcept { set_point_ = wanted_ = actual; }
-  void command(double wanted) noexcept { wanted_ = wanted; }
+  void seed(double actual) noexcept;
+  void command(double wanted) noexcept;
+  /// Until the next command: comes to rest with this deceleration, above 0, and no farther than `lowest` or
+  /// `highest`, and is what is wanted then.
+  void halt(double deceleration, double lowest, double highest) noexcept;
   /// The set-point of this cycle, `elapsed` after the one before: as near to what is wanted as may be.
   double next(Duration elapsed) noexcept;
   double set_point() const noexcept { return set_point_; }
@@ -27,9 +30,15 @@ class CyclicSetPoint {
   bool is_limited() const noexcept { return set_point_ != wanted_; }
 
  private:
+  double slowed(double time) const noexcept;
+
   double fastest_;
   double set_point_ = 0;
   double wanted_ = 0;
+  double velocity_ = 0;      // of the last cycle, a second
+  double deceleration_ = 0;  // above 0: it halts
+  double lowest_ = 0;
+  double highest_ = 0;
 };
 
 /// Profile position: hands one set-point after the other to the drive, by new set-point (controlword bit 4)
@@ -38,8 +47,8 @@ class SetPointHandshake {
  public:
   explicit SetPointHandshake(Duration timeout) noexcept : timeout_{timeout} {}
 
-  /// At every enabling: nothing is on its way.
-  void reset() noexcept;
+  /// At every enabling: nothing is on its way. `actual`: where the axis is, for target().
+  void reset(std::int32_t actual) noexcept;
   /// The newest one counts: one that has not been offered yet is forgotten.
   void command(std::int32_t target) noexcept { waiting_ = target; }
   /// Once for each cycle in which operation is enabled: the bits to add to the controlword.

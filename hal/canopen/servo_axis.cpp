@@ -7,12 +7,10 @@
 namespace flexrf::canopen::cia402 {
 namespace {
 
-constexpr std::uint32_t milliseconds_exponent = 0xFD;  // ten to the power of -3, as i8
-constexpr double largest_increments = std::numeric_limits<std::int32_t>::max();
+constexpr double largest_object = std::numeric_limits<std::int32_t>::max();
 
 std::uint64_t to_object(double increments) {
-  return static_cast<std::uint64_t>(
-      std::llround(std::clamp(increments, -largest_increments, largest_increments)));
+  return static_cast<std::uint64_t>(std::llround(std::clamp(increments, -largest_object, largest_object)));
 }
 
 }  // namespace
@@ -22,82 +20,31 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   plan_ = plan;
   power_.begin(plan.limits);
   cyclic_ = CyclicSetPoint{plan.fastest};
+  handshake_ = SetPointHandshake{plan.set_point_timeout};
+  homing_.begin({.run = plan.homing_timeout,
+                 .settle = plan.homing_settle,
+                 .mode = plan.mode_timeout,
+                 .stop = plan.limits.stop},
+                plan.mode, plan.homing_method != 0);
   beat_.begin(plan.heartbeat_period, now);
   state_.reset();
   fault_ = {};
   mode_wanted_.reset();
   statusword_ = 0;
   mode_shown_ = Mode::none;
+  mode_said_ = plan.mode;
   was_operational_ = false;
   bring_ups_ = node_.times_operational();
+  was_commanded_ = halts_ = false;
   velocity_ = 0;
-  last_set_point_ = 0;
+  speed_ = plan.fastest;
+  target_object_ = 0;
   return node_.begin(node_plan(), now, outbox);
 }
 
 void ServoAxis::end(Outbox& outbox) noexcept {
   node_.end(outbox);
   state_.reset();
-}
-
-Status ServoAxis::check(const AxisPlan& plan) const noexcept {
-  const auto wrong = [&plan](const char* what) {
-    return Status::error(StatusCode::invalid_argument, "the axis with node %u: %s", unsigned{plan.node},
-                         what);
-  };
-  if (plan.mode != Mode::cyclic_position && plan.mode != Mode::cyclic_velocity) {
-    return wrong("its mode is neither cyclic position nor cyclic velocity");
-  }
-  if (plan.period < std::chrono::milliseconds(1) || plan.period > std::chrono::milliseconds(255) ||
-      plan.period % std::chrono::milliseconds(1) != Duration{}) {
-    return wrong("its period is not a whole number of ms from 1 to 255, as the drive counts it");
-  }
-  if (!std::isfinite(plan.increments_per_unit) || plan.increments_per_unit == 0) {
-    return wrong("its increments per unit are 0 or not finite");
-  }
-  if (!(plan.lowest < plan.highest)) return wrong("its lowest position is not below its highest");
-  if (!(plan.fastest > 0) || !std::isfinite(plan.fastest))
-    return wrong("its greatest velocity is not above 0");
-  const double farthest = std::max(std::abs(plan.lowest), std::abs(plan.highest));
-  if (!(farthest * std::abs(plan.increments_per_unit) <= largest_increments)) {
-    return wrong("its range has more increments than the drive can count");
-  }
-  return {};
-}
-
-NodePlan ServoAxis::node_plan() noexcept {
-  commands_ = {.direction = PdoDirection::received_by_node,
-               .identifier = receive_pdo_identifier(1, plan_.node)};
-  commands_.add(objects::controlword, 16);
-  commands_.add(plan_.mode == Mode::cyclic_position ? objects::target_position : objects::target_velocity,
-                32);
-  commands_.add(objects::mode, 8);
-  states_ = {.direction = PdoDirection::sent_by_node, .identifier = transmit_pdo_identifier(1, plan_.node)};
-  states_.add(objects::statusword, 16);
-  states_.add(objects::actual_position, 32);
-  states_.add(objects::mode_display, 8);
-  motion_ = {.direction = PdoDirection::sent_by_node,
-             .number = 2,
-             .identifier = transmit_pdo_identifier(2, plan_.node)};
-  motion_.add(objects::actual_velocity, 32);
-
-  NodePlan node{.node = plan_.node,
-                .master = plan_.master,
-                .boot_timeout = plan_.boot_timeout,
-                .sdo_timeout = plan_.sdo_timeout,
-                .heartbeat_period = plan_.heartbeat_period,
-                .heartbeat_limit = plan_.heartbeat_limit,
-                .master_heartbeat_limit = plan_.heartbeat_limit};
-  Configuration& list = node.configuration;
-  list.expect(canopen::objects::device_type, profile_number, 0xFFFF, "device profile");
-  if (plan_.vendor != 0) list.expect(canopen::objects::vendor, plan_.vendor, 0xFFFFFFFF, "vendor");
-  if (plan_.product != 0) list.expect(canopen::objects::product, plan_.product, 0xFFFFFFFF, "product");
-  list.write(objects::abort_connection, 2, static_cast<std::uint16_t>(plan_.abort_connection));
-  list.write(objects::period_value, 1,
-             static_cast<std::uint32_t>(plan_.period / std::chrono::milliseconds(1)));
-  list.write(objects::period_exponent, 1, milliseconds_exponent);
-  for (const PdoPlan& pdo : {commands_, states_, motion_}) list.configure_pdo(pdo);
-  return node;
 }
 
 void ServoAxis::receive(const Message& message, Time now, Outbox& outbox) noexcept {
@@ -109,10 +56,11 @@ void ServoAxis::receive(const Message& message, Time now, Outbox& outbox) noexce
     statusword_ = static_cast<std::uint16_t>(values[0]);
     state_->position = static_cast<double>(with_sign(values[1], 32)) / plan_.increments_per_unit;
     state_->at_internal_limit = (statusword_ & status_bit::internal_limit) != 0;
+    state_->target_reached = has_reached(statusword_);
     mode_shown_ = static_cast<Mode>(with_sign(values[2], 8));
     heard_ = now;
   } else if (state_ && unpack(motion_, message, values)) {
-    state_->velocity = static_cast<double>(with_sign(values[0], 32)) / plan_.increments_per_unit;
+    state_->velocity = static_cast<double>(with_sign(values[0], 32)) / to_velocity_object(1);
   }
 }
 
@@ -124,43 +72,87 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   if (!node_.is_operational()) return;
   if (!state_) {
     // It is not heard, and may well hear us.
-    const std::uint64_t values[] = {command::quick_stop, last_set_point_,
-                                    static_cast<std::uint64_t>(plan_.mode)};
-    if (!fault_.is_ok()) outbox.push(pack(commands_, values));
+    if (!fault_.is_ok()) say(command::quick_stop, outbox);
     return;
   }
   const bool wanted = may_move && fault_.is_ok();
   const bool enables = mode_is_taken(wanted, now) && wanted && fault_.is_ok();
   power_.pursue(enables ? DrivePower::Goal::enabled : DrivePower::Goal::off);
   const bool at_rest = std::abs(state_->velocity) <= plan_.rest_velocity;
-  const std::uint16_t word = power_.advance(statusword_, at_rest, now);
+  std::uint16_t word = power_.advance(statusword_, at_rest, now);
   if (!power_.problem().is_ok()) fail(power_.problem());
-  if (power_.was_just_enabled() || !power_.is_enabled()) {
-    cyclic_.seed(state_->position);
-    velocity_ = 0;
-  }
+  if (!power_.is_enabled()) homing_.interrupt();
+  const bool homes = homing_.is_running() && !homing_.is_resting();
+  if (power_.was_just_enabled() || !power_.is_enabled() || homes) seed();
+  if (power_.is_enabled()) word |= mode_bits(at_rest, now);
   state_->enabled = power_.is_enabled();
-  last_set_point_ = to_object(set_point_for(elapsed) * plan_.increments_per_unit);
-  const std::uint64_t values[] = {word, last_set_point_, static_cast<std::uint64_t>(plan_.mode)};
-  outbox.push(pack(commands_, values));
+  // Where it stops by itself, it stops in the mode that it moves in.
+  if (power_.is_enabled() || power_.is_off()) mode_said_ = homing_.mode();
+  target_object_ = to_object(target_for(elapsed));
+  say(word, outbox);
 }
 
 void ServoAxis::command_position(double position) noexcept {
-  if (!power_.is_enabled() || plan_.mode != Mode::cyclic_position) return;
-  if (!std::isfinite(position)) {
-    fail(Status::error(StatusCode::invalid_argument, "it was commanded to a position that is not a number"));
-    return;
-  }
+  if (!takes(Mode::cyclic_position, Mode::cyclic_position) || !may_be_commanded()) return;
+  if (!is_number(position, "position")) return;
   cyclic_.command(std::clamp(position, plan_.lowest, plan_.highest));
 }
 
 void ServoAxis::command_velocity(double velocity) noexcept {
-  if (!power_.is_enabled() || plan_.mode != Mode::cyclic_velocity) return;
-  if (!std::isfinite(velocity)) {
-    fail(Status::error(StatusCode::invalid_argument, "it was commanded to a velocity that is not a number"));
+  if (!takes(Mode::cyclic_velocity, Mode::profile_velocity) || !may_be_commanded()) return;
+  if (!is_number(velocity, "velocity")) return;
+  const double kept = std::clamp(velocity, -plan_.fastest, plan_.fastest);
+  if (kept == velocity_ && was_commanded_ && !halts_) return;
+  velocity_ = kept;
+  cycles_ = 0;
+  was_commanded_ = true;
+  halts_ = false;
+  state_->target_reached = false;
+}
+
+void ServoAxis::move_to(double position, double speed) noexcept {
+  if (!takes(Mode::profile_position, Mode::profile_position) || !may_be_commanded()) return;
+  if (!is_number(position, "position") || !is_number(speed, "speed")) return;
+  if (!(speed > 0)) {
+    fail(Status::error(StatusCode::invalid_argument, "it was commanded to move with a speed of %g", speed));
     return;
   }
-  velocity_ = std::clamp(velocity, -plan_.fastest, plan_.fastest);
+  speed_ = std::min(speed, plan_.fastest);
+  const double kept = std::clamp(position, plan_.lowest, plan_.highest);
+  handshake_.command(static_cast<std::int32_t>(std::llround(kept * plan_.increments_per_unit)));
+  was_commanded_ = true;
+  state_->target_reached = false;
+}
+
+void ServoAxis::home() noexcept {
+  if (!may_be_commanded() || plan_.homing_method == 0) return;
+  halt();
+  homing_.start();
+}
+
+void ServoAxis::halt() noexcept {
+  if (!power_.is_enabled() || !state_) return;
+  homing_.halt();
+  if (homing_.is_running()) return;
+  cyclic_.halt(plan_.acceleration, plan_.lowest, plan_.highest);
+  handshake_.reset(handshake_.target());
+  was_commanded_ = false;
+  halts_ = true;
+  state_->target_reached = false;
+}
+
+bool ServoAxis::may_be_commanded() const noexcept {
+  return power_.is_enabled() && state_ && !homing_.is_running();
+}
+
+bool ServoAxis::takes(Mode one, Mode other) const noexcept {
+  return plan_.mode == one || plan_.mode == other;
+}
+
+bool ServoAxis::is_number(double value, const char* what) noexcept {
+  if (std::isfinite(value)) return true;
+  fail(Status::error(StatusCode::invalid_argument, "it was commanded to a %s that is not a number", what));
+  return false;
 }
 
 // The first cause counts: what follows from it says less.
@@ -183,6 +175,7 @@ void ServoAxis::watch(Time now) noexcept {
                                        : node_.problem();
     }
     power_.begin(plan_.limits);
+    homing_.forget();
     state_.reset();
   }
   if (node_.state() == NodeState::refused && fault_.is_ok()) fault_ = node_.problem();
@@ -198,7 +191,7 @@ void ServoAxis::watch(Time now) noexcept {
 
 // A drive may take its time to change its mode, and is enabled only then.
 bool ServoAxis::mode_is_taken(bool wanted, Time now) noexcept {
-  if (mode_shown_ == plan_.mode || !wanted) {
+  if (mode_shown_ == plan_.mode || !wanted || homing_.is_running()) {
     mode_wanted_.reset();
     return true;
   }
@@ -210,16 +203,73 @@ bool ServoAxis::mode_is_taken(bool wanted, Time now) noexcept {
   return false;
 }
 
-double ServoAxis::set_point_for(Duration elapsed) noexcept {
-  if (plan_.mode == Mode::cyclic_position) {
-    const double set_point = power_.is_enabled() ? cyclic_.next(elapsed) : state_->position;
-    state_->following_error = set_point - state_->position;
-    return set_point;
+// Nothing is wanted but to stay where it is.
+void ServoAxis::seed() noexcept {
+  cyclic_.seed(state_->position);
+  handshake_.reset(static_cast<std::int32_t>(std::llround(state_->position * plan_.increments_per_unit)));
+  velocity_ = 0;
+  was_commanded_ = halts_ = false;
+}
+
+std::uint16_t ServoAxis::mode_bits(bool at_rest, Time now) noexcept {
+  if (homing_.is_running()) {
+    const std::uint16_t bits = homing_.advance(statusword_, mode_shown_, at_rest, now);
+    if (!homing_.trouble().is_ok()) fail(homing_.trouble());
+    if (!homing_.is_resting()) return bits;
   }
-  if (!power_.is_enabled()) return 0;
-  const bool would_leave = (velocity_ > 0 && state_->position >= plan_.highest) ||
-                           (velocity_ < 0 && state_->position <= plan_.lowest);
-  return would_leave ? 0 : velocity_;
+  if (plan_.mode != Mode::profile_position) return 0;
+  std::uint16_t bits = handshake_.advance(statusword_, now);
+  if (!handshake_.problem().is_ok()) fail(handshake_.problem());
+  // It would go on to where it was halted on its way to, before it is told where to go now.
+  if ((bits & control_bit::new_set_point) != 0) halts_ = false;
+  if (halts_) bits |= control_bit::halt;
+  return bits;
+}
+
+// For object 607A or 60FF.
+double ServoAxis::target_for(Duration elapsed) noexcept {
+  switch (plan_.mode) {
+    case Mode::profile_position:
+      state_->following_error = 0;
+      return handshake_.target();
+    case Mode::cyclic_velocity:
+    case Mode::profile_velocity:
+      return to_velocity_object(power_.is_enabled() ? velocity_for(elapsed) : 0);
+    default:
+      break;
+  }
+  const double set_point = power_.is_enabled() ? cyclic_.next(elapsed) : state_->position;
+  state_->following_error = set_point - state_->position;
+  return set_point * plan_.increments_per_unit;
+}
+
+double ServoAxis::velocity_for(Duration elapsed) noexcept {
+  if (halts_) {
+    const double step = plan_.acceleration * seconds(elapsed);
+    velocity_ -= std::clamp(velocity_, -step, step);
+  }
+  cycles_ = std::min(cycles_ + 1, settle_cycles);
+  return would_leave() ? 0 : velocity_;
+}
+
+bool ServoAxis::would_leave() const noexcept {
+  return (velocity_ > 0 && state_->position >= plan_.highest) ||
+         (velocity_ < 0 && state_->position <= plan_.lowest);
+}
+
+bool ServoAxis::has_reached(std::uint16_t statusword) const noexcept {
+  if (!power_.is_enabled() || !was_commanded_ || halts_) return false;
+  if (plan_.mode == Mode::profile_position) return handshake_.is_reached(statusword);
+  if (plan_.mode != Mode::profile_velocity || would_leave()) return false;
+  return cycles_ == settle_cycles && (statusword & status_bit::target_reached) != 0;
+}
+
+void ServoAxis::say(std::uint16_t word, Outbox& outbox) const noexcept {
+  const std::uint64_t values[] = {word, target_object_, static_cast<std::uint8_t>(mode_said_)};
+  outbox.push(pack(commands_, values));
+  if (plan_.mode != Mode::profile_position) return;
+  const std::uint64_t speed[] = {to_amount(to_velocity_object(speed_))};
+  outbox.push(pack(profile_, speed));
 }
 
 }  // namespace flexrf::canopen::cia402

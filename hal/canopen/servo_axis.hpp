@@ -1,7 +1,8 @@
-// An axis of a CiA 402 drive as a driver uses it: brought up, enabled, fed with cyclic set-points, and
+// An axis of a CiA 402 drive as a driver uses it: brought up, enabled, homed, fed with set-points, and
 // stopped.
 #pragma once
 
+#include "hal/canopen/axis_homing.hpp"
 #include "hal/canopen/drive_modes.hpp"
 #include "hal/canopen/drive_power.hpp"
 #include "hal/canopen/node.hpp"
@@ -14,15 +15,26 @@ struct AxisPlan {
   std::uint8_t master = 127;
   std::uint32_t vendor = 0;                        ///< 0: any
   std::uint32_t product = 0;                       ///< 0: any
-  Mode mode = Mode::cyclic_position;               ///< or cyclic_velocity
+  Mode mode = Mode::cyclic_position;               ///< not homing: see home()
   Duration period = std::chrono::milliseconds(7);  ///< of SYNC and set-points; whole ms, at most 255
   double increments_per_unit = 1000;               ///< negative: it turns the other way; not 0
   double lowest = -1000;                           ///< position, unit
   double highest = 1000;                           ///< position, unit
   double fastest = 1;                              ///< unit/s, above 0
-  double rest_velocity = 0.001;                    ///< unit/s: at most so fast is at rest
+  double acceleration = 10;                        ///< unit/s^2, above 0: of profiles, and of a halt
+  double quick_stop_deceleration = 0;              ///< unit/s^2; 0: as the drive has it
+  /// The drive's units of velocity for one increment/s, and of acceleration for one increment/s^2; above 0.
+  double velocity_factor = 1;
+  double acceleration_factor = 1;
+  std::int8_t homing_method = 0;      ///< object 6098; 0: its encoder is absolute
+  double homing_speed = 0.1;          ///< unit/s, above 0
+  double homing_creep_speed = 0.02;   ///< unit/s, above 0
+  double rest_velocity = 0.001;       ///< unit/s: at most so fast is at rest
   std::int16_t abort_connection = 3;  ///< object 6007: what it does without our heartbeat: quick stop
   Duration mode_timeout = std::chrono::milliseconds(500);
+  Duration set_point_timeout = std::chrono::milliseconds(500);  ///< until it acknowledges one
+  Duration homing_timeout = std::chrono::seconds(60);
+  Duration homing_settle = std::chrono::milliseconds(50);  ///< see HomingRun
   Duration boot_timeout = std::chrono::seconds(1);
   Duration sdo_timeout = std::chrono::milliseconds(500);
   Duration heartbeat_period = std::chrono::milliseconds(100);
@@ -36,6 +48,7 @@ struct AxisState {
   double following_error = 0;  ///< the last set-point less position, unit; 0 in other modes
   bool enabled = false;
   bool at_internal_limit = false;
+  bool target_reached = false;  ///< in profile modes: it took the last command and has done it
 };
 
 /// Without I/O; never blocks, never allocates. One thread. A cycle: receive() of what came, then commands,
@@ -52,12 +65,24 @@ class ServoAxis {
   /// is stopped and off, and forgets what it was commanded.
   void send(bool may_move, Time now, Duration elapsed, Outbox& outbox) noexcept;
 
-  /// In mode cyclic_position: unit, kept within lowest and highest. Held until the next one. Without effect
-  /// while the axis is not enabled, and not remembered. What is not finite is a fault.
+  // What follows is without effect in other modes, while the axis is not enabled, and while it homes, and is
+  // not remembered. What is not finite is a fault.
+
+  /// In mode cyclic_position: unit, kept within lowest and highest. Held until the next one.
   void command_position(double position) noexcept;
-  /// In mode cyclic_velocity: unit/s, kept within fastest; zero once the axis is beyond its range and would
-  /// go on.
+  /// In modes cyclic_velocity and profile_velocity: unit/s, kept within fastest; zero once the axis is beyond
+  /// its range and would go on.
   void command_velocity(double velocity) noexcept;
+  /// In mode profile_position: unit, kept within lowest and highest, and unit/s, above 0, kept within
+  /// fastest. Gives up the target before.
+  void move_to(double position, double speed) noexcept;
+  /// In every mode, unless the plan's method is 0.
+  void home() noexcept;
+  /// In every mode, also while it homes: to rest, until the next command.
+  void halt() noexcept;
+
+  Homing homing() const noexcept { return homing_.state(); }
+  const Status& homing_problem() const noexcept { return homing_.problem(); }
 
   /// What the drive said last; nothing while it is not operational or says nothing.
   const std::optional<AxisState>& state() const noexcept { return state_; }
@@ -70,19 +95,39 @@ class ServoAxis {
 
  private:
   static constexpr int silent_cycles = 10;  // without process data it is not known where it is
+  static constexpr int settle_cycles = 5;   // from a velocity that is commanded to a status that is about it
 
   Status check(const AxisPlan& plan) const noexcept;
   NodePlan node_plan() noexcept;
+  void plan_motion(Configuration& list) const noexcept;
   void fail(const Status& cause) noexcept;
   void watch(Time now) noexcept;
   bool mode_is_taken(bool wanted, Time now) noexcept;
-  double set_point_for(Duration elapsed) noexcept;
+  bool takes(Mode one, Mode other) const noexcept;
+  bool may_be_commanded() const noexcept;
+  bool would_leave() const noexcept;
+  bool is_number(double value, const char* what) noexcept;
+  void seed() noexcept;
+  std::uint16_t mode_bits(bool at_rest, Time now) noexcept;
+  double target_for(Duration elapsed) noexcept;
+  double velocity_for(Duration elapsed) noexcept;
+  bool has_reached(std::uint16_t statusword) const noexcept;
+  void say(std::uint16_t word, Outbox& outbox) const noexcept;
+
+  /// A speed or an acceleration as the drive counts it; at least 1, or it would never move.
+  static std::uint32_t to_amount(double value) noexcept;
+  double to_velocity_object(double velocity) const noexcept {
+    return velocity * plan_.increments_per_unit * plan_.velocity_factor;
+  }
 
   AxisPlan plan_;
   Node node_;
   DrivePower power_;
   CyclicSetPoint cyclic_{1};
+  SetPointHandshake handshake_{std::chrono::milliseconds(500)};
+  AxisHoming homing_;
   PdoPlan commands_;
+  PdoPlan profile_;  // in mode profile_position
   PdoPlan states_;
   PdoPlan motion_;
   HeartbeatProducer beat_;
@@ -92,10 +137,15 @@ class ServoAxis {
   std::optional<Time> mode_wanted_;
   std::uint16_t statusword_ = 0;
   Mode mode_shown_ = Mode::none;
+  Mode mode_said_ = Mode::none;
   bool was_operational_ = false;
   std::uint64_t bring_ups_ = 0;
-  double velocity_ = 0;               // commanded
-  std::uint64_t last_set_point_ = 0;  // as it was sent
+  bool was_commanded_ = false;       // since it was enabled, homed or halted
+  bool halts_ = false;               // until the next command, in profile_position until it is handed over
+  int cycles_ = 0;                   // since the velocity was commanded, at most settle_cycles
+  double velocity_ = 0;              // commanded
+  double speed_ = 1;                 // of the profile
+  std::uint64_t target_object_ = 0;  // as it was sent
 };
 
 }  // namespace flexrf::canopen::cia402

@@ -11,9 +11,12 @@ using namespace flexrf;
 
 class CanopenWorld final : public ServoDriveWorld {
  public:
-  explicit CanopenWorld(bool takes_velocities) {
+  explicit CanopenWorld(const ServoDriveSetup& setup) {
     auto& configuration = drive_.configuration();
-    configuration.takes_velocities = takes_velocities;
+    configuration.mode = setup.mode;
+    configuration.acceleration = 100;
+    configuration.homing_method = setup.needs_home ? 33 : 0;
+    configuration.homing_speed = 2;
     configuration.lowest = -10;
     configuration.highest = 10;
     configuration.fastest = 20;
@@ -47,6 +50,10 @@ class CanopenWorld final : public ServoDriveWorld {
     far_end_.drive().trip(0x2310, false, far_end_.said());
     return initialised_;
   }
+  bool lose_home() override {
+    far_end_.drive().lose_home(true);
+    return initialised_;
+  }
 
  private:
   static constexpr std::uint8_t node = 5;
@@ -61,7 +68,7 @@ class CanopenWorld final : public ServoDriveWorld {
 
 int main() {
   return run_servo_drive_conformance("canopen servo drive",
-                                     [](bool takes_velocities) -> std::unique_ptr<ServoDriveWorld> {
-                                       return std::make_unique<CanopenWorld>(takes_velocities);
+                                     [](const ServoDriveSetup& setup) -> std::unique_ptr<ServoDriveWorld> {
+                                       return std::make_unique<CanopenWorld>(setup);
                                      });
 }

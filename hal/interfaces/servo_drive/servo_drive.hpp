@@ -1,9 +1,12 @@
-// ServoDrive: a drive with one axis that follows positions or velocities cyclically.
+// ServoDrive: a drive with one axis that follows positions or velocities, and finds its home.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "servo_drive_interface.hpp"
+#include "types/servo_homing.hpp"
+#include "types/servo_mode.hpp"
 
 namespace flexrf {
 
@@ -11,25 +14,50 @@ namespace flexrf {
 struct ServoState {
   double position = 0;
   double velocity = 0;
-  double following_error = 0;  ///< set-point less position
+  double following_error = 0;  ///< cyclic set-point less position; 0 in other modes than cyclic_position
   bool enabled = false;        ///< it follows; else it is off, or on its way to either
   bool at_internal_limit = false;
+  /// In profile modes: the drive took the last command and has done it. False from the command on, after a
+  /// halt, while it homes, and in cyclic modes.
+  bool target_reached = false;
+  ServoHoming homing = ServoHoming::not_homed;
 };
 
 /// Everything: the thread the drive lives in. With the permission to move, the drive enables itself, with its
 /// set-point where it is; that takes as long as the drive takes. Without it, it stops and is off.
+///
+/// configuration.mode says which of the commands it takes. The others are without effect, as are all of them
+/// while the drive is not enabled or is homing; none of those is remembered. What is not finite, or a speed
+/// that is not above 0, puts the drive in fault.
 class ServoDrive : public ServoDriveInterface {
  public:
-  /// What the drive said last, as of this cycle; nothing while it says nothing.
+  /// The speed of move_to() that is the greatest of the configuration.
+  static constexpr double full_speed = std::numeric_limits<double>::max();
+
+  /// What the drive said last, as of this cycle, with what was commanded since; nothing while it says
+  /// nothing.
   virtual std::optional<ServoState> state() const noexcept = 0;
 
-  /// Where the axis shall be, sent at the end of the cycle and held until the next command. Kept to the range
-  /// and the velocity of the configuration. What is not finite puts the drive in fault. Without effect while
-  /// the drive is not enabled, or takes velocities, and not remembered.
+  /// In mode cyclic_position: where the axis shall be, sent at the end of the cycle and held until the next
+  /// command. Kept to the range and the velocity of the configuration.
   virtual void command_position(double position) noexcept = 0;
-  /// Likewise, how fast it shall be; zero once the axis is beyond its range and would go on. Without effect
-  /// while the drive takes positions.
+  /// In mode cyclic_velocity or profile_velocity: how fast it shall be, kept to the velocity of the
+  /// configuration; zero once the axis is beyond its range and would go on.
   virtual void command_velocity(double velocity) noexcept = 0;
+  /// In mode profile_position: where it shall go, once for each target and not in each cycle; kept to the
+  /// range. It gives up the target before. `speed`: above 0, kept to the velocity of the configuration.
+  virtual void move_to(double position, double speed = full_speed) noexcept = 0;
+
+  /// Begins to find its home with the configured method, whatever the mode; homing is `running` from this
+  /// call on, then `homed` or `failed`. When it is over the drive is in its mode again and holds. Without
+  /// effect while it is not enabled or is homing, and with method 0.
+  virtual void home() noexcept = 0;
+  /// Why homing is `failed`; else ok.
+  virtual const Status& homing_problem() const noexcept = 0;
+
+  /// Comes to rest with the configured acceleration and holds, enabled, until the next command; what was
+  /// commanded is given up. A homing has failed then.
+  virtual void halt() noexcept = 0;
 };
 
 }  // namespace flexrf

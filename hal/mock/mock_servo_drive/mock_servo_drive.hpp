@@ -10,41 +10,67 @@
 
 namespace flexrf {
 
-/// Enabled a cycle after it may move, without inertia. Tests call it between cycles, from the thread the
-/// drive lives in.
+/// Enabled a cycle after it may move, without inertia; its home is at 0. Tests call it between cycles, from
+/// the thread the drive lives in.
 class MockServoDrive final : public MockServoDriveDriver {
  public:
   Status initialise() override {
     state_ = ServoState{};
     commanded_.reset();
+    homing_ = ServoHoming::not_homed;
+    homing_problem_ = {};
     last_cycle_ = Time{};
+    tell();
     return {};
   }
 
   std::optional<ServoState> state() const noexcept override { return state_; }
 
   void command_position(double position) noexcept override {
-    if (configuration.takes_velocities || !may_follow()) return;
-    if (is_number(position)) take(std::clamp(position, configuration.lowest, configuration.highest));
+    if (configuration.mode == ServoMode::cyclic_position && may_be_commanded()) take_position(position);
   }
   void command_velocity(double velocity) noexcept override {
-    if (!configuration.takes_velocities || !may_follow()) return;
-    if (is_number(velocity)) take(std::clamp(velocity, -configuration.fastest, configuration.fastest));
+    if (takes_positions() || !may_be_commanded() || !is_number(velocity)) return;
+    const double kept = std::clamp(velocity, -configuration.fastest, configuration.fastest);
+    if (commanded_ != kept) state_->target_reached = false;
+    take(kept);
+  }
+  void move_to(double position, double speed) noexcept override {
+    if (configuration.mode != ServoMode::profile_position || !may_be_commanded() || !is_number(speed)) return;
+    if (!(speed > 0)) {
+      fail(Status::error(StatusCode::invalid_argument, "the drive was commanded to move with a speed of %g",
+                         speed));
+      return;
+    }
+    speed_ = std::min(speed, configuration.fastest);
+    take_position(position);
+  }
+  void home() noexcept override {
+    if (!may_be_commanded() || configuration.homing_method == 0) return;
+    commanded_.reset();
+    homing_ = ServoHoming::running;
+    homing_problem_ = {};
+    ++homings_;
+    tell();
+  }
+  const Status& homing_problem() const noexcept override { return homing_problem_; }
+  void halt() noexcept override {
+    if (!may_follow()) return;
+    ++halts_;
+    commanded_.reset();
+    end_homing("the homing was halted");
+    tell();
   }
 
   void receive(const Tick& tick) noexcept override {
     const double elapsed = last_cycle_ == Time{} ? 0 : seconds(tick.now - last_cycle_);
     last_cycle_ = tick.now;
     if (!state_) return;
-    if (!commanded_ || !may_follow()) {
-      state_->velocity = 0;
-    } else if (elapsed > 0) {
-      move(elapsed);
-    }
-    feedback.position = state_->position;
-    feedback.velocity = state_->velocity;
-    feedback.following_error = state_->following_error;
-    feedback.enabled = state_->enabled;
+    if (!may_follow()) end_homing("the homing was interrupted: the drive is not enabled any more");
+    const double before = state_->position;
+    if (elapsed > 0 && may_follow()) move(elapsed);
+    state_->velocity = elapsed > 0 ? (state_->position - before) / elapsed : 0;
+    tell();
   }
   void send(const Tick& /*tick*/) noexcept override {
     if (state_) state_->enabled = !is_inhibited() && fault().is_ok();
@@ -52,44 +78,102 @@ class MockServoDrive final : public MockServoDriveDriver {
   }
   bool make_safe() noexcept override {
     commanded_.reset();
+    end_homing("the homing was interrupted: the drive was made safe");
     return true;
   }
 
   // ---- for tests
 
   /// Nothing: the drive is not heard.
-  void set_state(const std::optional<ServoState>& state) noexcept { state_ = state; }
+  void set_state(const std::optional<ServoState>& state) noexcept {
+    state_ = state;
+    if (state) homing_ = state->homing;
+    tell();
+  }
   void trip() noexcept { fail(Status::error(StatusCode::device_fault, "the mock's drive tripped")); }
+  /// A homing under way finds nothing.
+  void fail_homing() noexcept { end_homing("the mock's drive found no home"); }
   /// Of the position or velocity in force, within the configuration's limits.
   const std::optional<double>& commanded() const noexcept { return commanded_; }
   std::uint64_t commands() const noexcept { return commands_; }
+  std::uint64_t homings() const noexcept { return homings_; }
+  std::uint64_t halts() const noexcept { return halts_; }
 
  private:
+  bool takes_positions() const noexcept {
+    return configuration.mode == ServoMode::cyclic_position ||
+           configuration.mode == ServoMode::profile_position;
+  }
   bool may_follow() const noexcept { return state_ && state_->enabled && !is_inhibited() && fault().is_ok(); }
+  bool may_be_commanded() const noexcept { return may_follow() && homing_ != ServoHoming::running; }
   bool is_number(double value) noexcept {
     if (std::isfinite(value)) return true;
     fail(Status::error(StatusCode::invalid_argument, "the drive was commanded to what is not a number"));
     return false;
   }
+  void take_position(double position) noexcept {
+    if (!is_number(position)) return;
+    take(std::clamp(position, configuration.lowest, configuration.highest));
+    state_->target_reached = false;
+  }
   void take(double value) noexcept {
     commanded_ = value;
     ++commands_;
   }
+  void end_homing(const char* reason) noexcept {
+    if (homing_ != ServoHoming::running) return;
+    homing_ = ServoHoming::failed;
+    homing_problem_ = Status::error(StatusCode::unavailable, "%s", reason);
+    tell();
+  }
+
   void move(double elapsed) noexcept {
-    const double before = state_->position;
-    const double most = configuration.fastest * elapsed;
-    const double wanted =
-        configuration.takes_velocities
-            ? std::clamp(before + *commanded_ * elapsed, configuration.lowest, configuration.highest)
-            : *commanded_;
-    state_->position = before + std::clamp(wanted - before, -most, most);
-    state_->velocity = (state_->position - before) / elapsed;
-    state_->following_error = wanted - state_->position;
+    if (homing_ == ServoHoming::running) {
+      if (go_to(0, configuration.homing_speed * elapsed)) homing_ = ServoHoming::homed;
+      return;
+    }
+    if (!commanded_) return;
+    if (takes_positions()) {
+      const bool cyclic = configuration.mode == ServoMode::cyclic_position;
+      const bool reached = go_to(*commanded_, (cyclic ? configuration.fastest : speed_) * elapsed);
+      state_->target_reached = reached && !cyclic;
+      return;
+    }
+    const double wanted = state_->position + *commanded_ * elapsed;
+    state_->position = std::clamp(wanted, configuration.lowest, configuration.highest);
+    state_->target_reached = configuration.mode == ServoMode::profile_velocity && state_->position == wanted;
+  }
+  // True: it is there.
+  bool go_to(double wanted, double most) noexcept {
+    const double distance = wanted - state_->position;
+    const bool reached = std::abs(distance) <= most;
+    state_->position = reached ? wanted : state_->position + std::copysign(most, distance);
+    return reached;
+  }
+  void tell() noexcept {
+    if (configuration.homing_method == 0) homing_ = ServoHoming::homed;
+    feedback.homing = homing_;
+    feedback.enabled = state_ && state_->enabled;
+    feedback.target_reached = state_ && state_->target_reached;
+    if (!state_) return;
+    const bool cyclic = configuration.mode == ServoMode::cyclic_position;
+    state_->following_error = cyclic && commanded_ ? *commanded_ - state_->position : 0;
+    state_->homing = homing_;
+    if (homing_ == ServoHoming::running || !commanded_) state_->target_reached = false;
+    feedback.position = state_->position;
+    feedback.velocity = state_->velocity;
+    feedback.following_error = state_->following_error;
+    feedback.at_internal_limit = state_->at_internal_limit;
   }
 
   std::optional<ServoState> state_;
   std::optional<double> commanded_;
+  double speed_ = 1;
   std::uint64_t commands_ = 0;
+  std::uint64_t homings_ = 0;
+  std::uint64_t halts_ = 0;
+  ServoHoming homing_ = ServoHoming::not_homed;
+  Status homing_problem_;
   Time last_cycle_{};
 };
 

@@ -1,5 +1,7 @@
 #include "hal/simulated/simulated_cia402_drive/drive_objects.hpp"
 
+#include <algorithm>
+
 #include "hal/canopen/cia402.hpp"
 #include "hal/canopen/sdo_abort.hpp"
 
@@ -17,6 +19,10 @@ constexpr std::uint16_t own_objects = 0x2000;
 constexpr bool is_mapping(std::uint16_t index) {
   constexpr std::uint16_t pdos = DriveObjects::pdos;
   return (index >= 0x1600 && index < 0x1600 + pdos) || (index >= 0x1A00 && index < 0x1A00 + pdos);
+}
+
+constexpr std::uint32_t key(ObjectAddress address) {
+  return std::uint32_t{address.index} << 8 | address.subindex;
 }
 
 constexpr ObjectAddress communication_of(ObjectAddress mapping) {
@@ -59,13 +65,18 @@ DriveObjects::DriveObjects() {
   add(axis::target_position, 4, true, true);
   add(axis::profile_velocity, 4, true, true, 10000);
   add(axis::profile_acceleration, 4, true, true, 100000);
+  add(axis::profile_deceleration, 4, true, true, 100000);
   add(axis::quick_stop_deceleration, 4, true, false, 200000);
   add(axis::homing_method, 1, true, false, 35);
+  add(axis::homing_search_speed, 4, true, false, 10000);
+  add(axis::homing_creep_speed, 4, true, false, 1000);
   add(axis::period_value, 1, true, false, 1);
   add(axis::period_exponent, 1, true, false, 0xFD);
   add(axis::following_error, 4, false, true);
   add(axis::target_velocity, 4, true, true);
   add(axis::supported_modes, 4, false, false, 0x01A5);
+  std::sort(objects_.begin(), objects_.begin() + static_cast<std::ptrdiff_t>(count_),
+            [](const Object& one, const Object& other) { return key(one.address) < key(other.address); });
 }
 
 std::uint32_t DriveObjects::read(ObjectAddress address, std::span<std::uint8_t> value, std::size_t& size) {
@@ -148,18 +159,24 @@ std::optional<canopen::PdoPlan> DriveObjects::pdo(PdoDirection direction, std::u
   return plan;
 }
 
+// Asked some dozen times for each message and step.
+std::size_t DriveObjects::place_of(ObjectAddress address) const {
+  const auto end = objects_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const auto found = std::lower_bound(
+      objects_.begin(), end, key(address),
+      [](const Object& object, std::uint32_t wanted) { return key(object.address) < wanted; });
+  return found != end && found->address == address ? static_cast<std::size_t>(found - objects_.begin())
+                                                   : count_;
+}
+
 DriveObjects::Object* DriveObjects::find(ObjectAddress address) {
-  for (Object& object : std::span(objects_).first(count_)) {
-    if (object.address == address) return &object;
-  }
-  return nullptr;
+  const std::size_t place = place_of(address);
+  return place == count_ ? nullptr : &objects_[place];
 }
 
 const DriveObjects::Object* DriveObjects::find(ObjectAddress address) const {
-  for (const Object& object : std::span(objects_).first(count_)) {
-    if (object.address == address) return &object;
-  }
-  return nullptr;
+  const std::size_t place = place_of(address);
+  return place == count_ ? nullptr : &objects_[place];
 }
 
 void DriveObjects::add(ObjectAddress address, std::uint8_t size, bool writable, bool mappable,

@@ -53,6 +53,8 @@ class DriveObjects final : public canopen::ObjectDictionary {
   std::optional<canopen::PdoPlan> pdo(canopen::PdoDirection direction, std::uint16_t number) const;
 
  private:
+  /// count_ when there is none.
+  std::size_t place_of(canopen::ObjectAddress address) const;
   Object* find(canopen::ObjectAddress address);
   const Object* find(canopen::ObjectAddress address) const;
   void add(canopen::ObjectAddress address, std::uint8_t size, bool writable, bool mappable,
@@ -61,7 +63,7 @@ class DriveObjects final : public canopen::ObjectDictionary {
 
   static constexpr std::size_t capacity = 96;
 
-  std::array<Object, capacity> objects_{};
+  std::array<Object, capacity> objects_{};  // by their address
   std::size_t count_ = 0;
   bool fixed_mapping_ = false;
   bool pre_operational_ = true;

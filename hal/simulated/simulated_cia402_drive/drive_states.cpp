@@ -50,12 +50,23 @@ void SimulatedCia402Drive::enter(DriveState state, Time now) {
   publish();
 }
 
+// In another mode it stays where it is, until it is told something in that one.
+void SimulatedCia402Drive::take_mode() {
+  if (ignores_mode_) return;
+  const std::int64_t mode = objects_.get_signed(axis::mode);
+  if (mode == objects_.get_signed(axis::mode_display)) return;
+  objects_.set(axis::mode_display, mode);
+  mode_bits_ = 0;
+  targets_fresh_ = false;
+  profile_target_ = motion_.position();
+}
+
 // Transitions that the controlword asks for.
 void SimulatedCia402Drive::command(Time now) {
   const auto word = static_cast<std::uint16_t>(objects_.get(axis::controlword));
   const auto risen = static_cast<std::uint16_t>(word & ~last_command_);
   last_command_ = word;
-  if (!ignores_mode_) objects_.set(axis::mode_display, objects_.get_signed(axis::mode));
+  take_mode();
   const bool shutdown = (word & 0x87) == 0x06;
   const bool switch_on = (word & 0x8F) == 0x07;
   const bool enable = (word & 0x8F) == 0x0F;
@@ -140,9 +151,12 @@ void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
     motion_.ramp(0, acceleration, time);
     return;
   }
+  if (!targets_fresh_) {
+    motion_.ramp(0, acceleration, time);
+    return;
+  }
   switch (mode) {
     case Mode::cyclic_position: {
-      if (!targets_fresh_) break;
       const auto target = static_cast<double>(objects_.get_signed(axis::target_position));
       mode_bits_ = status_bit::follows;
       if (cyclic_speed_ > options_.fastest) mode_bits_ |= status_bit::internal_limit;
@@ -157,7 +171,6 @@ void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
     }
     case Mode::cyclic_velocity:
     case Mode::profile_velocity: {
-      if (!targets_fresh_) break;
       const auto wanted = static_cast<double>(objects_.get_signed(axis::target_velocity));
       const double velocity = std::clamp(wanted, -options_.fastest, options_.fastest);
       motion_.ramp(velocity, acceleration, time);
@@ -169,23 +182,37 @@ void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
       break;
     }
     case Mode::profile_position:
-      if (!targets_fresh_) break;
       mode_bits_ &= static_cast<std::uint16_t>(~status_bit::target_reached);
       if (motion_.travel(profile_target_, profile_velocity, acceleration, time)) {
         mode_bits_ |= status_bit::target_reached;
       }
       break;
     case Mode::homing:
-      if ((word & control_bit::start_homing) == 0) {
-        mode_bits_ |= status_bit::target_reached;
-      } else if (motion_.travel(0, profile_velocity, acceleration, time)) {
-        mode_bits_ = status_bit::target_reached | status_bit::homing_attained;
-      } else {
-        mode_bits_ = 0;
-      }
+      find_home((word & control_bit::start_homing) != 0, acceleration, time);
       break;
     case Mode::none:
       break;
+  }
+}
+
+// Methods 35 and 37 are at home where they are; for all others it is at 0.
+void SimulatedCia402Drive::find_home(bool started, double acceleration, double time) {
+  const std::int64_t method = objects_.get_signed(axis::homing_method);
+  if (!started) {
+    motion_.ramp(0, acceleration, time);
+    if (motion_.is_at_rest()) mode_bits_ |= status_bit::target_reached;
+    return;
+  }
+  if (homeless_) {
+    motion_.ramp(0, acceleration, time);
+    mode_bits_ = status_bit::homing_error;
+    if (motion_.is_at_rest()) mode_bits_ |= status_bit::target_reached;
+    return;
+  }
+  mode_bits_ = 0;
+  if (method == 35 || method == 37) motion_.set_position(0);
+  if (motion_.travel(0, static_cast<double>(objects_.get(axis::homing_search_speed)), acceleration, time)) {
+    mode_bits_ = status_bit::target_reached | status_bit::homing_attained;
   }
 }
 

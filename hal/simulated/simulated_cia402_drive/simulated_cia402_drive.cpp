@@ -141,8 +141,11 @@ void SimulatedCia402Drive::synchronise(Outbox& outbox) {
     auto& pending = pending_[number - 1U];
     const auto plan = objects_.pdo(PdoDirection::received_by_node, number);
     if (plan && pending) apply(*plan, *pending, outbox);
+    const bool awaited = plan && plan->transmission <= last_synchronous;
+    if (awaited && !pending && state_ == DriveState::operation_enabled) ++missed_;
     pending.reset();
   }
+  ++synchronised_;
   publish();
   for (std::uint16_t number = 1; number <= DriveObjects::pdos; ++number) {
     const auto plan = objects_.pdo(PdoDirection::sent_by_node, number);

@@ -43,6 +43,8 @@ class SimulatedCia402Drive {
   void trip(std::uint16_t error_code, bool persists, canopen::Outbox& outbox);
   /// It keeps the mode that it is in.
   void ignore_mode(bool on) { ignores_mode_ = on; }
+  /// It finds no home.
+  void lose_home(bool on) { homeless_ = on; }
   void heal() { cause_persists_ = false; }
   DriveObjects& objects() { return objects_; }
 
@@ -51,6 +53,10 @@ class SimulatedCia402Drive {
   canopen::NmtState nmt_state() const { return nmt_; }
   canopen::cia402::DriveState state() const { return state_; }
   const DriveMotion& motion() const { return motion_; }
+  /// SYNCs that it acted on.
+  std::uint64_t synchronised() const { return synchronised_; }
+  /// Of those in operation enabled: before which a PDO that waits for SYNC had not come.
+  std::uint64_t missed() const { return missed_; }
   /// The farthest that a cyclic target ever was from the axis, in increments.
   double longest_jump() const { return longest_jump_; }
 
@@ -67,6 +73,8 @@ class SimulatedCia402Drive {
   void command(Time now);
   void enter(canopen::cia402::DriveState state, Time now);
   void move(Time now, canopen::Outbox& outbox);
+  void take_mode();
+  void find_home(bool started, double acceleration, double time);
   void move_in_mode(double time, canopen::Outbox& outbox);
   void publish();
 
@@ -88,6 +96,7 @@ class SimulatedCia402Drive {
   std::optional<canopen::cia402::DriveState> stuck_;
   bool cause_persists_ = false;
   bool ignores_mode_ = false;
+  bool homeless_ = false;
   std::uint16_t last_command_ = 0;
   Time entered_{};
   Time moved_{};
@@ -96,6 +105,8 @@ class SimulatedCia402Drive {
   double cyclic_speed_ = 0;     // increments/s that the last cyclic target asks for
   double profile_target_ = 0;
   double longest_jump_ = 0;
+  std::uint64_t synchronised_ = 0;
+  std::uint64_t missed_ = 0;
 };
 
 }  // namespace flexrf

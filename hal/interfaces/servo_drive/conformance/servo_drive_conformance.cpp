@@ -1,73 +1,28 @@
 #include "hal/interfaces/servo_drive/conformance/servo_drive_conformance.hpp"
 
-#include <cmath>
 #include <limits>
 
+#include "hal/interfaces/servo_drive/conformance/servo_drive_cases.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf {
 namespace {
 
-constexpr Duration cycle = std::chrono::milliseconds(7);
-constexpr double cycle_seconds = 0.007;
-constexpr double tolerance = 2e-3;  // an increment of a coarse drive, and its rounding
-constexpr double start = 1;         // where the world's axis is
+using namespace servo_drive_cases;
+using enum ServoMode;
 
 MakeServoDriveWorld make_world = nullptr;
 
 // Each case runs in here, so that a failing assertion jumps over no destructor.
-enum class Verdict { passed, failed, skipped };
-Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
-template <Verdict (*Run)(ServoDriveWorld&), bool TakesVelocities = false>
+template <Verdict (*Run)(ServoDriveWorld&), ServoMode Mode = cyclic_position, bool NeedsHome = false>
 void judged(void**) {
   Verdict result = Verdict::failed;
   {
-    const std::unique_ptr<ServoDriveWorld> world = make_world(TakesVelocities);
+    const std::unique_ptr<ServoDriveWorld> world = make_world({.mode = Mode, .needs_home = NeedsHome});
     result = Run(*world);
   }
   if (result == Verdict::skipped) skip();
   assert_true(result == Verdict::passed);
-}
-
-void idle_for(ServoDriveWorld& world, double duration) {
-  for (double time = 0; time < duration; time += cycle_seconds) {
-    world.receive(cycle);
-    world.send();
-  }
-}
-
-void command_for(ServoDriveWorld& world, double position, double duration) {
-  for (double time = 0; time < duration; time += cycle_seconds) {
-    world.receive(cycle);
-    world.drive().command_position(position);
-    world.send();
-  }
-}
-
-void drive_for(ServoDriveWorld& world, double velocity, double duration) {
-  for (double time = 0; time < duration; time += cycle_seconds) {
-    world.receive(cycle);
-    world.drive().command_velocity(velocity);
-    world.send();
-  }
-}
-
-// Cycles without a command, until the drive is enabled; a drive may take its time, and is not waited for for
-// ever.
-bool is_enabled_in_time(ServoDriveWorld& world) {
-  for (int cycles = 0; cycles < 1000; ++cycles) {
-    idle_for(world, cycle_seconds / 2);
-    const auto state = world.drive().state();
-    if (state && state->enabled) return true;
-  }
-  return false;
-}
-
-bool is_at(ServoDriveWorld& world, double position) {
-  const auto state = world.drive().state();
-  return state && std::abs(state->position - position) <= tolerance;
 }
 
 Verdict enables_itself_where_it_is(ServoDriveWorld& world) {
@@ -190,14 +145,42 @@ int run_servo_drive_conformance(const char* driver, MakeServoDriveWorld make) {
       test("follows positions and holds the last", judged<follows_positions_and_holds>),
       test("goes no faster than it may", judged<goes_no_faster_than_it_may>),
       test("keeps to its range", judged<keeps_to_its_range>),
-      test("follows velocities", judged<follows_velocities, true>),
-      test("ends velocities beyond its range", judged<ends_velocities_beyond_its_range, true>),
+      test("follows velocities", judged<follows_velocities, cyclic_velocity>),
+      test("ends velocities beyond its range", judged<ends_velocities_beyond_its_range, cyclic_velocity>),
       test("is off while inhibited and forgets", judged<an_inhibited_drive_is_off_and_forgets>),
       test("never follows what is no number", judged<nonsense_is_a_fault_and_never_followed<0>>),
       test("never follows what is infinite", judged<nonsense_is_a_fault_and_never_followed<1>>),
       test("can be made safe", judged<can_be_made_safe>),
       test("is silent when it is not heard", judged<says_nothing_when_it_is_not_heard>),
       test("reports a tripped drive", judged<reports_a_tripped_drive>),
+      test("goes to targets", judged<goes_to_targets_and_says_when_it_is_there, profile_position>),
+      test("goes as fast as it was told", judged<goes_as_fast_as_it_was_told, profile_position>),
+      test("a new target replaces", judged<a_new_target_replaces_the_one_before, profile_position>),
+      test("keeps targets to its range", judged<keeps_targets_to_its_range, profile_position>),
+      test("forgets its target when off", judged<has_no_target_after_it_was_off, profile_position>),
+      test("follows only what its mode takes", judged<follows_only_what_its_mode_takes, profile_position>),
+      test("a speed is above zero", judged<a_speed_that_is_not_above_zero_is_a_fault, profile_position>),
+      test("comes to velocities", judged<comes_to_velocities_and_says_when_it_has_them, profile_velocity>),
+      test("ends profiles beyond its range", judged<ends_velocities_beyond_its_range, profile_velocity>),
+      test("reports a trip on its way", judged<reports_a_tripped_drive, profile_position>),
+      test("halts, cyclic position", judged<halts_on_its_way_to_a_position>),
+      test("halts, cyclic velocity", judged<halts_from_a_velocity, cyclic_velocity>),
+      test("halts, profile position", judged<halts_on_its_way_to_a_target, profile_position>),
+      test("halts, profile velocity", judged<halts_from_a_velocity, profile_velocity>),
+      test("needs no home with method 0", judged<needs_no_home_with_method_0>),
+      test("homes, cyclic position", judged<finds_its_home_and_goes_on_in_its_mode, cyclic_position, true>),
+      test("homes, cyclic velocity", judged<finds_its_home_and_goes_on_in_its_mode, cyclic_velocity, true>),
+      test("homes, profile position", judged<finds_its_home_and_goes_on_in_its_mode, profile_position, true>),
+      test("homes, profile velocity", judged<finds_its_home_and_goes_on_in_its_mode, profile_velocity, true>),
+      test("ignores commands while it homes",
+           judged<ignores_commands_while_it_homes, profile_position, true>),
+      test("homes again, positions", judged<can_be_homed_again_out_of_a_motion, cyclic_position, true>),
+      test("homes again, targets", judged<can_be_homed_again_out_of_a_motion, profile_position, true>),
+      test("homes again, velocities", judged<can_be_homed_again_out_of_a_motion, cyclic_velocity, true>),
+      test("a halted homing has failed", judged<a_halted_homing_has_failed, profile_position, true>),
+      test("an inhibited homing has failed",
+           judged<a_homing_without_permission_has_failed, cyclic_position, true>),
+      test("tells why it found no home", judged<tells_why_it_found_no_home, profile_position, true>),
   };
   return cmocka_run_group_tests_name(driver, tests, nullptr, nullptr);
 }

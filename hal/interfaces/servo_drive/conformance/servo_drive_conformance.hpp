@@ -12,7 +12,8 @@ class ServoDriveWorld {
  public:
   virtual ~ServoDriveWorld() = default;
 
-  /// Initialised, at rest at 1, permitted to move; range from -10 to 10, at most 20 a second.
+  /// Initialised, at rest at 1, its home at 0, permitted to move; range from -10 to 10, at most 20 a second,
+  /// 2 while it homes, accelerated by 100.
   virtual ServoDrive& drive() = 0;
   /// The thread's cycle: receive, then what the unit does, then send; `elapsed` after the last one.
   virtual void receive(Duration elapsed) = 0;
@@ -22,10 +23,16 @@ class ServoDriveWorld {
   virtual bool lose_drive() { return false; }
   /// The drive trips. False: cannot be made to happen with this driver.
   virtual bool trip_drive() { return false; }
+  /// The drive no longer finds its home. False: cannot be made to happen with this driver.
+  virtual bool lose_home() { return false; }
 };
 
-/// `takes_velocities`: as the configuration says.
-using MakeServoDriveWorld = std::unique_ptr<ServoDriveWorld> (*)(bool takes_velocities);
+/// As the configuration says.
+struct ServoDriveSetup {
+  ServoMode mode = ServoMode::cyclic_position;
+  bool needs_home = false;  ///< by a method that has its home at 0
+};
+using MakeServoDriveWorld = std::unique_ptr<ServoDriveWorld> (*)(const ServoDriveSetup& setup);
 
 /// Runs all cases, each in a world of its own; returns the number that failed, for main().
 int run_servo_drive_conformance(const char* driver, MakeServoDriveWorld make);

@@ -8,9 +8,12 @@ using namespace flexrf;
 
 class MockWorld final : public ServoDriveWorld {
  public:
-  explicit MockWorld(bool takes_velocities) {
+  explicit MockWorld(const ServoDriveSetup& setup) {
     auto& configuration = bench_.configuration();
-    configuration.takes_velocities = takes_velocities;
+    configuration.mode = setup.mode;
+    configuration.acceleration = 100;
+    configuration.homing_method = setup.needs_home ? 33 : 0;
+    configuration.homing_speed = 2;
     configuration.lowest = -10;
     configuration.highest = 10;
     configuration.fastest = 20;
@@ -28,6 +31,10 @@ class MockWorld final : public ServoDriveWorld {
     bench_.driver().trip();
     return initialised_;
   }
+  bool lose_home() override {
+    bench_.driver().fail_homing();
+    return initialised_;
+  }
 
  private:
   DeviceBench<MockServoDrive> bench_{nullptr};
@@ -38,7 +45,7 @@ class MockWorld final : public ServoDriveWorld {
 
 int main() {
   return run_servo_drive_conformance("mock servo drive",
-                                     [](bool takes_velocities) -> std::unique_ptr<ServoDriveWorld> {
-                                       return std::make_unique<MockWorld>(takes_velocities);
+                                     [](const ServoDriveSetup& setup) -> std::unique_ptr<ServoDriveWorld> {
+                                       return std::make_unique<MockWorld>(setup);
                                      });
 }

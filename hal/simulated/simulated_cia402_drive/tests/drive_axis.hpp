@@ -37,7 +37,7 @@ struct Axis {
     std::uint16_t word = power.advance(status, moved == 0, bench.now());
     if (power.was_just_enabled()) {
       cyclic.seed(position);
-      handshake.reset();
+      handshake.reset(static_cast<std::int32_t>(position));
     }
     double target = position;
     if (power.is_enabled()) {

@@ -19,6 +19,23 @@ void cyclic_positions_are_followed_without_a_jump(void**) {
   assert_true((one.status & status_bit::internal_limit) == 0);
 }
 
+void a_halt_of_cyclic_positions_takes_its_deceleration(void**) {
+  Axis one;
+  assert_true(one.enable());
+  one.cyclic.command(9000);
+  one.run(203);  // 29 cycles of 140
+  one.cyclic.halt(50000, -10000, 8000);
+  one.run(1000);
+  assert_true(one.bench.drive.motion().is_at_rest());
+  assert_true(one.actual() == 8000);  // as far as it may
+  one.cyclic.command(-5000);
+  one.run(203);
+  one.cyclic.halt(50000, -10000, 8000);
+  one.run(1000);
+  // From 20000/s, over 4000.
+  assert_true(std::abs(one.actual() - (8000 - 29 * 140 - 4000)) < 200);
+}
+
 void an_internal_limit_is_shown(void**) {
   Axis one(Mode::cyclic_velocity);
   assert_true(one.enable());
@@ -104,6 +121,7 @@ int main() {
   using namespace flexrf;
   const CMUnitTest tests[] = {
       cmocka_unit_test(cyclic_positions_are_followed_without_a_jump),
+      cmocka_unit_test(a_halt_of_cyclic_positions_takes_its_deceleration),
       cmocka_unit_test(an_internal_limit_is_shown),
       cmocka_unit_test(cyclic_velocities_are_followed),
       cmocka_unit_test(profile_positions_are_handed_over_one_by_one),

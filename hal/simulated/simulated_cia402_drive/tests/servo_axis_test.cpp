@@ -1,5 +1,6 @@
 // An axis as a driver uses it, against the simulated drive: what it follows, what it does not, and each
 // fault.
+#include <cstring>
 #include <limits>
 
 #include "hal/simulated/simulated_cia402_drive/tests/axis_cell.hpp"
@@ -204,6 +205,43 @@ void twenty_thousand_cycles_keep_the_following_error_bounded(void**) {
   assert_true(worst > 0 && worst <= 5 * 0.035);
 }
 
+AxisPlan homed_plan() {
+  AxisPlan result = plan();
+  result.homing_method = 33;
+  result.homing_speed = 2;
+  return result;
+}
+
+void a_drive_without_homing_says_so_and_goes_on(void**) {
+  Cell cell(homed_plan());
+  assert_true(cell.run_until_enabled());
+  cell.drive.ignore_mode(true);
+  cell.axis.home();
+  assert_true(cell.axis.homing() == canopen::cia402::Homing::running);
+  cell.run(1500);
+  assert_true(cell.axis.homing() == canopen::cia402::Homing::failed);
+  assert_non_null(std::strstr(cell.axis.homing_problem().cause(), "does it have it?"));
+  assert_true(cell.axis.fault().is_ok() && cell.axis.is_enabled());
+  cell.position = 3;
+  cell.run(700);
+  assert_true(cell.is_at(3));
+}
+
+void a_drive_that_was_gone_has_forgotten_its_home(void**) {
+  Cell cell(homed_plan());
+  assert_true(cell.run_until_enabled());
+  cell.axis.home();
+  cell.run(2000);
+  assert_true(cell.axis.homing() == canopen::cia402::Homing::homed);
+  cell.may_move = false;
+  cell.run(500);
+  assert_true(cell.axis.homing() == canopen::cia402::Homing::homed);
+  cell.drive.reset_itself(cell.now);
+  cell.run(1500);
+  assert_true(cell.axis.node().is_operational());
+  assert_true(cell.axis.homing() == canopen::cia402::Homing::not_homed);
+}
+
 void plans_that_make_no_sense_are_refused(void**) {
   const auto refused = [](auto change, const char* words) {
     ServoAxis axis;
@@ -220,6 +258,9 @@ void plans_that_make_no_sense_are_refused(void**) {
   assert_true(refused([](AxisPlan& with) { with.increments_per_unit = 0; }, "its increments"));
   assert_true(refused([](AxisPlan& with) { with.lowest = with.highest; }, "its lowest"));
   assert_true(refused([](AxisPlan& with) { with.fastest = 0; }, "its greatest velocity"));
+  assert_true(refused([](AxisPlan& with) { with.acceleration = 0; }, "its acceleration"));
+  assert_true(refused([](AxisPlan& with) { with.velocity_factor = -1; }, "the factor of its velocity"));
+  assert_true(refused([](AxisPlan& with) { with.homing_speed = 0; }, "a speed of its homing"));
   assert_true(refused([](AxisPlan& with) { with.highest = 3e6; }, "more increments"));
   assert_true(refused([](AxisPlan& with) { with.node = 0; }, "numbers from 1 to 127"));
 }
@@ -244,6 +285,8 @@ int main() {
       cmocka_unit_test(a_drive_that_refuses_its_mode_is_told),
       cmocka_unit_test(a_foreign_drive_is_never_enabled),
       cmocka_unit_test(twenty_thousand_cycles_keep_the_following_error_bounded),
+      cmocka_unit_test(a_drive_without_homing_says_so_and_goes_on),
+      cmocka_unit_test(a_drive_that_was_gone_has_forgotten_its_home),
       cmocka_unit_test(plans_that_make_no_sense_are_refused),
   };
   return cmocka_run_group_tests_name("cia402 servo axis", tests, nullptr, nullptr);

@@ -1,0 +1,66 @@
+// Homing in the midst of another mode: to rest, into mode homing, the run, to rest, and back.
+#pragma once
+
+#include "hal/canopen/drive_modes.hpp"
+
+namespace flexrf::canopen::cia402 {
+
+/// Whether a drive knows where its axis is.
+enum class Homing : std::uint8_t { not_homed, running, failed, homed };
+
+/// One thread; never blocks, never allocates.
+class AxisHoming {
+ public:
+  struct Limits {
+    Duration run = std::chrono::seconds(60);
+    Duration settle = std::chrono::milliseconds(50);  ///< see HomingRun
+    Duration mode = std::chrono::milliseconds(500);   ///< until the drive shows another mode
+    Duration stop = std::chrono::seconds(5);          ///< until it is at rest
+  };
+
+  /// `own`: the axis's mode. `needed` false: its encoder is absolute, it is homed.
+  void begin(const Limits& limits, Mode own, bool needed) noexcept;
+
+  /// Without effect when it is not needed, or is running. Whoever leads the axis halts it.
+  void start() noexcept;
+  /// It is to come to rest; failed then.
+  void halt() noexcept;
+  /// Operation is not enabled any more: what was running has failed.
+  void interrupt() noexcept;
+  /// The drive was gone: what it knew is forgotten.
+  void forget() noexcept;
+
+  /// From start() until the drive is in its own mode again.
+  bool is_running() const noexcept { return phase_ != Phase::idle; }
+  /// Still in its own mode, on its way to rest.
+  bool is_resting() const noexcept { return phase_ == Phase::resting; }
+  Homing state() const noexcept;
+  /// Which mode the drive is to be in.
+  Mode mode() const noexcept;
+  /// Once for each cycle in which operation is enabled and is_running(): the bits to add to the controlword.
+  std::uint16_t advance(std::uint16_t statusword, Mode shown, bool at_rest, Time now) noexcept;
+
+  /// Why it failed; else ok.
+  const Status& problem() const noexcept { return problem_; }
+  /// It neither stops nor comes back into its mode: the axis is to be switched off.
+  const Status& trouble() const noexcept { return trouble_; }
+
+ private:
+  enum class Phase : std::uint8_t { idle, resting, entering, running, stopping, leaving };
+
+  void enter(Phase phase) noexcept;
+  void fail(const Status& problem) noexcept;
+  std::uint16_t advance_run(std::uint16_t statusword, Time now) noexcept;
+
+  Limits limits_;
+  HomingRun run_{std::chrono::seconds(60), std::chrono::milliseconds(50)};
+  Mode own_ = Mode::cyclic_position;
+  bool needed_ = false;
+  bool homed_ = false;
+  Phase phase_ = Phase::idle;
+  std::optional<Time> since_;  // of the phase; nothing: the next advance() is its first
+  Status problem_;
+  Status trouble_;
+};
+
+}  // namespace flexrf::canopen::cia402

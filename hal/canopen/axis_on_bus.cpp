@@ -1,0 +1,117 @@
+#include "hal/canopen/axis_on_bus.hpp"
+
+#include <cmath>
+
+namespace flexrf::canopen {
+namespace {
+
+// What is not asked for and answered, but said in every cycle: only the newest counts.
+bool is_cyclic(const Message& message) {
+  const auto base = static_cast<std::uint16_t>(message.identifier & 0x780);
+  return message.identifier == sync_identifier || base == heartbeat_base || base == 0x200 || base == 0x300;
+}
+
+CanFrame to_frame(const Message& message) {
+  CanFrame frame;
+  frame.identifier = message.identifier;
+  frame.length = message.size;
+  frame.data = message.data;
+  return frame;
+}
+
+}  // namespace
+
+Status AxisOnBus::open(const cia402::AxisPlan& plan, CanBus& bus) {
+  plan_ = plan;
+  bus_ = &bus;
+  outbox_.clear();
+  began_ = false;
+  last_sent_ = Time{};
+  // Tried here, for its errors; begun in the first cycle, whose time counts.
+  if (const Status status = axis_.begin(plan_, Time{}, outbox_); !status.is_ok()) return status;
+  outbox_.clear();
+  const std::uint8_t node = plan_.node;
+  const CanIdentifier heard[] = {
+      {identifier_of(emergency_base, node)}, {transmit_pdo_identifier(1, node)},
+      {transmit_pdo_identifier(2, node)},    {identifier_of(sdo_answer_base, node)},
+      {identifier_of(heartbeat_base, node)},
+  };
+  return bus_->open(inbox_, heard, 64);
+}
+
+void AxisOnBus::close() {
+  // No message: the thread that could send it no longer steps. Without our heartbeat the drive stays off.
+  if (bus_ != nullptr) bus_->close(inbox_);
+}
+
+void AxisOnBus::receive(const Tick& tick) noexcept {
+  if (!began_) {
+    began_ = axis_.begin(plan_, tick.now, outbox_).is_ok();
+    last_sent_ = tick.now;
+  }
+  while (const auto frame = inbox_.pop()) {
+    if (frame->extended || frame->remote) continue;
+    axis_.receive({static_cast<std::uint16_t>(frame->identifier), frame->length, frame->data}, tick.now,
+                  outbox_);
+  }
+}
+
+void AxisOnBus::send(const Tick& tick, bool may_move) noexcept {
+  axis_.send(may_move, tick.now, tick.now - last_sent_, outbox_);
+  last_sent_ = tick.now;
+  for (; !outbox_.is_empty(); outbox_.pop()) {
+    const Message& message = outbox_.front();
+    // What the bus refuses is not kept: the protocol's own time-outs ask again, with what is true then.
+    if (is_cyclic(message)) {
+      bus_->post(to_frame(message));
+    } else {
+      bus_->queue(to_frame(message));
+    }
+  }
+}
+
+std::optional<ServoState> AxisOnBus::state() const noexcept {
+  const auto& state = axis_.state();
+  if (!state) return std::nullopt;
+  return ServoState{.position = state->position,
+                    .velocity = state->velocity,
+                    .following_error = state->following_error,
+                    .enabled = state->enabled,
+                    .at_internal_limit = state->at_internal_limit,
+                    .target_reached = state->target_reached,
+                    .homing = homing()};
+}
+
+ServoHoming AxisOnBus::homing() const noexcept {
+  switch (axis_.homing()) {
+    case cia402::Homing::running:
+      return ServoHoming::running;
+    case cia402::Homing::failed:
+      return ServoHoming::failed;
+    case cia402::Homing::homed:
+      return ServoHoming::homed;
+    case cia402::Homing::not_homed:
+      break;
+  }
+  return ServoHoming::not_homed;
+}
+
+cia402::Mode mode_of(ServoMode mode) noexcept {
+  switch (mode) {
+    case ServoMode::cyclic_velocity:
+      return cia402::Mode::cyclic_velocity;
+    case ServoMode::profile_position:
+      return cia402::Mode::profile_position;
+    case ServoMode::profile_velocity:
+      return cia402::Mode::profile_velocity;
+    case ServoMode::cyclic_position:
+      break;
+  }
+  return cia402::Mode::cyclic_position;
+}
+
+Duration whole_milliseconds(double seconds) noexcept {
+  return std::chrono::milliseconds(std::llround(seconds * 1e3));
+}
+
+}  // namespace flexrf::canopen

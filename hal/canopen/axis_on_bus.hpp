@@ -1,0 +1,44 @@
+// An axis of a CiA 402 drive and its place on a CAN bus.
+#pragma once
+
+#include "hal/canopen/servo_axis.hpp"
+#include "hal/interfaces/can_bus/can_bus.hpp"
+#include "hal/interfaces/servo_drive/servo_drive.hpp"
+#include "runtime/unit/tick.hpp"
+
+namespace flexrf::canopen {
+
+/// Each axis says SYNC and our heartbeat; the bus sends what several say in a cycle once. It is brought up in
+/// the thread that it lives in, an answer in each cycle: open() does not wait for it, and a drive that is
+/// switched on later comes up then.
+class AxisOnBus {
+ public:
+  /// The lifecycle thread. Error: the plan makes no sense, or the bus has no place.
+  Status open(const cia402::AxisPlan& plan, CanBus& bus);
+  void close();
+
+  /// The thread that the bus lives in; never block, never allocate.
+  void receive(const Tick& tick) noexcept;
+  void send(const Tick& tick, bool may_move) noexcept;
+
+  cia402::ServoAxis& axis() noexcept { return axis_; }
+  const cia402::ServoAxis& axis() const noexcept { return axis_; }
+  /// As ServoDrive says it.
+  std::optional<ServoState> state() const noexcept;
+  ServoHoming homing() const noexcept;
+
+ private:
+  cia402::AxisPlan plan_;
+  cia402::ServoAxis axis_;
+  Outbox outbox_;
+  CanInbox inbox_;
+  CanBus* bus_ = nullptr;
+  bool began_ = false;
+  Time last_sent_{};
+};
+
+cia402::Mode mode_of(ServoMode mode) noexcept;
+/// To whole milliseconds, as drives count time.
+Duration whole_milliseconds(double seconds) noexcept;
+
+}  // namespace flexrf::canopen

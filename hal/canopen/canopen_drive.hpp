@@ -1,0 +1,83 @@
+// A ServoDrive over CANopen: what its drivers, real and simulated, have in common.
+#pragma once
+
+#include "hal/canopen/axis_on_bus.hpp"
+
+namespace flexrf {
+
+/// `Base`: the driver's generated base, of a ServoDrive on a CanBus. Its initialise() makes the plan and
+/// gives it to open().
+template <class Base>
+class CanopenDrive : public Base {
+ public:
+  void stop() override { link_.close(); }
+
+  void receive(const Tick& tick) noexcept override {
+    link_.receive(tick);
+    auto& told = this->feedback;
+    told.homing = link_.homing();
+    const auto& state = link_.axis().state();
+    told.enabled = state && state->enabled;
+    told.target_reached = state && state->target_reached;
+    if (!state) return;
+    told.position = state->position;
+    told.velocity = state->velocity;
+    told.following_error = state->following_error;
+    told.at_internal_limit = state->at_internal_limit;
+  }
+
+  void send(const Tick& tick) noexcept override {
+    if (this->is_inhibited()) made_safe_ = false;
+    link_.send(tick, takes_commands() && this->fault().is_ok());
+    if (!link_.axis().fault().is_ok()) this->fail(link_.axis().fault());
+  }
+
+  bool make_safe() noexcept override {
+    made_safe_ = true;
+    return link_.axis().is_off();
+  }
+
+  std::optional<ServoState> state() const noexcept override { return link_.state(); }
+  void command_position(double position) noexcept override {
+    if (takes_commands()) link_.axis().command_position(position);
+  }
+  void command_velocity(double velocity) noexcept override {
+    if (takes_commands()) link_.axis().command_velocity(velocity);
+  }
+  void move_to(double position, double speed) noexcept override {
+    if (takes_commands()) link_.axis().move_to(position, speed);
+  }
+  void home() noexcept override {
+    if (takes_commands()) link_.axis().home();
+  }
+  const Status& homing_problem() const noexcept override { return link_.axis().homing_problem(); }
+  void halt() noexcept override { link_.axis().halt(); }
+
+ protected:
+  /// What the interface's configuration says.
+  canopen::cia402::AxisPlan plan_from_interface() const noexcept {
+    const auto& from = this->configuration;
+    canopen::cia402::AxisPlan plan;
+    plan.mode = canopen::mode_of(from.mode);
+    plan.lowest = from.lowest;
+    plan.highest = from.highest;
+    plan.fastest = from.fastest;
+    plan.acceleration = from.acceleration;
+    plan.homing_method = from.homing_method;
+    plan.homing_speed = from.homing_speed;
+    plan.homing_timeout = canopen::whole_milliseconds(from.homing_timeout);
+    return plan;
+  }
+  Status open(const canopen::cia402::AxisPlan& plan) {
+    made_safe_ = false;
+    return link_.open(plan, *this->bus);
+  }
+
+ private:
+  bool takes_commands() const noexcept { return !this->is_inhibited() && !made_safe_; }
+
+  canopen::AxisOnBus link_;
+  bool made_safe_ = false;  // until the permission to move was withdrawn
+};
+
+}  // namespace flexrf
