@@ -1,0 +1,100 @@
+// The pneumatic gripper on simulated chips, in virtual time: with a cylinder on its lines, and with mere
+// wires.
+#include "hal/mock/mock_gpio_chip/mock_gpio_chip.hpp"
+#include "hal/simulated/simulated_gpio_chip/simulated_gpio_chip.hpp"
+#include "tests/cmocka.hpp"
+#include "tests/grippers/pneumatic_world.hpp"
+
+namespace {
+
+using namespace flexrf;
+
+template <class Chip, bool ClosedCentre>
+class VirtualWorld final : public PneumaticWorld<Chip> {
+ public:
+  VirtualWorld() : PneumaticWorld<Chip>(ClosedCentre) {}
+
+ private:
+  Duration pass_time() override { return std::chrono::milliseconds(2); }
+  Valves valves() override { return {line("VALVE_OPEN").is_high(), line("VALVE_CLOSE").is_high()}; }
+  void connect(const ReedSwitches& reeds) override {
+    line("REED_OPEN").drive(reeds.open);
+    line("REED_CLOSED").drive(reeds.closed);
+  }
+  bool is_there() override { return there_; }
+  bool unplug() override {
+    there_ = false;
+    this->chip().driver().unplug();
+    return true;
+  }
+  bool plug_in() override {
+    there_ = true;
+    this->chip().driver().plug_in();
+    return true;
+  }
+  VirtualLine& line(const char* name) { return this->chip().driver().line(name); }
+
+  bool there_ = true;
+};
+
+template <class World>
+int run(const char* name) {
+  return run_gripper_conformance(name,
+                                 []() -> std::unique_ptr<GripperWorld> { return std::make_unique<World>(); });
+}
+
+// As an application's table has it, without a model of anything.
+bool follows_mere_wires() {
+  DeviceBench<SimulatedGpioChip> chip(nullptr);
+  chip.configuration().set_wires("VALVE_OPEN>REED_OPEN VALVE_CLOSE>REED_CLOSED");
+  chip.configuration().wire_delay = 0.1;
+  if (!chip.driver().initialise()) return false;
+  DeviceBench<PneumaticGripper> gripper(nullptr, {}, &chip.driver());
+  if (!gripper.driver().initialise()) return false;
+  const auto run_for = [&](int milliseconds) {
+    for (int i = 0; i < milliseconds; ++i) {
+      chip.receive(std::chrono::milliseconds(1));
+      gripper.receive(std::chrono::milliseconds(1));
+      gripper.send();
+      chip.send();
+    }
+  };
+  run_for(10);
+  for (const bool opens : {true, false, true}) {
+    opens ? gripper.driver().open() : gripper.driver().close();
+    if (!gripper.driver().state()->moving) return false;
+    run_for(400);
+    const auto state = gripper.driver().state();
+    const double width = opens ? gripper.configuration().open_width : gripper.configuration().closed_width;
+    if (!state || state->moving || state->opening != width || !gripper.driver().trouble().is_ok())
+      return false;
+  }
+  return true;
+}
+
+bool tells_a_line_it_cannot_have() {
+  DeviceBench<MockGpioChip> chip(nullptr);
+  chip.driver().refuse(Status::error(StatusCode::not_found, "no line of this name"));
+  DeviceBench<PneumaticGripper> gripper(nullptr, {}, &chip.driver());
+  return gripper.driver().initialise().code() == StatusCode::not_found;
+}
+
+void wires_of_a_simulated_chip_are_enough(void**) {
+  assert_true(follows_mere_wires());
+}
+void a_line_it_cannot_have_is_told(void**) {
+  assert_true(tells_a_line_it_cannot_have());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(wires_of_a_simulated_chip_are_enough),
+      cmocka_unit_test(a_line_it_cannot_have_is_told),
+  };
+  return cmocka_run_group_tests_name("pneumatic gripper", tests, nullptr, nullptr) +
+         run<VirtualWorld<MockGpioChip, false>>("pneumatic gripper, valve with two coils, on a mock chip") +
+         run<VirtualWorld<SimulatedGpioChip, true>>(
+             "pneumatic gripper, valve with a closed centre, on a simulated chip");
+}
