@@ -261,20 +261,31 @@ void Connection::send_reply() {
 
 void Connection::write_more() {
   wait_at_most(surroundings_.settings.write_timeout);
-  const std::array<net::const_buffer, 2> buffers{net::const_buffer(output_[0].data(), output_[0].size()),
-                                                 net::const_buffer(output_[1].data(), output_[1].size())};
   // What the socket takes at once needs no operation that comes back later. But who has sent the next request
   // along already waits for the others' turn.
   if (!transport_.is_encrypted() && input_begin_ == input_end_) {
     error_code error;
-    const std::size_t size = transport_.socket().write_some(buffers, error);
+    const std::size_t size = transport_.socket().write_some(output_buffers(), error);
     if (error != net::error::would_block) {
       on_written(error, size);
       return;
     }
   }
   transport_.async_write_some(
-      buffers, under_way([this](error_code error, std::size_t size) { on_written(error, size); }));
+      output_buffers(), under_way([this](error_code error, std::size_t size) { on_written(error, size); }));
+}
+
+std::array<net::const_buffer, 2> Connection::output_buffers() const noexcept {
+  return {net::const_buffer(output_[0].data(), output_[0].size()),
+          net::const_buffer(output_[1].data(), output_[1].size())};
+}
+
+void Connection::drop_output(std::size_t size) noexcept {
+  for (std::string_view& part : output_) {
+    const std::size_t dropped = std::min(size, part.size());
+    part.remove_prefix(dropped);
+    size -= dropped;
+  }
 }
 
 void Connection::on_written(error_code error, std::size_t size) {
@@ -282,12 +293,8 @@ void Connection::on_written(error_code error, std::size_t size) {
     shut();
     return;
   }
-  for (std::string_view& part : output_) {
-    const std::size_t written = std::min(size, part.size());
-    part.remove_prefix(written);
-    size -= written;
-  }
-  if (!output_[0].empty() || !output_[1].empty()) {
+  drop_output(size);
+  if (has_output()) {
     write_more();
   } else if (keep_alive_) {
     clear_reply(reply_);

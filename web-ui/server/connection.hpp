@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "web-ui/server/access/address.hpp"
 #include "web-ui/server/asio.hpp"
+#include "web-ui/server/frame_head.hpp"
 #include "web-ui/server/handler_memory.hpp"
 #include "web-ui/server/ordinary_memory.hpp"
 #include "web-ui/server/rate_limit.hpp"
@@ -50,6 +52,7 @@ class Connection final : public LiveLink {
   bool is_writing() const override { return writing_ || state_ != State::live; }
   std::string& buffer() override { return reply_.text; }
   void send(bool binary) override;
+  void send_shared(std::span<char> memory) override;
   void close(std::uint16_t code, std::string_view reason) override;
 
  private:
@@ -85,6 +88,9 @@ class Connection final : public LiveLink {
   void refuse_and_end(unsigned status, std::string_view detail);
   void send_reply();
   void write_more();
+  std::array<net::const_buffer, 2> output_buffers() const noexcept;
+  void drop_output(std::size_t size) noexcept;
+  bool has_output() const noexcept { return !output_[0].empty() || !output_[1].empty(); }
   void on_written(error_code error, std::size_t size);
   void linger();
 
@@ -102,6 +108,10 @@ class Connection final : public LiveLink {
   void read_message();
   void on_message_part(error_code error, std::size_t size);
   void on_message();
+  bool may_send_directly() const;
+  void send_by_beast(bool binary);
+  void begin_rest();
+  void send_rest();
   void on_sent(error_code error);
   void check_live(Time now);
   void end_live();
@@ -150,7 +160,9 @@ class Connection final : public LiveLink {
   Time write_deadline_{};
   Time reads_checked_{};
   std::size_t message_size_ = 0;  // in body_
+  std::array<char, longest_frame_head> frame_head_{};
   bool writing_ = false;
+  bool answers_ping_ = false;  // Beast may be writing, until it comes back with a part of a message
   bool flooded_ = false;
   bool announced_ = false;  // the handler knows of it
 };

@@ -66,6 +66,7 @@ void Connection::accept_upgrade() {
   web_socket_->read_message_max(live_message_limit);
   // Beast answers pings itself; here they are only counted.
   web_socket_->control_callback([this](websocket::frame_type, boost::beast::string_view) {
+    answers_ping_ = true;
     if (!message_rate_.take(surroundings_.now)) flooded_ = true;
   });
   web_socket_->async_accept(request, under_way([this](error_code error) { on_upgraded(error); }));
@@ -82,7 +83,7 @@ void Connection::on_upgraded(error_code error) {
   heard_ = reads_checked_ = surroundings_.now;
   transport_.take_reads();
   message_size_ = 0;
-  writing_ = flooded_ = false;
+  writing_ = answers_ping_ = flooded_ = false;
   announced_ = true;
   surroundings_.watch("the opening of a live connection", [this] { surroundings_.live.on_open(*this); });
   if (state_ == State::live) read_message();
@@ -104,6 +105,7 @@ void Connection::on_message_part(error_code error, std::size_t size) {
     linger();
     return;
   }
+  answers_ping_ = false;
   message_size_ += size;
   if (web_socket_->is_message_done()) on_message();
   if (state_ == State::live) read_message();
@@ -125,8 +127,71 @@ void Connection::on_message() {
 
 // ---- sending
 
+// Beast's way to the socket costs more than the message where the socket takes it at once, as it nearly
+// always does. So it is handed over here, where nothing of Beast's can be under way; what the socket does not
+// take goes on in the background, and Beast waits for it.
+
+bool Connection::may_send_directly() const {
+  return !transport_.is_encrypted() && !answers_ping_ && web_socket_->is_open();
+}
+
 void Connection::send(bool binary) {
   if (is_writing()) return;
+  if (!may_send_directly()) {
+    send_by_beast(binary);
+    return;
+  }
+  char* const end = frame_head_.data() + frame_head_.size();
+  const char* const begin = write_frame_head(end, binary, reply_.text.size());
+  output_ = {std::string_view{begin, end}, std::string_view{reply_.text}};
+  error_code error;
+  drop_output(transport_.socket().write_some(output_buffers(), error));
+  if (has_output()) {
+    begin_rest();
+  } else {
+    reply_.text.clear();
+  }
+}
+
+void Connection::send_shared(std::span<char> memory) {
+  if (is_writing()) return;
+  // Also where all is taken at once: the day on which it is not takes no memory then.
+  reply_.text.reserve(memory.size());
+  char* const message = memory.data() + head_room;
+  const std::size_t size = memory.size() - head_room;
+  if (!may_send_directly()) {
+    reply_.text.assign(message, size);
+    send_by_beast(true);
+    return;
+  }
+  std::string_view frame{write_frame_head(message, true, size), message + size};
+  frame.remove_prefix(transport_.send_now(frame));
+  if (frame.empty()) return;
+  reply_.text.assign(frame);
+  output_ = {std::string_view{}, std::string_view{reply_.text}};
+  begin_rest();
+}
+
+void Connection::begin_rest() {
+  writing_ = true;
+  write_deadline_ = surroundings_.now + surroundings_.settings.write_timeout;
+  transport_.hold_writes();
+  send_rest();
+}
+
+void Connection::send_rest() {
+  transport_.async_send_rest(output_buffers(), under_way([this](error_code error, std::size_t size) {
+                               drop_output(size);
+                               if (!error && has_output()) {
+                                 send_rest();
+                                 return;
+                               }
+                               transport_.release_writes();
+                               on_sent(error);
+                             }));
+}
+
+void Connection::send_by_beast(bool binary) {
   writing_ = true;
   write_deadline_ = surroundings_.now + surroundings_.settings.write_timeout;
   web_socket_->binary(binary);

@@ -36,14 +36,21 @@ class Outbox {
   std::size_t begun_ = 0;
 };
 
+/// What a client was shown last of a slot.
+struct Seen {
+  std::uint64_t sequence = 0;
+  NullReason reason = NullReason::none;
+  bool any = false;
+
+  friend bool operator==(const Seen&, const Seen&) = default;
+};
+
 struct SlotSubscription {
   std::uint16_t slot = 0;
-  NullReason seen_reason = NullReason::none;
-  bool seen_any = false;
   std::uint16_t width = 0;  ///< of an image
   Duration interval{};
   Time next{};
-  std::uint64_t seen = 0;  ///< sequence
+  Seen seen;
 };
 
 enum class Topic : std::uint8_t { components, slots, queues, threads, log };

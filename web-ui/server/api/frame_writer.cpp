@@ -33,9 +33,9 @@ static_assert(sizeof(ItemHead) == 32);
 
 enum : std::uint8_t { kind_value = 0, kind_jpeg = 1 };
 
-std::uint32_t missed(const SlotSubscription& subscription, std::uint64_t sequence) noexcept {
-  if (subscription.seen == 0 || sequence == subscription.seen) return 0;
-  const std::uint64_t between = sequences_between(subscription.seen, sequence);
+std::uint32_t missed(const Seen& seen, std::uint64_t sequence) noexcept {
+  if (seen.sequence == 0 || sequence == seen.sequence) return 0;
+  const std::uint64_t between = sequences_between(seen.sequence, sequence);
   return static_cast<std::uint32_t>(
       std::min<std::uint64_t>(between, std::numeric_limits<std::uint32_t>::max()));
 }
@@ -49,7 +49,7 @@ ItemHead head_of(const SlotSubscription& subscription, const ItemHeader& header,
           static_cast<std::uint8_t>(reason),
           kind,
           0,
-          missed(subscription, header.sequence)};
+          missed(subscription.seen, header.sequence)};
 }
 
 template <class Head>
@@ -57,18 +57,15 @@ void append(std::string& to, const Head& head) {
   to.append(reinterpret_cast<const char*>(&head), sizeof(head));
 }
 
+/// What stands before a message keeps to the same multiple.
+static_assert(LiveLink::head_room % 8 == 0);
+
 void pad(std::string& to) {
   to.append((8 - to.size() % 8) % 8, '\0');
 }
 
-bool is_known(const SlotSubscription& subscription, std::uint64_t sequence, NullReason reason) noexcept {
-  return subscription.seen_any && subscription.seen == sequence && subscription.seen_reason == reason;
-}
-
-void see(SlotSubscription& subscription, std::uint64_t sequence, NullReason reason) noexcept {
-  subscription.seen_any = true;
-  subscription.seen = sequence;
-  subscription.seen_reason = reason;
+bool is_known(const Seen& seen, std::uint64_t sequence, NullReason reason) noexcept {
+  return seen == Seen{sequence, reason, true};
 }
 
 }  // namespace
@@ -79,55 +76,82 @@ Time FrameWriter::next(const Client& client) noexcept {
   return next;
 }
 
-bool FrameWriter::write(Client& client, Time now, std::string& to) {
-  const std::size_t begin = to.size();
-  append(to, MessageHeader{});
-  std::uint32_t items = 0;
+std::span<char> FrameWriter::write(Client& client, Time now) {
+  const std::int64_t left_out = find_due(client, now);
+  const bool beats = now >= client.last_frame + heartbeat;
+  if (due_.empty() && !beats) return {};
+  if (is_for_due()) {
+    for (std::size_t i = 0; i < parts_.size(); ++i) due_[i]->seen = parts_[i].after;
+  } else {
+    put_together();
+  }
+  if (items_ == 0 && !beats) return {};
+  client.left_out += static_cast<std::uint32_t>(left_out);
+  client.last_frame = now;
+  const MessageHeader header{descriptor_, nanoseconds(now), items_, client.left_out, ++client.frames};
+  std::memcpy(message_.data() + LiveLink::head_room, &header, sizeof(header));
+  return message_;
+}
+
+std::int64_t FrameWriter::find_due(Client& client, Time now) {
+  due_.clear();
   std::int64_t left_out = 0;
   for (SlotSubscription& subscription : client.slots) {
     if (now < subscription.next) continue;
     // All clients look at the same instants, so that one waking serves them all.
     const std::int64_t late = (now - subscription.next).count() / subscription.interval.count();
-    left_out = std::max(left_out, subscription.seen_any ? late : 0);
+    left_out = std::max(left_out, subscription.seen.any ? late : 0);
     const std::int64_t turns = now.time_since_epoch().count() / subscription.interval.count() + 1;
     subscription.next = Time{turns * subscription.interval};
-    const bool is_picture = images_->is_image(subscription.slot);
-    if (is_picture ? write_picture(subscription, to) : write_item(subscription, to)) ++items;
+    due_.push_back(&subscription);
   }
-  if (items == 0 && now < client.last_frame + heartbeat) {
-    to.resize(begin);
-    return false;
-  }
-  client.left_out += static_cast<std::uint32_t>(left_out);
-  client.last_frame = now;
-  const MessageHeader header{descriptor_, nanoseconds(now), items, client.left_out, ++client.frames};
-  std::memcpy(to.data() + begin, &header, sizeof(header));
-  return true;
+  return left_out;
 }
 
-bool FrameWriter::write_item(SlotSubscription& subscription, std::string& to) {
+bool FrameWriter::is_for_due() const noexcept {
+  return turn_ == slots_->turn() && std::equal(due_.begin(), due_.end(), parts_.begin(), parts_.end(),
+                                               [](const SlotSubscription* due, const Part& part) {
+                                                 return due->slot == part.slot && due->seen == part.before;
+                                               });
+}
+
+void FrameWriter::put_together() {
+  turn_ = slots_->turn();
+  items_ = 0;
+  parts_.clear();
+  message_.assign(LiveLink::head_room + sizeof(MessageHeader), '\0');
+  for (SlotSubscription* const subscription : due_) {
+    Part part{subscription->slot, subscription->seen, {}};
+    const bool is_picture = images_->is_image(subscription->slot);
+    if (is_picture ? write_picture(*subscription) : write_item(*subscription)) ++items_;
+    part.after = subscription->seen;
+    parts_.push_back(part);
+  }
+}
+
+bool FrameWriter::write_item(SlotSubscription& subscription) {
   const ObservedSlot& newest = slots_->read(subscription.slot);
-  if (is_known(subscription, newest.header.sequence, newest.reason)) return false;
+  if (is_known(subscription.seen, newest.header.sequence, newest.reason)) return false;
   const std::size_t size = newest.value == nullptr ? 0 : slots_->size(subscription.slot);
-  append(to, head_of(subscription, newest.header, newest.reason, size, kind_value));
-  if (size != 0) to.append(static_cast<const char*>(newest.value), size);
-  pad(to);
-  see(subscription, newest.header.sequence, newest.reason);
+  append(message_, head_of(subscription, newest.header, newest.reason, size, kind_value));
+  if (size != 0) message_.append(static_cast<const char*>(newest.value), size);
+  pad(message_);
+  subscription.seen = {newest.header.sequence, newest.reason, true};
   return true;
 }
 
-bool FrameWriter::write_picture(SlotSubscription& subscription, std::string& to) {
+bool FrameWriter::write_picture(SlotSubscription& subscription) {
   ImageWorker::Newest newest = images_->newest(subscription.slot);
-  if (newest.version == 0 || is_known(subscription, newest.header.sequence, newest.reason)) return false;
-  const std::size_t begin = to.size();
-  append(to, ItemHead{});
+  if (newest.version == 0 || is_known(subscription.seen, newest.header.sequence, newest.reason)) return false;
+  const std::size_t begin = message_.size();
+  append(message_, ItemHead{});
   const char* cause = "";
-  images_->copy(subscription.slot, to, newest, cause);
-  const std::size_t size = to.size() - begin - sizeof(ItemHead);
+  images_->copy(subscription.slot, message_, newest, cause);
+  const std::size_t size = message_.size() - begin - sizeof(ItemHead);
   const ItemHead head = head_of(subscription, newest.header, newest.reason, size, kind_jpeg);
-  std::memcpy(to.data() + begin, &head, sizeof(head));
-  pad(to);
-  see(subscription, newest.header.sequence, newest.reason);
+  std::memcpy(message_.data() + begin, &head, sizeof(head));
+  pad(message_);
+  subscription.seen = {newest.header.sequence, newest.reason, true};
   return true;
 }
 

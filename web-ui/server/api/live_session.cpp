@@ -235,14 +235,18 @@ Time LiveSession::next(Time now) const noexcept {
 void LiveSession::pump(Client& client, Time now) {
   client.pumping = true;
   for (int i = 0; i < messages_per_turn && client.is_open() && !client.link->is_writing(); ++i) {
-    bool binary = false;
-    if (!write_next(client, now, client.link->buffer(), binary)) break;
-    client.link->send(binary);
+    if (write_text(client, now, client.link->buffer())) {
+      client.link->send(false);
+      continue;
+    }
+    const std::span<char> frame = parts_.frames.write(client, now);
+    if (!frame.empty()) client.link->send_shared(frame);
+    break;  // it had all that is due
   }
   client.pumping = false;
 }
 
-bool LiveSession::write_next(Client& client, Time now, std::string& to, bool& binary) {
+bool LiveSession::write_text(Client& client, Time now, std::string& to) {
   if (!client.greeted) {
     write_hello(client, now, to);
     client.greeted = true;
@@ -262,9 +266,7 @@ bool LiveSession::write_next(Client& client, Time now, std::string& to, bool& bi
     write_end(to);
     return true;
   }
-  if (write_topic(client, now, to) || write_log(client, now, to)) return true;
-  binary = parts_.frames.write(client, now, to);
-  return binary;
+  return write_topic(client, now, to) || write_log(client, now, to);
 }
 
 bool LiveSession::write_topic(Client& client, Time now, std::string& to) {

@@ -45,7 +45,7 @@ class LiveSession final : public LiveHandler {
 
  private:
   void pump(Client& client, Time now);
-  bool write_next(Client& client, Time now, std::string& to, bool& binary);
+  bool write_text(Client& client, Time now, std::string& to);
   bool write_topic(Client& client, Time now, std::string& to);
   bool write_log(Client& client, Time now, std::string& to);
   void write_hello(Client& client, Time now, std::string& to);

@@ -23,6 +23,7 @@ class ObservedSlots {
 
   /// From here on, each slot is read anew once.
   void begin_turn() noexcept { ++turn_; }
+  std::uint64_t turn() const noexcept { return turn_; }
   /// As of this turn. Not for slots of images. Valid until the slot is read in another turn.
   const ObservedSlot& read(std::uint16_t slot);
   std::size_t size(std::uint16_t slot) const noexcept {

@@ -49,7 +49,8 @@ void to_rgb(double y, double u, double v, unsigned char* rgb) noexcept {
 }  // namespace
 
 PictureLayout PictureLayout::of(const TypeDescriptor& type) noexcept {
-  return {field(type, "width"), field(type, "height"), field(type, "format"), field(type, "data")};
+  return {field(type, "width"), field(type, "height"), field(type, "format"), field(type, "data"),
+          field(type, "stride")};
 }
 
 bool PictureLayout::is_complete() const noexcept {
@@ -62,10 +63,10 @@ PictureEncoder::~PictureEncoder() {
 }
 
 bool PictureEncoder::scale(std::string_view format, const std::byte* data, std::size_t size,
-                           std::size_t columns, std::size_t rows, std::size_t by) {
+                           std::size_t columns, std::size_t rows, std::size_t row_bytes, std::size_t by) {
   const std::size_t pixel = format == "grey8" ? 1 : format == "yuyv" ? 2 : 3;
-  const std::size_t row_bytes = columns * pixel;
-  if (row_bytes * rows > size) {
+  row_bytes = std::max(row_bytes, columns * pixel);
+  if (row_bytes * (rows - 1) + columns * pixel > size) {
     cause_ = "the picture is larger than its data";
     return false;
   }
@@ -109,7 +110,11 @@ std::string_view PictureEncoder::encode(const PictureLayout& layout, const void*
   const std::size_t wanted = std::max<std::size_t>(width, 16);
   const std::size_t by = std::min({(columns + wanted - 1) / wanted, columns, rows});
   const auto* const data = static_cast<const std::byte*>(image) + layout.data->offset;
-  if (!scale(format, data, layout.data->count, columns, rows, by)) return {};
+  const Result<double> stride =
+      layout.stride == nullptr ? Result<double>(0.0) : read_number(whole(*layout.stride), image);
+  const std::size_t row_bytes =
+      stride && *stride > 0 && *stride <= layout.data->count ? static_cast<std::size_t>(*stride) : 0;
+  if (!scale(format, data, layout.data->count, columns, rows, row_bytes, by)) return {};
   if (compressor_ == nullptr) compressor_ = tjInitCompress();
   const int sampling = pixel_format_ == TJPF_GRAY ? TJSAMP_GRAY : TJSAMP_420;
   const auto shown_columns = static_cast<int>(columns_);

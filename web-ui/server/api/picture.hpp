@@ -10,12 +10,14 @@
 
 namespace flexrf::panel {
 
-/// Where the fields of an image type lie: width and height (integers), format (an enumeration), data (u8).
+/// Where the fields of an image type lie: width and height (integers), format (an enumeration), data (u8),
+/// and stride (an integer, bytes from row to row) of one whose rows may have gaps.
 struct PictureLayout {
   const FieldDescriptor* width = nullptr;
   const FieldDescriptor* height = nullptr;
   const FieldDescriptor* format = nullptr;
   const FieldDescriptor* data = nullptr;
+  const FieldDescriptor* stride = nullptr;  ///< null: rows without gaps
 
   static PictureLayout of(const TypeDescriptor& type) noexcept;
   bool is_complete() const noexcept;
@@ -36,8 +38,9 @@ class PictureEncoder {
   const char* cause() const noexcept { return cause_; }
 
  private:
+  /// `row_bytes`: from row to row; 0: rows without gaps.
   bool scale(std::string_view format, const std::byte* data, std::size_t size, std::size_t columns,
-             std::size_t rows, std::size_t by);
+             std::size_t rows, std::size_t row_bytes, std::size_t by);
 
   void* compressor_ = nullptr;
   const char* cause_ = "";

@@ -218,6 +218,53 @@ void a_client_that_does_not_read_is_cut_and_delays_nobody(void** state) {
   assert_string_equal(served(state).clients[1].frame().payload.c_str(), "z");
 }
 
+/// Reads what "much" was answered with: true, all came whole and in order, and so many pongs between them.
+bool much_came(Client& client, int pongs) {
+  std::size_t number = 0;
+  while (number < TestHandlers::much_messages || pongs > 0) {
+    const Client::Frame frame = client.frame();
+    if (frame.first_byte == 0x8A && frame.payload == "ping") {
+      --pongs;
+    } else if (frame.first_byte == 0x82 &&
+               frame.payload == std::string(TestHandlers::much_size, TestHandlers::byte_of(number))) {
+      ++number;
+    } else {
+      return false;
+    }
+  }
+  return pongs == 0;
+}
+
+void what_the_socket_takes_in_parts_comes_whole(void** state) {
+  Client& client = open_live(state);
+  client.send_text("much");
+  // Answered while half a message is out, and nobody reads.
+  for (int i = 0; i < 3; ++i) client.send_frame(0x89, "ping");
+  assert_string_equal(client.frame().payload.c_str(), "much");
+  assert_true(much_came(client, 3));
+  // And after such a ping by the other way, and then by the first again.
+  client.send_text("much");
+  assert_string_equal(client.frame().payload.c_str(), "much");
+  assert_true(much_came(client, 0));
+}
+
+/// Of the close that ends what "much" was answered with; 0: not all before it came whole and in order.
+std::uint16_t close_code_amid_much(Client& client) {
+  for (std::size_t number = 0;; ++number) {
+    const Client::Frame frame = client.frame();
+    if (frame.first_byte == 0x88) return frame.close_code();
+    if (frame.payload != std::string(TestHandlers::much_size, TestHandlers::byte_of(number))) return 0;
+  }
+}
+
+void a_close_comes_after_the_message_that_is_half_out(void** state) {
+  Client& client = open_live(state);
+  client.send_text("much");
+  client.send_text("close");
+  assert_string_equal(client.frame().payload.c_str(), "much");
+  assert_int_equal(close_code_amid_much(client), 4000);
+}
+
 void the_end_of_the_server_is_told(void** state) {
   Client& client = open_live(state);
   client.send_text("hello");
@@ -245,6 +292,8 @@ int main() {
       cmocka_unit_test_setup_teardown(silent_clients_are_closed, serve_briefly, end),
       cmocka_unit_test_setup_teardown(a_client_that_does_not_read_is_cut_and_delays_nobody, serve_impatiently,
                                       end),
+      cmocka_unit_test_setup_teardown(what_the_socket_takes_in_parts_comes_whole, serve, end),
+      cmocka_unit_test_setup_teardown(a_close_comes_after_the_message_that_is_half_out, serve, end),
       cmocka_unit_test_setup_teardown(the_end_of_the_server_is_told, serve, end),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

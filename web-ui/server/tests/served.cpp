@@ -56,20 +56,33 @@ void TestHandlers::on_text(LiveLink& link, std::string_view text) {
     link.close(4000, "as you wish");
     return;
   }
-  floods_[link.place()] = text == "flood";
+  left_[link.place()] = text == "flood" ? no_end : text == "much" ? much_messages : 0;
   if (link.is_writing()) return;
   link.buffer() = text;
   link.send(false);
+  on_writable(link);
 }
 
 void TestHandlers::on_writable(LiveLink& link) {
-  if (!floods_[link.place()]) return;
-  link.buffer().assign(64U << 10U, 'f');
-  link.send(true);
+  while (left_[link.place()] > 0 && !link.is_writing()) send_next(link);
+}
+
+void TestHandlers::send_next(LiveLink& link) {
+  std::size_t& left = left_[link.place()];
+  const std::size_t number = left == no_end ? 0 : much_messages - left;
+  if (left != no_end) --left;
+  if (number % 2 == 0) {
+    link.buffer().assign(much_size, byte_of(number));
+    link.send(true);
+  } else {
+    shared_.assign(LiveLink::head_room + much_size, byte_of(number));
+    link.send_shared(shared_);
+    shared_.assign(shared_.size(), '?');  // it is the caller's again
+  }
 }
 
 void TestHandlers::on_close(LiveLink& link) {
-  floods_[link.place()] = false;
+  left_[link.place()] = 0;
   ++closed;
 }
 

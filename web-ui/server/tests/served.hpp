@@ -22,9 +22,14 @@ class Server;
 
 /// Knows the host "panel.test" and its origin. Paths: /hello, /echo (the body), /large (8 MiB), /later
 /// (answered at a later tick), /never. Live: a text comes back; "flood" is answered with message after
-/// message; "close" with a close.
+/// message, for ever; "much" with `much_messages`, each of `much_size` bytes, which tell its number, by turns
+/// from the link's buffer and from shared memory; "close" with a close.
 class TestHandlers final : public Gate, public RequestHandler, public LiveHandler, public Ticked {
  public:
+  static constexpr std::size_t much_messages = 100;
+  static constexpr std::size_t much_size = 64U << 10U;
+  static char byte_of(std::size_t message) noexcept { return static_cast<char>('A' + message % 26); }
+
   LaterReplies* replies = nullptr;
   std::atomic<int> opened{0};
   std::atomic<int> closed{0};
@@ -47,7 +52,11 @@ class TestHandlers final : public Gate, public RequestHandler, public LiveHandle
     tickets.reserve(64);
     return tickets;
   }();
-  std::array<bool, 256> floods_{};
+  void send_next(LiveLink& link);
+
+  static constexpr std::size_t no_end = SIZE_MAX;
+  std::array<std::size_t, 256> left_{};  // messages, per place
+  std::string shared_;
 };
 
 /// The state of a test: where an assertion jumps to, this is taken down. Shows nothing of Asio, whose names

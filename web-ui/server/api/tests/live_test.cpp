@@ -1,5 +1,6 @@
 // The live connection: greeting, state, topics, frames of values, clients that are slow or hostile.
 #include <cstring>
+#include <utility>
 
 #include "runtime/log/log.hpp"
 #include "web-ui/server/api/tests/rig.hpp"
@@ -107,6 +108,53 @@ void frames_hold_what_is_new() {
     const auto item = at<fixture::Item>(frame, 64);
     CHECK(item.number > 0 || seen == 0);
   }
+}
+
+/// What is wrong with a client's frames, each after the other; empty: nothing.
+std::string fault_of(const std::deque<std::string>& frames) {
+  std::uint64_t number = 0;
+  std::map<std::uint32_t, std::uint64_t> sequences;
+  for (const std::string& frame : frames) {
+    const std::uint64_t previous_number = std::exchange(number, at<std::uint64_t>(frame, 24));
+    if (previous_number != 0 && number != previous_number + 1) return "a number is missing";
+    std::size_t place = 32;
+    for (std::uint32_t item = 0; item < items(frame); ++item) {
+      const auto sequence = at<std::uint64_t>(frame, place + 8);
+      const std::uint64_t seen = std::exchange(sequences[at<std::uint32_t>(frame, place)], sequence);
+      const std::uint64_t missed = seen == 0 || seen == sequence ? 0 : sequence - seen - 1;
+      if (at<std::uint32_t>(frame, place + 28) != missed) return "not the number of items that it missed";
+      place += 32 + (at<std::uint32_t>(frame, place + 4) + 7) / 8 * 8;
+    }
+    if (place != frame.size()) return "more bytes than items";
+  }
+  return {};
+}
+
+void who_wants_the_same_gets_the_same_with_counts_of_its_own() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  const json both{{{"name", "values"}, {"rate", 60}}, {{"name", "producer.runtime"}, {"rate", 60}}};
+  PlayedLink& one = rig.connect(a_viewer);
+  PlayedLink& same = rig.connect(a_viewer);
+  PlayedLink& fewer = rig.connect(a_viewer);
+  PlayedLink& slower = rig.connect(a_viewer);
+  rig.ask(one, subscribe(both));
+  rig.ask(same, subscribe(both));
+  rig.ask(fewer, subscribe({{{"name", "values"}, {"rate", 60}}}));
+  rig.ask(slower,
+          subscribe({{{"name", "values"}, {"rate", 20}}, {{"name", "producer.runtime"}, {"rate", 20}}}));
+  CHECK(rig.wait_until([&] { return slower.frames.size() >= 10 && same.frames.size() >= 30; }));
+  for (const PlayedLink* link : {&one, &same, &fewer, &slower}) CHECK_EQUAL(fault_of(link->frames), "");
+  std::map<std::int64_t, std::string> items_at;
+  for (const std::string& frame : one.frames) items_at[at<std::int64_t>(frame, 8)] = frame.substr(32);
+  std::size_t equal = 0;
+  for (const std::string& frame : same.frames) {
+    const auto found = items_at.find(at<std::int64_t>(frame, 8));
+    if (found != items_at.end() && items(frame) > 0 && found->second == frame.substr(32)) ++equal;
+  }
+  CHECK(equal >= 10);
+  for (const std::string& frame : fewer.frames) CHECK(items(frame) <= 1);
 }
 
 void silence_has_its_heartbeat() {
@@ -280,6 +328,7 @@ int main() {
       CONTAINED_TEST(a_page_is_greeted_and_told_the_state),
       CONTAINED_TEST(a_fault_is_told_with_its_cause),
       CONTAINED_TEST(frames_hold_what_is_new),
+      CONTAINED_TEST(who_wants_the_same_gets_the_same_with_counts_of_its_own),
       CONTAINED_TEST(silence_has_its_heartbeat),
       CONTAINED_TEST(the_reason_of_a_null_comes_too),
       CONTAINED_TEST(a_slow_client_delays_nobody),

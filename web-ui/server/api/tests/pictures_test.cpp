@@ -113,6 +113,39 @@ void every_format_keeps_its_colours() {
   }
 }
 
+struct GappedPicture {
+  std::uint32_t width;
+  std::uint32_t height;
+  std::uint32_t stride;
+  std::uint8_t format;
+  std::uint8_t data[40 * 8];
+};
+
+constexpr FieldDescriptor gapped_fields[] = {
+    {"width", Scalar::u32, 0, {0, 0}, 1, offsetof(GappedPicture, width), "1", "", nullptr},
+    {"height", Scalar::u32, 0, {0, 0}, 1, offsetof(GappedPicture, height), "1", "", nullptr},
+    {"stride", Scalar::u32, 0, {0, 0}, 1, offsetof(GappedPicture, stride), "1", "", nullptr},
+    {"format", Scalar::enumeration, 0, {0, 0}, 1, offsetof(GappedPicture, format), "", "", &format_type},
+    {"data", Scalar::u8, 1, {40 * 8, 0}, 40 * 8, offsetof(GappedPicture, data), "1", "", nullptr}};
+constexpr TypeDescriptor gapped_type{
+    "GappedPicture", "", sizeof(GappedPicture), alignof(GappedPicture), 0x9A, gapped_fields, {}, {}, true};
+
+// Rows of 32 pixels, 40 bytes apart; between them lies what is no part of the picture.
+void rows_may_have_gaps() {
+  const PictureLayout layout = PictureLayout::of(gapped_type);
+  GappedPicture picture{32, 8, 40, grey8, {}};
+  for (std::size_t i = 0; i < sizeof(picture.data); ++i) picture.data[i] = i % 40 < 32 ? 100 : 255;
+  PictureEncoder encoder;
+  const Decoded decoded = decode(encoder.encode(layout, &picture, 640));
+  CHECK_EQUAL(decoded.width, 32);
+  CHECK_EQUAL(decoded.height, 8);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 32; ++x) CHECK(is_near(decoded.at(x, y, 0), 100));
+  picture.height = 9;
+  CHECK(encoder.encode(layout, &picture, 640).empty());
+  CHECK_CONTAINS(encoder.cause(), "larger than its data");
+}
+
 void it_is_no_larger_than_it_is_shown() {
   const PictureLayout layout = PictureLayout::of(picture_type);
   const auto picture = std::make_unique<Picture>();
@@ -212,9 +245,8 @@ void pictures_come_to_all_who_look() {
 int main() {
   using namespace flexrf::panel;
   const CMUnitTest tests[] = {
-      CONTAINED_TEST(every_format_keeps_its_colours),
-      CONTAINED_TEST(it_is_no_larger_than_it_is_shown),
-      CONTAINED_TEST(what_is_no_picture_says_why),
+      CONTAINED_TEST(every_format_keeps_its_colours),   CONTAINED_TEST(rows_may_have_gaps),
+      CONTAINED_TEST(it_is_no_larger_than_it_is_shown), CONTAINED_TEST(what_is_no_picture_says_why),
       CONTAINED_TEST(pictures_come_to_all_who_look),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

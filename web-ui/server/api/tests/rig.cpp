@@ -74,11 +74,23 @@ std::string& PlayedLink::buffer() {
   return buffer_;
 }
 
-void PlayedLink::send(bool binary) {
+void PlayedLink::begin_to_send() {
   if (writing_ || closed != 0)
     throw CheckFailed{"sent while the last message is under way, or after the end"};
   ++sent;
   if (stuck) writing_ = true;
+}
+
+void PlayedLink::send_shared(std::span<char> memory) {
+  begin_to_send();
+  if (memory.size() < head_room) throw CheckFailed{"no room for the frame's head"};
+  if (keep) frames.emplace_back(memory.data() + head_room, memory.size() - head_room);
+  // As a link does; whoever shares it has to bear that.
+  std::fill_n(memory.data(), head_room, '\xAA');
+}
+
+void PlayedLink::send(bool binary) {
+  begin_to_send();
   if (!keep) return;
   if (binary) {
     frames.push_back(buffer_);

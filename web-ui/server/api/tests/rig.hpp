@@ -55,6 +55,7 @@ class PlayedLink final : public LiveLink {
   bool is_writing() const override { return writing_; }
   std::string& buffer() override;
   void send(bool binary) override;
+  void send_shared(std::span<char> memory) override;
   void close(std::uint16_t code, std::string_view reason) override;
 
   bool stuck = false;
@@ -69,6 +70,8 @@ class PlayedLink final : public LiveLink {
  private:
   std::uint32_t place_;
   SessionIndex session_;
+  void begin_to_send();
+
   bool writing_ = false;
   std::string buffer_;
 };
