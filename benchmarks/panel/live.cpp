@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "benchmarks/panel/bare_sends.hpp"
 #include "benchmarks/panel/cell.hpp"
 #include "benchmarks/panel/counts.hpp"
 #include "benchmarks/panel/counts_file.hpp"
@@ -27,41 +28,59 @@ double percent(Duration cpu_time, Duration wall_time) {
   return 100 * seconds(cpu_time) / seconds(wall_time);
 }
 
+/// Of a core, in percent, from now on for so long.
+template <class CpuTime>
+double share_of(CpuTime&& cpu_time, Duration length) {
+  const Duration before = cpu_time();
+  const Time begin = MonotonicClock::now();
+  std::this_thread::sleep_for(length);
+  return percent(cpu_time() - before, MonotonicClock::now() - begin);
+}
+
 }  // namespace
 
 bool measure_values(Report& report, const Machine& machine) {
   constexpr int clients = 100;
+  // A frame's head, the message's, the item's, and the value.
+  constexpr std::size_t bytes = 4 + 32 + 32 + 1024;
   Cell cell{{FLEXRF_PANEL_LOAD}};
   if (!cell.begin()) return false;
   cell.process().pin("panel", machine.server_cpu);
-  LiveLoad load;
-  if (!load.begin({cell.port(), cell.session(), clients, false, block_at_50_hz, 20ms, machine.load_cpu})) {
-    return false;
-  }
-  warm_up(load);
-  std::vector<double> shares;
-  std::vector<double> p99;
-  LiveFigures all;
   const int blocks = report.choose(20, 4);
   const Duration length = report.choose(3s, 1s);
-  for (int block = 0; block < blocks; ++block) {
-    const Duration cpu_before = cell.server_time();
-    const Time begin = MonotonicClock::now();
-    std::this_thread::sleep_for(length);
-    shares.push_back(percent(cell.server_time() - cpu_before, MonotonicClock::now() - begin));
+  std::vector<double> p99;
+  LiveFigures all;
+  bool good = true;
+  const auto run_ours = [&] {
+    LiveLoad load;
+    good =
+        load.begin({cell.port(), cell.session(), clients, false, block_at_50_hz, 20ms, machine.load_cpu}) &&
+        good;
+    warm_up(load);
+    const double share = share_of([&] { return cell.server_time(); }, length);
     LiveFigures figures = load.take();
     p99.push_back(quantile(figures.delivery_us, 0.99) * 1e-3);
     all.items += figures.items;
     all.lost += figures.lost;
     all.closed += figures.closed;
-  }
+    return share;
+  };
+  const auto run_floor = [&] {
+    BareSends sends;
+    good = sends.begin({clients, bytes, 20ms, machine.server_cpu, machine.load_cpu}) && good;
+    std::this_thread::sleep_for(200ms);
+    return share_of([&] { return sends.cpu_time(); }, length);
+  };
+  const Pairs pairs = alternate(blocks, run_ours, run_floor);
+  if (!good) return false;
   const double expected = 50.0 * clients * blocks * seconds(length);
   const std::string conditions =
       text("%d blocks of %lld s; %.1f %% of all values came, %llu frames lost, %llu connections ended",
            blocks, static_cast<long long>(length / 1s), 100 * static_cast<double>(all.items) / expected,
            static_cast<unsigned long long>(all.lost), static_cast<unsigned long long>(all.closed));
-  report.add(
-      {"1 KiB at 50 Hz to 100 clients, CPU of the server", "%", estimate(shares), 4, true, conditions});
+  report.add({"1 KiB at 50 Hz to 100 clients, CPU of the server", "%", pairs.ours(), 4, true, conditions});
+  report.add({"  a bare loop of send(2), as many and as long", "%", pairs.floor(), 0, false, ""});
+  report.add({"  the server's CPU against that loop's", "", pairs.ratio(), 0, false, ""});
   report.add({"1 KiB at 50 Hz to 100 clients, delivery, p99", "ms", estimate(p99), 2, true, conditions});
   return true;
 }
@@ -106,11 +125,7 @@ bool measure_pictures(Report& report, const Machine& machine) {
   const std::uint64_t encodings = counts->encodings;
   const std::uint64_t pictures = cell.recording().pictures;
   for (int block = 0; block < blocks; ++block) {
-    const Duration cpu_before = cell.server_time() + cell.picture_time();
-    const Time begin = MonotonicClock::now();
-    std::this_thread::sleep_for(length);
-    shares.push_back(
-        percent(cell.server_time() + cell.picture_time() - cpu_before, MonotonicClock::now() - begin));
+    shares.push_back(share_of([&] { return cell.server_time() + cell.picture_time(); }, length));
   }
   const auto made = static_cast<double>(cell.recording().pictures - pictures);
   const double each = static_cast<double>(counts->encodings - encodings) / made;
