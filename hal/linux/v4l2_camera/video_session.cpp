@@ -1,0 +1,172 @@
+#include "hal/linux/v4l2_camera/video_session.hpp"
+
+#include <linux/videodev2.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "hal/interfaces/camera/picture_size.hpp"
+#include "runtime/log/log.hpp"
+
+namespace flexrf {
+namespace {
+
+constexpr std::uint32_t mapped_buffers = 4;
+constexpr std::uint32_t fewest_buffers = 2;
+
+v4l2_buffer empty_buffer(std::uint32_t memory, std::uint32_t index) noexcept {
+  v4l2_buffer buffer{};
+  buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  buffer.memory = memory;
+  buffer.index = index;
+  return buffer;
+}
+
+/// Bytes that a whole picture has at least; the last row may lack its padding.
+std::size_t whole_size(const VideoFormat& format) noexcept {
+  return std::size_t{format.stride} * (format.height - 1) +
+         std::size_t{format.width} * bytes_per_pixel(format.format);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<VideoSession>> VideoSession::begin(VideoCalls& calls, const VideoRequest& request) {
+  std::unique_ptr<VideoSession> session(new VideoSession(calls));
+  session->format_ = request.format;
+  if (Status status = session->device_.open(request.device); !status) return status;
+  session->device_.find_controls();
+  if (Status status = session->device_.agree(session->format_); !status) return status;
+  if (Status status = check_settings(session->device_.controls(), request.controls); !status) return status;
+  session->controls_trouble_ = session->device_.set_controls(request.controls);
+  if (Status status = session->stream(request); !status) return status;
+  return session;
+}
+
+VideoSession::~VideoSession() {
+  let_go();
+}
+
+std::uint32_t VideoSession::memory() const noexcept {
+  return user_pointers_ ? V4L2_MEMORY_USERPTR : V4L2_MEMORY_MMAP;
+}
+
+Status VideoSession::stream(const VideoRequest& request) {
+  int result = -EINVAL;
+  if (!request.buffers.empty()) {
+    result = use_frames(request.buffers);
+    if (result == -EBUSY || result == -ENODEV) return video_error(result, device_.path(), "stream");
+    if (result < 0) {
+      log_warning(request.name,
+                  "the kernel's driver {} does not fill buffers of others ({}): every picture is copied once",
+                  std::string_view(device_.driver()), std::string_view(std::strerror(-result)));
+      let_go();
+    }
+  }
+  if (result < 0) result = use_maps();
+  int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  if (result >= 0) result = device_.calls().control(descriptor(), VIDIOC_STREAMON, &type);
+  if (result < 0) return video_error(result, device_.path(), "stream");
+  streaming_ = true;
+  return {};
+}
+
+/// A buffer of the caller's has an index of the kernel's for as long as the session lasts, so that its pages
+/// are looked up but once.
+int VideoSession::use_frames(std::span<CameraFrame* const> frames) noexcept {
+  user_pointers_ = true;
+  int result = ask_for(V4L2_MEMORY_USERPTR, most_buffers);
+  for (CameraFrame* const frame : frames)
+    if (frame != nullptr && result >= 0) result = give(*frame);
+  return result;
+}
+
+int VideoSession::use_maps() noexcept {
+  user_pointers_ = false;
+  int result = ask_for(V4L2_MEMORY_MMAP, mapped_buffers);
+  for (std::uint32_t index = 0; index < count_ && result >= 0; ++index) {
+    v4l2_buffer buffer = empty_buffer(V4L2_MEMORY_MMAP, index);
+    result = device_.calls().control(descriptor(), VIDIOC_QUERYBUF, &buffer);
+    if (result < 0) break;
+    void* const memory = device_.calls().map(descriptor(), buffer.length, buffer.m.offset);
+    if (memory == nullptr) return -ENOMEM;
+    maps_[index] = {static_cast<const std::uint8_t*>(memory), buffer.length};
+    result = give(index);
+  }
+  return result;
+}
+
+int VideoSession::ask_for(std::uint32_t memory, std::uint32_t count) noexcept {
+  v4l2_requestbuffers buffers{};
+  buffers.count = count;
+  buffers.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  buffers.memory = memory;
+  const int result = device_.calls().control(descriptor(), VIDIOC_REQBUFS, &buffers);
+  if (result < 0) return result;
+  count_ = std::min<std::uint32_t>(buffers.count, most_buffers);
+  return count_ < fewest_buffers ? -ENOMEM : 0;
+}
+
+void VideoSession::let_go() noexcept {
+  int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  VideoCalls& calls = device_.calls();
+  // Each may fail with a camera that is gone; closing it does the same then.
+  if (streaming_) static_cast<void>(calls.control(descriptor(), VIDIOC_STREAMOFF, &type));
+  streaming_ = false;
+  for (std::span<const std::uint8_t>& map : maps_) {
+    if (!map.empty()) munmap(const_cast<std::uint8_t*>(map.data()), map.size());
+    map = {};
+  }
+  v4l2_requestbuffers none{};
+  none.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  none.memory = memory();
+  if (count_ > 0) static_cast<void>(calls.control(descriptor(), VIDIOC_REQBUFS, &none));
+  count_ = 0;
+  frames_ = {};
+  queued_ = {};
+}
+
+int VideoSession::take(VideoPicture& picture) noexcept {
+  v4l2_buffer buffer = empty_buffer(memory(), 0);
+  const int result = device_.calls().control(descriptor(), VIDIOC_DQBUF, &buffer);
+  if (result == -EAGAIN) return 0;
+  if (result < 0) return result;
+  if (buffer.index >= count_) return -EIO;
+  queued_[buffer.index] = false;
+  picture.index = buffer.index;
+  picture.sequence = buffer.sequence;
+  picture.bytes = buffer.bytesused;
+  picture.whole = (buffer.flags & V4L2_BUF_FLAG_ERROR) == 0 && buffer.bytesused >= whole_size(format_);
+  const bool monotonic = (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+  const auto since =
+      std::chrono::seconds(buffer.timestamp.tv_sec) + std::chrono::microseconds(buffer.timestamp.tv_usec);
+  picture.time = monotonic ? Time{since} : Time{};
+  return 1;
+}
+
+int VideoSession::give(std::uint32_t index) noexcept {
+  v4l2_buffer buffer = empty_buffer(memory(), index);
+  if (user_pointers_) {
+    buffer.m.userptr = reinterpret_cast<unsigned long>(frames_[index]->data.data());
+    buffer.length = static_cast<std::uint32_t>(frames_[index]->data.size());
+  }
+  const int result = device_.calls().control(descriptor(), VIDIOC_QBUF, &buffer);
+  if (result >= 0) queued_[index] = true;
+  return result < 0 ? result : 0;
+}
+
+int VideoSession::give(CameraFrame& frame) noexcept {
+  std::uint32_t index = 0;
+  while (index < count_ && frames_[index] != &frame && frames_[index] != nullptr) ++index;
+  if (index == count_) {
+    // More buffers than the kernel has places for: another's place, and its pages are looked up again.
+    index = 0;
+    while (index < count_ && queued_[index]) ++index;
+    if (index == count_) return -ENOMEM;
+  }
+  frames_[index] = &frame;
+  return give(index);
+}
+
+}  // namespace flexrf
