@@ -1,7 +1,7 @@
 // Values: set and read back from the unit, refused, seen by others, left alone while a hand is on them.
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import type { Locator } from 'playwright-core';
-import { Viewer, itemOf, useBrowser, useOperator, violations, within, type Rest } from './harness';
+import { Viewer, itemOf, screenshot, useBrowser, useOperator, violations, within, type Rest } from './harness';
 
 const browser = useBrowser();
 
@@ -139,6 +139,47 @@ describe('other kinds', () => {
     await expectFeedback('knocks', before + 1);
     await button.click();
     await expectFeedback('knocks', before + 2);
+  });
+});
+
+describe('what is modified', () => {
+  beforeEach(async () => {
+    await operator.beside.do('components/gadget/parameters', { method: 'PUT', body: { level: 6.5, count: 42 } });
+  });
+
+  it('is set back together, after a question, and that is taken back', async () => {
+    const { page } = viewer;
+    await page.getByRole('button', { name: 'Reset 2 modified of gadget' }).click();
+    await page.getByText('Set back to the default: ').waitFor();
+    await expectRuntime('count', 42);
+    await page.getByRole('button', { name: 'Yes' }).click();
+    await expectRuntime('level', 5);
+    await expectRuntime('count', 3);
+    await page.getByRole('button', { name: 'Undo: 2 parameters of gadget' }).click();
+    await expectRuntime('level', 6.5);
+    await expectRuntime('count', 42);
+    // Nothing is left to be taken back.
+    await expect.poll(() => page.getByRole('button', { name: 'Undo' }).isDisabled(), { timeout: within }).toBe(true);
+  });
+
+  it('is found by name and value, set in the list, and taken back there', async () => {
+    const { page } = viewer;
+    await viewer.go('search');
+    await page.getByRole('button', { name: 'Modified', exact: true }).click();
+    await page.getByText('2 found', { exact: true }).waitFor();
+    await page.getByRole('searchbox').fill('level 6.5');
+    await page.getByText('1 found', { exact: true }).waitFor();
+    await page.getByRole('button', { name: 'Favourite: Level of it of gadget' }).click();
+    await field('Level of it').fill('7.5');
+    await field('Level of it').press('Enter');
+    await expectRuntime('level', 7.5);
+    await page.getByRole('button', { name: /^Undo: Level of it of gadget from 7\.5.* back to 6\.5/ }).click();
+    await expectRuntime('level', 6.5);
+    await page.getByRole('searchbox').fill('');
+    await page.getByRole('button', { name: 'Favourites', exact: true }).click();
+    await page.getByText('1 found', { exact: true }).waitFor();
+    await screenshot(page, 'search-favourites');
+    expect(await violations(page)).toEqual([]);
   });
 });
 

@@ -31,6 +31,7 @@ const cellPlaces: readonly Place[] = [
   { name: 'unit-mover', path: ['units', 'mover'], shows: 'Turn by hand' },
   { name: 'unit-worker', path: ['units', 'worker[0]'], shows: 'Population worker' },
   { name: 'blackboard', path: ['blackboard'], shows: 'picture' },
+  { name: 'search', path: ['search'], shows: /^\d+ found$/ },
   { name: 'menu', path: ['menu', 'Tuning'], shows: 'Count' },
 ];
 

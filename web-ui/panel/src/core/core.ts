@@ -1,6 +1,7 @@
 // What the shell and the views may use beyond a widget's host.
-import type { ItemInfo, Placement, WidgetElement, WidgetHost } from '../contract';
+import type { ItemInfo, Outcome, Placement, WidgetElement, WidgetHost } from '../contract';
 import type { Model } from './descriptor';
+import type { History } from './history';
 import type { Answer, ApplicationState, LogLine, SessionInfo, TopicName } from './protocol';
 import type { DisplayUnits } from './units';
 
@@ -16,8 +17,15 @@ export interface LinkStatus {
   readonly detail: string;
 }
 
+/** The page's own host: beside what widgets need, changes of several parameters at once, and taking changes back. */
+export interface PanelHost extends WidgetHost {
+  readonly history: History;
+  resetAll(component: string, parameters: readonly string[]): Promise<Outcome>;
+  undo(): Promise<Outcome>;
+}
+
 export interface Core {
-  readonly host: WidgetHost;
+  readonly host: PanelHost;
   /** What descriptor.json says. Views live only while it is there; a new one makes new views. */
   readonly model: Model;
   /** Newest `state` event; undefined before the first. */

@@ -1,7 +1,9 @@
 // What every widget is given: the core behind the contract of widgets.
 import type { Hold, Outcome, Reading, Value, WidgetHost } from '../contract';
+import { sameValue } from '../widgets/same_value';
 import type { ConfigurationValues } from './configuration';
 import type { Item } from './descriptor';
+import { chosen, History } from './history';
 import type { Holds } from './holds';
 import type { Answer, Problem } from './protocol';
 import type { Store } from './store';
@@ -37,6 +39,7 @@ interface Setting {
 const unknownKey: Outcome = { ok: false, detail: 'There is no such parameter.' };
 
 export class Host implements WidgetHost {
+  readonly history = new History();
   #settings = new Map<string, Setting>();
 
   constructor(private readonly parts: HostParts) {}
@@ -102,7 +105,31 @@ export class Host implements WidgetHost {
   async reset(key: string): Promise<Outcome> {
     const item = this.item(key);
     if (item?.component === undefined || item.path === undefined) return unknownKey;
-    return outcomeOf(await this.parts.request<Applied>('reset', { component: item.component, parameters: [item.path] }));
+    return this.resetAll(item.component, [item.path]);
+  }
+
+  /** All of them, or none. */
+  resetAll(component: string, parameters: readonly string[]): Promise<Outcome> {
+    return this.#change('reset', component, parameters, { parameters });
+  }
+
+  /** Takes the newest change back that this page made and nobody has changed since. */
+  async undo(): Promise<Outcome> {
+    const { last } = this.history;
+    if (!last) return { ok: false, detail: 'There is nothing to take back.' };
+    const other = Object.entries(last.after).find(([path, value]) => {
+      const item = this.item(`${last.component}.${path}`);
+      const now = this.#value(last.component, path);
+      // The value before: the unit's newest has not come yet.
+      return item && now !== undefined && [value, last.before[path]].every((ours) => !sameValue(now, ours, item.scalar));
+    });
+    if (other) {
+      this.history.drop(last);
+      return { ok: false, detail: `${other[0]} of ${last.component} was changed elsewhere meanwhile; it stays as it is.` };
+    }
+    const outcome = outcomeOf(await this.parts.request<Applied>('set', { component: last.component, values: last.before }));
+    if (outcome.ok) this.history.drop(last);
+    return outcome;
   }
 
   async file(path: string): Promise<Response> {
@@ -114,10 +141,29 @@ export class Host implements WidgetHost {
   async #send(key: string, setting: Setting, component: string, path: string, first: Wanted): Promise<void> {
     for (let wanted: Wanted | undefined = first; wanted; wanted = setting.next) {
       setting.next = undefined;
-      const outcome = outcomeOf(await this.parts.request<Applied>('set', { component, values: { [path]: wanted.value } }));
+      const outcome = await this.#change('set', component, [path], { values: { [path]: wanted.value } });
       wanted.done.forEach((resolve) => resolve(outcome));
     }
     this.#settings.delete(key);
+  }
+
+  async #change(op: 'set' | 'reset', component: string, paths: readonly string[], fields: object): Promise<Outcome> {
+    const known: { [path: string]: Value } = {};
+    for (const path of paths) {
+      const value = this.#value(component, path);
+      if (value !== undefined) known[path] = value;
+    }
+    const outcome = outcomeOf(await this.parts.request<Applied>(op, { component, ...fields }));
+    const before = chosen(known, paths);
+    const after = outcome.ok ? chosen(outcome.values, paths) : undefined;
+    if (before && after) this.history.note({ component, before, after });
+    return outcome;
+  }
+
+  /** Of a runtime parameter, as far as it is watched. */
+  #value(component: string, path: string): Value | undefined {
+    const item = this.item(`${component}.${path}`);
+    return (item && this.parts.store.reading(item)?.value) ?? undefined;
   }
 }
 

@@ -176,7 +176,10 @@ export class PanelCore implements Core {
     this.#boot = hello.boot;
     this.state = undefined;
     this.#store.forgetValues();
-    if (restarted) this.#log = [];
+    if (restarted) {
+      this.#log = [];
+      this.host.history.clear();
+    }
     if (this.#model?.hash !== hello.descriptor) {
       const json = await getJson<DescriptorJson>('/api/v1/descriptor');
       if (!json.ok) {

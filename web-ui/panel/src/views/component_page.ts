@@ -10,10 +10,12 @@ import './component_buttons';
 import { countText, durationText } from './durations';
 import './edit_panel';
 import { EditSession } from './edit_session';
+import './group_reset';
 import './item_widget';
 import './placement_widget';
 import { portsOf, type Port } from './ports';
 import './slot_age';
+import './undo';
 import { addressOf, ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
@@ -38,6 +40,12 @@ export class ComponentPage extends ViewBase {
       .item.edited {
         border-inline-start: 4px solid var(--modified);
         padding-inline-start: 8px;
+      }
+      .head {
+        display: flex;
+        flex-wrap: wrap;
+        align-items: baseline;
+        gap: var(--gap) 16px;
       }
       .presses {
         display: flex;
@@ -208,7 +216,13 @@ export class ComponentPage extends ViewBase {
     if (items.length === 0) return nothing;
     return html`
       <section aria-label=${title}>
-        <h3>${title}</h3>
+        <div class="head">
+          <h3>${title}</h3>
+          ${all === this.component.runtime
+            ? html`<flexrf-group-reset .core=${this.core} .items=${all}></flexrf-group-reset>
+                <flexrf-undo .core=${this.core}></flexrf-undo>`
+            : nothing}
+        </div>
         ${this.widgets(items.filter((item) => !isPressed(item)), 'item')}
         <div class="presses">${this.widgets(items.filter(isPressed), '')}</div>
       </section>

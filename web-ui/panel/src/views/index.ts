@@ -6,6 +6,7 @@ export const views: readonly ViewInfo[] = [
   { name: 'units', label: 'Units', tag: 'flexrf-units', load: () => import('./components') },
   { name: 'devices', label: 'Devices', tag: 'flexrf-devices', load: () => import('./components') },
   { name: 'blackboard', label: 'Blackboard', tag: 'flexrf-blackboard', load: () => import('./blackboard') },
+  { name: 'search', label: 'Search', tag: 'flexrf-search', load: () => import('./search') },
   { name: 'threads', label: 'Threads', tag: 'flexrf-threads', load: () => import('./threads') },
   { name: 'log', label: 'Log', tag: 'flexrf-log', load: () => import('./log') },
   { name: 'menu', label: '', tag: 'flexrf-menu', load: () => import('./menu') },

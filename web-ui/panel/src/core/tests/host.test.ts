@@ -1,18 +1,20 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { ConfigurationValues } from '../configuration';
+import { decodeFrame } from '../decode';
 import { makeModel } from '../descriptor';
 import { Holds } from '../holds';
 import { Host } from '../host';
 import type { Answer } from '../protocol';
 import { Store } from '../store';
 import { Subscriptions } from '../subscriptions';
-import { sample } from './sample';
+import { frameOf, runtimeBytes, sample } from './sample';
 
 const model = makeModel(sample);
 let answers: ((answer: object) => void)[] = [];
 const request = vi.fn<(op: string, fields: object) => Promise<Answer>>();
 const fetchValues = vi.fn(() => Promise.resolve({ lag: 0.75 }));
 let host: Host;
+let store: Store;
 let subscriptions: Subscriptions;
 
 beforeEach(() => {
@@ -21,7 +23,7 @@ beforeEach(() => {
     answers.push((answer) => resolve(answer as Answer));
   }));
   fetchValues.mockClear();
-  const store = new Store({ serverNow: () => 0 });
+  store = new Store({ serverNow: () => 0 });
   store.reset(model);
   subscriptions = new Subscriptions({ request, onSlotGone: () => undefined, onProblem: () => undefined });
   host = new Host({
@@ -78,6 +80,68 @@ describe('other operations', () => {
     answers[0]?.({ id: 1, ok: true, lease: 'a' });
     (await hold).release();
     await expect(host.hold('nothing')).rejects.toThrow();
+  });
+});
+
+describe('taking back', () => {
+  const inForce = (step: number): void => void store.apply(decodeFrame(frameOf([{ slot: 0, bytes: runtimeBytes(step) }]))!);
+  const answer = async (index: number, values: object): Promise<void> => {
+    await vi.waitFor(() => expect(answers.length).toBeGreaterThan(index));
+    answers[index]?.({ id: 1, ok: true, sequence: 1, values });
+  };
+
+  it('sets what was in force before, and only as long as nobody changed it', async () => {
+    inForce(0.01);
+    const set = host.set('jog.step', 0.03);
+    await answer(0, { step: 0.03 });
+    await set;
+    inForce(0.03);
+    const undone = host.undo();
+    expect(request).toHaveBeenLastCalledWith('set', { component: 'jog', values: { step: 0.01 } });
+    await answer(1, { step: 0.01 });
+    expect((await undone).ok).toBe(true);
+    expect(host.history.last).toBeUndefined();
+    expect(await host.undo()).toMatchObject({ ok: false });
+
+    inForce(0.01);
+    const again = host.set('jog.step', 0.04);
+    await answer(2, { step: 0.04 });
+    await again;
+    inForce(0.02);
+    expect(await host.undo()).toMatchObject({ ok: false, detail: expect.stringContaining('changed elsewhere') });
+    expect(request).toHaveBeenCalledTimes(3);
+  });
+
+  it('keeps a change that could not be taken back, and none that was refused', async () => {
+    inForce(0.01);
+    const refused = host.set('jog.step', 7);
+    answers[0]?.({ id: 1, ok: false, problem: { title: 'Refused' } });
+    await refused;
+    expect(host.history.last).toBeUndefined();
+    const set = host.set('jog.step', 0.03);
+    await answer(1, { step: 0.03 });
+    await set;
+    const undone = host.undo();
+    answers[2]?.({ id: 3, ok: false, problem: { title: 'Take control first' } });
+    expect((await undone).ok).toBe(false);
+    expect(host.history.last).toBeDefined();
+  });
+
+  it('takes a reset of several back as one', async () => {
+    inForce(0.03);
+    const reset = host.resetAll('jog', ['step', 'limits']);
+    expect(request).toHaveBeenLastCalledWith('reset', { component: 'jog', parameters: ['step', 'limits'] });
+    await answer(0, { step: 0.02, limits: { low: 0, high: 1 } });
+    await reset;
+    void host.undo();
+    expect(request).toHaveBeenLastCalledWith('set', { component: 'jog', values: { step: 0.03, limits: { low: -1, high: 2 } } });
+  });
+
+  it('remembers nothing of what it did not know before', async () => {
+    const set = host.set('jog.step', 0.03);
+    await answer(0, { step: 0.03 });
+    await set;
+    expect(host.history.last).toBeUndefined();
   });
 });
 

@@ -1,9 +1,10 @@
 // A core without a server: the test says what is subscribed, in force and answered.
 import type { ItemInfo, Placement, Reading, Value, WidgetElement, WidgetHost } from '../../contract';
-import type { Core } from '../../core/core';
+import type { Core, PanelHost } from '../../core/core';
 import { makeModel } from '../../core/descriptor';
 import type { DescriptorJson } from '../../core/descriptor_json';
 import type { ApplicationState } from '../../core/protocol';
+import { History } from '../../core/history';
 import { DisplayUnits } from '../../core/units';
 
 /** Records what a widget was given. */
@@ -37,7 +38,16 @@ export class FakeCore {
   private readonly states = new Set<() => void>();
   private readonly access = new Set<() => void>();
 
-  readonly host: WidgetHost = {
+  readonly host: PanelHost = {
+    history: new History(),
+    resetAll: async (component, parameters) => {
+      this.requests.push({ op: 'reset', fields: { component, parameters } });
+      return { ok: true };
+    },
+    undo: async () => {
+      this.requests.push({ op: 'undo', fields: {} });
+      return { ok: true };
+    },
     watch: (key, callback) => added(this.watched, key, callback),
     set: async () => ({ ok: true }),
     press: async () => ({ ok: true }),
