@@ -18,6 +18,10 @@ struct ModbusStationSetup {
   std::uint8_t unit_id = 1;
   std::array<Duration, 3> poll_periods{};  ///< by poll group; 0: in every cycle of the link
   Duration refresh_period{};               ///< what did not change is written again; 0: never
+  /// Of what would move by itself if it were told again what it was told before it was switched off: nothing
+  /// is written before it has answered, and after it was not heard only what is commanded anew. Whether it is
+  /// safe it knows itself.
+  bool listens_first = false;
 };
 
 /// Made when a station registers, kept for the link's life and used again for the next that registers, so
@@ -50,6 +54,7 @@ struct ModbusExchange {
     std::vector<bool> written;    ///< per write: sent is what the station has
     std::vector<Time> write_due;  ///< per write: not before, or again
     std::vector<Time> read_due;   ///< per read
+    std::uint64_t stale = 0;      ///< of who listens first: commands up to this are not for it
     Time retry_at{};
     std::uint32_t failures = 0;  ///< in a row
   };

@@ -131,6 +131,7 @@ bool ModbusMaster::write_what_is_due(ModbusExchange& exchange) noexcept {
   if (exchange.command_reader.newest() == nullptr) return true;
   const auto& command = *static_cast<const ModbusCommand*>(exchange.command_reader.payload());
   if (command.sequence == 0) return true;
+  if (exchange.setup.listens_first && (!side.image.online || command.sequence <= side.stale)) return true;
   bool all_written = true;
   for (std::size_t i = 0; i < exchange.plan.writes.size(); ++i) {
     const ModbusBlock& block = exchange.plan.writes[i];
@@ -203,7 +204,12 @@ bool ModbusMaster::judge(ModbusExchange& exchange, const ModbusBlock& block, con
     if (reply.outcome == ModbusOutcome::exception && ++side.image.exceptions == 1)
       log_warning(exchange.setup.name, "{}", side.image.last_error_view());
     side.image.round_trip = (transport_->now() - asked).count();
-    if (!side.image.online && side.failures > 0) log_info(exchange.setup.name, "answers again");
+    if (!side.image.online) {
+      if (side.failures > 0) log_info(exchange.setup.name, "answers again");
+      // An answer to a reading: nothing is being written to who listens first and is not heard.
+      if (exchange.setup.listens_first && exchange.command_reader.newest() != nullptr)
+        side.stale = static_cast<const ModbusCommand*>(exchange.command_reader.payload())->sequence;
+    }
     side.image.online = true;
     side.failures = 0;
     return true;
@@ -238,7 +244,7 @@ bool ModbusMaster::is_safe() const noexcept {
     const ModbusExchange* exchange = entry.load(std::memory_order_acquire);
     return exchange == nullptr ||
            exchange->state.load(std::memory_order_acquire) != ModbusExchange::State::active ||
-           exchange->plan.writes.empty() || exchange->link.safe;
+           exchange->plan.writes.empty() || exchange->setup.listens_first || exchange->link.safe;
   });
 }
 

@@ -34,7 +34,7 @@ class ModbusMaster {
   /// The link's thread: everything that is due, one request after the other. A request that fails ends it, so
   /// that one call waits for at most one of them.
   void serve() noexcept;
-  /// Every station has its safe values, as of its last answer.
+  /// Every station has its safe values, as of its last answer; but for those that know that themselves.
   bool is_safe() const noexcept;
 
   bool is_connected() const noexcept { return transport_ != nullptr && transport_->is_open(); }

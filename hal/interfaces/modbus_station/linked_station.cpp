@@ -64,7 +64,7 @@ ModbusValue StationEnd::read(std::size_t index) const noexcept {
   return result;
 }
 
-void StationEnd::send(const StationOutputs& outputs, bool safe) noexcept {
+void StationEnd::send(const StationOutputs& outputs, bool safe, bool anew) noexcept {
   if (exchange_ == nullptr || exchange_->plan.writes.empty()) return;
   ModbusCommand next{};
   next.sequence = command_.sequence;
@@ -75,7 +75,7 @@ void StationEnd::send(const StationOutputs& outputs, bool safe) noexcept {
     if (place != ModbusPlace::none) encode_register(map.registers[i], outputs[i], &next.words[place]);
   }
   const bool same = next.safe == command_.safe && next.words == command_.words;
-  if (same && command_.sequence > 0) return;
+  if (same && !anew && command_.sequence > 0) return;
   ++next.sequence;
   command_ = next;
   exchange_->commands.publish(command_, now_);

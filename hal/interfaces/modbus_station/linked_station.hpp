@@ -24,8 +24,8 @@ class StationEnd {
   /// Takes what the link knows; valid until the next call.
   const ModbusImage& update(Time now) noexcept;
   ModbusValue read(std::size_t index) const noexcept;
-  /// Hands the outputs over, if they are others than before.
-  void send(const StationOutputs& outputs, bool safe) noexcept;
+  /// Hands the outputs over, if they are others than before or `anew`.
+  void send(const StationOutputs& outputs, bool safe, bool anew = false) noexcept;
   /// What was handed over last is in the station, as its answers say.
   bool is_written() const noexcept;
 

@@ -68,11 +68,12 @@ Result<std::unique_ptr<ModbusServer>> ModbusServer::on_tcp(std::uint8_t unit_id,
 }
 
 Result<std::unique_ptr<ModbusServer>> ModbusServer::on_serial_line(std::uint8_t unit_id,
-                                                                   const std::string& device, int baud) {
+                                                                   const std::string& device, int baud,
+                                                                   char parity) {
   std::unique_ptr<ModbusServer> server(new ModbusServer);
   server->unit_id_ = unit_id;
   server->serial_ = true;
-  _modbus* context = modbus_new_rtu(device.c_str(), baud, 'E', 8, 1);
+  _modbus* context = modbus_new_rtu(device.c_str(), baud, parity, 8, 1);
   if (context != nullptr && modbus_connect(context) != 0) {
     const Status status = failure(device.c_str());
     modbus_free(context);
@@ -174,7 +175,18 @@ void ModbusServer::answer(std::uint8_t* request, int length) {
       break;
   }
   const std::lock_guard lock(registers_mutex_);
+  follow();
   modbus_reply(context_, request, length, registers_);
+  follow();
+}
+
+void ModbusServer::follow() noexcept {
+  if (model_ != nullptr) model_->follow(MonotonicClock::now(), {registers_->tab_registers, addresses});
+}
+
+void ModbusServer::set_model(ModbusStationModel* model) {
+  const std::lock_guard lock(registers_mutex_);
+  model_ = model;
 }
 
 std::uint16_t ModbusServer::word(ModbusArea area, std::uint16_t address) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "hal/interfaces/modbus_link/modbus_station_model.hpp"
 #include "hal/interfaces/modbus_link/register_map.hpp"
 #include "runtime/core/status.hpp"
 #include "runtime/core/time.hpp"
@@ -36,9 +37,9 @@ class ModbusServer {
 
   /// On the loopback address; `port` 0: a free one, which port() tells.
   static Result<std::unique_ptr<ModbusServer>> on_tcp(std::uint8_t unit_id, std::uint16_t port);
-  /// A serial line, opened with 8 data bits, even parity and one stop bit.
+  /// A serial line, opened with 8 data bits and one stop bit; `parity`: N, E or O.
   static Result<std::unique_ptr<ModbusServer>> on_serial_line(std::uint8_t unit_id, const std::string& device,
-                                                              int baud);
+                                                              int baud, char parity = 'E');
   /// A serial line that is open already and stays its owner's.
   static Result<std::unique_ptr<ModbusServer>> on_descriptor(std::uint8_t unit_id, int descriptor);
 
@@ -53,6 +54,8 @@ class ModbusServer {
   void put(ModbusArea area, std::uint16_t address, std::uint16_t value);
   /// Every register becomes 0.
   void clear();
+  /// The station does something with its registers, from now on; `model` outlives the server.
+  void set_model(ModbusStationModel* model);
 
  private:
   ModbusServer() = default;
@@ -63,11 +66,13 @@ class ModbusServer {
   void serve();
   void answer(std::uint8_t* request, int length);
   void end_connection() noexcept;
+  void follow() noexcept;
   void pause(Duration duration) noexcept;
 
   _modbus* context_ = nullptr;
   _modbus_mapping_t* registers_ = nullptr;
-  std::mutex registers_mutex_;
+  ModbusStationModel* model_ = nullptr;
+  std::mutex registers_mutex_;  // of both
   std::uint8_t unit_id_ = 1;
   std::uint16_t port_ = 0;
   bool serial_ = false;

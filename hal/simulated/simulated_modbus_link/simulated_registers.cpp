@@ -4,32 +4,48 @@
 
 namespace flexrf {
 
-void SimulatedRegisters::add(std::uint8_t unit_id, const ModbusRegisterMap& map) {
-  auto station = std::find_if(stations_.begin(), stations_.end(),
-                              [&](const Station& one) { return one.unit_id == unit_id; });
-  if (station == stations_.end()) {
-    station = stations_.insert(station, Station{});
-    station->unit_id = unit_id;
+SimulatedRegisters::Station& SimulatedRegisters::station(std::uint8_t unit_id) {
+  const auto found = std::find_if(stations_.begin(), stations_.end(),
+                                  [&](const Station& one) { return one.unit_id == unit_id; });
+  if (found != stations_.end()) return *found;
+  stations_.emplace_back().unit_id = unit_id;
+  return stations_.back();
+}
+
+void SimulatedRegisters::set_model(std::uint8_t unit_id, std::shared_ptr<ModbusStationModel> model) {
+  const std::lock_guard lock(mutex_);
+  station(unit_id).model = std::move(model);
+}
+
+void SimulatedRegisters::follow(std::uint8_t unit_id) noexcept {
+  for (Station& one : stations_) {
+    if (one.unit_id == unit_id && one.model != nullptr)
+      one.model->follow(now_, one.areas[static_cast<std::size_t>(ModbusArea::holding_register)]);
   }
+}
+
+void SimulatedRegisters::add(std::uint8_t unit_id, const ModbusRegisterMap& map) {
+  const std::lock_guard lock(mutex_);
+  Station& added = station(unit_id);
   for (const ModbusRegister& entry : map.registers) {
-    std::vector<std::uint16_t>& words = station->areas[static_cast<std::size_t>(entry.area)];
+    std::vector<std::uint16_t>& words = added.areas[static_cast<std::size_t>(entry.area)];
     words.resize(std::max(words.size(), std::size_t{entry.address} + entry.words()));
   }
 }
 
 std::uint16_t* SimulatedRegisters::find(std::uint8_t unit_id, ModbusArea area,
                                         std::uint16_t address) noexcept {
-  for (Station& station : stations_) {
-    if (station.unit_id != unit_id) continue;
-    std::vector<std::uint16_t>& words = station.areas[static_cast<std::size_t>(area)];
+  for (Station& one : stations_) {
+    if (one.unit_id != unit_id) continue;
+    std::vector<std::uint16_t>& words = one.areas[static_cast<std::size_t>(area)];
     return address < words.size() ? &words[address] : nullptr;
   }
   return nullptr;
 }
 
 void SimulatedRegisters::clear() noexcept {
-  for (Station& station : stations_)
-    for (std::vector<std::uint16_t>& words : station.areas)
+  for (Station& one : stations_)
+    for (std::vector<std::uint16_t>& words : one.areas)
       std::fill(words.begin(), words.end(), std::uint16_t{0});
 }
 
@@ -76,15 +92,24 @@ std::uint16_t* SimulatedRegisters::answer(std::uint8_t unit_id, const ModbusBloc
 
 ModbusReply SimulatedRegisters::read(std::uint8_t unit_id, const ModbusBlock& block,
                                      std::uint16_t* words) noexcept {
+  const std::lock_guard lock(mutex_);
   ModbusReply reply;
-  if (const std::uint16_t* source = answer(unit_id, block, reply)) std::copy_n(source, block.count, words);
+  const std::uint16_t* source = answer(unit_id, block, reply);
+  if (source == nullptr) return reply;
+  follow(unit_id);
+  std::copy_n(source, block.count, words);
   return reply;
 }
 
 ModbusReply SimulatedRegisters::write(std::uint8_t unit_id, const ModbusBlock& block,
                                       const std::uint16_t* words) noexcept {
+  const std::lock_guard lock(mutex_);
   ModbusReply reply;
-  if (std::uint16_t* target = answer(unit_id, block, reply)) std::copy_n(words, block.count, target);
+  std::uint16_t* target = answer(unit_id, block, reply);
+  if (target == nullptr) return reply;
+  follow(unit_id);
+  std::copy_n(words, block.count, target);
+  follow(unit_id);
   return reply;
 }
 

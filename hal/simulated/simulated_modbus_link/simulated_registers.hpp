@@ -3,8 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
+#include "hal/interfaces/modbus_link/modbus_station_model.hpp"
 #include "hal/interfaces/modbus_link/modbus_transport.hpp"
 
 namespace flexrf {
@@ -18,8 +21,9 @@ enum class ModbusWireFault : std::uint8_t {
   disconnected,  ///< requests fail at once, and it cannot be opened
 };
 
-/// Allocates in add() only. Time goes on while a request waits, so that the same cell in virtual time has the
-/// same delays.
+/// Allocates in add() and set_model() only, which the lifecycle thread calls while the link's thread serves
+/// other stations; all else is the link's thread's. Time goes on while a request waits, so that the same cell
+/// in virtual time has the same delays.
 class SimulatedRegisters final : public ModbusTransport {
  public:
   void configure(Duration delay, Duration response_timeout) noexcept {
@@ -28,6 +32,8 @@ class SimulatedRegisters final : public ModbusTransport {
   }
   /// Registers for all addresses of the map, all 0; what is there already stays.
   void add(std::uint8_t unit_id, const ModbusRegisterMap& map);
+  /// The station does something with its registers, from now on.
+  void set_model(std::uint8_t unit_id, std::shared_ptr<ModbusStationModel> model);
   /// Null when there is no such station or register.
   std::uint16_t* find(std::uint8_t unit_id, ModbusArea area, std::uint16_t address) noexcept;
   /// Every register becomes 0: the station was switched off.
@@ -50,10 +56,14 @@ class SimulatedRegisters final : public ModbusTransport {
   struct Station {
     std::uint8_t unit_id = 0;
     std::array<std::vector<std::uint16_t>, 4> areas;
+    std::shared_ptr<ModbusStationModel> model;  // or null
   };
+  Station& station(std::uint8_t unit_id);
+  void follow(std::uint8_t unit_id) noexcept;
   /// The registers of the request, or null and why not in `reply`.
   std::uint16_t* answer(std::uint8_t unit_id, const ModbusBlock& block, ModbusReply& reply) noexcept;
 
+  std::mutex mutex_;  // of stations_
   std::vector<Station> stations_;
   ModbusWireFault fault_ = ModbusWireFault::none;
   Duration delay_{};

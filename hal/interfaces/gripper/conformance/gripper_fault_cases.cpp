@@ -6,7 +6,8 @@ Verdict fingers_that_do_not_move_are_told(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
   if (!world.make(GripperFarEnd::stuck)) return Verdict::skipped;
   if (!goes_to(world, closed)) return Verdict::failed;
-  const Status trouble = world.gripper().trouble();
+  idle_for(world, std::chrono::milliseconds(100));  // what it is told in the end has come to it
+  const Status& trouble = world.gripper().trouble();
   if (trouble.code() != StatusCode::timeout || trouble.cause()[0] == '\0') return Verdict::failed;
   world.make(GripperFarEnd::well);
   const double before = world.fingers();
@@ -31,7 +32,7 @@ Verdict is_heard_again(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
   if (!world.make(Behaviour)) return Verdict::skipped;
   if (!until(world, [&] { return !world.gripper().state(); })) return Verdict::failed;
-  const Status trouble = world.gripper().trouble();
+  const Status& trouble = world.gripper().trouble();
   const bool told = trouble.code() == StatusCode::unavailable && trouble.cause()[0] != '\0';
   act(world, [](Gripper& gripper) { gripper.close(); });  // to nobody: not remembered
   if (!told || feedback(world).troubles == 0 || feedback(world).trouble_view().empty())
