@@ -26,8 +26,8 @@ class Server;
 /// from the link's buffer and from shared memory; "close" with a close.
 class TestHandlers final : public Gate, public RequestHandler, public LiveHandler, public Ticked {
  public:
-  static constexpr std::size_t much_messages = 100;
-  static constexpr std::size_t much_size = 64U << 10U;
+  static constexpr std::size_t much_messages = 4;
+  static constexpr std::size_t much_size = 8U << 20U;  // several times what a socket takes at once
   static char byte_of(std::size_t message) noexcept { return static_cast<char>('A' + message % 26); }
 
   LaterReplies* replies = nullptr;
