@@ -81,6 +81,7 @@ class VirtualCamera : public Base {
     image_.reset();
     set_controls();
     follow_cable();
+    if (timer_ >= 0) skip_late();
     for (int taken = 0; streaming_ && due_ <= now_ && taken < most_per_cycle; ++taken) take();
     if (streaming_ && now_ - heard_ >= silence()) {
       journal_.note_away("the camera is there and gives no pictures; it is begun anew until it does");
@@ -132,6 +133,8 @@ class VirtualCamera : public Base {
  private:
   /// A thread that comes late must not be held for ever by what it missed.
   static constexpr int most_per_cycle = 8;
+  /// So many pictures a camera keeps for who comes late.
+  static constexpr int most_waiting = 3;
   /// How soon it is noticed that the camera is back.
   static constexpr Duration looking_interval = std::chrono::milliseconds(50);
 
@@ -164,6 +167,15 @@ class VirtualCamera : public Base {
       plan(now_);
     }
     streaming_ = usable;
+  }
+
+  /// By the clock on the wall: who comes too late finds the camera's buffers full, and what came then is
+  /// lost.
+  void skip_late() noexcept {
+    while (streaming_ && coming_.after < most_waiting * period() && due_ + most_waiting * period() <= now_) {
+      ++count_;
+      plan(due_);
+    }
   }
 
   void plan(Time after) noexcept {

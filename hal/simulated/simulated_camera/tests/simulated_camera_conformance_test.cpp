@@ -105,6 +105,25 @@ bool pictures_come_by_the_clock_on_the_wall() {
   return false;
 }
 
+/// A thread that comes two seconds late is not given sixty pictures.
+bool what_came_too_long_ago_is_lost() {
+  SimulatedBench camera(CameraRequest{});
+  camera.bench().environment().virtual_time = false;
+  if (!camera.driver().initialise()) return false;
+  camera.bench().receive(milliseconds(10));
+  camera.bench().receive(milliseconds(100));
+  const std::uint64_t frames = camera.bench().feedback().frames;
+  camera.bench().receive(milliseconds(2000));
+  const auto image = camera.driver().frame();
+  const CameraFeedback& told = camera.bench().feedback();
+  return frames == 3 && told.frames <= frames + 3 && told.lost_frames > 50 && told.losses == 0 && image &&
+         camera.bench().now() - image->time < milliseconds(40);
+}
+
+void late(void**) {
+  assert_true(what_came_too_long_ago_is_lost());
+}
+
 void by_the_clock(void**) {
   assert_true(pictures_come_by_the_clock_on_the_wall());
 }
@@ -119,6 +138,7 @@ int main() {
       cmocka_unit_test(faults),
       cmocka_unit_test(the_same_run_gives_the_same_items),
       cmocka_unit_test(by_the_clock),
+      cmocka_unit_test(late),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr) +
          run_camera_conformance("simulated camera", []() -> std::unique_ptr<CameraWorld> {
