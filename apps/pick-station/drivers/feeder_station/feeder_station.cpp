@@ -1,0 +1,22 @@
+#include "drivers/feeder_station/feeder_station.hpp"
+
+#include "hal/simulated/simulated_modbus_link/simulated_modbus_link.hpp"
+
+namespace flexrf {
+
+Status FeederStation::initialise() {
+  auto* const link = dynamic_cast<SimulatedModbusLink*>(bus);
+  if (link == nullptr) {
+    return Status::error(StatusCode::invalid_argument,
+                         "the feeder is simulated, and its link is not: choose --hardware for both");
+  }
+  // Initialised again it is the same feeder, with what is left in it.
+  if (feeder_ == nullptr) {
+    const auto travel = static_cast<Duration::rep>(configuration.travel * 1e9);
+    feeder_ = std::make_shared<Feeder>(Feeder::Settings{Duration{travel}, configuration.stock});
+    link->registers().set_model(configuration.unit_id, feeder_);
+  }
+  return LinkedStation::initialise();
+}
+
+}  // namespace flexrf
