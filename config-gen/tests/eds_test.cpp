@@ -5,6 +5,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "config-gen/read/eds_check.hpp"
 #include "config-gen/tests/find.hpp"
 #include "config-gen/tests/tables.hpp"
 #include "tests/cmocka.hpp"
@@ -146,6 +147,44 @@ void a_cell_with_an_odd_but_good_file(void**) {
   assert_int_equal(driver.objects.size(), 13);
 }
 
+// What the repository's own driver asks, of the drive that its simulator is; with another mode and vendor
+// than the defaults.
+std::string messages_for(std::int64_t mode, std::int64_t vendor) {
+  const std::filesystem::path hal = std::filesystem::path(TESTS_FOLDER) / "../../hal";
+  SearchPaths paths;
+  paths.types = {hal / "interfaces/servo_drive/types", hal / "interfaces/can_bus/types"};
+  paths.interfaces = {hal / "interfaces"};
+  Diagnostics diagnostics;
+  const Model model = read({Target::Kind::driver, hal / "linux/canopen_servo_drive/canopen_servo_drive.toml"},
+                           paths, diagnostics);
+  const auto eds = read_eds(hal / "../apps/cia402-simulator/cia402_simulator.eds", diagnostics);
+  const Literal mode_value{mode, {}, {}};
+  const Literal vendor_value{vendor, {}, {}};
+  const auto parameter = [&](const std::string& name) -> const Literal* {
+    if (name == "mode") return &mode_value;
+    if (name == "vendor") return &vendor_value;
+    for (const Parameter& one : model.drivers.front().configuration.parameters)
+      if (one.field.name == name) return &one.initial;
+    for (const Parameter& one : model.interfaces.front().configuration.parameters)
+      if (one.field.name == name) return &one.initial;
+    return nullptr;
+  };
+  if (eds && !model.drivers.empty() && model.drivers.front().objects.size() > 20)
+    check_eds({*eds, "drive.eds", {}, model.drivers.front().objects, parameter}, diagnostics);
+  std::ostringstream out;
+  diagnostics.print(out);
+  return eds && !model.drivers.empty() ? out.str() : "nothing was read";
+}
+
+void the_driver_of_drives_and_the_simulated_drive(void**) {
+  for (std::int64_t mode = 0; mode < 4; ++mode) {
+    assert_string_equal(messages_for(mode, 0x123).c_str(), "");
+    assert_non_null(std::strstr(messages_for(mode, 0x999).c_str(),
+                                "object 0x1018:01 (vendor) is 0x00000123, and the "
+                                "device's vendor is 0x00000999"));
+  }
+}
+
 }  // namespace
 }  // namespace flexrf::config_gen::tests
 
@@ -157,6 +196,7 @@ int main() {
                               cmocka_unit_test(compact_arrays_and_configured_values),
                               cmocka_unit_test(what_is_no_eds_file),
                               cmocka_unit_test(every_cut_and_every_damage_ends_in_words),
-                              cmocka_unit_test(a_cell_with_an_odd_but_good_file)};
+                              cmocka_unit_test(a_cell_with_an_odd_but_good_file),
+                              cmocka_unit_test(the_driver_of_drives_and_the_simulated_drive)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

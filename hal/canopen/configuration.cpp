@@ -22,7 +22,7 @@ void Configuration::expect(ObjectAddress object, std::uint32_t value, std::uint3
 
 void Configuration::configure_pdo(const PdoPlan& plan) noexcept {
   const bool sent = plan.direction == PdoDirection::sent_by_node;
-  const std::uint32_t identifier = plan.identifier | (sent ? pdo_without_remote : 0);
+  const std::uint32_t identifier = plan.identifier | (sent && plan.forbids_remote ? pdo_without_remote : 0);
   write(plan.communication(1), 4, pdo_not_in_use | identifier);
   add({.act = Act::map, .size = 1, .object = plan.mapping(0), .value = 0});
   for (std::uint8_t i = 0; i < plan.count; ++i) {

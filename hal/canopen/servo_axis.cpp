@@ -66,7 +66,7 @@ void ServoAxis::receive(const Message& message, Time now, Outbox& outbox) noexce
 
 void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) noexcept {
   node_.advance(now, outbox);
-  watch(now);
+  watch(may_move, now);
   outbox.push({sync_identifier, 0, {}});
   if (beat_.is_due(now)) outbox.push(heartbeat_message(NmtState::operational, plan_.master));
   if (!node_.is_operational()) return;
@@ -165,7 +165,7 @@ void ServoAxis::fail(const Status& cause) noexcept {
                : Status::error(cause.code(), "node %u: %s", unsigned{plan_.node}, cause.cause());
 }
 
-void ServoAxis::watch(Time now) noexcept {
+void ServoAxis::watch(bool may_move, Time now) noexcept {
   const bool operational = node_.is_operational();
   const bool is_new = node_.times_operational() != bring_ups_;
   if (was_operational_ && (!operational || is_new)) {
@@ -184,7 +184,10 @@ void ServoAxis::watch(Time now) noexcept {
   was_operational_ = operational;
   if (operational && now - heard_ > silent_cycles * plan_.period) {
     state_.reset();
-    fail(Status::error(StatusCode::unavailable, "no process data for %d cycles: does it get SYNC?",
+    // One that is off and shall be so may go and come.
+    if (!may_move && power_.goal() == DrivePower::Goal::off) return;
+    fail(Status::error(StatusCode::unavailable,
+                       "no process data for %d cycles: is the cable in, is it powered, does it get SYNC?",
                        silent_cycles));
   }
 }

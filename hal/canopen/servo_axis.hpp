@@ -31,6 +31,11 @@ struct AxisPlan {
   double homing_creep_speed = 0.02;   ///< unit/s, above 0
   double rest_velocity = 0.001;       ///< unit/s: at most so fast is at rest
   std::int16_t abort_connection = 3;  ///< object 6007: what it does without our heartbeat: quick stop
+  // What not every drive has, or takes.
+  bool tells_abort_connection = true;  ///< object 6007
+  bool tells_period = true;            ///< object 60C2
+  bool is_supervised_by_it = true;     ///< object 1016: it looks for our heartbeat
+  bool forbids_remote = true;          ///< bit 30 of the identifiers of what it sends
   Duration mode_timeout = std::chrono::milliseconds(500);
   Duration set_point_timeout = std::chrono::milliseconds(500);  ///< until it acknowledges one
   Duration homing_timeout = std::chrono::seconds(60);
@@ -101,7 +106,7 @@ class ServoAxis {
   NodePlan node_plan() noexcept;
   void plan_motion(Configuration& list) const noexcept;
   void fail(const Status& cause) noexcept;
-  void watch(Time now) noexcept;
+  void watch(bool may_move, Time now) noexcept;
   bool mode_is_taken(bool wanted, Time now) noexcept;
   bool takes(Mode one, Mode other) const noexcept;
   bool may_be_commanded() const noexcept;

@@ -70,6 +70,7 @@ NodePlan ServoAxis::node_plan() noexcept {
              .number = 2,
              .identifier = transmit_pdo_identifier(2, plan_.node)};
   motion_.add(objects::actual_velocity, 32);
+  states_.forbids_remote = motion_.forbids_remote = plan_.forbids_remote;
   profile_ = {.direction = PdoDirection::received_by_node,
               .number = 2,
               .identifier = receive_pdo_identifier(2, plan_.node)};
@@ -81,15 +82,19 @@ NodePlan ServoAxis::node_plan() noexcept {
                 .sdo_timeout = plan_.sdo_timeout,
                 .heartbeat_period = plan_.heartbeat_period,
                 .heartbeat_limit = plan_.heartbeat_limit,
-                .master_heartbeat_limit = plan_.heartbeat_limit};
+                .master_heartbeat_limit = plan_.is_supervised_by_it ? plan_.heartbeat_limit : Duration{}};
   Configuration& list = node.configuration;
   list.expect(canopen::objects::device_type, profile_number, 0xFFFF, "device profile");
   if (plan_.vendor != 0) list.expect(canopen::objects::vendor, plan_.vendor, 0xFFFFFFFF, "vendor");
   if (plan_.product != 0) list.expect(canopen::objects::product, plan_.product, 0xFFFFFFFF, "product");
-  list.write(objects::abort_connection, 2, static_cast<std::uint16_t>(plan_.abort_connection));
-  list.write(objects::period_value, 1,
-             static_cast<std::uint32_t>(plan_.period / std::chrono::milliseconds(1)));
-  list.write(objects::period_exponent, 1, milliseconds_exponent);
+  if (plan_.tells_abort_connection) {
+    list.write(objects::abort_connection, 2, static_cast<std::uint16_t>(plan_.abort_connection));
+  }
+  if (plan_.tells_period) {
+    list.write(objects::period_value, 1,
+               static_cast<std::uint32_t>(plan_.period / std::chrono::milliseconds(1)));
+    list.write(objects::period_exponent, 1, milliseconds_exponent);
+  }
   plan_motion(list);
   for (const PdoPlan& pdo : {commands_, states_, motion_}) list.configure_pdo(pdo);
   if (plan_.mode == Mode::profile_position) list.configure_pdo(profile_);

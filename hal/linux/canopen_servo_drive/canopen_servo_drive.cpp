@@ -18,6 +18,10 @@ Status CanopenServoDrive::initialise() {
   plan.homing_creep_speed = configuration.homing_creep_speed;
   plan.homing_settle = whole_milliseconds(configuration.homing_settle);
   plan.abort_connection = configuration.abort_connection;
+  plan.tells_abort_connection = configuration.tells_abort_connection;
+  plan.tells_period = configuration.tells_period;
+  plan.is_supervised_by_it = configuration.supervises_us;
+  plan.forbids_remote = configuration.forbids_remote;
   plan.mode_timeout = whole_milliseconds(configuration.mode_timeout);
   plan.set_point_timeout = whole_milliseconds(configuration.set_point_timeout);
   plan.boot_timeout = whole_milliseconds(configuration.boot_timeout);

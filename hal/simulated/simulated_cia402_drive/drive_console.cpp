@@ -66,6 +66,8 @@ const char* const DriveConsole::help =
     "lose home, find home        its homing fails; it does not\n"
     "refuse INDEX:SUB CODE, accept   writes of this object end with this abort code; they do not\n"
     "object INDEX:SUB VALUE      what an object is from now on, and after each power-on\n"
+    "lack INDEX:SUB              it has no such object\n"
+    "refuse bit 30               in the identifiers of the PDOs that it sends\n"
     "fix mapping                 its PDO mappings can no longer be written\n"
     "unplug, plug                its cable\n"
     "delay MS                    all that it says comes so much later; 0 ends it\n"
@@ -112,6 +114,8 @@ std::string DriveConsole::change(std::string_view word, std::string_view rest) {
     drive_.lose_home(word == "lose");
   } else if (word == "fix" && rest == "mapping") {
     drive_.objects().fix_mapping();
+  } else if (word == "refuse" && rest == "bit 30") {
+    drive_.objects().refuse_bit_30();
   } else if (word == "stick") {
     const auto where = state_named(rest);
     if (!where) return "there is no state '" + std::string(rest) + "'";
@@ -133,6 +137,12 @@ std::string DriveConsole::change(std::string_view word, std::string_view rest) {
 std::string DriveConsole::change_object(std::string_view word, std::string_view rest) {
   if (word == "accept") {
     drive_.objects().refuse({}, 0);
+    return obeyed;
+  }
+  if (word == "lack") {
+    const auto missing = object_in(rest);
+    if (!missing) return "an object is written as 60C2:01";
+    drive_.objects().lack(*missing);
     return obeyed;
   }
   if (word != "refuse" && word != "object")

@@ -14,6 +14,7 @@ namespace axis = canopen::cia402::objects;
 namespace sdo_abort = canopen::sdo_abort;
 
 constexpr std::uint32_t not_in_use = 0x80000000;
+constexpr std::uint32_t without_remote = 0x40000000;
 constexpr std::uint16_t own_objects = 0x2000;
 
 constexpr bool is_mapping(std::uint16_t index) {
@@ -23,6 +24,10 @@ constexpr bool is_mapping(std::uint16_t index) {
 
 constexpr std::uint32_t key(ObjectAddress address) {
   return std::uint32_t{address.index} << 8 | address.subindex;
+}
+
+constexpr bool is_sent_identifier(ObjectAddress address) {
+  return address.index >= 0x1800 && address.index < 0x1800 + DriveObjects::pdos && address.subindex == 1;
 }
 
 constexpr ObjectAddress communication_of(ObjectAddress mapping) {
@@ -98,8 +103,18 @@ std::uint32_t DriveObjects::write(ObjectAddress address, std::span<const std::ui
   if (is_mapping(address.index)) {
     if (const std::uint32_t code = check_mapping(address, number); code != 0) return code;
   }
+  if (refuses_bit_30_ && is_sent_identifier(address) && (number & without_remote) != 0) {
+    return sdo_abort::out_of_range;
+  }
   object->value = number;
   return 0;
+}
+
+void DriveObjects::lack(ObjectAddress address) {
+  Object* object = find(address);
+  if (object == nullptr) return;
+  std::copy(object + 1, objects_.data() + count_, object);
+  --count_;
 }
 
 std::uint32_t DriveObjects::check_mapping(ObjectAddress address, std::uint64_t value) const {

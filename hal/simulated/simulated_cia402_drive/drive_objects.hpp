@@ -44,6 +44,10 @@ class DriveObjects final : public canopen::ObjectDictionary {
     refused_ = address;
     refusal_ = code;
   }
+  /// On purpose: it has no such object.
+  void lack(canopen::ObjectAddress address);
+  /// On purpose: it refuses bit 30 in the identifiers of the PDOs that it sends.
+  void refuse_bit_30() { refuses_bit_30_ = true; }
   /// Mappings are written only in pre-operational.
   void set_pre_operational(bool on) { pre_operational_ = on; }
 
@@ -66,6 +70,7 @@ class DriveObjects final : public canopen::ObjectDictionary {
   std::array<Object, capacity> objects_{};  // by their address
   std::size_t count_ = 0;
   bool fixed_mapping_ = false;
+  bool refuses_bit_30_ = false;
   bool pre_operational_ = true;
   canopen::ObjectAddress refused_{};
   std::uint32_t refusal_ = 0;

@@ -159,6 +159,9 @@ void a_drive_without_sync_is_told(void**) {
   Cell cell;
   cell.syncs = false;
   cell.run(2000);
+  assert_true(cell.axis.fault().is_ok());  // as long as nobody wants it to move
+  cell.may_move = true;
+  cell.run(100);
   assert_true(cell.axis.node().is_operational());
   assert_false(cell.axis.state().has_value());
   assert_true(cell.fault_says("no process data for 10 cycles"));

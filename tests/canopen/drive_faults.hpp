@@ -1,0 +1,50 @@
+// What goes wrong between a CANopen drive and its driver: cases that are run on a simulated bus in virtual
+// time, and on a real one against a simulator in another process.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "hal/linux/canopen_servo_drive/canopen_servo_drive.hpp"
+
+namespace flexrf {
+
+/// A driver that goes slowly from 1 towards 9 when it is told, its bus, and the drive at the far end, which
+/// is told by lines what shall go wrong (drive_console.hpp).
+class DriveFaultWorld {
+ public:
+  static constexpr Duration cycle = std::chrono::milliseconds(7);
+  static constexpr std::uint8_t node = 5;
+
+  virtual ~DriveFaultWorld() = default;
+
+  virtual CanopenServoDrive& drive() = 0;
+  /// A cycle of the thread that the driver lives in; `position`: what its unit commands.
+  virtual void step(double position) = 0;
+  /// Time passes, and this end neither receives nor sends.
+  virtual void stall(Duration time) = 0;
+  /// As an operator's reset does it: the driver is initialised anew.
+  virtual void restart() = 0;
+
+  /// The far end's answer.
+  virtual std::string ask(std::string_view line) = 0;
+  bool tell(std::string_view line) { return ask(line) == "ok"; }
+  /// The cable between both, or what comes next to it.
+  virtual bool set_cable(bool in) = 0;
+
+  /// The clock of step().
+  virtual Time now() const = 0;
+  /// Whether its time says something: on a machine that is another one's guest it does not.
+  virtual bool is_punctual() const = 0;
+
+ protected:
+  static void configure(CanopenServoDrive::Configuration& configuration);
+};
+
+using MakeDriveFaultWorld = std::unique_ptr<DriveFaultWorld> (*)();
+
+/// Runs all cases, each in a world of its own; returns the number that failed, for main().
+int run_drive_faults(const char* where, MakeDriveFaultWorld make);
+
+}  // namespace flexrf
