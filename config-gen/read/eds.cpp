@@ -20,7 +20,7 @@ std::optional<std::uint32_t> hexadecimal(std::string_view text) {
   return value;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
@@ -50,16 +50,16 @@ std::optional<EdsNumber> number(const IniEntry& entry) {
   result.position = entry.position;
   if (const std::size_t comment = text.find(';'); comment != std::string_view::npos)
     text = text.substr(0, comment);
-  text = trimmed(text);
+  text = without_blanks(text);
   constexpr std::string_view node = "$nodeid";
   if (const std::size_t at = in_small_letters(text).find(node); at != std::string::npos) {
     result.of_node = true;
-    const std::string_view before = trimmed(text.substr(0, at));
-    const std::string_view after = trimmed(text.substr(at + node.size()));
+    const std::string_view before = without_blanks(text.substr(0, at));
+    const std::string_view after = without_blanks(text.substr(at + node.size()));
     if (before.empty() && after.empty()) return result;
     if (before.empty() == after.empty()) return std::nullopt;
     if (before.empty() ? !after.starts_with('+') : !before.ends_with('+')) return std::nullopt;
-    text = trimmed(before.empty() ? after.substr(1) : before.substr(0, before.size() - 1));
+    text = without_blanks(before.empty() ? after.substr(1) : before.substr(0, before.size() - 1));
   }
   const auto value = whole_number(text);
   if (!value) return std::nullopt;
@@ -140,7 +140,7 @@ class EdsReader {
     if (const IniEntry* entry = section.find("ParameterName")) result.name = entry->value;
     result.data_type = optional_number(section, "DataType");
     if (const IniEntry* entry = section.find("AccessType")) {
-      result.access = in_small_letters(trimmed(entry->value.substr(0, entry->value.find(';'))));
+      result.access = in_small_letters(without_blanks(entry->value.substr(0, entry->value.find(';'))));
       result.access_position = entry->position;
     }
     if (const auto mappable = optional_number(section, "PDOMapping")) {
