@@ -85,7 +85,7 @@ class EdsCheck {
   }
 
   void check_type(const EdsVariable& found) {
-    const std::string wanted = object_types[needed_->type];
+    const std::string& wanted = object_types[needed_->type];
     if (!found.data_type) {
       diagnostics_.warning(found.position, called_ + " has no DataType",
                            "is the file truncated? The driver takes it for " + wanted);

@@ -41,6 +41,7 @@ Verdict follows_positions_and_holds(ServoDriveWorld& world) {
 }
 
 Verdict goes_no_faster_than_it_may(ServoDriveWorld& world) {
+  if (!world.is_punctual()) return Verdict::skipped;
   if (!is_enabled_in_time(world)) return Verdict::failed;
   double before = world.drive().state()->position;
   for (int cycles = 0; cycles < 300; ++cycles) {

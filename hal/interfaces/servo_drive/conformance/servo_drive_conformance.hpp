@@ -19,6 +19,10 @@ class ServoDriveWorld {
   virtual void receive(Duration elapsed) = 0;
   virtual void send() = 0;
 
+  /// Whether its cycles take as long as they say. On the clock of a busy machine they do not, and how far the
+  /// axis went in one is not judged.
+  virtual bool is_punctual() const { return true; }
+
   /// The far end is no longer heard. False: cannot be made to happen with this driver.
   virtual bool lose_drive() { return false; }
   /// The drive trips. False: cannot be made to happen with this driver.

@@ -1,0 +1,81 @@
+// For tests in the guest: the driver on a vcan interface of its own, as root.
+#pragma once
+
+#include <net/if.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "hal/interfaces/device_bench.hpp"
+#include "hal/linux/canopen_servo_drive/canopen_servo_drive.hpp"
+#include "hal/linux/socket_can_bus/socket_can_bus.hpp"
+#include "tests/canopen/simulator_process.hpp"
+
+namespace flexrf {
+
+inline constexpr const char* can_interface = "vcanservo";
+inline constexpr Duration real_cycle = std::chrono::milliseconds(7);
+
+inline bool ip(const std::string& words) {
+  return std::system(("ip " + words).c_str()) == 0;
+}
+inline bool add_interface() {
+  return ip(std::string("link add ") + can_interface + " type vcan");
+}
+inline bool set_interface(bool up) {
+  return ip(std::string("link set ") + can_interface + (up ? " up" : " down"));
+}
+
+/// One of its own, which goes with it.
+class VirtualInterface {
+ public:
+  explicit VirtualInterface(bool there) {
+    if (if_nametoindex(can_interface) != 0) remove();
+    if (there) ready_ = add_interface() && set_interface(true);
+  }
+  ~VirtualInterface() {
+    if (if_nametoindex(can_interface) != 0) remove();
+  }
+  bool is_ready() const { return ready_; }
+
+ private:
+  static void remove() { ip(std::string("link del ") + can_interface); }
+  bool ready_ = false;
+};
+
+/// Cycles are paced by the clock of the machine and counted as what they are meant to be: the guest's clock
+/// is not to be judged by.
+class RealAxis {
+ public:
+  RealAxis() { bus_->configuration().set_interface(can_interface); }
+  ~RealAxis() {
+    drive().stop();
+    bus_->driver().stop();
+  }
+
+  auto& configuration() { return drive_->configuration(); }
+  CanopenServoDrive& drive() { return drive_->driver(); }
+  bool initialise() { return bus_->driver().initialise().is_ok() && drive_->driver().initialise().is_ok(); }
+  void receive() {
+    next_ = std::max(next_ + real_cycle, MonotonicClock::now() - real_cycle);
+    std::this_thread::sleep_for(next_ - MonotonicClock::now());
+    bus_->receive(real_cycle);
+    drive_->receive(real_cycle);
+  }
+  void send() {
+    drive_->send();
+    bus_->send();
+  }
+  Time now() const { return drive_->now(); }
+
+ private:
+  std::unique_ptr<DeviceBench<SocketCanBus>> bus_ = std::make_unique<DeviceBench<SocketCanBus>>(nullptr);
+  std::unique_ptr<DeviceBench<CanopenServoDrive>> drive_ = std::make_unique<DeviceBench<CanopenServoDrive>>(
+      nullptr, std::span<QueueSink* const>{}, &bus_->driver());
+  Time next_ = MonotonicClock::now();
+};
+
+}  // namespace flexrf
