@@ -28,6 +28,8 @@ expect "exit code of a failure" "$status" 1
 expect "console of a failure" "$output" "*hello from first*Failed with 3*second*Passed*FAILED in the guest*first*guest *FAILED*"
 expect "last line of a failure" "$(last_line)" "66% tests passed, 1 tests failed out of 3"
 expect "machines with a failure" "$(boots)" 1
+flexrf test --guest --long </dev/null
+expect "what a test is told of long tests" "$output" "*hello from first, with FLEXRF_LONG=1*"
 
 : >"$calls"
 echo "takes the machine down" >"$work/guest/first"

@@ -26,8 +26,8 @@ exec 8<>"$control.in" 9<>"$control.out"
 mount_repository() { echo mounted >&9; }
 run_test() {
   local does='' word status
-  echo "hello from ${3##*/}" >>"$console"
-  [[ -e $STAND_IN/guest/${3##*/} ]] && does=$(<"$STAND_IN/guest/${3##*/}")
+  echo "hello from ${4##*/}, with $3" >>"$console"
+  [[ -e $STAND_IN/guest/${4##*/} ]] && does=$(<"$STAND_IN/guest/${4##*/}")
   read -r word status <<<"$does"
   [[ $word == takes ]] && exit 0
   echo "$1" >>"$console"

@@ -184,8 +184,9 @@ void a_set_point_is_offered_once_and_the_newest_counts(void**) {
   assert_true(handshake.problem().is_ok());
   handshake.advance(0x0000, at(105));
   assert_non_null(std::strstr(handshake.problem().cause(), "does not acknowledge"));
-  handshake.reset();
+  handshake.reset(7);
   assert_true(handshake.problem().is_ok());
+  assert_int_equal(handshake.target(), 7);
   assert_int_equal(handshake.advance(0x0000, at(106)), 0x0020);
 }
 
