@@ -3,6 +3,7 @@
 
 stage_names=() stage_times=() stage_loads=() stage_results=()
 tests_run=0 tests_failed=0
+analyses=0 analysis_pid=''
 
 stage() {  # stage NAME COMMAND...: runs it and notes time and result; a failure does not stop the next stage
   local name=$1 result=passed wall user system TIMEFORMAT='%3R %3U %3S'
@@ -35,14 +36,26 @@ sources() {  # every C++ file that a person wrote
 
 check_format() { sources | xargs -0 -r -n 50 clang-format --dry-run -Werror; }
 
-check_tidy() {  # the files of the release build's list that lie outside build/
+# Begins the static analysis of the files of the release build's list that lie outside build/. It goes on beside the
+# stages that follow, with what they leave of the processors: those with a browser or a guest leave half.
+begin_analysis() {
   local headers analysis=$root/build/release/analysis
   headers="^$root/($(cd "$root" && find . -mindepth 1 -maxdepth 1 -type d ! -name build ! -name '.*' -printf '%f|')"
   rm -rf "$analysis"
   mkdir -p "$analysis"
   awk -v root="$root" -v out="$analysis" -v size=8 -f "$tool/tidy_batches.awk" \
-    "$root/build/release/compile_commands.json" | tr '\n' '\0' |
-    xargs -0 -r -n 1 -P "$(nproc)" bash "$tool/tidy.sh" "$analysis" "${headers%|})/"
+    "$root/build/release/compile_commands.json" | tr '\n' '\0' >"$analysis/batches"
+  # A command of its own, not a shell's: it ends with this script, however that ends.
+  setpriv --pdeathsig TERM chrt --idle 0 xargs -0 -r -a "$analysis/batches" -n 1 -P "$(nproc)" \
+    bash "$tool/tidy.sh" "$analysis" "${headers%|})/" </dev/null >"$analysis/found" 2>&1 &
+  analysis_pid=$!
+}
+
+end_analysis() {  # what was found, once all files are through
+  local status=0
+  wait "$analysis_pid" || status=1
+  cat "$root/build/release/analysis/found"
+  return "$status"
 }
 
 run_tests() {  # run_tests PRESET CTEST ARGUMENT...
@@ -67,6 +80,7 @@ test_preset() {  # test_preset PRESET full|some: what does not build is a test t
   [[ $extent == some ]] && targets=(tests_unit tests_stress) selection=(-L '^(unit|stress)$')
   [[ ${FLEXRF_LONG-} ]] || without='^long$'
   check "build $preset" build "$preset" "${targets[@]}"
+  ((analyses)) && begin_analysis
   if [[ $preset == release ]]; then
     # The page and a browser before it: only here, and apart, as they are of another kind and take their time.
     stage "test $preset" run_tests "$preset" "${selection[@]}" -LE "${without:+$without|}^panel\$"
@@ -102,9 +116,11 @@ test_stages() {  # test_stages [--full | --guest [--long] | PRESET...]
   elif (($# == 0)) || [[ $1 == --full ]]; then
     check "source layout" check_format
     chosen=(checked asan tsan)
+    analyses=1
     test_preset release full
+    analyses=0
     test_guest
-    check "static analysis" check_tidy
+    check "static analysis" end_analysis
   fi
   for preset in "${chosen[@]}"; do test_preset "$preset" "${extent[$preset]}"; done
 
