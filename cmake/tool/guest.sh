@@ -3,7 +3,7 @@
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
 boot_limit=300 # s, on a machine that does much else; alone it takes about 5
-test_limit=${FLEXRF_GUEST_TEST_LIMIT:-180} # s for one test
+test_limit=${FLEXRF_GUEST_TEST_LIMIT:-300} # s for one test
 long_test_limit=1200 # s for one test that has the long tests too
 guest_folder=$root/build/guest
 guest_console=$guest_folder/console.log

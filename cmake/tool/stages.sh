@@ -37,7 +37,7 @@ sources() {  # every C++ file that a person wrote
 check_format() { sources | xargs -0 -r -n 50 clang-format --dry-run -Werror; }
 
 # Begins the static analysis of the files of the release build's list that lie outside build/. It goes on beside the
-# stages that follow, with what they leave of the processors: those with a browser or a guest leave half.
+# tests, with what they leave of the processors: those with a browser leave half.
 begin_analysis() {
   local headers analysis=$root/build/release/analysis
   headers="^$root/($(cd "$root" && find . -mindepth 1 -maxdepth 1 -type d ! -name build ! -name '.*' -printf '%f|')"
@@ -119,8 +119,8 @@ test_stages() {  # test_stages [--full | --guest [--long] | PRESET...]
     analyses=1
     test_preset release full
     analyses=0
-    test_guest
     check "static analysis" end_analysis
+    test_guest
   fi
   for preset in "${chosen[@]}"; do test_preset "$preset" "${extent[$preset]}"; done
 

@@ -17,9 +17,13 @@ MakeServoDriveWorld make_world = nullptr;
 template <Verdict (*Run)(ServoDriveWorld&), ServoMode Mode = cyclic_position, bool NeedsHome = false>
 void judged(void**) {
   Verdict result = Verdict::failed;
-  {
+  // A machine that stood still for long enough makes a drive and its master give each other up, and rightly.
+  // What is wrong with the driver is wrong each time.
+  int attempts = 3;
+  while (result == Verdict::failed && attempts > 0) {
     const std::unique_ptr<ServoDriveWorld> world = make_world({.mode = Mode, .needs_home = NeedsHome});
     result = Run(*world);
+    attempts = world->is_punctual() ? 0 : attempts - 1;
   }
   if (result == Verdict::skipped) skip();
   assert_true(result == Verdict::passed);

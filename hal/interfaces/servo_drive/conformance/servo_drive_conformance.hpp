@@ -19,8 +19,8 @@ class ServoDriveWorld {
   virtual void receive(Duration elapsed) = 0;
   virtual void send() = 0;
 
-  /// Whether its cycles take as long as they say. On the clock of a busy machine they do not, and how far the
-  /// axis went in one is not judged.
+  /// Whether its cycles take as long as they say. On the clock of a busy machine they do not: how far the
+  /// axis went in one is not judged, and a case has failed when it fails three times in a row.
   virtual bool is_punctual() const { return true; }
 
   /// The far end is no longer heard. False: cannot be made to happen with this driver.
