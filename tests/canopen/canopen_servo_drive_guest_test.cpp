@@ -29,6 +29,7 @@ class RealDriveWorld final : public ServoDriveWorld {
   void receive(Duration /*elapsed*/) override { axis_.receive(); }
   void send() override { axis_.send(); }
   bool is_punctual() const override { return false; }
+  bool stood_still() const override { return axis_.stood_still(); }
   bool lose_drive() override { return ready_ && far_end_.ask("off") == "ok"; }
   bool trip_drive() override { return ready_ && far_end_.ask("trip 0x2310") == "ok"; }
   bool lose_home() override { return ready_ && far_end_.ask("lose home") == "ok"; }
