@@ -18,6 +18,8 @@ class RealDriveWorld final : public ServoDriveWorld {
     configuration.lowest = -10;
     configuration.highest = 10;
     configuration.fastest = 20;
+    // A guest stands still for longer than a machine may; lost heartbeats are canopen_fault_guest_test's.
+    configuration.heartbeat_limit = 2;
     configuration.node = 5;
     configuration.vendor = 0x123;
     configuration.product = 0x456;

@@ -20,7 +20,7 @@ void judged(void**) {
   // Where the world measured that it stood still, drive and master rightly gave each other up: that run says
   // nothing of the driver.
   bool judges = false;
-  for (int runs = 0; runs < 3 && !judges; ++runs) {
+  for (int runs = 0; runs < 10 && !judges; ++runs) {
     const std::unique_ptr<ServoDriveWorld> world = make_world({.mode = Mode, .needs_home = NeedsHome});
     result = Run(*world);
     judges = result != Verdict::failed || !world->stood_still();
