@@ -20,6 +20,8 @@ class AxisOnBus {
   /// The thread that the bus lives in; never block, never allocate.
   void receive(const Tick& tick) noexcept;
   void send(const Tick& tick, bool may_move) noexcept;
+  /// Likewise: with the next receive() the node is brought up anew, and the axis's fault is forgotten.
+  void begin_again() noexcept { began_ = false; }
 
   cia402::ServoAxis& axis() noexcept { return axis_; }
   const cia402::ServoAxis& axis() const noexcept { return axis_; }

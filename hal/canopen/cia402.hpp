@@ -23,6 +23,8 @@ inline constexpr ObjectAddress mode_display{0x6061, 0};             ///< i8
 inline constexpr ObjectAddress actual_position{0x6064, 0};          ///< i32
 inline constexpr ObjectAddress following_window{0x6065, 0};         ///< u32
 inline constexpr ObjectAddress actual_velocity{0x606C, 0};          ///< i32
+inline constexpr ObjectAddress most_torque{0x6072, 0};              ///< u16: of 1000 of its rated torque
+inline constexpr ObjectAddress actual_torque{0x6077, 0};            ///< i16: likewise
 inline constexpr ObjectAddress target_position{0x607A, 0};          ///< i32
 inline constexpr ObjectAddress profile_velocity{0x6081, 0};         ///< u32
 inline constexpr ObjectAddress profile_acceleration{0x6083, 0};     ///< u32

@@ -8,6 +8,7 @@ namespace flexrf::canopen::cia402 {
 namespace {
 
 constexpr double largest_object = std::numeric_limits<std::int32_t>::max();
+constexpr double whole_torque = 1000;  // how objects count the rated torque
 
 std::uint64_t to_object(double increments) {
   return static_cast<std::uint64_t>(std::llround(std::clamp(increments, -largest_object, largest_object)));
@@ -38,6 +39,7 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   was_commanded_ = halts_ = false;
   velocity_ = 0;
   speed_ = plan.fastest;
+  most_torque_ = 1;
   target_object_ = 0;
   return node_.begin(node_plan(), now, outbox);
 }
@@ -61,6 +63,7 @@ void ServoAxis::receive(const Message& message, Time now, Outbox& outbox) noexce
     heard_ = now;
   } else if (state_ && unpack(motion_, message, values)) {
     state_->velocity = static_cast<double>(with_sign(values[0], 32)) / to_velocity_object(1);
+    state_->torque = static_cast<double>(with_sign(values[1], 16)) / whole_torque;
   }
 }
 
@@ -271,8 +274,9 @@ void ServoAxis::say(std::uint16_t word, Outbox& outbox) const noexcept {
   const std::uint64_t values[] = {word, target_object_, static_cast<std::uint8_t>(mode_said_)};
   outbox.push(pack(commands_, values));
   if (plan_.mode != Mode::profile_position) return;
-  const std::uint64_t speed[] = {to_amount(to_velocity_object(speed_))};
-  outbox.push(pack(profile_, speed));
+  const double torque = std::clamp(std::round(most_torque_ * whole_torque), 0.0, 65535.0);
+  const std::uint64_t profile[] = {to_amount(to_velocity_object(speed_)), static_cast<std::uint64_t>(torque)};
+  outbox.push(pack(profile_, profile));
 }
 
 }  // namespace flexrf::canopen::cia402

@@ -36,6 +36,10 @@ struct AxisPlan {
   bool tells_period = true;            ///< object 60C2
   bool is_supervised_by_it = true;     ///< object 1016: it looks for our heartbeat
   bool forbids_remote = true;          ///< bit 30 of the identifiers of what it sends
+  // Of an axis that may meet something, as a gripper's does.
+  bool limits_torque = false;   ///< object 6072, see limit_torque(); in mode profile_position only
+  bool tells_torque = false;    ///< object 6077
+  bool may_be_blocked = false;  ///< object 6065: however far it is behind its profile is no fault
   Duration mode_timeout = std::chrono::milliseconds(500);
   Duration set_point_timeout = std::chrono::milliseconds(500);  ///< until it acknowledges one
   Duration homing_timeout = std::chrono::seconds(60);
@@ -54,6 +58,7 @@ struct AxisState {
   bool enabled = false;
   bool at_internal_limit = false;
   bool target_reached = false;  ///< in profile modes: it took the last command and has done it
+  double torque = 0;            ///< of its rated torque, with a sign; 0 where the plan does not ask for it
 };
 
 /// Without I/O; never blocks, never allocates. One thread. A cycle: receive() of what came, then commands,
@@ -83,6 +88,8 @@ class ServoAxis {
   void move_to(double position, double speed) noexcept;
   /// In every mode, unless the plan's method is 0.
   void home() noexcept;
+  /// Where the plan says so, also while it is off: at most so much of its rated torque; at first 1.
+  void limit_torque(double share) noexcept { most_torque_ = share; }
   /// In every mode, also while it homes: to rest, until the next command.
   void halt() noexcept;
 
@@ -96,6 +103,9 @@ class ServoAxis {
   bool is_off() const noexcept { return !node_.is_operational() || power_.is_off(); }
   /// What stopped it, for a person; ok while nothing did.
   const Status& fault() const noexcept { return fault_; }
+  /// After a send() without the permission to move: what stopped it is forgotten, and with the permission it
+  /// is enabled anew. A node that was refused stays so.
+  void forget_fault() noexcept { fault_ = {}; }
   const Node& node() const noexcept { return node_; }
 
  private:
@@ -150,6 +160,7 @@ class ServoAxis {
   int cycles_ = 0;                   // since the velocity was commanded, at most settle_cycles
   double velocity_ = 0;              // commanded
   double speed_ = 1;                 // of the profile
+  double most_torque_ = 1;           // of its rated torque
   std::uint64_t target_object_ = 0;  // as it was sent
 };
 

@@ -9,6 +9,7 @@ namespace flexrf::canopen::cia402 {
 namespace {
 
 constexpr std::uint32_t milliseconds_exponent = 0xFD;  // ten to the power of -3, as i8
+constexpr std::uint32_t no_window = 0xFFFFFFFF;        // of object 6065: it is not looked at
 constexpr double largest_increments = std::numeric_limits<std::int32_t>::max();
 
 bool is_above_zero(double value) {
@@ -35,6 +36,9 @@ Status ServoAxis::check(const AxisPlan& plan) const noexcept {
   }
   if (!std::isfinite(plan.increments_per_unit) || plan.increments_per_unit == 0) {
     return wrong("its increments per unit are 0 or not finite");
+  }
+  if (plan.limits_torque && plan.mode != Mode::profile_position) {
+    return wrong("its torque can be limited in mode profile position alone");
   }
   if (!(plan.lowest < plan.highest)) return wrong("its lowest position is not below its highest");
   if (!is_above_zero(plan.fastest)) return wrong("its greatest velocity is not above 0");
@@ -70,11 +74,13 @@ NodePlan ServoAxis::node_plan() noexcept {
              .number = 2,
              .identifier = transmit_pdo_identifier(2, plan_.node)};
   motion_.add(objects::actual_velocity, 32);
+  if (plan_.tells_torque) motion_.add(objects::actual_torque, 16);
   states_.forbids_remote = motion_.forbids_remote = plan_.forbids_remote;
   profile_ = {.direction = PdoDirection::received_by_node,
               .number = 2,
               .identifier = receive_pdo_identifier(2, plan_.node)};
   profile_.add(objects::profile_velocity, 32);
+  if (plan_.limits_torque) profile_.add(objects::most_torque, 16);
 
   NodePlan node{.node = plan_.node,
                 .master = plan_.master,
@@ -112,6 +118,7 @@ void ServoAxis::plan_motion(Configuration& list) const noexcept {
     list.write(objects::profile_acceleration, 4, to_amount(acceleration));
     list.write(objects::profile_deceleration, 4, to_amount(acceleration));
   }
+  if (plan_.may_be_blocked) list.write(objects::following_window, 4, no_window);
   if (plan_.homing_method == 0) return;
   list.write(objects::homing_method, 1, static_cast<std::uint8_t>(plan_.homing_method));
   list.write(objects::homing_search_speed, 4, to_amount(to_velocity_object(plan_.homing_speed)));

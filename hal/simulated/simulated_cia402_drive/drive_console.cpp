@@ -44,6 +44,15 @@ std::optional<canopen::ObjectAddress> object_in(std::string_view text) {
   return canopen::ObjectAddress{static_cast<std::uint16_t>(*index), static_cast<std::uint8_t>(*subindex)};
 }
 
+// "3000", "-20".
+std::optional<double> position_in(std::string_view text) {
+  const bool is_negative = text.starts_with('-');
+  const auto number = number_in(text.substr(is_negative ? 1 : 0));
+  if (!number || *number > 0x7FFFFFFF) return std::nullopt;
+  const auto place = static_cast<double>(*number);
+  return is_negative ? -place : place;
+}
+
 std::optional<DriveState> state_named(std::string_view text) {
   for (const DriveState one :
        {DriveState::not_ready, DriveState::switch_on_disabled, DriveState::ready_to_switch_on,
@@ -64,6 +73,8 @@ const char* const DriveConsole::help =
     "trip CODE [stays], heal     a fault with this error code, whose cause goes by itself or not; it goes\n"
     "keep mode, take mode        it stays in the mode that it is in; it changes it\n"
     "lose home, find home        its homing fails; it does not\n"
+    "block below P, block above P   something is in its way at this position; unblock\n"
+    "cut motor, join motor       its motor's wires: without them it has no torque\n"
     "refuse INDEX:SUB CODE, accept   writes of this object end with this abort code; they do not\n"
     "object INDEX:SUB VALUE      what an object is from now on, and after each power-on\n"
     "lack INDEX:SUB              it has no such object\n"
@@ -112,6 +123,16 @@ std::string DriveConsole::change(std::string_view word, std::string_view rest) {
     drive_.ignore_mode(word == "keep");
   } else if ((word == "lose" || word == "find") && rest == "home") {
     drive_.lose_home(word == "lose");
+  } else if ((word == "cut" || word == "join") && rest == "motor") {
+    drive_.cut_motor(word == "cut");
+  } else if (word == "unblock") {
+    drive_.block(std::nullopt, std::nullopt);
+  } else if (word == "block") {
+    const std::string_view side = take_word(rest);
+    const auto place = position_in(rest);
+    if (!place || (side != "below" && side != "above")) return "what is in its way is written as below 3000";
+    const bool is_below = side == "below";
+    drive_.block(is_below ? place : std::nullopt, is_below ? std::nullopt : place);
   } else if (word == "fix" && rest == "mapping") {
     drive_.objects().fix_mapping();
   } else if (word == "refuse" && rest == "bit 30") {

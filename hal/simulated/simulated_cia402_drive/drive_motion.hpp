@@ -18,6 +18,11 @@ class DriveMotion {
   void set_position(double position) { position_ = position; }
   /// The brake is closed.
   void brake() { velocity_ = 0; }
+  /// Something is in the way.
+  void stop_at(double position) {
+    position_ = position;
+    velocity_ = 0;
+  }
   /// Towards `target` with this speed, without a profile.
   void follow(double target, double speed, double time) {
     const double distance = target - position_;

@@ -67,6 +67,8 @@ DriveObjects::DriveObjects() {
   add(axis::actual_position, 4, false, true);
   add(axis::following_window, 4, true, false, 0xFFFFFFFF);
   add(axis::actual_velocity, 4, false, true);
+  add(axis::most_torque, 2, true, true, 1000);
+  add(axis::actual_torque, 2, false, true);
   add(axis::target_position, 4, true, true);
   add(axis::profile_velocity, 4, true, true, 10000);
   add(axis::profile_acceleration, 4, true, true, 100000);

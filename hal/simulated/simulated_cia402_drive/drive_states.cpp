@@ -14,6 +14,7 @@ namespace status_bit = canopen::cia402::status_bit;
 
 constexpr double longest_step = 0.1;  // s; what is slept through beyond it is not moved
 constexpr double fault_deceleration = 400000;
+constexpr std::int64_t friction_torque = 50;  // of 1000
 
 constexpr std::uint16_t bits_of(DriveState state) {
   switch (state) {
@@ -119,9 +120,13 @@ void SimulatedCia402Drive::move(Time now, Outbox& outbox) {
   const double time = std::min(seconds(now - moved_), longest_step);
   if (time <= 0) return;
   moved_ = now;
+  presses_ = 0;
+  if (is_cut_) motion_.brake();
   switch (state_) {
     case DriveState::operation_enabled:
+      if (is_cut_) break;
       move_in_mode(time, outbox);
+      meet_obstacles();
       break;
     case DriveState::quick_stop_active:
       motion_.ramp(0, static_cast<double>(objects_.get(axis::quick_stop_deceleration)), time);
@@ -139,6 +144,16 @@ void SimulatedCia402Drive::move(Time now, Outbox& outbox) {
       break;
   }
   publish();
+}
+
+void SimulatedCia402Drive::meet_obstacles() {
+  const double goes = motion_.position();
+  if (below_ && goes < *below_) presses_ = -1;
+  if (above_ && goes > *above_) presses_ = 1;
+  if (presses_ == 0) return;
+  motion_.stop_at(presses_ < 0 ? *below_ : *above_);
+  // It is where it was sent, or at home, on the other side.
+  mode_bits_ &= static_cast<std::uint16_t>(~status_bit::target_reached);
 }
 
 void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
@@ -220,6 +235,12 @@ void SimulatedCia402Drive::publish() {
   objects_.set(axis::statusword, bits_of(state_) | mode_bits_);
   objects_.set(axis::actual_position, std::llround(motion_.position()));
   objects_.set(axis::actual_velocity, std::llround(motion_.velocity()));
+  const auto most_torque = static_cast<std::int64_t>(objects_.get(axis::most_torque));
+  const bool turns = state_ == DriveState::operation_enabled && !motion_.is_at_rest();
+  const std::int64_t friction = turns ? std::min(most_torque, friction_torque) : 0;
+  objects_.set(axis::actual_torque, presses_ != 0            ? presses_ * most_torque
+                                    : motion_.velocity() < 0 ? -friction
+                                                             : friction);
 }
 
 }  // namespace flexrf

@@ -46,6 +46,14 @@ class SimulatedCia402Drive {
   /// It finds no home.
   void lose_home(bool on) { homeless_ = on; }
   void heal() { cause_persists_ = false; }
+  /// What the axis meets, in increments: it gets no lower than `below`, and no higher than `above`, and
+  /// presses against it with its greatest torque. Nothing: there is nothing.
+  void block(std::optional<double> below, std::optional<double> above) {
+    below_ = below;
+    above_ = above;
+  }
+  /// The wires of its motor are torn: it has no torque, and stays where it is.
+  void cut_motor(bool on) { is_cut_ = on; }
   DriveObjects& objects() { return objects_; }
 
   // ---- what it is doing
@@ -74,6 +82,7 @@ class SimulatedCia402Drive {
   void enter(canopen::cia402::DriveState state, Time now);
   void move(Time now, canopen::Outbox& outbox);
   void take_mode();
+  void meet_obstacles();
   void find_home(bool started, double acceleration, double time);
   void move_in_mode(double time, canopen::Outbox& outbox);
   void publish();
@@ -97,6 +106,10 @@ class SimulatedCia402Drive {
   bool cause_persists_ = false;
   bool ignores_mode_ = false;
   bool homeless_ = false;
+  bool is_cut_ = false;
+  std::optional<double> below_;
+  std::optional<double> above_;
+  int presses_ = 0;  // towards lower or higher positions
   std::uint16_t last_command_ = 0;
   Time entered_{};
   Time moved_{};

@@ -90,6 +90,41 @@ void a_halt_interrupts_a_profile_and_lets_it_go_on(void**) {
   assert_true(one.actual() == 20000);
 }
 
+std::int64_t torque_of(Axis& one) {
+  return one.bench.drive.objects().get_signed(canopen::cia402::objects::actual_torque);
+}
+
+void a_blocked_axis_presses_and_is_not_where_it_was_sent(void**) {
+  Axis one(Mode::profile_position);
+  assert_true(one.enable());
+  one.bench.drive.objects().set(canopen::cia402::objects::most_torque, 300);
+  one.bench.drive.block(400, std::nullopt);
+  one.handshake.command(-2000);
+  one.run(2000);
+  assert_true(one.actual() == 400 && one.bench.drive.motion().is_at_rest());
+  assert_false(one.handshake.is_reached(one.status));
+  assert_true(torque_of(one) == -300);
+  one.bench.drive.block(std::nullopt, 5000);  // what it pressed against is gone: it goes on
+  one.run(2000);
+  assert_true(one.actual() == -2000 && one.handshake.is_reached(one.status) && torque_of(one) == 0);
+  one.handshake.command(9000);
+  one.run(2000);
+  assert_true(one.actual() == 5000 && torque_of(one) == 300);
+}
+
+void an_axis_without_its_motor_stays_and_has_no_torque(void**) {
+  Axis one(Mode::profile_position);
+  assert_true(one.enable());
+  one.bench.drive.cut_motor(true);
+  one.handshake.command(9000);
+  one.run(2000);
+  assert_true(one.actual() == 1000 && torque_of(one) == 0);
+  assert_false(one.handshake.is_reached(one.status));
+  one.bench.drive.cut_motor(false);
+  one.run(2000);
+  assert_true(one.actual() == 9000);
+}
+
 void profile_velocities_are_reached(void**) {
   Axis one(Mode::profile_velocity);
   assert_true(one.enable());
@@ -126,6 +161,8 @@ int main() {
       cmocka_unit_test(cyclic_velocities_are_followed),
       cmocka_unit_test(profile_positions_are_handed_over_one_by_one),
       cmocka_unit_test(a_halt_interrupts_a_profile_and_lets_it_go_on),
+      cmocka_unit_test(a_blocked_axis_presses_and_is_not_where_it_was_sent),
+      cmocka_unit_test(an_axis_without_its_motor_stays_and_has_no_torque),
       cmocka_unit_test(profile_velocities_are_reached),
       cmocka_unit_test(homing_runs_to_its_end),
   };
