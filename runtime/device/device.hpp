@@ -7,6 +7,7 @@
 
 #include "runtime/blackboard/queue.hpp"
 #include "runtime/blackboard/slot.hpp"
+#include "runtime/device/heartbeat.hpp"
 #include "runtime/unit/component.hpp"
 #include "runtime/unit/tick.hpp"
 
@@ -31,6 +32,7 @@ struct DeviceEnvironment {
   std::uint64_t seed = 1;  ///< of this device's random numbers: from --seed and the device's name
   bool virtual_time = false;
   const char* keys_file = nullptr;  ///< --keys FILE, else null
+  Heartbeat* heartbeat = nullptr;   ///< of the application; null: nobody judges, as in virtual time
 };
 
 /// Lives in one thread. receive, send, make_safe and everything a unit calls: that thread, never blocking,
@@ -48,7 +50,8 @@ class Device : public Component {
 
   /// A descriptor that becomes readable when there is something to receive; −1: none. For device triggers.
   virtual int descriptor() const noexcept { return -1; }
-  /// In virtual time: when there will be something to receive; Time::max(): not known to come.
+  /// When there will be something to receive, of what is not announced by the descriptor: in virtual time
+  /// whatever comes, else what the clock alone says; Time::max(): not known to come.
   virtual Time next_event() const noexcept { return Time::max(); }
   /// It is an emergency-stop input: unless it permits, nothing moves. As its configuration says; the
   /// lifecycle thread, also before initialise().

@@ -116,7 +116,8 @@ Status Cell::construct_device(std::uint16_t index) {
   state.device = driver.construct(record.storage);
   *record.instance = state.device;
   state.environment = {seed_of(options_->seed, record.name), options_->virtual_time.has_value(),
-                       options_->keys_file.empty() ? nullptr : options_->keys_file.c_str()};
+                       options_->keys_file.empty() ? nullptr : options_->keys_file.c_str(),
+                       options_->virtual_time ? nullptr : &heartbeat_};
   state.device->set_name(record.name);
   state.device->set_type_in_force(component_type(component_of_device(index)));
   state.device->set_environment(&state.environment);

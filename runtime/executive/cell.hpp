@@ -44,6 +44,7 @@ class Cell {
   const Options& options() const noexcept { return *options_; }
   Control& control() noexcept { return control_; }
   const Control& control() const noexcept { return control_; }
+  Heartbeat& heartbeat() noexcept { return heartbeat_; }
 
   const DriverRecord& driver(std::uint16_t device) const noexcept {
     return application_->devices[device].drivers[application_->device_states[device].driver];
@@ -115,6 +116,7 @@ class Cell {
   std::vector<Doorbell*> bells_;
   std::vector<std::vector<const char*>> other_drivers_;  // per device
   Control control_;
+  Heartbeat heartbeat_;
   std::unique_ptr<RuntimeParameters[]> parameters_;  // one per component
   std::unique_ptr<RequestQueue[]> requests_;         // one per thread
   std::unique_ptr<ParameterScratch[]> scratch_;      // one per thread

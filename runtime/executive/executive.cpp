@@ -11,7 +11,9 @@
 #include <future>
 #include <optional>
 
+#include "runtime/executive/heartbeat_watch.hpp"
 #include "runtime/executive/schedulability.hpp"
+#include "runtime/executive/service_manager.hpp"
 #include "runtime/executive/status_view.hpp"
 #include "runtime/executive/virtual_time.hpp"
 #include "runtime/log/log.hpp"
@@ -362,6 +364,9 @@ void Executive::live() {
 void Executive::supervise(RunSummary& summary) {
   Control& control = cell_.control();
   Supervision supervision(cell_, lifecycle_, true);
+  HeartbeatWatch heartbeats(cell_);
+  ServiceManager manager(cell_.application().name, ServiceManagerAddress::of_environment(),
+                         cell_.heartbeat());
   const sigset_t ending = ending_set();
   const timespec interval{0, supervision_interval.count()};
   Time running_since{};
@@ -383,6 +388,8 @@ void Executive::supervise(RunSummary& summary) {
       summary.start_time = now - began_;
     }
     supervision.observe(now);
+    heartbeats.observe(now, supervision.is_stuck());
+    manager.observe(now, control);
     drain_log(log);
     if (view) view->draw(now);
   }

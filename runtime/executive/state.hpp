@@ -61,7 +61,8 @@ struct ThreadState {
   std::atomic<std::uint64_t> allocations{0};  ///< allocations and frees in the real-time part
   std::atomic<bool> asked_back{false};        ///< a unit or device of this thread is asked_back
   std::atomic<std::int64_t> step_began{0};    ///< ns; 0 while not stepping: how a hung thread is seen
-  std::atomic<std::int32_t> thread_id{0};     ///< kernel's, for /proc
+  std::atomic<std::uint64_t> turns{0};  ///< with a step or without: that it runs at all; see HeartbeatWatch
+  std::atomic<std::int32_t> thread_id{0};  ///< kernel's, for /proc
   // What the kernel counted from the thread's first wait to its end; filled in at the end.
   std::atomic<std::uint64_t> minor_faults{0};
   std::atomic<std::uint64_t> major_faults{0};

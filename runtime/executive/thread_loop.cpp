@@ -71,6 +71,8 @@ void ThreadLoop::run() noexcept {
 
 void ThreadLoop::turn(std::uint32_t heard) noexcept {
   const Time now = MonotonicClock::now();
+  std::atomic<std::uint64_t>& turns = stepper_.state().turns;
+  turns.store(turns.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   stepper_.serve(now);
   Due due = trigger_.due(now, readable_);
   if (stepper_.needs_attention() && due.at > trigger_.last_release() + Stepper::attention_interval) {
