@@ -1,0 +1,39 @@
+// Process: a program that is run beside the application, fed and listened to by lines.
+#pragma once
+
+#include <string_view>
+
+#include "process_interface.hpp"
+#include "types/process_line.hpp"
+#include "types/process_state.hpp"
+
+namespace flexrf {
+
+/// Everything: the thread the process lives in; nothing blocks. What a program moves by itself is not made
+/// safe with the cell: it is no actuator.
+class Process : public ProcessInterface {
+ public:
+  /// As of this cycle. A run has ended when its last line has been read.
+  virtual ProcessState state() const noexcept = 0;
+
+  /// Has it run, from the end of the cycle. Nothing where it does; what is ending is started again after.
+  virtual void request_start() noexcept = 0;
+  /// Has it end: asked first, killed after `stop_timeout`. It is not started again by itself then.
+  virtual void request_stop() noexcept = 0;
+
+  /// For its standard input, with an end of line. False, and nothing is written: it does not run, or has not
+  /// read what it was given before (the bound is `input_capacity`).
+  virtual bool write_line(std::string_view line) noexcept = 0;
+  /// The same, with the bytes as they are.
+  virtual bool write(std::string_view bytes) noexcept = 0;
+  /// Its input ends after what was written.
+  virtual void close_input() noexcept = 0;
+  static constexpr std::size_t input_capacity = 16384;  ///< bytes
+
+  /// The next line that it printed, oldest first; false: none now. With the queue `lines` connected they go
+  /// there instead. At most `line_capacity` wait; what comes then is dropped and counted.
+  virtual bool read_line(ProcessLine& line) noexcept = 0;
+  static constexpr std::size_t line_capacity = 64;
+};
+
+}  // namespace flexrf
