@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "keyboard_interface.hpp"
+#include "types/held_keys.hpp"
 #include "types/key_event.hpp"
 
 namespace flexrf {
@@ -13,15 +14,20 @@ class Keyboard : public KeyboardInterface {
  public:
   /// The next key press, if there is one. Never blocks.
   virtual std::optional<KeyEvent> read() noexcept = 0;
+  /// Which keys are down, as of the last receive(); nothing where only presses are known.
+  virtual std::optional<HeldKeys> held_keys() const noexcept { return std::nullopt; }
 
-  /// With an IO thread: publishes what was pressed, as much as the queue has room for. The rest waits where
-  /// it is, so that no key press is lost however fast they come.
+  /// With an IO thread: publishes what is down, and what was pressed, as much as the queue has room for. The
+  /// rest waits where it is, so that no key press is lost however fast they come.
   void receive(const Tick& tick) noexcept override {
     now_ = tick.now;
     for (int n = 0; n < most_keys_per_cycle && keys.is_connected() && keys.has_room(); ++n) {
       const std::optional<KeyEvent> event = read();
       if (!event) break;
       keys.push(*event, tick.now);
+    }
+    if (held.is_connected()) {
+      if (const std::optional<HeldKeys> down = held_keys()) held.publish(*down, tick.now);
     }
     backed_up_ = keys.is_connected() && !keys.has_room();
   }

@@ -24,6 +24,22 @@ class KeyboardWorld {
   virtual void receive() = 0;
   /// Whether this keyboard has keys that write no character.
   virtual bool has_arrows() const { return true; }
+  /// Whether there can be a last key.
+  virtual bool can_end() const { return true; }
+
+  // ---- After start(), of a keyboard that knows which keys are down; false: this one does not
+
+  virtual bool hold(const KeyEvent& /*key*/) { return false; }
+  virtual bool let_go(const KeyEvent& /*key*/) { return false; }
+  virtual bool unplug() { return false; }
+  virtual bool plug_in() { return false; }
+
+  // ---- Before start(), false where it cannot be: no such keyboard is there; the user has no right to it;
+  // somebody else has it for himself
+
+  virtual bool hide() { return false; }
+  virtual bool forbid() { return false; }
+  virtual bool occupy() { return false; }
 };
 
 using MakeKeyboardWorld = std::unique_ptr<KeyboardWorld> (*)();

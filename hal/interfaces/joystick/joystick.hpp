@@ -1,0 +1,16 @@
+// Joystick: axes that are deflected, and buttons.
+#pragma once
+
+#include "joystick_interface.hpp"
+#include "types/joystick_state.hpp"
+
+namespace flexrf {
+
+/// Everything: the thread the joystick lives in.
+class Joystick : public JoystickInterface {
+ public:
+  /// As of the last receive(). Presses are totals that never go back.
+  virtual const JoystickState& state() const noexcept = 0;
+};
+
+}  // namespace flexrf

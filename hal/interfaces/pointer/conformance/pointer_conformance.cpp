@@ -1,0 +1,183 @@
+#include "hal/interfaces/pointer/conformance/pointer_conformance.hpp"
+
+#include "tests/cmocka.hpp"
+
+namespace flexrf {
+namespace {
+
+/// Cycles after which what must happen has happened. Only the real kernel takes more than one.
+constexpr int patience = 3000;
+/// Cycles after which what must not happen would have.
+constexpr int a_while = 5;
+
+MakePointerWorld make_world = nullptr;
+
+enum class Verdict { passed, failed, skipped };
+Verdict verdict(bool good) {
+  return good ? Verdict::passed : Verdict::failed;
+}
+
+// Each case runs in here, so that a failing assertion jumps over no destructor.
+void judge(Verdict (*run)(PointerWorld&)) {
+  Verdict result = Verdict::failed;
+  {
+    const std::unique_ptr<PointerWorld> world = make_world();
+    result = run(*world);
+  }
+  if (result == Verdict::skipped) skip();
+  assert_true(result == Verdict::passed);
+}
+
+template <class Condition>
+bool until(PointerWorld& world, Condition is_true) {
+  for (int i = 0; i < patience; ++i) {
+    world.receive();
+    if (is_true(world.pointer().state())) return true;
+  }
+  return false;
+}
+
+template <class Condition>
+bool stays(PointerWorld& world, Condition is_true) {
+  for (int i = 0; i < a_while; ++i) {
+    world.receive();
+    if (!is_true(world.pointer().state())) return false;
+  }
+  return true;
+}
+
+bool is_there(const PointerState& state) {
+  return state.present;
+}
+bool is_away(const PointerState& state) {
+  return !state.present;
+}
+
+Verdict nothing_is_moved_nothing_is_told(PointerWorld& world) {
+  if (!world.start() || !until(world, is_there)) return Verdict::failed;
+  return verdict(stays(world, [](const PointerState& state) {
+    return state.x == 0 && state.y == 0 && state.wheel == 0 && state.tilt == 0 && state.buttons == 0 &&
+           state.presses[0] == 0;
+  }));
+}
+
+Verdict motion_adds_up(PointerWorld& world) {
+  if (!world.start() || !until(world, is_there)) return Verdict::failed;
+  for (int i = 0; i < 10; ++i) {
+    world.move(7, -3);
+    world.receive();
+  }
+  world.move(-20, 40);
+  const auto arrived = [](const PointerState& state) { return state.x == 50 && state.y == 10; };
+  return verdict(until(world, arrived) && stays(world, arrived));
+}
+
+Verdict the_wheel_turns_by_detents(PointerWorld& world) {
+  if (!world.start() || !until(world, is_there)) return Verdict::failed;
+  world.turn_wheel(2);
+  if (!until(world, [](const PointerState& state) { return state.wheel == 240; })) return Verdict::failed;
+  world.turn_wheel(-3);
+  return verdict(until(world, [](const PointerState& state) { return state.wheel == -120; }));
+}
+
+Verdict a_button_is_down_until_it_is_let_go(PointerWorld& world) {
+  if (!world.start() || !until(world, is_there)) return Verdict::failed;
+  world.press(0);
+  const auto left = [](const PointerState& state) { return state.buttons == 1 && state.presses[0] == 1; };
+  if (!until(world, left) || !stays(world, left)) return Verdict::failed;
+  world.press(2);
+  if (!until(world, [](const PointerState& state) { return state.buttons == 5; })) return Verdict::failed;
+  world.let_go(0);
+  if (!until(world, [](const PointerState& state) { return state.buttons == 4; })) return Verdict::failed;
+  world.let_go(2);
+  return verdict(until(world, [](const PointerState& state) { return state.buttons == 0; }));
+}
+
+Verdict a_press_shorter_than_a_cycle_counts(PointerWorld& world) {
+  if (!world.start() || !until(world, is_there)) return Verdict::failed;
+  for (int i = 0; i < 2; ++i) {
+    world.press(1);
+    world.let_go(1);
+  }
+  return verdict(
+      until(world, [](const PointerState& state) { return state.presses[1] == 2 && state.buttons == 0; }));
+}
+
+Verdict a_button_is_not_down_once_it_is_unplugged(PointerWorld& world) {
+  if (!world.start() || !until(world, is_there)) return Verdict::failed;
+  world.move(5, 5);
+  world.press(0);
+  if (!until(world, [](const PointerState& state) { return state.buttons == 1 && state.x == 5; }))
+    return Verdict::failed;
+  world.unplug();
+  if (!until(world, is_away) || world.pointer().state().buttons != 0 || world.feedback().present ||
+      world.feedback().losses != 1)
+    return Verdict::failed;
+  world.plug_in();
+  if (!until(world, is_there) || !world.feedback().present) return Verdict::failed;
+  const auto at_rest = [](const PointerState& state) { return state.buttons == 0 && state.x == 5; };
+  if (!stays(world, at_rest)) return Verdict::failed;
+  world.move(1, 0);
+  world.press(0);
+  return verdict(until(world,
+                       [](const PointerState& state) {
+                         return state.buttons == 1 && state.presses[0] == 2 && state.x == 6;
+                       }) &&
+                 world.pointer().fault().is_ok());
+}
+
+Verdict it_comes_back_as_often_as_it_goes(PointerWorld& world) {
+  if (!world.start()) return Verdict::failed;
+  for (int i = 0; i < 3; ++i) {
+    if (!until(world, is_there)) return Verdict::failed;
+    world.unplug();
+    if (!until(world, is_away)) return Verdict::failed;
+    world.plug_in();
+  }
+  return verdict(until(world, is_there) && world.feedback().losses == 3);
+}
+
+Verdict refused(PointerWorld& world, StatusCode code) {
+  const Status status = world.start();
+  print_message("%s\n", status.cause());
+  return verdict(status.code() == code && status.cause()[0] != '\0');
+}
+
+Verdict one_that_is_not_there_is_told(PointerWorld& world) {
+  return world.hide() ? refused(world, StatusCode::not_found) : Verdict::skipped;
+}
+Verdict a_missing_right_is_told(PointerWorld& world) {
+  return world.forbid() ? refused(world, StatusCode::not_permitted) : Verdict::skipped;
+}
+Verdict one_that_somebody_else_has_is_told(PointerWorld& world) {
+  return world.occupy() ? refused(world, StatusCode::busy) : Verdict::skipped;
+}
+
+template <Verdict (*Run)(PointerWorld&)>
+void judged(void**) {
+  judge(Run);
+}
+
+}  // namespace
+
+int run_pointer_conformance(const char* driver, MakePointerWorld make) {
+  make_world = make;
+#define CASE(name) \
+  { #name, judged < name>, nullptr, nullptr, nullptr }
+  const CMUnitTest tests[] = {
+      CASE(nothing_is_moved_nothing_is_told),
+      CASE(motion_adds_up),
+      CASE(the_wheel_turns_by_detents),
+      CASE(a_button_is_down_until_it_is_let_go),
+      CASE(a_press_shorter_than_a_cycle_counts),
+      CASE(a_button_is_not_down_once_it_is_unplugged),
+      CASE(it_comes_back_as_often_as_it_goes),
+      CASE(one_that_is_not_there_is_told),
+      CASE(a_missing_right_is_told),
+      CASE(one_that_somebody_else_has_is_told),
+  };
+#undef CASE
+  return cmocka_run_group_tests_name(driver, tests, nullptr, nullptr);
+}
+
+}  // namespace flexrf
