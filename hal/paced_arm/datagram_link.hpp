@@ -1,0 +1,28 @@
+// Between a driver and a controller that it talks to by datagrams: a socket, or a model in the same process.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "runtime/core/time.hpp"
+
+namespace flexrf {
+
+/// The thread of the device, but for wait(): the lifecycle thread. Nothing else blocks or allocates.
+class DatagramLink {
+ public:
+  virtual ~DatagramLink() = default;
+
+  /// False: it did not go out, and nobody tries again.
+  virtual bool send(std::span<const std::uint8_t> datagram, Time now) noexcept = 0;
+  /// The next one that came from the controller, with its whole length: of a longer one than `into` the rest
+  /// is gone. Nothing: no more are there.
+  virtual std::optional<std::size_t> receive(std::span<std::uint8_t> into, Time now) noexcept = 0;
+  /// Dropped so far because somebody else sent them.
+  virtual std::uint64_t strangers() const noexcept = 0;
+  /// Until something is there to receive, or the time is over.
+  virtual void wait(Duration /*longest*/) noexcept {}
+};
+
+}  // namespace flexrf
