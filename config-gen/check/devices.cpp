@@ -23,6 +23,11 @@ std::map<Index, std::vector<Owner>> owners_by_device(const Model& model) {
   return owners;
 }
 
+bool waits(const Model& model, const Device& device) {
+  return std::any_of(device.drivers.begin(), device.drivers.end(),
+                     [&](const DriverChoice& choice) { return model.drivers[choice.driver].waits; });
+}
+
 void check_owners(const Model& model, const Device& device, const std::vector<Owner>& owners,
                   Diagnostics& diagnostics) {
   const Interface& interface = model.interfaces[device.interface];
@@ -47,11 +52,9 @@ void check_owners(const Model& model, const Device& device, const std::vector<Ow
   }
   const InInstance instance(diagnostics, model, device.name);
   // What waits or publishes lacks an IO thread rather than an owner, which is reported as such.
-  const bool lacks_io_thread =
-      std::any_of(device.outputs.begin(), device.outputs.end(),
-                  [](const auto& output) { return bool(output.position); }) ||
-      std::any_of(device.drivers.begin(), device.drivers.end(),
-                  [&](const DriverChoice& choice) { return model.drivers[choice.driver].waits; });
+  const bool lacks_io_thread = std::any_of(device.outputs.begin(), device.outputs.end(),
+                                           [](const auto& output) { return bool(output.position); }) ||
+                               waits(model, device);
   if (owners.empty() && !device.io_thread && !interface.bus && !lacks_io_thread)
     diagnostics.error(device.position, "device " + quote(device.name) + " has no owner",
                       interface.outputs.empty()
@@ -78,7 +81,7 @@ void check_io_thread(const Model& model, const Device& device, Diagnostics& diag
                           "device " + quote(device.name) + " publishes " +
                               quote(interface.outputs[port].name) + " only with an IO thread",
                           "add io_thread = true, or let the unit that owns it publish");
-  } else if (interface.outputs.empty() && !interface.bus) {
+  } else if (interface.outputs.empty() && !interface.bus && !waits(model, device)) {
     diagnostics.error(model.threads[*device.io_thread].position,
                       "device " + quote(device.name) + " needs no IO thread: " + interface.class_name +
                           " publishes nothing",

@@ -1,0 +1,13 @@
+// Watchdog: a timer that resets the machine unless it is fed.
+#pragma once
+
+#include "watchdog_interface.hpp"
+
+namespace flexrf {
+
+/// Belongs to no unit: it has an IO thread of its own, feeds by itself while the application's heartbeat is
+/// met, and says in its feedback how that goes. initialise() arms it, stop() disarms it unless it is to be
+/// left armed. Whatever ends the application otherwise leaves it armed.
+class Watchdog : public WatchdogInterface {};
+
+}  // namespace flexrf
