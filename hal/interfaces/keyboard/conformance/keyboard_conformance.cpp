@@ -141,6 +141,7 @@ constexpr KeyEvent letter_d{Key::character, 'd'};
 constexpr KeyEvent arrow{Key::up, 0};
 
 Verdict a_key_is_held_until_it_is_let_go(KeyboardWorld& world) {
+  world.will_press({}, false);
   if (!world.start({})) return Verdict::failed;
   if (!world.hold(letter_w)) return verdict(!world.keyboard().held_keys());
   if (!held_become(world, {letter_w})) return Verdict::failed;
@@ -157,6 +158,7 @@ Verdict a_key_is_held_until_it_is_let_go(KeyboardWorld& world) {
 }
 
 Verdict no_key_is_held_once_it_is_unplugged(KeyboardWorld& world) {
+  world.will_press({}, false);
   if (!world.start({})) return Verdict::failed;
   if (!world.hold(letter_w)) return Verdict::skipped;
   if (!held_become(world, {letter_w})) return Verdict::failed;
