@@ -6,8 +6,13 @@ boot_limit=300 # s, on a machine that does much else; alone it takes about 5
 test_limit=${FLEXRF_GUEST_TEST_LIMIT:-300} # s for one test
 long_test_limit=1200 # s for one test that has the long tests too
 guest_folder=$root/build/guest
-guest_console=$guest_folder/console.log
-guest_run='' guest_pid='' heard='' lost=''
+guest_run='' guest_machine='' guest_console='' guest_pid='' heard='' lost=''
+# Time in the guest as its tests have it: an instruction takes a nanosecond, and while there is none to be carried out the
+# next timer is due at once. A host that is busy makes it slow, and is not seen in it.
+counted_time=(-accel tcg,thread=single -icount shift=0,sleep=off -smp 1)
+# As a person has it, who waits for things beside it.
+real_time=(-accel tcg,thread=multi -smp 2)
+guest_time=("${counted_time[@]}")
 
 guest_obstacle() {  # prints why there can be no guest on this machine; nothing when there can
   if [[ $(uname -m) != x86_64 ]]; then
@@ -36,32 +41,39 @@ guest_executables() {  # what is built and may be started in the guest
   find "$root"/build/release/{guest,apps,hal} -name CMakeFiles -prune -o -type f -perm -100 ! -name '*.so*' -print 2>/dev/null
 }
 
-prepare_guest() {
+prepare_guest() {  # what all machines have in common
   local -a executables
   mkdir -p "$guest_folder"
   (flock 9 && make_kernel 9>&-) 9>"$guest_folder/.lock" || return
   guest_run=$(mktemp -d "${TMPDIR:-/tmp}/flexrf-guest.XXXXXX")
   trap 'stop_guest; rm -rf "$guest_run"' EXIT
   mapfile -t executables < <(guest_executables)
-  bash "$root/image/guest/make_initramfs.sh" "$guest_folder/kernel" "$guest_run/initramfs" "${executables[@]}" &&
-    mkfifo "$guest_run"/control.{in,out} &&
-    exec {to_guest}<>"$guest_run/control.in" {from_guest}<>"$guest_run/control.out"
+  bash "$root/image/guest/make_initramfs.sh" "$guest_folder/kernel" "$guest_run/initramfs" "${executables[@]}"
+}
+
+use_machine() {  # use_machine NUMBER: the one that all of the following is about; there may be several, each of a shell's own
+  guest_machine=$guest_run/$1
+  guest_console=$guest_folder/console-$1.log
+  : >"$guest_console"
+  mkdir "$guest_machine" &&
+    mkfifo "$guest_machine"/control.{in,out} &&
+    exec {to_guest}<>"$guest_machine/control.in" {from_guest}<>"$guest_machine/control.out"
 }
 
 start_machine() {  # start_machine [QEMU'S ARGUMENT...]: its standard input and output are the caller's
-  local -a machine=(-accel tcg,thread=multi -cpu max -smp 2 -m 1024 -nodefaults -no-reboot -display none
+  local -a machine=("${guest_time[@]}" -cpu max -m 1024 -nodefaults -no-reboot -display none
     -kernel "$guest_folder/kernel/vmlinuz" -initrd "$guest_run/initramfs"
     # Nothing is told of real time here: protection against the processor's own leaks would only cost time, and a host
     # that is busy must not look like a kernel that hangs.
     -append "console=ttyS0 panic=-1 quiet net.ifnames=0 mitigations=off nosoftlockup rcupdate.rcu_cpu_stall_timeout=300"
     -device isa-serial,chardev=console
-    -chardev "socket,id=line_a,path=$guest_run/line,server=on,wait=off" -chardev "socket,id=line_b,path=$guest_run/line"
+    -chardev "socket,id=line_a,path=$guest_machine/line,server=on,wait=off" -chardev "socket,id=line_b,path=$guest_machine/line"
     -device isa-serial,chardev=line_a -device isa-serial,chardev=line_b
     -object can-bus,id=bus -device kvaser_pci,canbus=bus -device kvaser_pci,canbus=bus
     -device i6300esb -action watchdog=reset
     -virtfs "local,path=${root//,/,,},mount_tag=repository,security_model=none,readonly=on"
     -device virtio-serial-pci
-    -chardev "pipe,id=control,path=$guest_run/control" -device virtserialport,chardev=control,name=control)
+    -chardev "pipe,id=control,path=$guest_machine/control" -device virtserialport,chardev=control,name=control)
   # It ends with this script, however that ends.
   setpriv --pdeathsig KILL qemu-system-x86_64 "${machine[@]}" "$@" <&0 &
   guest_pid=$!
@@ -73,6 +85,7 @@ hear() {  # hear [SECONDS]: sets heard to the guest's next line; fails, with the
   while :; do
     IFS= read -r -t 1 -u "$from_guest" part && heard+=$part && return
     heard+=$part
+    kill -0 $$ 2>/dev/null || exit # a shell of its own that outlived the script
     if ! kill -0 "$guest_pid" 2>/dev/null; then
       lost="the machine ended by itself"
       return 1
@@ -91,7 +104,7 @@ boot_guest() {  # boot_guest [QEMU'S ARGUMENT...]: until it answers
   start_machine "$@"
   if ! hear "$boot_limit" || ! tell "mount_repository $(printf %q "$root")" || ! hear 60; then
     stop_guest
-    say "the guest did not boot: $lost. Its console (build/guest/console.log) ends with:"
+    say "the guest did not boot: $lost. Its console (${guest_console#"$root/"}) ends with:"
     tail -n 60 "$guest_console" | tr -d '\r' >&2
     return 1
   fi
@@ -115,7 +128,8 @@ boot_apart() {  # the machine whose console nobody sees unless something fails
 guest_console() {  # a shell in the guest, for the person at this terminal
   local rows columns
   read -r rows columns < <(stty size)
-  : >"$guest_console"
+  guest_time=("${real_time[@]}")
+  use_machine 1 || return
   boot_guest -chardev "stdio,id=console,signal=off,logfile=${guest_console//,/,,}" || return
   say "exit leaves the guest"
   tell "run_console $rows $columns"
@@ -128,16 +142,16 @@ guest_command() {  # guest_command WORD...: with this standard input unless it i
   local input=stdio,signal=on name status=0
   local -a ports=()
   [[ -t 0 ]] && input=null
-  : >"$guest_console"
+  use_machine 1 || return
   # Files take whatever comes, so that nothing is under way any more when the machine is stopped.
   for name in output errors; do
-    : >"$guest_run/$name"
-    ports+=(-chardev "file,id=$name,path=$guest_run/$name" -device "virtserialport,chardev=$name,name=$name")
+    : >"$guest_machine/$name"
+    ports+=(-chardev "file,id=$name,path=$guest_machine/$name" -device "virtserialport,chardev=$name,name=$name")
   done
   boot_guest -chardev "file,id=console,path=${guest_console//,/,,},append=on" \
     -chardev "$input,id=input" -device virtserialport,chardev=input,name=input "${ports[@]}" || return
-  tail -q -c +1 -f --pid="$guest_pid" "$guest_run/output" &
-  tail -q -c +1 -f --pid="$guest_pid" "$guest_run/errors" >&2 &
+  tail -q -c +1 -f --pid="$guest_pid" "$guest_machine/output" &
+  tail -q -c +1 -f --pid="$guest_pid" "$guest_machine/errors" >&2 &
   tell "run_command$(printf ' %q' "$@")"
   hear || status=1
   stop_guest
@@ -160,9 +174,10 @@ show_console() {  # show_console OFFSET MARK: what came to the guest's console f
   tail -c "+$(($1 + 1))" "$guest_console" | tr -d '\r' | grep -v -F -e "$2"
 }
 
-guest_test() {  # guest_test NAME: sets result and taken (microseconds)
+guest_test() {  # guest_test NAME: sets result, taken (microseconds) and told, what is to be read when it did not pass
   local mark="end of $1" offset status limit=$test_limit
   [[ ${FLEXRF_LONG-} ]] && limit=$long_test_limit
+  told=''
   if [[ $guest_pid == '' ]] && { ((unbootable)) || ! boot_apart; }; then
     result='Not Run' taken=0 unbootable=1
     return
@@ -181,32 +196,61 @@ guest_test() {  # guest_test NAME: sets result and taken (microseconds)
     stop_guest
     result="Failed: $lost" taken=0
   fi
-  [[ $result == Passed ]] && return
-  printf 'The console of the guest during %s:\n' "$1"
-  show_console "$offset" "$mark"
+  [[ $result == Passed ]] || told=$(printf 'The console of the guest during %s:\n' "$1" && show_console "$offset" "$mark")
 }
 
-guest_tests() {  # all of them, each in a line as ctest's; counts them in tests_run and tests_failed
-  local name result taken number=0 line unbootable=0
-  local -a names failed=()
+next_test() {  # prints the number of the one that is nobody's yet; fails when there is none
+  local number
+  (
+    flock 9
+    number=$(($(<"$guest_run/taken") + 1))
+    ((number <= ${#names[@]})) && printf '%d\n' "$number" | tee "$guest_run/taken"
+  ) 9>"$guest_run/taking"
+}
+
+guest_machine_tests() {  # guest_machine_tests NUMBER: one after the other in this machine, until none is left
+  local number name result taken told unbootable=0
+  trap stop_guest EXIT
+  use_machine "$1" || return
+  while number=$(next_test); do
+    name=${names[number - 1]}
+    guest_test "$name"
+    [[ $result == Passed ]] || printf '%s (%s)\n' "$name" "$result" >>"$guest_run/failed"
+    guest_report "$number" "$name" "$result" "$taken" "$told"
+  done
+}
+
+guest_report() {  # guest_report NUMBER NAME RESULT MICROSECONDS TEXT: a line as ctest's, behind what there is to be read
+  local line
+  line=$(printf '%3d/%d Test #%d: %s ' "$1" "${#names[@]}" "$1" "$2")
+  while ((${#line} < 60)); do line+=.; done
+  (
+    flock 9
+    [[ $5 ]] && printf '%s\n' "$5"
+    printf '%s   %s  %d.%02d sec\n' "$line" "$3" $(($4 / 1000000)) $(($4 % 1000000 / 10000))
+  ) 9>"$guest_run/reporting"
+}
+
+guest_tests() {  # all of them, in a machine for each of this one's CPUs; counts them in tests_run and tests_failed
+  local machine failed
+  local -a names machines=()
   mapfile -t names <"$root/build/release/guest_tests.txt"
   # What did not build is a test that fails.
   ((${#names[@]})) && prepare_guest || { ((++tests_failed, ++tests_run)); return 1; }
-  : >"$guest_console"
-  for name in "${names[@]}"; do
-    ((++number))
-    guest_test "$name"
-    line=$(printf '%3d/%d Test #%d: %s ' "$number" "${#names[@]}" "$number" "$name")
-    while ((${#line} < 60)); do line+=.; done
-    printf '%s   %s  %d.%02d sec\n' "$line" "$result" $((taken / 1000000)) $((taken % 1000000 / 10000))
-    [[ $result == Passed ]] || failed+=("$name ($result)")
+  : >"$guest_run/failed"
+  printf '0\n' >"$guest_run/taken"
+  for ((machine = 1; machine <= $(nproc) && machine <= ${#names[@]}; ++machine)); do
+    guest_machine_tests "$machine" &
+    machines+=($!)
   done
-  stop_guest
-  ((tests_run += number, tests_failed += ${#failed[@]}))
+  wait "${machines[@]}"
+  (($(<"$guest_run/taken") == ${#names[@]})) || printf 'not all were begun\n' >>"$guest_run/failed"
+  failed=$(wc -l <"$guest_run/failed")
+  ((tests_run += ${#names[@]}, tests_failed += failed))
   printf '\n%d%% tests passed, %d tests failed out of %d\n' \
-    $(((number - ${#failed[@]}) * 100 / number)) ${#failed[@]} "$number"
-  ((${#failed[@]})) || return 0
+    $(((${#names[@]} - failed) * 100 / ${#names[@]})) "$failed" "${#names[@]}"
+  ((failed)) || return 0
   printf '\nThe following tests FAILED in the guest:\n'
-  printf '\t%s\n' "${failed[@]}"
+  sed 's/^/\t/' "$guest_run/failed"
   return 1
 }

@@ -35,7 +35,6 @@ class RealFaultWorld final : public DriveFaultWorld {
   bool set_cable(bool in) override { return set_interface(in); }
 
   Time now() const override { return axis_.now(); }
-  bool is_punctual() const override { return false; }
 
  private:
   VirtualInterface interface_;

@@ -46,7 +46,6 @@ class SimulatedWorld final : public DriveFaultWorld {
   bool set_cable(bool in) override { return tell(in ? "plug" : "unplug"); }
 
   Time now() const override { return drive_.now(); }
-  bool is_punctual() const override { return true; }
 
  private:
   DeviceBench<InProcessCanBus> bus_{nullptr};

@@ -18,8 +18,6 @@ class RealDriveWorld final : public ServoDriveWorld {
     configuration.lowest = -10;
     configuration.highest = 10;
     configuration.fastest = 20;
-    // A guest stands still for longer than a machine may; lost heartbeats are canopen_fault_guest_test's.
-    configuration.heartbeat_limit = 2;
     configuration.node = 5;
     configuration.vendor = 0x123;
     configuration.product = 0x456;
@@ -30,8 +28,7 @@ class RealDriveWorld final : public ServoDriveWorld {
   ServoDrive& drive() override { return axis_.drive(); }
   void receive(Duration /*elapsed*/) override { axis_.receive(); }
   void send() override { axis_.send(); }
-  bool is_punctual() const override { return false; }
-  bool stood_still() const override { return axis_.stood_still(); }
+  bool shares_its_cycle() const override { return false; }
   bool lose_drive() override { return ready_ && far_end_.ask("off") == "ok"; }
   bool trip_drive() override { return ready_ && far_end_.ask("trip 0x2310") == "ok"; }
   bool lose_home() override { return ready_ && far_end_.ask("lose home") == "ok"; }

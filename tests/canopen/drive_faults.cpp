@@ -100,7 +100,7 @@ bool comes_back(DriveFaultWorld& world, const char* from, bool by_itself = false
   if (!is_enabled_in_time(world)) return false;
   const Duration time = world.now() - begin;
   std::printf("back after %s: %lld ms\n", from, static_cast<long long>(time.count() / 1'000'000));
-  return !world.is_punctual() || time <= soon;
+  return time <= soon;
 }
 
 bool cable_out_and_in_again_in_motion(DriveFaultWorld& world) {
@@ -122,7 +122,7 @@ bool cable_out_and_in_again_while_off(DriveFaultWorld& world) {
   const Time begin = world.now();
   // It was not used: nothing to reset.
   if (!until(world, start, [&] { return world.drive().state().has_value(); })) return false;
-  if (world.is_punctual() && world.now() - begin > soon) return false;
+  if (world.now() - begin > soon) return false;
   world.drive().set_inhibited(false);
   return is_enabled_in_time(world);
 }

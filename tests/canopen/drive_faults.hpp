@@ -35,8 +35,6 @@ class DriveFaultWorld {
 
   /// The clock of step().
   virtual Time now() const = 0;
-  /// Whether its time says something: on a machine that is another one's guest it does not.
-  virtual bool is_punctual() const = 0;
 
  protected:
   static void configure(CanopenServoDrive::Configuration& configuration);

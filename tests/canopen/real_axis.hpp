@@ -18,8 +18,6 @@ namespace flexrf {
 
 inline constexpr const char* can_interface = "vcanservo";
 inline constexpr Duration real_cycle = std::chrono::milliseconds(7);
-inline constexpr Duration longest_lateness =
-    std::chrono::milliseconds(100);  // heartbeats are given up after 250
 
 inline bool ip(const std::string& words) {
   return std::system(("ip " + words).c_str()) == 0;
@@ -48,8 +46,7 @@ class VirtualInterface {
   bool ready_ = false;
 };
 
-/// Cycles are paced by the clock of the machine and counted as what they are meant to be: the guest's clock
-/// is not to be judged by.
+/// Cycles are paced by the clock of the machine.
 class RealAxis {
  public:
   RealAxis() { bus_->configuration().set_interface(can_interface); }
@@ -64,7 +61,6 @@ class RealAxis {
   void receive() {
     next_ = std::max(next_ + real_cycle, MonotonicClock::now() - real_cycle);
     std::this_thread::sleep_for(next_ - MonotonicClock::now());
-    stood_still_ = stood_still_ || MonotonicClock::now() - next_ > longest_lateness;
     bus_->receive(real_cycle);
     drive_->receive(real_cycle);
   }
@@ -73,14 +69,12 @@ class RealAxis {
     bus_->send();
   }
   Time now() const { return drive_->now(); }
-  bool stood_still() const { return stood_still_; }
 
  private:
   std::unique_ptr<DeviceBench<SocketCanBus>> bus_ = std::make_unique<DeviceBench<SocketCanBus>>(nullptr);
   std::unique_ptr<DeviceBench<CanopenServoDrive>> drive_ = std::make_unique<DeviceBench<CanopenServoDrive>>(
       nullptr, std::span<QueueSink* const>{}, &bus_->driver());
   Time next_ = MonotonicClock::now();
-  bool stood_still_ = false;
 };
 
 }  // namespace flexrf

@@ -19,13 +19,9 @@ class ServoDriveWorld {
   virtual void receive(Duration elapsed) = 0;
   virtual void send() = 0;
 
-  /// Whether its cycles take as long as they say. On the clock of a busy machine they do not, and how far the
-  /// axis went in one is not judged.
-  virtual bool is_punctual() const { return true; }
-  /// Whether a cycle came so late, as measured, that the drive may have given its master up. A case that
-  /// fails then is run again.
-  virtual bool stood_still() const { return false; }
-
+  /// Whether the drive's cycles are this thread's. Those of another process are now shorter and now longer,
+  /// and how far the axis went in one is not judged.
+  virtual bool shares_its_cycle() const { return true; }
   /// The far end is no longer heard. False: cannot be made to happen with this driver.
   virtual bool lose_drive() { return false; }
   /// The drive trips. False: cannot be made to happen with this driver.
