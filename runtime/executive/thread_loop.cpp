@@ -102,7 +102,10 @@ void ThreadLoop::release(Time nominal, Time now, const Due& due) noexcept {
 
 void ThreadLoop::wait(std::uint32_t heard, Time until) noexcept {
   if (event_descriptor_ >= 0) {
-    wait_with_descriptor(heard, until, trigger_.descriptor());
+    // What is there already waits for min_interval too: to look at it again would end the wait at once.
+    const bool waits_for_us = readable_;
+    wait_with_descriptor(heard, until, waits_for_us ? -1 : trigger_.descriptor());
+    readable_ = readable_ || waits_for_us;
   } else {
     record_->bell->wait(heard, until);
   }

@@ -149,6 +149,26 @@ void a_device_releases_its_thread_on_the_wall_clock() {
   close(descriptor);
 }
 
+void a_flood_does_not_turn_a_thread_in_circles() {
+  Cell cell;
+  TriggerPlan& trigger = cell.thread(Cell::consuming).trigger;
+  trigger = TriggerPlan::on_device(Cell::actuator);
+  trigger.min_interval = milliseconds{20};
+  const int descriptor = eventfd(1, EFD_NONBLOCK | EFD_CLOEXEC);
+  std::atomic<int> looks{0};
+  cell.device(Cell::actuator).script.descriptor = [&, descriptor] {
+    ++looks;
+    return descriptor;  // always readable
+  };
+  RunningCell running(cell);
+  running.start();
+  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::consumer).steps > 10; }));
+  const std::uint64_t steps = cell.unit_state(Cell::consumer).steps;
+  CHECK(static_cast<std::uint64_t>(looks) < 20 * steps);
+  CHECK_EQUAL(running.finish().exit_code, 0);
+  close(descriptor);
+}
+
 void back_off_finds_every_item_of_a_steady_source_soon() {
   Cell cell;
   cell.thread(Cell::producing).trigger = TriggerPlan::periodic(milliseconds{10});
@@ -198,6 +218,7 @@ int main() {
       CONTAINED_TEST(a_timeout_is_a_release_of_its_own),
       CONTAINED_TEST(a_device_releases_its_thread_in_virtual_time),
       CONTAINED_TEST(a_device_releases_its_thread_on_the_wall_clock),
+      CONTAINED_TEST(a_flood_does_not_turn_a_thread_in_circles),
       CONTAINED_TEST(back_off_finds_every_item_of_a_steady_source_soon),
       CONTAINED_TEST(a_free_thread_steps_without_a_reason),
   };
