@@ -1,8 +1,9 @@
 // An emergency-stop input in a running cell, on mock and on simulated chips: what is safe, and what a person
-// has to do before anything moves again.
+// has to do before anything moves again. And the cell's watchdog, which is a mock.
 #include <cstring>
 
 #include "hal/mock/mock_gpio_chip/mock_gpio_chip.hpp"
+#include "hal/mock/mock_watchdog/mock_watchdog.hpp"
 #include "hal/simulated/simulated_gpio_chip/simulated_gpio_chip.hpp"
 #include "tests/applications/process.hpp"
 #include "tests/applications/running.hpp"
@@ -20,17 +21,21 @@ Options on(const char* driver) {
   return options;
 }
 
+Device& device_of(const Application& application, const char* name) {
+  std::size_t i = 0;
+  while (std::strcmp(application.devices[i].name, name) != 0) ++i;
+  return *application.device_states[i].device;
+}
+
 template <class Chip>
 class Guarded {
  public:
   explicit Guarded(const char* driver) : running_(application::application, on(driver)) {}
 
   Control& control() { return running_.control(); }
-  Chip& chip(const char* name) {
-    const Application& application = running_.application();
-    std::size_t i = 0;
-    while (std::strcmp(application.devices[i].name, name) != 0) ++i;
-    return static_cast<Chip&>(*application.device_states[i].device);
+  Chip& chip(const char* name) { return static_cast<Chip&>(device_of(running_.application(), name)); }
+  MockWatchdog& watchdog() {
+    return static_cast<MockWatchdog&>(device_of(running_.application(), "watchdog"));
   }
   void press(bool pressed) { chip("panel").line("ESTOP").drive(!pressed); }
   bool valve_is_open() { return chip("machine").line("VALVE").is_high(); }
@@ -114,6 +119,27 @@ void on_the_simulator_an_unplugged_chip_stops_too() {
   a_chip_that_is_unplugged_stops_too<SimulatedGpioChip>("simulated");
 }
 
+void the_watchdog_is_fed_and_let_go_at_the_end() {
+  Guarded<MockGpioChip> cell("mock");
+  CHECK(wait_until([&] { return cell.watchdog().resets_at() != Time::max(); }));
+  CHECK(cell.watchdog().is_armed());
+  CHECK(!cell.watchdog().was_late());
+  cell.check_ends_well();
+  CHECK(!cell.watchdog().is_armed());
+}
+
+void in_virtual_time_it_is_fed_in_time() {
+  Options options = on("mock");
+  options.virtual_time = std::chrono::minutes{10};
+  Executive executive(application::application, options);
+  CHECK(executive.prepare().is_ok());
+  const auto& watchdog =
+      static_cast<const MockWatchdog&>(device_of(executive.cell().application(), "watchdog"));
+  CHECK(executive.run().exit_code == 0);
+  CHECK(!watchdog.was_late());
+  CHECK(watchdog.times_fed() > 200);
+}
+
 }  // namespace
 }  // namespace flexrf::whole
 
@@ -124,6 +150,8 @@ int main() {
       TEST_APART(on_the_simulator_it_shuts_the_valve),
       TEST_APART(on_the_mock_an_unplugged_chip_stops_too),
       TEST_APART(on_the_simulator_an_unplugged_chip_stops_too),
+      TEST_APART(the_watchdog_is_fed_and_let_go_at_the_end),
+      TEST_APART(in_virtual_time_it_is_fed_in_time),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
