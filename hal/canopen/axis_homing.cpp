@@ -55,14 +55,14 @@ Mode AxisHoming::mode() const noexcept {
   }
 }
 
-std::uint16_t AxisHoming::advance(std::uint16_t statusword, Mode shown, bool at_rest, Time now) noexcept {
+std::uint16_t AxisHoming::advance(const HomingView& view, Time now) noexcept {
   if (!since_) since_ = now;
   const Duration in_phase = now - *since_;
   switch (phase_) {
     case Phase::idle:
       return 0;
     case Phase::resting:
-      if (at_rest) {
+      if (view.at_rest) {
         enter(Phase::entering);
       } else if (in_phase > limits_.stop) {
         problem_ = Status::error(StatusCode::timeout, "the axis does not come to rest, to be homed");
@@ -70,7 +70,7 @@ std::uint16_t AxisHoming::advance(std::uint16_t statusword, Mode shown, bool at_
       }
       return 0;
     case Phase::entering:
-      if (shown == Mode::homing) {
+      if (view.shown == Mode::homing) {
         run_.start();
         enter(Phase::running);
       } else if (in_phase > limits_.mode) {
@@ -79,16 +79,16 @@ std::uint16_t AxisHoming::advance(std::uint16_t statusword, Mode shown, bool at_
       }
       return 0;
     case Phase::running:
-      return advance_run(statusword, now);
+      return advance_run(view, now);
     case Phase::stopping:
-      if (at_rest) {
+      if (view.at_rest) {
         enter(Phase::leaving);
       } else if (in_phase > limits_.stop && trouble_.is_ok()) {
         trouble_ = Status::error(StatusCode::timeout, "the drive does not stop its homing");
       }
       return control_bit::halt;
     case Phase::leaving:
-      if (shown == own_) {
+      if (view.shown == own_) {
         enter(Phase::idle);
       } else if (in_phase > limits_.mode && trouble_.is_ok()) {
         trouble_ = Status::error(StatusCode::timeout, "the drive does not come back from homing into mode %d",
@@ -99,8 +99,8 @@ std::uint16_t AxisHoming::advance(std::uint16_t statusword, Mode shown, bool at_
   return 0;
 }
 
-std::uint16_t AxisHoming::advance_run(std::uint16_t statusword, Time now) noexcept {
-  const std::uint16_t bits = run_.advance(statusword, now);
+std::uint16_t AxisHoming::advance_run(const HomingView& view, Time now) noexcept {
+  const std::uint16_t bits = run_.advance(view.statusword, view.is_new, now);
   if (run_.state() == HomingRun::State::done) {
     homed_ = true;
     enter(Phase::leaving);

@@ -8,6 +8,14 @@ namespace flexrf::canopen::cia402 {
 /// Whether a drive knows where its axis is.
 enum class Homing : std::uint8_t { not_homed, running, failed, homed };
 
+/// What the drive says, as far as a homing goes by it.
+struct HomingView {
+  std::uint16_t statusword = 0;
+  bool is_new = false;  ///< it came since the cycle before
+  Mode shown = Mode::none;
+  bool at_rest = false;
+};
+
 /// One thread; never blocks, never allocates.
 class AxisHoming {
  public:
@@ -38,7 +46,7 @@ class AxisHoming {
   /// Which mode the drive is to be in.
   Mode mode() const noexcept;
   /// Once for each cycle in which operation is enabled and is_running(): the bits to add to the controlword.
-  std::uint16_t advance(std::uint16_t statusword, Mode shown, bool at_rest, Time now) noexcept;
+  std::uint16_t advance(const HomingView& view, Time now) noexcept;
 
   /// Why it failed; else ok.
   const Status& problem() const noexcept { return problem_; }
@@ -50,7 +58,7 @@ class AxisHoming {
 
   void enter(Phase phase) noexcept;
   void fail(const Status& problem) noexcept;
-  std::uint16_t advance_run(std::uint16_t statusword, Time now) noexcept;
+  std::uint16_t advance_run(const HomingView& view, Time now) noexcept;
 
   Limits limits_;
   HomingRun run_{std::chrono::seconds(60), std::chrono::milliseconds(50)};

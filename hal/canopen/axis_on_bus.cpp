@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hal/canopen/can_message.hpp"
+
 namespace flexrf::canopen {
 namespace {
 
@@ -9,14 +11,6 @@ namespace {
 bool is_cyclic(const Message& message) {
   const auto base = static_cast<std::uint16_t>(message.identifier & 0x780);
   return message.identifier == sync_identifier || base == heartbeat_base || base == 0x200 || base == 0x300;
-}
-
-CanFrame to_frame(const Message& message) {
-  CanFrame frame;
-  frame.identifier = message.identifier;
-  frame.length = message.size;
-  frame.data = message.data;
-  return frame;
 }
 
 }  // namespace
@@ -51,8 +45,7 @@ void AxisOnBus::receive(const Tick& tick) noexcept {
   }
   while (const auto frame = inbox_.pop()) {
     if (frame->extended || frame->remote) continue;
-    axis_.receive({static_cast<std::uint16_t>(frame->identifier), frame->length, frame->data}, tick.now,
-                  outbox_);
+    axis_.receive(to_message(*frame), tick.now, outbox_);
   }
 }
 

@@ -16,9 +16,9 @@ class CanopenDrive : public Base {
     link_.receive(tick);
     auto& told = this->feedback;
     told.homing = link_.homing();
-    // Most of it is the same for many cycles; it is short.
     const Status& trouble = link_.axis().node().problem();
-    told.set_trouble(trouble.is_ok() ? "" : trouble.cause());
+    const bool was_told = told.trouble[0] != '\0';
+    if (was_told || !trouble.is_ok()) told.set_trouble(trouble.is_ok() ? "" : trouble.cause());
     const auto& state = link_.axis().state();
     told.enabled = state && state->enabled;
     told.target_reached = state && state->target_reached;

@@ -73,8 +73,9 @@ std::uint16_t SetPointHandshake::advance(std::uint16_t statusword, Time now) noe
 
 void HomingRun::start() noexcept {
   state_ = State::running;
-  lowered_ = false;
+  lowered_ = raised_ = false;
   saw_it_running_ = false;
+  heard_ = unheard_ = 0;
   problem_ = {};
 }
 
@@ -84,18 +85,34 @@ void HomingRun::interrupt() noexcept {
                      "the homing was interrupted: the drive is not enabled any more"));
 }
 
-std::uint16_t HomingRun::advance(std::uint16_t statusword, Time now) noexcept {
+void HomingRun::hear(bool is_new, Time now) noexcept {
+  unheard_ = is_new ? 0 : unheard_ + 1;
+  if (unheard_ > most_unheard) heard_ = 0;
+  if (is_new && heard_++ == 0) heard_since_ = now;
+}
+
+bool HomingRun::is_about_this_run(bool is_in_progress, Time now) noexcept {
+  if (heard_ <= latency) return false;
+  saw_it_running_ = saw_it_running_ || is_in_progress;
+  return saw_it_running_ || now - heard_since_ > settle_;
+}
+
+std::uint16_t HomingRun::advance(std::uint16_t statusword, bool is_new, Time now) noexcept {
   if (state_ != State::running) return 0;
   if (!lowered_) {
     lowered_ = true;
     since_ = now;
     return 0;
   }
+  if (!raised_) {
+    raised_ = true;
+    return control_bit::start_homing;
+  }
+  hear(is_new, now);
   const bool attained = (statusword & status_bit::homing_attained) != 0;
   const bool reached = (statusword & status_bit::target_reached) != 0;
   const bool error = (statusword & status_bit::homing_error) != 0;
-  if (!attained && !error && !reached) saw_it_running_ = true;
-  if (saw_it_running_ || now - since_ > settle_) {
+  if (is_about_this_run(!attained && !error && !reached, now)) {
     if (error) {
       fail(Status::error(StatusCode::device_fault,
                          "the drive could not home (statusword %04X): does the method fit its switches?",

@@ -78,13 +78,14 @@ class HomingRun {
  public:
   enum class State : std::uint8_t { idle, running, done, failed };
 
-  /// `timeout`: for the whole run. `settle`: so long after the start the drive may still say what it said of
-  /// the run before.
+  /// `timeout`: for the whole run. `settle`: so long after it heard of the start the drive may still say what
+  /// it said of the run before. Time in which it is not heard does not count, as it may not hear us either.
   HomingRun(Duration timeout, Duration settle) noexcept : timeout_{timeout}, settle_{settle} {}
 
   void start() noexcept;
   /// Once for each cycle in which operation is enabled in mode homing: the bits to add to the controlword.
-  std::uint16_t advance(std::uint16_t statusword, Time now) noexcept;
+  /// `is_new`: the statusword came since the cycle before.
+  std::uint16_t advance(std::uint16_t statusword, bool is_new, Time now) noexcept;
   /// Operation is not enabled any more: what was running has failed.
   void interrupt() noexcept;
 
@@ -92,13 +93,24 @@ class HomingRun {
   const Status& problem() const noexcept { return problem_; }
 
  private:
+  /// Statuswords after the start that cannot be about it: a set-point takes a SYNC, and its effect another.
+  static constexpr int latency = 2;
+  /// Cycles without a new statusword, as happens when both ends' clocks drift, before it counts as not heard.
+  static constexpr int most_unheard = 2;
+
   void fail(const Status& problem) noexcept;
+  void hear(bool is_new, Time now) noexcept;
+  bool is_about_this_run(bool is_in_progress, Time now) noexcept;
 
   Duration timeout_;
   Duration settle_;
   State state_ = State::idle;
-  bool lowered_ = false;         // bit 4 was sent low, so that it rises
+  bool lowered_ = false;  // bit 4 was sent low, so that it rises
+  bool raised_ = false;
   bool saw_it_running_ = false;  // what the drive says is of this run
+  int heard_ = 0;                // new statuswords since the start, or since it was not heard
+  int unheard_ = 0;
+  Time heard_since_{};
   Time since_{};
   Status problem_;
 };

@@ -1,6 +1,15 @@
 #include "hal/canopen/drive_power.hpp"
 
 namespace flexrf::canopen::cia402 {
+namespace {
+
+// Where each way to off ends, and none begins: what is commanded there does nothing.
+bool ends_the_way_off(DriveState state) noexcept {
+  return state == DriveState::switch_on_disabled || state == DriveState::not_ready ||
+         state == DriveState::fault;
+}
+
+}  // namespace
 
 void DrivePower::begin(const Limits& limits) noexcept {
   *this = DrivePower{};
@@ -27,7 +36,10 @@ std::uint16_t DrivePower::advance(std::uint16_t statusword, bool at_rest, Time n
         !at_rest && (state_ == DriveState::operation_enabled || state_ == DriveState::quick_stop_active);
     return moves && goal_ == Goal::enabled ? command::quick_stop : command::disable_voltage;
   }
-  if (goal_ == Goal::off) return towards_off(at_rest);
+  if (heading() == Goal::off) {
+    leaving_ = !ends_the_way_off(state_);
+    return towards_off(at_rest);
+  }
   if (state_ == DriveState::fault) return reset_fault(now);
   return towards_enabled();
 }
@@ -36,11 +48,12 @@ void DrivePower::observe(std::uint16_t statusword, Time now) noexcept {
   const DriveState before = state_;
   statusword_ = statusword;
   state_ = state_of(statusword);
+  if (ends_the_way_off(state_)) leaving_ = false;
   if (!observed_ || new_attempt_ || state_ != before) since_ = now;
   observed_ = true;
   new_attempt_ = false;
-  just_enabled_ =
-      goal_ == Goal::enabled && problem_.is_ok() && !was_enabled_ && state_ == DriveState::operation_enabled;
+  just_enabled_ = heading() == Goal::enabled && problem_.is_ok() && !was_enabled_ &&
+                  state_ == DriveState::operation_enabled;
   if (just_enabled_) was_enabled_ = true;
 }
 
@@ -57,13 +70,13 @@ void DrivePower::judge(Time now) noexcept {
                              name_of(state_), unsigned{statusword_});
     return;
   }
-  const bool is_there = goal_ == Goal::enabled ? state_ == DriveState::operation_enabled : is_off();
+  const bool is_there = goal_ == Goal::off ? is_off() : !leaving_ && state_ == DriveState::operation_enabled;
   const bool resets = goal_ == Goal::enabled && state_ == DriveState::fault;  // counts for itself
   if (is_there || resets || now - since_ <= time_for_hop()) return;
   problem_ = Status::error(StatusCode::timeout,
                            "the drive stays '%s' for more than %lld ms (statusword %04X) on its way to %s",
                            name_of(state_), static_cast<long long>(time_for_hop().count() / 1'000'000),
-                           unsigned{statusword_}, goal_ == Goal::enabled ? "operation" : "off");
+                           unsigned{statusword_}, heading() == Goal::enabled ? "operation" : "off");
 }
 
 Duration DrivePower::time_for_hop() const noexcept {

@@ -28,7 +28,8 @@ class DrivePower {
 
   /// What is wanted from now on. Asking for `enabled` when something else was wanted is a new attempt:
   /// problem() is forgotten, and faults that are there may be reset. A drive that was enabled and faults or
-  /// drops out is a problem: nothing enables it again by itself.
+  /// drops out is a problem: nothing enables it again by itself. One that was on its way to off goes there
+  /// first: what it still says of its operation may be from before it was told.
   void pursue(Goal goal) noexcept;
 
   /// Once for each cycle: the controlword to send, without the bits of the mode. `at_rest`: the drive's
@@ -38,7 +39,7 @@ class DrivePower {
   DriveState state() const noexcept { return state_; }
   Goal goal() const noexcept { return goal_; }
   bool is_enabled() const noexcept {
-    return goal_ == Goal::enabled && problem_.is_ok() && state_ == DriveState::operation_enabled;
+    return heading() == Goal::enabled && problem_.is_ok() && state_ == DriveState::operation_enabled;
   }
   /// True in the cycle in which is_enabled() became true: set-points are seeded now.
   bool was_just_enabled() const noexcept { return just_enabled_; }
@@ -51,6 +52,7 @@ class DrivePower {
  private:
   enum class Reset : std::uint8_t { lower, raise, wait };
 
+  Goal heading() const noexcept { return leaving_ ? Goal::off : goal_; }
   void observe(std::uint16_t statusword, Time now) noexcept;
   std::uint16_t towards_enabled() noexcept;
   std::uint16_t towards_off(bool at_rest) const noexcept;
@@ -66,7 +68,8 @@ class DrivePower {
   bool new_attempt_ = true;   // the next statusword begins a hop, whatever it says
   bool was_enabled_ = false;  // in this attempt
   bool just_enabled_ = false;
-  Time since_{};  // the hop under way began
+  bool leaving_ = false;  // it was told to go off, and has not said that it is
+  Time since_{};          // the hop under way began
   Reset reset_ = Reset::lower;
   unsigned fault_resets_ = 0;
   Status problem_;

@@ -8,12 +8,13 @@
 
 namespace flexrf::canopen {
 
-/// One data frame with a standard identifier. Remote frames are not used: they are discouraged, and
-/// heartbeats do what node guarding did.
+/// One frame with a standard identifier. Remote ones are used by node guarding alone, for nodes that have no
+/// heartbeat.
 struct Message {
   std::uint16_t identifier = 0;  ///< 0 to 0x7FF
   std::uint8_t size = 0;         ///< bytes of `data` in use, at most 8
   std::array<std::uint8_t, 8> data{};
+  bool remote = false;  ///< asks for so many bytes, and carries none
 
   bool operator==(const Message&) const = default;
 };

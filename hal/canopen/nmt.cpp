@@ -3,7 +3,7 @@
 namespace flexrf::canopen {
 namespace {
 
-constexpr std::uint8_t toggle_bit = 0x80;  // of node guarding; without meaning in a heartbeat
+constexpr std::uint8_t toggle_bit = 0x80;  // of answers to guarding; without meaning in a heartbeat
 
 }  // namespace
 
@@ -29,8 +29,23 @@ Message heartbeat_message(NmtState state, std::uint8_t node) noexcept {
   return {identifier_of(heartbeat_base, node), 1, {static_cast<std::uint8_t>(state)}};
 }
 
+Message guard_message(std::uint8_t node) noexcept {
+  return {.identifier = identifier_of(heartbeat_base, node), .size = 1, .remote = true};
+}
+
+Message guard_answer(NmtState state, bool toggle, std::uint8_t node) noexcept {
+  Message answer = heartbeat_message(state, node);
+  if (toggle) answer.data[0] |= toggle_bit;
+  return answer;
+}
+
+bool toggle_of(const Message& answer) noexcept {
+  return (answer.data[0] & toggle_bit) != 0;
+}
+
 std::optional<NmtState> heartbeat_of(const Message& message, std::uint8_t node) noexcept {
-  if (message.identifier != identifier_of(heartbeat_base, node) || message.size != 1) return std::nullopt;
+  if (message.identifier != identifier_of(heartbeat_base, node)) return std::nullopt;
+  if (message.size != 1 || message.remote) return std::nullopt;
   return static_cast<NmtState>(message.data[0] & ~toggle_bit);
 }
 

@@ -29,8 +29,15 @@ const char* name_of(NmtState state) noexcept;
 /// `node` 0: all nodes.
 Message nmt_message(NmtCommand command, std::uint8_t node) noexcept;
 Message heartbeat_message(NmtState state, std::uint8_t node) noexcept;
+/// Node guarding: asks `node` for its state.
+Message guard_message(std::uint8_t node) noexcept;
+/// What a node answers; `toggle` is another in each answer, and false in the first after its boot-up.
+Message guard_answer(NmtState state, bool toggle, std::uint8_t node) noexcept;
+/// Of an answer to guarding.
+bool toggle_of(const Message& answer) noexcept;
 
-/// What a heartbeat or boot-up message of `node` says; nothing if it is none, or damaged.
+/// What a heartbeat, a boot-up message or an answer to guarding of `node` says; nothing if it is none, or
+/// damaged.
 std::optional<NmtState> heartbeat_of(const Message& message, std::uint8_t node) noexcept;
 /// What an NMT command asks of `node`; nothing if it is none, for another node, or damaged.
 std::optional<NmtCommand> nmt_command_for(const Message& message, std::uint8_t node) noexcept;
@@ -53,7 +60,7 @@ class HeartbeatConsumer {
   std::optional<Time> last_;
 };
 
-/// When our own heartbeat is due.
+/// When our own heartbeat is due, or the next question of node guarding.
 class HeartbeatProducer {
  public:
   /// `period` 0: never.

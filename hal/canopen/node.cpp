@@ -11,10 +11,6 @@ long long milliseconds_of(Duration duration) {
   return static_cast<long long>(duration.count() / 1'000'000);
 }
 
-bool fits_u16(Duration duration) {
-  return duration >= Duration{} && duration <= std::chrono::milliseconds(0xFFFF);
-}
-
 }  // namespace
 
 const char* name_of(NodeState state) noexcept {
@@ -35,48 +31,10 @@ const char* name_of(NodeState state) noexcept {
   return "unknown";
 }
 
-Status Node::begin(const NodePlan& plan, Time now, Outbox& outbox) noexcept {
-  if (plan.node < lowest_node || plan.node > highest_node || plan.master < lowest_node ||
-      plan.master > highest_node || plan.master == plan.node) {
-    return Status::error(StatusCode::invalid_argument,
-                         "node %u with master %u: both are numbers from 1 to 127, and not the same",
-                         unsigned{plan.node}, unsigned{plan.master});
-  }
-  if (!fits_u16(plan.heartbeat_period) || !fits_u16(plan.master_heartbeat_limit)) {
-    return Status::error(StatusCode::invalid_argument,
-                         "node %u: a heartbeat's time is at most 65.535 s, as the node counts it",
-                         unsigned{plan.node});
-  }
-  if (plan.heartbeat_period > Duration{} && plan.heartbeat_limit <= plan.heartbeat_period) {
-    return Status::error(StatusCode::invalid_argument,
-                         "node %u: its heartbeat comes each %lld ms and would be lost after %lld ms: give it "
-                         "at least twice its period",
-                         unsigned{plan.node}, milliseconds_of(plan.heartbeat_period),
-                         milliseconds_of(plan.heartbeat_limit));
-  }
-  plan_ = plan;
-  plan_.configuration.write(objects::producer_heartbeat, 2,
-                            static_cast<std::uint32_t>(milliseconds_of(plan.heartbeat_period)));
-  if (plan.master_heartbeat_limit > Duration{}) {
-    plan_.configuration.write(objects::consumer_heartbeat, 4,
-                              std::uint32_t{plan.master} << 16 |
-                                  static_cast<std::uint32_t>(milliseconds_of(plan.master_heartbeat_limit)));
-  }
-  if (!plan_.configuration.is_complete()) {
-    return Status::error(StatusCode::invalid_argument, "node %u is to be told more than %zu objects",
-                         unsigned{plan.node}, Configuration::capacity);
-  }
-  client_ = SdoClient{plan.node, plan.sdo_timeout};
-  problem_ = {};
-  emergency_.reset();
-  ask_to_boot(now, outbox);
-  return {};
-}
-
 void Node::receive(const Message& message, Time now, Outbox& outbox) noexcept {
   if (state_ == NodeState::off) return;
   if (const auto heard = heartbeat_of(message, plan_.node)) {
-    observe(*heard, now, outbox);
+    if (*heard == NmtState::boot_up || !is_repeated(message)) observe(*heard, now, outbox);
   } else if (const auto emergency = emergency_of(message, plan_.node)) {
     ++emergencies_;
     if (emergency->is_reset()) {
@@ -92,6 +50,8 @@ void Node::receive(const Message& message, Time now, Outbox& outbox) noexcept {
 
 void Node::advance(Time now, Outbox& outbox) noexcept {
   client_.advance(now, outbox);
+  const bool is_started = state_ == NodeState::starting || state_ == NodeState::operational;
+  if (plan_.is_guarded && is_started && guard_.is_due(now)) outbox.push(guard_message(plan_.node));
   switch (state_) {
     case NodeState::off:
     case NodeState::refused:
@@ -120,8 +80,9 @@ void Node::advance(Time now, Outbox& outbox) noexcept {
       if (!heartbeat_.is_lost(now)) return;
       ++silences_;
       begin_again(Status::error(StatusCode::unavailable,
-                                "no heartbeat of node %u for %lld ms: is it powered, is the cable in?",
-                                unsigned{plan_.node}, milliseconds_of(plan_.heartbeat_limit)),
+                                "no %s of node %u for %lld ms: is it powered, is the cable in?",
+                                plan_.is_guarded ? "answer to guarding" : "heartbeat", unsigned{plan_.node},
+                                milliseconds_of(plan_.heartbeat_limit)),
                   now, outbox);
       return;
   }
@@ -148,6 +109,14 @@ void Node::begin_again(const Status& problem, Time now, Outbox& outbox) noexcept
 void Node::refuse(const Status& problem) noexcept {
   problem_ = problem;
   state_ = NodeState::refused;
+}
+
+// An answer with the toggle bit of the one before counts as none (CiA 301).
+bool Node::is_repeated(const Message& answer) noexcept {
+  if (!plan_.is_guarded) return false;
+  const bool before = toggle_;
+  toggle_ = toggle_of(answer);
+  return toggle_ == before;
 }
 
 void Node::observe(NmtState heard, Time now, Outbox& outbox) noexcept {
@@ -251,6 +220,8 @@ bool Node::tells_of_fixed_mapping(const ConfigurationStep& step) const noexcept 
 
 void Node::start(Time now, Outbox& outbox) noexcept {
   heartbeat_.begin(plan_.heartbeat_limit);
+  guard_.begin(plan_.heartbeat_period, now);
+  toggle_ = true;
   outbox.push(nmt_message(NmtCommand::start, plan_.node));
   if (plan_.heartbeat_period > Duration{}) {
     state_ = NodeState::starting;

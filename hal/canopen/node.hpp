@@ -19,6 +19,9 @@ struct NodePlan {
       std::chrono::seconds(1);  ///< from the start command to the first operational heartbeat
   Duration heartbeat_period = std::chrono::milliseconds(100);  ///< of the node; whole ms
   Duration heartbeat_limit = std::chrono::milliseconds(250);   ///< the longest silence of the node
+  /// It has no heartbeat: it is asked for its state each heartbeat_period (node guarding), and notices itself
+  /// when it no longer is, for heartbeat_limit (life guarding; rounded up to whole periods).
+  bool is_guarded = false;
   Duration master_heartbeat_limit =
       std::chrono::milliseconds(250);  ///< the longest of ours; 0: it does not look
   /// What else it is asked and told: identity first, then its own objects, then its PDOs.
@@ -48,6 +51,9 @@ class Node {
   /// Tells the node to leave its operation; nothing is supervised any more.
   void end(Outbox& outbox) noexcept;
 
+  /// While it is operational, for what no PDO carries; else it is the node's own.
+  SdoClient& client() noexcept { return client_; }
+
   NodeState state() const noexcept { return state_; }
   bool is_operational() const noexcept { return state_ == NodeState::operational; }
   /// Why it is not operational, or was not last time; ok from the moment at which it is.
@@ -59,11 +65,14 @@ class Node {
   std::uint64_t times_operational() const noexcept { return times_operational_; }
   /// Boot-ups that nobody had asked for.
   std::uint64_t resets() const noexcept { return resets_; }
-  /// Silences of its heartbeat.
+  /// Silences of its heartbeat, or of its answers to guarding.
   std::uint64_t silences() const noexcept { return silences_; }
   std::uint64_t dropped_answers() const noexcept { return client_.dropped(); }
 
  private:
+  Status check(const NodePlan& plan) const noexcept;
+  void plan_supervision() noexcept;
+  bool is_repeated(const Message& answer) noexcept;
   void ask_to_boot(Time now, Outbox& outbox) noexcept;
   void begin_again(const Status& problem, Time now, Outbox& outbox) noexcept;
   void refuse(const Status& problem) noexcept;
@@ -79,6 +88,8 @@ class Node {
   NodeState state_ = NodeState::off;
   SdoClient client_{1, std::chrono::milliseconds(500)};
   HeartbeatConsumer heartbeat_;
+  HeartbeatProducer guard_;
+  bool toggle_ = false;  // of its last answer to guarding
   std::size_t step_ = 0;
   bool mapping_is_fixed_ = false;  // of the PDO that is being configured
   Time deadline_{};

@@ -28,6 +28,7 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
                  .stop = plan.limits.stop},
                 plan.mode, plan.homing_method != 0);
   beat_.begin(plan.heartbeat_period, now);
+  unmapped_mode_.forget();
   state_.reset();
   fault_ = {};
   mode_wanted_.reset();
@@ -50,21 +51,31 @@ void ServoAxis::end(Outbox& outbox) noexcept {
 }
 
 void ServoAxis::receive(const Message& message, Time now, Outbox& outbox) noexcept {
+  // What comes in every cycle first.
+  if (node_.is_operational() && take_process_data(message, now)) return;
   node_.receive(message, now, outbox);
-  if (!node_.is_operational()) return;
+}
+
+// True: it is process data. What is truncated says nothing.
+bool ServoAxis::take_process_data(const Message& message, Time now) noexcept {
   std::uint64_t values[3] = {};
-  if (unpack(states_, message, values)) {
-    if (!state_) state_.emplace();
-    statusword_ = static_cast<std::uint16_t>(values[0]);
-    state_->position = static_cast<double>(with_sign(values[1], 32)) / plan_.increments_per_unit;
-    state_->at_internal_limit = (statusword_ & status_bit::internal_limit) != 0;
-    state_->target_reached = has_reached(statusword_);
-    mode_shown_ = static_cast<Mode>(with_sign(values[2], 8));
-    heard_ = now;
-  } else if (state_ && unpack(motion_, message, values)) {
+  if (message.identifier == motion_.identifier) {
+    if (!state_ || !unpack(motion_, message, values)) return true;
     state_->velocity = static_cast<double>(with_sign(values[0], 32)) / to_velocity_object(1);
     state_->torque = static_cast<double>(with_sign(values[1], 16)) / whole_torque;
+    return true;
   }
+  if (message.identifier != states_.identifier) return false;
+  if (!unpack(states_, message, values)) return true;
+  if (!state_) state_.emplace();
+  statusword_ = static_cast<std::uint16_t>(values[0]);
+  state_->position = static_cast<double>(with_sign(values[1], 32)) / plan_.increments_per_unit;
+  state_->at_internal_limit = (statusword_ & status_bit::internal_limit) != 0;
+  state_->target_reached = has_reached(statusword_);
+  if (plan_.maps_mode) mode_shown_ = static_cast<Mode>(with_sign(values[2], 8));
+  heard_ = now;
+  heard_now_ = true;
+  return true;
 }
 
 void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) noexcept {
@@ -78,6 +89,7 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
     if (!fault_.is_ok()) say(command::quick_stop, outbox);
     return;
   }
+  if (!plan_.maps_mode) settle_mode(now, outbox);
   const bool wanted = may_move && fault_.is_ok();
   const bool enables = mode_is_taken(wanted, now) && wanted && fault_.is_ok();
   power_.pursue(enables ? DrivePower::Goal::enabled : DrivePower::Goal::off);
@@ -92,70 +104,8 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   // Where it stops by itself, it stops in the mode that it moves in.
   if (power_.is_enabled() || power_.is_off()) mode_said_ = homing_.mode();
   target_object_ = to_object(target_for(elapsed));
+  heard_now_ = false;
   say(word, outbox);
-}
-
-void ServoAxis::command_position(double position) noexcept {
-  if (!takes(Mode::cyclic_position, Mode::cyclic_position) || !may_be_commanded()) return;
-  if (!is_number(position, "position")) return;
-  cyclic_.command(std::clamp(position, plan_.lowest, plan_.highest));
-}
-
-void ServoAxis::command_velocity(double velocity) noexcept {
-  if (!takes(Mode::cyclic_velocity, Mode::profile_velocity) || !may_be_commanded()) return;
-  if (!is_number(velocity, "velocity")) return;
-  const double kept = std::clamp(velocity, -plan_.fastest, plan_.fastest);
-  if (kept == velocity_ && was_commanded_ && !halts_) return;
-  velocity_ = kept;
-  cycles_ = 0;
-  was_commanded_ = true;
-  halts_ = false;
-  state_->target_reached = false;
-}
-
-void ServoAxis::move_to(double position, double speed) noexcept {
-  if (!takes(Mode::profile_position, Mode::profile_position) || !may_be_commanded()) return;
-  if (!is_number(position, "position") || !is_number(speed, "speed")) return;
-  if (!(speed > 0)) {
-    fail(Status::error(StatusCode::invalid_argument, "it was commanded to move with a speed of %g", speed));
-    return;
-  }
-  speed_ = std::min(speed, plan_.fastest);
-  const double kept = std::clamp(position, plan_.lowest, plan_.highest);
-  handshake_.command(static_cast<std::int32_t>(std::llround(kept * plan_.increments_per_unit)));
-  was_commanded_ = true;
-  state_->target_reached = false;
-}
-
-void ServoAxis::home() noexcept {
-  if (!may_be_commanded() || plan_.homing_method == 0) return;
-  halt();
-  homing_.start();
-}
-
-void ServoAxis::halt() noexcept {
-  if (!power_.is_enabled() || !state_) return;
-  homing_.halt();
-  if (homing_.is_running()) return;
-  cyclic_.halt(plan_.acceleration, plan_.lowest, plan_.highest);
-  handshake_.reset(handshake_.target());
-  was_commanded_ = false;
-  halts_ = true;
-  state_->target_reached = false;
-}
-
-bool ServoAxis::may_be_commanded() const noexcept {
-  return power_.is_enabled() && state_ && !homing_.is_running();
-}
-
-bool ServoAxis::takes(Mode one, Mode other) const noexcept {
-  return plan_.mode == one || plan_.mode == other;
-}
-
-bool ServoAxis::is_number(double value, const char* what) noexcept {
-  if (std::isfinite(value)) return true;
-  fail(Status::error(StatusCode::invalid_argument, "it was commanded to a %s that is not a number", what));
-  return false;
 }
 
 // The first cause counts: what follows from it says less.
@@ -179,6 +129,7 @@ void ServoAxis::watch(bool may_move, Time now) noexcept {
     }
     power_.begin(plan_.limits);
     homing_.forget();
+    unmapped_mode_.forget();
     state_.reset();
   }
   if (node_.state() == NodeState::refused && fault_.is_ok()) fault_ = node_.problem();
@@ -193,6 +144,13 @@ void ServoAxis::watch(bool may_move, Time now) noexcept {
                        "no process data for %d cycles: is the cable in, is it powered, does it get SYNC?",
                        silent_cycles));
   }
+}
+
+// What it refuses on the way to a homing ends the homing alone, in its time.
+void ServoAxis::settle_mode(Time now, Outbox& outbox) noexcept {
+  const Status refusal = unmapped_mode_.advance(mode_said_, node_, now, outbox);
+  if (!refusal.is_ok() && mode_said_ == plan_.mode) fail(refusal);
+  mode_shown_ = unmapped_mode_.shown();
 }
 
 // A drive may take its time to change its mode, and is enabled only then.
@@ -219,7 +177,8 @@ void ServoAxis::seed() noexcept {
 
 std::uint16_t ServoAxis::mode_bits(bool at_rest, Time now) noexcept {
   if (homing_.is_running()) {
-    const std::uint16_t bits = homing_.advance(statusword_, mode_shown_, at_rest, now);
+    const std::uint16_t bits = homing_.advance(
+        {.statusword = statusword_, .is_new = heard_now_, .shown = mode_shown_, .at_rest = at_rest}, now);
     if (!homing_.trouble().is_ok()) fail(homing_.trouble());
     if (!homing_.is_resting()) return bits;
   }

@@ -5,6 +5,7 @@
 #include "hal/canopen/axis_homing.hpp"
 #include "hal/canopen/drive_modes.hpp"
 #include "hal/canopen/drive_power.hpp"
+#include "hal/canopen/mode_by_sdo.hpp"
 #include "hal/canopen/node.hpp"
 
 namespace flexrf::canopen::cia402 {
@@ -36,6 +37,8 @@ struct AxisPlan {
   bool tells_period = true;            ///< object 60C2
   bool is_supervised_by_it = true;     ///< object 1016: it looks for our heartbeat
   bool forbids_remote = true;          ///< bit 30 of the identifiers of what it sends
+  bool is_guarded = false;             ///< it has no heartbeat, see NodePlan
+  bool maps_mode = true;               ///< objects 6060 and 6061 in its PDOs; else see ModeBySdo
   // Of an axis that may meet something, as a gripper's does.
   bool limits_torque = false;   ///< object 6072, see limit_torque(); in mode profile_position only
   bool tells_torque = false;    ///< object 6077
@@ -117,6 +120,8 @@ class ServoAxis {
   void plan_motion(Configuration& list) const noexcept;
   void fail(const Status& cause) noexcept;
   void watch(bool may_move, Time now) noexcept;
+  bool take_process_data(const Message& message, Time now) noexcept;
+  void settle_mode(Time now, Outbox& outbox) noexcept;
   bool mode_is_taken(bool wanted, Time now) noexcept;
   bool takes(Mode one, Mode other) const noexcept;
   bool may_be_commanded() const noexcept;
@@ -141,6 +146,7 @@ class ServoAxis {
   CyclicSetPoint cyclic_{1};
   SetPointHandshake handshake_{std::chrono::milliseconds(500)};
   AxisHoming homing_;
+  ModeBySdo unmapped_mode_;
   PdoPlan commands_;
   PdoPlan profile_;  // in mode profile_position
   PdoPlan states_;
@@ -149,6 +155,7 @@ class ServoAxis {
   std::optional<AxisState> state_;
   Status fault_;
   Time heard_{};
+  bool heard_now_ = false;  // since the last send()
   std::optional<Time> mode_wanted_;
   std::uint16_t statusword_ = 0;
   Mode mode_shown_ = Mode::none;

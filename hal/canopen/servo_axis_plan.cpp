@@ -65,11 +65,11 @@ NodePlan ServoAxis::node_plan() noexcept {
   commands_.add(objects::controlword, 16);
   const bool takes_positions = takes(Mode::cyclic_position, Mode::profile_position);
   commands_.add(takes_positions ? objects::target_position : objects::target_velocity, 32);
-  commands_.add(objects::mode, 8);
+  if (plan_.maps_mode) commands_.add(objects::mode, 8);
   states_ = {.direction = PdoDirection::sent_by_node, .identifier = transmit_pdo_identifier(1, plan_.node)};
   states_.add(objects::statusword, 16);
   states_.add(objects::actual_position, 32);
-  states_.add(objects::mode_display, 8);
+  if (plan_.maps_mode) states_.add(objects::mode_display, 8);
   motion_ = {.direction = PdoDirection::sent_by_node,
              .number = 2,
              .identifier = transmit_pdo_identifier(2, plan_.node)};
@@ -88,6 +88,7 @@ NodePlan ServoAxis::node_plan() noexcept {
                 .sdo_timeout = plan_.sdo_timeout,
                 .heartbeat_period = plan_.heartbeat_period,
                 .heartbeat_limit = plan_.heartbeat_limit,
+                .is_guarded = plan_.is_guarded,
                 .master_heartbeat_limit = plan_.is_supervised_by_it ? plan_.heartbeat_limit : Duration{}};
   Configuration& list = node.configuration;
   list.expect(canopen::objects::device_type, profile_number, 0xFFFF, "device profile");

@@ -3,12 +3,14 @@
 
 #include <cstdio>
 
+#include "hal/servo_group/same_columns.hpp"
 #include "hal/servo_group/servo_group.hpp"
 
 namespace flexrf {
 
 /// `Base`: the driver's generated base, of a RobotArm. `Drive`: a driver of ServoDrive, of which it has one
-/// for each joint. Limits of position, velocity and acceleration are the chain's.
+/// for each joint. Limits of position, velocity and acceleration are the chain's. What the arm's table calls
+/// as the drive's table does goes to each drive.
 template <class Base, class Drive>
 class ArmOfDrives : public Base {
  public:
@@ -57,7 +59,7 @@ class ArmOfDrives : public Base {
   Drive& drive(std::size_t joint) noexcept { return drives_[joint]; }
 
  protected:
-  /// What is beside the chain's limits, in `configuration`. Error: it does not fit the chain.
+  /// What differs from joint to joint, beside the chain's limits. Error: it does not fit the chain.
   virtual Status configure(std::size_t joint, DriveConfiguration& configuration) = 0;
 
  private:
@@ -78,6 +80,8 @@ class ArmOfDrives : public Base {
     drive.set_inhibited(true);
     auto& settings = *static_cast<DriveConfiguration*>(drive.parameter_memory().configuration);
     settings = {};
+    copy_same_columns(*descriptor_of<typename Base::Configuration>, &this->configuration,
+                      *descriptor_of<DriveConfiguration>, &settings);
     settings.mode = ServoMode::cyclic_position;
     settings.lowest = joint.lower;
     settings.highest = joint.upper;

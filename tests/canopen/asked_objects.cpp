@@ -126,7 +126,7 @@ class Listener final : public CanNode {
   int missing_ = 0;
 };
 
-bool asks_for_what_is_listed(ServoMode mode) {
+bool asks_for_what_is_listed(ServoMode mode, bool has_all) {
   const std::vector<Row> rows = read_list();
   Listener listener{rows};
   const auto bus = std::make_unique<DeviceBench<InProcessCanBus>>(nullptr);
@@ -138,6 +138,8 @@ bool asks_for_what_is_listed(ServoMode mode) {
   drive->configuration().product = 0x456;
   drive->configuration().homing_method = 35;
   drive->configuration().quick_stop_deceleration = 10;
+  drive->configuration().guarded = !has_all;
+  drive->configuration().maps_mode = has_all;
   DriveConsole far_end{{.node = listed_node}, bus->now()};
   if (!bus->driver().initialise() || !drive->driver().initialise()) return false;
   bus->driver().wire()->attach(far_end);
@@ -158,9 +160,9 @@ bool asks_for_what_is_listed(ServoMode mode) {
   return enabled && listener.asked() > 20 && listener.missing() == 0;
 }
 
-template <ServoMode Mode>
+template <ServoMode Mode, bool HasAll = true>
 void judged_in(void**) {
-  const bool good = asks_for_what_is_listed(Mode);
+  const bool good = asks_for_what_is_listed(Mode, HasAll);
   assert_true(good);
 }
 
@@ -236,6 +238,8 @@ int run_asked_objects() {
       {"in mode cyclic velocity", judged_in<ServoMode::cyclic_velocity>, nullptr, nullptr, nullptr},
       {"in mode profile position", judged_in<ServoMode::profile_position>, nullptr, nullptr, nullptr},
       {"in mode profile velocity", judged_in<ServoMode::profile_velocity>, nullptr, nullptr, nullptr},
+      {"guarded, and its mode in no PDO", judged_in<ServoMode::cyclic_position, false>, nullptr, nullptr,
+       nullptr},
       {"the simulated drive is as its data sheet says", data_sheet, nullptr, nullptr, nullptr},
   };
   return cmocka_run_group_tests_name("the driver asks for what its list of objects says", tests, nullptr,

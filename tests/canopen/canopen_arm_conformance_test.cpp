@@ -1,7 +1,11 @@
 // The real driver of an arm of drives, its messages on a simulated bus, and six simulated drives.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <optional>
+#include <string_view>
 
 #include "hal/interfaces/device_bench.hpp"
 #include "hal/interfaces/robot_arm/conformance/robot_arm_conformance.hpp"
@@ -10,13 +14,19 @@
 #include "hal/simulated/simulated_cia402_drive/drive_on_can.hpp"
 #include "six_axis.hpp"
 
+// Its macros would not spare names of ours.
+#include "tests/cmocka.hpp"
+
 namespace {
 
 using namespace flexrf;
 
+using Odd = void (*)(DriveObjects& drive, CanopenArm::Configuration& arm);
+
 class CanopenArmWorld final : public RobotArmWorld {
  public:
-  CanopenArmWorld() {
+  /// `odd`: what is special about its drives, and what is said of them.
+  explicit CanopenArmWorld(Odd odd = nullptr) {
     auto& configuration = arm_.configuration();
     configuration.vendor = 0x123;
     configuration.quick_stop_deceleration = 60;
@@ -32,6 +42,7 @@ class CanopenArmWorld final : public RobotArmWorld {
               .fastest = 20 * increments,
               .first_position = std::round(six_axis.joints[i].home * configuration.increments_per_unit[i])},
           bus_.now());
+      if (odd != nullptr) odd(far_ends_[i]->drive().objects(), configuration);
       initialised_ = initialised_ && bus_.driver().wire()->attach(*far_ends_[i]) != nullptr;
     }
     initialised_ = initialised_ && arm_.driver().initialise().is_ok();
@@ -46,6 +57,7 @@ class CanopenArmWorld final : public RobotArmWorld {
     bus_.driver().stop();
   }
 
+  bool is_ready() { return initialised_ && arm_.driver().is_ready(); }
   RobotArm& arm() override { return arm_.driver(); }
   void receive(Duration elapsed) override {
     bus_.receive(elapsed);
@@ -74,10 +86,71 @@ class CanopenArmWorld final : public RobotArmWorld {
   bool initialised_ = false;
 };
 
+bool comes_up(Odd odd) {
+  CanopenArmWorld world{odd};
+  if (!world.is_ready()) std::printf("%s\n", world.arm().fault().cause());
+  return world.is_ready();
+}
+
+void drives_that_lack_what_others_have(void**) {
+  namespace axis = canopen::cia402::objects;
+  const bool unsaid =
+      comes_up([](DriveObjects& drive, CanopenArm::Configuration&) { drive.lack(axis::period_value); });
+  assert_false(unsaid);
+  const bool said = comes_up([](DriveObjects& drive, CanopenArm::Configuration& arm) {
+    drive.lack(axis::period_value);
+    drive.lack(axis::abort_connection);
+    drive.lack(canopen::objects::producer_heartbeat);
+    drive.lack(canopen::objects::consumer_heartbeat);
+    drive.unmap(axis::mode);
+    drive.unmap(axis::mode_display);
+    drive.refuse_bit_30();
+    arm.tells_period = arm.tells_abort_connection = arm.supervises_us = false;
+    arm.maps_mode = arm.forbids_remote = false;
+    arm.guarded = true;
+  });
+  assert_true(said);
+}
+
+// What the drive's table says is said of an arm's drives too, but for what its chain says, one for each
+// joint, and what is of other modes.
+void columns_of_a_drive(void**) {
+  constexpr std::string_view elsewhere[] = {
+      "mode",
+      "lowest",
+      "highest",
+      "fastest",
+      "acceleration",
+      "node",
+      "increments_per_unit",
+      "homing_method",
+      "set_point_timeout",
+  };
+  const auto fields = descriptor_of<CanopenArm::Configuration>->fields;
+  for (const FieldDescriptor& wanted : descriptor_of<CanopenServoDrive::Configuration>->fields) {
+    if (std::find(std::begin(elsewhere), std::end(elsewhere), wanted.name) != std::end(elsewhere)) continue;
+    const bool there = std::any_of(fields.begin(), fields.end(), [&](const FieldDescriptor& have) {
+      return std::string_view(have.name) == wanted.name && have.scalar == wanted.scalar &&
+             have.count == wanted.count;
+    });
+    if (!there) std::printf("an arm has no column %s\n", wanted.name);
+    assert_true(there);
+  }
+}
+
+int run_columns() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(columns_of_a_drive),
+      cmocka_unit_test(drives_that_lack_what_others_have),
+  };
+  return cmocka_run_group_tests_name("columns of an arm of CANopen drives", tests, nullptr, nullptr);
+}
+
 }  // namespace
 
 int main() {
-  return run_robot_arm_conformance("arm of CANopen drives", []() -> std::unique_ptr<RobotArmWorld> {
-    return std::make_unique<CanopenArmWorld>();
-  });
+  const int failed = run_robot_arm_conformance(
+      "arm of CANopen drives",
+      []() -> std::unique_ptr<RobotArmWorld> { return std::make_unique<CanopenArmWorld>(); });
+  return failed + run_columns() == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -109,6 +109,20 @@ void no_bit_30(void**) {
       {{"refuse bit 30"}, "1800:01 of node 5 was aborted", [](Said& said) { said.forbids_remote = false; }});
   assert_true(good);
 }
+void no_heartbeat(void**) {
+  const bool good = is_a_matter_of_configuration(
+      {{"lack 1017", "lack 1016:01"}, "1017:00 of node 5 was aborted", [](Said& said) {
+         said.guarded = true;
+         said.supervises_us = false;
+       }});
+  assert_true(good);
+}
+void no_mode_in_a_pdo(void**) {
+  const bool good = is_a_matter_of_configuration({{"unmap 6060", "unmap 6061"},
+                                                  "1600:03 of node 5 was aborted",
+                                                  [](Said& said) { said.maps_mode = false; }});
+  assert_true(good);
+}
 
 }  // namespace
 
@@ -118,6 +132,8 @@ int run_drive_quirks() {
       {"no abort connection option", no_abort_connection, nullptr, nullptr, nullptr},
       {"no supervision of our heartbeat", no_supervision_of_ours, nullptr, nullptr, nullptr},
       {"identifiers without bit 30", no_bit_30, nullptr, nullptr, nullptr},
+      {"no heartbeat: node guarding", no_heartbeat, nullptr, nullptr, nullptr},
+      {"a mode that is in no PDO", no_mode_in_a_pdo, nullptr, nullptr, nullptr},
   };
   return cmocka_run_group_tests_name("quirks are columns", tests, nullptr, nullptr);
 }

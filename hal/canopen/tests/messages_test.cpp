@@ -50,6 +50,16 @@ void heartbeats_tell_the_state_without_the_toggle_bit(void**) {
   assert_string_equal(name_of(static_cast<NmtState>(9)), "a state of its own");
 }
 
+void guarding_asks_by_a_remote_frame_and_answers_toggle(void**) {
+  const Message question = guard_message(2);
+  assert_true(question.identifier == 0x702 && question.size == 1 && question.remote);
+  assert_false(heartbeat_of(question, 2).has_value());
+  const Message answer = guard_answer(NmtState::operational, true, 2);
+  assert_true(answer == (Message{0x702, 1, {0x85}}));
+  assert_true(toggle_of(answer) && !toggle_of(guard_answer(NmtState::stopped, false, 2)));
+  assert_true(heartbeat_of(answer, 2) == NmtState::operational);
+}
+
 void silence_counts_from_the_first_heartbeat_on(void**) {
   HeartbeatConsumer consumer;
   consumer.begin(milliseconds(100));
@@ -228,6 +238,7 @@ int main() {
       cmocka_unit_test(identifiers_are_the_predefined_ones),
       cmocka_unit_test(nmt_commands_reach_their_node_or_all),
       cmocka_unit_test(heartbeats_tell_the_state_without_the_toggle_bit),
+      cmocka_unit_test(guarding_asks_by_a_remote_frame_and_answers_toggle),
       cmocka_unit_test(silence_counts_from_the_first_heartbeat_on),
       cmocka_unit_test(our_heartbeat_comes_once_a_period_without_bursts),
       cmocka_unit_test(emergencies_are_decoded_and_named),

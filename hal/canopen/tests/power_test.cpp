@@ -149,6 +149,30 @@ void what_leaves_operation_by_itself_stops_and_stays_off(void**) {
   assert_false(power.is_enabled());
 }
 
+void what_was_told_to_go_off_goes_there_first(void**) {
+  DrivePower power;
+  power.begin({});
+  power.pursue(DrivePower::Goal::enabled);
+  power.advance(0x0237, false, at(0));
+  power.pursue(DrivePower::Goal::off);
+  assert_int_equal(power.advance(0x0237, false, at(7)), 0x0002);
+  power.pursue(DrivePower::Goal::enabled);
+  assert_int_equal(power.advance(0x0237, false, at(14)), 0x0002);  // as before it heard of it
+  assert_false(power.is_enabled() || power.was_just_enabled());
+  assert_int_equal(power.advance(0x0217, false, at(21)), 0x0002);
+  assert_int_equal(power.advance(0x0217, true, at(28)), 0x0000);
+  assert_int_equal(power.advance(0x0240, true, at(35)), 0x0006);
+  assert_int_equal(power.advance(0x0221, true, at(42)), 0x0007);
+  assert_int_equal(power.advance(0x0233, true, at(49)), 0x000F);
+  power.pursue(DrivePower::Goal::off);
+  assert_int_equal(power.advance(0x0233, true, at(56)), 0x0000);
+  power.pursue(DrivePower::Goal::enabled);
+  assert_int_equal(power.advance(0x0237, true, at(63)), 0x0002);  // it was enabled, and will be off
+  assert_false(power.is_enabled());
+  assert_int_equal(power.advance(0x0240, true, at(70)), 0x0006);
+  assert_true(power.problem().is_ok());
+}
+
 void cyclic_set_points_go_no_faster_than_they_may(void**) {
   CyclicSetPoint set_point(1000);
   set_point.seed(50);
@@ -192,27 +216,42 @@ void a_set_point_is_offered_once_and_the_newest_counts(void**) {
 
 void what_homing_said_before_does_not_count(void**) {
   HomingRun homing(milliseconds(1000), milliseconds(50));
-  assert_int_equal(homing.advance(0x1400, at(0)), 0);
+  assert_int_equal(homing.advance(0x1400, true, at(0)), 0);
   homing.start();
-  assert_int_equal(homing.advance(0x1400, at(0)), 0x0000);
-  assert_int_equal(homing.advance(0x1400, at(7)), 0x0010);
-  assert_int_equal(homing.advance(0x0000, at(14)), 0x0010);
-  assert_int_equal(homing.advance(0x1000, at(21)), 0x0010);  // attained, and still moving
-  assert_int_equal(homing.advance(0x1400, at(28)), 0x0000);
+  assert_int_equal(homing.advance(0x1400, true, at(0)), 0x0000);
+  assert_int_equal(homing.advance(0x1400, true, at(7)), 0x0010);
+  assert_int_equal(homing.advance(0x0000, true, at(14)), 0x0010);  // not of the start: it comes too soon
+  assert_int_equal(homing.advance(0x1400, true, at(21)), 0x0010);
+  assert_int_equal(homing.advance(0x1400, true, at(28)), 0x0010);
+  assert_int_equal(homing.advance(0x0000, true, at(35)), 0x0010);
+  assert_int_equal(homing.advance(0x1000, true, at(42)), 0x0010);  // attained, and still moving
+  assert_int_equal(homing.advance(0x1400, true, at(49)), 0x0000);
+  assert_true(homing.state() == HomingRun::State::done);
+}
+
+void homing_goes_by_what_is_heard(void**) {
+  HomingRun homing(milliseconds(1000), milliseconds(50));
+  homing.start();
+  homing.advance(0x1400, true, at(0));
+  // For longer than it may take to settle nothing comes, and what came last is of the run before.
+  for (int ms = 7; ms <= 140; ms += 7) assert_int_equal(homing.advance(0x1400, false, at(ms)), 0x0010);
+  // One that need not move says at once that it is there, and has to go on saying so.
+  for (int ms = 147; ms <= 197; ms += 7) assert_int_equal(homing.advance(0x1400, true, at(ms)), 0x0010);
+  assert_int_equal(homing.advance(0x1400, true, at(204)), 0x0000);
   assert_true(homing.state() == HomingRun::State::done);
 }
 
 void homing_that_fails_says_why(void**) {
   HomingRun homing(milliseconds(1000), milliseconds(50));
   homing.start();
-  homing.advance(0x0000, at(0));
-  homing.advance(0x0000, at(1));
-  homing.advance(0x2400, at(2));
+  for (int ms = 0; ms < 5; ++ms) homing.advance(0x0000, true, at(ms));
+  homing.advance(0x2400, true, at(5));
   assert_true(homing.state() == HomingRun::State::failed);
   assert_non_null(std::strstr(homing.problem().cause(), "could not home"));
   homing.start();
-  homing.advance(0x0000, at(3));
-  homing.advance(0x0000, at(1004));
+  homing.advance(0x0000, true, at(6));
+  homing.advance(0x0000, true, at(7));
+  homing.advance(0x0000, true, at(1007));
   assert_true(homing.problem().code() == StatusCode::timeout);
   homing.start();
   homing.interrupt();
@@ -233,9 +272,11 @@ int main() {
       cmocka_unit_test(a_drive_that_does_not_stop_loses_its_voltage),
       cmocka_unit_test(a_fault_is_reset_by_a_rising_bit),
       cmocka_unit_test(what_leaves_operation_by_itself_stops_and_stays_off),
+      cmocka_unit_test(what_was_told_to_go_off_goes_there_first),
       cmocka_unit_test(cyclic_set_points_go_no_faster_than_they_may),
       cmocka_unit_test(a_set_point_is_offered_once_and_the_newest_counts),
       cmocka_unit_test(what_homing_said_before_does_not_count),
+      cmocka_unit_test(homing_goes_by_what_is_heard),
       cmocka_unit_test(homing_that_fails_says_why),
   };
   return cmocka_run_group_tests_name("cia402 power", tests, nullptr, nullptr);

@@ -22,6 +22,8 @@ Status CanopenServoDrive::initialise() {
   plan.tells_period = configuration.tells_period;
   plan.is_supervised_by_it = configuration.supervises_us;
   plan.forbids_remote = configuration.forbids_remote;
+  plan.is_guarded = configuration.guarded;
+  plan.maps_mode = configuration.maps_mode;
   plan.mode_timeout = whole_milliseconds(configuration.mode_timeout);
   plan.set_point_timeout = whole_milliseconds(configuration.set_point_timeout);
   plan.boot_timeout = whole_milliseconds(configuration.boot_timeout);

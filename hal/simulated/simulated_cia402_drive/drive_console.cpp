@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cstdio>
 
+#include "hal/canopen/can_message.hpp"
+
 namespace flexrf {
 namespace {
 
@@ -68,7 +70,7 @@ std::optional<DriveState> state_named(std::string_view text) {
 const char* const DriveConsole::help =
     "off, on                     its supply\n"
     "reset                       it resets itself, as when its supply sags\n"
-    "silence, speak              its heartbeat\n"
+    "silence, speak              its heartbeat, or its answers to guarding\n"
     "stick STATE, free           commands no longer lead out of a state, as 'switched on'; they do\n"
     "trip CODE [stays], heal     a fault with this error code, whose cause goes by itself or not; it goes\n"
     "keep mode, take mode        it stays in the mode that it is in; it changes it\n"
@@ -78,6 +80,7 @@ const char* const DriveConsole::help =
     "refuse INDEX:SUB CODE, accept   writes of this object end with this abort code; they do not\n"
     "object INDEX:SUB VALUE      what an object is from now on, and after each power-on\n"
     "lack INDEX:SUB              it has no such object\n"
+    "unmap INDEX:SUB             it does not take this object into a PDO\n"
     "refuse bit 30               in the identifiers of the PDOs that it sends\n"
     "fix mapping                 its PDO mappings can no longer be written\n"
     "unplug, plug                its cable\n"
@@ -160,10 +163,11 @@ std::string DriveConsole::change_object(std::string_view word, std::string_view 
     drive_.objects().refuse({}, 0);
     return obeyed;
   }
-  if (word == "lack") {
-    const auto missing = object_in(rest);
-    if (!missing) return "an object is written as 60C2:01";
-    drive_.objects().lack(*missing);
+  if (word == "lack" || word == "unmap") {
+    const auto object = object_in(rest);
+    if (!object) return "an object is written as 60C2:01";
+    if (word == "lack") drive_.objects().lack(*object);
+    if (word == "unmap") drive_.objects().unmap(*object);
     return obeyed;
   }
   if (word != "refuse" && word != "object")
@@ -216,8 +220,8 @@ void DriveConsole::say(std::uint32_t identifier, std::string_view data, bool ext
 }
 
 void DriveConsole::on_frame(const CanFrame& frame, CanPort& port) noexcept {
-  if (!plugged_ || frame.extended || frame.remote) return;
-  drive_.receive({static_cast<std::uint16_t>(frame.identifier), frame.length, frame.data}, frame.time, said_);
+  if (!plugged_ || frame.extended) return;
+  drive_.receive(canopen::to_message(frame), frame.time, said_);
   collect();
   flush(port);
 }
@@ -231,12 +235,7 @@ void DriveConsole::on_time(Time now, CanPort& port) noexcept {
 
 void DriveConsole::collect() {
   for (; !said_.is_empty(); said_.pop()) {
-    const canopen::Message& message = said_.front();
-    CanFrame frame;
-    frame.identifier = message.identifier;
-    frame.length = message.size;
-    frame.data = message.data;
-    waiting_.push_back({now_ + delay_, frame});
+    waiting_.push_back({now_ + delay_, canopen::to_frame(said_.front())});
   }
 }
 

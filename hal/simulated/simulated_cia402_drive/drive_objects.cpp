@@ -39,6 +39,8 @@ constexpr ObjectAddress communication_of(ObjectAddress mapping) {
 DriveObjects::DriveObjects() {
   add(canopen::objects::device_type, 4, false, false, 0x00020192);
   add(canopen::objects::error_register, 1, false, false);
+  add(canopen::objects::guard_time, 2, true, false);
+  add(canopen::objects::life_time_factor, 1, true, false);
   add(canopen::objects::consumer_heartbeat, 4, true, false);
   add(canopen::objects::producer_heartbeat, 2, true, false);
   add(canopen::objects::vendor, 4, false, false, 0x00000123);
@@ -117,6 +119,10 @@ void DriveObjects::lack(ObjectAddress address) {
   if (object == nullptr) return;
   std::copy(object + 1, objects_.data() + count_, object);
   --count_;
+}
+
+void DriveObjects::unmap(ObjectAddress address) {
+  if (Object* object = find(address)) object->mappable = false;
 }
 
 std::uint32_t DriveObjects::check_mapping(ObjectAddress address, std::uint64_t value) const {

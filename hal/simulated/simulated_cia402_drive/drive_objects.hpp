@@ -46,6 +46,8 @@ class DriveObjects final : public canopen::ObjectDictionary {
   }
   /// On purpose: it has no such object.
   void lack(canopen::ObjectAddress address);
+  /// On purpose: it is in no PDO.
+  void unmap(canopen::ObjectAddress address);
   /// On purpose: it refuses bit 30 in the identifiers of the PDOs that it sends.
   void refuse_bit_30() { refuses_bit_30_ = true; }
   /// Mappings are written only in pre-operational.

@@ -1,6 +1,7 @@
 // The simulated drive as a node of a CAN bus.
 #pragma once
 
+#include "hal/canopen/can_message.hpp"
 #include "hal/interfaces/can_bus/can_node.hpp"
 #include "hal/simulated/simulated_cia402_drive/simulated_cia402_drive.hpp"
 
@@ -14,9 +15,8 @@ class DriveOnCan final : public CanNode {
   }
 
   void on_frame(const CanFrame& frame, CanPort& port) noexcept override {
-    if (frame.extended || frame.remote) return;
-    drive_.receive({static_cast<std::uint16_t>(frame.identifier), frame.length, frame.data}, frame.time,
-                   said_);
+    if (frame.extended) return;
+    drive_.receive(canopen::to_message(frame), frame.time, said_);
     say(port);
   }
   Time next_event() const noexcept override { return now_ + step; }
@@ -36,12 +36,7 @@ class DriveOnCan final : public CanNode {
 
   void say(CanPort& port) noexcept {
     for (; !said_.is_empty(); said_.pop()) {
-      const canopen::Message& message = said_.front();
-      CanFrame frame;
-      frame.identifier = message.identifier;
-      frame.length = message.size;
-      frame.data = message.data;
-      if (!port.send(frame)) return;  // later
+      if (!port.send(canopen::to_frame(said_.front()))) return;  // later
     }
   }
 

@@ -216,8 +216,11 @@ void SimulatedCia402Drive::find_home(bool started, double acceleration, double t
   if (!started) {
     motion_.ramp(0, acceleration, time);
     if (motion_.is_at_rest()) mode_bits_ |= status_bit::target_reached;
+    // Of the run before, as drives do.
+    if (was_homed_) mode_bits_ |= status_bit::homing_attained;
     return;
   }
+  was_homed_ = false;
   if (homeless_) {
     motion_.ramp(0, acceleration, time);
     mode_bits_ = status_bit::homing_error;
@@ -228,6 +231,7 @@ void SimulatedCia402Drive::find_home(bool started, double acceleration, double t
   if (method == 35 || method == 37) motion_.set_position(0);
   if (motion_.travel(0, static_cast<double>(objects_.get(axis::homing_search_speed)), acceleration, time)) {
     mode_bits_ = status_bit::target_reached | status_bit::homing_attained;
+    was_homed_ = true;
   }
 }
 

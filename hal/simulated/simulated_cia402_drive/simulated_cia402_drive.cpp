@@ -42,9 +42,10 @@ void SimulatedCia402Drive::boot(Time now, bool all) {
   nmt_ = NmtState::boot_up;
   boots_at_ = now + options_.boot_delay;
   master_.begin({});
-  master_lost_ = false;
+  master_lost_ = toggle_ = false;
   pending_ = {};
   if (all) {
+    was_homed_ = false;
     state_ = DriveState::not_ready;
     last_command_ = 0;
     mode_bits_ = 0;
@@ -55,6 +56,10 @@ void SimulatedCia402Drive::boot(Time now, bool all) {
 
 void SimulatedCia402Drive::receive(const Message& message, Time now, Outbox& outbox) {
   if (!powered_ || !booted_) return;
+  if (message.remote) {
+    answer_guard(message, now, outbox);
+    return;
+  }
   if (const auto command = canopen::nmt_command_for(message, options_.node)) {
     obey(*command, now);
     return;
@@ -122,6 +127,22 @@ void SimulatedCia402Drive::obey(NmtCommand command, Time now) {
       return;
   }
   objects_.set_pre_operational(nmt_ == NmtState::pre_operational);
+}
+
+// Of a drive that was given a heartbeat nobody may ask (CiA 301).
+void SimulatedCia402Drive::answer_guard(const Message& question, Time now, Outbox& outbox) {
+  if (question.identifier != canopen::identifier_of(canopen::heartbeat_base, options_.node)) return;
+  if (objects_.get(canopen::objects::producer_heartbeat) != 0) return;
+  if (!silent_) {
+    outbox.push(canopen::guard_answer(nmt_, toggle_, options_.node));
+    toggle_ = !toggle_;
+  }
+  const std::uint64_t life =
+      objects_.get(canopen::objects::guard_time) * objects_.get(canopen::objects::life_time_factor);
+  if (life == 0) return;
+  if (!master_.is_supervising()) master_.begin(std::chrono::milliseconds(life));
+  master_.observe(now);
+  master_lost_ = false;
 }
 
 void SimulatedCia402Drive::take_pdo(const Message& message, Outbox& outbox) {

@@ -36,6 +36,7 @@ class SimulatedCia402Drive {
 
   /// As when its supply sags: it is off at once and boots again.
   void reset_itself(Time now);
+  /// And of its answers to guarding.
   void silence_heartbeat(bool on) { silent_ = on; }
   /// Commands no longer lead out of this state; nothing: they do.
   void stick_in(std::optional<canopen::cia402::DriveState> state) { stuck_ = state; }
@@ -71,6 +72,7 @@ class SimulatedCia402Drive {
  private:
   void boot(Time now, bool all);
   void obey(canopen::NmtCommand command, Time now);
+  void answer_guard(const canopen::Message& question, Time now, canopen::Outbox& outbox);
   void take_pdo(const canopen::Message& message, canopen::Outbox& outbox);
   void synchronise(canopen::Outbox& outbox);
   void apply(const canopen::PdoPlan& plan, const canopen::Message& message, canopen::Outbox& outbox);
@@ -99,6 +101,8 @@ class SimulatedCia402Drive {
   Time beats_at_{};
   canopen::HeartbeatConsumer master_;
   bool master_lost_ = false;
+  bool toggle_ = false;  // of its next answer to guarding
+  bool was_homed_ = false;
   std::array<std::optional<canopen::Message>, 2> pending_;  // synchronous RPDOs wait for SYNC
 
   canopen::cia402::DriveState state_ = canopen::cia402::DriveState::not_ready;

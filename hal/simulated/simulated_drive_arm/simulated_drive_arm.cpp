@@ -9,8 +9,6 @@ Status SimulatedDriveArm::configure(std::size_t joint, SimulatedServoDriveConfig
   drive.node = configuration.nodes[joint];
   drive.increments_per_unit = configuration.increments_per_unit[joint];
   drive.homing_method = configuration.homing_methods[joint];
-  drive.homing_speed = configuration.homing_speed;
-  drive.period = configuration.period;
   drive.first_position = chain->joints[joint].home;
   return {};
 }

@@ -46,7 +46,7 @@ struct Axis {
         word |= handshake.advance(status, bench.now());
         target = handshake.target();
       }
-      if (mode == Mode::homing) word |= homing.advance(status, bench.now());
+      if (mode == Mode::homing) word |= homing.advance(status, true, bench.now());
     }
     if (halts) word |= canopen::cia402::control_bit::halt;
     const std::uint64_t values[] = {word, static_cast<std::uint64_t>(std::llround(target)),

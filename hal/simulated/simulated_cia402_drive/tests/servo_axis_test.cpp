@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "hal/simulated/simulated_cia402_drive/tests/axis_cell.hpp"
+#include "hal/simulated/simulated_cia402_drive/tests/odd_drives.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf {
@@ -292,5 +293,5 @@ int main() {
       cmocka_unit_test(a_drive_that_was_gone_has_forgotten_its_home),
       cmocka_unit_test(plans_that_make_no_sense_are_refused),
   };
-  return cmocka_run_group_tests_name("cia402 servo axis", tests, nullptr, nullptr);
+  return cmocka_run_group_tests_name("cia402 servo axis", tests, nullptr, nullptr) + run_odd_drives();
 }

@@ -1,0 +1,23 @@
+// A CANopen message as a frame on a CAN bus, and back.
+#pragma once
+
+#include "hal/canopen/message.hpp"
+#include "hal/interfaces/can_bus/can_frame.hpp"
+
+namespace flexrf::canopen {
+
+constexpr CanFrame to_frame(const Message& message) noexcept {
+  CanFrame frame;
+  frame.data = message.data;
+  frame.identifier = message.identifier;
+  frame.length = message.size;
+  frame.remote = message.remote;
+  return frame;
+}
+
+/// Of a frame with a standard identifier.
+constexpr Message to_message(const CanFrame& frame) noexcept {
+  return {static_cast<std::uint16_t>(frame.identifier), frame.length, frame.data, frame.remote};
+}
+
+}  // namespace flexrf::canopen

@@ -1,0 +1,72 @@
+// What a unit commands an axis.
+#include <algorithm>
+#include <cmath>
+
+#include "hal/canopen/servo_axis.hpp"
+
+namespace flexrf::canopen::cia402 {
+
+void ServoAxis::command_position(double position) noexcept {
+  if (!takes(Mode::cyclic_position, Mode::cyclic_position) || !may_be_commanded()) return;
+  if (!is_number(position, "position")) return;
+  cyclic_.command(std::clamp(position, plan_.lowest, plan_.highest));
+}
+
+void ServoAxis::command_velocity(double velocity) noexcept {
+  if (!takes(Mode::cyclic_velocity, Mode::profile_velocity) || !may_be_commanded()) return;
+  if (!is_number(velocity, "velocity")) return;
+  const double kept = std::clamp(velocity, -plan_.fastest, plan_.fastest);
+  if (kept == velocity_ && was_commanded_ && !halts_) return;
+  velocity_ = kept;
+  cycles_ = 0;
+  was_commanded_ = true;
+  halts_ = false;
+  state_->target_reached = false;
+}
+
+void ServoAxis::move_to(double position, double speed) noexcept {
+  if (!takes(Mode::profile_position, Mode::profile_position) || !may_be_commanded()) return;
+  if (!is_number(position, "position") || !is_number(speed, "speed")) return;
+  if (!(speed > 0)) {
+    fail(Status::error(StatusCode::invalid_argument, "it was commanded to move with a speed of %g", speed));
+    return;
+  }
+  speed_ = std::min(speed, plan_.fastest);
+  const double kept = std::clamp(position, plan_.lowest, plan_.highest);
+  handshake_.command(static_cast<std::int32_t>(std::llround(kept * plan_.increments_per_unit)));
+  was_commanded_ = true;
+  state_->target_reached = false;
+}
+
+void ServoAxis::home() noexcept {
+  if (!may_be_commanded() || plan_.homing_method == 0) return;
+  halt();
+  homing_.start();
+}
+
+void ServoAxis::halt() noexcept {
+  if (!power_.is_enabled() || !state_) return;
+  homing_.halt();
+  if (homing_.is_running()) return;
+  cyclic_.halt(plan_.acceleration, plan_.lowest, plan_.highest);
+  handshake_.reset(handshake_.target());
+  was_commanded_ = false;
+  halts_ = true;
+  state_->target_reached = false;
+}
+
+bool ServoAxis::may_be_commanded() const noexcept {
+  return power_.is_enabled() && state_ && !homing_.is_running();
+}
+
+bool ServoAxis::takes(Mode one, Mode other) const noexcept {
+  return plan_.mode == one || plan_.mode == other;
+}
+
+bool ServoAxis::is_number(double value, const char* what) noexcept {
+  if (std::isfinite(value)) return true;
+  fail(Status::error(StatusCode::invalid_argument, "it was commanded to a %s that is not a number", what));
+  return false;
+}
+
+}  // namespace flexrf::canopen::cia402
