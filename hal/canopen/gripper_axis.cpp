@@ -52,6 +52,12 @@ void GripperAxis::enter(Phase phase) noexcept {
   still_since_.reset();
 }
 
+void GripperAxis::limit_force(double force) noexcept {
+  const double kept = std::clamp(force, plan_.weakest, plan_.strongest);
+  most_torque_ = axis_plan_.limits_torque ? kept / plan_.rated_force : 1;
+  link_.axis().limit_torque(most_torque_);
+}
+
 /// It is not led any more; only activate() begins again.
 void GripperAxis::drop() noexcept {
   enter(Phase::idle);
@@ -79,6 +85,7 @@ void GripperAxis::follow() noexcept {
     case Phase::clearing:
       // It was told to be off in the cycle before.
       axis.forget_fault();
+      limit_force(plan_.force);  // also of its homing
       has_power_ = true;
       phase_ = Phase::enabling;
       break;
@@ -200,11 +207,8 @@ void GripperAxis::command(const GripperGoal& goal) noexcept {
     return;
   goal_ = goal;
   closes_ = goal.opening < opening();
-  const double force = std::clamp(goal.force.value_or(plan_.force), plan_.weakest, plan_.strongest);
-  most_torque_ = axis_plan_.limits_torque ? force / plan_.rated_force : 1;
-  auto& axis = link_.axis();
-  axis.limit_torque(most_torque_);
-  axis.move_to(goal.opening - plan_.opening_at_zero, goal.speed.value_or(plan_.speed));
+  limit_force(goal.force.value_or(plan_.force));
+  link_.axis().move_to(goal.opening - plan_.opening_at_zero, goal.speed.value_or(plan_.speed));
   enter(Phase::going);
   object_ = GripperObject::unknown;
   latched_ = {};

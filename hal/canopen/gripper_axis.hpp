@@ -53,6 +53,7 @@ class GripperAxis {
   bool activates() const noexcept;
   double opening() const noexcept;
   void enter(Phase phase) noexcept;
+  void limit_force(double force) noexcept;
   void drop() noexcept;
   void follow() noexcept;
   void watch_rest(const cia402::AxisState& axis) noexcept;

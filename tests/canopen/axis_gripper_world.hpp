@@ -14,10 +14,9 @@ namespace flexrf {
 
 /// What the drive is like.
 struct FingerAxis {
-  double increments = 1e6;        ///< a metre of opening; negative: it counts up as it closes
-  bool homes = false;             ///< it does not know where it is until it is homed; its home is closed
-  bool has_torque = true;         ///< it can be told its greatest torque, and tells its torque
-  double heartbeat_limit = 0.25;  ///< s
+  double increments = 1e6;  ///< a metre of opening; negative: it counts up as it closes
+  bool homes = false;       ///< it does not know where it is until it is homed; its home is closed
+  bool has_torque = true;   ///< it can be told its greatest torque, and tells its torque
 };
 
 class AxisGripperWorld : public GripperWorld {
@@ -80,7 +79,6 @@ class AxisGripperWorld : public GripperWorld {
     configuration.homing_method = axis_.homes ? 33 : 0;
     configuration.homing_speed = 0.1;
     configuration.limits_torque = configuration.tells_torque = axis_.has_torque;
-    configuration.heartbeat_limit = axis_.heartbeat_limit;
   }
 
  private:

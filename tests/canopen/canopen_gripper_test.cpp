@@ -81,6 +81,14 @@ bool force_is_the_limit_of_its_torque() {
   return world->gripper().trouble().is_ok();
 }
 
+bool its_force_is_limited_while_it_homes() {
+  const auto world = std::make_unique<InProcessWorld>(homed);
+  if (!world->start({}) || !until(*world, [&] { return world->gripper().state().has_value(); })) return false;
+  act(*world, [](Gripper& gripper) { gripper.activate(); });
+  return until(*world, [&] { return world->fingers() < opened - 0.005; }) && !is_activated(*world) &&
+         world->drive_objects().get(objects::most_torque) == 400;
+}
+
 // In the midst of finding out that it grips.
 bool what_it_presses_on_is_not_let_go_by_a_halt() {
   const auto world = std::make_unique<InProcessWorld>(absolute);
@@ -141,6 +149,7 @@ void holds(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(holds<force_is_the_limit_of_its_torque>),
+      cmocka_unit_test(holds<its_force_is_limited_while_it_homes>),
       cmocka_unit_test(holds<what_it_presses_on_is_not_let_go_by_a_halt>),
       cmocka_unit_test(holds<drive_that_cannot_limit_its_torque_says_so_and_grips>),
       cmocka_unit_test(holds<drive_without_an_object_that_is_needed_is_told>),

@@ -10,6 +10,8 @@
 #include "tests/cmocka.hpp"
 
 namespace flexrf {
+// Beside drive_faults.cpp, whose cases have names of their own for the same.
+namespace gripper_faults {
 namespace {
 
 using namespace gripper_cases;
@@ -183,10 +185,7 @@ bool activation_that_is_inhibited(AxisGripperWorld& world) {
   return stays_off(world) && comes_back(world, "an activation that was given up");
 }
 
-}  // namespace
-
-int run_gripper_faults(const char* where, MakeAxisGripperWorld make) {
-  make_axis = make;
+int run_cases(const char* where) {
   const CMUnitTest tests[] = {
       cmocka_unit_test(judged<cable_out_and_in_again_in_motion>),
       cmocka_unit_test(judged<power_of_the_drive_lost_while_it_holds>),
@@ -203,6 +202,14 @@ int run_gripper_faults(const char* where, MakeAxisGripperWorld make) {
       {"activation that is inhibited", judged<activation_that_is_inhibited, true>, nullptr, nullptr, nullptr},
   };
   return cmocka_run_group_tests_name(where, tests, nullptr, nullptr);
+}
+
+}  // namespace
+}  // namespace gripper_faults
+
+int run_gripper_faults(const char* where, MakeAxisGripperWorld make) {
+  gripper_faults::make_axis = make;
+  return gripper_faults::run_cases(where);
 }
 
 }  // namespace flexrf
