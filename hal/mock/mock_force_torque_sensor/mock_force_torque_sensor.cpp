@@ -1,0 +1,49 @@
+#include "hal/mock/mock_force_torque_sensor/mock_force_torque_sensor.hpp"
+
+namespace flexrf {
+
+Status MockForceTorqueSensor::initialise() {
+  due_ = Time{};
+  missed_ = 0;
+  random_ = environment().seed * 2 + 1;
+  return begin_measuring();
+}
+
+void MockForceTorqueSensor::listen(WrenchMeter& meter, Time now) noexcept {
+  const Duration period{static_cast<Duration::rep>(1e9 / configuration.rate)};
+  if (due_ == Time{}) due_ = now;
+  while (due_ + delay_ <= now) {
+    measure(meter, due_ + delay_);
+    due_ += period;
+  }
+}
+
+void MockForceTorqueSensor::measure(WrenchMeter& meter, Time at) noexcept {
+  if (silent_) return;
+  if (to_lose_ > 0) {
+    --to_lose_;
+    ++missed_;
+    return;
+  }
+  if (to_damage_ > 0) {
+    --to_damage_;
+    ++missed_;
+    return meter.note_damaged();
+  }
+  if (!fault_.is_ok()) return meter.take_fault(fault_, at);
+  RawWrench raw = load_;
+  for (double& force : raw.force) force += noise(configuration.force_noise);
+  for (double& torque : raw.torque) torque += noise(configuration.torque_noise);
+  meter.take(raw, at, missed_);
+  missed_ = 0;
+}
+
+double MockForceTorqueSensor::noise(double most) noexcept {
+  if (most == 0) return 0;
+  random_ ^= random_ << 13U;
+  random_ ^= random_ >> 7U;
+  random_ ^= random_ << 17U;
+  return most * (static_cast<double>(random_ >> 11U) / static_cast<double>(1ULL << 52U) - 1);
+}
+
+}  // namespace flexrf

@@ -1,0 +1,97 @@
+#include "hal/interfaces/force_torque_sensor/conformance/sensor_bench.hpp"
+#include "hal/mock/mock_force_torque_sensor/mock_force_torque_sensor.hpp"
+#include "tests/cmocka.hpp"
+
+namespace flexrf {
+namespace {
+
+using std::chrono::milliseconds;
+
+class MockWorld final : public BenchWorld<MockForceTorqueSensor> {
+ public:
+  Status start(const ForceTorqueSetting& setting) override {
+    configure_sensor(bench().configuration(), setting, 0.1);
+    return driver().initialise();
+  }
+  void receive() override { advance(milliseconds(5)); }
+  void load(const std::array<double, 3>& force, const std::array<double, 3>& torque) override {
+    load_ = {force, torque};
+    driver().set_load(load_);
+  }
+  bool make(SensorFarEnd behaviour) override {
+    driver().set_silent(behaviour == SensorFarEnd::silent || behaviour == SensorFarEnd::off ||
+                        behaviour == SensorFarEnd::unplugged);
+    driver().set_fault(behaviour == SensorFarEnd::faulty
+                           ? Status::error(StatusCode::device_fault, "the mock's sensor is broken")
+                           : Status{});
+    driver().damage(behaviour == SensorFarEnd::damaged || behaviour == SensorFarEnd::truncated ? 1'000'000
+                                                                                               : 0);
+    load_.saturated = behaviour == SensorFarEnd::saturated;
+    driver().set_load(load_);
+    return behaviour != SensorFarEnd::foreign;
+  }
+  bool lose(std::uint32_t count) override {
+    driver().lose(count);
+    return true;
+  }
+
+ private:
+  RawWrench load_;
+};
+
+struct Noise {
+  double least = 1e9;
+  double most = -1e9;
+  double sum = 0;
+};
+
+Noise noise_of(std::uint64_t seed) {
+  DeviceBench<MockForceTorqueSensor> bench(nullptr);
+  bench.configuration().force_noise = 2;
+  bench.environment().seed = seed;
+  Noise noise;
+  if (!bench.driver().initialise()) return noise;
+  for (int i = 0; i < 1000; ++i) {
+    bench.receive(milliseconds(10));
+    const double force = bench.driver().state()->force[1];
+    noise.least = std::min(noise.least, force);
+    noise.most = std::max(noise.most, force);
+    noise.sum += force * i;
+  }
+  return noise;
+}
+
+void noise_is_bounded_and_seeded(void**) {
+  const Noise one = noise_of(1);
+  assert_true(one.least >= -2 && one.least < -1.8 && one.most <= 2 && one.most > 1.8);
+  assert_true(one.sum == noise_of(1).sum);
+  assert_true(one.sum != noise_of(2).sum);
+}
+
+bool delayed_measurements_are_old() {
+  DeviceBench<MockForceTorqueSensor> bench(nullptr);
+  if (!bench.driver().initialise()) return false;
+  bench.driver().set_delay(milliseconds(25));
+  int heard = 0;
+  for (int i = 0; i < 20; ++i) {
+    bench.receive(milliseconds(10));
+    heard += bench.driver().state().has_value() ? 1 : 0;
+  }
+  return heard == 17;  // from the third cycle after the first one on
+}
+
+void delays(void**) {
+  assert_true(delayed_measurements_are_old());
+}
+
+}  // namespace
+}  // namespace flexrf
+
+int main() {
+  using namespace flexrf;
+  const CMUnitTest tests[] = {cmocka_unit_test(noise_is_bounded_and_seeded), cmocka_unit_test(delays)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr) +
+         run_force_torque_conformance("mock force-torque sensor", []() -> std::unique_ptr<ForceTorqueWorld> {
+           return std::make_unique<MockWorld>();
+         });
+}

@@ -1,0 +1,74 @@
+// What is the FT300's driver's own: a line that is not there, and how it leaves the sensor.
+#include "tests/force_torque/ft300_line_cases.hpp"
+
+#include <poll.h>
+
+#include <cstring>
+
+#include "hal/interfaces/device_bench.hpp"
+#include "hal/linux/ft300_sensor/ft300_sensor.hpp"
+#include "hal/simulated/ft300_simulator/ft300_server.hpp"
+#include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
+#include "tests/cmocka.hpp"
+
+namespace flexrf {
+namespace {
+
+/// What it says in the first cycle, or when it is initialised.
+Status begin(const char* device) {
+  DeviceBench<Ft300Sensor> bench(nullptr);
+  bench.configuration().set_device(device);
+  Status status = bench.driver().initialise();
+  bench.receive(std::chrono::milliseconds(10));
+  if (status) status = bench.driver().trouble();
+  bench.driver().stop();
+  return status;
+}
+
+void a_line_that_is_not_there_is_waited_for(void**) {
+  const Status status = begin("/dev/no-such-line");
+  assert_int_equal(status.code(), StatusCode::unavailable);
+  assert_non_null(std::strstr(status.cause(), "/dev/no-such-line"));
+}
+
+void what_is_no_line_is_refused(void**) {
+  const Status status = begin("/dev/null");
+  assert_int_equal(status.code(), StatusCode::invalid_argument);
+  assert_non_null(std::strstr(status.cause(), "/dev/null is no serial line"));
+}
+
+/// Its driver is gone, and it sends no more.
+bool the_stream_is_ended() {
+  PseudoSerialLine line;
+  if (!line.open()) return false;
+  auto server = Ft300Server::on_descriptor(line.descriptor(), ft300::usual_unit_id);
+  DeviceBench<Ft300Sensor> bench(nullptr);
+  bench.configuration().set_device(line.path());
+  if (!server || !bench.driver().initialise()) return false;
+  const Time begun = MonotonicClock::now();
+  while (bench.feedback().samples < 3 && MonotonicClock::now() - begun < std::chrono::seconds(40)) {
+    pollfd wanted{bench.driver().descriptor(), POLLIN, 0};
+    poll(&wanted, 1, 10);
+    bench.receive(MonotonicClock::now() - bench.now());
+  }
+  const bool streamed = (*server)->streams();
+  bench.driver().stop();
+  return streamed && !(*server)->streams();
+}
+
+void a_driver_that_stops_ends_the_stream(void**) {
+  assert_true(the_stream_is_ended());
+}
+
+}  // namespace
+
+int run_ft300_line_cases() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_line_that_is_not_there_is_waited_for),
+      cmocka_unit_test(what_is_no_line_is_refused),
+      cmocka_unit_test(a_driver_that_stops_ends_the_stream),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
+
+}  // namespace flexrf

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace flexrf {
+
+/// Returns the number that failed, for main().
+int run_ft300_line_cases();
+
+}  // namespace flexrf
