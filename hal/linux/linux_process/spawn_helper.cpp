@@ -221,8 +221,8 @@ class Helper {
   }
 
   [[noreturn]] void leave() const noexcept {
+    // Not waited for: what hangs in the kernel must not hold up the application, which waits for this.
     end_child();
-    if (child_ > 0) waitpid(child_, nullptr, 0);
     _exit(0);
   }
 
