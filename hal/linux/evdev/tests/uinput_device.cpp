@@ -51,6 +51,7 @@ bool UinputDevice::describe() {
   if (!description_.relative_axes.empty()) good = good && ioctl(descriptor_, UI_SET_EVBIT, EV_REL) == 0;
   for (const int code : description_.relative_axes)
     good = good && ioctl(descriptor_, UI_SET_RELBIT, code) == 0;
+  if (!description_.axes.empty()) good = good && ioctl(descriptor_, UI_SET_EVBIT, EV_ABS) == 0;
   for (const UinputDescription::Axis& axis : description_.axes) {
     uinput_abs_setup range{};
     range.code = static_cast<std::uint16_t>(axis.code);
