@@ -147,16 +147,17 @@ void a_cell_with_an_odd_but_good_file(void**) {
   assert_int_equal(driver.objects.size(), 13);
 }
 
-// What the repository's own driver asks, of the drive that its simulator is; with another mode and vendor
-// than the defaults.
-std::string messages_for(std::int64_t mode, std::int64_t vendor) {
+// What one of the repository's own drivers asks, of the drive that its simulator is; with another mode and
+// vendor than the defaults.
+std::string messages_for(const std::string& driver, std::int64_t mode, std::int64_t vendor) {
   const std::filesystem::path hal = std::filesystem::path(TESTS_FOLDER) / "../../hal";
   SearchPaths paths;
-  paths.types = {hal / "interfaces/servo_drive/types", hal / "interfaces/can_bus/types"};
+  paths.types = {hal / "interfaces/servo_drive/types", hal / "interfaces/gripper/types",
+                 hal / "interfaces/can_bus/types"};
   paths.interfaces = {hal / "interfaces"};
   Diagnostics diagnostics;
-  const Model model = read({Target::Kind::driver, hal / "linux/canopen_servo_drive/canopen_servo_drive.toml"},
-                           paths, diagnostics);
+  const Model model =
+      read({Target::Kind::driver, hal / "linux" / driver / (driver + ".toml")}, paths, diagnostics);
   const auto eds = read_eds(hal / "../apps/cia402-simulator/cia402_simulator.eds", diagnostics);
   const Literal mode_value{mode, {}, {}};
   const Literal vendor_value{vendor, {}, {}};
@@ -178,11 +179,16 @@ std::string messages_for(std::int64_t mode, std::int64_t vendor) {
 
 void the_driver_of_drives_and_the_simulated_drive(void**) {
   for (std::int64_t mode = 0; mode < 4; ++mode) {
-    assert_string_equal(messages_for(mode, 0x123).c_str(), "");
-    assert_non_null(std::strstr(messages_for(mode, 0x999).c_str(),
+    assert_string_equal(messages_for("canopen_servo_drive", mode, 0x123).c_str(), "");
+    assert_non_null(std::strstr(messages_for("canopen_servo_drive", mode, 0x999).c_str(),
                                 "object 0x1018:01 (vendor) is 0x00000123, and the "
                                 "device's vendor is 0x00000999"));
   }
+}
+
+void the_driver_of_grippers_and_the_simulated_drive(void**) {
+  assert_string_equal(messages_for("canopen_gripper", 0, 0x123).c_str(), "");
+  assert_non_null(std::strstr(messages_for("canopen_gripper", 0, 0x999).c_str(), "(vendor) is 0x00000123"));
 }
 
 }  // namespace
@@ -197,6 +203,7 @@ int main() {
                               cmocka_unit_test(what_is_no_eds_file),
                               cmocka_unit_test(every_cut_and_every_damage_ends_in_words),
                               cmocka_unit_test(a_cell_with_an_odd_but_good_file),
-                              cmocka_unit_test(the_driver_of_drives_and_the_simulated_drive)};
+                              cmocka_unit_test(the_driver_of_drives_and_the_simulated_drive),
+                              cmocka_unit_test(the_driver_of_grippers_and_the_simulated_drive)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
