@@ -18,6 +18,7 @@ struct CanFrame {
   std::uint8_t length = 0;       ///< bytes of data, 0 to 8
   bool extended = false;         ///< 29-bit identifier
   bool remote = false;           ///< asks for data and carries none (RTR)
+  std::uint8_t unused = 0;       ///< so that it ends with a whole word, by which it is copied
 
   /// Whether a controller would take it.
   constexpr bool is_valid() const noexcept {

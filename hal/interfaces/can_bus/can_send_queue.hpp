@@ -17,8 +17,8 @@ class CanSendQueue {
   /// False: full. Frames are nearly always put in their order, so that this is short.
   bool put(const CanFrame& frame, bool replaces) noexcept {
     const std::uint32_t key = arbitration_key(frame);
-    std::size_t place = size_;
-    for (; place > 0 && waiting_[place - 1].key >= key; --place) {
+    std::size_t place = end_;
+    for (; place > first_ && waiting_[place - 1].key >= key; --place) {
       Waiting& other = waiting_[place - 1];
       if (other.key != key) continue;
       if (!replaces) break;
@@ -27,32 +27,40 @@ class CanSendQueue {
       return true;
     }
     // What only looked for a frame to replace went past those of its own key.
-    while (place < size_ && waiting_[place].key <= key) ++place;
-    if (size_ == capacity) return false;
-    for (std::size_t i = size_; i > place; --i) waiting_[i] = waiting_[i - 1];
-    waiting_[place] = {frame, key, replaces};
-    ++size_;
+    while (place < end_ && waiting_[place].key <= key) ++place;
+    if (size() == capacity) return false;
+    if (end_ == capacity) place -= make_room();
+    for (std::size_t i = end_; i > place; --i) waiting_[i] = waiting_[i - 1];
+    // Member by member: a copy of the whole would wait for what was just written in pieces.
+    Waiting& waiting = waiting_[place];
+    waiting.frame = frame;
+    waiting.key = key;
+    waiting.may_be_replaced = replaces;
+    ++end_;
     return true;
   }
 
-  bool is_empty() const noexcept { return size_ == 0; }
-  std::size_t size() const noexcept { return size_; }
-  const CanFrame& operator[](std::size_t index) const noexcept { return waiting_[index].frame; }
+  bool is_empty() const noexcept { return first_ == end_; }
+  std::size_t size() const noexcept { return end_ - first_; }
+  const CanFrame& operator[](std::size_t index) const noexcept { return waiting_[first_ + index].frame; }
+  /// The arbitration key of the first; not when empty.
+  std::uint32_t first_key() const noexcept { return waiting_[first_].key; }
 
   /// The first `count` are gone.
   void drop_first(std::size_t count) noexcept {
-    for (std::size_t i = count; i < size_; ++i) waiting_[i - count] = waiting_[i];
-    size_ -= count;
+    first_ += count;
+    if (first_ == end_) clear();
   }
   /// The first with this key.
   void drop_one_of(std::uint32_t key) noexcept {
-    std::size_t place = 0;
-    while (place < size_ && waiting_[place].key != key) ++place;
-    if (place == size_) return;
-    for (std::size_t i = place + 1; i < size_; ++i) waiting_[i - 1] = waiting_[i];
-    --size_;
+    std::size_t place = first_;
+    while (place < end_ && waiting_[place].key != key) ++place;
+    if (place == end_) return;
+    // What is dropped is nearly always what comes first.
+    for (; place > first_; --place) waiting_[place] = waiting_[place - 1];
+    drop_first(1);
   }
-  void clear() noexcept { size_ = 0; }
+  void clear() noexcept { first_ = end_ = 0; }
 
  private:
   struct Waiting {
@@ -60,8 +68,19 @@ class CanSendQueue {
     std::uint32_t key = 0;
     bool may_be_replaced = false;
   };
+
+  /// Those that wait move to the beginning; by how much.
+  std::size_t make_room() noexcept {
+    const std::size_t moved = first_;
+    for (std::size_t i = first_; i < end_; ++i) waiting_[i - moved] = waiting_[i];
+    first_ = 0;
+    end_ -= moved;
+    return moved;
+  }
+
+  std::size_t first_ = 0;
+  std::size_t end_ = 0;
   std::array<Waiting, capacity> waiting_{};
-  std::size_t size_ = 0;
 };
 
 }  // namespace flexrf

@@ -5,7 +5,6 @@
 namespace flexrf {
 namespace {
 
-constexpr unsigned passive_above = 127;
 constexpr unsigned off_above = 255;
 constexpr unsigned most_receive_errors = 135;  // a passive receiver counts no further
 
@@ -17,12 +16,6 @@ bool CanStation::send(const CanFrame& frame) noexcept {
   // milliseconds; that spares the wire the repetitions.
   if (!connected_) transmit_errors_ = std::max(transmit_errors_, passive_above + 1);
   return true;
-}
-
-CanBusState CanStation::state() const noexcept {
-  if (off_) return CanBusState::bus_off;
-  const bool passive = transmit_errors_ > passive_above || receive_errors_ > passive_above;
-  return passive ? CanBusState::error_passive : CanBusState::error_active;
 }
 
 void CanStation::reset() noexcept {
@@ -49,15 +42,6 @@ void CanStation::count_transmit_error(bool unacknowledged) noexcept {
 
 void CanStation::count_receive_error() noexcept {
   receive_errors_ = std::min(receive_errors_ + 1, most_receive_errors);
-}
-
-void CanStation::count_success_as_sender() noexcept {
-  ++sent_;
-  if (transmit_errors_ > 0) --transmit_errors_;
-}
-
-void CanStation::count_success_as_receiver() noexcept {
-  if (receive_errors_ > 0) receive_errors_ = std::min(receive_errors_ - 1, passive_above);
 }
 
 }  // namespace flexrf

@@ -1,6 +1,8 @@
 // CanStation: a node's controller on a simulated wire.
 #pragma once
 
+#include <algorithm>
+
 #include "hal/interfaces/can_bus/can_bus.hpp"
 #include "hal/interfaces/can_bus/can_node.hpp"
 #include "hal/interfaces/can_bus/can_send_queue.hpp"
@@ -15,7 +17,11 @@ class CanStation final : public CanPort {
   bool send(const CanFrame& frame) noexcept override;
 
   /// bus_off, error_passive or error_active.
-  CanBusState state() const noexcept;
+  CanBusState state() const noexcept {
+    if (off_) return CanBusState::bus_off;
+    const bool passive = transmit_errors_ > passive_above || receive_errors_ > passive_above;
+    return passive ? CanBusState::error_passive : CanBusState::error_active;
+  }
   /// Frames not yet on the wire, the one that is being sent included.
   std::size_t waiting() const noexcept { return waiting_.size(); }
   unsigned transmit_errors() const noexcept { return transmit_errors_; }
@@ -37,16 +43,23 @@ class CanStation final : public CanPort {
  private:
   friend class CanWire;
 
+  static constexpr unsigned passive_above = 127;
+
   void reset() noexcept;
   bool takes_part() const noexcept { return connected_ && !off_; }
   void count_transmit_error(bool unacknowledged) noexcept;
   void count_receive_error() noexcept;
-  void count_success_as_sender() noexcept;
-  void count_success_as_receiver() noexcept;
+  // What happens with every frame is seen by the compiler where it is called.
+  void count_success_as_sender() noexcept {
+    ++sent_;
+    if (transmit_errors_ > 0) --transmit_errors_;
+  }
+  void count_success_as_receiver() noexcept {
+    if (receive_errors_ > 0) receive_errors_ = std::min(receive_errors_ - 1, passive_above);
+  }
 
   CanNode* node_ = nullptr;
   Time node_event_{};  // as the node said last
-  CanSendQueue waiting_;
   unsigned transmit_errors_ = 0;
   unsigned receive_errors_ = 0;
   std::uint64_t failed_ = 0;
@@ -57,6 +70,7 @@ class CanStation final : public CanPort {
   bool off_ = false;
   Time restart_at_ = Time::max();  // when off
   Time silent_until_{};            // after a transmission, when passive
+  CanSendQueue waiting_;           // last: it is large, and the rest is looked at for each frame
 };
 
 }  // namespace flexrf

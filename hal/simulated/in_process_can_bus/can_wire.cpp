@@ -106,20 +106,23 @@ CanWire::Event CanWire::next() const noexcept {
     if (at < event.at) event = {at, kind, station};
   };
   if (sender_ != nullptr) consider(ends_, Event::Kind::frame_ends, sender_);
+  const Time quiet_at = std::max(free_at_, now_);
   CanStation* winner = nullptr;
+  Time soonest = Time::max();
   for (const Place& place : places_) {
     CanStation& station = *place.station;
     consider(station.node_event_, Event::Kind::node_acts, &station);
     if (station.off_) consider(station.restart_at_, Event::Kind::restart, &station);
     if (sender_ != nullptr || !station.takes_part() || station.waiting_.is_empty()) continue;
-    const Time at = may_begin(station);
-    const Time sooner = winner != nullptr ? may_begin(*winner) : Time::max();
-    const bool wins = at < sooner || (at == sooner && arbitration_key(station.waiting_[0]) <
-                                                          arbitration_key(winner->waiting_[0]));
-    if (wins) winner = &station;
+    const Time at = std::max(quiet_at, station.silent_until_);
+    const bool wins =
+        at < soonest || (at == soonest && station.waiting_.first_key() < winner->waiting_.first_key());
+    if (!wins) continue;
+    winner = &station;
+    soonest = at;
   }
   // Last: a node that acts at this very moment still takes part in the arbitration.
-  if (winner != nullptr) consider(may_begin(*winner), Event::Kind::frame_begins, winner);
+  if (winner != nullptr) consider(soonest, Event::Kind::frame_begins, winner);
   return event;
 }
 
@@ -161,6 +164,7 @@ void CanWire::begin_frame(CanStation& sender) noexcept {
   }
   sender_ = &sender;
   frame_ = sender.waiting_[0];
+  frame_key_ = sender.waiting_.first_key();
   ends_ = now_ + bit_count(frame_) * bit_time_;
 }
 
@@ -186,7 +190,7 @@ void CanWire::end_frame() noexcept {
   const bool good = heard && !hit;
   free_at_ = ends_ + (intermission_bits + (good ? 0 : error_frame_bits)) * bit_time_;
   if (good) {
-    sender.waiting_.drop_one_of(arbitration_key(frame_));
+    sender.waiting_.drop_one_of(frame_key_);
     sender.count_success_as_sender();
     for (const Place& place : places_) {
       CanStation& station = *place.station;

@@ -85,6 +85,7 @@ class CanWire {
   Time free_at_{};
   CanStation* sender_ = nullptr;  // while a frame is on the wire
   CanFrame frame_;
+  std::uint32_t frame_key_ = 0;
   Time ends_{};
 };
 

@@ -1,5 +1,6 @@
 #include "hal/simulated/in_process_can_bus/can_wire.hpp"
 
+#include <memory>
 #include <vector>
 
 #include "hal/simulated/in_process_can_bus/can_bit_count.hpp"
@@ -211,6 +212,30 @@ bool says_when_something_will_happen() {
   return quiet && w.wire.next_event() == start + microseconds(132);
 }
 
+// Ever more than leave, up to the last place, and then as many as leave.
+bool a_queue_that_is_never_empty_keeps_its_order() {
+  const auto queue = std::make_unique<CanSendQueue>();
+  std::uint8_t put = 0;
+  std::uint8_t left = 0;
+  const auto say = [&](std::uint32_t identifier, std::uint8_t number) {
+    CanFrame frame = frame_of(identifier);
+    frame.data[0] = number;
+    return queue->put(frame, false);
+  };
+  for (int i = 0; i < 5000; ++i) {
+    if (queue->size() < CanSendQueue::capacity && !say(0x201, put++)) return false;
+    if (i % 3 == 0) continue;
+    if ((*queue)[0].data[0] != left++) return false;
+    queue->drop_one_of(queue->first_key());
+  }
+  while (queue->size() < CanSendQueue::capacity) static_cast<void>(say(0x201, put++));
+  if (say(0x080, 0)) return false;
+  queue->drop_first(2);
+  if (!say(0x080, 1) || !say(0x300, 2) || say(0x300, 3)) return false;
+  const bool ordered = (*queue)[0].identifier == 0x080 && (*queue)[CanSendQueue::capacity - 1].data[0] == 2;
+  return ordered && (*queue)[1].data[0] == static_cast<std::uint8_t>(left + 2);
+}
+
 template <bool (*Run)()>
 void holds(void**) {
   assert_true(Run());
@@ -231,6 +256,8 @@ int main() {
       {"a plug that is out", holds<a_plug_that_is_out_delays_nobody>, nullptr, nullptr, nullptr},
       {"hears what it asked for", holds<a_node_hears_what_it_asked_for>, nullptr, nullptr, nullptr},
       {"only so many places", holds<there_are_only_so_many_places>, nullptr, nullptr, nullptr},
+      {"a queue that is never empty", holds<a_queue_that_is_never_empty_keeps_its_order>, nullptr, nullptr,
+       nullptr},
       {"says when something will happen", holds<says_when_something_will_happen>, nullptr, nullptr, nullptr},
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
