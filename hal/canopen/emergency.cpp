@@ -43,7 +43,8 @@ constexpr Meaning meanings[] = {
 }  // namespace
 
 std::optional<Emergency> emergency_of(const Message& message, std::uint8_t node) noexcept {
-  if (message.identifier != identifier_of(emergency_base, node) || message.size != 8) return std::nullopt;
+  if (message.identifier != identifier_of(emergency_base, node) || message.size != 8 || message.remote)
+    return std::nullopt;
   Emergency emergency;
   emergency.code = static_cast<std::uint16_t>(read_number(message.data.data(), 2));
   emergency.error_register = message.data[2];

@@ -50,7 +50,7 @@ std::optional<NmtState> heartbeat_of(const Message& message, std::uint8_t node) 
 }
 
 std::optional<NmtCommand> nmt_command_for(const Message& message, std::uint8_t node) noexcept {
-  if (message.identifier != nmt_identifier || message.size != 2) return std::nullopt;
+  if (message.identifier != nmt_identifier || message.size != 2 || message.remote) return std::nullopt;
   if (message.data[1] != 0 && message.data[1] != node) return std::nullopt;
   return static_cast<NmtCommand>(message.data[0]);
 }

@@ -47,7 +47,7 @@ Message pack(const PdoPlan& plan, std::span<const std::uint64_t> values) noexcep
 }
 
 bool unpack(const PdoPlan& plan, const Message& message, std::span<std::uint64_t> values) noexcept {
-  if (message.identifier != plan.identifier || message.size < plan.bytes()) return false;
+  if (message.identifier != plan.identifier || message.size < plan.bytes() || message.remote) return false;
   const std::uint64_t word = read_number(message.data.data(), std::min<std::size_t>(message.size, 8));
   unsigned at = 0;
   for (std::size_t i = 0; i < plan.count; ++i) {

@@ -36,7 +36,7 @@ void SdoClient::cancel(Outbox& outbox) noexcept {
 
 void SdoClient::receive(const Message& message, Time now, Outbox& outbox) noexcept {
   if (message.identifier != identifier_of(sdo_answer_base, node_)) return;
-  if (state_ != State::busy || message.size != 8) {
+  if (state_ != State::busy || message.size != 8 || message.remote) {
     ++dropped_;
     return;
   }

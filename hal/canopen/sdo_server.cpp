@@ -12,7 +12,8 @@ constexpr std::uint8_t write_segment_kind = 0x00;
 }  // namespace
 
 std::optional<Message> SdoServer::receive(const Message& message) noexcept {
-  if (message.identifier != identifier_of(sdo_request_base, node_) || message.size != 8) return std::nullopt;
+  if (message.identifier != identifier_of(sdo_request_base, node_) || message.size != 8 || message.remote)
+    return std::nullopt;
   if (message.data[0] == sdo::abort) {
     open_ = Open::nothing;
     return std::nullopt;

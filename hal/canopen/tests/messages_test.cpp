@@ -109,6 +109,15 @@ void emergencies_are_decoded_and_named(void**) {
   assert_string_equal(describe_error_code(0xB000), "an error that CiA 301 does not name");
 }
 
+// Found by fuzzing: eight bytes that are asked for are not eight bytes of zeros.
+void remote_frames_carry_nothing(void**) {
+  assert_false(emergency_of({0x084, 8, {}, true}, 4).has_value());
+  assert_false(nmt_command_for({0x000, 2, {}, true}, 4).has_value());
+  const PdoPlan plan{.identifier = 0x184};
+  assert_true(unpack(plan, {0x184, 8, {}}, {}));
+  assert_false(unpack(plan, {0x184, 8, {}, true}, {}));
+}
+
 void aborts_of_transfers_have_words(void**) {
   assert_string_equal(describe_sdo_abort(sdo_abort::too_long), "the value is too long");
   assert_string_equal(describe_sdo_abort(0x08000024), "there is no data");
@@ -242,6 +251,7 @@ int main() {
       cmocka_unit_test(silence_counts_from_the_first_heartbeat_on),
       cmocka_unit_test(our_heartbeat_comes_once_a_period_without_bursts),
       cmocka_unit_test(emergencies_are_decoded_and_named),
+      cmocka_unit_test(remote_frames_carry_nothing),
       cmocka_unit_test(aborts_of_transfers_have_words),
       cmocka_unit_test(pdos_are_packed_in_order_least_byte_first),
       cmocka_unit_test(odd_widths_share_bytes),

@@ -276,6 +276,22 @@ void a_server_refuses_what_interrupts_a_transfer(void**) {
   assert_int_equal(pair.server.receive({0x602, 8, {0xE0}})->data[0], 0x80);
 }
 
+// They ask for bytes and carry none.
+void remote_frames_are_no_transfer(void**) {
+  SdoClient client(node, milliseconds(100));
+  Outbox outbox;
+  assert_true(client.read(number_object, at(0), outbox));
+  client.receive({0x582, 8, {0x4B, 0x41, 0x60, 0}, true}, at(1), outbox);
+  assert_true(client.state() == SdoClient::State::busy);
+  assert_int_equal(client.dropped(), 1);
+  Objects objects;
+  SdoServer server(node, objects);
+  Message request{0x602, 8, {0x40, 0x41, 0x60, 0}};
+  assert_true(server.receive(request).has_value());
+  request.remote = true;
+  assert_false(server.receive(request).has_value());
+}
+
 }  // namespace
 }  // namespace flexrf::canopen
 
@@ -295,6 +311,7 @@ int main() {
       cmocka_unit_test(a_server_that_sends_too_much_or_too_little_is_refused),
       cmocka_unit_test(a_cancelled_transfer_leaves_the_server_free),
       cmocka_unit_test(a_server_refuses_what_interrupts_a_transfer),
+      cmocka_unit_test(remote_frames_are_no_transfer),
   };
   return cmocka_run_group_tests_name("canopen sdo", tests, nullptr, nullptr);
 }
