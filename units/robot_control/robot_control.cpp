@@ -65,7 +65,9 @@ void RobotControl::step(const Tick& tick) {
 void RobotControl::follow_target() noexcept {
   const auto wanted = target.latest();
   if (!wanted) {
-    hold(wanted.reason() == NullReason::nothing_yet ? "no target yet" : name_of(wanted.reason()));
+    hold(wanted.reason() == NullReason::nothing_yet      ? "no target yet"
+         : wanted.reason() == NullReason::not_registered ? ""  // it is moved by hand alone
+                                                         : name_of(wanted.reason()));
     return;
   }
   if (held_) {

@@ -16,7 +16,7 @@ namespace flexrf {
 template <class Driver>
 class EvdevBench {
  public:
-  explicit EvdevBench(UinputDescription description)
+  explicit EvdevBench(const UinputDescription& description)
       : hand(description), device(description.name), bench_(std::in_place, nullptr) {}
   EvdevBench(const EvdevBench&) = delete;
   EvdevBench& operator=(const EvdevBench&) = delete;
