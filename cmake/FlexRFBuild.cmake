@@ -6,6 +6,7 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 option(FLEXRF_CHECKED "Poison loans, abort on allocation in real-time threads" OFF)
+option(FLEXRF_FUZZ "Fuzz targets too, which need clang and its libFuzzer (preset fuzz)" OFF)
 set(FLEXRF_SANITIZER "" CACHE STRING "Sanitizers to build with: empty, 'address,undefined' or 'thread'")
 
 add_library(flexrf_options INTERFACE)

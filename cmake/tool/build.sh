@@ -5,7 +5,7 @@
 set_launcher() {  # set_launcher PRESET: sets `launcher` to what the preset's programs are started with
   launcher=()
   case $1 in
-    asan | tsan) setarch --addr-no-randomize true 2>/dev/null && launcher=(setarch --addr-no-randomize) ;;
+    asan | tsan | fuzz) setarch --addr-no-randomize true 2>/dev/null && launcher=(setarch --addr-no-randomize) ;;
   esac
 }
 

@@ -76,6 +76,11 @@ run_tests() {  # run_tests PRESET CTEST ARGUMENT...
 test_preset() {  # test_preset PRESET full|some: what does not build is a test that fails, the others run all the same
   local preset=$1 extent=$2 without=''
   local -a targets=() selection=()
+  if [[ $preset == fuzz ]]; then # decoders given bytes that nobody thought of, and nothing else
+    check "build fuzz" build fuzz tests_fuzz
+    stage "test fuzz" run_tests fuzz -L '^fuzz$'
+    return
+  fi
   # Whole cells are what takes long under a sanitizer, and what the other presets run already.
   [[ $extent == some ]] && targets=(tests_unit tests_stress) selection=(-L '^(unit|stress)$')
   [[ ${FLEXRF_LONG-} ]] || without='^long$'
@@ -99,7 +104,7 @@ test_guest() {  # what needs real drivers, in the machine that has them; built w
 test_stages() {  # test_stages [--full | --guest [--long] | PRESET...]
   local start preset index failed=0
   local -a chosen=("$@")
-  local -A extent=([release]=full [checked]=full [debug]=full [asan]=some [tsan]=some)
+  local -A extent=([release]=full [checked]=full [debug]=full [asan]=some [tsan]=some [fuzz]=full)
   ninja_options=(-k 0) # what fails to build should not keep the rest from being tested
   exec 2>&1 # one report, in the order in which things happened
   mkdir -p "$root/build"
@@ -116,6 +121,7 @@ test_stages() {  # test_stages [--full | --guest [--long] | PRESET...]
   elif (($# == 0)) || [[ $1 == --full ]]; then
     check "source layout" check_format
     chosen=(checked asan tsan)
+    [[ ${1-} == --full ]] && chosen+=(fuzz)
     analyses=1
     test_preset release full
     analyses=0

@@ -37,7 +37,8 @@ expect "long tests" "$(sort -u <(grep ^long: "$calls"))" "long: unset"
 flexrf test --full </dev/null
 expect "exit code of --full" "$status" 0
 expect "long tests of --full" "$(sort -u <(grep ^long: "$calls"))" "long: 1"
-expect "selections of --full" "$(grep -e ' -L' "$calls")" "* -LE ^panel\$"$'\n'"* -L ^panel\$"
+expect "selections of --full" "$(grep -e ' -L' "$calls")" "* -LE ^panel\$"$'\n'"* -L ^panel\$"$'\n'"*/fuzz * -L ^fuzz\$"
+expect "what is built of fuzz" "$(grep "^ninja .*/fuzz" "$calls")" "*tests_fuzz"
 
 : >"$calls"
 flexrf test tsan debug </dev/null
