@@ -175,10 +175,10 @@ Verdict a_line_that_is_too_long_is_left_out(StreamSocketWorld& world) {
 }
 
 Verdict who_does_not_read_holds_up_nobody_else(StreamSocketWorld& world) {
-  if (!listening(world, {.listen = true, .sessions = 2}, 2)) return Verdict::failed;
+  if (!listening(world, {.listen = true, .sessions = 2, .buffer = 65536}, 2)) return Verdict::failed;
   const SocketSession slow = world.socket().sessions()[0];
   const SocketSession good = world.socket().sessions()[1];
-  const std::string text(4000, 'x');
+  const std::string text(65000, 'x');
   // The kernel keeps some megabytes before it takes no more.
   if (!until(world, [&] { return !world.socket().write_line(slow, text); })) return Verdict::failed;
   if (!world.socket().write_line(good, "hello")) return Verdict::failed;
