@@ -21,6 +21,7 @@ Status Gantry::initialise() {
   outcome_ = GantryOutcome::none;
   trouble_ = hindrance_ = {};
   last_cycle_ = Time{};
+  followed_ = false;
   return {};
 }
 
@@ -38,11 +39,13 @@ void Gantry::step(const Tick& tick) {
 }
 
 /// Whether both drives follow. When they do not, what was ordered is given up, and the set-points stay where
-/// the axes are.
+/// the axes are; also where one that was not heard turns up.
 bool Gantry::may_follow(const Tick& tick) noexcept {
   hindrance_ = trouble_of(*x, x_state_);
   if (hindrance_) hindrance_ = trouble_of(*z, z_state_);
   const bool follow = hindrance_ && !tick.motion_inhibited && x_state_->enabled && z_state_->enabled;
+  if (follow && !followed_) seed_from_drives();
+  followed_ = follow;
   if (follow) return true;
   const auto wanted = order.latest();
   const bool is_new = wanted && wanted->number != taken_.number;

@@ -51,6 +51,7 @@ class Gantry final : public GantryUnit {
   Status hindrance_;  // why it cannot follow at all
   Time settles_since_{};
   Time last_cycle_{};
+  bool followed_ = false;  // in the cycle before
 };
 
 }  // namespace flexrf
