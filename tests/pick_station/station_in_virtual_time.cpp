@@ -40,8 +40,7 @@ StationInVirtualTime::StationInVirtualTime(const char* hardware)
   const std::uint16_t control = index_of(application.threads, "control");
   clock_ = application.threads[control].context;
   cycles_ = &application.thread_states[control].cycles;
-  feedback_ = static_cast<const PickSequenceFeedback*>(
-      application.unit_states[pick_].unit->parameter_memory().feedback);
+  feedback_ = &told_by<PickSequenceFeedback>("pick");
 }
 
 RunSummary StationInVirtualTime::run(Duration longest, std::function<void(Time)> world) {
@@ -121,12 +120,21 @@ StationInVirtualTime& StationInVirtualTime::make_ready() {
   return when_in(PickState::ready);
 }
 
-std::uint16_t StationInVirtualTime::parameter(const char* name) {
+std::uint16_t StationInVirtualTime::parameter(std::uint16_t unit, const char* name) {
   const Application& application = executive_.cell().application();
-  const auto parameters = application.units[pick_].type->runtime.parameters;
+  const auto parameters = application.units[unit].type->runtime.parameters;
   std::uint16_t i = 0;
   while (std::strcmp(parameters[i].field->name, name) != 0) ++i;
   return i;
+}
+
+const void* StationInVirtualTime::feedback_of(const char* component) {
+  const Application& application = executive_.cell().application();
+  for (std::size_t i = 0; i < application.units.size(); ++i) {
+    if (std::strcmp(application.units[i].name, component) == 0)
+      return application.unit_states[i].unit->parameter_memory().feedback;
+  }
+  return find(component).parameter_memory().feedback;
 }
 
 void StationInVirtualTime::press(const char* button) {
@@ -134,16 +142,16 @@ void StationInVirtualTime::press(const char* button) {
   request.kind = RequestKind::press;
   request.component = pick_;
   request.requester = requester_;
-  CHECK(request.add_presses(parameter(button)));
+  CHECK(request.add_presses(parameter(pick_, button)));
   executive_.cell().send(request);
 }
 
-void StationInVirtualTime::change(const char* name, const void* value, std::size_t size) {
+void StationInVirtualTime::change(const char* unit, const char* name, const void* value, std::size_t size) {
   ParameterRequest request;
   request.kind = RequestKind::set;
-  request.component = pick_;
+  request.component = index_of(executive_.cell().application().units, unit);
   request.requester = requester_;
-  CHECK(request.add(parameter(name), 0, value, size));
+  CHECK(request.add(parameter(request.component, name), 0, value, size));
   executive_.cell().send(request);
 }
 
@@ -159,6 +167,13 @@ void StationInVirtualTime::initialise(const char* device) {
   executive_.act(ComponentAction::initialise, component, [this](const Status& status) {
     if (!status) problem_ = std::string{"initialise: "} + status.cause();
   });
+}
+
+void StationInVirtualTime::plug_box(bool in) {
+  const auto plug = [in](auto& chip) { in ? chip.plug_in() : chip.unplug(); };
+  Device& box = find("box");
+  if (auto* const mock = dynamic_cast<MockGpioChip*>(&box)) return plug(*mock);
+  plug(dynamic_cast<SimulatedGpioChip&>(box));
 }
 
 void StationInVirtualTime::press_emergency_stop(bool pressed) {

@@ -39,9 +39,19 @@ class StationInVirtualTime {
   void press(const char* button);
   template <class Value>
   void set(const char* parameter, const Value& value) {
-    change(parameter, &value, sizeof(value));
+    change("pick", parameter, &value, sizeof(value));
+  }
+  /// Of another unit.
+  template <class Value>
+  void set_of(const char* unit, const char* parameter, const Value& value) {
+    change(unit, parameter, &value, sizeof(value));
   }
   const PickSequenceFeedback& seen() const { return *feedback_; }
+  /// What another unit or a device tells, by its name.
+  template <class Feedback>
+  const Feedback& told_by(const char* component) {
+    return *static_cast<const Feedback*>(feedback_of(component));
+  }
   std::string message() const { return std::string{feedback_->message_view()}; }
   std::string remedy() const { return std::string{feedback_->remedy_view()}; }
   /// A lamp, by the name of its line; one that blinks is lit or dark.
@@ -57,6 +67,8 @@ class StationInVirtualTime {
   }
   Control& control() { return executive_.control(); }
   void press_emergency_stop(bool pressed);
+  /// The whole chip of the operator's box, as an adapter that is pulled out.
+  void plug_box(bool in);
 
  private:
   struct Step {
@@ -64,8 +76,9 @@ class StationInVirtualTime {
     std::function<bool()> condition;
     std::function<void()> act;
   };
-  void change(const char* parameter, const void* value, std::size_t size);
-  std::uint16_t parameter(const char* name);
+  void change(const char* unit, const char* parameter, const void* value, std::size_t size);
+  std::uint16_t parameter(std::uint16_t unit, const char* name);
+  const void* feedback_of(const char* component);
   Device& find(const char* name);
   void look();
   void go_on(Time now);

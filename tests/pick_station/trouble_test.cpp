@@ -3,12 +3,6 @@
 #include <cmath>
 
 namespace flexrf::pick_station {
-namespace {
-
-constexpr int with_a_fault = 2;  // the exit code
-
-}  // namespace
-
 template <Hardware hardware>
 void an_emergency_stop_in_mid_pick_is_recovered_from() {
   Cell cell(hardware);
