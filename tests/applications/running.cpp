@@ -44,16 +44,16 @@ void in_a_process(void (*body)()) {
 
 namespace {
 
-Options quietly(Options options) {
-  options.realtime = false;
+Options quietly(Options options, RightsOfATest rights) {
+  options.realtime = rights == RightsOfATest::real_time;
   options.status_view = false;
   return options;
 }
 
 }  // namespace
 
-Running::Running(const Application& application, Options options)
-    : executive_(application, quietly(std::move(options))) {
+Running::Running(const Application& application, Options options, RightsOfATest rights)
+    : executive_(application, quietly(std::move(options), rights)) {
   int ends[2];
   CHECK(pipe(ends) == 0);
   dup2(ends[0], STDIN_FILENO);

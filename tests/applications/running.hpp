@@ -18,10 +18,14 @@ void apart(void**) {
   in_a_process(body);
 }
 
-/// Without real time, keys through a pipe; the test plays the person at the machine and the panel.
+/// Real-time priorities are for the guest, where they disturb nobody.
+enum class RightsOfATest : std::uint8_t { ordinary, real_time };
+
+/// Keys through a pipe; the test plays the person at the machine and the panel.
 class Running {
  public:
-  explicit Running(const Application& application, Options options = {});
+  explicit Running(const Application& application, Options options = {},
+                   RightsOfATest rights = RightsOfATest::ordinary);
   ~Running();  // ends it when the test forgot to
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;

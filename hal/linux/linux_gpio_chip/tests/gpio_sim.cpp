@@ -6,7 +6,6 @@
 namespace flexrf {
 namespace {
 
-constexpr const char* configuration = "/sys/kernel/config/gpio-sim/chip";
 constexpr int most_lines = 8;
 
 }  // namespace
@@ -20,21 +19,20 @@ bool GpioSim::is_high(const std::string& line) {
 }
 
 void GpioSim::unplug() {
-  write(std::string{configuration} + "/live", "0");
+  write(folder_ + "/live", "0");
   plugged_ = false;
 }
 
 void GpioSim::plug_in() {
-  write(std::string{configuration} + "/live", "1");
+  write(folder_ + "/live", "1");
   plugged_ = true;
 }
 
 /// Its number and the chip's may be others after the chip came back.
 std::string GpioSim::folder_of(const std::string& line) {
-  const std::string base{configuration};
   for (int i = 0; i < most_lines; ++i) {
-    if (read(base + "/lines/line" + std::to_string(i) + "/name") != line) continue;
-    return "/sys/devices/platform/" + read(base + "/dev_name") + "/" + read(base + "/lines/chip_name") +
+    if (read(folder_ + "/lines/line" + std::to_string(i) + "/name") != line) continue;
+    return "/sys/devices/platform/" + read(folder_ + "/dev_name") + "/" + read(folder_ + "/lines/chip_name") +
            "/sim_gpio" + std::to_string(i);
   }
   std::fprintf(stderr, "gpio-sim has no line %s\n", line.c_str());

@@ -11,6 +11,11 @@ class GpioSim {
  public:
   static constexpr const char* label = "flexrf-sim";
 
+  GpioSim() : GpioSim("chip") {}
+  /// Another one, by its name in configfs.
+  explicit GpioSim(const std::string& chip) : folder_(folder_of_chip(chip)) {}
+  static std::string folder_of_chip(const std::string& chip) { return "/sys/kernel/config/gpio-sim/" + chip; }
+
   void pull(const std::string& line, bool high);
   bool is_high(const std::string& line);
   /// The chip goes and comes back, with all lines pulled down.
@@ -24,6 +29,7 @@ class GpioSim {
   void write(const std::string& file, const std::string& text);
   std::string read(const std::string& file);
 
+  std::string folder_;
   bool plugged_ = true;
   bool good_ = true;
 };
