@@ -1,0 +1,74 @@
+// RealStation: the pick station on its real drivers in the guest, with programs at the far ends.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/applications/process.hpp"
+#include "tests/applications/running.hpp"
+#include "tests/pick_station/station_box.hpp"
+
+namespace flexrf::whole {
+
+/// The application runs in this process, configured as its table says, with the priorities that it asks for.
+/// Drives, gripper and feeder are other programs, on the other CAN controller, the other end of the serial
+/// line and a TCP port. Whatever is waited for in vain fails the test with what the operator reads.
+class RealStation {
+ public:
+  RealStation();
+
+  // ---- what a person does and reads
+
+  void press(const char* button);
+  template <class Value>
+  void set(const char* name, const Value& value) {
+    change(name, &value, sizeof(value));
+  }
+  /// A person initialises a device on its page; the outcome must be good.
+  void initialise(const char* device);
+  /// Clears a stop and gives Start until it is accepted.
+  void give_start();
+  /// From power-on to ready: Start, Home.
+  void make_ready();
+
+  /// What a unit or device tells, by its name.
+  nlohmann::json told(const std::string& component) { return running_.newest(component + ".feedback"); }
+  std::string text(const char* field) { return told("pick").at(field).get<std::string>(); }
+  std::uint64_t count(const char* field) { return told("pick").at(field).get<std::uint64_t>(); }
+  std::string state();
+  double position_of(const char* axis) { return told(axis).at("position").get<double>(); }
+
+  void wait_for(const char* what, const std::function<bool()>& condition);
+  void wait_for_state(const char* state);
+  /// Until the operator reads it.
+  void wait_for_message(const char* part);
+  /// On the way from feeder to tray, with a part in the gripper.
+  void wait_until_it_carries();
+  void wait_for_parts(std::uint64_t parts);
+
+  // ---- what is around it
+
+  StationBox& box() { return box_; }
+  /// The drives' end of the CAN bus.
+  void set_can_cable(bool in);
+
+  Control& control() { return running_.control(); }
+  /// The exit code.
+  int stop() { return running_.stop().exit_code; }
+
+ private:
+  void change(const char* name, const void* value, std::size_t size);
+  ParameterRequest to_pick(RequestKind kind);
+  std::uint16_t parameter(const char* name);
+  void accept(const ParameterRequest& request);
+
+  Folder folder_;
+  StationBox box_;
+  Process drives_;
+  Process gripper_;
+  Process feeder_;
+  Running running_;
+};
+
+}  // namespace flexrf::whole
