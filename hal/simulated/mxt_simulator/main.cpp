@@ -84,7 +84,7 @@ std::string joints_of(MxtWire& wire) {
 
 bool add_foreign(MxtWire& wire, std::string_view kind) {
   constexpr std::string_view kinds[] = {"stranger", "short", "long", "number", "nonsense"};
-  for (std::uint8_t i = 0; i < std::size(kinds); ++i) {
+  for (std::size_t i = 0; i < std::size(kinds); ++i) {
     if (kind != kinds[i]) continue;
     wire.add_foreign(static_cast<Foreign>(i));
     return true;
