@@ -31,8 +31,8 @@ bool set_interface(const char* name, bool up) {
 
 template <class Records>
 std::uint16_t index_of(const Records& records, const char* name) {
-  for (std::uint16_t i = 0; i < records.size(); ++i)
-    if (std::strcmp(records[i].name, name) == 0) return i;
+  for (std::size_t i = 0; i < records.size(); ++i)
+    if (std::strcmp(records[i].name, name) == 0) return static_cast<std::uint16_t>(i);
   throw fixture::CheckFailed{std::string{"there is no "} + name};
 }
 
@@ -62,8 +62,8 @@ ParameterRequest RealStation::to_pick(RequestKind kind) {
 
 std::uint16_t RealStation::parameter(const char* name) {
   const auto parameters = running_.application().units[running_.unit("pick")].type->runtime.parameters;
-  for (std::uint16_t i = 0; i < parameters.size(); ++i)
-    if (std::strcmp(parameters[i].field->name, name) == 0) return i;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (std::strcmp(parameters[i].field->name, name) == 0) return static_cast<std::uint16_t>(i);
   throw fixture::CheckFailed{std::string{"there is no parameter "} + name};
 }
 
