@@ -12,7 +12,8 @@ class DatagramSocketOn : public Base {
   Status initialise() override {
     const auto& set = this->configuration;
     transport_.shut();
-    DatagramSettings settings{.only_remote = set.only_remote, .size = set.size, .waiting = set.waiting};
+    DatagramSettings settings{
+        .remote = {}, .only_remote = set.only_remote, .size = set.size, .waiting = set.waiting};
     if (const Status status = transport_.open(set.local_view(), set.remote_view(), settings.remote);
         !status) {
       transport_.shut();
