@@ -22,6 +22,16 @@ expect "the kernel is made once" "$errors" ""
 expect "machines" "$(boots)" 1
 
 : >"$calls"
+echo 2 >"$work/guest/cpus"
+flexrf test --guest </dev/null
+expect "exit code with two machines" "$status" 0
+expect "one of the two's lines" "$output" "*1/2 Test #1: first ...*   Passed  1.23 sec*"
+expect "the other's lines" "$output" "*2/2 Test #2: second ...*   Passed  1.23 sec*"
+expect "last line with two machines" "$(last_line)" "100% tests passed, 0 tests failed out of 3"
+expect "a machine for each CPU" "$(boots)" 2
+rm "$work/guest/cpus"
+
+: >"$calls"
 echo "ends 3" >"$work/guest/first"
 flexrf test --guest </dev/null
 expect "exit code of a failure" "$status" 1

@@ -1,6 +1,6 @@
 # Sourced after stand_in.sh: a stand-in for QEMU and what is in it, which answers as image/guest/init does. The tests `first`
 # and `second` are in it. What a test does there is in $work/guest/NAME: nothing (it passes), `ends STATUS`, or `takes the
-# machine down`. What does not boot is told by $work/guest/broken.
+# machine down`. What does not boot is told by $work/guest/broken. The host has as many CPUs as $work/guest/cpus says, or one.
 # shellcheck shell=bash disable=SC2154 # tree and work are stand_in.sh's
 
 mkdir -p "$tree/image/guest" "$tree/build/release" "$work/guest"
@@ -11,6 +11,9 @@ printf '%s\n' first second >"$tree/build/release/guest_tests.txt"
 
 stand_in uname <<'BODY'
 [[ -e $STAND_IN/guest/other_machine ]] && echo aarch64 || echo x86_64
+BODY
+stand_in nproc <<'BODY'
+cat "$STAND_IN/guest/cpus" 2>/dev/null || echo 1
 BODY
 stand_in qemu-system-x86_64 <<'BODY'
 for word; do
