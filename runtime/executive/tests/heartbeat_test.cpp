@@ -10,6 +10,7 @@
 #include "runtime/executive/heartbeat_watch.hpp"
 #include "runtime/executive/service_manager.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
+#include "runtime/log/log.hpp"
 
 namespace flexrf::fixture {
 namespace {
@@ -26,6 +27,8 @@ struct Watched {
   HeartbeatWatch watch{cell};
   Time now{seconds{1}};
 
+  // What was logged names threads that go with the plan.
+  ~Watched() { drain_log(-1); }
   Heartbeat& heartbeat() { return cell.heartbeat(); }
   bool is_met() { return heartbeat().is_met(now); }
   void pass(Duration time, std::initializer_list<std::uint16_t> turning, bool stuck = false) {
