@@ -77,7 +77,7 @@ class MelfaWorld {
   /// As a person restarts a unit with its arm.
   bool restart() {
     arm().stop();
-    sent_before_ = server_->received();
+    sent_before_ += arm().counters().sent;
     arm().clear_fault();
     return arm().initialise().is_ok();
   }
