@@ -20,8 +20,9 @@ if(CMAKE_UNITY_BUILD)
 endif()
 if(FLEXRF_COMMON_HEADERS)
   # GCC 12 forgets that precompiled headers are the system's, and warns of what std::string does in them. The release preset,
-  # which has none of these, looks for both in the same sources.
-  target_compile_options(flexrf_options INTERFACE -Wno-array-bounds -Wno-stringop-overread)
+  # which has none of these, looks for all four in the same sources.
+  target_compile_options(flexrf_options INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
+                                                  -Wno-stringop-overread)
 endif()
 # Includes name their layer from the repository's root: "runtime/blackboard/slot.hpp".
 target_include_directories(flexrf_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
