@@ -88,13 +88,24 @@ bool Supervision::units_are_idle() const noexcept {
                      });
 }
 
+bool Supervision::an_event_is_handled() const noexcept {
+  const Application& application = cell_->application();
+  for (std::size_t i = 0; i < application.threads.size(); ++i) {
+    if (application.threads[i].trigger.kind == TriggerKind::period) continue;
+    if (application.thread_states[i].step_began.load(std::memory_order_acquire) != 0) return true;
+  }
+  return false;
+}
+
 bool Supervision::is_quiet() const noexcept {
   for (const QueueRecord& queue : cell_->application().queues) {
     for (const QueueSource* source : queue.sources) {
       if (!source->is_empty()) return false;
     }
   }
-  return units_are_idle();
+  // What a step took out of a queue is in nobody's hands until it ends, and the machine may stand still in
+  // it.
+  return !an_event_is_handled() && units_are_idle();
 }
 
 void Supervision::enter(Mode mode, Time now) noexcept {

@@ -34,6 +34,7 @@ class Supervision {
   void finish(Time now) noexcept;
   void stop(Time now) noexcept;
   void make_safe(Time now) noexcept;
+  bool an_event_is_handled() const noexcept;
   bool is_quiet() const noexcept;
   bool units_are_idle() const noexcept;
   void enter(Mode mode, Time now) noexcept;
