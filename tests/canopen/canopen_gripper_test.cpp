@@ -120,6 +120,25 @@ bool drive_without_an_object_that_is_needed_is_told() {
   });
 }
 
+// What a drive lacks is a column here as it is of a servo drive.
+bool drive_without_a_heartbeat_is_guarded_and_grips() {
+  const auto world = std::make_unique<InProcessWorld>(absolute);
+  if (!world->tell("lack 1017") || !world->tell("lack 1016:01")) return false;
+  world->configuration().guarded = true;
+  world->configuration().supervises_us = false;
+  if (!starts_active(*world) || !world->put_object(0.03)) return false;
+  return goes_to(*world, closed) && object(*world) == GripperObject::gripped &&
+         world->drive_objects().get(canopen::objects::guard_time) == 100;
+}
+
+bool drive_whose_mode_is_in_no_pdo_is_homed_and_grips() {
+  const auto world = std::make_unique<InProcessWorld>(homed);
+  if (!world->tell("unmap 6060") || !world->tell("unmap 6061")) return false;
+  world->configuration().maps_mode = false;
+  if (!starts_active(*world) || !goes_to(*world, opened) || !world->put_object(0.03)) return false;
+  return goes_to(*world, closed) && object(*world) == GripperObject::gripped;
+}
+
 // Fingers that are closed where the drive's position is 0 need not be at 0.
 bool opening_is_counted_from_where_its_zero_is() {
   const auto world = std::make_unique<InProcessWorld>(homed);
@@ -153,6 +172,8 @@ int main() {
       cmocka_unit_test(holds<what_it_presses_on_is_not_let_go_by_a_halt>),
       cmocka_unit_test(holds<drive_that_cannot_limit_its_torque_says_so_and_grips>),
       cmocka_unit_test(holds<drive_without_an_object_that_is_needed_is_told>),
+      cmocka_unit_test(holds<drive_without_a_heartbeat_is_guarded_and_grips>),
+      cmocka_unit_test(holds<drive_whose_mode_is_in_no_pdo_is_homed_and_grips>),
       cmocka_unit_test(holds<opening_is_counted_from_where_its_zero_is>),
       cmocka_unit_test(holds<plans_that_make_no_sense>),
   };
