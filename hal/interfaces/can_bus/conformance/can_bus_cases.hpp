@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hal/interfaces/can_bus/conformance/can_bus_conformance.hpp"
+#include "tests/verdict.hpp"
 
 namespace flexrf::can_bus_cases {
 
@@ -12,11 +13,6 @@ namespace flexrf::can_bus_cases {
 inline constexpr int most_cycles = 20'000;
 /// After which what has not happened is taken not to happen.
 inline constexpr int settling_cycles = 20;
-
-enum class Verdict { passed, failed, skipped };
-inline Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
 
 inline CanFrame frame_of(std::uint32_t identifier, std::uint8_t first = 0, bool extended = false) {
   CanFrame frame;

@@ -1,7 +1,7 @@
 #include "hal/interfaces/can_bus/conformance/can_bus_conformance.hpp"
 
 #include "hal/interfaces/can_bus/conformance/can_bus_cases.hpp"
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -9,17 +9,6 @@ namespace {
 using namespace can_bus_cases;
 
 MakeCanBusWorld make_world = nullptr;
-
-// Each case runs in here, so that a failing assertion jumps over no destructor.
-void judge(Verdict (*run)(CanBusWorld&)) {
-  Verdict outcome = Verdict::failed;
-  {
-    const std::unique_ptr<CanBusWorld> world = make_world();
-    outcome = run(*world);
-  }
-  if (outcome == Verdict::skipped) skip();
-  assert_true(outcome == Verdict::passed);
-}
 
 Verdict delivers_what_is_wanted_and_nothing_else(CanBusWorld& world) {
   CanInbox inbox;
@@ -191,7 +180,7 @@ Verdict a_full_queue_says_so_and_empties(CanBusWorld& world) {
 
 template <Verdict (*Run)(CanBusWorld&)>
 void judged(void**) {
-  judge(Run);
+  judge(make_world, Run);
 }
 
 }  // namespace

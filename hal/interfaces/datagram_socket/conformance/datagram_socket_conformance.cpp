@@ -1,6 +1,6 @@
 #include "hal/interfaces/datagram_socket/conformance/datagram_socket_conformance.hpp"
 
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -9,22 +9,6 @@ namespace {
 constexpr int patience = 20000;
 
 MakeDatagramSocketWorld make_world = nullptr;
-
-enum class Verdict { passed, failed, skipped };
-Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
-
-// Each case runs in here, so that a failing assertion jumps over no destructor.
-void judge(Verdict (*run)(DatagramSocketWorld&)) {
-  Verdict result = Verdict::failed;
-  {
-    const std::unique_ptr<DatagramSocketWorld> world = make_world();
-    result = run(*world);
-  }
-  if (result == Verdict::skipped) skip();
-  assert_true(result == Verdict::passed);
-}
 
 template <class Condition>
 bool until(DatagramSocketWorld& world, Condition is_true) {
@@ -172,7 +156,7 @@ Verdict an_address_in_use_is_refused_with_its_cause(DatagramSocketWorld& world) 
 
 template <Verdict (*Run)(DatagramSocketWorld&)>
 void judged(void**) {
-  judge(Run);
+  judge(make_world, Run);
 }
 
 }  // namespace

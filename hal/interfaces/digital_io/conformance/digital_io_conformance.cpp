@@ -1,6 +1,6 @@
 #include "hal/interfaces/digital_io/conformance/digital_io_conformance.hpp"
 
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -12,22 +12,6 @@ constexpr int patience = 10000;
 constexpr Duration long_debounce = std::chrono::seconds(20);
 
 MakeDigitalIoWorld make_world = nullptr;
-
-enum class Verdict { passed, failed, skipped };
-Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
-
-// Each case runs in here, so that a failing assertion jumps over no destructor.
-void judge(Verdict (*run)(DigitalIoWorld&)) {
-  Verdict result = Verdict::failed;
-  {
-    const std::unique_ptr<DigitalIoWorld> world = make_world();
-    result = run(*world);
-  }
-  if (result == Verdict::skipped) skip();
-  assert_true(result == Verdict::passed);
-}
 
 void one_cycle(DigitalIoWorld& world) {
   world.receive(cycle);
@@ -260,7 +244,7 @@ Verdict an_output_comes_back_safe(DigitalIoWorld& world) {
 
 template <Verdict (*Run)(DigitalIoWorld&)>
 void judged(void**) {
-  judge(Run);
+  judge(make_world, Run);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hal/interfaces/force_torque_sensor/conformance/force_torque_conformance.hpp"
+#include "tests/verdict.hpp"
 
 namespace flexrf::force_torque_cases {
 
@@ -14,11 +15,6 @@ inline constexpr Duration patience = std::chrono::seconds(40);
 
 inline constexpr Vector some_force{12.5, -3.25, 40};
 inline constexpr Vector some_torque{0.125, 1.5, -0.75};
-
-enum class Verdict { passed, failed, skipped };
-inline Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
 
 template <class Condition>
 inline bool until(ForceTorqueWorld& world, const Condition& is_so) {

@@ -1,7 +1,7 @@
 #include "hal/interfaces/force_torque_sensor/conformance/force_torque_conformance.hpp"
 
 #include "hal/interfaces/force_torque_sensor/conformance/force_torque_cases.hpp"
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace force_torque_cases {
@@ -99,16 +99,9 @@ using namespace force_torque_cases;
 
 MakeForceTorqueWorld make_world = nullptr;
 
-// Each case runs in here, so that a failing assertion jumps over no destructor.
 template <Verdict (*Run)(ForceTorqueWorld&)>
 void judged(void**) {
-  Verdict result = Verdict::failed;
-  {
-    const std::unique_ptr<ForceTorqueWorld> world = make_world();
-    result = Run(*world);
-  }
-  if (result == Verdict::skipped) skip();
-  assert_true(result == Verdict::passed);
+  judge(make_world, Run);
 }
 
 CMUnitTest test(const char* name, CMUnitTestFunction run) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hal/interfaces/gripper/conformance/gripper_conformance.hpp"
+#include "tests/verdict.hpp"
 
 namespace flexrf::gripper_cases {
 
@@ -12,11 +13,6 @@ inline constexpr Duration patience = std::chrono::seconds(40);
 inline constexpr double tolerance = 1.5e-3;  // m
 inline constexpr double opened = GripperSetting::open_width;
 inline constexpr double closed = GripperSetting::closed_width;
-
-enum class Verdict { passed, failed, skipped };
-inline Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
 
 inline void idle_for(GripperWorld& world, Duration duration) {
   for (const Time start = world.now(); world.now() - start < duration;) {

@@ -1,7 +1,7 @@
 #include "hal/interfaces/gripper/conformance/gripper_conformance.hpp"
 
 #include "hal/interfaces/gripper/conformance/gripper_cases.hpp"
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -10,16 +10,9 @@ using namespace gripper_cases;
 
 MakeGripperWorld make_world = nullptr;
 
-// Each case runs in here, so that a failing assertion jumps over no destructor.
 template <Verdict (*Run)(GripperWorld&)>
 void judged(void**) {
-  Verdict result = Verdict::failed;
-  {
-    const std::unique_ptr<GripperWorld> world = make_world();
-    result = Run(*world);
-  }
-  if (result == Verdict::skipped) skip();
-  assert_true(result == Verdict::passed);
+  judge(make_world, Run);
 }
 
 CMUnitTest test(const char* name, CMUnitTestFunction run) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -14,22 +14,6 @@ constexpr int patience = 3000;
 constexpr int a_while = 5;
 
 MakeJoystickWorld make_world = nullptr;
-
-enum class Verdict { passed, failed, skipped };
-Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
-
-// Each case runs in here, so that a failing assertion jumps over no destructor.
-void judge(Verdict (*run)(JoystickWorld&)) {
-  Verdict result = Verdict::failed;
-  {
-    const std::unique_ptr<JoystickWorld> world = make_world();
-    result = run(*world);
-  }
-  if (result == Verdict::skipped) skip();
-  assert_true(result == Verdict::passed);
-}
 
 template <class Condition>
 bool until(JoystickWorld& world, Condition is_true) {
@@ -173,7 +157,7 @@ Verdict one_that_somebody_else_has_is_told(JoystickWorld& world) {
 
 template <Verdict (*Run)(JoystickWorld&)>
 void judged(void**) {
-  judge(Run);
+  judge(make_world, Run);
 }
 
 }  // namespace

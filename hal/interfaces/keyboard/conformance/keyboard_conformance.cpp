@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hal/interfaces/keyboard/key_tracker.hpp"
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -15,22 +15,6 @@ constexpr int patience = 100;
 constexpr int long_patience = 3000;
 
 MakeKeyboardWorld make_world = nullptr;
-
-enum class Verdict { passed, failed, skipped };
-Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
-
-// Each case runs in here, so that a failing assertion jumps over no destructor.
-void judge(Verdict (*run)(KeyboardWorld&)) {
-  Verdict result = Verdict::failed;
-  {
-    const std::unique_ptr<KeyboardWorld> world = make_world();
-    result = run(*world);
-  }
-  if (result == Verdict::skipped) skip();
-  assert_true(result == Verdict::passed);
-}
 
 std::vector<KeyEvent> letters(std::size_t count) {
   std::vector<KeyEvent> events;
@@ -188,7 +172,7 @@ Verdict one_that_somebody_else_has_is_told(KeyboardWorld& world) {
 
 template <Verdict (*Run)(KeyboardWorld&)>
 void judged(void**) {
-  judge(Run);
+  judge(make_world, Run);
 }
 
 }  // namespace

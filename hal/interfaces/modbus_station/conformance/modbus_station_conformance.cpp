@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -15,21 +15,9 @@ constexpr Duration patience = std::chrono::seconds(30);
 
 MakeModbusStationWorld make_world = nullptr;
 
-enum class Verdict { passed, failed, skipped };
-Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
-
-// Each case runs in here, so that a failing assertion jumps over no destructor.
 template <Verdict (*Run)(ModbusStationWorld&)>
 void judged(void**) {
-  Verdict result = Verdict::failed;
-  {
-    const std::unique_ptr<ModbusStationWorld> world = make_world();
-    result = Run(*world);
-  }
-  if (result == Verdict::skipped) skip();
-  assert_true(result == Verdict::passed);
+  judge(make_world, Run);
 }
 
 enum Place : std::size_t { pressure, level, flow, ready, speed, ramp, lamp, counter, places };

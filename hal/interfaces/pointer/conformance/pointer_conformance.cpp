@@ -1,6 +1,6 @@
 #include "hal/interfaces/pointer/conformance/pointer_conformance.hpp"
 
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -11,22 +11,6 @@ constexpr int patience = 3000;
 constexpr int a_while = 5;
 
 MakePointerWorld make_world = nullptr;
-
-enum class Verdict { passed, failed, skipped };
-Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
-
-// Each case runs in here, so that a failing assertion jumps over no destructor.
-void judge(Verdict (*run)(PointerWorld&)) {
-  Verdict result = Verdict::failed;
-  {
-    const std::unique_ptr<PointerWorld> world = make_world();
-    result = run(*world);
-  }
-  if (result == Verdict::skipped) skip();
-  assert_true(result == Verdict::passed);
-}
 
 template <class Condition>
 bool until(PointerWorld& world, Condition is_true) {
@@ -155,7 +139,7 @@ Verdict one_that_somebody_else_has_is_told(PointerWorld& world) {
 
 template <Verdict (*Run)(PointerWorld&)>
 void judged(void**) {
-  judge(Run);
+  judge(make_world, Run);
 }
 
 }  // namespace

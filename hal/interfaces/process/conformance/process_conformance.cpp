@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -12,22 +12,6 @@ namespace {
 constexpr int patience = 20000;
 
 MakeProcessWorld make_world = nullptr;
-
-enum class Verdict { passed, failed, skipped };
-Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
-
-// Each case runs in here, so that a failing assertion jumps over no destructor.
-void judge(Verdict (*run)(ProcessWorld&)) {
-  Verdict result = Verdict::failed;
-  {
-    const std::unique_ptr<ProcessWorld> world = make_world();
-    result = run(*world);
-  }
-  if (result == Verdict::skipped) skip();
-  assert_true(result == Verdict::passed);
-}
 
 template <class Condition>
 bool until(ProcessWorld& world, Condition is_true) {
@@ -257,7 +241,7 @@ Verdict without_its_helper_it_is_in_fault(ProcessWorld& world) {
 
 template <Verdict (*Run)(ProcessWorld&)>
 void judged(void**) {
-  judge(Run);
+  judge(make_world, Run);
 }
 
 }  // namespace

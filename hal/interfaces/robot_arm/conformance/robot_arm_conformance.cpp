@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "hal/interfaces/robot_arm/kinematics.hpp"
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -14,21 +14,6 @@ constexpr double cycle_seconds = 0.007;
 constexpr double tolerance = 1e-3;  // rad, beside the sensors' noise
 
 MakeRobotArmWorld make_world = nullptr;
-
-// Each case runs in here, so that a failing assertion jumps over no destructor.
-enum class Verdict { passed, failed, skipped };
-void judge(Verdict (*run)(RobotArmWorld&)) {
-  Verdict verdict = Verdict::failed;
-  {
-    const std::unique_ptr<RobotArmWorld> world = make_world();
-    verdict = run(*world);
-  }
-  if (verdict == Verdict::skipped) skip();
-  assert_true(verdict == Verdict::passed);
-}
-Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
 
 JointPositions positions_of(const JointVector& joints) {
   JointPositions positions{};
@@ -177,7 +162,7 @@ Verdict reports_tripped_drives(RobotArmWorld& world) {
 
 template <Verdict (*Run)(RobotArmWorld&)>
 void judged(void**) {
-  judge(Run);
+  judge(make_world, Run);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hal/interfaces/servo_drive/conformance/servo_drive_conformance.hpp"
+#include "tests/verdict.hpp"
 
 namespace flexrf::servo_drive_cases {
 
@@ -12,11 +13,6 @@ inline constexpr double cycle_seconds = 0.007;
 inline constexpr double tolerance = 2e-3;  // an increment of a coarse drive, and its rounding
 inline constexpr double start = 1;         // where the world's axis is
 inline constexpr int most_cycles = 1000;   // far more than any of it takes
-
-enum class Verdict { passed, failed, skipped };
-inline Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
 
 inline void idle_for(ServoDriveWorld& world, double duration) {
   for (double time = 0; time < duration; time += cycle_seconds) {

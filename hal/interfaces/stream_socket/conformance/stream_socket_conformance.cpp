@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -11,22 +11,6 @@ namespace {
 constexpr int patience = 20000;
 
 MakeStreamSocketWorld make_world = nullptr;
-
-enum class Verdict { passed, failed, skipped };
-Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
-
-// Each case runs in here, so that a failing assertion jumps over no destructor.
-void judge(Verdict (*run)(StreamSocketWorld&)) {
-  Verdict result = Verdict::failed;
-  {
-    const std::unique_ptr<StreamSocketWorld> world = make_world();
-    result = run(*world);
-  }
-  if (result == Verdict::skipped) skip();
-  assert_true(result == Verdict::passed);
-}
 
 template <class Condition>
 bool until(StreamSocketWorld& world, Condition is_true) {
@@ -253,7 +237,7 @@ Verdict after_a_stop_it_begins_anew(StreamSocketWorld& world) {
 
 template <Verdict (*Run)(StreamSocketWorld&)>
 void judged(void**) {
-  judge(Run);
+  judge(make_world, Run);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "hal/interfaces/watchdog/conformance/watchdog_conformance.hpp"
 
 #include "runtime/core/text.hpp"
-#include "tests/cmocka.hpp"
+#include "tests/conformance.hpp"
 
 namespace flexrf {
 namespace {
@@ -9,11 +9,6 @@ namespace {
 constexpr Duration moment = std::chrono::milliseconds{100};
 
 MakeWatchdogWorld make_world = nullptr;
-
-enum class Verdict { passed, failed, skipped };
-Verdict verdict(bool good) {
-  return good ? Verdict::passed : Verdict::failed;
-}
 
 // Each case runs in here, so that a failing assertion jumps over no destructor.
 template <Verdict (*Run)(WatchdogWorld&)>
@@ -25,8 +20,7 @@ void judged(void**) {
     // Whatever the case left it at: the timer is not to outlive it.
     if (world->counts() && world->start({})) world->watchdog().stop();
   }
-  if (result == Verdict::skipped) skip();
-  assert_true(result == Verdict::passed);
+  conclude(result);
 }
 
 /// Cycles as often as a thread that is released by the driver's own word has them.
