@@ -1,27 +1,16 @@
 #include "runtime/executive/heartbeat_watch.hpp"
 
-#include <chrono>
-
 #include "runtime/executive/supervision.hpp"
 #include "runtime/log/log.hpp"
 
 namespace flexrf {
-namespace {
-
-/// Who is not looked at for so long is not blamed for what it did not do meanwhile: the watch itself stood
-/// still.
-constexpr Duration longest_pause = std::chrono::milliseconds{100};
-
-}  // namespace
 
 void HeartbeatWatch::observe(Time now, bool stuck) noexcept {
   Heartbeat& heartbeat = cell_->heartbeat();
   if (!heartbeat.is_watched()) return;
-  if (observed_at_ == Time{} || now - observed_at_ > longest_pause) {
-    const Duration pause = observed_at_ == Time{} ? now.time_since_epoch() : now - observed_at_;
-    for (Heard& heard : heard_) heard.at += pause;
-  }
-  observed_at_ = now;
+  const Duration missed = missed_time_.until(now);
+  for (Heard& heard : heard_) heard.at = has_looked_ ? heard.at + missed : now;
+  has_looked_ = true;
   const char* silent = find_silent(now);
   if (stuck && silent == nullptr) silent = cell_->application().name;
   // Why it is given up was said by who did it.

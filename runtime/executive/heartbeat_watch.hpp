@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/executive/cell.hpp"
+#include "runtime/executive/missed_time.hpp"
 
 namespace flexrf {
 
@@ -29,7 +30,8 @@ class HeartbeatWatch {
 
   Cell* cell_;
   std::vector<Heard> heard_;  // of each thread
-  Time observed_at_{};        // no time: not yet
+  bool has_looked_ = false;
+  MissedTime missed_time_;
 };
 
 }  // namespace flexrf

@@ -19,6 +19,7 @@ Supervision::Supervision(Cell& cell, Lifecycle& lifecycle, bool watch_for_hangs)
     : cell_(&cell),
       lifecycle_(&lifecycle),
       watch_for_hangs_(watch_for_hangs),
+      steps_(cell.application().threads.size()),
       cycles_when_busy_(cell.application().threads.size()) {
   for (const ThreadRecord& thread : cell.application().threads) {
     settle_time_ = std::max({settle_time_, 2 * thread.trigger.period, 2 * thread.trigger.min_interval,
@@ -35,7 +36,11 @@ void Supervision::observe(Time now) noexcept {
   const Mode mode = cell_->control().mode();
   if (mode != mode_) begin_phase(mode, now);
   watch_faults();
-  if (watch_for_hangs_) watch_hangs(now);
+  if (watch_for_hangs_) {
+    const Duration missed = missed_time_.until(now);
+    entered_at_ += missed;
+    watch_hangs(now, missed);
+  }
   switch (mode) {
     case Mode::finishing:
       return finish(now);
@@ -54,29 +59,50 @@ void Supervision::watch_faults() noexcept {
   had_fault_ = had_fault_ || cell_->control().faults() > 0;
 }
 
-void Supervision::watch_hangs(Time now) noexcept {
+void Supervision::watch_hangs(Time now, Duration missed) noexcept {
   if (stuck_) return;
   const Application& application = cell_->application();
-  const auto give_up = [this](const char* name, const char* what) {
-    stuck_ = true;
-    had_fault_ = true;
-    log_error(name, "{}; every device is made safe", StaticText{what});
-    cell_->control().set_cause(EndCause::fault);
-    cell_->control().rise_to(Mode::safe);
-    // Whoever hangs cannot make its own devices safe: their drivers prepared for this.
-    last_gasp::fire();
-  };
   for (std::size_t i = 0; i < application.threads.size(); ++i) {
-    const std::int64_t began = application.thread_states[i].step_began.load(std::memory_order_acquire);
-    if (began != 0 && now - Time{Duration{began}} > hang_timeout(application.threads[i])) {
+    if (hangs(i, now, missed)) {
       give_up(application.threads[i].name, "this thread's step does not return");
       return;
     }
   }
   const Lifecycle::Operation operation = lifecycle_->operation();
-  if (operation.component != nullptr && now > operation.overdue_at) {
+  if (operation.component != nullptr && is_overdue(operation, now, missed)) {
     give_up(operation.component, "initialise() or stop() does not return in its time");
   }
+}
+
+bool Supervision::hangs(std::size_t thread, Time now, Duration missed) noexcept {
+  const Application& application = cell_->application();
+  const std::int64_t began = application.thread_states[thread].step_began.load(std::memory_order_acquire);
+  Step& step = steps_[thread];
+  if (began != step.began) {
+    step = {began, now};
+  } else {
+    step.seen_at += missed;
+  }
+  return began != 0 && now - step.seen_at > hang_timeout(application.threads[thread]);
+}
+
+bool Supervision::is_overdue(const Lifecycle::Operation& operation, Time now, Duration missed) noexcept {
+  if (operation.overdue_at != operation_overdue_at_) {
+    operation_overdue_at_ = operation.overdue_at;
+    operation_missed_ = Duration{};
+  }
+  operation_missed_ += missed;
+  return now - operation_missed_ > operation.overdue_at;
+}
+
+void Supervision::give_up(const char* name, const char* what) noexcept {
+  stuck_ = true;
+  had_fault_ = true;
+  log_error(name, "{}; every device is made safe", StaticText{what});
+  cell_->control().set_cause(EndCause::fault);
+  cell_->control().rise_to(Mode::safe);
+  // Whoever hangs cannot make its own devices safe: their drivers prepared for this.
+  last_gasp::fire();
 }
 
 bool Supervision::units_are_idle() const noexcept {

@@ -6,6 +6,7 @@
 
 #include "runtime/executive/cell.hpp"
 #include "runtime/executive/lifecycle.hpp"
+#include "runtime/executive/missed_time.hpp"
 
 namespace flexrf {
 
@@ -26,11 +27,21 @@ class Supervision {
   bool was_cut_short() const noexcept { return cut_short_; }
 
   /// A thread whose step does not return for this long hangs: 500 ms, or 20 deadlines where that is longer.
+  /// Time in which nobody watched does not count.
   static Duration hang_timeout(const ThreadRecord& thread) noexcept;
 
  private:
+  /// A step that has begun, as far as it was watched.
+  struct Step {
+    std::int64_t began = 0;
+    Time seen_at{};
+  };
+
   void watch_faults() noexcept;
-  void watch_hangs(Time now) noexcept;
+  void watch_hangs(Time now, Duration missed) noexcept;
+  bool hangs(std::size_t thread, Time now, Duration missed) noexcept;
+  bool is_overdue(const Lifecycle::Operation& operation, Time now, Duration missed) noexcept;
+  void give_up(const char* name, const char* what) noexcept;
   void finish(Time now) noexcept;
   void stop(Time now) noexcept;
   void make_safe(Time now) noexcept;
@@ -45,6 +56,10 @@ class Supervision {
   Cell* cell_;
   Lifecycle* lifecycle_;
   bool watch_for_hangs_;
+  MissedTime missed_time_;
+  std::vector<Step> steps_;  // of each thread, the present one
+  Time operation_overdue_at_{};
+  Duration operation_missed_{};
   Duration settle_time_{};
   Mode mode_ = Mode::starting;
   Time entered_at_{};                            // the present mode
