@@ -1,7 +1,7 @@
 // Who may do what: passwords, roles, the one control token and its way from one person to another.
 import { afterEach, beforeAll, beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import {
-  Application, Rest, Viewer, outerAddress, screenshot, tidyUp, useApplication, useBrowser, violations, within,
+  Application, Rest, Viewer, outerAddress, screenshot, tidyUp, unlessKeptWaiting, useApplication, useBrowser, violations, within,
   type StartOptions, type User,
 } from './harness';
 
@@ -127,30 +127,42 @@ describe('the control token', () => {
       act('control/take'), act('stop-motion'), act('clear-stop-motion'), act('control/release'));
   });
 
-  async function hold(): Promise<void> {
-    await first.page.getByRole('button', { name: 'Start motion' }).click();
-    await first.page.getByText('Motion enabled').first().waitFor();
+  /** The first's hand on the button that moves, until what comes `then` is done, and longer. */
+  async function hold(then: () => Promise<void>): Promise<void> {
+    const { page } = first;
+    await page.getByRole('button', { name: 'Start motion' }).click();
+    await page.getByText('Motion enabled').first().waitFor();
     await first.go('units', 'mover');
-    const button = first.page.locator('flexrf-item').getByRole('button', { name: 'Forward' });
-    await button.scrollIntoViewIfNeeded();
-    const box = (await button.boundingBox())!;
-    await first.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-    await first.page.mouse.down();
-    await expect.poll(commanded, { timeout: within }).toBe(1);
+    const button = page.locator('flexrf-item').getByRole('button', { name: 'Forward' });
+    await unlessKeptWaiting(page, rest, async () => {
+      await button.scrollIntoViewIfNeeded();
+      const box = (await button.boundingBox())!;
+      await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+      await page.mouse.down();
+      await expect.poll(commanded, { timeout: within }).toBe(1);
+      await then();
+    }, async () => {
+      await page.mouse.up();
+      const keep = page.getByRole('button', { name: 'Keep control' });
+      if (await keep.isVisible()) await keep.click();
+      await expect.poll(commanded, { timeout: within }).toBe(0);
+    });
   }
   async function commanded(): Promise<number> {
     return (await rest.feedback<{ commanded: number }>('mover')).commanded;
   }
+  async function ask(): Promise<void> {
+    await second.page.getByRole('button', { name: 'Ask for control' }).click();
+    await first.page.getByRole('group', { name: 'Request for control' }).waitFor();
+  }
 
   it('is handed over with consent, and what was held ends', async () => {
-    await hold();
-    await second.page.getByRole('button', { name: 'Ask for control' }).click();
-    const question = first.page.getByRole('group', { name: 'Request for control' });
-    await question.waitFor();
-    expect(await commanded()).toBe(1); // asking takes nothing
-    expect(await violations(first.page)).toEqual([]);
+    await hold(async () => {
+      await ask();
+      expect(await commanded()).toBe(1); // asking takes nothing
+    });
     // The hand stays on the button that moves: the answer comes by the keyboard.
-    await question.getByRole('button', { name: 'Hand over' }).focus();
+    await first.page.getByRole('group', { name: 'Request for control' }).getByRole('button', { name: 'Hand over' }).focus();
     await first.page.keyboard.press('Enter');
     await second.page.getByText('You have control').waitFor();
     await expect.poll(commanded, { timeout: within }).toBe(0);
@@ -159,9 +171,9 @@ describe('the control token', () => {
   });
 
   it('stays when its holder refuses', async () => {
-    await second.page.getByRole('button', { name: 'Ask for control' }).click();
-    await first.page.getByRole('button', { name: 'Keep control' }).waitFor();
+    await ask();
     await screenshot(first.page, 'consent');
+    expect(await violations(first.page)).toEqual([]);
     await first.page.getByRole('button', { name: 'Keep control' }).click();
     await second.page.getByRole('button', { name: 'Ask for control' }).and(second.page.locator(':enabled')).waitFor();
     await first.page.getByText('You have control').waitFor();
@@ -169,9 +181,8 @@ describe('the control token', () => {
   });
 
   it('goes over after 10 s without an answer, and what was held ends', async () => {
-    await hold();
-    await second.page.getByRole('button', { name: 'Ask for control' }).click();
-    await second.page.getByText('You have control').waitFor({ timeout: 30_000 });
+    await hold(ask);
+    await second.page.getByText('You have control').waitFor({ timeout: 2 * within });
     await expect.poll(commanded, { timeout: within }).toBe(0);
     await first.page.mouse.up();
   });

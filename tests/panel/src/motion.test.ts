@@ -3,8 +3,8 @@ import { spawn } from 'node:child_process';
 import { afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { Browser } from 'playwright-core';
 import {
-  Cable, Viewer, familyOf, freezer, launchProcess, signal, tidyUp, useApplication, useBrowser, violations, within,
-  type Application, type Rest,
+  Cable, Viewer, familyOf, freezer, launchProcess, signal, tidyUp, unlessKeptWaiting, useApplication, useBrowser, violations,
+  within, type Application, type Rest,
 } from './harness';
 
 interface Feedback {
@@ -62,13 +62,27 @@ async function expectStayingAtRest(): Promise<void> {
 
 const forward = () => viewer.page.locator('flexrf-item').getByRole('button', { name: 'Forward' });
 
-/** Puts the mouse down on the button, and leaves it there. */
-async function hold(): Promise<void> {
-  await forward().scrollIntoViewIfNeeded();
-  const box = (await forward().boundingBox())!;
-  await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  await viewer.page.mouse.down();
-  await expectMoving();
+/** Begins, and is let go of if it has to begin once more. */
+async function whileHeld(begin: () => Promise<void>, then: () => Promise<void> = expectMoving): Promise<void> {
+  const { page } = viewer;
+  await unlessKeptWaiting(page, rest, async () => {
+    await begin();
+    await then();
+  }, async () => {
+    await page.mouse.up();
+    await page.keyboard.up('Space');
+    await expectAtRest();
+  });
+}
+
+/** Puts the mouse down on the button, and leaves it there; it moves, and does what comes `then`. */
+async function hold(button = forward(), then?: () => Promise<void>): Promise<void> {
+  await whileHeld(async () => {
+    await button.scrollIntoViewIfNeeded();
+    const box = (await button.boundingBox())!;
+    await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await viewer.page.mouse.down();
+  }, then);
 }
 
 describe('a hold', () => {
@@ -78,29 +92,29 @@ describe('a hold', () => {
   });
 
   it('lives as long as the button is pressed, and ends with the release', async () => {
-    await hold();
-    const { begun } = await feedback();
-    await new Promise((resolve) => setTimeout(resolve, 1500)); // many times a lease
-    expect(await feedback()).toMatchObject({ commanded: 1, begun });
+    await hold(forward(), async () => {
+      await expectMoving();
+      const { begun } = await feedback();
+      await new Promise((resolve) => setTimeout(resolve, 1500)); // many times a lease
+      expect(await feedback()).toMatchObject({ commanded: 1, begun });
+    });
     await viewer.page.mouse.up();
     await expectStayingAtRest();
   });
 
   it('by a key ends when the key comes up', async () => {
-    await forward().focus();
-    await viewer.page.keyboard.down('Space');
-    await expectMoving();
+    await whileHeld(async () => {
+      await forward().focus();
+      await viewer.page.keyboard.down('Space');
+    });
     await viewer.page.keyboard.up('Space');
     await expectStayingAtRest();
   });
 
   it('by the jog pad, too', async () => {
-    const button = viewer.page.locator('flexrf-placement').getByRole('button', { name: 'Backward' });
-    await button.scrollIntoViewIfNeeded();
-    const box = (await button.boundingBox())!;
-    await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-    await viewer.page.mouse.down();
-    await expect.poll(async () => (await feedback()).commanded, { timeout: within }).toBe(-1);
+    await hold(viewer.page.locator('flexrf-placement').getByRole('button', { name: 'Backward' }), async () => {
+      await expect.poll(async () => (await feedback()).commanded, { timeout: within }).toBe(-1);
+    });
     await viewer.page.mouse.up();
     await expectStayingAtRest();
   });

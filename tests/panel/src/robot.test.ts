@@ -1,6 +1,6 @@
 // The keyboard application: the arm in 3D, keys that move it, the jog step, the jog arrows.
 import { beforeEach, expect, it } from 'vitest';
-import { Viewer, itemOf, screenshot, useBrowser, useOperator, within, type Application, type Rest } from './harness';
+import { Viewer, itemOf, screenshot, unlessKeptWaiting, useBrowser, useOperator, within, type Application, type Rest } from './harness';
 
 const browser = useBrowser();
 
@@ -79,14 +79,17 @@ it('changing the jog step changes the next jog', async () => {
 });
 
 it('the arrows move the arm while they are held, and no longer', async () => {
-  const arrow = viewer.page.getByRole('button', { name: /Move \+z/ });
+  const { page } = viewer;
+  const arrow = page.getByRole('button', { name: /Move \+z/ });
   await arrow.scrollIntoViewIfNeeded();
-  const from = await atRest();
   const box = (await arrow.boundingBox())!;
   expect(Math.min(box.width, box.height)).toBeGreaterThanOrEqual(72);
-  await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  await viewer.page.mouse.down();
-  await expect.poll(async () => (await position())[2]! - from[2]!, { timeout: within }).toBeGreaterThan(0.01);
+  await unlessKeptWaiting(page, rest, async () => {
+    const from = await atRest();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await expect.poll(async () => (await position())[2]! - from[2]!, { timeout: within }).toBeGreaterThan(0.01);
+  }, () => page.mouse.up());
   await screenshot(viewer.page, 'arrow-held');
   await viewer.page.mouse.up();
   await expect.poll(speed, { timeout: within }).toBe(0);

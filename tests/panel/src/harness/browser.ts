@@ -5,7 +5,8 @@ import { chromium as chromiumType, type Browser, type BrowserContext, type Brows
 import { chromium, outerAddress } from './environment';
 import { Rest } from './rest';
 
-export const within = 10_000;
+/** For whatever comes by itself; only so that a test which waits for what never comes ends at all. */
+export const within = 30_000;
 
 const options = {
   executablePath: chromium,

@@ -2,6 +2,7 @@ export * from './application';
 export * from './browser';
 export * from './cable';
 export * from './environment';
+export * from './pauses';
 export * from './processes';
 export * from './rest';
 export * from './screenshot';
