@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "runtime/json/json_reader.hpp"
 #include "runtime/parameters/reconfigure.hpp"
 #include "web-ui/server/api/directory.hpp"
-#include "web-ui/server/api/json_reader.hpp"
 
 namespace flexrf::panel {
 

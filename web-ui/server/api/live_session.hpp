@@ -3,9 +3,9 @@
 
 #include <string_view>
 
+#include "runtime/json/json_reader.hpp"
 #include "web-ui/server/api/clients.hpp"
 #include "web-ui/server/api/frame_writer.hpp"
-#include "web-ui/server/api/json_reader.hpp"
 #include "web-ui/server/api/operations.hpp"
 #include "web-ui/server/api/state_event.hpp"
 #include "web-ui/server/api/subscriptions.hpp"

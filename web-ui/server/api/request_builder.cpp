@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "runtime/core/nearest_name.hpp"
+#include "runtime/json/value_reader.hpp"
 #include "runtime/parameters/parameter_store.hpp"
 #include "runtime/parameters/scalar_types.hpp"
-#include "web-ui/server/api/value_reader.hpp"
 
 namespace flexrf::panel {
 namespace {

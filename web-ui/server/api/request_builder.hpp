@@ -5,10 +5,10 @@
 #include <optional>
 #include <string_view>
 
+#include "runtime/json/json_reader.hpp"
 #include "runtime/parameters/request.hpp"
 #include "runtime/parameters/value_access.hpp"
 #include "web-ui/server/api/directory.hpp"
-#include "web-ui/server/api/json_reader.hpp"
 #include "web-ui/server/api/refusal.hpp"
 
 namespace flexrf::panel {

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/json/json_reader.hpp"
 #include "web-ui/server/api/component_values.hpp"
 #include "web-ui/server/api/image_requests.hpp"
-#include "web-ui/server/api/json_reader.hpp"
 #include "web-ui/server/api/operations.hpp"
 #include "web-ui/server/api/routes.hpp"
 #include "web-ui/server/api/state_event.hpp"

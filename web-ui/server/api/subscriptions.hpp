@@ -1,10 +1,10 @@
 // What a page wants to see, and how often.
 #pragma once
 
+#include "runtime/json/json_reader.hpp"
 #include "web-ui/server/api/answers.hpp"
 #include "web-ui/server/api/directory.hpp"
 #include "web-ui/server/api/image_worker.hpp"
-#include "web-ui/server/api/json_reader.hpp"
 
 namespace flexrf::panel {
 

@@ -1,11 +1,11 @@
 // JSON from outside: what is taken, what is refused, and with which words.
-#include "web-ui/server/api/json_reader.hpp"
+#include "runtime/json/json_reader.hpp"
 
 #include <string>
 
 #include "runtime/executive/tests/checks.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 namespace {
 
 std::string cause_of(const std::string& text) {
@@ -57,10 +57,10 @@ void integers_are_exact() {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(one_object_and_nothing_else),
       CONTAINED_TEST(names_come_once),

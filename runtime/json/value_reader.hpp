@@ -1,10 +1,10 @@
 // A value from JSON into a field of a plain struct.
 #pragma once
 
+#include "runtime/json/json_reader.hpp"
 #include "runtime/parameters/value_access.hpp"
-#include "web-ui/server/api/json_reader.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 
 /// Writes the place within `structure`, whole: an array wants a list of as many elements, a matrix a list of
 /// its rows, a structure an object with all its members. Checked as check_value() does; the cause names the
@@ -12,4 +12,4 @@ namespace flexrf::panel {
 Status read_value(JsonElement json, const FieldPlace& place, void* structure,
                   const ValueRange* range) noexcept;
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

@@ -9,13 +9,13 @@
 
 #include "runtime/core/status.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 
 using JsonElement = simdjson::dom::element;
 using JsonObject = simdjson::dom::object;
 using JsonArray = simdjson::dom::array;
 
-/// One text at a time; what object() gave is valid until the next. The server's thread.
+/// One text at a time; what it gave is valid until the next. Any one thread.
 class JsonReader {
  public:
   static constexpr std::size_t max_bytes = 16 * 1024;
@@ -24,8 +24,11 @@ class JsonReader {
 
   JsonReader();
 
-  /// The text is one object; no name comes twice in any object; numbers are finite, and integers fit into 64
-  /// bits.
+  /// The text is JSON within the bounds; numbers are finite, and integers fit into 64 bits.
+  Result<JsonElement> value(std::string_view text);
+  /// It is an object; no name comes twice in it or in any object within.
+  static Result<JsonObject> object(JsonElement value);
+  /// Both.
   Result<JsonObject> object(std::string_view text);
 
  private:
@@ -67,4 +70,4 @@ class Fields {
   Status status_;
 };
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

@@ -1,12 +1,12 @@
 // Values from JSON into plain structs: every shape, exactly, or a cause that names the place.
-#include "web-ui/server/api/value_reader.hpp"
+#include "runtime/json/value_reader.hpp"
 
 #include <cstddef>
 #include <string>
 
 #include "runtime/executive/tests/checks.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 namespace {
 
 struct Point {
@@ -109,10 +109,10 @@ void what_does_not_fit_is_refused() {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf;
   const CMUnitTest tests[] = {CONTAINED_TEST(every_shape_is_read),
                               CONTAINED_TEST(what_does_not_fit_is_refused)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

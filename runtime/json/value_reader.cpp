@@ -1,4 +1,4 @@
-#include "web-ui/server/api/value_reader.hpp"
+#include "runtime/json/value_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "runtime/core/nearest_name.hpp"
 #include "runtime/parameters/scalar_types.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 namespace {
 
 Status wrong(const FieldDescriptor& field, const char* wanted) noexcept {
@@ -183,4 +183,4 @@ Status read_value(JsonElement json, const FieldPlace& place, void* structure,
   return check_value(*place.field, place.count, at, range);
 }
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

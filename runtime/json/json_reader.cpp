@@ -1,9 +1,9 @@
-#include "web-ui/server/api/json_reader.hpp"
+#include "runtime/json/json_reader.hpp"
 
 #include <cstring>
 #include <string>
 
-namespace flexrf::panel {
+namespace flexrf {
 namespace {
 
 using simdjson::dom::element_type;
@@ -54,7 +54,7 @@ JsonReader::JsonReader() {
   [[maybe_unused]] const auto result = parser_.parse(padded_, max_bytes, false);
 }
 
-Result<JsonObject> JsonReader::object(std::string_view text) {
+Result<JsonElement> JsonReader::value(std::string_view text) {
   if (text.size() > max_bytes)
     return Status::error(StatusCode::out_of_range, "more than %zu bytes", max_bytes);
   std::memcpy(padded_, text.data(), text.size());
@@ -66,11 +66,21 @@ Result<JsonObject> JsonReader::object(std::string_view text) {
         error == simdjson::DEPTH_ERROR ? "no JSON within %zu levels: %s" : "no JSON (at most %zu levels): %s",
         max_depth, simdjson::error_message(error));
   }
+  return root;
+}
+
+Result<JsonObject> JsonReader::object(JsonElement value) {
   JsonObject object;
-  if (root.get(object) != simdjson::SUCCESS)
+  if (value.get(object) != simdjson::SUCCESS)
     return Status::error(StatusCode::invalid_argument, "it is JSON, but no object {...}");
   if (const Status status = check_names(object); !status) return status;
   return object;
+}
+
+Result<JsonObject> JsonReader::object(std::string_view text) {
+  const Result<JsonElement> root = value(text);
+  if (!root) return root.status();
+  return object(*root);
 }
 
 bool Fields::has(std::string_view name) const noexcept {
@@ -123,4 +133,4 @@ std::optional<JsonArray> Fields::array(std::string_view name) noexcept {
   return find(name, "a list [...]", value) ? std::optional{value} : std::nullopt;
 }
 
-}  // namespace flexrf::panel
+}  // namespace flexrf
