@@ -73,8 +73,15 @@ void check_real_time(const Model& model, const Thread& thread, Diagnostics& diag
                       "add budget = \"50 us\", how long it takes to serve the device once");
   for (const Index index : thread.units) {
     const Unit& unit = model.units[index];
-    if (unit.budget) continue;
     const InInstance instance(diagnostics, model, unit.name);
+    if (model.unit_types[unit.type].cell_access)
+      diagnostics.error(unit.position,
+                        "unit " + quote(unit.name) +
+                            ", which has access to the whole cell, is in real-time "
+                            "thread " +
+                            quote(thread.name),
+                        "it takes a lock and allocates: put it into a thread without a priority");
+    if (unit.budget) continue;
     diagnostics.error(
         unit.position,
         "unit " + quote(unit.name) + " in real-time thread " + quote(thread.name) + " has no 'budget'",

@@ -54,6 +54,7 @@ void declare_members(const Model& model, const UnitType& unit, const Blocks& blo
     members << "  " << model.interfaces[port.interface].class_name << "* " << port.name
             << " = nullptr;  ///< " << port.summary << "\n";
   }
+  if (unit.cell_access) members << "  CellAccess cell;\n";
   if (!blocks.configuration.empty()) members << "  Configuration configuration;\n";
   if (!blocks.runtime.empty()) members << "  Runtime runtime;\n";
   if (!blocks.feedback.empty()) members << "  Feedback feedback;\n";
@@ -72,6 +73,7 @@ std::string unit_base_header(const Model& model, const UnitType& unit) {
   for (const OutputPort& port : unit.outputs) own.insert(type_header(model.types[port.type]));
   for (const DevicePort& port : unit.devices)
     own.insert(interface_header_path(model.interfaces[port.interface]));
+  if (unit.cell_access) own.insert("runtime/executive/cell_access.hpp");
 
   Text out;
   out << generated_note(unit.file) << "#pragma once\n\n"
@@ -92,6 +94,7 @@ std::string unit_base_header(const Model& model, const UnitType& unit) {
   out << "\n  void connect(const UnitBinding& binding) noexcept final;\n"
          "  const ComponentType& component_type() const noexcept final;\n"
          "  ParameterMemory parameter_memory() noexcept final;\n";
+  if (unit.cell_access) out << "  CellAccess* cell_access() noexcept final { return &cell; }\n";
   if (has_slot_inputs(unit)) {
     out << "  InputCounters input_counters(std::size_t input, std::size_t member) const noexcept final;\n";
   }

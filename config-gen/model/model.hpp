@@ -164,6 +164,7 @@ struct UnitType {
   std::vector<InputPort> inputs;
   std::vector<OutputPort> outputs;
   std::vector<DevicePort> devices;
+  bool cell_access = false;
   ParameterBlock configuration;
   ParameterBlock runtime;
   ParameterBlock feedback;

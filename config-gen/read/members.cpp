@@ -19,7 +19,8 @@ const std::vector<std::string>& inherited_by(Heir heir) {
     more.insert(more.end(), common.begin(), common.end());
     return more;
   };
-  static const std::vector<std::string> unit = with({"input_counters", "is_idle", "reset", "step"});
+  static const std::vector<std::string> unit =
+      with({"cell", "cell_access", "input_counters", "is_idle", "reset", "step"});
   static const std::vector<std::string> device =
       with({"bus", "descriptor", "environment", "is_closed", "is_inhibited", "make_safe", "next_event",
             "receive", "send", "set_environment", "set_inhibited"});

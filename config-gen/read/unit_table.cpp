@@ -116,6 +116,13 @@ std::optional<Index> read_unit_table(Library& library, const Node& root, const s
   unit.header = row.text("header").value_or(unit.name + ".hpp");
   unit.base_class = unit.class_name + "Unit";
   unit.base_header = unit.name + "_unit.hpp";
+  if (const auto access = row.text("access")) {
+    unit.cell_access = *access == "cell";
+    if (!unit.cell_access)
+      diagnostics.error(row.position("access"), "there is no access to " + quote(*access),
+                        "write access = \"cell\": the unit may see all slots and parameters, and ask for "
+                        "changes; without the key it has its ports alone");
+  }
   for (const char* section : {"input", "output", "device", "configuration", "runtime", "feedback"})
     row.also(section);
   row.finish();

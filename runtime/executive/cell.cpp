@@ -141,9 +141,37 @@ Status Cell::construct_unit(std::uint16_t index) {
   const ParameterMemory memory = state.unit->parameter_memory();
   fill(memory.configuration, record.type->configuration, record.configuration);
   fill(memory.runtime, record.type->runtime, record.runtime);
+  if (CellAccess* const access = state.unit->cell_access(); access != nullptr) {
+    if (const Status status = give_access(index, *access); !status) return status;
+  }
   state.life.store(Life::created);
   return parameters_[index].connect(*state.unit, record.runtime_slot, record.runtime,
                                     scratch_[record.thread]);
+}
+
+Status Cell::give_access(std::uint16_t unit, CellAccess& access) {
+  const UnitRecord& record = application_->units[unit];
+  const ThreadRecord& thread = application_->threads[record.thread];
+  if (thread.priority > 0) {
+    return Status::error(StatusCode::invalid_argument,
+                         "unit `%s` has access to the cell, which takes a lock, and is in the real-time "
+                         "thread `%s`; give it a thread without a priority",
+                         record.name, thread.name);
+  }
+  for (CellAccess::Post& post : posts_) {
+    if (post.unit != unit) continue;
+    access.connect(*this, post);
+    return {};
+  }
+  CellAccess::Post& post = posts_.emplace_back();
+  post.unit = unit;
+  post.requester = add_requester(post.answers);
+  if (post.requester == 0) {
+    return Status::error(StatusCode::invalid_argument, "unit `%s`: there are %zu requesters already",
+                         record.name, max_requesters);
+  }
+  access.connect(*this, post);
+  return {};
 }
 
 Status Cell::construct() {

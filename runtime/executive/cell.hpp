@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/executive/application.hpp"
+#include "runtime/executive/cell_access.hpp"
 #include "runtime/executive/control.hpp"
 #include "runtime/executive/narrowed_type.hpp"
 #include "runtime/executive/options.hpp"
@@ -16,9 +17,6 @@
 #include "runtime/parameters/request.hpp"
 
 namespace flexrf {
-
-/// A component's number, as in requests: units in table order, then devices.
-using ComponentIndex = std::uint16_t;
 
 /// The payload is the generated application's; the cell constructs and destroys what lives there. Built and
 /// torn down by the main thread; between the two, each part belongs to the thread that the design names.
@@ -110,6 +108,7 @@ class Cell {
   const NarrowedType* narrowed_type(ComponentIndex component) const noexcept;
   Status construct_device(std::uint16_t device);
   Status construct_unit(std::uint16_t unit);
+  Status give_access(std::uint16_t unit, CellAccess& access);
 
   const Application* application_;
   const Options* options_;
@@ -123,6 +122,7 @@ class Cell {
   std::deque<NarrowedType> narrowed_;
   std::array<AnswerQueue*, max_requesters> requesters_{};
   std::uint16_t requester_count_ = 1;
+  std::deque<CellAccess::Post> posts_;
   mutable std::mutex observing_;
   mutable std::mutex configuration_mutex_;
   std::unique_ptr<std::vector<std::byte>[]> configurations_;  // one per component, as it was initialised

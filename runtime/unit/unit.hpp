@@ -10,6 +10,8 @@
 
 namespace flexrf {
 
+class CellAccess;
+
 /// How the generated application connects a unit: each kind of port in the order of the unit's table.
 struct UnitBinding {
   const StepContext* context = nullptr;
@@ -34,6 +36,8 @@ class Unit : public Component {
   // ---- for the executive; the generated base implements it
 
   virtual void connect(const UnitBinding& binding) noexcept = 0;
+  /// Of a unit whose table says access = "cell"; null: of others.
+  virtual CellAccess* cell_access() noexcept { return nullptr; }
   /// What the unit's n-th input (of a slot, in the order of its table; of a range: its member) read since the
   /// unit was constructed. Any thread.
   virtual InputCounters input_counters(std::size_t /*input*/, std::size_t /*member*/) const noexcept {

@@ -1,0 +1,55 @@
+// What a unit that serves others may do with the cell around it: see everything, and ask for changes.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/core/time.hpp"
+#include "runtime/parameters/request.hpp"
+
+namespace flexrf {
+
+class Cell;
+
+/// A component's number, as in requests: units in table order, then devices.
+using ComponentIndex = std::uint16_t;
+
+/// For units whose table says access = "cell", which are in no real-time thread: whoever looks at a slot as
+/// the observer takes a lock (Cell::observe()). From connect() on; initialise() and stop() on the lifecycle
+/// thread, else the unit's.
+class CellAccess {
+ public:
+  /// Where answers wait. The cell keeps it, so that answers find it while the unit is constructed anew.
+  struct Post {
+    ComponentIndex unit = 0;
+    std::uint16_t requester = 0;
+    std::uint64_t sent = 0;
+    AnswerQueue answers;
+  };
+
+  /// To look at, not to change: names and types of everything, slots, configurations, mode.
+  const Cell& cell() const noexcept { return *cell_; }
+  /// The unit itself.
+  ComponentIndex self() const noexcept { return post_->unit; }
+
+  /// Sends it, in the unit's name, and gives the number that comes back as the answer's correlation; a number
+  /// is never used twice while the application runs. Roles are the caller's to judge.
+  std::uint64_t send(ParameterRequest& request, Time now) noexcept;
+  /// The next answer that has come, also to what the unit asked before it was restarted.
+  bool take_answer(ParameterAnswer& answer) noexcept { return post_->answers.pop(answer); }
+
+  /// The latch that anybody may set; there is no way from here to clear it, nor to Start.
+  void stop_motion() noexcept;
+
+  // ---- for the cell
+
+  void connect(Cell& cell, Post& post) noexcept {
+    cell_ = &cell;
+    post_ = &post;
+  }
+
+ private:
+  Cell* cell_ = nullptr;
+  Post* post_ = nullptr;
+};
+
+}  // namespace flexrf
