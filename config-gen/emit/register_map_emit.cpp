@@ -14,7 +14,9 @@ void emit_register_map(const RegisterMap& map, const std::string& constant, Text
         << ",\n     " << value("WordOrder", register_word_orders[entry.word_order]) << ", "
         << value("Access", register_accesses[entry.access]) << ", "
         << value("PollGroup", register_poll_groups[entry.poll_group]) << ", " << double_literal(entry.scale)
-        << ", " << string_literal(entry.unit) << ", " << double_literal(entry.safe_value) << "},\n";
+        << ", " << string_literal(entry.unit) << ", " << double_literal(entry.safe_value);
+    if (entry.bit) out << ", " << int{*entry.bit};
+    out << "},\n";
   }
   out << "};\nconstexpr ModbusRegisterMap " << constant << "{" << constant << "_registers};\n";
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct ModbusRegister {
   std::size_t poll_group = 0;  // into register_poll_groups
   double scale = 1;
   std::string unit;
-  double safe_value = 0;  // in the unit; of what is written
+  double safe_value = 0;            // in the unit; of what is written
+  std::optional<std::uint8_t> bit;  // of a bool in a register
 };
 
 struct RegisterMap {
@@ -28,7 +30,8 @@ struct RegisterMap {
 // The words of the list, which are also the names of the enumerations' values in C++.
 inline const std::vector<std::string> register_areas = {"coil", "discrete_input", "holding_register",
                                                         "input_register"};
-inline const std::vector<std::string> register_types = {"bool", "i16", "u16", "i32", "u32", "f32"};
+inline const std::vector<std::string> register_types = {"bool", "i16", "u16", "i32", "u32",
+                                                        "f32",  "i64", "u64", "f64"};
 inline const std::vector<std::string> register_word_orders = {"abcd", "cdab", "badc", "dcba"};
 inline const std::vector<std::string> register_accesses = {"read", "write", "read_write"};
 inline const std::vector<std::string> register_poll_groups = {"fast", "normal", "slow"};

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/csv.hpp"
@@ -12,31 +13,56 @@
 namespace flexrf::config_gen {
 namespace {
 
-enum Column { name, address, type, area, word_order, scale, unit, access, poll_group, safe_value, columns };
-constexpr std::array<const char*, columns> column_names = {
-    "name", "address", "type", "area", "word_order", "scale", "unit", "access", "poll_group", "safe_value"};
+enum Column {
+  name,
+  address,
+  bit,
+  type,
+  area,
+  word_order,
+  scale,
+  unit,
+  access,
+  poll_group,
+  safe_value,
+  columns
+};
+constexpr std::array<const char*, columns> column_names = {"name",   "address",    "bit",       "type",
+                                                           "area",   "word_order", "scale",     "unit",
+                                                           "access", "poll_group", "safe_value"};
 
 enum Area : std::size_t { coil, discrete_input, holding_register, input_register };
 constexpr std::size_t boolean = 0;       // in register_types
 constexpr std::size_t read_only = 0;     // in register_accesses
 constexpr std::size_t write_only = 1;    // likewise
 constexpr std::size_t first_double = 3;  // types from here on have two registers
+constexpr std::size_t first_long = 6;    // and from here on four
+constexpr std::uint16_t whole = 0xFFFF;  // all bits of a register
 
 struct Range {
   double least;
   double most;
 };
 // Of the raw value, in the order of register_types.
-constexpr std::array<Range, 6> raw_ranges = {{{0, 1},
+constexpr std::array<Range, 9> raw_ranges = {{{0, 1},
                                               {-32768, 32767},
                                               {0, 65535},
                                               {-2147483648.0, 2147483647.0},
                                               {0, 4294967295.0},
-                                              {-3.4e38, 3.4e38}}};
+                                              {-3.4e38, 3.4e38},
+                                              {-9223372036854775808.0, 9223372036854775807.0},
+                                              {0, 18446744073709551615.0},
+                                              {-1.7e308, 1.7e308}}};
 
 std::size_t words_of(const ModbusRegister& entry) {
-  return entry.type >= first_double ? 2 : 1;
+  return entry.type >= first_long ? 4 : entry.type >= first_double ? 2 : 1;
 }
+
+/// Bits of a register, and who has them.
+struct Taken {
+  std::string name;
+  std::uint16_t bits;
+};
 
 class MapReader {
  public:
@@ -116,6 +142,7 @@ class MapReader {
     entry_.poll_group = word(poll_group, register_poll_groups).value_or(0);
     if (const CsvCell* found = cell(unit)) entry_.unit = found->text;
     if (type_word && access_word) {
+      read_bit();
       read_area();
       read_word_order();
       read_scale();
@@ -142,13 +169,17 @@ class MapReader {
 
   void read_area() {
     const bool writes = entry_.access != read_only;
-    const bool is_bit = entry_.type == boolean;
+    const bool is_bit = entry_.type == boolean && cell(bit) == nullptr;
     const std::size_t usual = !is_bit ? holding_register : writes ? coil : discrete_input;
     entry_.area = word(area, register_areas).value_or(usual);
     const std::string& called = register_areas[entry_.area];
-    if (is_bit != (entry_.area == coil || entry_.area == discrete_input))
+    const bool has_bits = entry_.area == coil || entry_.area == discrete_input;
+    if (has_bits && entry_.type == boolean && cell(bit) != nullptr)
+      error(place(bit), "a " + called + " is one bit, and has none to choose",
+            "leave the cell empty, or make the area holding_register or input_register");
+    else if (is_bit != has_bits)
       error(place(area), quote(called) + " cannot be a " + register_types[entry_.type],
-            is_bit ? "a bool is a coil or a discrete_input; a bit of a register is read as u16"
+            is_bit ? "a bool is a coil or a discrete_input; for one of a register name its bit"
                    : "a coil and a discrete_input are a bool");
     else if (writes && (entry_.area == discrete_input || entry_.area == input_register))
       error(place(access), quote(called) + " cannot be written",
@@ -160,7 +191,7 @@ class MapReader {
     entry_.word_order = order.value_or(0);
     if (order && words_of(entry_) == 1)
       error(place(word_order), quote(register_types[entry_.type]) + " has no word_order",
-            "leave the cell empty: only what has two registers has one");
+            "leave the cell empty: only what has several registers has one");
   }
 
   void read_scale() {
@@ -219,29 +250,55 @@ class MapReader {
       error(found, "the address " + found.text + " is not from 0 to 65535",
             "addresses are as in the request: what a manual calls 40001 is the holding_register 0");
     else if (last > 65535)
-      error(found, quote(entry_.name) + " has two registers, and there is none after 65535",
+      error(found,
+            quote(entry_.name) + " has " + (words_of(entry_) == 2 ? "two" : "four") +
+                " registers, and there is none after 65535",
             "give it a lower address, or a type that takes one register");
     else
       entry_.address = static_cast<std::uint16_t>(*value);
   }
 
-  // Each word is read once and written once.
+  void read_bit() {
+    const CsvCell* found = cell(bit);
+    if (found == nullptr) return;
+    const auto value = CsvTable::integer(*found, diagnostics_);
+    if (!value) {
+      failed_ = true;
+    } else if (entry_.type != boolean) {
+      error(*found,
+            "a bit of a register is a bool, and " + quote(entry_.name) + " a " + register_types[entry_.type],
+            "make it a bool, or leave the cell empty");
+    } else if (*value < 0 || *value > 15) {
+      error(*found, "a register has no bit " + found->text, "bits are from 0, the least significant, to 15");
+    } else {
+      entry_.bit = static_cast<std::uint8_t>(*value);
+    }
+  }
+
+  // Each word is read once and written once; each bit, where its register is bits.
   void check_against_others() {
+    const auto bits = static_cast<std::uint16_t>(entry_.bit ? 1U << *entry_.bit : whole);
     for (std::uint32_t i = 0; i < words_of(entry_); ++i) {
       for (const bool writing : {false, true}) {
         if (writing ? entry_.access == read_only : entry_.access == write_only) continue;
         const auto key = std::array<std::uint32_t, 3>{static_cast<std::uint32_t>(entry_.area),
                                                       entry_.address + i, writing ? 1U : 0U};
-        const auto [known, fresh] = taken_.emplace(key, entry_.name);
-        if (fresh) {
-          ++(writing ? written_ : read_);
+        std::vector<Taken>& here = taken_[key];
+        const auto other =
+            std::find_if(here.begin(), here.end(), [&](const Taken& one) { return (one.bits & bits) != 0; });
+        if (other == here.end()) {
+          if (here.empty()) ++(writing ? written_ : read_);
+          here.push_back({entry_.name, bits});
           continue;
         }
-        error(place(address),
-              "the " + register_areas[entry_.area] + " " + std::to_string(entry_.address + i) + " of " +
-                  quote(entry_.name) + " is " + (writing ? "written" : "read") + " as " +
-                  quote(known->second) + " too",
-              "give each its own address; an i32, u32 or f32 takes two");
+        error(place(entry_.bit ? bit : address),
+              (entry_.bit ? "bit " + std::to_string(*entry_.bit) + " of " : std::string()) + "the " +
+                  register_areas[entry_.area] + " " + std::to_string(entry_.address + i) + " of " +
+                  quote(entry_.name) + " is " + (writing ? "written" : "read") + " as " + quote(other->name) +
+                  " too",
+              entry_.bit
+                  ? "give each its own bit, and the register no other row"
+                  : "give each its own address; a type with 32 in its name takes two, one with 64 four");
         return;
       }
     }
@@ -268,7 +325,7 @@ class MapReader {
   ModbusRegister entry_;
   RegisterMap map_;
   std::map<std::string, Position> names_;
-  std::map<std::array<std::uint32_t, 3>, std::string> taken_;
+  std::map<std::array<std::uint32_t, 3>, std::vector<Taken>> taken_;
   std::size_t read_ = 0;
   std::size_t written_ = 0;
   bool failed_ = false;

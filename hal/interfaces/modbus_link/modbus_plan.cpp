@@ -27,21 +27,33 @@ std::vector<std::size_t> sorted_by_address(const ModbusRegisterMap& map, bool wr
   return order;
 }
 
+bool share_a_register(const ModbusRegister& one, const ModbusRegister& other) {
+  return one.is_bit_of_register() && other.is_bit_of_register() && one.area == other.area &&
+         one.address == other.address;
+}
+
 std::size_t place_all(const ModbusRegisterMap& map, bool writing, ModbusPlan& plan) {
   std::vector<ModbusBlock>& blocks = writing ? plan.writes : plan.reads;
+  std::uint16_t ModbusPlace::*const place = writing ? &ModbusPlace::output : &ModbusPlace::input;
   std::size_t words = 0;
+  const ModbusRegister* before = nullptr;
   for (const std::size_t i : sorted_by_address(map, writing)) {
     const ModbusRegister& entry = map.registers[i];
     const ModbusPollGroup group = writing ? ModbusPollGroup::fast : entry.poll_group;
-    const bool joins = !blocks.empty() && blocks.back().area == entry.area && blocks.back().group == group &&
-                       blocks.back().address + blocks.back().count == entry.address &&
-                       blocks.back().count + std::size_t{entry.words()} <= most_of(entry.area, writing);
-    if (!joins) blocks.push_back({entry.area, group, entry.address, 0, static_cast<std::uint16_t>(words)});
-    ModbusPlace& place = plan.places[i];
-    (writing ? place.output : place.input) = static_cast<std::uint16_t>(words);
-    if (!writing) place.read = static_cast<std::uint16_t>(blocks.size() - 1);
-    blocks.back().count = static_cast<std::uint16_t>(blocks.back().count + entry.words());
+    const bool continues =
+        !blocks.empty() && blocks.back().area == entry.area && blocks.back().group == group;
+    if (continues && share_a_register(*before, entry)) {
+      words -= 1;  // which has been counted
+    } else {
+      const bool joins = continues && blocks.back().address + blocks.back().count == entry.address &&
+                         blocks.back().count + std::size_t{entry.words()} <= most_of(entry.area, writing);
+      if (!joins) blocks.push_back({entry.area, group, entry.address, 0, static_cast<std::uint16_t>(words)});
+      blocks.back().count = static_cast<std::uint16_t>(blocks.back().count + entry.words());
+    }
+    plan.places[i].*place = static_cast<std::uint16_t>(words);
+    if (!writing) plan.places[i].read = static_cast<std::uint16_t>(blocks.size() - 1);
     words += entry.words();
+    before = &entry;
   }
   return words;
 }

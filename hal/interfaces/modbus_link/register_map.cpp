@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace flexrf {
 namespace {
@@ -20,33 +19,42 @@ bool swaps_bytes(ModbusWordOrder order) {
   return order == ModbusWordOrder::badc || order == ModbusWordOrder::dcba;
 }
 
-std::uint32_t joined(const ModbusRegister& meaning, const std::uint16_t* words) {
-  std::uint16_t high = words[0];
-  std::uint16_t low = words[1];
-  if (swaps_words(meaning.word_order)) std::swap(high, low);
-  if (swaps_bytes(meaning.word_order)) {
-    high = swapped(high);
-    low = swapped(low);
-  }
-  return (std::uint32_t{high} << 16) | low;
+// Place of the register that has the value's i-th sixteen bits, from the most significant on.
+std::size_t place_of(const ModbusRegister& meaning, std::size_t i) {
+  return swaps_words(meaning.word_order) ? meaning.words() - 1 - i : i;
 }
 
-void split(const ModbusRegister& meaning, std::uint32_t value, std::uint16_t* words) {
-  auto high = static_cast<std::uint16_t>(value >> 16);
-  auto low = static_cast<std::uint16_t>(value & 0xFFFF);
-  if (swaps_bytes(meaning.word_order)) {
-    high = swapped(high);
-    low = swapped(low);
+std::uint64_t joined(const ModbusRegister& meaning, const std::uint16_t* words) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < meaning.words(); ++i) {
+    const std::uint16_t word = words[place_of(meaning, i)];
+    value = (value << 16) | (swaps_bytes(meaning.word_order) ? swapped(word) : word);
   }
-  if (swaps_words(meaning.word_order)) std::swap(high, low);
-  words[0] = high;
-  words[1] = low;
+  return value;
 }
 
+void split(const ModbusRegister& meaning, std::uint64_t value, std::uint16_t* words) {
+  for (std::size_t i = meaning.words(); i-- > 0; value >>= 16) {
+    const auto word = static_cast<std::uint16_t>(value & 0xFFFF);
+    words[place_of(meaning, i)] = swaps_bytes(meaning.word_order) ? swapped(word) : word;
+  }
+}
+
+// Compared before it is converted: the greatest 64-bit numbers are no doubles, and what is over them is no
+// integer.
 template <class Integer>
 Integer rounded(double raw) {
-  return static_cast<Integer>(std::clamp(std::round(raw), double{std::numeric_limits<Integer>::min()},
-                                         double{std::numeric_limits<Integer>::max()}));
+  constexpr Integer least = std::numeric_limits<Integer>::min();
+  constexpr Integer most = std::numeric_limits<Integer>::max();
+  const double nearest = std::round(raw);
+  if (nearest <= static_cast<double>(least)) return least;
+  if (nearest >= static_cast<double>(most)) return most;
+  return static_cast<Integer>(nearest);
+}
+
+void set_bit(const ModbusRegister& meaning, bool value, std::uint16_t& word) {
+  const auto mask = static_cast<std::uint16_t>(1U << meaning.bit);
+  word = static_cast<std::uint16_t>(value ? word | mask : word & ~mask);
 }
 
 }  // namespace
@@ -59,7 +67,7 @@ const char* name_of(ModbusArea area) noexcept {
 double decode_register(const ModbusRegister& meaning, const std::uint16_t* words) noexcept {
   switch (meaning.type) {
     case ModbusType::boolean:
-      return words[0] != 0 ? 1 : 0;
+      return (meaning.is_bit_of_register() ? words[0] >> meaning.bit & 1 : words[0]) != 0 ? 1 : 0;
     case ModbusType::i16:
       return static_cast<std::int16_t>(words[0]) * meaning.scale;
     case ModbusType::u16:
@@ -67,9 +75,15 @@ double decode_register(const ModbusRegister& meaning, const std::uint16_t* words
     case ModbusType::i32:
       return static_cast<std::int32_t>(joined(meaning, words)) * meaning.scale;
     case ModbusType::u32:
-      return joined(meaning, words) * meaning.scale;
+      return static_cast<double>(joined(meaning, words)) * meaning.scale;
     case ModbusType::f32:
-      return double{std::bit_cast<float>(joined(meaning, words))} * meaning.scale;
+      return double{std::bit_cast<float>(static_cast<std::uint32_t>(joined(meaning, words)))} * meaning.scale;
+    case ModbusType::i64:
+      return static_cast<double>(static_cast<std::int64_t>(joined(meaning, words))) * meaning.scale;
+    case ModbusType::u64:
+      return static_cast<double>(joined(meaning, words)) * meaning.scale;
+    case ModbusType::f64:
+      return std::bit_cast<double>(joined(meaning, words)) * meaning.scale;
   }
   return 0;
 }
@@ -79,7 +93,11 @@ void encode_register(const ModbusRegister& meaning, double value, std::uint16_t*
   const double raw = value / meaning.scale;
   switch (meaning.type) {
     case ModbusType::boolean:
-      words[0] = raw != 0 ? 1 : 0;
+      if (meaning.is_bit_of_register()) {
+        set_bit(meaning, raw != 0, words[0]);
+      } else {
+        words[0] = raw != 0 ? 1 : 0;
+      }
       break;
     case ModbusType::i16:
       words[0] = static_cast<std::uint16_t>(rounded<std::int16_t>(raw));
@@ -96,6 +114,17 @@ void encode_register(const ModbusRegister& meaning, double value, std::uint16_t*
     case ModbusType::f32: {
       constexpr double most = std::numeric_limits<float>::max();
       split(meaning, std::bit_cast<std::uint32_t>(static_cast<float>(std::clamp(raw, -most, most))), words);
+      break;
+    }
+    case ModbusType::i64:
+      split(meaning, static_cast<std::uint64_t>(rounded<std::int64_t>(raw)), words);
+      break;
+    case ModbusType::u64:
+      split(meaning, rounded<std::uint64_t>(raw), words);
+      break;
+    case ModbusType::f64: {
+      constexpr double most = std::numeric_limits<double>::max();
+      split(meaning, std::bit_cast<std::uint64_t>(std::clamp(raw, -most, most)), words);
       break;
     }
   }

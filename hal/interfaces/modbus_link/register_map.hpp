@@ -10,14 +10,20 @@ namespace flexrf {
 
 // In the order of config-gen's words for them (config-gen/model/register_map.hpp).
 enum class ModbusArea : std::uint8_t { coil, discrete_input, holding_register, input_register };
-enum class ModbusType : std::uint8_t { boolean, i16, u16, i32, u32, f32 };
-/// How the bytes of a 32-bit value come over the wire; A is the most significant.
+enum class ModbusType : std::uint8_t { boolean, i16, u16, i32, u32, f32, i64, u64, f64 };
+/// How the bytes of a 32-bit value come over the wire; A is the most significant. Of a 64-bit one likewise:
+/// its registers from the most significant on, or (cdab, dcba) from the least; their bytes swapped in badc
+/// and dcba.
 enum class ModbusWordOrder : std::uint8_t { abcd, cdab, badc, dcba };
 enum class ModbusAccess : std::uint8_t { read, write, read_write };
 /// Which of the station's periods it is read with.
 enum class ModbusPollGroup : std::uint8_t { fast, normal, slow };
 
+/// A value of a station, in one register or several, or in a bit of one.
 struct ModbusRegister {
+  static constexpr std::uint8_t whole = 16;
+  static constexpr std::size_t most_words = 4;
+
   std::string_view name;
   std::uint16_t address = 0;  ///< as in the request, from 0
   ModbusArea area = ModbusArea::holding_register;
@@ -28,14 +34,17 @@ struct ModbusRegister {
   double scale = 1;       ///< units per count; not 0
   std::string_view unit;  ///< unit of measure of the scaled value
   double safe_value = 0;  ///< scaled; of what is written
+  /// Of a boolean in a register: its bit, 0 the least significant. Bits of one register are read and written
+  /// together; those that no row writes are written as 0.
+  std::uint8_t bit = whole;
 
   constexpr bool is_read() const noexcept { return access != ModbusAccess::write; }
   constexpr bool is_written() const noexcept { return access != ModbusAccess::read; }
-  constexpr bool is_bit() const noexcept {
-    return area == ModbusArea::coil || area == ModbusArea::discrete_input;
-  }
+  constexpr bool is_bit_of_register() const noexcept { return bit != whole; }
   /// Registers (or coils) that it takes.
-  constexpr std::uint16_t words() const noexcept { return type >= ModbusType::i32 ? 2 : 1; }
+  constexpr std::uint16_t words() const noexcept {
+    return type >= ModbusType::i64 ? 4 : type >= ModbusType::i32 ? 2 : 1;
+  }
 };
 
 struct ModbusRegisterMap {
@@ -50,7 +59,7 @@ const char* name_of(ModbusArea area) noexcept;
 /// The scaled value in the register's words.
 double decode_register(const ModbusRegister& meaning, const std::uint16_t* words) noexcept;
 /// The words of a scaled value: rounded to the nearest count, what does not fit becomes the nearest that
-/// does; not a number becomes the safe value.
+/// does; not a number becomes the safe value. Of a bit the register's others stay as they are.
 void encode_register(const ModbusRegister& meaning, double value, std::uint16_t* words) noexcept;
 
 }  // namespace flexrf

@@ -108,8 +108,8 @@ class MockModbusStation final : public MockModbusStationDriver {
 
  private:
   struct Cell {
-    std::array<std::uint16_t, 2> held{};
-    std::array<std::uint16_t, 2> told{};
+    std::array<std::uint16_t, ModbusRegister::most_words> held{};
+    std::array<std::uint16_t, ModbusRegister::most_words> told{};
     Time visible_at{};
     Time told_at{};
   };

@@ -1,6 +1,7 @@
 // How many requests a register map takes.
 #include "hal/interfaces/modbus_link/modbus_plan.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -70,6 +71,42 @@ void areas_groups_and_gaps_are_apart_and_the_list_s_order_is_free(void**) {
   assert_int_equal(reads, 4);
 }
 
+ModbusRegister bit_of(int address, int bit, ModbusAccess access) {
+  ModbusRegister entry = at(address, ModbusArea::holding_register, ModbusType::boolean);
+  entry.bit = static_cast<std::uint8_t>(bit);
+  entry.access = access;
+  return entry;
+}
+
+void bits_of_a_register_share_its_word(void**) {
+  ModbusPlace places[5];
+  std::size_t reads = 0, writes = 0, registers_read = 0, registers_written = 0;
+  {
+    const std::vector<ModbusRegister> registers = {
+        bit_of(7, 3, ModbusAccess::write), bit_of(7, 0, ModbusAccess::read_write), at(8),
+        bit_of(7, 15, ModbusAccess::read), bit_of(6, 0, ModbusAccess::write)};
+    ModbusPlan plan;
+    if (plan_requests({registers}, plan)) {
+      std::copy(plan.places.begin(), plan.places.end(), places);
+      reads = plan.reads.size();
+      writes = plan.writes.size();
+      registers_read = plan.reads[0].count;
+      registers_written = plan.writes[0].count;
+    }
+  }
+  assert_int_equal(reads, 1);
+  assert_int_equal(registers_read, 2);
+  assert_int_equal(writes, 1);
+  assert_int_equal(registers_written, 2);
+  assert_int_equal(places[1].input, places[3].input);
+  assert_int_equal(places[1].read, places[3].read);
+  assert_int_equal(places[2].input, places[1].input + 1);
+  assert_int_equal(places[0].output, places[1].output);
+  assert_int_equal(places[0].output, places[4].output + 1);
+  assert_int_equal(places[0].input, ModbusPlace::none);
+  assert_int_equal(places[3].output, ModbusPlace::none);
+}
+
 void written_and_read_lie_in_their_own_words(void**) {
   ModbusPlace place;
   std::size_t reads = 0, writes = 0;
@@ -112,6 +149,7 @@ int main() {
       cmocka_unit_test(a_hundred_and_twenty_registers_in_three_blocks_take_three_requests),
       cmocka_unit_test(the_protocol_s_limits_are_kept),
       cmocka_unit_test(areas_groups_and_gaps_are_apart_and_the_list_s_order_is_free),
+      cmocka_unit_test(bits_of_a_register_share_its_word),
       cmocka_unit_test(written_and_read_lie_in_their_own_words),
       cmocka_unit_test(scattered_registers_are_refused_with_a_hint)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -42,17 +42,14 @@ class LinkedWorld : public ModbusStationWorld {
 
   void put(std::size_t index, double value) override {
     const ModbusRegister& entry = map_->registers[index];
-    std::array<std::uint16_t, 2> words{};
+    std::array<std::uint16_t, ModbusRegister::most_words> words = words_of(entry);
     encode_register(entry, value, words.data());
     for (std::uint16_t i = 0; i < entry.words(); ++i)
       put_word(entry.area, static_cast<std::uint16_t>(entry.address + i), words[i]);
   }
   double held(std::size_t index) override {
     const ModbusRegister& entry = map_->registers[index];
-    std::array<std::uint16_t, 2> words{};
-    for (std::uint16_t i = 0; i < entry.words(); ++i)
-      words[i] = word(entry.area, static_cast<std::uint16_t>(entry.address + i));
-    return decode_register(entry, words.data());
+    return decode_register(entry, words_of(entry).data());
   }
 
   Link& link() { return link_->driver(); }
@@ -66,6 +63,13 @@ class LinkedWorld : public ModbusStationWorld {
   virtual std::uint16_t word(ModbusArea area, std::uint16_t address) = 0;
 
  private:
+  std::array<std::uint16_t, ModbusRegister::most_words> words_of(const ModbusRegister& entry) {
+    std::array<std::uint16_t, ModbusRegister::most_words> words{};
+    for (std::uint16_t i = 0; i < entry.words(); ++i)
+      words[i] = word(entry.area, static_cast<std::uint16_t>(entry.address + i));
+    return words;
+  }
+
   const ModbusRegisterMap* map_ = nullptr;
   std::uint8_t unit_id_ = 1;
   std::optional<DeviceBench<Link>> link_;

@@ -20,7 +20,22 @@ void judged(void**) {
   judge(make_world, Run);
 }
 
-enum Place : std::size_t { pressure, level, flow, ready, speed, ramp, lamp, counter, places };
+enum Place : std::size_t {
+  pressure,
+  level,
+  flow,
+  ready,
+  speed,
+  ramp,
+  lamp,
+  counter,
+  energy,
+  open_door,
+  closed_door,
+  clutch,
+  brake,
+  places
+};
 
 constexpr ModbusRegister registers[places] = {
     {"pressure", 0, ModbusArea::holding_register, ModbusType::i16, ModbusWordOrder::abcd, ModbusAccess::read,
@@ -39,6 +54,16 @@ constexpr ModbusRegister registers[places] = {
      ModbusPollGroup::fast, 1, "", 1},
     {"counter", 20, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::read,
      ModbusPollGroup::slow, 1, "", 0},
+    {"energy", 30, ModbusArea::input_register, ModbusType::i64, ModbusWordOrder::cdab, ModbusAccess::read,
+     ModbusPollGroup::fast, 1, "J", 0},
+    {"open_door", 34, ModbusArea::input_register, ModbusType::boolean, ModbusWordOrder::abcd,
+     ModbusAccess::read, ModbusPollGroup::fast, 1, "", 0, 3},
+    {"closed_door", 34, ModbusArea::input_register, ModbusType::boolean, ModbusWordOrder::abcd,
+     ModbusAccess::read, ModbusPollGroup::fast, 1, "", 0, 14},
+    {"clutch", 13, ModbusArea::holding_register, ModbusType::boolean, ModbusWordOrder::abcd,
+     ModbusAccess::read_write, ModbusPollGroup::fast, 1, "", 0, 0},
+    {"brake", 13, ModbusArea::holding_register, ModbusType::boolean, ModbusWordOrder::abcd,
+     ModbusAccess::read_write, ModbusPollGroup::fast, 1, "", 1, 9},
 };
 constexpr ModbusRegisterMap map{registers};
 
@@ -89,9 +114,13 @@ Verdict every_kind_of_register_is_read(ModbusStationWorld& world) {
   world.put(flow, 0.5);
   world.put(ready, 1);
   world.put(counter, 7);
+  world.put(energy, -5e12);
+  world.put(open_door, 0);
+  world.put(closed_door, 1);
   return verdict(until(world, [&] {
     return reads(world, pressure, -1.25) && reads(world, level, 70000) && reads(world, flow, 0.5) &&
-           reads(world, ready, 1) && reads(world, counter, 7);
+           reads(world, ready, 1) && reads(world, counter, 7) && reads(world, energy, -5e12) &&
+           reads(world, open_door, 0) && reads(world, closed_door, 1);
   }));
 }
 
@@ -110,6 +139,17 @@ Verdict what_is_set_is_written_and_read_back(ModbusStationWorld& world) {
     return holds(world, speed, -3.4) && holds(world, ramp, 1.5) && holds(world, lamp, 0) &&
            reads(world, speed, -3.4) && reads(world, lamp, 0);
   }));
+}
+
+Verdict bits_of_a_register_are_written_together(ModbusStationWorld& world) {
+  if (!starts_well(world)) return Verdict::failed;
+  if (!until(world, [&] { return holds(world, clutch, 0) && holds(world, brake, 1); }))
+    return Verdict::failed;
+  world.station().set(clutch, 1);
+  if (!until(world, [&] { return reads(world, clutch, 1) && reads(world, brake, 1); }))
+    return Verdict::failed;
+  world.station().set(brake, 0);
+  return verdict(until(world, [&] { return reads(world, clutch, 1) && reads(world, brake, 0); }));
 }
 
 Verdict safe_values_are_written_while_it_may_not_move(ModbusStationWorld& world) {
@@ -211,6 +251,7 @@ int run_modbus_station_conformance(const char* driver, MakeModbusStationWorld ma
       test("every kind of register is read", judged<every_kind_of_register_is_read>),
       test("values carry their age", judged<values_carry_their_age>),
       test("what is set is written and read back", judged<what_is_set_is_written_and_read_back>),
+      test("bits of a register are written together", judged<bits_of_a_register_are_written_together>),
       test("safe values are written while it may not move",
            judged<safe_values_are_written_while_it_may_not_move>),
       test("made safe, it says so when the station has the values",
