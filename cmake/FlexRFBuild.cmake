@@ -5,7 +5,7 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
-option(FLEXRF_CHECKED "Poison loans, abort on allocation in real-time threads" OFF)
+option(FLEXRF_CHECKED "Poison loans, abort on allocation and on waiting system calls in real-time threads" OFF)
 option(FLEXRF_FUZZ "Fuzz targets too, which need clang and its libFuzzer (preset fuzz)" OFF)
 option(FLEXRF_COMMON_HEADERS "Read the standard library's headers once for all targets" OFF)
 set(FLEXRF_SANITIZER "" CACHE STRING "Sanitizers to build with: empty, 'address,undefined' or 'thread'")

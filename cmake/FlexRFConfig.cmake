@@ -6,6 +6,10 @@ find_dependency(PkgConfig)
 pkg_check_modules(pugixml REQUIRED QUIET IMPORTED_TARGET pugixml)
 
 include("${CMAKE_CURRENT_LIST_DIR}/FlexRFTargets.cmake")
+get_target_property(_flexrf_guard FlexRF::allocation_guard INTERFACE_LINK_LIBRARIES)
+if(_flexrf_guard MATCHES "seccomp")  # of a checked build
+  pkg_check_modules(seccomp REQUIRED QUIET IMPORTED_TARGET GLOBAL libseccomp)
+endif()
 if(TARGET FlexRF::driver_linux_gpio_chip)
   pkg_check_modules(gpiod REQUIRED QUIET IMPORTED_TARGET GLOBAL libgpiod)
 endif()

@@ -22,6 +22,7 @@
 #include "runtime/realtime/process_statistics.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
 #include "runtime/realtime/rights.hpp"
+#include "runtime/realtime/system_call_filter.hpp"
 
 namespace flexrf {
 namespace {
@@ -257,6 +258,11 @@ void Executive::run_on_the_wall_clock(RunSummary& summary) {
   Status status = last_gasp::install();
   last_gasp::expect_no_exit(true);
   prepare_allocation_guard();
+  if (prepare_system_call_filter != nullptr) {
+    if (const Status watch = prepare_system_call_filter(); !watch) {
+      log_warning(cell_.application().name, "{}", watch.cause());
+    }
+  }
   if (status) status = start_threads(summary);
   if (!status) {
     log_error(cell_.application().name, "not started: {}", status.cause());

@@ -14,6 +14,7 @@
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/last_gasp.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
+#include "runtime/realtime/system_call_filter.hpp"
 
 namespace flexrf {
 namespace {
@@ -52,7 +53,10 @@ Status ThreadLoop::prepare() {
 void ThreadLoop::run() noexcept {
   const last_gasp::AlternateStack handler_stack({handler_stack_.get(), last_gasp::handler_stack_size});
   std::optional<RealtimeScope> guard;
-  if (record_->priority > 0) guard.emplace(stepper_.state().allocations);
+  if (record_->priority > 0) {
+    watch_system_calls();
+    guard.emplace(stepper_.state().allocations);
+  }
   const rusage before = usage_of_this_thread();
   trigger_.begin(MonotonicClock::now());
   while (cell_->control().mode() != Mode::ended) turn(record_->bell->listen());
@@ -67,6 +71,13 @@ void ThreadLoop::run() noexcept {
   count(state.involuntary_switches, before.ru_nivcsw, after.ru_nivcsw);
   // What the lifecycle thread still asks for is given back here; after this nobody steps.
   stepper_.serve(MonotonicClock::now());
+}
+
+void ThreadLoop::watch_system_calls() noexcept {
+  if (filter_system_calls == nullptr) return;
+  if (const Status status = filter_system_calls(record_->name); !status) {
+    log_warning(record_->name, "{}", status.cause());
+  }
 }
 
 void ThreadLoop::turn(std::uint32_t heard) noexcept {

@@ -24,6 +24,7 @@ class ThreadLoop {
   void run() noexcept;
 
  private:
+  void watch_system_calls() noexcept;
   void turn(std::uint32_t heard) noexcept;
   void release(Time nominal, Time now, const Due& due) noexcept;
   void wait(std::uint32_t heard, Time until) noexcept;

@@ -42,7 +42,7 @@ constinit Slot table[slots];
 constinit Terminal terminal;
 constinit std::atomic<bool> crashing{false};
 constinit std::atomic<bool> exit_is_unexpected{false};
-constinit thread_local const char* stepped [[gnu::tls_model("initial-exec")]] = nullptr;
+constinit thread_local const char* stepped_unit [[gnu::tls_model("initial-exec")]] = nullptr;
 
 struct Prepared {
   int descriptor = none;
@@ -157,7 +157,7 @@ void handle(int signal, siginfo_t* information, void* /*context*/) noexcept {
     // Another thread crashed first and is about to end the process: leave it the time to.
     for (int i = 0; i < 10; ++i) {
       const timespec moment{0, 100'000'000};
-      nanosleep(&moment, nullptr);
+      ppoll(nullptr, 0, &moment, nullptr);  // a real-time thread of the checked build may not sleep
     }
   } else {
     const int written = write_prepared();
@@ -165,7 +165,7 @@ void handle(int signal, siginfo_t* information, void* /*context*/) noexcept {
     Message message;
     message << "\nflexrf: " << meaning_of(signal);
     if (signal == SIGSEGV || signal == SIGBUS) (message << " at ").address(information->si_addr);
-    if (stepped != nullptr) message << " while stepping " << stepped;
+    if (stepped_unit != nullptr) message << " while stepping " << stepped_unit;
     message << "; prepared outputs written: " << written << "\n";
     message.write_to(STDERR_FILENO);
   }
@@ -184,7 +184,7 @@ void at_exit() noexcept {
     restore_terminal();
     Message message;
     message << "\nflexrf: exit() was called while the application ran";
-    if (stepped != nullptr) message << ", in " << stepped;
+    if (stepped_unit != nullptr) message << ", in " << stepped_unit;
     message << "; prepared outputs written: " << written << "\n";
     message.write_to(STDERR_FILENO);
   }
@@ -269,7 +269,11 @@ int fire() noexcept {
 }
 
 void set_stepped(const char* unit) noexcept {
-  stepped = unit;
+  stepped_unit = unit;
+}
+
+const char* stepped() noexcept {
+  return stepped_unit;
 }
 
 AlternateStack::AlternateStack(std::span<std::byte> memory) noexcept {

@@ -51,6 +51,8 @@ int fire() noexcept;
 /// The unit that this thread steps (a name that lives for ever; null: none), for the crash's message. Its
 /// thread.
 void set_stepped(const char* unit) noexcept;
+/// As set last; null: none. Its thread, also in a signal handler.
+const char* stepped() noexcept;
 
 /// An alternate stack for this thread's signal handlers while it lives. Memory is the caller's, preallocated,
 /// at least handler_stack_size bytes.

@@ -211,6 +211,23 @@ void an_allocation_is_caught() {
 #endif
 }
 
+/// Only the checked build filters system calls.
+void a_system_call_that_may_wait_is_caught() {
+  const Folder folder;
+  const Ending ending = run(folder, words(), "doo");
+#if FLEXRF_CHECKED
+  CHECK_EQUAL(ending.signal, SIGABRT);
+  CHECK_CONTAINS(ending.errors, "flexrf: system call openat (");
+  CHECK_CONTAINS(ending.errors, " in the real-time thread sabotage, in the step of saboteur, ");
+  CHECK_CONTAINS(ending.errors, "open, map and start things in initialise()");
+  CHECK_CONTAINS(ending.errors, "/trial(");  // the trace
+  CHECK_CONTAINS(ending.errors, " while stepping saboteur; prepared outputs written: 1");
+  CHECK_EQUAL(contents_of(folder / "drive.log"), last_gasp);
+#else
+  CHECK_EQUAL(ending.exit_code, 0);
+#endif
+}
+
 // ---- the terminal
 
 termios settings_of(const Process& process) {
@@ -257,6 +274,7 @@ int main() {
       CONTAINED_TEST(the_end_of_input_is_the_gentlest),
       CONTAINED_TEST(finish_timeout_ends_what_does_not_finish),
       CONTAINED_TEST(an_allocation_is_caught),
+      CONTAINED_TEST(a_system_call_that_may_wait_is_caught),
       CONTAINED_TEST(the_terminal_is_restored_on_every_exit),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
