@@ -47,16 +47,17 @@ class VirtualInterface {
 };
 
 /// Cycles are paced by the clock of the machine.
-class RealAxis {
+template <class Driver>
+class RealDevice {
  public:
-  RealAxis() { bus_->configuration().set_interface(can_interface); }
-  ~RealAxis() {
+  RealDevice() { bus_->configuration().set_interface(can_interface); }
+  ~RealDevice() {
     drive().stop();
     bus_->driver().stop();
   }
 
   auto& configuration() { return drive_->configuration(); }
-  CanopenServoDrive& drive() { return drive_->driver(); }
+  Driver& drive() { return drive_->driver(); }
   bool initialise() { return bus_->driver().initialise().is_ok() && drive_->driver().initialise().is_ok(); }
   void receive() {
     next_ = std::max(next_ + real_cycle, MonotonicClock::now() - real_cycle);
@@ -72,9 +73,11 @@ class RealAxis {
 
  private:
   std::unique_ptr<DeviceBench<SocketCanBus>> bus_ = std::make_unique<DeviceBench<SocketCanBus>>(nullptr);
-  std::unique_ptr<DeviceBench<CanopenServoDrive>> drive_ = std::make_unique<DeviceBench<CanopenServoDrive>>(
-      nullptr, std::span<QueueSink* const>{}, &bus_->driver());
+  std::unique_ptr<DeviceBench<Driver>> drive_ =
+      std::make_unique<DeviceBench<Driver>>(nullptr, std::span<QueueSink* const>{}, &bus_->driver());
   Time next_ = MonotonicClock::now();
 };
+
+using RealAxis = RealDevice<CanopenServoDrive>;
 
 }  // namespace flexrf
