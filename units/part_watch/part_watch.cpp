@@ -21,6 +21,7 @@ struct PixelLayout {
 std::optional<PixelLayout> layout_of(PixelFormat format) {
   switch (format) {
     case PixelFormat::grey8:
+    case PixelFormat::nv12:  // its colour comes behind, and does not matter here
       return PixelLayout{1, {1, 0, 0}};
     case PixelFormat::yuyv:
       return PixelLayout{2, {1, 0, 0}};

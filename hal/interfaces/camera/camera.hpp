@@ -12,7 +12,7 @@ namespace flexrf {
 
 /// A picture where it lies, in memory that is the driver's.
 struct CameraImage {
-  std::span<const std::uint8_t> data;  ///< stride * height bytes, the last row perhaps without its padding
+  std::span<const std::uint8_t> data;  ///< its rows as in CameraFrame, the last perhaps without its padding
   std::uint32_t width = 0;             ///< pixels
   std::uint32_t height = 0;            ///< rows
   std::uint32_t stride = 0;            ///< bytes from one row to the next

@@ -1,18 +1,30 @@
 #include "hal/interfaces/camera/picture_size.hpp"
 
 namespace flexrf {
+namespace {
+
+/// What of a picture's size must be even, because pixels share their colour.
+const char* must_be_even(std::uint32_t width, std::uint32_t height, PixelFormat format) noexcept {
+  if (format == PixelFormat::yuyv && width % 2 != 0) return ": in yuyv the width is even";
+  if (format == PixelFormat::nv12 && (width % 2 != 0 || height % 2 != 0))
+    return ": in nv12 width and height are even";
+  return "";
+}
+
+}  // namespace
 
 Status check_picture(std::uint32_t width, std::uint32_t height, PixelFormat format) noexcept {
-  const std::uint32_t pixel = bytes_per_pixel(format);
-  if (pixel == 0) {
-    return Status::error(StatusCode::invalid_argument,
-                         "a camera gives yuyv, grey8 or rgb24: set configuration.format to one of them");
+  if (row_bytes(format, 1) == 0) {
+    return Status::error(
+        StatusCode::invalid_argument,
+        "a camera gives yuyv, grey8, rgb24 or nv12: set configuration.format to one of them");
   }
-  if (width == 0 || height == 0 || (format == PixelFormat::yuyv && width % 2 != 0)) {
+  const char* const even = must_be_even(width, height, format);
+  if (width == 0 || height == 0 || even[0] != '\0') {
     return Status::error(StatusCode::invalid_argument, "there is no picture of %ux%u pixels%s", width, height,
-                         width % 2 != 0 ? ": in yuyv the width is even" : "");
+                         even);
   }
-  const std::size_t bytes = std::size_t{width} * height * pixel;
+  const std::size_t bytes = picture_bytes(format, row_bytes(format, width), height);
   if (bytes > most_picture_bytes) {
     return Status::error(
         StatusCode::out_of_range,

@@ -205,7 +205,7 @@ class VirtualCamera : public Base {
   void show(Time at, std::uint32_t number) noexcept {
     if (own_ != nullptr) {
       fill(*own_, at, journal_.note_whole(number));
-      const std::size_t bytes = std::size_t{own_->stride} * own_->height;
+      const std::size_t bytes = picture_bytes(own_->format, own_->stride, own_->height);
       image_ = CameraImage{.data = {own_->data.data(), bytes},
                            .width = own_->width,
                            .height = own_->height,
@@ -224,10 +224,10 @@ class VirtualCamera : public Base {
     frame.width = set.width;
     frame.height = set.height;
     frame.format = set.format;
-    frame.stride = set.width * bytes_per_pixel(set.format);
+    frame.stride = row_bytes(set.format, set.width);
     frame.time = nanoseconds(at);
     frame.sequence = sequence;
-    const std::size_t bytes = std::size_t{frame.stride} * frame.height;
+    const std::size_t bytes = picture_bytes(frame.format, frame.stride, frame.height);
     draw({{frame.data.data(), bytes}, frame.width, frame.height, frame.format}, at, sequence);
     // The same run gives the same items, to the last byte.
     std::fill(frame.data.begin() + static_cast<std::ptrdiff_t>(bytes), frame.data.end(), std::uint8_t{0});

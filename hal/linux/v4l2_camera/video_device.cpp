@@ -15,6 +15,8 @@ namespace {
 
 constexpr int most_nodes = 64;  // of /dev/videoN
 constexpr std::size_t most_offered_text = 150;
+constexpr PixelFormat known_formats[] = {PixelFormat::yuyv, PixelFormat::grey8, PixelFormat::rgb24,
+                                         PixelFormat::nv12};
 
 std::uint32_t pixel_format_of(PixelFormat format) noexcept {
   switch (format) {
@@ -22,6 +24,8 @@ std::uint32_t pixel_format_of(PixelFormat format) noexcept {
       return V4L2_PIX_FMT_GREY;
     case PixelFormat::rgb24:
       return V4L2_PIX_FMT_RGB24;
+    case PixelFormat::nv12:
+      return V4L2_PIX_FMT_NV12;
     default:
       return V4L2_PIX_FMT_YUYV;
   }
@@ -107,10 +111,11 @@ Status VideoDevice::agree(VideoFormat& format) {
   if (result < 0 || given.width != format.width || given.height != format.height ||
       given.pixelformat != pixel_format_of(format.format)) {
     return Status::error(StatusCode::invalid_argument, "the camera %s does not give %ux%u %s; it offers %s",
-                         path(), format.width, format.height, name_of(format.format), offers().c_str());
+                         path(), format.width, format.height, name_of(format.format),
+                         offers(format.format).c_str());
   }
-  format.stride = std::max(given.bytesperline, format.width * bytes_per_pixel(format.format));
-  format.size = std::max(given.sizeimage, format.stride * format.height);
+  format.stride = std::max(given.bytesperline, row_bytes(format.format, format.width));
+  format.size = std::max(given.sizeimage, format.stride * data_rows(format.format, format.height));
   if (format.size > most_picture_bytes) {
     return Status::error(
         StatusCode::out_of_range,
@@ -129,18 +134,24 @@ Status VideoDevice::agree(VideoFormat& format) {
   return {};
 }
 
-std::string VideoDevice::offers() {
+/// The sizes differ from format to format: those of the one that was asked for, if it is there.
+std::string VideoDevice::offers(PixelFormat asked) {
   std::string text;
-  for (const PixelFormat format : {PixelFormat::yuyv, PixelFormat::grey8, PixelFormat::rgb24}) {
+  std::string none;
+  PixelFormat sized = PixelFormat::none;
+  for (const PixelFormat format : known_formats) {
     bool has = false;
     v4l2_fmtdesc one{};
     one.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     for (; !has && calls_->control(descriptor_, VIDIOC_ENUM_FMT, &one) == 0; ++one.index)
       has = one.pixelformat == pixel_format_of(format);
-    if (has) text += (text.empty() ? "" : ", ") + std::string(name_of(format));
+    none += (none.empty() ? "none of " : ", ") + std::string(name_of(format));
+    if (!has) continue;
+    if (text.empty() || format == asked) sized = format;
+    text += (text.empty() ? "" : ", ") + std::string(name_of(format));
   }
-  if (text.empty()) return "none of yuyv, grey8, rgb24";
-  text += sizes_of(V4L2_PIX_FMT_YUYV);
+  if (text.empty()) return none;
+  text += sizes_of(pixel_format_of(sized));
   if (text.size() > most_offered_text) text.replace(most_offered_text, text.npos, " ...");
   return text;
 }

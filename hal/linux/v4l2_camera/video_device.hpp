@@ -52,7 +52,7 @@ class VideoDevice {
  private:
   Status open_path(const char* path);
   void close() noexcept;
-  std::string offers();
+  std::string offers(PixelFormat asked);
   std::string sizes_of(std::uint32_t pixel_format);
   void add(const v4l2_query_ext_ctrl& found);
   void look_at(std::size_t index) noexcept;

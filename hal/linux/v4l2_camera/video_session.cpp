@@ -26,8 +26,8 @@ v4l2_buffer empty_buffer(std::uint32_t memory, std::uint32_t index) noexcept {
 
 /// Bytes that a whole picture has at least; the last row may lack its padding.
 std::size_t whole_size(const VideoFormat& format) noexcept {
-  return std::size_t{format.stride} * (format.height - 1) +
-         std::size_t{format.width} * bytes_per_pixel(format.format);
+  return std::size_t{format.stride} * (data_rows(format.format, format.height) - 1) +
+         row_bytes(format.format, format.width);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "hal/simulated/simulated_camera/camera_scene.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace flexrf {
@@ -22,23 +24,28 @@ std::uint8_t clipped(double value) noexcept {
   return static_cast<std::uint8_t>(std::clamp(value + 0.5, 0.0, 255.0));
 }
 
-/// What one pixel, or in YUYV a pair of them, takes.
+/// A colour, as channels of every format.
 struct Ink {
-  std::uint8_t bytes[4] = {};
-  std::size_t size = 0;
-  long pixels = 1;
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+  std::uint8_t y = 0;
+  std::uint8_t u = 0;
+  std::uint8_t v = 0;
 };
 
-Ink ink_of(SceneColour colour, int brightness, PixelFormat format) noexcept {
+Ink ink_of(SceneColour colour, int brightness) noexcept {
   const double red = std::clamp(colour.red + brightness, 0, 255);
   const double green = std::clamp(colour.green + brightness, 0, 255);
   const double blue = std::clamp(colour.blue + brightness, 0, 255);
   // ITU-R BT.601, full range.
   const double luma = 0.299 * red + 0.587 * green + 0.114 * blue;
-  if (format == PixelFormat::grey8) return {{clipped(luma)}, 1, 1};
-  if (format == PixelFormat::rgb24) return {{clipped(red), clipped(green), clipped(blue)}, 3, 1};
-  const std::uint8_t y = clipped(luma);
-  return {{y, clipped(128 + 0.564 * (blue - luma)), y, clipped(128 + 0.713 * (red - luma))}, 4, 2};
+  return {clipped(red),
+          clipped(green),
+          clipped(blue),
+          clipped(luma),
+          clipped(128 + 0.564 * (blue - luma)),
+          clipped(128 + 0.713 * (red - luma))};
 }
 
 class Pen {
@@ -46,19 +53,38 @@ class Pen {
   Pen(const PictureCanvas& canvas, int brightness) noexcept : canvas_(canvas), brightness_(brightness) {}
 
   void fill(const Area& area, SceneColour colour) const noexcept {
-    const Ink ink = ink_of(colour, brightness_, canvas_.format);
+    const Ink ink = ink_of(colour, brightness_);
     const auto width = static_cast<long>(canvas_.width);
-    const long left = std::clamp(area.left, 0L, width) / ink.pixels;
-    const long right = std::clamp(area.right, 0L, width) / ink.pixels;
-    const long bottom = std::clamp(area.bottom, 0L, static_cast<long>(canvas_.height));
-    const long step = static_cast<long>(ink.size);
-    for (long row = std::max(area.top, 0L); row < bottom; ++row) {
-      std::uint8_t* at = canvas_.data.data() + (row * (width / ink.pixels) + left) * step;
-      for (long column = left; column < right; ++column, at += step) std::copy_n(ink.bytes, ink.size, at);
+    const auto height = static_cast<long>(canvas_.height);
+    const Area inside{std::clamp(area.left, 0L, width), std::clamp(area.right, 0L, width),
+                      std::clamp(area.top, 0L, height), std::clamp(area.bottom, 0L, height)};
+    std::uint8_t* const data = canvas_.data.data();
+    switch (canvas_.format) {
+      case PixelFormat::rgb24:
+        return paint<3>(data, width, inside, {ink.red, ink.green, ink.blue});
+      case PixelFormat::yuyv:
+        return paint<4>(data, width / 2, {inside.left / 2, inside.right / 2, inside.top, inside.bottom},
+                        {ink.y, ink.u, ink.y, ink.v});
+      case PixelFormat::nv12:
+        paint<2>(data + width * height, width / 2,
+                 {inside.left / 2, inside.right / 2, inside.top / 2, inside.bottom / 2}, {ink.u, ink.v});
+        [[fallthrough]];
+      default:
+        return paint<1>(data, width, inside, {ink.y});
     }
   }
 
  private:
+  /// `area` in cells, of which there are `columns` in a row.
+  template <std::size_t size>
+  static void paint(std::uint8_t* plane, long columns, const Area& area,
+                    const std::array<std::uint8_t, size>& cell) noexcept {
+    for (long row = area.top; row < area.bottom; ++row) {
+      std::uint8_t* at = plane + (row * columns + area.left) * static_cast<long>(size);
+      for (long column = area.left; column < area.right; ++column) at = std::copy_n(cell.data(), size, at);
+    }
+  }
+
   const PictureCanvas& canvas_;
   int brightness_;
 };

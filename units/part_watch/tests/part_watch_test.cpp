@@ -95,6 +95,7 @@ void in_every_format(void**) {
   assert_true(sees(PixelFormat::yuyv, 2));
   assert_true(sees(PixelFormat::rgb24, 3));
   assert_true(sees(PixelFormat::bgr24, 3));
+  assert_true(sees(PixelFormat::nv12, 1));
 }
 void dark_parts(void**) {
   assert_true(a_dark_part_can_be_looked_for());

@@ -39,7 +39,7 @@ unsigned char clamped(double value) noexcept {
   return static_cast<unsigned char>(std::clamp(value + 0.5, 0.0, 255.0));
 }
 
-/// ITU-R BT.601, full range as JPEG has it, of the two pixels Y0 U Y1 V share.
+/// ITU-R BT.601, full range as JPEG has it, of the pixels that share U and V.
 void to_rgb(double y, double u, double v, unsigned char* rgb) noexcept {
   rgb[0] = clamped(y + 1.402 * (v - 128));
   rgb[1] = clamped(y - 0.344136 * (u - 128) - 0.714136 * (v - 128));
@@ -64,9 +64,14 @@ PictureEncoder::~PictureEncoder() {
 
 bool PictureEncoder::scale(std::string_view format, const std::byte* data, std::size_t size,
                            std::size_t columns, std::size_t rows, std::size_t row_bytes, std::size_t by) {
-  const std::size_t pixel = format == "grey8" ? 1 : format == "yuyv" ? 2 : 3;
-  row_bytes = std::max(row_bytes, columns * pixel);
-  if (row_bytes * (rows - 1) + columns * pixel > size) {
+  const bool is_nv12 = format == "nv12";
+  const bool is_yuyv = format == "yuyv";
+  const std::size_t pixel = format == "grey8" || is_nv12 ? 1 : is_yuyv ? 2 : 3;
+  // Colour is shared by two columns, in nv12 by two rows as well, whose own rows come behind the others.
+  const std::size_t least_row = (is_nv12 || is_yuyv ? (columns + 1) / 2 * 2 : columns) * pixel;
+  const std::size_t data_rows = is_nv12 ? rows + (rows + 1) / 2 : rows;
+  row_bytes = std::max(row_bytes, least_row);
+  if (row_bytes * (data_rows - 1) + least_row > size) {
     cause_ = "the picture is larger than its data";
     return false;
   }
@@ -79,10 +84,14 @@ bool PictureEncoder::scale(std::string_view format, const std::byte* data, std::
     const std::byte* const row = data + y * by * row_bytes;
     for (std::size_t x = 0; x < columns_; ++x, to += out) {
       const std::byte* const from = row + x * by * pixel;
-      if (format == "yuyv") {
-        // Chroma of the pair in which the block begins; four bytes hold two pixels.
+      // Colour of the pair or square in which the block begins.
+      if (is_yuyv) {
         const std::byte* const pair = row + (x * by / 2) * 4;
         to_rgb(mean(from, 2, row_bytes, by), std::to_integer<int>(pair[1]), std::to_integer<int>(pair[3]),
+               to);
+      } else if (is_nv12) {
+        const std::byte* const square = data + (rows + y * by / 2) * row_bytes + (x * by / 2) * 2;
+        to_rgb(mean(from, 1, row_bytes, by), std::to_integer<int>(square[0]), std::to_integer<int>(square[1]),
                to);
       } else {
         for (std::size_t channel = 0; channel < out; ++channel)
@@ -103,8 +112,9 @@ std::string_view PictureEncoder::encode(const PictureLayout& layout, const void*
   cause_ = "";
   if (columns == 0 || rows == 0) {
     cause_ = "the picture is empty";
-  } else if (format != "grey8" && format != "rgb24" && format != "bgr24" && format != "yuyv") {
-    cause_ = "the picture's format is none of grey8, rgb24, bgr24, yuyv";
+  } else if (format != "grey8" && format != "rgb24" && format != "bgr24" && format != "yuyv" &&
+             format != "nv12") {
+    cause_ = "the picture's format is none of grey8, rgb24, bgr24, yuyv, nv12";
   }
   if (cause_[0] != '\0') return {};
   const std::size_t wanted = std::max<std::size_t>(width, 16);

@@ -31,9 +31,9 @@ class PictureEncoder {
   PictureEncoder& operator=(const PictureEncoder&) = delete;
   ~PictureEncoder();
 
-  /// Formats (the enumeration's names): grey8, rgb24, bgr24, yuyv. Scaled by the least whole number that
-  /// makes it at most `width` pixels wide. The JPEG is valid until the next call; empty: cause() says why
-  /// there is none.
+  /// Formats (the enumeration's names): grey8, rgb24, bgr24, yuyv, nv12. Scaled by the least whole number
+  /// that makes it at most `width` pixels wide. The JPEG is valid until the next call; empty: cause() says
+  /// why there is none.
   std::string_view encode(const PictureLayout& layout, const void* image, std::uint32_t width);
   const char* cause() const noexcept { return cause_; }
 

@@ -38,13 +38,15 @@ bool trouble_says(CameraWorld& world, std::string_view part) {
 }
 
 bool is_as_asked(const CameraImage& image, const CameraRequest& request) {
-  const std::uint32_t row = request.width * bytes_per_pixel(request.format);
+  const std::uint32_t row = row_bytes(request.format, request.width);
+  const std::uint32_t rows = data_rows(request.format, request.height);
   return image.width == request.width && image.height == request.height && image.format == request.format &&
-         image.stride >= row && image.data.size() >= std::size_t{image.stride} * (image.height - 1) + row;
+         image.stride >= row && image.data.size() >= std::size_t{image.stride} * (rows - 1) + row;
 }
 
 Verdict pictures_are_as_asked(CameraWorld& world, bool into_slot) {
-  for (const PixelFormat format : {PixelFormat::yuyv, PixelFormat::grey8, PixelFormat::rgb24}) {
+  for (const PixelFormat format :
+       {PixelFormat::yuyv, PixelFormat::grey8, PixelFormat::rgb24, PixelFormat::nv12}) {
     const CameraRequest request{.format = format, .into_slot = into_slot};
     if (const Status status = world.start(request); !status) {
       print_message("%s\n", status.cause());
@@ -159,6 +161,8 @@ Verdict a_damaged_picture_is_counted_and_not_shown(CameraWorld& world) {
 Verdict a_picture_that_fits_nowhere_is_refused(CameraWorld& world) {
   return verdict(said(world.start({.width = 8192, .height = 8192}), StatusCode::out_of_range, "smaller") &&
                  said(world.start({.width = 641}), StatusCode::invalid_argument, "even") &&
+                 said(world.start({.height = 361, .format = PixelFormat::nv12}), StatusCode::invalid_argument,
+                      "height are even") &&
                  said(world.start({.format = PixelFormat::bgr24}), StatusCode::invalid_argument, "rgb24"));
 }
 

@@ -125,6 +125,10 @@ void pictures_that_do_not_fit_are_refused(void**) {
   assert_int_equal(check_picture(1280, 720, PixelFormat::rgb24).code(), StatusCode::out_of_range);
   assert_int_equal(check_picture(639, 480, PixelFormat::yuyv).code(), StatusCode::invalid_argument);
   assert_int_equal(check_picture(639, 480, PixelFormat::grey8).code(), StatusCode::ok);
+  assert_int_equal(check_picture(1280, 960, PixelFormat::nv12).code(), StatusCode::ok);
+  assert_int_equal(check_picture(1280, 962, PixelFormat::nv12).code(), StatusCode::out_of_range);
+  assert_int_equal(check_picture(640, 481, PixelFormat::nv12).code(), StatusCode::invalid_argument);
+  assert_int_equal(check_picture(639, 480, PixelFormat::nv12).code(), StatusCode::invalid_argument);
   assert_int_equal(check_picture(640, 480, PixelFormat::bgr24).code(), StatusCode::invalid_argument);
 }
 

@@ -1,136 +1,17 @@
 // The real driver on the kernel's virtual camera, vivid: the conformance suite, bytes that are not copied,
 // and faults as far as vivid makes them; what it does not make is injected, and its test says so.
 #include <linux/videodev2.h>
-#include <poll.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstdio>
+#include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <string>
-#include <vector>
 
-#include "hal/interfaces/camera/conformance/camera_bench.hpp"
 #include "hal/interfaces/camera/conformance/camera_eye.hpp"
-#include "hal/linux/v4l2_camera/tests/vivid.hpp"
-#include "hal/linux/v4l2_camera/v4l2_camera.hpp"
+#include "hal/linux/v4l2_camera/tests/vivid_world.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf {
 namespace {
-
-constexpr uid_t nobody = 65534;
-
-/// The kernel; it notes what was queued for it to fill, and refuses what it is told to, once.
-class WatchedCalls final : public VideoCalls {
- public:
-  int control(int descriptor, unsigned long request, void* argument) noexcept override {
-    {
-      const std::lock_guard lock(mutex_);
-      if (request == refused_) {
-        refused_ = 0;
-        return -EIO;
-      }
-      if (request == VIDIOC_QBUF) note(*static_cast<const v4l2_buffer*>(argument));
-    }
-    return VideoCalls::control(descriptor, request, argument);
-  }
-
-  void refuse(unsigned long request) {
-    const std::lock_guard lock(mutex_);
-    refused_ = request;
-  }
-  std::size_t count() {
-    const std::lock_guard lock(mutex_);
-    return queued_.size();
-  }
-  bool has_queued(const std::uint8_t* address) {
-    const std::lock_guard lock(mutex_);
-    return std::find(queued_.begin(), queued_.end(), address) != queued_.end();
-  }
-
- private:
-  void note(const v4l2_buffer& buffer) {
-    if (buffer.memory == V4L2_MEMORY_USERPTR)
-      queued_.push_back(reinterpret_cast<const std::uint8_t*>(buffer.m.userptr));
-  }
-
-  std::mutex mutex_;  // the camera's thread and its keeper
-  unsigned long refused_ = 0;
-  std::vector<const std::uint8_t*> queued_;
-};
-
-class VividWorld final : public CameraWorld {
- public:
-  VividWorld() { vivid_.restore(); }
-  ~VividWorld() override {
-    if (forbidden_ && seteuid(0) != 0) std::perror("seteuid");
-    stop();
-    vivid_.let_go();
-    vivid_.plug_in();
-    vivid_.restore();
-  }
-
-  Status start(const CameraRequest& request) override {
-    stop();
-    camera_ = std::make_unique<CameraBench<V4l2Camera>>(request);
-    camera_->bench().environment().virtual_time = false;
-    camera_->bench().configuration().user_pointers = user_pointers;
-    set_text(camera_->bench().configuration().device, device);
-    camera_->driver().use(calls);
-    if (forbidden_ && seteuid(nobody) != 0) return Status::error(StatusCode::internal, "seteuid");
-    return camera_->driver().initialise();
-  }
-  void stop() override {
-    if (camera_ != nullptr) camera_->driver().stop();
-  }
-  Camera& camera() override { return camera_->driver(); }
-  const CameraFeedback& feedback() override { return camera_->bench().feedback(); }
-  SlotControl* slot() override { return camera_->slot(); }
-  Status set_controls(std::string_view controls) override { return camera_->set_controls(controls); }
-  void receive() override {
-    pollfd wanted{camera_->driver().descriptor(), POLLIN, 0};
-    poll(&wanted, 1, 10);
-    camera_->bench().receive(MonotonicClock::now() - camera_->bench().now());
-  }
-  Time now() const override { return camera_->bench().now(); }
-
-  bool unplug() override { return vivid_.unplug(); }
-  bool plug_in() override {
-    vivid_.plug_in();
-    return true;
-  }
-  bool fall_silent() override { return drop(100); }
-  bool speak_again() override { return drop(0); }
-  bool lose() override { return drop(40); }
-  bool damage() override { return vivid_.set("Inject V4L2_BUF_FLAG_ERROR", 1); }
-  bool occupy() override { return vivid_.occupy(); }
-  bool let_go() override {
-    vivid_.let_go();
-    return true;
-  }
-  bool forbid() override {
-    vivid_.plug_in();
-    forbidden_ = true;
-    return true;
-  }
-  bool has_sizes_of_its_own() const override { return true; }
-
-  Vivid& vivid() { return vivid_; }
-
-  WatchedCalls calls;
-  const char* device = Vivid::path;
-  bool user_pointers = true;
-
- private:
-  bool drop(int percent) { return vivid_.set("Percentage of Dropped Buffers", percent); }
-
-  Vivid vivid_;
-  bool forbidden_ = false;
-  std::unique_ptr<CameraBench<V4l2Camera>> camera_;
-};
 
 /// So many pictures one after the other; the last one, if they came.
 std::optional<CameraImage> see(CameraEye& eye, int count) {
@@ -185,6 +66,48 @@ void without_user_pointers_each_picture_is_copied_once(void**) {
 void where_user_pointers_are_refused_each_picture_is_copied_once(void**) {
   assert_true(refused_buffers_cost_a_copy("Inject VIDIOC_REQBUFS Error"));
   assert_true(refused_buffers_cost_a_copy("Inject VIDIOC_QBUF Error"));
+}
+
+/// Each row is the same as the one above it, as vivid's bars are below its text, from white to black; and
+/// colour comes where it should.
+bool bars_stand_upright(const CameraImage& image) {
+  const std::uint8_t* const row = image.data.data() + std::size_t{image.height - 1} * image.stride;
+  const std::uint8_t* const colour = row + std::size_t{image.height / 2} * image.stride;
+  for (std::ptrdiff_t up = 1; up < image.height / 8; ++up) {
+    if (std::memcmp(row, row - up * image.stride, image.width) != 0 ||
+        std::memcmp(colour, colour - up * image.stride, image.width) != 0)
+      return false;
+  }
+  const auto is_grey = [](const std::uint8_t* square) {
+    return std::abs(square[0] - 128) < 8 && std::abs(square[1] - 128) < 8;
+  };
+  const std::size_t bar = image.width / 8;
+  const std::uint8_t* const yellow = colour + (bar + bar / 2) / 2 * 2;
+  return row[bar / 2] > 150 && row[image.width - bar / 2] < 50 && is_grey(colour + bar / 2 / 2 * 2) &&
+         yellow[0] < 90 && is_grey(colour + (image.width - bar / 2) / 2 * 2);
+}
+
+bool nv12_is_right(std::uint32_t padding, bool user_pointers, bool into_slot) {
+  VividWorld world;
+  world.calls.padding = padding;
+  world.user_pointers = user_pointers;
+  if (!world.start({.format = PixelFormat::nv12, .into_slot = into_slot})) return false;
+  CameraEye eye(world);
+  const auto image = see(eye, 3);
+  if (!image) return false;
+  print_message("stride %u: %zu bytes, %llu copied\n", image->stride, image->data.size(),
+                static_cast<unsigned long long>(world.feedback().copied_bytes));
+  const bool is_copied = world.feedback().copied_bytes != 0;
+  return image->stride == image->width + padding && bars_stand_upright(*image) &&
+         is_copied == (into_slot && !user_pointers);
+}
+
+void nv12_is_right_however_far_apart_its_rows_are(void**) {
+  for (const std::uint32_t padding : {0U, 7U, 64U}) {
+    assert_true(nv12_is_right(padding, true, true));
+    assert_true(nv12_is_right(padding, false, true));
+    assert_true(nv12_is_right(padding, false, false));
+  }
 }
 
 bool it_is_found_by_its_name() {
@@ -274,6 +197,7 @@ int main() {
       cmocka_unit_test(user_pointers_copy_nothing),
       cmocka_unit_test(without_user_pointers_each_picture_is_copied_once),
       cmocka_unit_test(where_user_pointers_are_refused_each_picture_is_copied_once),
+      cmocka_unit_test(nv12_is_right_however_far_apart_its_rows_are),
       cmocka_unit_test(a_camera_is_found_by_its_name),
       cmocka_unit_test(a_stream_that_the_driver_ends_is_begun_anew),
       cmocka_unit_test(a_stream_that_refuses_a_buffer_is_begun_anew),

@@ -21,8 +21,8 @@ struct Picture {
   std::uint8_t data[columns * rows * 3];
 };
 
-constexpr EnumerationValue formats[] = {
-    {"none", ""}, {"grey8", ""}, {"rgb24", ""}, {"bgr24", ""}, {"yuyv", ""}};
+constexpr EnumerationValue formats[] = {{"none", ""},  {"grey8", ""}, {"rgb24", ""},
+                                        {"bgr24", ""}, {"yuyv", ""},  {"nv12", ""}};
 constexpr TypeDescriptor format_type{"PixelFormat", "", 1, 1, 1, {}, {}, formats, false};
 constexpr FieldDescriptor picture_fields[] = {
     {"width", Scalar::u32, 0, {0, 0}, 1, offsetof(Picture, width), "1", "", nullptr},
@@ -40,7 +40,7 @@ constexpr FieldDescriptor picture_fields[] = {
 constexpr TypeDescriptor picture_type{
     "Picture", "", sizeof(Picture), alignof(Picture), 0x99, picture_fields, {}, {}, true};
 
-enum Format : std::uint8_t { none, grey8, rgb24, bgr24, yuyv };
+enum Format : std::uint8_t { none, grey8, rgb24, bgr24, yuyv, nv12 };
 
 /// Left half red (grey: dark), right half green (grey: bright).
 void draw(Picture& picture, Format format) {
@@ -50,15 +50,19 @@ void draw(Picture& picture, Format format) {
   for (std::size_t y = 0; y < rows; ++y) {
     for (std::size_t x = 0; x < columns; ++x) {
       const bool left = x < columns / 2;
-      std::uint8_t* const pixel = picture.data + (y * columns + x) * (format == grey8  ? 1
-                                                                      : format == yuyv ? 2
-                                                                                       : 3);
+      const std::size_t bytes = format == grey8 || format == nv12 ? 1 : format == yuyv ? 2 : 3;
+      std::uint8_t* const pixel = picture.data + (y * columns + x) * bytes;
       if (format == grey8) {
         pixel[0] = left ? 40 : 200;
       } else if (format == yuyv) {
         // BT.601: red is Y 76, U 85, V 255; green Y 150, U 44, V 21.
         pixel[0] = left ? 76 : 150;
         pixel[1] = x % 2 == 0 ? (left ? 85 : 44) : (left ? 255 : 21);
+      } else if (format == nv12) {
+        pixel[0] = left ? 76 : 150;
+        std::uint8_t* const square = picture.data + (rows + y / 2) * columns + x / 2 * 2;
+        square[0] = left ? 85 : 44;
+        square[1] = left ? 255 : 21;
       } else {
         pixel[format == rgb24 ? 0 : 2] = left ? 255 : 0;
         pixel[1] = left ? 0 : 255;
@@ -101,7 +105,7 @@ void every_format_keeps_its_colours() {
   CHECK(layout.is_complete());
   const auto picture = std::make_unique<Picture>();
   PictureEncoder encoder;
-  for (const Format format : {grey8, rgb24, bgr24, yuyv}) {
+  for (const Format format : {grey8, rgb24, bgr24, yuyv, nv12}) {
     draw(*picture, format);
     const Decoded decoded = decode(encoder.encode(layout, picture.get(), 640));
     CHECK_EQUAL(decoded.width, 64);
@@ -146,11 +150,38 @@ void rows_may_have_gaps() {
   CHECK_CONTAINS(encoder.cause(), "larger than its data");
 }
 
+// An odd number of bytes from row to row, and an odd number of pixels, which share their colour all the same.
+void rows_of_colour_have_the_same_gaps() {
+  const PictureLayout layout = PictureLayout::of(gapped_type);
+  constexpr std::uint32_t stride = 37;
+  GappedPicture picture{31, 5, stride, nv12, {}};
+  for (std::size_t i = 0; i < sizeof(picture.data); ++i) {
+    const std::size_t row = i / stride;
+    const std::size_t column = i % stride;
+    // Red; what lies between the rows would show.
+    picture.data[i] = row < 5 ? (column < 31 ? 76 : 255) : column < 32 ? (column % 2 == 0 ? 85 : 255) : 0;
+  }
+  PictureEncoder encoder;
+  const Decoded decoded = decode(encoder.encode(layout, &picture, 640));
+  CHECK_EQUAL(decoded.width, 31);
+  CHECK_EQUAL(decoded.height, 5);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 31; ++x) {
+      CHECK(is_near(decoded.at(x, y, 0), 254));
+      CHECK(is_near(decoded.at(x, y, 1), 0));
+    }
+  }
+  // Three rows of colour are needed, and what is there ends before them.
+  picture.height = 6;
+  CHECK(encoder.encode(layout, &picture, 640).empty());
+  CHECK_CONTAINS(encoder.cause(), "larger than its data");
+}
+
 void it_is_no_larger_than_it_is_shown() {
   const PictureLayout layout = PictureLayout::of(picture_type);
   const auto picture = std::make_unique<Picture>();
   PictureEncoder encoder;
-  for (const Format format : {grey8, rgb24, yuyv}) {
+  for (const Format format : {grey8, rgb24, yuyv, nv12}) {
     draw(*picture, format);
     const Decoded decoded = decode(encoder.encode(layout, picture.get(), 30));
     CHECK_EQUAL(decoded.width, 21);
@@ -245,9 +276,9 @@ void pictures_come_to_all_who_look() {
 int main() {
   using namespace flexrf::panel;
   const CMUnitTest tests[] = {
-      CONTAINED_TEST(every_format_keeps_its_colours),   CONTAINED_TEST(rows_may_have_gaps),
-      CONTAINED_TEST(it_is_no_larger_than_it_is_shown), CONTAINED_TEST(what_is_no_picture_says_why),
-      CONTAINED_TEST(pictures_come_to_all_who_look),
+      CONTAINED_TEST(every_format_keeps_its_colours),    CONTAINED_TEST(rows_may_have_gaps),
+      CONTAINED_TEST(rows_of_colour_have_the_same_gaps), CONTAINED_TEST(it_is_no_larger_than_it_is_shown),
+      CONTAINED_TEST(what_is_no_picture_says_why),       CONTAINED_TEST(pictures_come_to_all_who_look),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
