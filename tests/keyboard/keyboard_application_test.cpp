@@ -194,17 +194,23 @@ bool is_held(const ParameterRequest& request) {
   return true;
 }
 
+/// Holds it on, or presses where it is not held, as a machine that stands still ends a hold.
+void keep_held(Cell& cell, ParameterRequest& request) {
+  const bool held = is_held(request);
+  request.kind = held ? RequestKind::refresh : RequestKind::hold;
+  if (!held) request.lease = new_lease_number();
+  ++request.lease_sequence;
+  cell.send(request);
+  for (int patience = 0; !is_held(request) && patience < 100; ++patience) usleep(10'000);
+}
+
 /// As somebody at the panel: holds an arrow until the arm has moved, is then lost, and looks on.
 bool move_while_held(Executive& executive, ParameterRequest request) {
   Cell& cell = executive.cell();
-  request.kind = RequestKind::hold;
-  request.lease = new_lease_number();
   if (!wait_until([&] { return cell.control().may_move() && tool_x() > 0; })) return false;
   const double begin = tool_x();
   const bool moved = wait_until([&] {
-    ++request.lease_sequence;
-    cell.send(request);
-    request.kind = RequestKind::refresh;
+    keep_held(cell, request);
     return tool_x() > begin + 0.02;
   });
   // Nobody refreshes the lease: it ends, and so does the motion.
