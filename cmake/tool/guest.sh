@@ -56,8 +56,9 @@ use_machine() {  # use_machine NUMBER: the one that all of the following is abou
   guest_console=$guest_folder/console-$1.log
   : >"$guest_console"
   mkdir "$guest_machine" &&
-    mkfifo "$guest_machine"/control.{in,out} &&
-    exec {to_guest}<>"$guest_machine/control.in" {from_guest}<>"$guest_machine/control.out"
+    mkfifo "$guest_machine"/{control,monitor}.{in,out} &&
+    exec {to_guest}<>"$guest_machine/control.in" {from_guest}<>"$guest_machine/control.out" \
+      {to_monitor}<>"$guest_machine/monitor.in" {from_monitor}<>"$guest_machine/monitor.out"
 }
 
 start_machine() {  # start_machine [QEMU'S ARGUMENT...]: its standard input and output are the caller's
@@ -73,7 +74,8 @@ start_machine() {  # start_machine [QEMU'S ARGUMENT...]: its standard input and 
     -device i6300esb -action watchdog=reset
     -virtfs "local,path=${root//,/,,},mount_tag=repository,security_model=none,readonly=on"
     -device virtio-serial-pci
-    -chardev "pipe,id=control,path=$guest_machine/control" -device virtserialport,chardev=control,name=control)
+    -chardev "pipe,id=control,path=$guest_machine/control" -device virtserialport,chardev=control,name=control
+    -chardev "pipe,id=monitor,path=$guest_machine/monitor" -mon chardev=monitor,mode=control)
   # It ends with this script, however that ends.
   setpriv --pdeathsig KILL qemu-system-x86_64 "${machine[@]}" "$@" <&0 &
   guest_pid=$!
@@ -119,6 +121,8 @@ stop_guest() {
   # What was under way to or from it is nobody's any more.
   while read -r -t 0.01 -n 4096 -u "$to_guest"; do :; done
   while read -r -t 0.01 -n 4096 -u "$from_guest"; do :; done
+  while read -r -t 0.01 -n 4096 -u "$to_monitor"; do :; done
+  while read -r -t 0.01 -n 4096 -u "$from_monitor"; do :; done
 }
 
 boot_apart() {  # the machine whose console nobody sees unless something fails
@@ -174,8 +178,34 @@ show_console() {  # show_console OFFSET MARK: what came to the guest's console f
   tail -c "+$(($1 + 1))" "$guest_console" | tr -d '\r' | grep -v -F -e "$2"
 }
 
+when_reset() {  # when_reset shutdown|reset: what QEMU does when the machine is reset; at first it ends
+  printf '%s\n' '{"execute": "qmp_capabilities"}' \
+    "{\"execute\": \"set-action\", \"arguments\": {\"reboot\": \"$1\"}}" >&"$to_monitor"
+}
+
+was_watchdog() {  # QEMU has told that the machine's watchdog acted
+  local event
+  while IFS= read -r -t 5 -u "$from_monitor" event; do
+    [[ $event == *'"event": "WATCHDOG"'* ]] && return
+  done
+  lost="the machine was reset, and not by its watchdog"
+  return 1
+}
+
+await_reset() {  # await_reset REQUEST SECONDS: while the machine does this its watchdog resets it, and it comes up anew
+  when_reset reset
+  tell "$1"
+  hear "$2" || return
+  [[ $heard == ready ]] || { lost="its watchdog did not reset the machine" && return 1; }
+  was_watchdog || return
+  when_reset shutdown
+  tell "mount_repository $(printf %q "$root")" && hear 60
+}
+
+test_request() { printf 'run_test' && printf ' %q' "$mark" "$limit" "$setting" "$root/build/release/guest/$1"; }
+
 guest_test() {  # guest_test NAME: sets result, taken (microseconds) and told, what is to be read when it did not pass
-  local mark="end of $1" offset status limit=$test_limit
+  local mark="end of $1" setting="FLEXRF_LONG=${FLEXRF_LONG-}" offset status limit=$test_limit
   [[ ${FLEXRF_LONG-} ]] && limit=$long_test_limit
   told=''
   if [[ $guest_pid == '' ]] && { ((unbootable)) || ! boot_apart; }; then
@@ -183,8 +213,11 @@ guest_test() {  # guest_test NAME: sets result, taken (microseconds) and told, w
     return
   fi
   offset=$(stat -c %s "$guest_console")
-  tell "run_test$(printf ' %q' "$mark" "$limit" "FLEXRF_LONG=${FLEXRF_LONG-}" "$root/build/release/guest/$1")"
-  if hear $((limit + 60)); then
+  lost=''
+  if [[ $1 == *_reset_guest_test ]]; then # run until the machine is reset, and once more after it
+    await_reset "$(test_request "$1")" $((limit + 60)) && setting=FLEXRF_AFTER_RESET=1
+  fi
+  if [[ $lost == '' ]] && tell "$(test_request "$1")" && hear $((limit + 60)); then
     read -r status taken <<<"$heard"
     case $status in
       0) result=Passed ;;
