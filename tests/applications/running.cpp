@@ -85,6 +85,7 @@ std::uint16_t Running::unit(const std::string& name) {
 nlohmann::json Running::newest(const std::string& slot) {
   for (const SlotRecord& record : application().slots) {
     if (slot != record.name || record.observer == nullptr) continue;
+    const auto lock = executive_.cell().observe();
     if (record.observer->newest() == nullptr) return nullptr;
     JsonWriter json;
     write_value(json, *record.control->type(), record.observer->payload());

@@ -1,0 +1,597 @@
+// Remote control in a whole cell: in virtual time with scripts that the test plays at the mock's far ends,
+// and on the wall clock over the loopback interface.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <functional>
+#include <vector>
+
+#include "hal/mock/mock_stream_socket/mock_stream_socket.hpp"
+#include "remote_control_unit.hpp"
+#include "tests/applications/process.hpp"
+#include "tests/applications/reception/units/conductor/conductor.hpp"
+#include "tests/applications/running.hpp"
+
+namespace flexrf::application {
+extern const Application application;
+}
+
+namespace flexrf::whole {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* secret = "0123456789abcdef0123456789abcdef";
+
+/// The folder that the application's token lies in.
+struct Safe {
+  Folder folder;
+  explicit Safe(const std::string& content = std::string{secret} + "\n", mode_t mode = 0600) {
+    write_file(folder / "token", content);
+    CHECK(::chmod((folder / "token").c_str(), mode) == 0);
+    CHECK(::chdir(folder.path().c_str()) == 0);
+  }
+};
+
+Options simulated() {
+  Options options;
+  options.virtual_time = std::chrono::seconds{120};
+  options.hardware = {{"", "mock"}};
+  options.realtime = false;
+  return options;
+}
+
+/// A cell in virtual time, and what scripts do in it, one act after the other: each is asked in every step of
+/// the conductor until it says that it is done.
+class Play {
+ public:
+  using Act = std::function<bool()>;
+
+  Play() : executive_(application::application, simulated()) {
+    const Status status = executive_.prepare();
+    if (!status) throw fixture::CheckFailed{status.cause()};
+    requester_ = cell().add_requester(answers_);
+    door_ = dynamic_cast<MockStreamSocket*>(application::application.device_states[0].device);
+    CHECK(door_ != nullptr);
+  }
+  ~Play() { Conductor::score = nullptr; }
+
+  Cell& cell() { return executive_.cell(); }
+  MockStreamTransport& far_ends() { return door_->far_ends(); }
+  Executive& executive() { return executive_; }
+
+  void then(Act act) { acts_.push_back(std::move(act)); }
+  void do_once(std::function<void()> act) {
+    then([act = std::move(act)] {
+      act();
+      return true;
+    });
+  }
+  void call(std::size_t script) {
+    do_once([this, script] { CHECK_EQUAL(far_ends().connect_to_it(), script); });
+  }
+  void give(std::size_t script, const std::string& bytes) {
+    do_once([this, script, bytes] { CHECK(far_ends().give(script, bytes)); });
+  }
+  /// The next line of a kind that a script gets: an answer, or what it subscribed to.
+  enum class Line : std::uint8_t { answer, update };
+  void expect(std::size_t script, std::function<void(const json&)> check, Line kind = Line::answer) {
+    then([this, script, kind, check = std::move(check)] {
+      if (read_.size() <= script) read_.resize(script + 1);
+      for (;;) {
+        const std::string_view rest = far_ends().got(script).substr(read_[script]);
+        const std::size_t end = rest.find('\n');
+        if (end == std::string_view::npos) return false;
+        read_[script] += end + 1;
+        const json line = json::parse(rest.substr(0, end));
+        if (line.contains("method") != (kind == Line::update)) continue;
+        check(line);
+        return true;
+      }
+    });
+  }
+  /// A request, and what comes as its answer.
+  void ask(
+      std::size_t script, const std::string& method, const json& params,
+      std::function<void(const json& result)> check = [](const json&) {}) {
+    const int id = ++last_id_;
+    give(script, json{{"jsonrpc", "2.0"}, {"id", id}, {"method", method}, {"params", params}}.dump() + "\n");
+    expect(script, [id, method, check = std::move(check)](const json& line) {
+      if (!line.contains("result")) throw fixture::CheckFailed{method + ": " + line.dump()};
+      CHECK_EQUAL(line.at("id").get<int>(), id);
+      check(line.at("result"));
+    });
+  }
+  /// A line that is answered by an error: its code, and a word of its reason and hint.
+  void is_refused(std::size_t script, const std::string& line, int code, const std::string& word) {
+    give(script, line + "\n");
+    expect(script, [line, code, word](const json& answer) {
+      if (!answer.contains("error")) throw fixture::CheckFailed{line + ": " + answer.dump()};
+      CHECK_CONTAINS(answer.dump(), word);
+      CHECK_EQUAL(answer.at("error").at("code").get<int>(), code);
+      CHECK_EQUAL(answer.at("jsonrpc").get<std::string>(), "2.0");
+      CHECK(!answer.at("error").at("data").at("hint").get<std::string>().empty());
+    });
+  }
+  void is_refused(std::size_t script, const std::string& method, const json& params, int code,
+                  const std::string& word) {
+    is_refused(script,
+               json{{"jsonrpc", "2.0"}, {"id", ++last_id_}, {"method", method}, {"params", params}}.dump(),
+               code, word);
+  }
+  void wait(Duration duration) {
+    then([this, duration, until = Time{}]() mutable {
+      if (until == Time{}) until = now_ + duration;
+      return now_ >= until;
+    });
+  }
+  /// As a person does in the panel.
+  void set_remote(bool on) {
+    do_once([this, on] {
+      ParameterRequest request;
+      request.component = component("remote");
+      request.requester = requester_;
+      CHECK(request.add(0, 0, &on, sizeof(on)));
+      cell().send(request);
+    });
+    then([this] {
+      ParameterAnswer answer;
+      if (!answers_.pop(answer)) return false;
+      CHECK(answer.kind == AnswerKind::accepted);
+      return true;
+    });
+  }
+  /// With the token, and permission.
+  void let_in(std::size_t script) {
+    call(script);
+    ask(script, "authenticate", {{"token", secret}},
+        [](const json& result) { CHECK_EQUAL(result.at("role").get<std::string>(), "operator"); });
+    set_remote(true);
+  }
+  ComponentIndex component(const std::string& name) {
+    for (ComponentIndex i = 0; i < cell().component_count(); ++i) {
+      if (name == cell().component_name(i)) return i;
+    }
+    throw fixture::CheckFailed{"there is no " + name};
+  }
+  // Before run().
+  MockStreamSocket::Configuration& door() {
+    return *static_cast<MockStreamSocket::Configuration*>(door_->parameter_memory().configuration);
+  }
+  RemoteControlUnit::Configuration& remote() {
+    return *static_cast<RemoteControlUnit::Configuration*>(
+        cell().component(component("remote")).parameter_memory().configuration);
+  }
+
+  RunSummary run() {
+    Conductor::score = [this](const Tick& tick) { perform(tick.now); };
+    const RunSummary summary = executive_.run();
+    if (!failure_.empty()) throw fixture::CheckFailed{failure_};
+    return summary;
+  }
+  /// To the last act.
+  void perform_all() {
+    CHECK_EQUAL(run().exit_code, 0);
+    if (done_ != acts_.size()) throw fixture::CheckFailed{"act " + std::to_string(done_) + " never ended"};
+  }
+
+ private:
+  void perform(Time now) {
+    now_ = now;
+    try {
+      while (done_ < acts_.size() && acts_[done_]()) ++done_;
+    } catch (const fixture::CheckFailed& failed) {
+      failure_ = "act " + std::to_string(done_) + ": " + failed.message;
+    } catch (const std::exception& thrown) {
+      failure_ = "act " + std::to_string(done_) + ": " + thrown.what();
+    }
+    if (done_ == acts_.size() || !failure_.empty()) executive_.request_end();
+  }
+
+  Executive executive_;
+  AnswerQueue answers_;
+  std::uint16_t requester_ = 0;
+  MockStreamSocket* door_ = nullptr;
+  std::vector<Act> acts_;
+  std::size_t done_ = 0;
+  std::vector<std::size_t> read_;
+  std::string failure_;
+  Time now_{};
+  int last_id_ = 0;
+};
+
+// ---- in virtual time
+
+void what_is_no_request_is_told_so() {
+  const Safe safe;
+  Play play;
+  play.call(0);
+  play.is_refused(0, "garbage", -32700, "no JSON");
+  play.is_refused(0, R"({"jsonrpc": "2.0", "id": 1, "method": "read")", -32700, "line feed");
+  play.is_refused(0, R"({"jsonrpc": "2.0", "id": NaN, "method": "state"})", -32700, "NaN");
+  play.is_refused(0, R"({"jsonrpc": "2.0", "id": 1e999, "method": "state"})", -32700, "JSON");
+  play.is_refused(0, R"({"jsonrpc": "2.0", "id": 123456789012345678901234567890, "method": "state"})", -32700,
+                  "JSON");
+  play.is_refused(0, std::string(40, '[') + std::string(40, ']'), -32700, "16 levels");
+  play.is_refused(0, "\xFF\xFE", -32700, "JSON");
+  play.is_refused(0, "7", -32600, "no object");
+  play.is_refused(0, R"([{"jsonrpc": "2.0", "id": 1, "method": "state"}])", -32600, "batch");
+  play.is_refused(0, R"({"jsonrpc": "2.0", "jsonrpc": "2.0"})", -32600, "comes twice");
+  play.is_refused(0, R"({"jsonrpc": "1.0", "id": 1, "method": "state"})", -32600, "jsonrpc");
+  play.is_refused(0, R"({"jsonrpc": "2.0", "id": 1.5, "method": "state"})", -32600, "'id'");
+  play.is_refused(0, R"({"jsonrpc": "2.0", "id": 1, "method": 1})", -32600, "'method'");
+  play.is_refused(0, R"({"jsonrpc": "2.0", "id": 1, "method": "state", "params": 7})", -32600, "'params'");
+  play.is_refused(0, R"({"jsonrpc": "2.0", "id": 1, "method": "read", "params": ["pose"]})", -32602,
+                  "position");
+  play.is_refused(0, R"({"jsonrpc": "2.0", "id": 1, "method": "raed"})", -32601, "did you mean 'read'");
+  play.is_refused(0, "list", {{"of", "slot"}}, -32602, "did you mean 'slots'");
+  play.is_refused(0, "read", json::object(), -32602, "'slot'");
+  // A line in halves, several at once, and one that nobody wants answered.
+  play.give(0, R"({"jsonrpc": "2.0", "id": "ha)");
+  play.wait(std::chrono::seconds{1});
+  play.give(0, std::string{R"(lf", "method": "state"})"} + "\r\n\n" +
+                   R"({"jsonrpc": "2.0", "method": "state"})" + "\n" +
+                   R"({"jsonrpc": "2.0", "id": null, "method": "state"})" + "\n");
+  play.expect(0, [](const json& line) { CHECK_EQUAL(line.at("id").get<std::string>(), "half"); });
+  play.expect(0, [](const json& line) { CHECK(line.at("id").is_null() && line.contains("result")); });
+  play.perform_all();
+}
+
+void without_a_token_scripts_look() {
+  const Safe safe;
+  Play play;
+  play.call(0);
+  play.ask(0, "state", json::object(), [](const json& result) {
+    CHECK_EQUAL(result.at("mode").get<std::string>(), "running");
+    CHECK(!result.at("remote").get<bool>());
+  });
+  play.ask(0, "list", {{"of", "slots"}},
+           [](const json& result) { CHECK_CONTAINS(result.dump(), "mixer.feedback"); });
+  play.ask(0, "list", {{"of", "components"}}, [](const json& result) {
+    CHECK_EQUAL(result.at("components").size(), 4U);
+    CHECK(result.at("next").is_null());
+  });
+  play.ask(0, "list", {{"of", "parameters"}, {"component", "mixer"}, {"from", 1}}, [](const json& result) {
+    CHECK_EQUAL(result.at("parameters").at(0).at("name").get<std::string>(), "count");
+  });
+  play.wait(std::chrono::milliseconds{100});
+  play.ask(0, "read", {{"slot", "pose"}}, [](const json& result) {
+    CHECK_EQUAL(result.at("type").get<std::string>(), "Pose");
+    CHECK_EQUAL(result.at("reason").get<std::string>(), "");
+    CHECK(result.at("value").at("position").at(0).get<double>() > 1.0);
+  });
+  play.ask(0, "read", {{"component", "mixer"}}, [](const json& result) {
+    CHECK_EQUAL(result.at("runtime").at("gain").get<double>(), 1.0);
+    CHECK_EQUAL(result.at("feedback").at("kicks").get<int>(), 0);
+  });
+  play.ask(0, "read", {{"component", "door"}},
+           [](const json& result) { CHECK_EQUAL(result.at("configuration").at("buffer").get<int>(), 8192); });
+  play.is_refused(0, "read", {{"slot", "posse"}}, -32004, "did you mean 'pose'");
+  play.is_refused(0, "read", {{"component", "mixter"}}, -32004, "did you mean 'mixer'");
+  play.is_refused(0, "set", {{"component", "mixer"}, {"values", {{"gain", 2}}}}, -32001, "token");
+  play.is_refused(0, "press", {{"component", "mixer"}, {"parameter", "kick"}}, -32001, "token");
+  // Whoever sees the cell may stop it; nobody may start it from here.
+  play.do_once([&] { CHECK(!play.cell().control().motion_stopped()); });
+  play.ask(0, "stop_motion", json::object());
+  play.do_once([&] { CHECK(play.cell().control().motion_stopped()); });
+  play.is_refused(0, "start_motion", json::object(), -32601, "did you mean 'stop_motion'");
+  play.perform_all();
+}
+
+void with_it_and_permission_they_change() {
+  const Safe safe;
+  Play play;
+  play.call(0);
+  play.ask(0, "authenticate", {{"token", secret}});
+  play.is_refused(0, "set", {{"component", "mixer"}, {"values", {{"gain", 2}}}}, -32002, "remote.remote");
+  play.set_remote(true);
+  std::uint64_t sequence = 0;
+  play.ask(0, "set", {{"component", "mixer"}, {"values", {{"gain", 2.5}, {"label", "a\"b"}}}},
+           [&](const json& result) {
+             CHECK_EQUAL(result.at("values").at("gain").get<double>(), 2.5);
+             CHECK_EQUAL(result.at("values").at("label").get<std::string>(), "a\"b");
+             sequence = result.at("sequence").get<std::uint64_t>();
+             CHECK(sequence > 0);
+           });
+  play.ask(0, "press", {{"component", "mixer"}, {"parameter", "kick"}, {"count", 3}});
+  play.wait(std::chrono::milliseconds{50});
+  play.ask(0, "read", {{"slot", "mixer.feedback"}},
+           [](const json& result) { CHECK_EQUAL(result.at("value").at("kicks").get<int>(), 3); });
+  const auto set = [&](const json& values, int code, const char* word) {
+    play.is_refused(0, "set", {{"component", "mixer"}, {"values", values}}, code, word);
+  };
+  set({{"gain", 11}}, -32005, "10");
+  set({{"gain", "2"}}, -32005, "a number");
+  set({{"gain", 2}, {"count", 256}}, -32005, "from 0 to 255");
+  set({{"gain", 2}, {"count", 1.5}}, -32005, "integer");
+  set({{"count", 13}}, -32005, "bad luck");
+  set({{"label", "more than sixteen"}}, -32005, "at most 16");
+  set({{"gian", 2}}, -32004, "did you mean 'gain'");
+  set({{"trim", {1, 2, 3}}}, -32003, "engineers");
+  set({{"move", true}}, -32005, "held");
+  set({{"kick", 1}}, -32005, "pressed");
+  set(json::object(), -32602, "empty");
+  play.is_refused(0, "press", {{"component", "mixer"}, {"parameter", "gain"}}, -32005, "no button");
+  play.is_refused(0, "press", {{"component", "mixer"}, {"parameter", "move"}}, -32005, "only a person");
+  play.is_refused(0, "press", {{"component", "mixer"}, {"parameter", "kick"}, {"count", 101}}, -32602, "100");
+  play.is_refused(0, "set", {{"component", "remote"}, {"values", {{"remote", true}}}}, -32003,
+                  "not for scripts");
+  play.is_refused(0, "set", {{"component", "mixer"}, {"values", {{"gain", 3}}}, {"expected", 1}}, -32006,
+                  "changed");
+  // What was refused changed nothing; the permission ends at once.
+  play.ask(0, "read", {{"component", "mixer"}},
+           [&](const json& result) { CHECK_EQUAL(result.at("runtime").at("gain").get<double>(), 2.5); });
+  play.set_remote(false);
+  play.is_refused(0, "set", {{"component", "mixer"}, {"values", {{"gain", 2}}}}, -32002, "panel");
+  play.perform_all();
+}
+
+void a_wrong_token_ends_the_connection() {
+  const Safe safe;
+  Play play;
+  play.call(0);
+  play.is_refused(0, "authenticate", {{"token", "0123456789abcdef0123456789abcdeF"}}, -32001,
+                  "not the token");
+  play.then([&] { return !play.far_ends().is_open(0); });
+  play.call(1);
+  play.is_refused(1, "authenticate", json::object(), -32602, "missing");
+  play.is_refused(1, "authenticate", {{"token", ""}}, -32001, "not the token");
+  play.then([&] { return !play.far_ends().is_open(1); });
+  play.call(2);
+  play.ask(2, "read", {{"slot", "remote.feedback"}}, [](const json& result) {
+    CHECK_EQUAL(result.at("value").at("wrong_tokens").get<int>(), 2);
+    CHECK_EQUAL(result.at("value").at("sent_away").get<int>(), 2);
+  });
+  play.perform_all();
+}
+
+void subscribers_get_the_newest_at_their_rate() {
+  const Safe safe;
+  Play play;
+  play.call(0);
+  play.is_refused(0, "subscribe", {{"slots", {{{"name", "posse"}}}}}, -32004, "did you mean 'pose'");
+  play.is_refused(0, "subscribe", {{"slots", {{{"name", "pose"}, {"rate", 1000}}}}}, -32602, "60");
+  play.ask(0, "subscribe", {{"slots", {{{"name", "pose"}, {"rate", 5}}, "door.feedback"}}},
+           [](const json& result) { CHECK_EQUAL(result.at("slots").size(), 2U); });
+  play.ask(0, "unsubscribe", {{"slots", {"door.feedback"}}},
+           [](const json& result) { CHECK_EQUAL(result.dump(), R"({"slots":["pose"]})"); });
+  std::vector<std::uint64_t> sequences;
+  for (int i = 0; i < 4; ++i) {
+    play.expect(
+        0,
+        [&](const json& line) {
+          CHECK_EQUAL(line.at("method").get<std::string>(), "slot");
+          CHECK(!line.contains("id"));
+          CHECK_EQUAL(line.at("params").at("name").get<std::string>(), "pose");
+          sequences.push_back(line.at("params").at("sequence").get<std::uint64_t>());
+        },
+        Play::Line::update);
+  }
+  play.do_once([&] {
+    // The mixer publishes 200 times a second: 40 between two that are 200 ms apart.
+    for (std::size_t i = 1; i < sequences.size(); ++i) CHECK(sequences[i] >= sequences[i - 1] + 38);
+  });
+  play.perform_all();
+}
+
+void who_does_not_read_delays_nobody() {
+  const Safe safe;
+  Play play;
+  play.call(0);
+  play.call(1);
+  play.ask(1, "state", json::object());
+  play.do_once([&] { play.far_ends().set_reads(0, false); });
+  play.give(
+      0, R"({"jsonrpc": "2.0", "method": "subscribe", "params": {"slots": [{"name": "pose", "rate": 60}]}})"
+         "\n");
+  play.wait(std::chrono::seconds{5});
+  for (int i = 0; i < 20; ++i) play.ask(1, "state", json::object());
+  play.ask(1, "read", {{"slot", "remote.feedback"}}, [](const json& result) {
+    CHECK(result.at("value").at("dropped").get<int>() > 100);
+    CHECK_EQUAL(result.at("value").at("sent_away").get<int>(), 0);
+  });
+  // It reads again: what had waited, and then the newest, which says how many it did not get.
+  play.do_once([&] { play.far_ends().set_reads(0, true); });
+  play.then([&] {
+    const std::string_view got = play.far_ends().got(0);
+    const std::size_t last = got.rfind("\"dropped\":");
+    return last != std::string_view::npos && std::atoi(std::string(got.substr(last + 10, 8)).c_str()) > 100;
+  });
+  // Answers are not left out; who never reads them is sent away.
+  play.do_once([&] { play.far_ends().set_reads(0, false); });
+  for (int i = 0; i < 40; ++i)
+    play.give(0, R"({"jsonrpc": "2.0", "id": 1, "method": "list", "params": {"of": "slots"}})"
+                 "\n");
+  play.then([&] { return !play.far_ends().is_open(0); });
+  play.ask(1, "state", json::object());
+  play.perform_all();
+}
+
+void lines_have_an_end() {
+  const Safe safe;
+  Play play;
+  play.call(0);
+  play.give(0, std::string(9000, 'x') + "\n");
+  play.ask(0, "state", json::object());
+  play.wait(std::chrono::milliseconds{50});
+  play.ask(0, "read", {{"slot", "door.feedback"}},
+           [](const json& result) { CHECK_EQUAL(result.at("value").at("long_lines").get<int>(), 1); });
+  // One too many is refused; a place that was left is given again.
+  play.call(1);
+  play.call(2);
+  play.ask(1, "state", json::object());
+  play.ask(2, "state", json::object());
+  play.call(3);
+  play.then([&] { return !play.far_ends().is_open(3); });
+  play.do_once([&] { play.far_ends().end(0); });
+  play.then([&] { return !play.far_ends().is_open(0); });
+  play.call(4);
+  play.ask(4, "state", json::object());
+  play.perform_all();
+}
+
+/// What the operator reads where the unit does not start.
+std::string fault_of_remote(const std::function<void(Play&)>& prepare) {
+  Play play;
+  prepare(play);
+  const RunSummary summary = play.run();
+  CHECK(summary.exit_code != 0);
+  return application::application.unit_states[play.component("remote")].fault.read().cause();
+}
+
+void other_machines_need_a_key() {
+  const Safe safe;
+  CHECK_CONTAINS(fault_of_remote([](Play& play) { play.door().set_address("tcp:0.0.0.0:5000"); }),
+                 "other machines reach");
+}
+
+void other_machines_need_a_token() {
+  const Safe safe;
+  CHECK_CONTAINS(fault_of_remote([](Play& play) {
+                   play.door().set_address("tcp::5000");
+                   play.remote().other_machines = true;
+                   play.remote().set_token_file("");
+                 }),
+                 "there is no token");
+}
+
+void a_door_must_listen() {
+  const Safe safe;
+  CHECK_CONTAINS(fault_of_remote([](Play& play) { play.door().listen = false; }), "listen = true");
+}
+
+void a_door_must_have_room() {
+  const Safe safe;
+  CHECK_CONTAINS(fault_of_remote([](Play& play) { play.door().buffer = 1024; }), "at least 4096");
+}
+
+void a_token_that_others_read_is_refused() {
+  const Safe safe(std::string{secret} + "\n", 0640);
+  CHECK_CONTAINS(fault_of_remote([](Play&) {}), "0600");
+}
+
+void other_machines_look_with_the_token_only() {
+  const Safe safe;
+  Play play;
+  play.door().set_address("tcp::5000");
+  play.remote().other_machines = true;
+  play.call(0);
+  play.call(1);
+  play.is_refused(0, "read", {{"slot", "pose"}}, -32001, "authenticate");
+  play.is_refused(0, "stop_motion", json::object(), -32001, "authenticate");
+  play.ask(0, "authenticate", {{"token", secret}});
+  play.ask(0, "read", {{"slot", "pose"}});
+  play.then([&] { return !play.far_ends().is_open(1); });  // gave none in time
+  play.ask(0, "read", {{"slot", "pose"}});
+  play.perform_all();
+}
+
+// ---- on the wall clock
+
+constexpr int patience = 60'000;  // ms
+
+class Script {
+ public:
+  explicit Script(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    CHECK(::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+  }
+  ~Script() { ::close(socket_); }
+  Script(const Script&) = delete;
+  Script& operator=(const Script&) = delete;
+
+  json ask(const std::string& method, const json& params) {
+    const std::string text =
+        json{{"jsonrpc", "2.0"}, {"id", ++id_}, {"method", method}, {"params", params}}.dump() + "\n";
+    CHECK(::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size()));
+    for (;;) {
+      json line = next();
+      if (line.contains("id")) return line;
+    }
+  }
+  json next() {
+    for (;;) {
+      if (const std::size_t end = heard_.find('\n'); end != std::string::npos) {
+        json line = json::parse(heard_.substr(0, end));
+        heard_.erase(0, end + 1);
+        return line;
+      }
+      pollfd wanted{socket_, POLLIN, 0};
+      char bytes[4096];
+      CHECK(::poll(&wanted, 1, patience) == 1);
+      const ssize_t count = ::recv(socket_, bytes, sizeof bytes, 0);
+      CHECK(count > 0);
+      heard_.append(bytes, static_cast<std::size_t>(count));
+    }
+  }
+
+ private:
+  int socket_;
+  std::string heard_;
+  int id_ = 0;
+};
+
+void over_the_loopback_interface() {
+  const Safe safe;
+  Running cell(application::application);
+  std::uint16_t port = 0;
+  CHECK(wait_until([&] {
+    const json feedback = cell.newest("door.feedback");
+    port = feedback.is_null() ? std::uint16_t{0} : feedback.at("port").get<std::uint16_t>();
+    return port != 0;
+  }));
+  Script script(port);
+  Script watcher(port);
+  CHECK_EQUAL(
+      watcher.ask("subscribe", {{"slots", {{{"name", "mixer.values"}, {"rate", 60}}}}}).contains("result"),
+      true);
+  CHECK_CONTAINS(script.ask("set", {{"component", "mixer"}, {"values", {{"gain", 2}}}}).dump(), "-32001");
+  CHECK(script.ask("authenticate", {{"token", secret}}).contains("result"));
+  CHECK_CONTAINS(script.ask("set", {{"component", "mixer"}, {"values", {{"gain", 2}}}}).dump(), "-32002");
+  ParameterRequest permission;
+  permission.component = cell.unit("remote");
+  const bool on = true;
+  CHECK(permission.add(0, 0, &on, sizeof(on)));
+  CHECK(cell.ask(permission).kind == AnswerKind::accepted);
+  const json answer = script.ask("set", {{"component", "mixer"}, {"values", {{"gain", 2}}}});
+  CHECK_EQUAL(answer.at("result").at("values").at("gain").get<double>(), 2.0);
+  while (watcher.next().at("params").at("value").at("gain").get<double>() != 2.0) {
+  }
+  CHECK(script.ask("press", {{"component", "mixer"}, {"parameter", "kick"}}).contains("result"));
+  CHECK(wait_until([&] {
+    const json feedback = script.ask("read", {{"slot", "mixer.feedback"}});
+    return feedback.at("result").at("value").at("kicks").get<int>() == 1;
+  }));
+  CHECK_EQUAL(cell.stop().exit_code, 0);
+}
+
+}  // namespace
+}  // namespace flexrf::whole
+
+int main() {
+  using namespace flexrf::whole;
+  const CMUnitTest tests[] = {
+      TEST_APART(what_is_no_request_is_told_so),
+      TEST_APART(without_a_token_scripts_look),
+      TEST_APART(with_it_and_permission_they_change),
+      TEST_APART(a_wrong_token_ends_the_connection),
+      TEST_APART(subscribers_get_the_newest_at_their_rate),
+      TEST_APART(who_does_not_read_delays_nobody),
+      TEST_APART(lines_have_an_end),
+      TEST_APART(other_machines_need_a_key),
+      TEST_APART(other_machines_need_a_token),
+      TEST_APART(a_door_must_listen),
+      TEST_APART(a_door_must_have_room),
+      TEST_APART(a_token_that_others_read_is_refused),
+      TEST_APART(other_machines_look_with_the_token_only),
+      TEST_APART(over_the_loopback_interface),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,253 @@
+#include "units/remote_control/remote_view.hpp"
+
+#include <cstring>
+
+#include "runtime/core/nearest_name.hpp"
+#include "runtime/core/value_json.hpp"
+
+namespace flexrf::remote {
+namespace {
+
+constexpr std::size_t kept_for_the_rest = 512;  // bytes of an answer, beside its list
+
+std::uint16_t index_of(const Application& application, const SlotControl* control) noexcept {
+  if (control == nullptr) return no_index;
+  for (std::size_t i = 0; i < application.slots.size(); ++i) {
+    if (application.slots[i].control == control) return static_cast<std::uint16_t>(i);
+  }
+  return no_index;
+}
+
+const char* type_of(const FieldDescriptor& field) noexcept {
+  static constexpr const char* names[] = {"bool",        "i8",        "u8",     "i16", "u16", "i32",
+                                          "u32",         "i64",       "u64",    "f32", "f64", "text",
+                                          "enumeration", "structure", "button", "hold"};
+  if (field.type != nullptr) return field.type->name;
+  return names[static_cast<std::size_t>(field.scalar)];
+}
+
+const char* role_named(Role role) noexcept {
+  static constexpr const char* names[] = {"viewer", "operator", "engineer", "admin"};
+  return names[static_cast<std::size_t>(role)];
+}
+
+RpcProblem wrong_params(const Fields& params, std::string hint) {
+  return {RpcError::invalid_params, params.status().cause(), std::move(hint)};
+}
+
+}  // namespace
+
+std::optional<RpcProblem> RemoteView::find_slot(std::string_view name, std::uint16_t& slot) const {
+  NearestName nearest(name);
+  for (std::size_t i = 0; i < application().slots.size(); ++i) {
+    slot = static_cast<std::uint16_t>(i);
+    if (name == application().slots[i].name) return std::nullopt;
+    nearest.offer(application().slots[i].name);
+  }
+  return RpcProblem{RpcError::not_found, "there is no slot '" + std::string{shown(name)} + "'",
+                    nearest_hint(nearest.best(), R"(the method list names them: {"of": "slots"})")};
+}
+
+std::optional<RpcProblem> RemoteView::find_component(std::string_view name, ComponentIndex& component) const {
+  NearestName nearest(name);
+  for (component = 0; component < cell_->component_count(); ++component) {
+    if (name == cell_->component_name(component)) return std::nullopt;
+    nearest.offer(cell_->component_name(component));
+  }
+  return RpcProblem{RpcError::not_found, "there is no unit or device '" + std::string{shown(name)} + "'",
+                    nearest_hint(nearest.best(), R"(the method list names them: {"of": "components"})")};
+}
+
+// ---- list
+
+std::optional<RpcProblem> RemoteView::list(Fields& params, JsonWriter& json, std::size_t room) {
+  const std::string_view of = params.text("of");
+  const std::uint64_t from = params.integer_or("from", 0);
+  const std::string_view name = of == "parameters" ? params.text("component") : std::string_view{};
+  if (!params.status())
+    return wrong_params(params, R"(write {"of": "slots"}, "components", or "parameters" and "component")");
+  const ParameterBlock* blocks[3] = {};
+  std::uint64_t count = 0;
+  if (of == "slots") {
+    count = application().slots.size();
+  } else if (of == "components") {
+    count = cell_->component_count();
+  } else if (of == "parameters") {
+    ComponentIndex component = 0;
+    if (auto problem = find_component(name, component)) return problem;
+    const ComponentType& type = cell_->component_type(component);
+    blocks[0] = &type.configuration, blocks[1] = &type.runtime, blocks[2] = &type.feedback;
+    for (const ParameterBlock* block : blocks) count += block->parameters.size();
+  } else {
+    NearestName nearest(of);
+    for (const char* const known : {"slots", "components", "parameters"}) nearest.offer(known);
+    return RpcProblem{RpcError::invalid_params, "there is no list of '" + std::string{shown(of)} + "'",
+                      nearest_hint(nearest.best(), "there are slots, components and parameters")};
+  }
+  // One after the other until the answer is full; the writer cannot say how long it is, so each is made
+  // apart.
+  std::string entries;
+  std::uint64_t next = from;
+  for (; next < count; ++next) {
+    JsonWriter entry(std::string{}, JsonWriter::Style::compact);
+    entry.begin_object();
+    if (of == "slots") {
+      const SlotRecord& slot = application().slots[next];
+      entry.member("name", slot.name).member("type", slot.control->type()->name);
+      entry.member("observed", slot.observer != nullptr);
+    } else if (of == "components") {
+      const auto component = static_cast<ComponentIndex>(next);
+      entry.member("name", cell_->component_name(component));
+      entry.member("kind", component < application().units.size() ? "unit" : "device");
+      entry.member("type", cell_->component_type(component).name);
+    } else {
+      static constexpr const char* kinds[] = {"configuration", "runtime", "feedback"};
+      std::size_t kind = 0;
+      std::size_t number = next;
+      while (number >= blocks[kind]->parameters.size()) number -= blocks[kind++]->parameters.size();
+      list_parameter(entry, kinds[kind], blocks[kind]->parameters[number]);
+    }
+    entry.end_object();
+    const std::string text = entry.release();
+    if (entries.size() + text.size() + kept_for_the_rest > room) break;
+    if (!entries.empty()) entries += ',';
+    entries += text;
+  }
+  json.begin_object().key(of).raw("[" + entries + "]").key("next");
+  next < count ? json.value(next) : json.null();
+  json.end_object();
+  return std::nullopt;
+}
+
+void RemoteView::list_parameter(JsonWriter& json, const char* kind,
+                                const ParameterDescriptor& parameter) const {
+  const FieldDescriptor& field = *parameter.field;
+  json.member("name", field.name).member("kind", kind).member("type", type_of(field));
+  if (field.dimensions > 0) {
+    json.key("shape").begin_array();
+    for (std::uint8_t i = 0; i < field.dimensions; ++i) json.value(field.shape[i]);
+    json.end_array();
+  }
+  if (field.unit[0] != '\0') json.member("unit", field.unit);
+  if (parameter.has_range)
+    json.key("range").begin_array().value(parameter.minimum).value(parameter.maximum).end_array();
+  json.member("role", role_named(parameter.role));
+}
+
+// ---- read
+
+SlotLook RemoteView::look(std::uint16_t slot) {
+  const SlotRecord& record = application().slots[slot];
+  SlotLook seen;
+  if (record.observer == nullptr) {
+    seen.reason = NullReason::not_registered;
+    return seen;
+  }
+  const std::size_t size = record.control->type()->size;
+  if (bytes_.size() < size) bytes_.resize(size);
+  {
+    const auto lock = cell_->observe();
+    if (const ItemHeader* const header = record.observer->newest(); header != nullptr) {
+      std::memcpy(bytes_.data(), record.observer->payload(), size);
+      seen.sequence = header->sequence;
+      seen.sampled_at = header->sampled_at;
+    }
+  }
+  seen.reason = null_reason_of(record.control->writer_state());
+  if (seen.reason == NullReason::none && seen.sequence == 0) seen.reason = NullReason::nothing_yet;
+  if (seen.reason == NullReason::none) seen.value = bytes_.data();
+  return seen;
+}
+
+void RemoteView::write_slot(JsonWriter& json, std::uint16_t slot, const SlotLook& seen) const {
+  const SlotRecord& record = application().slots[slot];
+  json.member("name", record.name).member("type", record.control->type()->name);
+  json.member("reason", seen.reason == NullReason::none ? "" : name_of(seen.reason));
+  json.member("sequence", seen.sequence).member("sampled_at_ns", nanoseconds(seen.sampled_at)).key("value");
+  if (seen.value == nullptr) {
+    json.null();
+  } else {
+    write_value(json, *record.control->type(), seen.value);
+  }
+}
+
+std::optional<RpcProblem> RemoteView::read(Fields& params, JsonWriter& json) {
+  const bool of_slot = params.has("slot");
+  if (of_slot == params.has("component")) {
+    return RpcProblem{RpcError::invalid_params, "neither or both of 'slot' and 'component' are there",
+                      R"(write {"slot": NAME} or {"component": NAME})"};
+  }
+  const std::string_view name = params.text(of_slot ? "slot" : "component");
+  if (!params.status()) return wrong_params(params, "write its name as a text");
+  if (!of_slot) {
+    ComponentIndex component = 0;
+    if (auto problem = find_component(name, component)) return problem;
+    write_component(json, component);
+    return std::nullopt;
+  }
+  std::uint16_t slot = 0;
+  if (auto problem = find_slot(name, slot)) return problem;
+  const TypeDescriptor& type = *application().slots[slot].control->type();
+  if (type.is_image || type.size > largest_value) {
+    return RpcProblem{RpcError::too_large, "'" + std::string{name} + "' holds a picture, or too much",
+                      "look at it in the panel"};
+  }
+  const SlotLook seen = look(slot);
+  json.begin_object();
+  write_slot(json, slot, seen);
+  json.end_object();
+  return std::nullopt;
+}
+
+std::uint16_t RemoteView::slot_of(ComponentIndex component, bool feedback) const noexcept {
+  const std::size_t units = application().units.size();
+  const SlotControl* control = nullptr;
+  if (component < units) {
+    const UnitRecord& unit = application().units[component];
+    control = feedback ? unit.feedback_slot : unit.runtime_slot;
+  } else {
+    const DeviceRecord& device = application().devices[component - units];
+    control = feedback ? device.feedback_slot : device.runtime_slot;
+  }
+  return index_of(application(), control);
+}
+
+void RemoteView::write_block(JsonWriter& json, const char* key, std::uint16_t slot,
+                             const TypeDescriptor* type, bool with_sequence) {
+  const SlotLook seen = slot == no_index ? SlotLook{} : look(slot);
+  if (with_sequence) json.member("sequence", seen.sequence);
+  json.key(key);
+  if (slot == no_index || type == nullptr) {
+    json.begin_object().end_object();
+  } else if (seen.value == nullptr) {
+    json.null();
+  } else {
+    // A device's slot is as large as its largest driver needs; its contents are the chosen driver's.
+    write_value(json, *type, seen.value);
+  }
+}
+
+void RemoteView::write_runtime(JsonWriter& json, ComponentIndex component) {
+  json.begin_object();
+  write_block(json, "values", slot_of(component, false), cell_->component_type(component).runtime.type, true);
+  json.end_object();
+}
+
+void RemoteView::write_component(JsonWriter& json, ComponentIndex component) {
+  const ComponentType& type = cell_->component_type(component);
+  json.begin_object();
+  write_block(json, "runtime", slot_of(component, false), type.runtime.type, true);
+  write_block(json, "feedback", slot_of(component, true), type.feedback.type, false);
+  json.key("configuration");
+  const TypeDescriptor* const configuration = type.configuration.type;
+  if (configuration != nullptr && bytes_.size() < configuration->size) bytes_.resize(configuration->size);
+  if (configuration == nullptr ||
+      cell_->copy_configuration(component, bytes_.data(), configuration->size) == 0) {
+    json.begin_object().end_object();
+  } else {
+    write_value(json, *configuration, bytes_.data());
+  }
+  json.end_object();
+}
+
+}  // namespace flexrf::remote
