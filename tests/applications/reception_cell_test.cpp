@@ -349,6 +349,24 @@ void a_wrong_token_ends_the_connection() {
   play.perform_all();
 }
 
+void initialised_anew_it_knows_nobody() {
+  const Safe safe;
+  Play play;
+  play.let_in(0);
+  bool done = false;
+  play.do_once([&] {
+    play.executive().act(ComponentAction::initialise, play.component("remote"), [&](const Status& status) {
+      CHECK(status.is_ok());
+      done = true;
+    });
+  });
+  play.then([&] { return done; });
+  play.is_refused(0, "set", {{"component", "mixer"}, {"values", {{"gain", 3}}}}, -32001, "has not given");
+  play.ask(0, "authenticate", {{"token", secret}});
+  play.ask(0, "set", {{"component", "mixer"}, {"values", {{"gain", 3}}}});
+  play.perform_all();
+}
+
 void subscribers_get_the_newest_at_their_rate() {
   const Safe safe;
   Play play;
@@ -582,6 +600,7 @@ int main() {
       TEST_APART(without_a_token_scripts_look),
       TEST_APART(with_it_and_permission_they_change),
       TEST_APART(a_wrong_token_ends_the_connection),
+      TEST_APART(initialised_anew_it_knows_nobody),
       TEST_APART(subscribers_get_the_newest_at_their_rate),
       TEST_APART(who_does_not_read_delays_nobody),
       TEST_APART(lines_have_an_end),

@@ -53,10 +53,6 @@ RpcProblem too_many(const ChangedComponent& component) {
           "split it into several"};
 }
 
-RpcProblem wrong_params(const Fields& params, const char* hint) {
-  return {RpcError::invalid_params, params.status().cause(), hint};
-}
-
 }  // namespace
 
 std::optional<RpcProblem> read_set(Fields& params, const ChangedComponent& component,

@@ -57,8 +57,7 @@ RemoteControl::Problem RemoteControl::may(const Client& client, Need need) const
 
 RemoteControl::Problem RemoteControl::authenticate(Client& client, const RpcCall& call, Fields& params) {
   const std::string_view token = params.text("token");
-  if (!params.status())
-    return RpcProblem{RpcError::invalid_params, params.status().cause(), R"(write {"token": "..."})"};
+  if (!params.status()) return remote::wrong_params(params, R"(write {"token": "..."})");
   if (!token_.is(token)) {
     ++feedback.wrong_tokens;
     return RpcProblem{RpcError::token_missing,
@@ -126,8 +125,7 @@ RemoteControl::Problem RemoteControl::change(Client& client, const RpcCall& call
                                              bool is_press) {
   const std::string_view name_given = params.text("component");
   if (!params.status()) {
-    return RpcProblem{RpcError::invalid_params, params.status().cause(),
-                      "name a unit or a device in 'component'"};
+    return remote::wrong_params(params, "name a unit or a device in 'component'");
   }
   ComponentIndex index = 0;
   if (auto problem = view_->find_component(name_given, index)) return problem;
@@ -161,9 +159,7 @@ RemoteControl::Problem RemoteControl::read_subscription(JsonElement json, Subscr
     Fields fields(object);
     slot_name = fields.text("name");
     rate = fields.number_or("rate", default_rate);
-    if (!fields.status())
-      return RpcProblem{RpcError::invalid_params, fields.status().cause(),
-                        R"(write {"name": NAME, "rate": 10})"};
+    if (!fields.status()) return remote::wrong_params(fields, R"(write {"name": NAME, "rate": 10})");
   } else if (json.get(slot_name) != simdjson::SUCCESS) {
     return RpcProblem{RpcError::invalid_params, "'slots' holds something that names no slot",
                       R"(write [{"name": NAME, "rate": 10}])"};
@@ -192,8 +188,7 @@ RemoteControl::Problem RemoteControl::read_subscription(JsonElement json, Subscr
 RemoteControl::Problem RemoteControl::subscribe(Client& client, const RpcCall& call, Fields& params) {
   const auto slots = params.array("slots");
   if (!params.status())
-    return RpcProblem{RpcError::invalid_params, params.status().cause(),
-                      R"(write {"slots": [{"name": NAME, "rate": 10}]})"};
+    return remote::wrong_params(params, R"(write {"slots": [{"name": NAME, "rate": 10}]})");
   if (slots->size() > most_subscriptions)
     return RpcProblem{RpcError::too_large, "more than 32 slots",
                       "subscribe to fewer, or from two connections"};
@@ -217,8 +212,7 @@ RemoteControl::Problem RemoteControl::unsubscribe(Client& client, const RpcCall&
   }
   const auto slots = params.array("slots");
   if (!params.status())
-    return RpcProblem{RpcError::invalid_params, params.status().cause(),
-                      R"(write {"slots": [NAME]}, or nothing to end all)"};
+    return remote::wrong_params(params, R"(write {"slots": [NAME]}, or nothing to end all)");
   std::vector<Subscription> rest = client.subscriptions;
   for (const JsonElement json : *slots) {
     std::string_view slot_name;

@@ -31,10 +31,6 @@ const char* role_named(Role role) noexcept {
   return names[static_cast<std::size_t>(role)];
 }
 
-RpcProblem wrong_params(const Fields& params, std::string hint) {
-  return {RpcError::invalid_params, params.status().cause(), std::move(hint)};
-}
-
 }  // namespace
 
 std::optional<RpcProblem> RemoteView::find_slot(std::string_view name, std::uint16_t& slot) const {

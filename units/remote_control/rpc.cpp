@@ -70,6 +70,10 @@ RpcProblem invalid(std::string reason, std::string hint) {
 
 }  // namespace
 
+RpcProblem wrong_params(const Fields& params, std::string hint) {
+  return {RpcError::invalid_params, params.status().cause(), std::move(hint)};
+}
+
 std::string_view shown(std::string_view text) noexcept {
   return text.substr(0, longest_shown);
 }

@@ -67,7 +67,10 @@ std::string result_line(std::string_view id, Write&& write) {
 /// {"jsonrpc", "id", "error": {"code", "message", "data": {"reason", "hint"}}}
 std::string error_line(std::string_view id, const RpcProblem& problem);
 
-/// "; did you mean 'x'?" made of the nearest known name; empty: none is near.
+/// Parameters are missing or of another type.
+RpcProblem wrong_params(const Fields& params, std::string hint);
+
+/// "did you mean 'x'?" made of the nearest known name; otherwise, where none is near, the other hint.
 std::string nearest_hint(std::string_view nearest, std::string_view otherwise);
 /// What others wrote, cut for showing it to them.
 std::string_view shown(std::string_view text) noexcept;
