@@ -29,6 +29,7 @@ std::optional<PixelLayout> layout_of(PixelFormat format) {
       return PixelLayout{3, {0.299, 0.587, 0.114}};
     case PixelFormat::bgr24:
       return PixelLayout{3, {0.114, 0.587, 0.299}};
+    case PixelFormat::mjpeg:
     case PixelFormat::none:
       break;
   }
@@ -56,6 +57,10 @@ void PartWatch::step(const Tick& /*tick*/) {
     return;
   }
   if (!frame.is_new()) return;
+  if (frame->format == PixelFormat::mjpeg) {
+    feedback.set_trouble("the picture is compressed (mjpeg): take those of a jpeg_decoder");
+    return;
+  }
   const auto layout = layout_of(frame->format);
   const std::uint64_t least_stride = layout ? std::uint64_t{frame->width} * layout->bytes : 0;
   if (!layout || frame->width == 0 || frame->height == 0 || frame->stride < least_stride ||

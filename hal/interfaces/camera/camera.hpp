@@ -12,10 +12,11 @@ namespace flexrf {
 
 /// A picture where it lies, in memory that is the driver's.
 struct CameraImage {
-  std::span<const std::uint8_t> data;  ///< its rows as in CameraFrame, the last perhaps without its padding
+  std::span<const std::uint8_t> data;  ///< its rows as in CameraFrame, the last perhaps without its padding;
+                                       ///< in mjpeg a JPEG
   std::uint32_t width = 0;             ///< pixels
   std::uint32_t height = 0;            ///< rows
-  std::uint32_t stride = 0;            ///< bytes from one row to the next
+  std::uint32_t stride = 0;            ///< bytes from one row to the next; 0 in mjpeg
   PixelFormat format = PixelFormat::none;
   Time time{};                 ///< when it was taken, as the kernel says
   std::uint64_t sequence = 0;  ///< the camera's count: rises, what is left out was lost

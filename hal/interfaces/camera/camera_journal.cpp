@@ -24,9 +24,12 @@ std::uint64_t CameraJournal::note_whole(std::uint32_t sequence) noexcept {
   return readers;
 }
 
-void CameraJournal::note_damaged(std::uint32_t sequence) noexcept {
+void CameraJournal::note_damaged(std::uint32_t sequence, std::string_view why) noexcept {
   advance(sequence);
   ++damaged_;
+  if (text_view(damage_) == why.substr(0, damage_.size())) return;
+  set_text(damage_, why);
+  log_warning(name_, "a picture is left out: {}", text_view(damage_));
 }
 
 void CameraJournal::note_away(std::string_view why) noexcept {
@@ -43,6 +46,7 @@ void CameraJournal::fill(CameraFeedback& feedback) const noexcept {
   feedback.frames = frames_;
   feedback.lost_frames = lost_;
   feedback.damaged_frames = damaged_;
+  feedback.damage = damage_;
   feedback.losses = losses_;
   feedback.recoveries = recoveries_;
 }

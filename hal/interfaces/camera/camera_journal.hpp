@@ -19,7 +19,8 @@ class CameraJournal {
   /// A picture came whole, `sequence` in the camera's own count, which may wrap around. Returns its sequence
   /// as readers see it, which never does.
   std::uint64_t note_whole(std::uint32_t sequence) noexcept;
-  void note_damaged(std::uint32_t sequence) noexcept;
+  /// One came that is not given on; `why` is logged when it is another reason than the last.
+  void note_damaged(std::uint32_t sequence, std::string_view why) noexcept;
 
   /// No pictures come from now on, or since the start; `why` is what the operator reads, there and in the
   /// log. Told again while they are away, it only changes the reason.
@@ -44,6 +45,7 @@ class CameraJournal {
   std::uint64_t damaged_ = 0;
   std::uint64_t losses_ = 0;
   std::uint64_t recoveries_ = 0;
+  std::array<char, 80> damage_{};
   std::array<char, 240> trouble_{};
   std::array<char, 240> away_{};
 };

@@ -14,10 +14,10 @@ const char* must_be_even(std::uint32_t width, std::uint32_t height, PixelFormat 
 }  // namespace
 
 Status check_picture(std::uint32_t width, std::uint32_t height, PixelFormat format) noexcept {
-  if (row_bytes(format, 1) == 0) {
+  if (row_bytes(format, 1) == 0 && format != PixelFormat::mjpeg) {
     return Status::error(
         StatusCode::invalid_argument,
-        "a camera gives yuyv, grey8, rgb24 or nv12: set configuration.format to one of them");
+        "a camera gives yuyv, grey8, rgb24, nv12 or mjpeg: set configuration.format to one of them");
   }
   const char* const even = must_be_even(width, height, format);
   if (width == 0 || height == 0 || even[0] != '\0') {

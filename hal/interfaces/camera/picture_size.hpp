@@ -12,7 +12,7 @@ namespace flexrf {
 
 inline constexpr std::size_t most_picture_bytes = std::tuple_size_v<decltype(CameraFrame::data)>;
 
-/// Bytes that a row's pixels take, at least; 0: none of a camera's formats.
+/// Bytes that a row's pixels take, at least; 0: there are no rows, or it is none of a camera's formats.
 constexpr std::uint32_t row_bytes(PixelFormat format, std::uint32_t width) noexcept {
   switch (format) {
     case PixelFormat::grey8:
@@ -22,6 +22,7 @@ constexpr std::uint32_t row_bytes(PixelFormat format, std::uint32_t width) noexc
       return width * 2;
     case PixelFormat::rgb24:
       return width * 3;
+    case PixelFormat::mjpeg:
     case PixelFormat::none:
     case PixelFormat::bgr24:
       break;
@@ -34,7 +35,7 @@ constexpr std::uint32_t data_rows(PixelFormat format, std::uint32_t height) noex
   return format == PixelFormat::nv12 ? height + height / 2 : height;
 }
 
-/// Of a picture with its rows' padding.
+/// Of a picture with its rows' padding; 0 of one that has none.
 constexpr std::size_t picture_bytes(PixelFormat format, std::uint32_t stride, std::uint32_t height) noexcept {
   return std::size_t{stride} * data_rows(format, height);
 }

@@ -13,6 +13,8 @@
 
 #include "hal/interfaces/camera/camera_controls.hpp"
 #include "hal/interfaces/camera/camera_journal.hpp"
+#include "hal/interfaces/camera/jpeg_check.hpp"
+#include "hal/interfaces/camera/jpeg_maker.hpp"
 #include "hal/interfaces/camera/picture_size.hpp"
 
 namespace flexrf {
@@ -52,6 +54,11 @@ class VirtualCamera : public Base {
     if (!refusal_.is_ok()) return refusal_;
     if (Status status = check_picture(set.width, set.height, set.format); !status) return status;
     if (Status status = check_settings(controls_, text_view(this->runtime.controls)); !status) return status;
+    jpegs_.reset();
+    if (set.format == PixelFormat::mjpeg) {
+      jpegs_ = std::make_unique<JpegMaker>();
+      if (Status status = jpegs_->begin(set.width, set.height); !status) return status;
+    }
     journal_.restart(this->name());
     streaming_ = false;
     now_ = Time{};
@@ -191,7 +198,7 @@ class VirtualCamera : public Base {
     plan(at);
     if (cable_.silent.load(std::memory_order_relaxed) || consume(cable_.to_lose)) return;
     heard_ = now_;
-    if (damaged || consume(cable_.to_damage)) return journal_.note_damaged(number);
+    if (damaged || consume(cable_.to_damage)) return journal_.note_damaged(number, damage_of_half());
     show(at, number);
   }
 
@@ -202,11 +209,18 @@ class VirtualCamera : public Base {
     return left > 0;
   }
 
+  /// What is found of a picture of which but half came.
+  const char* damage_of_half() noexcept {
+    if (jpegs_ == nullptr) return "garbled on purpose";
+    const auto jpeg = jpegs_->make(most_picture_bytes);
+    return check_jpeg(jpeg.first(jpeg.size() / 2), this->configuration.width, this->configuration.height)
+        .damage;
+  }
+
   void show(Time at, std::uint32_t number) noexcept {
     if (own_ != nullptr) {
       fill(*own_, at, journal_.note_whole(number));
-      const std::size_t bytes = picture_bytes(own_->format, own_->stride, own_->height);
-      image_ = CameraImage{.data = {own_->data.data(), bytes},
+      image_ = CameraImage{.data = {own_->data.data(), own_->size},
                            .width = own_->width,
                            .height = own_->height,
                            .stride = own_->stride,
@@ -227,10 +241,17 @@ class VirtualCamera : public Base {
     frame.stride = row_bytes(set.format, set.width);
     frame.time = nanoseconds(at);
     frame.sequence = sequence;
-    const std::size_t bytes = picture_bytes(frame.format, frame.stride, frame.height);
-    draw({{frame.data.data(), bytes}, frame.width, frame.height, frame.format}, at, sequence);
+    if (jpegs_ != nullptr) {
+      draw({jpegs_->canvas(), frame.width, frame.height, PixelFormat::rgb24}, at, sequence);
+      const auto jpeg = jpegs_->make(frame.data.size());
+      frame.size = static_cast<std::uint32_t>(jpeg.size());
+      std::copy_n(jpeg.begin(), frame.size, frame.data.begin());
+    } else {
+      frame.size = static_cast<std::uint32_t>(picture_bytes(frame.format, frame.stride, frame.height));
+      draw({{frame.data.data(), frame.size}, frame.width, frame.height, frame.format}, at, sequence);
+    }
     // The same run gives the same items, to the last byte.
-    std::fill(frame.data.begin() + static_cast<std::ptrdiff_t>(bytes), frame.data.end(), std::uint8_t{0});
+    std::fill(frame.data.begin() + frame.size, frame.data.end(), std::uint8_t{0});
   }
 
   void arm_timer(Time when) noexcept {
@@ -253,6 +274,7 @@ class VirtualCamera : public Base {
   std::array<CameraControl, most_controls> controls_{};
   std::array<char, 256> controls_in_force_{};
   std::unique_ptr<CameraFrame> own_;  // of one that belongs to a unit
+  std::unique_ptr<JpegMaker> jpegs_;  // of one that gives mjpeg
   std::optional<CameraImage> image_;
   ComingPicture coming_;
   std::uint32_t count_ = 0;  // the camera's

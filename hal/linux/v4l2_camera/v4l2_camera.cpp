@@ -144,11 +144,11 @@ bool V4l2Camera::take_picture(Time now) noexcept {
   if (result == 0) return false;
   if (result > 0) {
     heard_.store(nanoseconds(now), std::memory_order_relaxed);
-    if (picture.whole) {
+    if (picture.damage == nullptr) {
       const std::uint64_t sequence = journal_.note_whole(picture.sequence);
       result = pass_on(picture, picture.time == Time{} ? now : picture.time, sequence);
     } else {
-      journal_.note_damaged(picture.sequence);
+      journal_.note_damaged(picture.sequence, picture.damage);
       result = session_->give(picture.index);
     }
   }
@@ -172,7 +172,7 @@ int V4l2Camera::publish_filled(const VideoPicture& picture, Time at, std::uint64
   CameraFrame* const frame = session_->filled(picture.index);
   for (std::size_t i = 0; i < loan_count_; ++i) {
     if (lent_[i] != frame) continue;
-    describe(*frame, at, sequence);
+    describe(*frame, picture, at, sequence);
     lent_[i] = nullptr;
     loans_[i].publish(at);
   }
@@ -183,7 +183,7 @@ int V4l2Camera::publish_copy(const VideoPicture& picture, Time at, std::uint64_t
   if (lent_[0] != nullptr) {
     std::memcpy(lent_[0]->data.data(), session_->mapped(picture.index).data(), picture.bytes);
     feedback.copied_bytes += picture.bytes;
-    describe(*lent_[0], at, sequence);
+    describe(*lent_[0], picture, at, sequence);
     lent_[0] = nullptr;
     loans_[0].publish(at);
   }
@@ -206,11 +206,13 @@ int V4l2Camera::show(const VideoPicture& picture, Time at, std::uint64_t sequenc
   return given;
 }
 
-void V4l2Camera::describe(CameraFrame& frame, Time at, std::uint64_t sequence) const noexcept {
+void V4l2Camera::describe(CameraFrame& frame, const VideoPicture& picture, Time at,
+                          std::uint64_t sequence) const noexcept {
   const VideoFormat& format = session_->format();
   frame.width = format.width;
   frame.height = format.height;
   frame.stride = format.stride;
+  frame.size = picture.bytes;
   frame.format = format.format;
   frame.time = nanoseconds(at);
   frame.sequence = sequence;

@@ -56,7 +56,8 @@ class V4l2Camera final : public V4l2CameraDriver {
   int publish_filled(const VideoPicture& picture, Time at, std::uint64_t sequence) noexcept;
   int publish_copy(const VideoPicture& picture, Time at, std::uint64_t sequence) noexcept;
   int show(const VideoPicture& picture, Time at, std::uint64_t sequence) noexcept;
-  void describe(CameraFrame& frame, Time at, std::uint64_t sequence) const noexcept;
+  void describe(CameraFrame& frame, const VideoPicture& picture, Time at,
+                std::uint64_t sequence) const noexcept;
   int borrow() noexcept;
   int give_back_shown() noexcept;
   void lose(const Status& why) noexcept;

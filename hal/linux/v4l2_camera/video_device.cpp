@@ -16,7 +16,7 @@ namespace {
 constexpr int most_nodes = 64;  // of /dev/videoN
 constexpr std::size_t most_offered_text = 150;
 constexpr PixelFormat known_formats[] = {PixelFormat::yuyv, PixelFormat::grey8, PixelFormat::rgb24,
-                                         PixelFormat::nv12};
+                                         PixelFormat::nv12, PixelFormat::mjpeg};
 
 std::uint32_t pixel_format_of(PixelFormat format) noexcept {
   switch (format) {
@@ -26,6 +26,8 @@ std::uint32_t pixel_format_of(PixelFormat format) noexcept {
       return V4L2_PIX_FMT_RGB24;
     case PixelFormat::nv12:
       return V4L2_PIX_FMT_NV12;
+    case PixelFormat::mjpeg:
+      return V4L2_PIX_FMT_MJPEG;
     default:
       return V4L2_PIX_FMT_YUYV;
   }
@@ -114,9 +116,11 @@ Status VideoDevice::agree(VideoFormat& format) {
                          path(), format.width, format.height, name_of(format.format),
                          offers(format.format).c_str());
   }
-  format.stride = std::max(given.bytesperline, row_bytes(format.format, format.width));
+  const std::uint32_t row = row_bytes(format.format, format.width);
+  format.stride = row == 0 ? 0 : std::max(given.bytesperline, row);
   format.size = std::max(given.sizeimage, format.stride * data_rows(format.format, format.height));
-  if (format.size > most_picture_bytes) {
+  // Of compressed pictures the longest that could be, which none is: the buffers may be longer than an item.
+  if (format.size > most_picture_bytes && format.format != PixelFormat::mjpeg) {
     return Status::error(
         StatusCode::out_of_range,
         "the camera %s needs %u bytes for a picture, an item holds %zu; ask for a smaller one", path(),

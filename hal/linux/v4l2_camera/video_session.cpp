@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "hal/interfaces/camera/jpeg_check.hpp"
 #include "hal/interfaces/camera/picture_size.hpp"
 #include "runtime/log/log.hpp"
 
@@ -54,7 +55,11 @@ std::uint32_t VideoSession::memory() const noexcept {
 
 Status VideoSession::stream(const VideoRequest& request) {
   int result = -EINVAL;
-  if (!request.buffers.empty()) {
+  if (!request.buffers.empty() && format_.size > most_picture_bytes) {
+    log_warning(request.name,
+                "the camera wants buffers of {} bytes, an item has {}: every picture is copied once",
+                format_.size, most_picture_bytes);
+  } else if (!request.buffers.empty()) {
     result = use_frames(request.buffers);
     if (result == -EBUSY || result == -ENODEV) return video_error(result, device_.path(), "stream");
     if (result < 0) {
@@ -137,12 +142,28 @@ int VideoSession::take(VideoPicture& picture) noexcept {
   picture.index = buffer.index;
   picture.sequence = buffer.sequence;
   picture.bytes = buffer.bytesused;
-  picture.whole = (buffer.flags & V4L2_BUF_FLAG_ERROR) == 0 && buffer.bytesused >= whole_size(format_);
+  picture.damage = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 ? "marked as damaged by the kernel" : nullptr;
+  if (picture.damage == nullptr) judge(picture);
   const bool monotonic = (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   const auto since =
       std::chrono::seconds(buffer.timestamp.tv_sec) + std::chrono::microseconds(buffer.timestamp.tv_usec);
   picture.time = monotonic ? Time{since} : Time{};
   return 1;
+}
+
+/// Whether as much came as is a picture; and of one that is compressed, where it ends.
+void VideoSession::judge(VideoPicture& picture) const noexcept {
+  if (format_.format != PixelFormat::mjpeg) {
+    if (picture.bytes < whole_size(format_)) picture.damage = "too short";
+    return;
+  }
+  const std::uint8_t* const data =
+      user_pointers_ ? frames_[picture.index]->data.data() : maps_[picture.index].data();
+  const std::size_t room = user_pointers_ ? most_picture_bytes : maps_[picture.index].size();
+  const CheckedJpeg checked =
+      check_jpeg({data, std::min<std::size_t>(picture.bytes, room)}, format_.width, format_.height);
+  picture.bytes = static_cast<std::uint32_t>(checked.size);
+  picture.damage = checked.size > most_picture_bytes ? "it does not fit an item" : checked.damage;
 }
 
 int VideoSession::give(std::uint32_t index) noexcept {

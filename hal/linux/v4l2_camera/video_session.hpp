@@ -25,8 +25,8 @@ struct VideoPicture {
   std::uint32_t index = 0;     ///< of its buffer
   std::uint32_t sequence = 0;  ///< the camera's
   std::uint32_t bytes = 0;
-  bool whole = false;
-  Time time{};  ///< CLOCK_MONOTONIC; no time: the kernel does not say
+  const char* damage = nullptr;  ///< null: it is whole; lives for ever
+  Time time{};                   ///< CLOCK_MONOTONIC; no time: the kernel does not say
 };
 
 class VideoSession {
@@ -70,6 +70,7 @@ class VideoSession {
   int ask_for(std::uint32_t memory, std::uint32_t count) noexcept;
   void let_go() noexcept;
   std::uint32_t memory() const noexcept;
+  void judge(VideoPicture& picture) const noexcept;
 
   VideoDevice device_;
   VideoFormat format_;

@@ -105,6 +105,8 @@ void window_at_the_edge(void**) {
 }
 void damaged_pictures(void**) {
   assert_true(what_it_cannot_judge_it_does_not([](CameraFrame& frame) { frame.format = PixelFormat::none; }));
+  assert_true(
+      what_it_cannot_judge_it_does_not([](CameraFrame& frame) { frame.format = PixelFormat::mjpeg; }));
   assert_true(what_it_cannot_judge_it_does_not([](CameraFrame& frame) { frame.width = 0; }));
   assert_true(what_it_cannot_judge_it_does_not([](CameraFrame& frame) { frame.stride = width - 1; }));
   assert_true(what_it_cannot_judge_it_does_not([](CameraFrame& frame) { frame.height = 4'000'000; }));

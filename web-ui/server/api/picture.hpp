@@ -11,13 +11,15 @@
 namespace flexrf::panel {
 
 /// Where the fields of an image type lie: width and height (integers), format (an enumeration), data (u8),
-/// and stride (an integer, bytes from row to row) of one whose rows may have gaps.
+/// stride (an integer, bytes from row to row) of one whose rows may have gaps, and size (an
+/// integer, bytes of data) of one that may be compressed.
 struct PictureLayout {
   const FieldDescriptor* width = nullptr;
   const FieldDescriptor* height = nullptr;
   const FieldDescriptor* format = nullptr;
   const FieldDescriptor* data = nullptr;
   const FieldDescriptor* stride = nullptr;  ///< null: rows without gaps
+  const FieldDescriptor* size = nullptr;    ///< null: never compressed
 
   static PictureLayout of(const TypeDescriptor& type) noexcept;
   bool is_complete() const noexcept;
@@ -31,6 +33,7 @@ class PictureEncoder {
   PictureEncoder& operator=(const PictureEncoder&) = delete;
   ~PictureEncoder();
 
+  /// One that is a JPEG already (mjpeg) is passed on as it is, and lies where the image does.
   /// Formats (the enumeration's names): grey8, rgb24, bgr24, yuyv, nv12. Scaled by the least whole number
   /// that makes it at most `width` pixels wide. The JPEG is valid until the next call; empty: cause() says
   /// why there is none.
@@ -38,6 +41,7 @@ class PictureEncoder {
   const char* cause() const noexcept { return cause_; }
 
  private:
+  std::string_view pass_on(const PictureLayout& layout, const void* image);
   /// `row_bytes`: from row to row; 0: rows without gaps.
   bool scale(std::string_view format, const std::byte* data, std::size_t size, std::size_t columns,
              std::size_t rows, std::size_t row_bytes, std::size_t by);

@@ -4,6 +4,7 @@
 
 #include "hal/interfaces/camera/camera_controls.hpp"
 #include "hal/interfaces/camera/conformance/camera_eye.hpp"
+#include "hal/interfaces/camera/conformance/mjpeg_cases.hpp"
 #include "hal/interfaces/camera/picture_size.hpp"
 #include "tests/conformance.hpp"
 
@@ -293,6 +294,9 @@ int run_camera_conformance(const char* driver, MakeCameraWorld make) {
   const CMUnitTest tests[] = {
       CASE(a_unit_sees_pictures_as_it_asked),
       CASE(a_slot_gets_pictures_as_asked),
+      CASE(a_unit_sees_compressed_pictures),
+      CASE(a_slot_gets_compressed_pictures),
+      CASE(half_a_compressed_picture_is_counted_and_not_shown),
       CASE(a_units_pictures_are_in_order),
       CASE(a_slots_pictures_are_in_order),
       CASE(a_picture_is_given_for_one_cycle),

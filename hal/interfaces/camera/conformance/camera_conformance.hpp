@@ -48,6 +48,8 @@ class CameraWorld {
   /// One picture or more of those to come is lost, or comes damaged.
   virtual bool lose() { return false; }
   virtual bool damage() { return false; }
+  /// It can be asked for mjpeg.
+  virtual bool compresses() const { return false; }
   /// It offers certain sizes, and 642x362 is none of them.
   virtual bool has_sizes_of_its_own() const { return false; }
 };

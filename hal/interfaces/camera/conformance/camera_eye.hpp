@@ -2,7 +2,6 @@
 #pragma once
 
 #include "hal/interfaces/camera/conformance/camera_conformance.hpp"
-#include "hal/interfaces/camera/picture_size.hpp"
 
 namespace flexrf {
 
@@ -18,8 +17,7 @@ class CameraEye {
     if (header == nullptr || header->sequence == seen_) return std::nullopt;
     seen_ = header->sequence;
     const auto& frame = *static_cast<const CameraFrame*>(reader_.payload());
-    const std::size_t bytes = picture_bytes(frame.format, frame.stride, frame.height);
-    return CameraImage{.data = {frame.data.data(), bytes},
+    return CameraImage{.data = {frame.data.data(), frame.size},
                        .width = frame.width,
                        .height = frame.height,
                        .stride = frame.stride,

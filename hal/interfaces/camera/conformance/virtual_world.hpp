@@ -54,6 +54,7 @@ class VirtualCameraWorld : public CameraWorld {
     camera_->driver().cable().to_lose = 3;
     return true;
   }
+  bool compresses() const override { return true; }
   bool damage() override {
     camera_->driver().cable().to_damage = 1;
     return true;

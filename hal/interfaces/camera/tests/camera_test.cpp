@@ -1,8 +1,10 @@
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "hal/interfaces/camera/camera_controls.hpp"
 #include "hal/interfaces/camera/camera_journal.hpp"
+#include "hal/interfaces/camera/jpeg_check.hpp"
 #include "hal/interfaces/camera/picture_size.hpp"
 #include "tests/cmocka.hpp"
 
@@ -22,12 +24,13 @@ void gaps_in_the_cameras_count_are_lost_pictures(void**) {
   assert_int_equal(journal.note_whole(7), 1);
   assert_int_equal(journal.note_whole(8), 2);
   assert_int_equal(journal.note_whole(12), 6);
-  journal.note_damaged(13);
+  journal.note_damaged(13, "too short");
   assert_int_equal(journal.note_whole(14), 8);
   const CameraFeedback feedback = told(journal);
   assert_int_equal(feedback.frames, 4);
   assert_int_equal(feedback.lost_frames, 3);
   assert_int_equal(feedback.damaged_frames, 1);
+  assert_string_equal(feedback.damage.data(), "too short");
 }
 
 void a_count_that_wraps_around_loses_nothing(void**) {
@@ -132,6 +135,64 @@ void pictures_that_do_not_fit_are_refused(void**) {
   assert_int_equal(check_picture(640, 480, PixelFormat::bgr24).code(), StatusCode::invalid_argument);
 }
 
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::uint32_t jpeg_width = 320;
+constexpr std::uint32_t jpeg_height = 200;
+
+/// As its markers have it, and around them nothing that could be decoded.
+Bytes jpeg_around(const Bytes& scan, std::uint8_t restart_interval = 1) {
+  Bytes bytes{0xFF, 0xD8, 0xFF, 0xDD, 0, 4,    0, restart_interval, 0xFF, 0xC0, 0, 11, 8, 0,
+              200,  1,    64,   1,    1, 0x11, 0};
+  bytes.insert(bytes.end(), {0xFF, 0xDA, 0, 8, 1, 1, 0, 0, 63, 0});
+  bytes.insert(bytes.end(), scan.begin(), scan.end());
+  return bytes;
+}
+
+bool finds(const Bytes& bytes, const char* damage) {
+  const CheckedJpeg found = check_jpeg(bytes, jpeg_width, jpeg_height);
+  if (found.damage != nullptr && std::strstr(found.damage, damage) != nullptr) return found.size == 0;
+  print_message("expected '%s', not: %s\n", damage, found.damage == nullptr ? "nothing" : found.damage);
+  return false;
+}
+
+std::size_t whole_size_of(const Bytes& bytes) {
+  return check_jpeg(bytes, jpeg_width, jpeg_height).size;
+}
+
+void whole_jpegs_end_at_their_end(void**) {
+  const Bytes plain = jpeg_around({1, 2, 3, 0xFF, 0xD9});
+  assert_int_equal(whole_size_of(plain), plain.size());
+  Bytes padded = plain;
+  padded.resize(plain.size() + 100, 0);
+  assert_int_equal(whole_size_of(padded), plain.size());
+  // Bytes that look like markers and are none, restarts in their order, a marker with fill bytes.
+  Bytes scan{1, 0xFF, 0, 2};
+  for (std::uint8_t restart = 0; restart < 20; ++restart)
+    scan.insert(scan.end(), {0xFF, static_cast<std::uint8_t>(0xD0 + restart % 8), 7});
+  scan.insert(scan.end(), {0xFF, 0xFF, 0xD9});
+  assert_int_equal(whole_size_of(jpeg_around(scan)), jpeg_around(scan).size());
+}
+
+void damage_shows_at_the_markers(void**) {
+  const Bytes whole = jpeg_around({1, 0xFF, 0xD0, 2, 3, 0xFF, 0xD9});
+  for (std::size_t size = 2; size < whole.size(); ++size)
+    assert_true(
+        finds(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)), "ends before"));
+  assert_true(finds({}, "no JPEG"));
+  assert_true(finds({0xFF}, "no JPEG"));
+  assert_true(finds(jpeg_around({1, 0xFF, 0xD1, 2, 0xFF, 0xD9}), "a part of the JPEG is missing"));
+  assert_true(finds(jpeg_around({1, 0xFF, 0xD0, 2, 0xFF, 0xD9}, 0), "a part of the JPEG is missing"));
+  assert_true(finds({0xFF, 0xD8, 0xFF, 0xD9}, "holds no picture"));
+  assert_true(finds({0xFF, 0xD8, 0xFF, 0xDA, 0, 2, 1, 0xFF, 0xD9}, "does not say its size"));
+  assert_true(finds({0xFF, 0xD8, 0xFF, 0xE0, 0, 1, 0xFF, 0xD9}, "within a marker"));
+  assert_true(finds({0xFF, 0xD8, 0xFF, 0xC0, 0, 4, 8, 0, 0xFF, 0xD9}, "within a marker"));
+  assert_true(finds({0xFF, 0xD8, 0xFF, 0xD0, 0xFF, 0xD9}, "where none may be"));
+  assert_true(finds({0xFF, 0xD8, 0x12, 0xFF, 0xD9}, "between two markers"));
+  assert_string_equal(check_jpeg(whole, jpeg_width, jpeg_height + 1).damage, "the JPEG is of another size");
+  assert_string_equal(check_jpeg(whole, jpeg_width + 1, jpeg_height).damage, "the JPEG is of another size");
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -147,6 +208,8 @@ int main() {
       cmocka_unit_test(settings_keep_their_order),
       cmocka_unit_test(as_many_names_as_fit_are_told),
       cmocka_unit_test(pictures_that_do_not_fit_are_refused),
+      cmocka_unit_test(whole_jpegs_end_at_their_end),
+      cmocka_unit_test(damage_shows_at_the_markers),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -21,8 +21,8 @@ struct Picture {
   std::uint8_t data[columns * rows * 3];
 };
 
-constexpr EnumerationValue formats[] = {{"none", ""},  {"grey8", ""}, {"rgb24", ""},
-                                        {"bgr24", ""}, {"yuyv", ""},  {"nv12", ""}};
+constexpr EnumerationValue formats[] = {{"none", ""}, {"grey8", ""}, {"rgb24", ""}, {"bgr24", ""},
+                                        {"yuyv", ""}, {"nv12", ""},  {"mjpeg", ""}};
 constexpr TypeDescriptor format_type{"PixelFormat", "", 1, 1, 1, {}, {}, formats, false};
 constexpr FieldDescriptor picture_fields[] = {
     {"width", Scalar::u32, 0, {0, 0}, 1, offsetof(Picture, width), "1", "", nullptr},
@@ -40,7 +40,7 @@ constexpr FieldDescriptor picture_fields[] = {
 constexpr TypeDescriptor picture_type{
     "Picture", "", sizeof(Picture), alignof(Picture), 0x99, picture_fields, {}, {}, true};
 
-enum Format : std::uint8_t { none, grey8, rgb24, bgr24, yuyv, nv12 };
+enum Format : std::uint8_t { none, grey8, rgb24, bgr24, yuyv, nv12, mjpeg };
 
 /// Left half red (grey: dark), right half green (grey: bright).
 void draw(Picture& picture, Format format) {
@@ -121,6 +121,7 @@ struct GappedPicture {
   std::uint32_t width;
   std::uint32_t height;
   std::uint32_t stride;
+  std::uint32_t size;
   std::uint8_t format;
   std::uint8_t data[40 * 8];
 };
@@ -129,6 +130,7 @@ constexpr FieldDescriptor gapped_fields[] = {
     {"width", Scalar::u32, 0, {0, 0}, 1, offsetof(GappedPicture, width), "1", "", nullptr},
     {"height", Scalar::u32, 0, {0, 0}, 1, offsetof(GappedPicture, height), "1", "", nullptr},
     {"stride", Scalar::u32, 0, {0, 0}, 1, offsetof(GappedPicture, stride), "1", "", nullptr},
+    {"size", Scalar::u32, 0, {0, 0}, 1, offsetof(GappedPicture, size), "1", "", nullptr},
     {"format", Scalar::enumeration, 0, {0, 0}, 1, offsetof(GappedPicture, format), "", "", &format_type},
     {"data", Scalar::u8, 1, {40 * 8, 0}, 40 * 8, offsetof(GappedPicture, data), "1", "", nullptr}};
 constexpr TypeDescriptor gapped_type{
@@ -137,7 +139,7 @@ constexpr TypeDescriptor gapped_type{
 // Rows of 32 pixels, 40 bytes apart; between them lies what is no part of the picture.
 void rows_may_have_gaps() {
   const PictureLayout layout = PictureLayout::of(gapped_type);
-  GappedPicture picture{32, 8, 40, grey8, {}};
+  GappedPicture picture{32, 8, 40, 0, grey8, {}};
   for (std::size_t i = 0; i < sizeof(picture.data); ++i) picture.data[i] = i % 40 < 32 ? 100 : 255;
   PictureEncoder encoder;
   const Decoded decoded = decode(encoder.encode(layout, &picture, 640));
@@ -154,7 +156,7 @@ void rows_may_have_gaps() {
 void rows_of_colour_have_the_same_gaps() {
   const PictureLayout layout = PictureLayout::of(gapped_type);
   constexpr std::uint32_t stride = 37;
-  GappedPicture picture{31, 5, stride, nv12, {}};
+  GappedPicture picture{31, 5, stride, 0, nv12, {}};
   for (std::size_t i = 0; i < sizeof(picture.data); ++i) {
     const std::size_t row = i / stride;
     const std::size_t column = i % stride;
@@ -175,6 +177,26 @@ void rows_of_colour_have_the_same_gaps() {
   picture.height = 6;
   CHECK(encoder.encode(layout, &picture, 640).empty());
   CHECK_CONTAINS(encoder.cause(), "larger than its data");
+}
+
+// Neither decoded nor encoded: not even whether it can be is looked at.
+void what_is_a_jpeg_already_is_passed_on() {
+  const PictureLayout layout = PictureLayout::of(gapped_type);
+  GappedPicture picture{640, 480, 0, 7, mjpeg, {0xFF, 0xD8, 1, 2, 3, 0xFF, 0xD9, 9}};
+  PictureEncoder encoder;
+  const std::string_view jpeg = encoder.encode(layout, &picture, 16);
+  CHECK_EQUAL(jpeg.size(), 7U);
+  CHECK(jpeg.data() == reinterpret_cast<const char*>(picture.data));
+  const auto is_refused = [&] {
+    return encoder.encode(layout, &picture, 16).empty() && std::strstr(encoder.cause(), "JPEG") != nullptr;
+  };
+  for (const std::uint32_t size : {0U, 1U, 321U}) {
+    picture.size = size;
+    CHECK(is_refused());
+  }
+  picture.size = 7;
+  picture.data[1] = 0;
+  CHECK(is_refused());
 }
 
 void it_is_no_larger_than_it_is_shown() {
@@ -277,8 +299,9 @@ int main() {
   using namespace flexrf::panel;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(every_format_keeps_its_colours),    CONTAINED_TEST(rows_may_have_gaps),
-      CONTAINED_TEST(rows_of_colour_have_the_same_gaps), CONTAINED_TEST(it_is_no_larger_than_it_is_shown),
-      CONTAINED_TEST(what_is_no_picture_says_why),       CONTAINED_TEST(pictures_come_to_all_who_look),
+      CONTAINED_TEST(rows_of_colour_have_the_same_gaps), CONTAINED_TEST(what_is_a_jpeg_already_is_passed_on),
+      CONTAINED_TEST(it_is_no_larger_than_it_is_shown),  CONTAINED_TEST(what_is_no_picture_says_why),
+      CONTAINED_TEST(pictures_come_to_all_who_look),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

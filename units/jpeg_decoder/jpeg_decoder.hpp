@@ -1,0 +1,25 @@
+// JpegDecoder: pixels of a camera's compressed pictures, by libturbojpeg.
+//
+// libturbojpeg allocates with each picture and takes milliseconds: it belongs in a thread with priority 0,
+// which a slot of pictures triggers. What it cannot decode without a doubt it counts and leaves out.
+#pragma once
+
+#include "jpeg_decoder_unit.hpp"
+
+namespace flexrf {
+
+class JpegDecoder final : public JpegDecoderUnit {
+ public:
+  ~JpegDecoder() override;
+
+  Status initialise() override;
+  void step(const Tick& tick) override;
+
+ private:
+  void decode(const CameraFrame& from, Time sampled_at);
+  void leave_out(const char* why);
+
+  void* decompressor_ = nullptr;
+};
+
+}  // namespace flexrf
