@@ -21,7 +21,10 @@ void judge(Verdict (*run)(CameraWorld&)) {
     result = run(*world);
     if (result == Verdict::failed) {
       const CameraFeedback& told = world->feedback();
-      print_message("trouble: %.240s\n", told.trouble.data());
+      print_message("trouble: %.240s; %s; %d frames, %d lost, %d damaged, away %d times and %d times back\n",
+                    told.trouble.data(), told.present ? "there" : "away", static_cast<int>(told.frames),
+                    static_cast<int>(told.lost_frames), static_cast<int>(told.damaged_frames),
+                    static_cast<int>(told.losses), static_cast<int>(told.recoveries));
     }
     world->stop();
   }
