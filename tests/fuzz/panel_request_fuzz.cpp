@@ -117,7 +117,8 @@ void walk(JsonElement value, std::size_t depth) {
   expect(depth <= JsonReader::max_depth);
   if (value.is_double()) expect(std::isfinite(value.get_double().value()));
   if (value.is_array()) {
-    for (const JsonElement element : value.get_array().value()) walk(element, depth + 1);
+    const JsonArray array = value.get_array();
+    for (const JsonElement element : array) walk(element, depth + 1);
   }
   if (value.is_object()) walk(value.get_object().value(), depth);
 }
@@ -147,7 +148,7 @@ std::vector<Bytes> seeds() {
                "flexrf_session_8080=secret\r\nAccept-Encoding: br, gzip;q=0.5\r\nIf-None-Match: "
                "W/\"tag\"\r\n\r\n"),
       bytes_of("\x40PUT /api/v1/components/jog/parameters HTTP/1.1\r\nHost: 192.168.0.7\r\nOrigin: "
-               "http://192.168.0.7\r\nContent-Type: application/json\r\nContent-Length: 34\r\n\r\n"
+               "http://192.168.0.7\r\nContent-Type: application/json\r\nContent-Length: 36\r\n\r\n"
                "{\"speed\":[1,2.5e3,{\"a\":null}],\"b\":1}"),
       bytes_of("\x10POST /api/v1/login HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"
                "10\r\n{\"user\":\"\\u00e4\",\r\n11\r\n\"password\":\"12\\n\"}\r\n0\r\nHost: other\r\n\r\n"),
