@@ -43,9 +43,10 @@ void AxisOnBus::receive(const Tick& tick) noexcept {
     began_ = axis_.begin(plan_, tick.now, outbox_).is_ok();
     last_sent_ = tick.now;
   }
-  while (const auto frame = inbox_.pop()) {
+  while (const CanFrame* frame = inbox_.take()) {
     if (frame->extended || frame->remote) continue;
-    axis_.receive(to_message(*frame), tick.now, outbox_);
+    const Message message = to_message(*frame);
+    axis_.receive(message, tick.now, outbox_);
   }
 }
 

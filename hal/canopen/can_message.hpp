@@ -17,7 +17,12 @@ constexpr CanFrame to_frame(const Message& message) noexcept {
 
 /// Of a frame with a standard identifier.
 constexpr Message to_message(const CanFrame& frame) noexcept {
-  return {static_cast<std::uint16_t>(frame.identifier), frame.length, frame.data, frame.remote};
+  Message message;
+  message.data = frame.data;
+  message.identifier = static_cast<std::uint16_t>(frame.identifier);
+  message.size = frame.length;
+  message.remote = frame.remote;
+  return message;
 }
 
 }  // namespace flexrf::canopen

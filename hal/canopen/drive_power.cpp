@@ -19,6 +19,7 @@ void DrivePower::begin(const Limits& limits) noexcept {
 void DrivePower::pursue(Goal goal) noexcept {
   if (goal == goal_) return;
   goal_ = goal;
+  holds_ = false;
   new_attempt_ = true;
   was_enabled_ = false;
   fault_resets_ = 0;
@@ -26,7 +27,7 @@ void DrivePower::pursue(Goal goal) noexcept {
   problem_ = {};
 }
 
-std::uint16_t DrivePower::advance(std::uint16_t statusword, bool at_rest, Time now) noexcept {
+std::uint16_t DrivePower::lead(std::uint16_t statusword, bool at_rest, Time now) noexcept {
   observe(statusword, now);
   judge(now);
   if (!problem_.is_ok()) {
@@ -47,6 +48,7 @@ std::uint16_t DrivePower::advance(std::uint16_t statusword, bool at_rest, Time n
 void DrivePower::observe(std::uint16_t statusword, Time now) noexcept {
   const DriveState before = state_;
   statusword_ = statusword;
+  holds_ = false;
   state_ = state_of(statusword);
   if (ends_the_way_off(state_)) leaving_ = false;
   if (!observed_ || new_attempt_ || state_ != before) since_ = now;
@@ -100,8 +102,10 @@ std::uint16_t DrivePower::towards_enabled() noexcept {
       return command::shutdown;
     case DriveState::ready_to_switch_on:
       return command::switch_on;
-    case DriveState::switched_on:
     case DriveState::operation_enabled:
+      holds_ = true;
+      return command::enable_operation;
+    case DriveState::switched_on:
       return command::enable_operation;
     default:
       // Out of a quick stop the way is through off; the others are left by the drive alone.

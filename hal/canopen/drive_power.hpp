@@ -34,7 +34,11 @@ class DrivePower {
 
   /// Once for each cycle: the controlword to send, without the bits of the mode. `at_rest`: the drive's
   /// velocity is zero; ends a quick stop that the drive does not end itself.
-  std::uint16_t advance(std::uint16_t statusword, bool at_rest, Time now) noexcept;
+  std::uint16_t advance(std::uint16_t statusword, bool at_rest, Time now) noexcept {
+    if (!holds_ || statusword != statusword_) return lead(statusword, at_rest, now);
+    just_enabled_ = false;
+    return command::enable_operation;
+  }
 
   DriveState state() const noexcept { return state_; }
   Goal goal() const noexcept { return goal_; }
@@ -53,6 +57,7 @@ class DrivePower {
   enum class Reset : std::uint8_t { lower, raise, wait };
 
   Goal heading() const noexcept { return leaving_ ? Goal::off : goal_; }
+  std::uint16_t lead(std::uint16_t statusword, bool at_rest, Time now) noexcept;
   void observe(std::uint16_t statusword, Time now) noexcept;
   std::uint16_t towards_enabled() noexcept;
   std::uint16_t towards_off(bool at_rest) const noexcept;
@@ -68,6 +73,7 @@ class DrivePower {
   bool new_attempt_ = true;   // the next statusword begins a hop, whatever it says
   bool was_enabled_ = false;  // in this attempt
   bool just_enabled_ = false;
+  bool holds_ = false;    // enabled as it shall be: while it says the same, there is nothing to judge
   bool leaving_ = false;  // it was told to go off, and has not said that it is
   Time since_{};          // the hop under way began
   Reset reset_ = Reset::lower;

@@ -15,9 +15,11 @@ class CanInbox {
  public:
   /// The oldest frame not yet taken, in the order in which they were on the bus.
   std::optional<CanFrame> pop() noexcept {
-    if (taken_ == put_) return std::nullopt;
-    return frames_[taken_++ & (capacity_ - 1)];
+    const CanFrame* frame = take();
+    return frame == nullptr ? std::nullopt : std::optional{*frame};
   }
+  /// The same without a copy, to be used before the bus receives again; null: there is none.
+  const CanFrame* take() noexcept { return taken_ == put_ ? nullptr : &frames_[taken_++ & (capacity_ - 1)]; }
   bool is_empty() const noexcept { return taken_ == put_; }
   /// How many were overwritten by newer ones before they were taken, since open().
   std::uint32_t missed() const noexcept { return missed_; }

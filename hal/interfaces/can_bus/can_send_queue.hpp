@@ -14,30 +14,19 @@ class CanSendQueue {
  public:
   static constexpr std::size_t capacity = 128;
 
-  /// False: full. Frames are nearly always put in their order, so that this is short.
+  /// False: full. Frames are nearly always put in their order.
   bool put(const CanFrame& frame, bool replaces) noexcept {
     const std::uint32_t key = arbitration_key(frame);
-    std::size_t place = end_;
-    for (; place > first_ && waiting_[place - 1].key >= key; --place) {
-      Waiting& other = waiting_[place - 1];
-      if (other.key != key) continue;
-      if (!replaces) break;
-      if (!other.may_be_replaced) continue;
-      other.frame = frame;
+    if (end_ < capacity && (is_empty() || waiting_[end_ - 1].key < key)) {
+      write(end_++, frame, key, replaces);
       return true;
     }
-    // What only looked for a frame to replace went past those of its own key.
-    while (place < end_ && waiting_[place].key <= key) ++place;
-    if (size() == capacity) return false;
-    if (end_ == capacity) place -= make_room();
-    for (std::size_t i = end_; i > place; --i) waiting_[i] = waiting_[i - 1];
-    // Member by member: a copy of the whole would wait for what was just written in pieces.
-    Waiting& waiting = waiting_[place];
-    waiting.frame = frame;
-    waiting.key = key;
-    waiting.may_be_replaced = replaces;
-    ++end_;
-    return true;
+    // What several say is mostly what comes first of all: SYNC.
+    if (replaces && !is_empty() && waiting_[first_].key == key && waiting_[first_].may_be_replaced) {
+      waiting_[first_].frame = frame;
+      return true;
+    }
+    return put_between(frame, key, replaces);
   }
 
   bool is_empty() const noexcept { return first_ == end_; }
@@ -68,6 +57,33 @@ class CanSendQueue {
     std::uint32_t key = 0;
     bool may_be_replaced = false;
   };
+
+  bool put_between(const CanFrame& frame, std::uint32_t key, bool replaces) noexcept {
+    std::size_t place = end_;
+    for (; place > first_ && waiting_[place - 1].key >= key; --place) {
+      Waiting& other = waiting_[place - 1];
+      if (other.key != key) continue;
+      if (!replaces) break;
+      if (!other.may_be_replaced) continue;
+      other.frame = frame;
+      return true;
+    }
+    // What only looked for a frame to replace went past those of its own key.
+    while (place < end_ && waiting_[place].key <= key) ++place;
+    if (size() == capacity) return false;
+    if (end_ == capacity) place -= make_room();
+    for (std::size_t i = end_; i > place; --i) waiting_[i] = waiting_[i - 1];
+    write(place, frame, key, replaces);
+    ++end_;
+    return true;
+  }
+  // Member by member: a copy of the whole would wait for what was just written in pieces.
+  void write(std::size_t place, const CanFrame& frame, std::uint32_t key, bool replaces) noexcept {
+    Waiting& waiting = waiting_[place];
+    waiting.frame = frame;
+    waiting.key = key;
+    waiting.may_be_replaced = replaces;
+  }
 
   /// Those that wait move to the beginning; by how much.
   std::size_t make_room() noexcept {

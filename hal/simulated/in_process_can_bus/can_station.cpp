@@ -10,14 +10,6 @@ constexpr unsigned most_receive_errors = 135;  // a passive receiver counts no f
 
 }  // namespace
 
-bool CanStation::send(const CanFrame& frame) noexcept {
-  if (off_ || !frame.is_valid() || !waiting_.put(frame, false)) return false;
-  // Alone on its piece of cable it repeats itself, is never acknowledged, and becomes passive within
-  // milliseconds; that spares the wire the repetitions.
-  if (!connected_) transmit_errors_ = std::max(transmit_errors_, passive_above + 1);
-  return true;
-}
-
 void CanStation::reset() noexcept {
   waiting_.clear();
   transmit_errors_ = receive_errors_ = corrupted_ = 0;

@@ -14,7 +14,14 @@ namespace flexrf {
 /// thread.
 class CanStation final : public CanPort {
  public:
-  bool send(const CanFrame& frame) noexcept override;
+  bool send(const CanFrame& frame) noexcept override {
+    if (off_ || !frame.is_valid() || !waiting_.put(frame, false)) return false;
+    *senders_ |= bit_;
+    // Alone on its piece of cable it repeats itself, is never acknowledged, and becomes passive within
+    // milliseconds; that spares the wire the repetitions.
+    if (!connected_) transmit_errors_ = std::max(transmit_errors_, passive_above + 1);
+    return true;
+  }
 
   /// bus_off, error_passive or error_active.
   CanBusState state() const noexcept {
@@ -46,6 +53,11 @@ class CanStation final : public CanPort {
   static constexpr unsigned passive_above = 127;
 
   void reset() noexcept;
+  /// As the wire knows it; `senders` has this bit while frames may wait here.
+  void set_place(std::uint32_t bit, std::uint32_t& senders) noexcept {
+    bit_ = bit;
+    senders_ = &senders;
+  }
   bool takes_part() const noexcept { return connected_ && !off_; }
   void count_transmit_error(bool unacknowledged) noexcept;
   void count_receive_error() noexcept;
@@ -59,6 +71,8 @@ class CanStation final : public CanPort {
   }
 
   CanNode* node_ = nullptr;
+  std::uint32_t* senders_ = nullptr;
+  std::uint32_t bit_ = 0;
   Time node_event_{};  // as the node said last
   unsigned transmit_errors_ = 0;
   unsigned receive_errors_ = 0;

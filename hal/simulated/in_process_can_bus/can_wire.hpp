@@ -1,7 +1,9 @@
 // CanWire: the wire between simulated CAN controllers.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -47,34 +49,50 @@ class CanWire {
   Duration bit_time() const noexcept { return bit_time_; }
 
  private:
-  struct Event {
-    enum class Kind : std::uint8_t { none, frame_ends, frame_begins, node_acts, restart };
+  /// What does not follow from a frame.
+  struct Act {
+    enum class Kind : std::uint8_t { node, restart };
     Time at = Time::max();
-    Kind kind = Kind::none;
+    Kind kind = Kind::node;
     CanStation* station = nullptr;
   };
 
-  Event next() const noexcept;
-  Time may_begin(const CanStation& station) const noexcept;
-  void happen(const Event& event) noexcept;
+  Act next_act() const noexcept;
+  void happen(const Act& act) noexcept;
+  Time pass_frames(Time until) noexcept;
+  CanStation* next_sender() noexcept;
+  bool goes_before(const CanStation& one, const CanStation& other) const noexcept;
+  Time may_begin(const CanStation& station) const noexcept {
+    return std::max({free_at_, now_, station.silent_until_});
+  }
   void begin_frame(CanStation& sender) noexcept;
   void end_frame() noexcept;
   void end_badly(CanStation& sender, bool unacknowledged) noexcept;
   void deliver(const CanStation& sender) noexcept;
-  void let_act(CanStation& station) noexcept;
   bool is_hit(CanStation& sender) noexcept;
-  bool is_heard(const CanStation& sender) const noexcept;
-  void index_listeners();
+  bool acknowledge(const CanStation& sender) noexcept;
+  void index_places();
 
   struct Place {
     std::unique_ptr<CanStation> station;
     std::vector<CanIdentifier> wanted;
   };
+  /// Of the lowest bit in such a set; not of an empty one.
+  const Place& place_of(std::uint32_t bits) const noexcept {
+    return places_[static_cast<std::size_t>(std::countr_zero(bits))];
+  }
+  CanStation& station_of(std::uint32_t bits) const noexcept {
+    return *stations_[static_cast<std::size_t>(std::countr_zero(bits))];
+  }
+  std::span<CanStation* const> stations() const noexcept {
+    return std::span(stations_).first(places_.size());
+  }
 
   Turn turn_;
-  std::vector<Place> places_;                     // in the order of attachment
-  std::array<std::uint32_t, 0x800> listeners_{};  // bit n: places_[n] wants this 11-bit identifier
-  std::uint32_t extended_listeners_ = 0;          // wants some 29-bit identifiers
+  std::vector<Place> places_;                       // in the order of attachment
+  std::array<CanStation*, most_nodes> stations_{};  // theirs
+  std::array<std::uint32_t, 0x800> listeners_{};    // bit n: places_[n] wants this 11-bit identifier
+  std::uint32_t extended_listeners_ = 0;            // wants some 29-bit identifiers
   Duration bit_time_{1000};
   Duration restart_after_{};
   double corrupted_share_ = 0;
@@ -82,6 +100,8 @@ class CanWire {
 
   Time next_event_{};
   Time now_{};
+  Time nodes_act_at_{};        // no node acts or restarts before; perhaps not then either
+  std::uint32_t senders_ = 0;  // bit n: frames may wait at places_[n]; elsewhere none do
   Time free_at_{};
   CanStation* sender_ = nullptr;  // while a frame is on the wire
   CanFrame frame_;
