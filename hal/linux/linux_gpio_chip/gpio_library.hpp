@@ -1,5 +1,5 @@
 // LibraryLine: a requested line, as the installed libgpiod gives it. The seam between its versions, whose
-// interfaces differ: gpio_library_v1.cpp is compiled where pkg-config says 1.x.
+// interfaces differ: gpio_library_v1.cpp is compiled where pkg-config says 1.x, else gpio_library_v2.cpp.
 #pragma once
 
 #include <memory>

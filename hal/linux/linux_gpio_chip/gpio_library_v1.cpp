@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "hal/linux/linux_gpio_chip/gpio_library.hpp"
+#include "hal/linux/linux_gpio_chip/gpio_messages.hpp"
 
 namespace flexrf {
 namespace {
@@ -21,40 +22,6 @@ Chip open_chip(const char* name) {
   if (name[0] == '/') return Chip{gpiod_chip_open(name)};
   if (std::strncmp(name, prefix, std::strlen(prefix)) == 0) return Chip{gpiod_chip_open_by_name(name)};
   return Chip{gpiod_chip_open_by_label(name)};
-}
-
-Status cannot_open(const char* chip, int error) {
-  if (error == EACCES || error == EPERM) {
-    return Status::error(StatusCode::not_permitted,
-                         "no permission to open GPIO chip %s: give this user the right with a udev rule "
-                         "(docs/devices/gpio.md)",
-                         chip);
-  }
-  if (error == ENOENT || error == ENODEV || error == ENXIO) {
-    return Status::error(
-        StatusCode::unavailable,
-        "there is no GPIO chip %s; is it plugged in and its kernel module loaded? gpiodetect "
-        "lists those that are there",
-        chip);
-  }
-  return Status::error(StatusCode::unavailable, "GPIO chip %s cannot be opened: %s", chip,
-                       std::strerror(error));
-}
-
-Status cannot_request(const char* chip, const char* line, gpiod_line* found, int error) {
-  if (error == EBUSY) {
-    const char* user = gpiod_line_consumer(found);
-    return Status::error(StatusCode::busy,
-                         "line %s of GPIO chip %s is in use by %s; end that program, or name another line",
-                         line, chip, user == nullptr ? "the kernel or another program" : user);
-  }
-  if (error == EACCES || error == EPERM) {
-    return Status::error(StatusCode::not_permitted,
-                         "line %s of GPIO chip %s may not be had in this direction: %s", line, chip,
-                         std::strerror(error));
-  }
-  return Status::error(StatusCode::unavailable, "line %s of GPIO chip %s cannot be had: %s", line, chip,
-                       std::strerror(error));
 }
 
 int flags_of(const GpioLineSettings& settings) {
@@ -107,33 +74,28 @@ class LineV1 final : public LibraryLine {
 
 Status LibraryLine::probe(const char* chip) {
   errno = ENOENT;
-  return open_chip(chip) != nullptr ? Status{} : cannot_open(chip, errno);
+  return open_chip(chip) != nullptr ? Status{} : cannot_open_chip(chip, errno);
 }
 
 Result<std::unique_ptr<LibraryLine>> LibraryLine::request(const char* name,
                                                           const GpioLineSettings& settings) {
   errno = ENOENT;
   Chip chip = open_chip(name);
-  if (chip == nullptr) return cannot_open(name, errno);
+  if (chip == nullptr) return cannot_open_chip(name, errno);
   gpiod_line* const line = gpiod_chip_find_line(chip.get(), settings.name);
-  if (line == nullptr) {
-    return Status::error(StatusCode::not_found,
-                         "GPIO chip %s has no line named %s; gpioinfo lists the names, which come from the "
-                         "device tree or ACPI",
-                         name, settings.name);
-  }
+  if (line == nullptr) return has_no_line(name, settings.name);
   const bool output = settings.direction == LineDirection::output;
   const gpiod_line_request_config config{
       consumer, output ? GPIOD_LINE_REQUEST_DIRECTION_OUTPUT : GPIOD_LINE_REQUEST_EVENT_BOTH_EDGES,
       flags_of(settings)};
   if (gpiod_line_request(line, &config, settings.initially_on ? 1 : 0) < 0)
-    return cannot_request(name, settings.name, line, errno);
+    return cannot_request_line(name, settings.name, gpiod_line_consumer(line), errno);
   int descriptor = -1;
   if (!output) {
     descriptor = gpiod_line_event_get_fd(line);
     // No edge must not hold up the cycle.
     if (fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK) < 0)
-      return cannot_request(name, settings.name, line, errno);
+      return cannot_request_line(name, settings.name, gpiod_line_consumer(line), errno);
   }
   return std::unique_ptr<LibraryLine>(std::make_unique<LineV1>(std::move(chip), line, descriptor));
 }

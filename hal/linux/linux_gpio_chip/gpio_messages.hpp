@@ -1,0 +1,14 @@
+// What the driver says when the kernel or libgpiod refuses, whichever version that is.
+#pragma once
+
+#include "runtime/core/status.hpp"
+
+namespace flexrf {
+
+/// `error`: an errno. Lifecycle thread.
+Status cannot_open_chip(const char* chip, int error);
+Status has_no_line(const char* chip, const char* line);
+/// `user`: who has the line; null: not known.
+Status cannot_request_line(const char* chip, const char* line, const char* user, int error);
+
+}  // namespace flexrf
