@@ -94,8 +94,11 @@ void V4l2Camera::tell(const Status& trouble) {
 
 void V4l2Camera::ring() noexcept {
   constexpr std::uint64_t one = 1;
+  // Before, for whom the writing wakes at once, who else would be woken again and again while this thread
+  // waits for its CPU; and after, for whom looked between the two.
+  rung_.store(true, std::memory_order_release);
   static_cast<void>(!write(news_, &one, sizeof(one)));  // one that counts already is as good
-  rung_.store(true, std::memory_order_relaxed);
+  rung_.store(true, std::memory_order_release);
 }
 
 }  // namespace flexrf
