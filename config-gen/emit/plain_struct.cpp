@@ -108,8 +108,12 @@ void define_accessors(const Field& field, Text& out) {
     out << "  auto " << name << "_map() const noexcept { return Eigen::Map<const " << matrix << ">(" << name
         << ".data()); }\n";
   } else if (is_text(field) && field.shape.empty()) {
-    out << "  std::string_view " << name << "_view() const noexcept { return text_view(" << name << "); }\n";
-    out << "  void set_" << name << "(std::string_view text) noexcept { set_text(" << name << ", text); }\n";
+    // Whatever fields are called: a member 'text_view' or 'set_text' hides the function, and no field's name
+    // ends as the parameter's.
+    out << "  std::string_view " << name << "_view() const noexcept { return flexrf::text_view(" << name
+        << "); }\n";
+    out << "  void set_" << name << "(std::string_view text_) noexcept { flexrf::set_text(" << name
+        << ", text_); }\n";
   }
 }
 

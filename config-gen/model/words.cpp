@@ -23,7 +23,7 @@ constexpr std::string_view keywords[] = {
     "static_cast", "struct",   "switch",     "template",  "this",      "thread_local", "throw",
     "true",        "try",      "typedef",    "typeid",    "typename",  "union",        "unsigned",
     "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
-    "xor_eq"};
+    "xor_eq",      "errno"};  // a macro of what generated headers include
 
 bool lower(char c) {
   return c >= 'a' && c <= 'z';

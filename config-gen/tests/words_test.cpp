@@ -13,6 +13,7 @@ void names(void**) {
   for (const char* bad : {"", "keyEvent", "Key_Event", "2Key"}) assert_false(is_camel_case(bad));
   assert_true(is_keyword("operator"));
   assert_true(is_keyword("co_await"));
+  assert_true(is_keyword("errno"));
   assert_false(is_keyword("step"));
 }
 

@@ -9,7 +9,9 @@
 #include "runtime/executive/application.hpp"
 #include "tests/cmocka.hpp"
 #include "types/everything.hpp"
+#include "types/named_as_helpers.hpp"
 #include "types/picture.hpp"
+#include "types/text_named_text.hpp"
 #include "types/thumbnail.hpp"
 #include "units/source/source.hpp"
 
@@ -140,6 +142,20 @@ void types_are_described(void**) {
   assert_string_equal(descriptor_of<Colour>->values[2].summary, "Green, \"as grass\".");
   assert_true(descriptor_of<Picture>->is_image);
   assert_int_equal(field(*descriptor_of<Picture>, "data").shape[0], 80000);
+}
+
+// That they compile is half of it.
+void fields_may_be_called_as_what_generated_code_calls(void**) {
+  TextNamedText texts;
+  texts.set_text("one");
+  texts.set_name("two");
+  assert_true(texts.text_view() == "one" && texts.name_view() == "two");
+  NamedAsHelpers helpers;
+  helpers.set_value("three");
+  helpers.text_view = 1;
+  assert_true(helpers.value_view() == "three");
+  assert_int_equal(field(*descriptor_of<NamedAsHelpers>, "value").offset, offsetof(NamedAsHelpers, value));
+  assert_int_equal(field(*descriptor_of<TextNamedText>, "text").count, 8);
 }
 
 void padding_is_not_significant(void**) {
@@ -295,6 +311,7 @@ int main() {
                               cmocka_unit_test(values_of_the_tables_are_constants),
                               cmocka_unit_test(parameters_are_described),
                               cmocka_unit_test(types_are_described),
+                              cmocka_unit_test(fields_may_be_called_as_what_generated_code_calls),
                               cmocka_unit_test(padding_is_not_significant),
                               cmocka_unit_test(former_names_are_told),
                               cmocka_unit_test(the_descriptor_is_embedded),

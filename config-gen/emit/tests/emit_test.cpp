@@ -37,8 +37,8 @@ struct Case {
   const char* file;
   std::size_t files;
 };
-constexpr Case cases[] = {{Target::Kind::types, "cell/types", 12},
-                          {Target::Kind::types, "cell/types/", 12},
+constexpr Case cases[] = {{Target::Kind::types, "cell/types", 16},
+                          {Target::Kind::types, "cell/types/", 16},
                           {Target::Kind::unit, "cell/units/source/source.toml", 4},
                           {Target::Kind::unit, "cell/units/lift/lift.toml", 4},
                           {Target::Kind::interface, "interfaces/station/station.toml", 3},
