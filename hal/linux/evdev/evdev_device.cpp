@@ -49,16 +49,16 @@ Status no_such_device(const std::string& wanted, const std::vector<EvdevNode>& n
   std::string names;
   for (const EvdevNode& node : nodes) {
     if (names.find('\'' + node.name + '\'') != std::string::npos) continue;
-    names += (names.empty() ? "; there are '" : ", '") + node.name + '\'';
+    names += (names.empty() ? " There are: '" : ", '") + node.name + '\'';
   }
   if (wanted.empty()) {
     return Status::error(StatusCode::invalid_argument,
                          "configuration.device says no input device: a name, vendor:product, phys, or a path "
-                         "of /dev/input/by-id%s",
+                         "of /dev/input/by-id.%s",
                          names.c_str());
   }
-  return Status::error(StatusCode::not_found, "there is no input device '%s'; is it plugged in%s",
-                       wanted.c_str(), names.empty() ? "?" : names.insert(0, "?").c_str());
+  return Status::error(StatusCode::not_found, "there is no input device '%s'; is it plugged in?%s",
+                       wanted.c_str(), names.c_str());
 }
 
 }  // namespace
