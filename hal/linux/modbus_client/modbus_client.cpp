@@ -31,7 +31,6 @@ const char* advice_to_open(int error) {
     case ETIMEDOUT:
     case EHOSTUNREACH:
     case ENETUNREACH:
-    case EINPROGRESS:
       return "is it switched on, and the cable plugged in?";
     default:
       return "it is tried again";
@@ -90,7 +89,8 @@ Status ModbusClient::use_rtu(const SerialLine& line, Duration response_timeout) 
 Status ModbusClient::open() noexcept {
   close();
   if (modbus_connect(context_) != 0) {
-    const int error = errno;
+    // libmodbus, too late, leaves what the connection was at.
+    const int error = errno == EINPROGRESS ? ETIMEDOUT : errno;
     return Status::error(
         error == EACCES || error == EPERM ? StatusCode::not_permitted : StatusCode::unavailable,
         "%s cannot be opened: %s; %s", where_.data(), modbus_strerror(error), advice_to_open(error));
