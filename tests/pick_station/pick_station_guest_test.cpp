@@ -1,10 +1,14 @@
 // The pick station on its real drivers in a real kernel: CAN controllers, a serial line, TCP, GPIO and a
 // camera, with drives, gripper and feeder as other programs at the far ends. 5 picks with the emergency stop
-// pressed between them, and the CAN cable pulled out in motion; in the long tests 100 picks, too.
+// pressed between them, and what happens when a cable is pulled out; in the long tests 100 picks, and a drive
+// that fails.
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <initializer_list>
 
+#include "runtime/core/time.hpp"
 #include "tests/pick_station/real_station.hpp"
 
 namespace flexrf::whole {
@@ -117,6 +121,131 @@ void a_can_cable_that_is_pulled_out_in_motion_stops_the_axes() {
   CHECK_EQUAL(station.stop(), with_a_fault);
 }
 
+/// How long it took is told, and not judged.
+void wait_for_return(RealStation& station, const char* device, const std::function<bool()>& is_back) {
+  const Time begin = MonotonicClock::now();
+  station.wait_for(device, is_back);
+  std::fprintf(stderr, "%s is back after %lld ms\n", device,
+               static_cast<long long>((MonotonicClock::now() - begin).count() / 1'000'000));
+}
+
+/// It does not go on by itself, and goes on with the part that it holds.
+void reset_and_go_on(RealStation& station) {
+  const std::uint64_t before = station.count("parts");
+  station.press("reset");
+  station.wait_for_state("ready");
+  CHECK(station.told("pick").at("holds_part").get<bool>());
+  station.press("start");
+  station.wait_for_parts(before + 1);
+}
+
+void see_no_part_and_wait(RealStation& station) {
+  station.wait_for_message("the camera does not see it");
+  CHECK_EQUAL(station.state(), "waiting_for_part");
+  CHECK_CONTAINS(station.text("remedy"), "threshold");
+}
+
+void unplug_camera_and_go_on(RealStation& station) {
+  CHECK(station.camera().unplug());
+  station.wait_for_message("The camera gives no pictures.");
+  CHECK_EQUAL(station.state(), "waiting_for_part");
+  CHECK_CONTAINS(station.text("remedy"), "See to the camera, or do without it");
+  CHECK_CONTAINS(station.told("camera").at("trouble").get<std::string>(), "plugged in");
+  CHECK(are_enabled(station));
+  check_rests(station);
+  const std::uint64_t before = station.count("parts");
+  station.camera().plug_in();
+  wait_for_return(station, "camera", [&] { return station.told("camera").at("present").get<bool>(); });
+  station.light_feeder(true);
+  station.wait_for_parts(before + 1);
+  CHECK_EQUAL(station.told("camera").at("recoveries").get<std::uint64_t>(), 1U);
+}
+
+void cut_network_and_go_on(RealStation& station) {
+  station.wait_until_it_carries();
+  const std::uint64_t before = station.count("parts");
+  station.set_network_cable(false);
+  station.wait_for_message("The IO station does not answer: ");
+  // What does not need it was done.
+  CHECK_EQUAL(station.count("parts"), before + 1);
+  CHECK_EQUAL(station.state(), "waiting_for_part");
+  CHECK_CONTAINS(station.text("remedy"), "supply and its cable; it goes on by itself");
+  CHECK(are_enabled(station));
+  check_rests(station);
+  CHECK_CONTAINS(station.told("station_link").at("last_error").get<std::string>(), "timed out");
+  station.set_network_cable(true);
+  wait_for_return(station, "io_station", [&] { return station.told("io_station").at("online").get<bool>(); });
+  station.wait_for_parts(before + 2);
+}
+
+void a_camera_and_an_io_station_that_are_cut_off_are_waited_for() {
+  RealStation station;
+  station.set("ask_camera", true);
+  station.set("patience", 1.0);
+  station.light_feeder(false);
+  start(station);
+  see_no_part_and_wait(station);
+  unplug_camera_and_go_on(station);
+  cut_network_and_go_on(station);
+  check_nothing_went_wrong(station);
+}
+
+/// A UART does not see that its cable is out: nothing comes any more.
+void a_gripper_that_does_not_answer_any_more_is_a_fault() {
+  RealStation station;
+  start(station);
+  station.wait_until_it_carries();
+  station.tell_gripper("silent");
+  station.wait_for_message("The gripper cannot go on: ");
+  CHECK_EQUAL(station.state(), "fault");
+  CHECK_CONTAINS(station.text("remedy"), "See to the gripper and press Reset");
+  station.wait_for("the red lamp", [&] { return station.box().is_lit("LAMP_RED"); });
+  CHECK(are_enabled(station));
+  check_rests(station);
+  station.tell_gripper("well");
+  wait_for_return(station, "gripper", [&] { return station.told("gripper").at("trouble") == ""; });
+  CHECK_EQUAL(station.state(), "fault");  // a person looks first
+  reset_and_go_on(station);
+  CHECK_EQUAL(station.count("faults"), 1U);
+  CHECK_EQUAL(station.stop(), 0);
+}
+
+void a_drive_that_faults_in_motion_is_initialised_and_homed() {
+  RealStation station;
+  start(station);
+  station.wait_until_it_carries();
+  station.tell_drives("1 trip 0x2310");
+  station.wait_for_message("The axes cannot go on: axis_x: ");
+  CHECK_EQUAL(station.state(), "fault");
+  CHECK_CONTAINS(station.text("remedy"), "initialise it on its page");
+  check_rests(station);
+  CHECK(!station.told("axis_x").at("enabled").get<bool>());
+  initialise_and_pick_on(station, {"axis_x"});
+  CHECK_EQUAL(station.stop(), with_a_fault);
+}
+
+void a_box_that_is_unplugged_is_an_emergency_stop() {
+  RealStation station;
+  start(station);
+  station.wait_until_it_carries();
+  station.box().plug(false);
+  station.wait_for_message("The emergency stop is pressed, or its line is cut.");
+  CHECK_EQUAL(station.state(), "off");
+  station.wait_for("drives without current", [&] { return !are_enabled(station); });
+  station.control().clear_stop_motion();
+  CHECK(!station.control().start_motion());
+  station.box().plug(true);
+  wait_for_return(station, "box", [&] { return station.told("box").at("present").get<bool>(); });
+  // As lines are taken, gpio-sim pulls them as they are configured: a release before is undone.
+  station.box().press_emergency_stop(false);
+  check_rests(station);
+  CHECK_EQUAL(station.state(), "off");
+  station.give_start();
+  station.wait_for_state("interrupted");
+  reset_and_go_on(station);
+  check_nothing_went_wrong(station);
+}
+
 }  // namespace
 }  // namespace flexrf::whole
 
@@ -125,8 +254,14 @@ int main() {
   const CMUnitTest tests[] = {
       TEST_APART(five_picks_with_an_emergency_stop_between_them),
       TEST_APART(a_can_cable_that_is_pulled_out_in_motion_stops_the_axes),
+      TEST_APART(a_camera_and_an_io_station_that_are_cut_off_are_waited_for),
+      TEST_APART(a_gripper_that_does_not_answer_any_more_is_a_fault),
+      TEST_APART(a_box_that_is_unplugged_is_an_emergency_stop),
   };
-  const CMUnitTest long_tests[] = {TEST_APART(a_hundred_picks)};
+  const CMUnitTest long_tests[] = {
+      TEST_APART(a_drive_that_faults_in_motion_is_initialised_and_homed),
+      TEST_APART(a_hundred_picks),
+  };
   int failed = cmocka_run_group_tests_name("pick station on real drivers", tests, nullptr, nullptr);
   const char* const wants_long = std::getenv("FLEXRF_LONG");
   if (wants_long != nullptr && *wants_long != '\0')

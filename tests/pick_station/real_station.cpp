@@ -17,6 +17,10 @@ namespace {
 constexpr auto patience = std::chrono::seconds(60);  // the end of it, for one step
 constexpr auto look = std::chrono::milliseconds(20);
 
+// Of vivid's control: all of its picture is white, or black.
+constexpr std::int32_t brightest = 255;
+constexpr std::int32_t darkest = 0;
+
 Options real_hardware() {
   Options options;
   options.hardware.push_back({"", "real"});
@@ -44,11 +48,28 @@ RealStation::RealStation()
       feeder_(folder_, {FEEDER_SIMULATOR, "1502"}),
       running_(application::application, real_hardware(), RightsOfATest::real_time) {
   box_.press_emergency_stop(false);
-  gripper_.type("object 0.03\n");  // a part is there whenever the feeder says so
+  tell_gripper("object 0.03");  // a part is there whenever the feeder says so
+  light_feeder(true);
+}
+
+RealStation::~RealStation() {
+  set_interface("can1", true);
+  set_interface("lo", true);
+  camera_.restore();
+}
+
+// ---- what is around it
+
+void RealStation::light_feeder(bool bright) {
+  CHECK(camera_.set("Brightness", bright ? brightest : darkest));
 }
 
 void RealStation::set_can_cable(bool in) {
   CHECK(set_interface("can1", in));
+}
+
+void RealStation::set_network_cable(bool in) {
+  CHECK(set_interface("lo", in));
 }
 
 // ---- a person

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "hal/linux/v4l2_camera/tests/vivid.hpp"
 #include "tests/applications/process.hpp"
 #include "tests/applications/running.hpp"
 #include "tests/pick_station/station_box.hpp"
@@ -17,6 +18,10 @@ namespace flexrf::whole {
 class RealStation {
  public:
   RealStation();
+  /// Whatever is out is in again.
+  ~RealStation();
+  RealStation(const RealStation&) = delete;
+  RealStation& operator=(const RealStation&) = delete;
 
   // ---- what a person does and reads
 
@@ -50,8 +55,16 @@ class RealStation {
   // ---- what is around it
 
   StationBox& box() { return box_; }
+  Vivid& camera() { return camera_; }
+  /// What the camera looks at is as bright, or as dark, as can be.
+  void light_feeder(bool bright);
   /// The drives' end of the CAN bus.
   void set_can_cable(bool in);
+  /// The network between this and the IO station.
+  void set_network_cable(bool in);
+  /// A line to the drives' program, as "1 trip 0x2310"; to the gripper's, as "silent".
+  void tell_drives(const std::string& line) { drives_.type(line + "\n"); }
+  void tell_gripper(const std::string& line) { gripper_.type(line + "\n"); }
 
   Control& control() { return running_.control(); }
   /// The exit code.
@@ -65,6 +78,7 @@ class RealStation {
 
   Folder folder_;
   StationBox box_;
+  Vivid camera_;
   Process drives_;
   Process gripper_;
   Process feeder_;

@@ -16,6 +16,8 @@ class StationBox {
 
   /// Its second contact is closed to supply while it is released.
   void press_emergency_stop(bool pressed) { chip_.pull("ESTOP", !pressed); }
+  /// The chip goes, or comes back with the emergency stop pressed.
+  void plug(bool in) { in ? chip_.plug_in() : chip_.unplug(); }
   /// By the name of its line; one that blinks is lit or dark.
   bool is_lit(const char* lamp) { return chip_.is_high(lamp); }
 
