@@ -173,7 +173,6 @@ describe('the control token', () => {
   it('stays when its holder refuses', async () => {
     await ask();
     await screenshot(first.page, 'consent');
-    expect(await violations(first.page)).toEqual([]);
     await first.page.getByRole('button', { name: 'Keep control' }).click();
     await second.page.getByRole('button', { name: 'Ask for control' }).and(second.page.locator(':enabled')).waitFor();
     await first.page.getByText('You have control').waitFor();
@@ -182,6 +181,7 @@ describe('the control token', () => {
 
   it('goes over after 10 s without an answer, and what was held ends', async () => {
     await hold(ask);
+    expect(await violations(first.page)).toEqual([]); // may take longer than there is time for an answer
     await second.page.getByText('You have control').waitFor({ timeout: 2 * within });
     await expect.poll(commanded, { timeout: within }).toBe(0);
     await first.page.mouse.up();
