@@ -45,7 +45,7 @@ foreach(label unit stress whole long guest)
   add_custom_target(tests_${label})
 endforeach()
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/guest_tests.txt
-  CONTENT "$<JOIN:$<TARGET_PROPERTY:tests_guest,flexrf_names>,\n>\n")
+  CONTENT "$<JOIN:$<TARGET_PROPERTY:tests_guest,flexrf_slow>;$<TARGET_PROPERTY:tests_guest,flexrf_names>,\n>\n")
 
 # flexrf_add_test(NAME name SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT seconds] [SERIAL]
 #                 [PRECOMPILED target])
@@ -78,12 +78,13 @@ function(flexrf_add_test)
   endforeach()
 endfunction()
 
-# flexrf_add_guest_test(NAME name SOURCES file... LIBRARIES target...)
+# flexrf_add_guest_test(NAME name [SLOW] SOURCES file... LIBRARIES target...)
 # One CMocka executable, guest/<name> of the build folder, that needs devices and drivers of a real kernel: ctest does not
 # know it, `flexrf test --guest` runs it as root in the guest (docs/guest.md), and 0 means passed. Built with everything
-# only where the generator is built too, which is the release preset; tests_guest builds them anywhere.
+# only where the generator is built too, which is the release preset; tests_guest builds them anywhere. Those that are SLOW,
+# a minute or more, begin first: no machine works on when the others have nothing left to do.
 function(flexrf_add_guest_test)
-  cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME" "SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 0 test "SLOW" "NAME" "SOURCES;LIBRARIES")
   add_executable(${test_NAME} ${test_SOURCES})
   target_link_libraries(${test_NAME} PRIVATE FlexRF::options ${test_LIBRARIES} PkgConfig::cmocka)
   set_target_properties(${test_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/guest)
@@ -91,7 +92,11 @@ function(flexrf_add_guest_test)
     set_target_properties(${test_NAME} PROPERTIES EXCLUDE_FROM_ALL ON)
   endif()
   add_dependencies(tests_guest ${test_NAME})
-  set_property(TARGET tests_guest APPEND PROPERTY flexrf_names ${test_NAME})
+  if(test_SLOW)
+    set_property(TARGET tests_guest APPEND PROPERTY flexrf_slow ${test_NAME})
+  else()
+    set_property(TARGET tests_guest APPEND PROPERTY flexrf_names ${test_NAME})
+  endif()
 endfunction()
 
 # flexrf_add_benchmark(NAME name SOURCES file... LIBRARIES target...)
