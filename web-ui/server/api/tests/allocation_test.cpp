@@ -1,5 +1,8 @@
 // In the steady state no allocation reaches the system: values that are watched, holds that are refreshed,
 // pings, values that are read.
+#include <algorithm>
+#include <utility>
+
 #include "runtime/realtime/realtime_scope.hpp"
 #include "web-ui/server/api/tests/rig.hpp"
 
@@ -21,8 +24,16 @@ void the_steady_state_allocates_nothing() {
       {"topics", {{{"name", "slots"}, {"rate", 10}}, {{"name", "components"}, {"rate", 10}}}}};
   rig.ask(link, watch);
   rig.ask(other, watch);
-  const json held = rig.ask(link, {{"op", "hold"}, {"component", "producer"}, {"parameter", "move"}});
-  const std::string refresh = json{{"op", "refresh"}, {"id", 900}, {"lease", held.at("lease")}}.dump();
+  std::string refresh;
+  const auto hold = [&] {
+    json held;
+    // Not while the one before is still ending.
+    CHECK(rig.wait_until([&] {
+      held = rig.ask(link, {{"op", "hold"}, {"component", "producer"}, {"parameter", "move"}});
+      return held.contains("lease");
+    }));
+    refresh = json{{"op", "refresh"}, {"id", 900}, {"lease", held.at("lease")}}.dump();
+  };
   const std::string ping = R"({"op": "ping", "id": 901, "sent": 12345.5})";
   const std::string path = "/api/v1/slots/values";
   const std::string parameters = "/api/v1/components/producer/parameters";
@@ -41,25 +52,36 @@ void the_steady_state_allocates_nothing() {
     rig.tick();
     return link.closed == 0;
   };
-  // Until all memory has grown to what it is used for. What is played must not allocate either.
-  link.keep = other.keep = false;
+  bool went_well = true;
+  /// Gives the longest pause between two turns.
   const auto run_for = [&](Duration duration) {
-    const Time end = MonotonicClock::now() + duration;
-    while (MonotonicClock::now() < end)
-      if (!turn()) return false;
-    return true;
+    Duration longest{};
+    for (Time now = MonotonicClock::now(), end = now + duration; went_well && now < end;) {
+      went_well = turn();
+      const Time before = std::exchange(now, MonotonicClock::now());
+      longest = std::max(longest, now - before);
+    }
+    return longest;
   };
-  CHECK(run_for(std::chrono::milliseconds{1500}));
-  AllocationCounter count{0};
-  bool went_well = false;
-  {
-    const RealtimeScope scope(count);
-    went_well = run_for(std::chrono::milliseconds{1500});
-  }
-  CHECK(went_well);
   CHECK(has_allocation_guard());
-  CHECK_EQUAL(count.load(), 0U);
-  CHECK(link.sent > 100 && other.sent > 100);
+  for (int attempt = 1;; ++attempt) {
+    link.keep = other.keep = true;
+    hold();
+    // Until all memory has grown to what it is used for. What is played must not allocate either.
+    link.keep = other.keep = false;
+    run_for(std::chrono::milliseconds{1500});
+    AllocationCounter count{0};
+    Duration longest{};
+    {
+      const RealtimeScope scope(count);
+      longest = run_for(std::chrono::milliseconds{1500});
+    }
+    CHECK(went_well);
+    CHECK(link.sent > 100 && other.sent > 100);
+    // A machine that stands still ends the hold, and makes the next messages longer than any before.
+    if (count.load() == 0) return;
+    if (longest < std::chrono::milliseconds{20} || attempt == 20) CHECK_EQUAL(count.load(), 0U);
+  }
 }
 
 }  // namespace
