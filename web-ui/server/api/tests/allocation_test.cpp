@@ -1,5 +1,7 @@
 // In the steady state no allocation reaches the system: values that are watched, holds that are refreshed,
 // pings, values that are read.
+#include <unistd.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -67,7 +69,15 @@ void the_steady_state_allocates_nothing() {
   for (int attempt = 1;; ++attempt) {
     link.keep = other.keep = true;
     hold();
-    // Until all memory has grown to what it is used for. What is played must not allocate either.
+    // Until all memory has grown to what it is used for, also for the refusal when a machine that stood still
+    // has ended the hold. What is played must not allocate either.
+    link.keep = other.keep = false;
+    for (int i = 0; i < 3; ++i) {
+      usleep(300'000);  // longer than a lease
+      run_for(std::chrono::milliseconds{100});
+    }
+    link.keep = other.keep = true;
+    hold();
     link.keep = other.keep = false;
     run_for(std::chrono::milliseconds{1500});
     AllocationCounter count{0};
