@@ -47,8 +47,10 @@ void a_unit_that_owns_an_actuator_comes_to_rest_before_it_is_stopped() {
   Machine machine([&](Cell& cell) {
     cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
       if (!tick.stop_requested) return;
+      // Once it is at rest it may be stepped on, inhibited, until its thread gives it away.
+      if (++unit.memory > 20) return;
+      ++steps_to_rest;
       inhibited_on_the_way = inhibited_on_the_way || unit.device->is_inhibited();
-      if (++unit.memory <= 20) ++steps_to_rest;
     };
     cell.unit(Cell::consumer).script.is_idle = [](const TestUnit& unit) { return unit.memory >= 20; };
   });
