@@ -1,6 +1,7 @@
 # Sourced after stand_in.sh: a stand-in for QEMU and what is in it, which answers as image/guest/init does. The tests `first`
-# and `second` are in it. What a test does there is in $work/guest/NAME: nothing (it passes), `ends STATUS`, or `takes the
-# machine down`. What does not boot is told by $work/guest/broken. The host has as many CPUs as $work/guest/cpus says, or one.
+# and `second` are in it. What a test does there is in $work/guest/NAME: nothing (it passes), `ends STATUS`, `takes the
+# machine down`, or `meets NAME` (it passes when that one has begun too). What does not boot is told by $work/guest/broken.
+# The host has as many CPUs as $work/guest/cpus says, or one.
 # shellcheck shell=bash disable=SC2154 # tree and work are stand_in.sh's
 
 mkdir -p "$tree/image/guest" "$tree/build/release" "$work/guest"
@@ -32,7 +33,12 @@ run_test() {
   echo "hello from ${4##*/}, with $3" >>"$console"
   [[ -e $STAND_IN/guest/${4##*/} ]] && does=$(<"$STAND_IN/guest/${4##*/}")
   read -r word status <<<"$does"
+  : >"$STAND_IN/guest/${4##*/}.begun"
   [[ $word == takes ]] && exit 0
+  if [[ $word == meets ]]; then
+    until [[ -e $STAND_IN/guest/$status.begun ]]; do sleep 0.01; done
+    status=0
+  fi
   echo "$1" >>"$console"
   echo "${status:-0} 1230000" >&9
 }
