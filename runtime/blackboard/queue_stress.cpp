@@ -173,7 +173,8 @@ void jobs(void**) {
 
 // ---- history
 
-void ask(const History& history, const std::atomic<bool>& done, std::uint64_t& found, Complaint& complaint) {
+void ask(const History& history, const std::atomic<bool>& done, std::atomic<std::uint64_t>& found,
+         Complaint& complaint) {
   ItemHeader headers[8];
   Item values[8];
   std::uint64_t newest = 0;
@@ -196,23 +197,26 @@ void ask(const History& history, const std::atomic<bool>& done, std::uint64_t& f
   }
 }
 
+/// Appends, until both readers have found something in what is being written: one may get its CPU late. Where
+/// nothing can be found, this does not end.
 const char* run_history() {
   static HistoryMemory<Item, 8> memory;
   History history{&test::block_type<5>, memory.words, 8};
   Complaint complaint;
   std::atomic<bool> done{false};
-  std::uint64_t found[2] = {};
+  std::atomic<std::uint64_t> found[2] = {};
   std::vector<std::thread> readers;
-  for (std::uint64_t& mine : found) readers.emplace_back([&] { ask(history, done, mine, complaint); });
+  for (std::atomic<std::uint64_t>& mine : found)
+    readers.emplace_back([&] { ask(history, done, mine, complaint); });
   Item item;
-  for (std::uint64_t number = 1; number <= test::items(100'000); ++number) {
+  const std::uint64_t count = test::items(100'000);
+  for (std::uint64_t number = 1; number <= count || found[0] == 0 || found[1] == 0; ++number) {
     item.fill(number);
     history.append({number, at(number)}, &item);
     if (number % 2048 == 0) std::this_thread::yield();
   }
   done = true;
   for (std::thread& thread : readers) thread.join();
-  for (const std::uint64_t mine : found) complaint.unless(mine > 0, "nothing was ever found");
   return complaint.text();
 }
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,6 +17,13 @@
 namespace flexrf {
 namespace {
 
+/// As the kernel tells the thread itself.
+std::uint64_t voluntary_switches() {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return static_cast<std::uint64_t>(usage.ru_nvcsw);
+}
+
 void counts_of_this_thread_rise(void**) {
   const auto before = read_thread_statistics(gettid());
   assert_true(static_cast<bool>(before));
@@ -26,7 +34,9 @@ void counts_of_this_thread_rise(void**) {
   madvise(const_cast<char*>(memory), size, MADV_NOHUGEPAGE);
   for (std::size_t i = 0; i < size; i += 4096) memory[i] = 1;
   munmap(const_cast<char*>(memory), size);
-  for (int i = 0; i < 5; ++i) {
+  // A sleep that is over before the thread is asleep, as it was kept from its CPU, is no switch.
+  const std::uint64_t switches = voluntary_switches();
+  while (voluntary_switches() < switches + 5) {
     const timespec moment{0, 1'000'000};
     nanosleep(&moment, nullptr);
   }
