@@ -86,7 +86,6 @@ void under_load_nothing_is_torn_and_every_request_answered() {
   Running running(crowd);
   wait_for_start(running);
   const std::uint16_t first = running.unit("walker[0]");
-  const std::uint64_t looks = gathered(running).at("looks");
   for (std::uint32_t round = 0; round < 100; ++round) {
     const auto active = static_cast<std::uint16_t>(first + 2 + round % 3);
     const auto copy = static_cast<std::uint16_t>(first + 5 + round % 3);
@@ -98,8 +97,10 @@ void under_load_nothing_is_torn_and_every_request_answered() {
     accept(running, request_to(active, RequestKind::retire));
     accept(running, request_to(copy, RequestKind::retire));
   }
+  // A look that began after the last of them.
+  const std::uint64_t looks = gathered(running).at("looks");
+  CHECK(wait_until([&] { return gathered(running).at("looks").get<std::uint64_t>() > looks + 1; }));
   CHECK(has_gains(running, {1, 1, 0, 0, 0, 0, 0, 0}));
-  CHECK(gathered(running).at("looks").get<std::uint64_t>() > looks);
   check_nothing_torn(running);
   CHECK_EQUAL(running.stop().exit_code, 0);
 }
@@ -193,6 +194,7 @@ void a_unit_is_restarted_once_and_motion_needs_a_new_start() {
 
   press_falter(running);
   CHECK(wait_until([&] { return running.control().faults() == 2; }));
+  CHECK(wait_until([&] { return running.state("patient").life.load() == Life::fault; }));
   // Its thread goes on without it; the policy does not come again.
   const std::uint64_t looks = gathered(running).at("looks");
   CHECK(wait_until([&] { return gathered(running).at("looks").get<std::uint64_t>() > looks + 1000; }));

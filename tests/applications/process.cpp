@@ -19,7 +19,7 @@
 namespace flexrf::whole {
 
 bool wait_until(const std::function<bool()>& condition) {
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds{30};
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes{2};
   while (!condition()) {
     if (std::chrono::steady_clock::now() > give_up) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds{1});

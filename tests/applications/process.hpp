@@ -10,7 +10,7 @@
 
 namespace flexrf::whole {
 
-/// False when it does not come true within 30 s, which is not a measurement but the end of patience.
+/// False when it does not come true within 2 min, which is not a measurement but the end of patience.
 bool wait_until(const std::function<bool()>& condition);
 
 std::string contents_of(const std::string& path);

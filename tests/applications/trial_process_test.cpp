@@ -32,15 +32,20 @@ std::string cause_of(const Report& report) {
   return report["run"].at("cause");
 }
 
-/// Types the keys to a running application and waits for how it ends.
-Ending ending_after(const Folder& folder, const std::string& keys) {
-  Process process(folder, words());
-  process.type(keys);
-  return process.wait();
-}
-
 void wait_until_moving(const Folder& folder) {
   CHECK(wait_until([&] { return contents_of(folder / "drive.log") == moving; }));
+}
+
+enum class More : std::uint8_t { may_come, none };
+
+/// Types the keys to an application whose drive moves, and waits for how it ends.
+Ending ending_in_motion(const Folder& folder, const std::string& keys, More more = More::may_come) {
+  Process process(folder, words());
+  process.type("d");
+  wait_until_moving(folder);
+  process.type(keys);
+  if (more == More::none) process.end_input();
+  return process.wait();
 }
 
 // ---- faults: the unit's own device is made safe, everything else goes on
@@ -70,7 +75,7 @@ void an_exception_is_a_fault_with_its_text() {
 #if FLEXRF_CHECKED
   // To throw is to allocate: in a real-time thread the guard is there first.
   const Folder folder;
-  const Ending ending = ending_after(folder, "t");
+  const Ending ending = ending_in_motion(folder, "t");
   CHECK_EQUAL(ending.signal, SIGABRT);
   CHECK_CONTAINS(ending.errors, "__cxa_allocate_exception");
 #else
@@ -80,11 +85,11 @@ void an_exception_is_a_fault_with_its_text() {
 
 void a_hung_step_ends_in_the_last_gasp() {
   const Folder folder;
-  const Ending ending = ending_after(folder, "dh");
+  const Ending ending = ending_in_motion(folder, "h");
   CHECK_EQUAL(ending.exit_code, 2);
   CHECK_CONTAINS(ending.errors, "step does not return");
   CHECK_CONTAINS(ending.output, "\nFault: thread sabotage: its step does not return; ");
-  CHECK_EQUAL(contents_of(folder / "drive.log"), last_gasp);
+  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + last_gasp);
   const Report report(folder / "report");
   CHECK(report["run"].at("stuck").get<bool>());
   CHECK(report.row("threads", "sabotage").at("hangs").get<bool>());
@@ -143,22 +148,22 @@ void crash_signals_write_the_last_gasp() {
   };
   for (const Case& one : {Case{'s', SIGSEGV, "SIGSEGV"}, Case{'a', SIGABRT, "SIGABRT"}}) {
     const Folder folder;
-    const Ending ending = ending_after(folder, std::string{"d"} + one.key);
+    const Ending ending = ending_in_motion(folder, std::string{one.key});
     CHECK_EQUAL(ending.exit_code, -1);
     CHECK_EQUAL(ending.signal, one.signal);
     CHECK_CONTAINS(ending.errors, std::string{"flexrf: "} + one.name);
     CHECK_CONTAINS(ending.errors, " while stepping saboteur; prepared outputs written: 1\n");
-    CHECK_EQUAL(contents_of(folder / "drive.log"), last_gasp);
+    CHECK_EQUAL(contents_of(folder / "drive.log"), moving + last_gasp);
   }
 }
 
 void exit_from_a_unit_writes_the_last_gasp() {
   const Folder folder;
-  const Ending ending = ending_after(folder, "dx");
+  const Ending ending = ending_in_motion(folder, "x");
   CHECK_EQUAL(ending.exit_code, 2);
   CHECK_CONTAINS(ending.errors,
                  "exit() was called while the application ran, in saboteur; prepared outputs written: 1");
-  CHECK_EQUAL(contents_of(folder / "drive.log"), last_gasp);
+  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + last_gasp);
 }
 
 // ---- the end of the input
@@ -194,13 +199,13 @@ void an_allocation_is_caught() {
   skip();  // the sanitizers' own allocator, and no guard
 #endif
   const Folder folder;
-  const Ending ending = run(folder, words(), "dkk");
+  const Ending ending = ending_in_motion(folder, "kk", More::none);
 #if FLEXRF_CHECKED
   CHECK_EQUAL(ending.signal, SIGABRT);
   CHECK_CONTAINS(ending.errors,
                  "malloc called in a real-time thread, where nothing may be allocated or freed:");
   CHECK_CONTAINS(ending.errors, " while stepping saboteur");
-  CHECK_EQUAL(contents_of(folder / "drive.log"), last_gasp);
+  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + last_gasp);
 #else
   CHECK_EQUAL(ending.exit_code, 0);
   const Report report(folder / "report");
@@ -214,7 +219,7 @@ void an_allocation_is_caught() {
 /// Only the checked build filters system calls.
 void a_system_call_that_may_wait_is_caught() {
   const Folder folder;
-  const Ending ending = run(folder, words(), "doo");
+  const Ending ending = ending_in_motion(folder, "oo", More::none);
 #if FLEXRF_CHECKED
   CHECK_EQUAL(ending.signal, SIGABRT);
   CHECK_CONTAINS(ending.errors, "flexrf: system call openat (");
@@ -222,7 +227,7 @@ void a_system_call_that_may_wait_is_caught() {
   CHECK_CONTAINS(ending.errors, "open, map and start things in initialise()");
   CHECK_CONTAINS(ending.errors, "/trial(");  // the trace
   CHECK_CONTAINS(ending.errors, " while stepping saboteur; prepared outputs written: 1");
-  CHECK_EQUAL(contents_of(folder / "drive.log"), last_gasp);
+  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + last_gasp);
 #else
   CHECK_EQUAL(ending.exit_code, 0);
 #endif
