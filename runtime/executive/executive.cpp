@@ -409,6 +409,8 @@ void Executive::supervise(RunSummary& summary) {
     return;
   }
   join_threads();
+  // In a step that had begun before.
+  summary.had_fault = summary.had_fault || control.faults() > 0;
 }
 
 void Executive::join_threads() noexcept {

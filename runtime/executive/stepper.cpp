@@ -376,17 +376,19 @@ void Stepper::check_device(std::uint16_t index) noexcept {
   DeviceState& state = application_->device_states[index];
   if (state.device->fault().is_ok() || state.life.load(std::memory_order_relaxed) == Life::fault) return;
   const Status cause = state.device->fault();
+  cell_->control().note_fault();
   state.fault.publish(cause);
   state.life.store(Life::fault, std::memory_order_release);
   state.make_safe.store(true, std::memory_order_relaxed);
   state.device->set_inhibited(true);
   cell_->set_device_writer_state(index, WriterState::faulted);
-  cell_->control().note_fault();
   log_error(application_->devices[index].name, "fault: {}", cause.cause());
 }
 
 void Stepper::fault_unit(std::uint16_t index, const Status& cause) noexcept {
   UnitState& state = application_->unit_states[index];
+  // Counted first: who sees the fault, and ends the application for it, finds it counted.
+  cell_->control().note_fault();
   state.fault.publish(cause);
   state.life.store(Life::fault, std::memory_order_release);
   state.idle.store(true, std::memory_order_release);
@@ -398,9 +400,9 @@ void Stepper::fault_unit(std::uint16_t index, const Status& cause) noexcept {
       application_->device_states[device].make_safe.store(true, std::memory_order_relaxed);
     }
   }
-  state.ownership.store(Ownership::lifecycle, std::memory_order_release);
-  cell_->control().note_fault();
   log_error(application_->units[index].name, "fault: {}", cause.cause());
+  // The last that is done: from here on the lifecycle thread may destroy the unit, and with it the cause.
+  state.ownership.store(Ownership::lifecycle, std::memory_order_release);
 }
 
 void Stepper::fault_all(const Status& cause) noexcept {
