@@ -1,17 +1,20 @@
 #include "runtime/executive/lifecycle.hpp"
 
+#include <algorithm>
 #include <ctime>
 #include <exception>
 
+#include "runtime/executive/supervision.hpp"
 #include "runtime/log/log.hpp"
 
 namespace flexrf {
 namespace {
 
-/// How long a thread may take to let go of a unit between two of its steps.
-constexpr Duration hand_over_timeout = std::chrono::seconds{1};
-/// How long the devices of a unit that does not come to rest have to become safe.
-constexpr Duration safe_timeout = std::chrono::seconds{1};
+/// How long a thread may take to let go of a unit between two of its steps, and the devices of a unit that
+/// does not come to rest to become safe: no shorter than a step that does not hang yet.
+Duration patience_with(const ThreadRecord& thread) noexcept {
+  return std::max(Duration{std::chrono::seconds{1}}, Supervision::hang_timeout(thread));
+}
 /// Steps after which a unit has seen that it is to stop, and has said whether it is idle since.
 constexpr std::uint64_t steps_to_notice = 3;
 
@@ -98,7 +101,7 @@ Status Lifecycle::take_back(std::atomic<Ownership>& ownership, std::uint16_t thr
     return {};
   }
   ThreadState& state = cell_->application().thread_states[thread];
-  const Time give_up = now() + hand_over_timeout;
+  const Time give_up = now() + patience_with(cell_->application().threads[thread]);
   while (ownership.load(std::memory_order_acquire) != Ownership::lifecycle) {
     state.asked_back.store(true, std::memory_order_release);
     cell_->application().threads[thread].bell->ring();
@@ -199,7 +202,8 @@ void Lifecycle::bring_to_rest(std::uint16_t index) noexcept {
   for (std::size_t d = 0; d < application.devices.size(); ++d) {
     if (application.devices[d].unit == index) application.device_states[d].make_safe.store(true);
   }
-  if (!wait(safe_timeout, [&] { return devices_are_safe(index); }))
+  if (!wait(patience_with(application.threads[application.units[index].thread]),
+            [&] { return devices_are_safe(index); }))
     log_error(application.units[index].name, "its devices did not become safe in time");
 }
 

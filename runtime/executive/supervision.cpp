@@ -9,8 +9,7 @@
 namespace flexrf {
 namespace {
 
-/// How long devices have to become safe before the process ends all the same.
-constexpr Duration safe_timeout = std::chrono::seconds{1};
+constexpr Duration least_safe_timeout = std::chrono::seconds{1};
 constexpr Duration least_hang_timeout = std::chrono::milliseconds{500};
 
 }  // namespace
@@ -20,10 +19,12 @@ Supervision::Supervision(Cell& cell, Lifecycle& lifecycle, bool watch_for_hangs)
       lifecycle_(&lifecycle),
       watch_for_hangs_(watch_for_hangs),
       steps_(cell.application().threads.size()),
+      safe_timeout_(least_safe_timeout),
       cycles_when_busy_(cell.application().threads.size()) {
   for (const ThreadRecord& thread : cell.application().threads) {
     settle_time_ = std::max({settle_time_, 2 * thread.trigger.period, 2 * thread.trigger.min_interval,
                              2 * thread.trigger.longest});
+    safe_timeout_ = std::max(safe_timeout_, hang_timeout(thread));
   }
   settle_time_ += std::chrono::milliseconds{5};
 }
@@ -154,36 +155,41 @@ void Supervision::note_busy(Time now) noexcept {
 }
 
 /// Quiet counts only when it has lasted, and when every periodic thread has had two turns in which to find
-/// something to do: on a loaded machine time alone says nothing about who ran in it.
+/// something to do: on a loaded machine time alone says nothing about who ran in it. Asked before it is
+/// looked whether all is quiet still: then what those turns began is seen.
 bool Supervision::has_settled(Time now) const noexcept {
   if (now - busy_at_ <= settle_time_) return false;
   const Application& application = cell_->application();
   for (std::size_t i = 0; i < application.threads.size(); ++i) {
     const bool periodic = application.threads[i].trigger.kind == TriggerKind::period;
-    const std::uint64_t cycles = application.thread_states[i].cycles.load(std::memory_order_relaxed);
+    const std::uint64_t cycles = application.thread_states[i].cycles.load(std::memory_order_acquire);
     if (periodic && cycles - cycles_when_busy_[i] < 2) return false;
   }
   return true;
 }
 
 void Supervision::finish(Time now) noexcept {
-  if (!is_quiet()) note_busy(now);
+  const bool has_lasted = has_settled(now);
+  const bool quiet = is_quiet();
+  if (!quiet) note_busy(now);
   if (now - entered_at_ > cell_->application().finish_timeout) {
     log_warning(cell_->application().name, "not finished within finish_timeout; stopping now");
     cut_short_ = true;
     enter(Mode::stopping, now);
-  } else if (has_settled(now)) {
+  } else if (has_lasted && quiet) {
     enter(Mode::stopping, now);
   }
 }
 
 void Supervision::stop(Time now) noexcept {
-  if (!units_are_idle()) note_busy(now);
+  const bool has_lasted = has_settled(now);
+  const bool at_rest = units_are_idle();
+  if (!at_rest) note_busy(now);
   if (now - entered_at_ > cell_->application().stop_timeout) {
     log_warning(cell_->application().name, "not at rest within stop_timeout; every device is made safe");
     cut_short_ = true;
     enter(Mode::safe, now);
-  } else if (has_settled(now)) {
+  } else if (has_lasted && at_rest) {
     enter(Mode::safe, now);
   }
 }
@@ -197,7 +203,7 @@ void Supervision::make_safe(Time now) noexcept {
       });
   if (safe) {
     enter(Mode::ended, now);
-  } else if (now - entered_at_ > safe_timeout) {
+  } else if (now - entered_at_ > safe_timeout_) {
     for (std::size_t i = 0; i < application.devices.size(); ++i) {
       if (!application.device_states[i].safe.load())
         log_error(application.devices[i].name, "did not become safe in time");

@@ -61,6 +61,9 @@ class Supervision {
   Time operation_overdue_at_{};
   Duration operation_missed_{};
   Duration settle_time_{};
+  /// How long devices have to become safe before the process ends all the same: no shorter than a step that
+  /// does not hang yet.
+  Duration safe_timeout_;
   Mode mode_ = Mode::starting;
   Time entered_at_{};                            // the present mode
   Time busy_at_{};                               // when something was last seen to be under way

@@ -1,4 +1,6 @@
 // Single components stopped, started and initialised while the application runs, as the panel asks for it.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -127,6 +129,20 @@ void a_unit_without_an_actuator_stops_alone() {
   CHECK(machine.executive().control().may_move());
   CHECK(machine.act(ComponentAction::stop, Cell::producer).is_ok());
   CHECK_EQUAL(machine.cell.events().count_of("producer: stop"), 1U);
+}
+
+void a_unit_is_waited_for_as_long_as_its_step_does_not_hang() {
+  std::atomic<bool> is_long{false};
+  Machine machine([&](Cell& cell) {
+    cell.unit(Cell::producer).script.step = [&](TestUnit&, const Tick&) {
+      if (!is_long) return;
+      while (cell.unit_state(Cell::producer).ownership != Ownership::asked_back) usleep(1000);
+      usleep(1'200'000);
+    };
+  });
+  is_long = true;
+  CHECK(machine.act(ComponentAction::stop, Cell::producer).is_ok());
+  CHECK_EQUAL(machine.cell.unit_state(Cell::producer).life.load(), Life::stopped);
 }
 
 void a_device_stops_after_its_unit_and_starts_before_it() {
@@ -262,6 +278,7 @@ int main() {
       CONTAINED_TEST(what_is_started_again_waits_for_start),
       CONTAINED_TEST(what_is_held_ends_with_the_unit),
       CONTAINED_TEST(a_unit_without_an_actuator_stops_alone),
+      CONTAINED_TEST(a_unit_is_waited_for_as_long_as_its_step_does_not_hang),
       CONTAINED_TEST(a_device_stops_after_its_unit_and_starts_before_it),
       CONTAINED_TEST(after_a_fault_initialise_constructs_it_anew),
       CONTAINED_TEST(what_fails_says_why),

@@ -399,7 +399,7 @@ void TestApplication::make_threads() {
     record.overrun = plan.overrun;
     record.limit = plan.limit;
     for (const std::uint16_t unit : plan.units) record.budget += units_[unit].budget;
-    record.deadline = plan.deadline.count() != 0 ? plan.deadline : plan.trigger.period;
+    record.deadline = plan.deadline;
     record.units = plan.units;
     record.devices = plan.devices;
     record.stack = stack;

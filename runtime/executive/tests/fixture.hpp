@@ -18,6 +18,14 @@
 
 namespace flexrf::fixture {
 
+/// Where a test is not about a time-out, only a hang exceeds it: on a loaded machine each thread may stand
+/// still for seconds at any point.
+inline constexpr Duration patience = std::chrono::minutes{1};
+/// Of a step: what counts as a hang are 20 of them.
+inline constexpr Duration patient_deadline = std::chrono::seconds{1};
+/// A step that takes half a second hangs.
+inline constexpr Duration strict_deadline = std::chrono::milliseconds{1};
+
 struct TriggerPlan {
   TriggerKind kind = TriggerKind::period;
   Duration period = std::chrono::milliseconds{1};
@@ -67,8 +75,8 @@ struct UnitPlan {
   bool parameters = true;  ///< slots for its runtime parameters and feedback
   RestartPolicy restart = RestartPolicy::never;
   Duration budget = std::chrono::microseconds{50};
-  Duration initialise_timeout = std::chrono::seconds{5};
-  Duration stop_timeout = std::chrono::seconds{1};
+  Duration initialise_timeout = patience;
+  Duration stop_timeout = patience;
 };
 
 struct DevicePlan {
@@ -80,7 +88,7 @@ struct DevicePlan {
   std::uint16_t bus = no_index;
   std::uint16_t output = no_index;  ///< slot
   std::uint16_t pushes = no_index;  ///< queue
-  Duration initialise_timeout = std::chrono::seconds{5};
+  Duration initialise_timeout = patience;
 };
 
 struct ThreadPlan {
@@ -91,7 +99,7 @@ struct ThreadPlan {
   std::uint8_t priority = 0;
   OverrunPolicy overrun = OverrunPolicy::skip;
   OverrunLimit limit{};
-  Duration deadline{};  ///< zero: the period
+  Duration deadline = patient_deadline;
 };
 
 struct PopulationPlan {
@@ -125,8 +133,8 @@ class TestApplication {
   QueuePlan& queue(std::uint16_t index) { return queues_[index]; }
 
   bool autostart = true;
-  Duration stop_timeout = std::chrono::seconds{1};
-  Duration finish_timeout = std::chrono::seconds{2};
+  Duration stop_timeout = patience;
+  Duration finish_timeout = patience;
   std::span<const Rename> renames;
 
   /// Makes the records at the first call.

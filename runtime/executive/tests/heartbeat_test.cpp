@@ -20,9 +20,17 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Plan = ProducerAndConsumer;
 
-/// Both threads' hang time-out is half a second. None of them runs: the test says who turned.
+/// Both threads' hang time-out is half a second.
+struct StrictPlan : Plan {
+  StrictPlan() {
+    thread(producing).deadline = strict_deadline;
+    thread(consuming).deadline = strict_deadline;
+  }
+};
+
+/// None of the threads runs: the test says who turned.
 struct Watched {
-  Plan plan;
+  StrictPlan plan;
   Options options = on_the_wall_clock();
   Cell cell{plan.application(), options};
   HeartbeatWatch watch{cell};
@@ -96,7 +104,7 @@ void after_the_watch_itself_stood_still_nobody_is_blamed() {
 
 /// A step that has begun and does not end; no thread runs: the test says when is looked.
 struct Hanging {
-  Plan plan;
+  StrictPlan plan;
   Options options = on_the_wall_clock();
   Cell cell{plan.application(), options};
   Lifecycle lifecycle{cell, true};
@@ -149,6 +157,7 @@ void what_is_given_up_misses_it() {
 void a_thread_with_nothing_to_do_answers() {
   Plan plan;
   plan.unit(Plan::producer).script.step = [](TestUnit&, const Tick&) {};
+  plan.thread(Plan::consuming).deadline = milliseconds{150};  // rung after a quarter of 3 s
   RunningCell running(plan);
   Heartbeat& heartbeat = running.executive().cell().heartbeat();
   heartbeat.watch();
@@ -163,6 +172,7 @@ void a_thread_with_nothing_to_do_answers() {
 void a_step_that_hangs_misses_it() {
   std::atomic<bool> released{false};
   Plan plan;
+  plan.thread(Plan::producing).deadline = strict_deadline;
   plan.unit(Plan::producer).script.step = [&](TestUnit&, const Tick& tick) {
     while (tick.number == 10 && !released) usleep(1000);
   };
@@ -300,13 +310,18 @@ void a_running_application_tells_of_itself() {
   const Environment environment;
   setenv("NOTIFY_SOCKET", listener.name().c_str(), 1);
   setenv("WATCHDOG_USEC", "20000", 1);
+  // While nobody listens the socket fills, and what finds it full is told again: it comes to its end only
+  // when all was heard.
+  std::atomic<bool> may_rest{false};
   Plan plan;
+  plan.unit(Plan::producer).script.is_idle = [&](const TestUnit&) { return may_rest.load(); };
   RunningCell running(plan);
   running.start();
   CHECK(listener.waits_for("READY=1"));
   for (int i = 0; i < 3; ++i) CHECK(listener.waits_for("WATCHDOG=1"));
   running.stop();
   CHECK(listener.waits_for("STOPPING=1"));
+  may_rest = true;
   CHECK_EQUAL(running.join().exit_code, 0);
 }
 

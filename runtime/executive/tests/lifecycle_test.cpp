@@ -219,10 +219,11 @@ void a_restart_on_the_wall_clock() {
   };
   RunningCell running(cell);
   running.start();
-  // Five steps each: faulted, restarted, faulted for good.
+  // Five steps each: faulted, restarted, faulted for good. The restart first: a fault that is seen after it
+  // is the second.
   CHECK(RunningCell::wait_until([&] {
-    return cell.unit_state(Cell::producer).life == Life::fault &&
-           cell.events().count_of("producer: initialise") == 2;
+    return cell.events().count_of("producer: initialise") == 2 &&
+           cell.unit_state(Cell::producer).life == Life::fault;
   }));
   CHECK(!running.control().may_move());
   CHECK_EQUAL(running.finish().exit_code, 2);

@@ -27,7 +27,7 @@ class RunningCell {
   /// Before start().
   std::uint16_t add_requester() { return executive_.cell().add_requester(answers_); }
   void start();
-  /// False when it does not come true within 20 s, which is not a measurement but the end of patience.
+  /// False when it does not come true within `patience`, which is no measurement but the end of it.
   static bool wait_until(const std::function<bool()>& condition);
   /// Sends and waits for the answer.
   ParameterAnswer ask(const ParameterRequest& request);

@@ -29,9 +29,9 @@ class Chain : public TestApplication {
       unit.script.step = [this, i](TestUnit& self, const Tick& tick) {
         // Virtual time may end within a release, on the wall clock a stop is seen by whole releases only.
         if (tick.stop_requested) return;
-        // The first are released while the last are still to be initialised: a round begins with all of them.
-        if (i == 0 ? unit_state(units - 1).life.load() != Life::running : rounds_[i] == rounds_[i - 1u])
-          return;
+        // The first are released while the last are still to be initialised: a round begins when the last one
+        // has stepped, for only then are all of them the thread's.
+        if (i == 0 ? unit_state(units - 1).steps == 0 : rounds_[i] == rounds_[i - 1u]) return;
         const View<Item> before = self.inputs[0].latest();
         self.outputs[0].publish(Item{before ? before->number + 1 : 1, 0});
         self.outputs[1].publish(Item{rounds_[i]++, 0});

@@ -162,9 +162,11 @@ void a_flood_does_not_turn_a_thread_in_circles() {
   };
   RunningCell running(cell);
   running.start();
+  const std::atomic<std::uint64_t>& releases = cell.thread_state(Cell::consuming).cycles;
   CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::consumer).steps > 10; }));
-  const std::uint64_t steps = cell.unit_state(Cell::consumer).steps;
-  CHECK(static_cast<std::uint64_t>(looks) < 20 * steps);
+  // The looks first: whatever comes about in between is releases with their few looks.
+  const auto looks_before = static_cast<std::uint64_t>(looks);
+  CHECK(looks_before < 20 * releases);
   CHECK_EQUAL(running.finish().exit_code, 0);
   close(descriptor);
 }
@@ -199,9 +201,11 @@ void a_free_thread_steps_without_a_reason() {
   CHECK(ticks.size() >= 490);
   Cell other;
   other.thread(Cell::consuming).trigger = TriggerPlan::free_running();
+  other.unit(Cell::producer).script.step = {};  // there is no other reason
   RunningCell running(other);
   running.start();
-  CHECK(RunningCell::wait_until([&] { return other.unit_state(Cell::consumer).steps > 1000; }));
+  // Where others want its CPU it goes to the end of their queue after each step.
+  CHECK(RunningCell::wait_until([&] { return other.unit_state(Cell::consumer).steps > 100; }));
   CHECK_EQUAL(running.finish().exit_code, 0);
 }
 
