@@ -1,6 +1,6 @@
 // freeze_thread PROCESS NAME: holds the threads of this name still until the end of standard input, so that
-// tests see what becomes of a cell whose panel hangs. Prints "frozen" when they are. Exit code 1: there is
-// none, or no right to.
+// tests see what becomes of a cell whose panel hangs. Prints "frozen" and when it began (ns, monotonic clock)
+// when they are. Exit code 1: there is none, or no right to.
 #include <dirent.h>
 #include <sys/ptrace.h>
 #include <sys/types.h>
@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -50,9 +51,11 @@ int main(int argument_count, char** arguments) {
     std::fprintf(stderr, "process %s has no thread '%s'\n", arguments[1], arguments[2]);
     return 1;
   }
+  timespec began{};
+  clock_gettime(CLOCK_MONOTONIC, &began);
   for (const pid_t thread : threads)
     if (!freeze(thread)) return 1;
-  std::puts("frozen");
+  std::printf("frozen %lld\n", static_cast<long long>(began.tv_sec) * 1'000'000'000 + began.tv_nsec);
   std::fflush(stdout);
   char byte = 0;
   while (read(STDIN_FILENO, &byte, 1) > 0) continue;

@@ -136,7 +136,7 @@ describe('a configuration', () => {
 });
 
 it('is discarded when it is left open too long', async () => {
-  const running = await Application.start('panel_cell', { arguments: ['--panel-edit-timeout', '5s'] });
+  const running = await Application.start('panel_cell', { arguments: ['--panel-edit-timeout', '12s'] });
   onTestFinished(() => tidyUp(() => viewer.close(), () => running.end()));
   rest = running.rest();
   viewer = await Viewer.open(browser(), running.address, { size: 'panel' });

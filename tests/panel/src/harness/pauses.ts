@@ -7,12 +7,12 @@ const interval = 10;
 const tolerable = 50;
 const attempts = 6;
 
-/** How much later than it asked for the page, this process and the server's thread were woken at worst, in ms. */
+/** How much later than it asked for the page, this process, the server's and a cell's thread were woken at worst, in ms. */
 class Pauses {
   private own = 0;
   private readonly timer: NodeJS.Timeout;
 
-  private constructor(private readonly page: Page, private readonly rest: Rest, private readonly serverBefore: number) {
+  private constructor(private readonly page: Page, private readonly rest: Rest, private readonly before: Delays) {
     let last = performance.now();
     this.timer = setInterval(() => {
       const now = performance.now();
@@ -33,20 +33,31 @@ class Pauses {
         last = now;
       }, every);
     }, interval);
-    return new Pauses(page, rest, await serverDelay(rest));
+    return new Pauses(page, rest, await delays(rest));
   }
 
-  async end(): Promise<{ page: number; test: number; server: number }> {
+  async end(): Promise<{ page: number; test: number } & Delays> {
     clearInterval(this.timer);
     const page = await this.page.evaluate(() => (window as unknown as { longestPause: number }).longestPause);
-    const server = await serverDelay(this.rest);
-    // The server tells the longest since its start.
-    return { page, test: this.own, server: server > this.serverBefore ? server : 0 };
+    const { server, cell } = await delays(this.rest);
+    // The application tells the longest since its start.
+    return {
+      page, test: this.own, server: server > this.before.server ? server : 0, cell: cell > this.before.cell ? cell : 0,
+    };
   }
 }
 
-async function serverDelay(rest: Rest): Promise<number> {
-  return (await rest.do('state')).body.server.loop_delay_us.max / 1000;
+interface Delays {
+  readonly server: number;
+  readonly cell: number;
+}
+
+async function delays(rest: Rest): Promise<Delays> {
+  const threads = (await rest.do('threads')).body as { lateness: { max_ns: number } }[];
+  return {
+    server: (await rest.do('state')).body.server.loop_delay_us.max / 1000,
+    cell: Math.max(...threads.map((thread) => thread.lateness.max_ns)) / 1e6,
+  };
 }
 
 /**
