@@ -120,7 +120,8 @@ void Connection::on_message() {
     close(1003, "only text is understood");
     return;
   }
-  heard_ = surroundings_.now;
+  // Not the turn's time: where the server itself stood still, that is from before, and nobody was silent.
+  heard_ = MonotonicClock::now();
   const std::string_view text{body_, std::exchange(message_size_, 0U)};
   surroundings_.watch("a live message", [&] { surroundings_.live.on_text(*this, text); });
 }

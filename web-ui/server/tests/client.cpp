@@ -5,10 +5,25 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 
 namespace flexrf::panel {
+namespace {
+
+/// Again where it was interrupted: a process that is stopped and goes on finds its calls with a time limit
+/// ended.
+template <class Call>
+ssize_t uninterrupted(Call&& call) {
+  ssize_t count = 0;
+  do {
+    count = call();
+  } while (count < 0 && errno == EINTR);
+  return count;
+}
+
+}  // namespace
 
 bool Client::connect(std::uint16_t port) {
   close();
@@ -40,7 +55,8 @@ void Client::narrow() {
 
 bool Client::send(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t count = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    const ssize_t count =
+        uninterrupted([&] { return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL); });
     if (count <= 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(count));
   }
@@ -49,7 +65,7 @@ bool Client::send(std::string_view bytes) {
 
 bool Client::receive() {
   static char buffer[65536];
-  const ssize_t count = recv(socket_, buffer, sizeof(buffer), 0);
+  const ssize_t count = uninterrupted([&] { return recv(socket_, buffer, sizeof(buffer), 0); });
   if (count <= 0) return false;
   input_.append(buffer, static_cast<std::size_t>(count));
   return true;
