@@ -65,21 +65,25 @@ void ProcessRun::stop() noexcept {
     const Time began = MonotonicClock::now();
     host_->end(settings_.stop_timeout == Duration{});
     bool killed = killed_ || settings_.stop_timeout == Duration{};
+    Time killed_at = began;
     while (is_alive() && !ended_) {
       const Time now = MonotonicClock::now();
-      if (now - began >= settings_.stop_timeout + kill_timeout) {
-        log_error(name_, "it was killed and does not end; it waits for the kernel, and is left behind");
-        break;
-      }
       if (!killed && now - began >= settings_.stop_timeout) {
         log_warning(name_, "it did not end within stop_timeout, and is killed");
         host_->end(true);
         killed = true;
+        killed_at = now;
         ++kills_;
       }
       host_->wait(look_interval);
-      take_events(now);
-      drain(now);
+      const Time heard = MonotonicClock::now();
+      take_events(heard);
+      drain(heard);
+      // From the kill on, and by the time before it was looked: this thread may be held up itself.
+      if (is_alive() && !ended_ && killed && now - killed_at >= kill_timeout) {
+        log_error(name_, "it was killed and does not end; it waits for the kernel, and is left behind");
+        break;
+      }
     }
   }
   host_->release();
@@ -164,7 +168,8 @@ void ProcessRun::take_events(Time now) noexcept {
 void ProcessRun::take_end(const ProcessEvent& event, Time now) noexcept {
   ended_ = true;
   ended_at_ = now;
-  state_.ended_at = nanoseconds(event.at == Time{} ? now : event.at);
+  // It may have ended since this cycle began, and is told as a part of it.
+  state_.ended_at = nanoseconds(event.at == Time{} ? now : std::min(event.at, now));
   state_.end = event.signal == 0 ? ProcessEnd::exited : ProcessEnd::signalled;
   state_.exit_code = event.code;
   state_.end_signal = event.signal;
