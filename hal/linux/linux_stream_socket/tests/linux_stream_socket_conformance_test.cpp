@@ -39,6 +39,8 @@ class RealWorld final : public StreamSocketWorld {
     bench_->configuration().sessions = wishes.sessions;
     bench_->configuration().buffer = wishes.buffer;
     bench_->configuration().connect_timeout = 30.0;
+    // Who does not read for so long is gone, too, and one of the cases does not.
+    bench_->configuration().peer_timeout = 60.0;
     return bench_->driver().initialise();
   }
   StreamSocket& socket() override { return bench_->driver(); }
