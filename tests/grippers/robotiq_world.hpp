@@ -21,13 +21,15 @@ class RobotiqWorld : public GripperWorld {
     auto& line = link_.configuration();
     line.baud = 115200;
     line.parity = ModbusParity::none;
-    line.response_timeout = 1.5;  // a loaded machine takes long
+    line.response_timeout = 4;  // a loaded machine takes long, and may stand still
     line.reconnect_longest = 0.2;
     line.set_device(device());
     if (const Status status = link_.driver().initialise(); !status) return status;
     gripper_.emplace(nullptr, std::span<QueueSink* const>{}, &link_.driver());
     configure_gripper(gripper_->configuration(), setting);
-    gripper_->configuration().max_age = 3;
+    gripper_->configuration().max_age = 10;
+    gripper_->configuration().travel_timeout = 15;
+    gripper_->configuration().activation_timeout = 30;
     return gripper_->driver().initialise();
   }
   Gripper& gripper() override { return gripper_->driver(); }
@@ -82,7 +84,9 @@ class RobotiqWorld : public GripperWorld {
   virtual bool plug_in() { return false; }
 
   Status begin(std::vector<std::string> words) {
-    words.insert(words.end(), {"--width", std::to_string(GripperSetting::open_width)});
+    // What stands still with the machine is on its way as long as it is not halted.
+    words.insert(words.end(),
+                 {"--width", std::to_string(GripperSetting::open_width), "--longest-step", "0.05"});
     simulator_.emplace(words);
     if (!simulator_->line().empty()) return {};
     return Status::error(StatusCode::unavailable, "the simulator did not begin");

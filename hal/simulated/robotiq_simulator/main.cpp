@@ -1,6 +1,10 @@
 // robotiq_simulator: a Robotiq two-finger gripper to try a cell with.
 //
 //   robotiq_simulator (--serial DEVICE BAUD | --pseudo-terminal) [--unit N] [--width METRES]
+//                     [--longest-step SECONDS]
+//
+// With a longest step its fingers stand still with the machine: no more than that passes for them between two
+// requests.
 //
 // Says the name of its line, then takes commands from standard input, a line each, and answers each by a
 // line:
@@ -16,6 +20,7 @@
 // Runs until it is interrupted.
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -32,7 +37,8 @@ namespace {
 using namespace flexrf;
 
 constexpr const char* usage =
-    "usage: robotiq_simulator (--serial DEVICE BAUD | --pseudo-terminal) [--unit N] [--width METRES]\n";
+    "usage: robotiq_simulator (--serial DEVICE BAUD | --pseudo-terminal) [--unit N] [--width METRES]\n"
+    "                         [--longest-step SECONDS]\n";
 
 struct Options {
   const char* device = nullptr;  // null: a pseudo-terminal
@@ -40,6 +46,7 @@ struct Options {
   double baud = 0;
   double unit = robotiq::usual_unit_id;
   double width = 0.085;
+  double longest_step = 0;  // s; 0: any
 };
 
 bool is_number(const char* text, double least, double most, double& value) {
@@ -60,6 +67,8 @@ bool parse(int count, char** words, Options& options) {
       if (!is_number(words[++i], 1, 247, options.unit)) return false;
     } else if (std::strcmp(words[i], "--width") == 0 && left >= 1) {
       if (!is_number(words[++i], 0.001, 1, options.width)) return false;
+    } else if (std::strcmp(words[i], "--longest-step") == 0 && left >= 1) {
+      if (!is_number(words[++i], 0.001, 60, options.longest_step)) return false;
     } else {
       return false;
     }
@@ -67,9 +76,16 @@ bool parse(int count, char** words, Options& options) {
   return options.pseudo_terminal != (options.device != nullptr);
 }
 
+robotiq::ModelPlan plan_of(const Options& options) {
+  robotiq::ModelPlan plan;
+  plan.open_width = options.width;
+  if (options.longest_step > 0) plan.longest_step = Duration{std::llround(options.longest_step * 1e9)};
+  return plan;
+}
+
 class Simulator {
  public:
-  explicit Simulator(const Options& options) : options_(options), model_({.open_width = options.width}) {}
+  explicit Simulator(const Options& options) : options_(options), model_(plan_of(options)) {}
 
   Status plug() {
     if (options_.pseudo_terminal) {

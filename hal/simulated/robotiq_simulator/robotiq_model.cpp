@@ -27,7 +27,7 @@ void RobotiqModel::follow(Time now, std::span<std::uint16_t> holding) noexcept {
   std::uint16_t* const written = &holding[first_written];
   if (forgets_) std::fill_n(written, 3, std::uint16_t{0});
   forgets_ = false;
-  if (now_ != Time{} && now > now_) move(now - now_);
+  if (now_ != Time{} && now > now_) move(std::min<Duration>(now - now_, plan_.longest_step));
   now_ = now;
   take(action_in({written[0], written[1], written[2]}));
   told_.position = count();

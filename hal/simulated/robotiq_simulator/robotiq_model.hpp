@@ -18,6 +18,8 @@ struct ModelPlan {
   double fastest = 0.15;        ///< m/s, at count 255
   double activation_speed = 1;  ///< m/s: all the way to both ends; a real one takes seconds
   double object_width = 0;      ///< m: lies there whenever the fingers begin to close; 0: none
+  /// Between two requests no more time passes for the fingers, however long it took.
+  Duration longest_step = Duration::max();
 };
 
 /// As after power-on: not activated, open. Its time is that of the requests. Any thread.

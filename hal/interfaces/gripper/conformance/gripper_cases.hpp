@@ -14,8 +14,10 @@ inline constexpr double tolerance = 1.5e-3;  // m
 inline constexpr double opened = GripperSetting::open_width;
 inline constexpr double closed = GripperSetting::closed_width;
 
+/// Some cycles at least, also when the machine stands still meanwhile: what was said before goes out in them.
 inline void idle_for(GripperWorld& world, Duration duration) {
-  for (const Time start = world.now(); world.now() - start < duration;) {
+  int cycles = 10;
+  for (const Time start = world.now(); world.now() - start < duration || cycles > 0; --cycles) {
     world.receive();
     world.send();
   }
