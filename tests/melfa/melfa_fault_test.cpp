@@ -174,6 +174,7 @@ bool an_end_that_is_lost_is_told_again(MelfaWorld& world) {
   world.receive();
   world.with([](MxtWire& wire) { wire.lose_packets(1); });
   world.arm().stop();
+  world.await_far_end();
   return world.with([](MxtWire& wire) { return wire.controller().ends(); }) >= 1;
 }
 

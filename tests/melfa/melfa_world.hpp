@@ -2,6 +2,8 @@
 // clock is the test's, so that no judgement depends on how busy the machine is.
 #pragma once
 
+#include <poll.h>
+
 #include <ctime>
 #include <memory>
 #include <string>
@@ -49,12 +51,21 @@ class MelfaWorld {
 
   /// What was sent before has arrived, and its answers are there.
   void receive(Duration elapsed = cycle) {
-    constexpr int patience = 100'000;  // of 0.1 ms
-    for (int i = 0; i < patience && server_->received() < sent_before_ + arm().counters().sent; ++i) {
+    await_far_end();
+    const auto& counted = arm().counters();
+    if (server_->sent() > answers_before_ + counted.answered + counted.late + counted.foreign) {
+      // On its way through the kernel.
+      pollfd answer{arm().descriptor(), POLLIN, 0};
+      poll(&answer, 1, patience);
+    }
+    bench_.receive(elapsed);
+  }
+  /// What was sent has arrived at the far end.
+  void await_far_end() {
+    for (int i = 0; i < 10 * patience && server_->received() < sent_before_ + arm().counters().sent; ++i) {
       const timespec pause{0, 100'000};
       nanosleep(&pause, nullptr);
     }
-    bench_.receive(elapsed);
   }
   void send() { bench_.send(); }
 
@@ -77,7 +88,10 @@ class MelfaWorld {
   /// As a person restarts a unit with its arm.
   bool restart() {
     arm().stop();
+    // It may say its end several times while nobody answers, and be gone before it is heard.
+    await_far_end();
     sent_before_ += arm().counters().sent;
+    answers_before_ = server_->sent();
     arm().clear_fault();
     return arm().initialise().is_ok();
   }
@@ -90,10 +104,13 @@ class MelfaWorld {
   }
 
  private:
+  static constexpr int patience = 30'000;  // ms
+
   std::unique_ptr<melfa::MxtServer> server_;
   DeviceBench<MelfaMxt> bench_{&six_axis};
   bool initialised_ = false;
-  std::uint64_t sent_before_ = 0;  // by drivers before the restart
+  std::uint64_t sent_before_ = 0;     // by drivers before the restart
+  std::uint64_t answers_before_ = 0;  // to them
 };
 
 }  // namespace flexrf

@@ -104,6 +104,7 @@ void MxtServer::send_due() {
     sendto(first->by_stranger ? stranger_ : socket_, first->bytes.data(), first->size, MSG_NOSIGNAL,
            reinterpret_cast<const sockaddr*>(&peer), sizeof(peer));
     wire_.pop();
+    ++sent_;
   }
 }
 

@@ -22,6 +22,8 @@ class MxtServer {
   std::uint16_t port() const { return port_; }
   /// Datagrams so far that it received, and answered if it answers them.
   std::uint64_t received() const { return received_.load(); }
+  /// Datagrams so far that it sent.
+  std::uint64_t sent() const { return sent_.load(); }
   /// Does something with the far end while nothing arrives there.
   template <class Act>
   auto with(Act act) {
@@ -45,6 +47,7 @@ class MxtServer {
   std::uint32_t peer_address_ = 0;  // of who asked last, network byte order
   std::uint16_t peer_port_ = 0;     // likewise
   std::atomic<std::uint64_t> received_{0};
+  std::atomic<std::uint64_t> sent_{0};
   std::thread thread_;
 };
 
