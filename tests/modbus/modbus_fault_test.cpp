@@ -58,6 +58,7 @@ const ModbusLinkFeedback& feedback_of(ModbusLink& link) {
 bool a_wrong_unit_id_is_asked_about() {
   TcpWorld world;
   world.set_unit_id(9);
+  world.set_response_timeout(0.4);
   if (!world.start(map)) return false;
   return until(world, [&] {
     const ModbusStationFeedback& feedback = feedback_of(world.station());
@@ -138,6 +139,7 @@ bool a_closed_port_is_told() {
   const ClosedPort closed;
   DeviceBench<ModbusTcpLink> bench{nullptr};
   bench.configuration().port = closed.port();
+  bench.configuration().response_timeout = 10;  // what is refused is told at once, when this thread has a CPU
   if (closed.port() == 0 || !bench.driver().initialise()) return false;
   bench.receive(std::chrono::milliseconds(1));
   const ModbusLinkFeedback& feedback = feedback_of(bench.driver());

@@ -11,11 +11,12 @@ namespace flexrf {
 template <class Link, class Station>
 class LinkedWorld : public ModbusStationWorld {
  public:
+  void set_response_timeout(double seconds) override { response_timeout_ = seconds; }
   Status start(const ModbusRegisterMap& map) override {
     map_ = &map;
     link_.emplace(nullptr);
     auto& link = link_->configuration();
-    link.response_timeout = 0.4;
+    link.response_timeout = response_timeout_;
     link.reconnect_longest = 0.2;
     prepare(map, link);
     if (const Status status = link_->driver().initialise(); !status) return status;
@@ -72,6 +73,7 @@ class LinkedWorld : public ModbusStationWorld {
 
   const ModbusRegisterMap* map_ = nullptr;
   std::uint8_t unit_id_ = 1;
+  double response_timeout_ = 8;
   std::optional<DeviceBench<Link>> link_;
   std::optional<DeviceBench<Station>> station_;  // goes before its link
 };

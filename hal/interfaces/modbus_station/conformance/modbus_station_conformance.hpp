@@ -24,6 +24,9 @@ class ModbusStationWorld {
  public:
   virtual ~ModbusStationWorld() = default;
 
+  /// Before start(): how long an answer may take; so long that only what hangs exceeds it, unless it is told.
+  /// Without effect where nobody answers.
+  virtual void set_response_timeout(double /*seconds*/) {}
   /// Initialises the station, unit 1, whose poll groups fast and normal are read as fast as can be, slow once
   /// an hour; it may not move yet. `map` outlives the world.
   virtual Status start(const ModbusRegisterMap& map) = 0;
