@@ -15,6 +15,8 @@ namespace {
 /// A thread that comes late must not be held for ever by what it missed.
 constexpr int most_per_cycle = 256;
 constexpr std::size_t most_bytes = 1500;
+/// Of both clocks.
+constexpr Duration longest_reading = std::chrono::microseconds(50);
 
 std::int64_t nanoseconds_of(const timespec& time) noexcept {
   return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
@@ -54,11 +56,7 @@ void NetFtSensor::stop() {
 }
 
 void NetFtSensor::listen(WrenchMeter& meter, Time now) noexcept {
-  // Both clocks are read without a system call. One that is set just now makes a time wrong once, and never
-  // later than now.
-  timespec wall{};
-  clock_gettime(CLOCK_REALTIME, &wall);
-  to_monotonic_ = nanoseconds(now) - nanoseconds_of(wall);
+  compare_clocks();
   for (int taken = 0; taken < most_per_cycle && take_datagram(meter, now); ++taken) {
   }
   const auto request = session_.request(now);
@@ -69,6 +67,16 @@ void NetFtSensor::listen(WrenchMeter& meter, Time now) noexcept {
       Status::error(error == EACCES || error == EPERM ? StatusCode::not_permitted : StatusCode::unavailable,
                     "the sensor cannot be asked at %s: %s; is the network up?", configuration.address.data(),
                     std::strerror(error)));
+}
+
+/// Both clocks are read without a system call. One that is set just now makes a time wrong once, and never
+/// later than now. Held up between the two, this thread knows it better from the cycle before.
+void NetFtSensor::compare_clocks() noexcept {
+  const Time before = MonotonicClock::now();
+  timespec wall{};
+  clock_gettime(CLOCK_REALTIME, &wall);
+  if (to_monotonic_ != 0 && MonotonicClock::now() - before > longest_reading) return;
+  to_monotonic_ = nanoseconds(before) - nanoseconds_of(wall);
 }
 
 /// False: there is none.

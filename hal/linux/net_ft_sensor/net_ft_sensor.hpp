@@ -23,6 +23,7 @@ class NetFtSensor final : public MeasuringDriver<NetFtSensorDriver> {
 
  private:
   void listen(WrenchMeter& meter, Time now) noexcept override;
+  void compare_clocks() noexcept;
   bool take_datagram(WrenchMeter& meter, Time now) noexcept;
   bool is_from_sensor(const sockaddr_in& from) const noexcept;
   Time time_of(msghdr& header, Time now) const noexcept;
