@@ -16,7 +16,8 @@ class Ft300World : public BenchWorld<Ft300Sensor> {
   Status start(const ForceTorqueSetting& setting) override {
     driver().stop();
     if (const Status status = plug(); !status) return status;
-    configure_sensor(bench().configuration(), setting, 2);  // a loaded machine takes long
+    configure_sensor(bench().configuration(), setting,
+                     4);  // a loaded machine takes long, and may stand still
     bench().configuration().set_device(device());
     bench().environment().virtual_time = false;
     return driver().initialise();

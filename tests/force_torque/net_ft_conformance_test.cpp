@@ -17,7 +17,7 @@ class NetFtWorld final : public BenchWorld<NetFtSensor> {
   Status start(const ForceTorqueSetting& setting) override {
     if (const Status status = server_.plug(); !status) return status;
     auto& configuration = bench().configuration();
-    configure_sensor(configuration, setting, 2);  // a loaded machine takes long
+    configure_sensor(configuration, setting, 4);  // a loaded machine takes long, and may stand still
     configuration.set_address("127.0.0.1");
     configuration.port = server_.port();
     bench().environment().virtual_time = false;
