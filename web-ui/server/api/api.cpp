@@ -29,8 +29,12 @@ std::string new_boot() {
 
 struct Api::Parts final : public Ticked, public ControlWatcher, public SessionWatcher {
   Parts(Executive& executive_to_serve, AccessControl& access_control, LaterReplies& replies,
-        std::uint32_t places)
-      : executive(executive_to_serve), access(access_control), clients(places), answers(clients, replies) {}
+        std::uint32_t places, const ApiTimeouts& limits)
+      : executive(executive_to_serve),
+        access(access_control),
+        timeouts(limits),
+        clients(places),
+        answers(clients, replies) {}
 
   /// What needs the cell's objects, which Executive::prepare() constructs.
   void make();
@@ -65,6 +69,7 @@ struct Api::Parts final : public Ticked, public ControlWatcher, public SessionWa
 
   Executive& executive;
   AccessControl& access;
+  ApiTimeouts timeouts;
   Clients clients;
   Answers answers;
   Permission permission{access, answers};
@@ -79,8 +84,9 @@ Api::Parts::Made::Made(Parts& parts, Executive& executive, AccessControl& access
       configuration(executive.cell(), directory),
       values(directory, slots, configuration),
       images(executive.cell()),
-      pictures(images, parts.answers),
-      parameters(executive.cell(), directory, slots, values, parts.answers, parts.permission, parts.boot),
+      pictures(images, parts.answers, parts.timeouts.picture),
+      parameters(executive.cell(), directory, slots, values, parts.answers, parts.permission, parts.boot,
+                 parts.timeouts.answer),
       edits(executive, directory, configuration, values, parts.answers, parts.permission),
       motion(executive, access, parts.answers, parts.permission, parameters, edits),
       lifecycle(executive, directory, parts.answers, parts.permission),
@@ -128,8 +134,9 @@ void Api::Parts::on_session_ended(SessionIndex session) {
   made->live.close_session(session);
 }
 
-Api::Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places)
-    : parts_(std::make_unique<Parts>(executive, access, replies, places)) {}
+Api::Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places,
+         const ApiTimeouts& timeouts)
+    : parts_(std::make_unique<Parts>(executive, access, replies, places, timeouts)) {}
 
 Api::~Api() = default;
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "runtime/core/status.hpp"
+#include "runtime/core/time.hpp"
 #include "web-ui/server/access.hpp"
 #include "web-ui/server/exchange.hpp"
 #include "web-ui/server/live_link.hpp"
@@ -16,13 +17,20 @@ class Executive;
 
 namespace flexrf::panel {
 
+/// How long others may take before who asked is told that they do not answer.
+struct ApiTimeouts {
+  Duration answer = std::chrono::seconds{1};   ///< of a component's thread
+  Duration picture = std::chrono::seconds{2};  ///< of the worker that encodes pictures
+};
+
 /// All functions but those that say otherwise: the server's thread. None takes longer than 5 ms, none
 /// allocates in the steady state (subscribed values, refreshed holds, reading of values).
 class Api {
  public:
   /// `places`: connections that the server has, each LiveLink's place is below. The main thread, before the
   /// executive runs; all outlive the Api.
-  Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places);
+  Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places,
+      const ApiTimeouts& timeouts = {});
   Api(const Api&) = delete;
   Api& operator=(const Api&) = delete;
   ~Api();

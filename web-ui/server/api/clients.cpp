@@ -29,6 +29,7 @@ void Outbox::take(std::string& to) {
 Client& Clients::open(LiveLink& link, Time now) {
   Client& client = clients_[link.place()];
   // Its memory stays from one connection to the next.
+  client.outbox.prepare();
   client.outbox.clear();
   client.slots.clear();
   client.topics = {};

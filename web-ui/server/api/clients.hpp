@@ -9,6 +9,7 @@
 
 #include "runtime/blackboard/item.hpp"
 #include "runtime/core/time.hpp"
+#include "runtime/parameters/request.hpp"
 #include "web-ui/server/api/caller.hpp"
 #include "web-ui/server/live_link.hpp"
 
@@ -19,6 +20,12 @@ class Outbox {
  public:
   /// Bytes that may wait. A client that reads nothing and keeps asking is not worth more.
   static constexpr std::size_t max_waiting = 256 * 1024;
+  /// For which there is room from the beginning: a thread that was kept from its work answers all requests
+  /// that wait for it at a time, and the end of a hold refuses all of its refreshes.
+  static constexpr std::size_t usual_waiting = AnswerQueue::capacity * std::size_t{512};
+
+  /// Takes the memory for what usually waits.
+  void prepare() { bytes_.reserve(usual_waiting); }
 
   bool is_empty() const noexcept { return taken_ == bytes_.size(); }
   bool is_full() const noexcept { return bytes_.size() - taken_ > max_waiting; }

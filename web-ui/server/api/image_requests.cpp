@@ -3,11 +3,6 @@
 #include <algorithm>
 
 namespace flexrf::panel {
-namespace {
-
-constexpr Duration patience = std::chrono::seconds{2};
-
-}  // namespace
 
 void ImageRequests::ask(const Caller& caller, std::uint16_t slot, std::uint32_t width, Time now) {
   const auto place = std::find_if(waiting_.begin(), waiting_.end(), [](const Waiting& waiting) {
@@ -17,7 +12,7 @@ void ImageRequests::ask(const Caller& caller, std::uint16_t slot, std::uint32_t 
     return answers_->refuse(caller,
                             Refusal::make(RefusalKind::busy, "Too many pictures are asked for at a time."));
   // The look that is under way may have begun before.
-  *place = {caller, slot, images_->newest(slot).version, now + patience};
+  *place = {caller, slot, images_->newest(slot).version, now + patience_};
   ++count_;
   images_->demand_once(slot, width);
 }

@@ -12,9 +12,10 @@ namespace flexrf::panel {
 /// The server's thread.
 class ImageRequests {
  public:
-  ImageRequests(ImageWorker& images, Answers& answers) noexcept : images_(&images), answers_(&answers) {}
+  ImageRequests(ImageWorker& images, Answers& answers, Duration patience) noexcept
+      : images_(&images), answers_(&answers), patience_(patience) {}
 
-  /// Answers `caller` within 2 s.
+  /// Answers `caller` when that much patience has run out at the latest.
   void ask(const Caller& caller, std::uint16_t slot, std::uint32_t width, Time now);
   void tick(Time now);
   bool is_waiting() const noexcept { return count_ != 0; }
@@ -29,6 +30,7 @@ class ImageRequests {
 
   ImageWorker* images_;
   Answers* answers_;
+  Duration patience_;
   std::array<Waiting, 16> waiting_{};
   std::size_t count_ = 0;
 };

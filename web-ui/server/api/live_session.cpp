@@ -278,6 +278,8 @@ bool LiveSession::write_topic(Client& client, Time now, std::string& to) {
     const std::string_view body = parts_.topics.body(topic, now);
     if (parts_.topics.version(topic) == subscription.seen) continue;
     subscription.seen = parts_.topics.version(topic);
+    constexpr std::size_t around = 64;
+    to.reserve(parts_.topics.room(topic) + around);
     to.append(R"({"event":"topic","name":")").append(name_of(topic)).append(R"(","body":)");
     to.append(body).append("}");
     return true;

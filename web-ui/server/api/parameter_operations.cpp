@@ -184,7 +184,7 @@ void ParameterOperations::forget_holds() {
 // ---- requests and answers
 
 bool ParameterOperations::send(ParameterRequest& request, PendingRequest pending, Time now) {
-  pending.overdue_at = now + answer_timeout;
+  pending.overdue_at = now + answer_timeout_;
   request.correlation = pending_.add(pending);
   if (request.correlation == 0) {
     answers_->refuse(pending.caller, no_place());
@@ -210,9 +210,10 @@ void ParameterOperations::tick(Time now) {
   while (pending_.take_overdue(now, pending)) {
     // Whatever becomes of it: nobody knows, so nobody may go on holding.
     if (pending.lease != 0) leases_.forget(pending.lease);
-    answers_->refuse(pending.caller, Refusal::make(RefusalKind::no_answer,
-                                                   "%s did not answer within 1 s; its thread may hang.",
-                                                   directory_->entry(pending.component).name));
+    answers_->refuse(
+        pending.caller,
+        Refusal::make(RefusalKind::no_answer, "%s did not answer within %.3g s; its thread may hang.",
+                      directory_->entry(pending.component).name, seconds(answer_timeout_)));
   }
 }
 

@@ -18,18 +18,18 @@ namespace flexrf::panel {
 /// thread has. The server's thread; nothing waits or allocates.
 class ParameterOperations {
  public:
-  /// How long a component's thread may take to answer.
-  static constexpr Duration answer_timeout = std::chrono::seconds{1};
-
+  /// `answer_timeout`: how long a component's thread may take.
   ParameterOperations(Cell& cell, const Directory& directory, ObservedSlots& slots, ComponentValues& values,
-                      Answers& answers, Permission& permission, std::string_view boot) noexcept
+                      Answers& answers, Permission& permission, std::string_view boot,
+                      Duration answer_timeout) noexcept
       : cell_(&cell),
         directory_(&directory),
         slots_(&slots),
         values_(&values),
         answers_(&answers),
         permission_(&permission),
-        boot_(boot) {}
+        boot_(boot),
+        answer_timeout_(answer_timeout) {}
 
   /// Registers where answers come. Before the start.
   Status prepare();
@@ -70,6 +70,7 @@ class ParameterOperations {
   Answers* answers_;
   Permission* permission_;
   std::string_view boot_;
+  Duration answer_timeout_;
   AnswerQueue queue_;
   std::uint16_t requester_ = 0;
   PendingRequests pending_;

@@ -89,7 +89,9 @@ void RestHandler::read(const Match& found, const Request& request, Reply& reply,
   const Application& application = parts_.executive.cell().application();
   const std::string_view name = found.segments[0];
   const auto list = [&](Topic topic) {
-    reply.text.assign(parts_.topics.body(topic, now));
+    const std::string_view body = parts_.topics.body(topic, now);
+    reply.text.reserve(parts_.topics.room(topic));
+    reply.text.assign(body);
     finish(request, reply);
   };
   reply.text.clear();

@@ -21,8 +21,10 @@ class StateEvent {
   static constexpr Duration beside_values = std::chrono::milliseconds{7};
 
   StateEvent(Executive& executive, const Directory& directory, const AccessControl& access,
-             const EditOperations& edits) noexcept
-      : executive_(&executive), directory_(&directory), access_(&access), edits_(&edits) {}
+             const EditOperations& edits)
+      : executive_(&executive), directory_(&directory), access_(&access), edits_(&edits) {
+    for (std::string& text : texts_) text.reserve(usual_size);
+  }
 
   void set_figures(const ServerFigures& figures) noexcept { figures_ = figures; }
   /// Makes it anew when something changed, and once in each second.
@@ -36,6 +38,9 @@ class StateEvent {
   std::string_view members_for(SessionIndex session) const noexcept;
 
  private:
+  /// Bytes of a text in which much is told.
+  static constexpr std::size_t usual_size = 4U << 10;
+
   std::uint64_t signature() const noexcept;
   void write(std::string& text, SessionIndex you, Time now) const;
   void write_session(JsonWriter& json, SessionIndex session, SessionIndex you) const;

@@ -97,6 +97,11 @@ std::string_view TopicBodies::body(Topic topic, Time now) {
   JsonWriter json(std::move(body.text));
   write(json, topic, now);
   body.text = json.release();
+  // Nearly all of it are names, which stay: numbers that grow, also by a standstill, find room from now on.
+  if (body.version == 0) {
+    body.text.reserve(2 * body.text.size());
+    body.former.reserve(body.text.capacity());
+  }
   if (body.version == 0 || body.text != body.former) ++body.version;
   return body.text;
 }

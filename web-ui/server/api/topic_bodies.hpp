@@ -24,6 +24,10 @@ class TopicBodies {
 
   /// Not for the log. Made anew when it is older than shortest_interval.
   std::string_view body(Topic topic, Time now);
+  /// Bytes that a copy of it should have room for: its numbers grow.
+  std::size_t room(Topic topic) const noexcept {
+    return bodies_[static_cast<std::size_t>(topic)].text.capacity();
+  }
   /// Rises with each change of what body() gives.
   std::uint64_t version(Topic topic) const noexcept {
     return bodies_[static_cast<std::size_t>(topic)].version;

@@ -1,4 +1,8 @@
 // Holds: true while refreshed, ended by each cause, never revived.
+#include <atomic>
+#include <utility>
+
+#include "runtime/parameters/parameter_store.hpp"
 #include "web-ui/server/api/tests/rig.hpp"
 
 namespace flexrf::panel {
@@ -7,16 +11,32 @@ namespace {
 using fixture::ProducerAndConsumer;
 
 const json hold{{"op", "hold"}, {"component", "producer"}, {"parameter", "move"}};
+constexpr const char* too_late = "the press waited too long";
 
-/// A cell whose producer tells whether it is held.
+/// A cell whose producer tells whether it is held, and what became of its holds: on a loaded machine each may
+/// end for want of a refresh in time, before anybody saw it.
 struct Held {
   ProducerAndConsumer cell;
   std::atomic<bool> moves{false};
+  std::atomic<std::uint64_t> begun{0};
+  std::atomic<std::uint64_t> ended_early{0};  // although a refresh that had arrived was younger than a lease
+  std::atomic<Time> refreshed{Time{}};        // when the newest refresh that was sent was not yet begun
+
   Held() {
-    cell.unit(ProducerAndConsumer::producer).script.step = [this](fixture::TestUnit& unit, const Tick&) {
+    cell.unit(ProducerAndConsumer::producer).script.step = [this](fixture::TestUnit& unit, const Tick& tick) {
+      const bool moved = moves;
+      if (unit.runtime.move && !moved) ++begun;
+      if (!unit.runtime.move && moved && tick.now < arrived_ + lease_time) ++ended_early;
       moves = unit.runtime.move;
+      // What was sent before a step is taken in before the next, and looked at for its end before the one
+      // after.
+      arrived_ = std::exchange(sent_, refreshed.load());
     };
   }
+
+ private:
+  Time arrived_{};
+  Time sent_{};
 };
 
 /// It runs; an operator has control, and is connected.
@@ -26,15 +46,26 @@ struct Operated : Held {
 
   Operated() : link(connect()) {}
 
-  /// Holds, and returns the lease.
+  /// Holds, and returns the lease. A press that comes too late to its unit is refused; a person presses
+  /// again.
   std::string begin() {
-    const json answer = rig.ask(link, hold);
-    if (answer.at("ok") != true) throw fixture::CheckFailed{answer.dump()};
-    CHECK(rig.wait_until([&] { return moves.load(); }));
+    const std::uint64_t before = begun;
+    json answer;
+    CHECK(rig.wait_until([&] {
+      answer = rig.ask(link, hold);
+      if (answer.at("ok") == true) return true;
+      CHECK_CONTAINS(answer.at("problem").value("reason", ""), too_late);
+      return false;
+    }));
+    CHECK(rig.wait_until([&] { return begun > before; }));
     return answer.at("lease").get<std::string>();
   }
+  /// So often that requests which nobody takes in for as long as a lease lasts still find room.
   void refresh(const std::string& lease) {
+    const Time now = MonotonicClock::now();
+    if (now < refreshed.load() + 2 * lease_time / RequestQueue::capacity) return;
     rig.send(link, {{"op", "refresh"}, {"id", 1'000'000}, {"lease", lease}});
+    refreshed = now;
   }
   /// Refreshes until the hold is over in spite of it.
   void check_ends(const std::string& lease) {
@@ -63,14 +94,20 @@ void a_hold_lives_while_it_is_refreshed() {
   Operated held;
   Rig& rig = held.rig;
   PlayedLink& link = held.link;
-  const std::string lease = held.begin();
-  link.texts.clear();
-  const Time until = MonotonicClock::now() + std::chrono::milliseconds{600};
-  CHECK(rig.wait_until([&] {
-    held.refresh(lease);
-    return MonotonicClock::now() > until;
-  }));
-  CHECK(held.moves);
+  std::string lease;
+  // Until one was held for long enough: those before had to end, as somebody was kept from his work for
+  // longer than a lease.
+  for (Time until{}; MonotonicClock::now() < until || !held.moves;) {
+    if (!held.moves) {
+      lease = held.begin();
+      until = MonotonicClock::now() + std::chrono::milliseconds{600};
+    }
+    CHECK(rig.wait_until([&] {
+      held.refresh(lease);
+      return !held.moves || MonotonicClock::now() > until;
+    }));
+    CHECK_EQUAL(held.ended_early.load(), 0U);
+  }
   // Nobody refreshes: the runtime ends it, and no refresh revives it.
   CHECK(rig.wait_until([&] { return !held.moves.load(); }));
   link.texts.clear();

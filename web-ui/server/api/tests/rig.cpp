@@ -116,8 +116,8 @@ Reply* PlayedReplies::reply_of(Ticket ticket) {
 
 // ---- the rig
 
-Rig::Rig(fixture::TestApplication& application)
-    : running_(application), api_(running_.executive(), access_, replies_, places) {
+Rig::Rig(fixture::TestApplication& application, const ApiTimeouts& timeouts)
+    : running_(application), api_(running_.executive(), access_, replies_, places, timeouts) {
   Status status = api_.prepare();
   if (status) status = api_.start();
   if (!status) throw CheckFailed{std::string{"the API: "} + status.cause()};
@@ -137,6 +137,7 @@ void Rig::start() {
   started_ = true;
   if (!wait_until([this] { return executive().control().mode() >= Mode::running; }))
     throw CheckFailed{"the cell does not run"};
+  tick();  // it may have begun to after the last one: who connects now is told that it runs
 }
 
 PlayedLink& Rig::connect(SessionIndex session) {

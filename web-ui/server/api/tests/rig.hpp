@@ -47,7 +47,12 @@ class PlayedAccess final : public AccessControl {
 /// What was sent stays until the test takes it. A stuck link's client reads nothing.
 class PlayedLink final : public LiveLink {
  public:
-  PlayedLink(std::uint32_t place, SessionIndex session) : place_(place), session_(session) {}
+  PlayedLink(std::uint32_t place, SessionIndex session) : place_(place), session_(session) {
+    buffer_.reserve(room);
+  }
+
+  /// Bytes that a real connection has for a message, or a reply, from the beginning.
+  static constexpr std::size_t room = 4U << 10;
 
   std::uint32_t place() const override { return place_; }
   SessionIndex session() const override { return session_; }
@@ -94,8 +99,10 @@ struct Answer {
 class Rig {
  public:
   static constexpr std::uint32_t places = 8;
+  /// Which nothing but a hang exceeds: a thread of a loaded machine may be kept from its work for seconds.
+  static constexpr ApiTimeouts patient{std::chrono::minutes{1}, std::chrono::minutes{1}};
 
-  explicit Rig(fixture::TestApplication& application);
+  explicit Rig(fixture::TestApplication& application, const ApiTimeouts& timeouts = patient);
   ~Rig();
 
   /// Runs until the application does.
