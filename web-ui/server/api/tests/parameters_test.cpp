@@ -159,7 +159,7 @@ void a_thread_that_does_not_answer_is_given_up() {
   cell.unit(ProducerAndConsumer::producer).script.step = [&](fixture::TestUnit&, const Tick&) {
     while (hang) hung = true;
   };
-  Rig rig(cell);
+  Rig rig(cell, ApiTimeouts{});
   rig.start();
   rig.access().give(an_operator);
   PlayedLink& link = rig.connect(an_operator);
@@ -167,9 +167,12 @@ void a_thread_that_does_not_answer_is_given_up() {
   CHECK(rig.wait_until([&] { return hung.load(); }));
   json message = set("producer", {{"gain", 2}});
   message["id"] = 77;
+  const Time before = MonotonicClock::now();
   rig.send(link, message);
   link.texts.clear();
-  rig.tick(MonotonicClock::now() + std::chrono::seconds{2});
+  rig.tick(before + ApiTimeouts{}.answer - std::chrono::milliseconds{1});
+  for (const json& text : link.texts) CHECK(text.value("id", 0) != 77);
+  rig.tick(MonotonicClock::now() + ApiTimeouts{}.answer);
   hang = false;
   bool found = false;
   for (const json& text : link.texts)
