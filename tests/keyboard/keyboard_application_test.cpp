@@ -194,28 +194,36 @@ bool is_held(const ParameterRequest& request) {
   return true;
 }
 
-/// Holds it on, or presses where it is not held, as a machine that stands still ends a hold.
-void keep_held(Cell& cell, ParameterRequest& request) {
+/// Holds it on, or presses where it is not held, as a machine that stands still ends a hold. Waits for the
+/// answer: what was asked last is not to begin a hold later. False when none comes.
+bool keep_held(Cell& cell, AnswerQueue& answers, ParameterRequest& request) {
   const bool held = is_held(request);
   request.kind = held ? RequestKind::refresh : RequestKind::hold;
   if (!held) request.lease = new_lease_number();
   ++request.lease_sequence;
   cell.send(request);
-  for (int patience = 0; !is_held(request) && patience < 100; ++patience) usleep(10'000);
+  ParameterAnswer answer;
+  return wait_until([&] { return answers.pop(answer); });
+}
+
+/// Until a step of this unit has begun and ended.
+bool has_stepped(std::size_t unit) {
+  const std::atomic<std::uint64_t>& steps = application.unit_states[unit].steps;
+  const std::uint64_t before = steps.load();
+  return wait_until([&] { return steps.load() >= before + 2; });
 }
 
 /// As somebody at the panel: holds an arrow until the arm has moved, is then lost, and looks on.
-bool move_while_held(Executive& executive, ParameterRequest request) {
+bool move_while_held(Executive& executive, AnswerQueue& answers, ParameterRequest request) {
   Cell& cell = executive.cell();
   if (!wait_until([&] { return cell.control().may_move() && tool_x() > 0; })) return false;
   const double begin = tool_x();
-  const bool moved = wait_until([&] {
-    keep_held(cell, request);
-    return tool_x() > begin + 0.02;
-  });
+  const bool moved = wait_until([&] { return keep_held(cell, answers, request) && tool_x() > begin + 0.02; });
   // Nobody refreshes the lease: it ends, and so does the motion.
   const bool ended = wait_until([&] { return !is_held(request); });
-  const bool rests = wait_until([] { return application.unit_states[1].idle.load(); });
+  // The robot may not have seen yet what the last hold began.
+  const bool rests = has_stepped(request.component) && has_stepped(1) &&
+                     wait_until([] { return application.unit_states[1].idle.load(); });
   const double rest = tool_x();
   usleep(200'000);
   return moved && ended && rests && std::abs(tool_x() - rest) < tolerance;
@@ -230,9 +238,11 @@ void an_arrow_moves_the_arm_only_while_it_is_held(void**) {
                         dup2(ends[0], STDIN_FILENO);  // a keyboard that nobody touches
                         Executive executive(application, on_the_wall_clock());
                         if (!executive.prepare()) return Outcome{};
+                        static AnswerQueue answers;
+                        request.requester = executive.cell().add_requester(answers);
                         bool as_expected = false;
                         std::thread person([&] {
-                          as_expected = move_while_held(executive, request);
+                          as_expected = move_while_held(executive, answers, request);
                           executive.request_end();
                         });
                         const RunSummary summary = executive.run();
