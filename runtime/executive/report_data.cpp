@@ -5,6 +5,7 @@
 
 #include "runtime/core/text_table.hpp"
 #include "runtime/executive/schedulability.hpp"
+#include "runtime/executive/supervision.hpp"
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
 
@@ -14,6 +15,12 @@ namespace {
 MeasuredDurations measured(const Histogram& histogram) {
   return {histogram.count(), histogram.quantile(0.5), histogram.quantile(0.99), histogram.quantile(0.999),
           histogram.maximum()};
+}
+
+/// The others are still running when the application is given up: they are in a step now and then.
+bool hangs(const ThreadRecord& thread, const ThreadState& state, Time now) noexcept {
+  const std::int64_t began = state.step_began.load();
+  return began != 0 && now - Time{Duration{began}} > Supervision::hang_timeout(thread);
 }
 
 std::vector<ThreadReport> collect_threads(const Application& application, const RunSummary& summary) {
@@ -32,7 +39,7 @@ std::vector<ThreadReport> collect_threads(const Application& application, const 
     thread.involuntary_switches = state.involuntary_switches.load();
     thread.lateness = measured(state.lateness);
     thread.execution = measured(state.execution);
-    thread.hangs = summary.stuck && state.step_began.load() != 0;
+    thread.hangs = summary.stuck && hangs(*thread.record, state, MonotonicClock::now());
   }
   // Simulated threads disturb nobody, ordinary ones are promised nothing.
   if (!summary.realtime) return threads;

@@ -39,6 +39,23 @@ void an_ordinary_run_tells_all_and_ends_in_a_sentence() {
   CHECK(report.text.ends_with(" ms.\n"));
 }
 
+/// Given up for one that hangs, the application still has threads that run, and are in a step at times.
+void a_thread_that_is_in_a_step_does_not_hang() {
+  ProducerAndConsumer cell;
+  Executive executive(cell.application(), in_virtual_time(milliseconds{100}));
+  CHECK(executive.prepare().is_ok());
+  RunSummary summary = executive.run();
+  summary.stuck = true;
+  const Time now = MonotonicClock::now();
+  const std::span<ThreadState> threads = executive.cell().application().thread_states;
+  threads[ProducerAndConsumer::producing].step_began = nanoseconds(now - std::chrono::minutes{1});
+  // As it will be for longer than any standstill of this test.
+  threads[ProducerAndConsumer::consuming].step_began = nanoseconds(now + std::chrono::minutes{1});
+  const ReportData data = collect_report(executive.cell(), summary);
+  CHECK(data.threads[ProducerAndConsumer::producing].hangs);
+  CHECK(!data.threads[ProducerAndConsumer::consuming].hangs);
+}
+
 void readers_are_counted() {
   ProducerAndConsumer cell;
   // The consumer looks every third time only.
@@ -111,6 +128,7 @@ int main() {
   using namespace flexrf::fixture;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(an_ordinary_run_tells_all_and_ends_in_a_sentence),
+      CONTAINED_TEST(a_thread_that_is_in_a_step_does_not_hang),
       CONTAINED_TEST(readers_are_counted),
       CONTAINED_TEST(drops_of_queues_are_shown),
       CONTAINED_TEST(a_fault_is_told_with_its_cause),
