@@ -20,7 +20,7 @@ Supervision::Supervision(Cell& cell, Lifecycle& lifecycle, bool watch_for_hangs)
       watch_for_hangs_(watch_for_hangs),
       steps_(cell.application().threads.size()),
       safe_timeout_(least_safe_timeout),
-      cycles_when_busy_(cell.application().threads.size()) {
+      cycles_when_quiet_(cell.application().threads.size()) {
   for (const ThreadRecord& thread : cell.application().threads) {
     settle_time_ = std::max({settle_time_, 2 * thread.trigger.period, 2 * thread.trigger.min_interval,
                              2 * thread.trigger.longest});
@@ -143,14 +143,19 @@ void Supervision::enter(Mode mode, Time now) noexcept {
 void Supervision::begin_phase(Mode mode, Time now) noexcept {
   mode_ = mode;
   entered_at_ = now;
-  note_busy(now);
+  was_quiet_ = false;
 }
 
-void Supervision::note_busy(Time now) noexcept {
-  busy_at_ = now;
+/// From the first look on that saw it: what was under way at the look before may have ended just now, with
+/// something for others to do.
+void Supervision::note_quiet(bool quiet, Time now) noexcept {
+  const bool begins = quiet && !was_quiet_;
+  was_quiet_ = quiet;
+  if (!begins) return;
+  quiet_since_ = now;
   const std::span<const ThreadState> states = cell_->application().thread_states;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    cycles_when_busy_[i] = states[i].cycles.load(std::memory_order_relaxed);
+    cycles_when_quiet_[i] = states[i].cycles.load(std::memory_order_relaxed);
   }
 }
 
@@ -158,12 +163,12 @@ void Supervision::note_busy(Time now) noexcept {
 /// something to do: on a loaded machine time alone says nothing about who ran in it. Asked before it is
 /// looked whether all is quiet still: then what those turns began is seen.
 bool Supervision::has_settled(Time now) const noexcept {
-  if (now - busy_at_ <= settle_time_) return false;
+  if (!was_quiet_ || now - quiet_since_ <= settle_time_) return false;
   const Application& application = cell_->application();
   for (std::size_t i = 0; i < application.threads.size(); ++i) {
     const bool periodic = application.threads[i].trigger.kind == TriggerKind::period;
     const std::uint64_t cycles = application.thread_states[i].cycles.load(std::memory_order_acquire);
-    if (periodic && cycles - cycles_when_busy_[i] < 2) return false;
+    if (periodic && cycles - cycles_when_quiet_[i] < 2) return false;
   }
   return true;
 }
@@ -171,7 +176,7 @@ bool Supervision::has_settled(Time now) const noexcept {
 void Supervision::finish(Time now) noexcept {
   const bool has_lasted = has_settled(now);
   const bool quiet = is_quiet();
-  if (!quiet) note_busy(now);
+  note_quiet(quiet, now);
   if (now - entered_at_ > cell_->application().finish_timeout) {
     log_warning(cell_->application().name, "not finished within finish_timeout; stopping now");
     cut_short_ = true;
@@ -184,7 +189,7 @@ void Supervision::finish(Time now) noexcept {
 void Supervision::stop(Time now) noexcept {
   const bool has_lasted = has_settled(now);
   const bool at_rest = units_are_idle();
-  if (!at_rest) note_busy(now);
+  note_quiet(at_rest, now);
   if (now - entered_at_ > cell_->application().stop_timeout) {
     log_warning(cell_->application().name, "not at rest within stop_timeout; every device is made safe");
     cut_short_ = true;

@@ -50,7 +50,7 @@ class Supervision {
   bool units_are_idle() const noexcept;
   void enter(Mode mode, Time now) noexcept;
   void begin_phase(Mode mode, Time now) noexcept;
-  void note_busy(Time now) noexcept;
+  void note_quiet(bool quiet, Time now) noexcept;
   bool has_settled(Time now) const noexcept;
 
   Cell* cell_;
@@ -65,9 +65,10 @@ class Supervision {
   /// does not hang yet.
   Duration safe_timeout_;
   Mode mode_ = Mode::starting;
-  Time entered_at_{};                            // the present mode
-  Time busy_at_{};                               // when something was last seen to be under way
-  std::vector<std::uint64_t> cycles_when_busy_;  // of each thread, at that time
+  Time entered_at_{};                             // the present mode
+  bool was_quiet_ = false;                        // nothing was under way at the last look
+  Time quiet_since_{};                            // while so: the first look of which that is true
+  std::vector<std::uint64_t> cycles_when_quiet_;  // of each thread, at that time
   bool had_fault_ = false;
   bool stuck_ = false;
   bool cut_short_ = false;

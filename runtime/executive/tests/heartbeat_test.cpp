@@ -9,7 +9,6 @@
 
 #include "runtime/executive/heartbeat_watch.hpp"
 #include "runtime/executive/service_manager.hpp"
-#include "runtime/executive/supervision.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
 #include "runtime/log/log.hpp"
 
@@ -100,51 +99,6 @@ void after_the_watch_itself_stood_still_nobody_is_blamed() {
   CHECK(cell.is_met());
   cell.pass(milliseconds{600}, {});
   CHECK(!cell.is_met());
-}
-
-/// A step that has begun and does not end; no thread runs: the test says when is looked.
-struct Hanging {
-  StrictPlan plan;
-  Options options = on_the_wall_clock();
-  Cell cell{plan.application(), options};
-  Lifecycle lifecycle{cell, true};
-  Supervision supervision{cell, lifecycle, true};
-  Time now{seconds{1}};
-
-  Hanging() {
-    look(Duration{});
-    plan.application().thread_states[Plan::producing].step_began = now.time_since_epoch().count();
-    look(Duration{});
-  }
-  ~Hanging() { drain_log(-1); }
-  void look(Duration later) {
-    now += later;
-    supervision.observe(now);
-  }
-};
-
-void a_step_that_is_watched_all_the_time_hangs_after_its_time_out() {
-  Hanging step;
-  for (int i = 0; i < 100; ++i) step.look(milliseconds{5});
-  CHECK(!step.supervision.is_stuck());
-  step.look(milliseconds{5});
-  CHECK(step.supervision.is_stuck());
-}
-
-void of_a_time_in_which_nobody_watched_the_longest_pause_counts() {
-  Hanging step;
-  step.look(seconds{10});
-  CHECK(!step.supervision.is_stuck());
-  for (int i = 0; i < 80; ++i) step.look(milliseconds{5});
-  CHECK(!step.supervision.is_stuck());
-  step.look(milliseconds{5});
-  CHECK(step.supervision.is_stuck());
-}
-
-void who_seldom_watches_finds_what_hangs_all_the_same() {
-  Hanging step;
-  for (int i = 0; i < 6; ++i) step.look(seconds{1});
-  CHECK(step.supervision.is_stuck());
 }
 
 void what_is_given_up_misses_it() {
@@ -336,9 +290,6 @@ int main() {
       CONTAINED_TEST(a_silent_thread_is_rung_then_named_and_comes_back),
       CONTAINED_TEST(a_judgement_holds_for_a_second),
       CONTAINED_TEST(after_the_watch_itself_stood_still_nobody_is_blamed),
-      CONTAINED_TEST(a_step_that_is_watched_all_the_time_hangs_after_its_time_out),
-      CONTAINED_TEST(of_a_time_in_which_nobody_watched_the_longest_pause_counts),
-      CONTAINED_TEST(who_seldom_watches_finds_what_hangs_all_the_same),
       CONTAINED_TEST(what_is_given_up_misses_it),
       CONTAINED_TEST(a_thread_with_nothing_to_do_answers),
       CONTAINED_TEST(a_step_that_hangs_misses_it),
