@@ -1,4 +1,5 @@
 // The link: what is old looks old, what comes back is whole, and another start is told from a short break.
+import type { Page } from 'playwright-core';
 import { afterEach, beforeEach, expect, it } from 'vitest';
 import { Application, Cable, Viewer, itemOf, useBrowser, screenshot, tidyUp, violations, within } from './harness';
 
@@ -37,6 +38,63 @@ it('an application that is stopped: grey values, dead controls, and back again',
   await oldValues().waitFor({ state: 'hidden' });
   await expect.poll(() => page.locator('[stale]').count(), { timeout: within }).toBe(0);
   expect(await page.getByRole('button', { name: 'Stop motion' }).getAttribute('aria-disabled')).toBe('false');
+});
+
+/** Each view, and what of it shows values. */
+const values: readonly (readonly [string, string])[] = [
+  ['overview', 'flexrf-overview :is(dd, [role=alert] h3, [role=alert] p)'],
+  ['units', 'flexrf-component-list :is(td .state, .box .alarm)'],
+  ['units/fragile', 'flexrf-component-page :is(strong, [role=alert] dd, dl:not([role] *) > dd)'],
+  ['units/worker%5B0%5D', 'flexrf-component-page #members + table td'],
+  ['devices', 'flexrf-component-list td .state'],
+  ['threads', 'flexrf-threads td.number'],
+  ['blackboard', 'flexrf-blackboard td.number'],
+];
+
+/** Colours of what a selector finds, as they differ from that of old values. */
+function colours(page: Page, selector: string): Promise<string[]> {
+  return page.locator(selector).evaluateAll((found) => {
+    const probe = document.body.appendChild(document.createElement('i'));
+    probe.style.color = 'var(--flexrf-stale)';
+    const old = getComputedStyle(probe).color;
+    probe.remove();
+    return found.map((one) => getComputedStyle(one).color).map((colour) => (colour === old ? 'old' : colour));
+  });
+}
+
+it('an application that is stopped: no view shows its values as new', async () => {
+  await open(running.address);
+  await viewer.go('units', 'fragile');
+  await viewer.page.getByRole('button', { name: 'Drop it' }).click();
+  await viewer.page.getByText('it was dropped').first().waitFor();
+  const pages: (readonly [string, string, Page])[] = [];
+  for (const [view, selector] of values) {
+    const page = await viewer.context.newPage();
+    await page.goto(`${running.base}/#/${view}`);
+    await page.locator(selector).first().waitFor();
+    pages.push([view, selector, page]);
+  }
+  const seen = (): Promise<(readonly [string, string[]])[]> => Promise.all(
+    pages.map(async ([view, selector, page]) => [view, [...new Set(await colours(page, selector))]] as const));
+  const old = values.map(([view]) => [view, ['old']]);
+  await expect.poll(async () => (await seen()).filter(([, all]) => all.length === 0 || all.includes('old')), { timeout: within }).toEqual([]);
+  running.process.kill('SIGSTOP');
+  await expect.poll(seen, { timeout: within }).toEqual(old);
+  running.process.kill('SIGCONT');
+  await expect.poll(async () => (await seen()).filter(([, all]) => all.includes('old')), { timeout: within }).toEqual([]);
+});
+
+it('a robot that says nothing: its joints are grey, too', async () => {
+  await running.end();
+  running = await Application.start('keyboard');
+  viewer = await Viewer.open(browser(), running.address);
+  viewer.allow(/WebSocket|Failed to load resource|ERR_/);
+  await viewer.page.getByText('Joints as a table').click();
+  const cells = 'flexrf-widget-robot td.number';
+  await expect.poll(() => viewer.page.locator(cells).count(), { timeout: within }).toBe(6);
+  await expect.poll(() => colours(viewer.page, cells), { timeout: within }).not.toContain('old');
+  running.process.kill('SIGSTOP');
+  await expect.poll(async () => new Set(await colours(viewer.page, cells)), { timeout: within }).toEqual(new Set(['old']));
 });
 
 it('a cable that is cut and mended: everything is as it is now', async () => {

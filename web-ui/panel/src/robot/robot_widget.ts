@@ -64,6 +64,10 @@ export class RobotWidget extends WidgetBase {
       :host([stale]) canvas {
         filter: grayscale(1) opacity(0.5);
       }
+      :host([stale]) table {
+        color: var(--stale);
+        font-style: italic;
+      }
       .views {
         display: flex;
         flex-wrap: wrap;

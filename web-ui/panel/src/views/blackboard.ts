@@ -66,7 +66,6 @@ export class Blackboard extends ViewBase {
 
   @state() private filter = '';
   @state() private queues = new Map<string, QueueCounters>();
-  @state() private old = false;
   @query('#slots') private body!: HTMLTableSectionElement;
   private rows: SlotRow[] = [];
   private readonly rates = new RateMeters();
@@ -101,7 +100,7 @@ export class Blackboard extends ViewBase {
       this.observer?.disconnect();
       this.rows.forEach((row) => row.close());
     });
-    this.until(this.host.watchAccess(() => (this.old = this.host.stale)));
+    this.watchAge();
     this.until(this.core.watchTopic('slots', (body) => this.countSlots(byName, body), 2));
     this.until(this.core.watchTopic('queues', (body) => this.countQueues(body), 2));
     this.applyFilter();
@@ -131,7 +130,7 @@ export class Blackboard extends ViewBase {
         <span role="status">${shown}</span>
       </div>
       <h3 id="slots-title">Slots</h3>
-      <div class="scroll ${this.old ? 'stale' : ''}" tabindex="0" role="region" aria-labelledby="slots-title">
+      <div class="scroll ${this.age}" tabindex="0" role="region" aria-labelledby="slots-title">
         <table>
           <caption>
             Latest values; open a slot for all its fields
@@ -166,7 +165,7 @@ export class Blackboard extends ViewBase {
     if (this.core.model.queues.length === 0) return nothing;
     return html`
       <h3 id="queues-title">Queues</h3>
-      <div class="scroll ${this.old ? 'stale' : ''}" tabindex="0" role="region" aria-labelledby="queues-title">
+      <div class="scroll ${this.age}" tabindex="0" role="region" aria-labelledby="queues-title">
         <table>
           <caption>
             Each item goes to one reader; a line for each writer

@@ -31,6 +31,7 @@ export class ComponentList extends ViewBase {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    this.watchAge();
     this.until(
       this.core.watchTopic('components', (body) => {
         this.rows = new Map(componentRows(body).map((row) => [row.name, row]));
@@ -46,7 +47,7 @@ export class ComponentList extends ViewBase {
     return html`
       <h2>${title}</h2>
       ${this.faults(components)}
-      <div class="scroll" tabindex="0" role="region" aria-label=${title}>
+      <div class="scroll ${this.age}" tabindex="0" role="region" aria-label=${title}>
         <table>
           <caption>
             All ${title.toLowerCase()}, in the order of the tables
@@ -97,7 +98,7 @@ export class ComponentList extends ViewBase {
     if (faulty.length === 0) return nothing;
     const view = this.kind === 'unit' ? 'units' : 'devices';
     return html`
-      <div class="box abnormal-box">
+      <div class="box abnormal-box ${this.age}">
         ${faulty.map(
           (row) => html`<p><a href=${addressOf(view, row.name)}>${row.name}</a> <span class="alarm">is in fault:</span> ${row.fault}</p>`,
         )}

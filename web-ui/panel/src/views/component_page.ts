@@ -74,6 +74,7 @@ export class ComponentPage extends ViewBase {
   override connectedCallback(): void {
     super.connectedCallback();
     this.session = EditSession.of(this.core);
+    this.watchAge();
     this.until(this.session.watch(() => this.requestUpdate()));
     this.until(
       this.core.watchTopic('components', (body) => {
@@ -109,7 +110,7 @@ export class ComponentPage extends ViewBase {
       .map((one) => one.name);
     return html`
       <h3>State</h3>
-      <p><strong class=${row.life === 'fault' ? 'alarm' : ''}>${stateText(row)}</strong></p>
+      <p class=${this.age}><strong class=${row.life === 'fault' ? 'alarm' : ''}>${stateText(row)}</strong></p>
       ${this.fault(row)}
       <flexrf-component-buttons .core=${this.core} .host=${this.host} .row=${row} .sources=${sources}></flexrf-component-buttons>
     `;
@@ -119,7 +120,7 @@ export class ComponentPage extends ViewBase {
     if (row.life !== 'fault') return nothing;
     const told = this.core.state?.faults.find((fault) => fault.component === row.name) ?? { component: row.name, cause: row.fault };
     return html`
-      <div class="box abnormal-box" role="alert">
+      <div class="box abnormal-box ${this.age}" role="alert">
         <dl>
           <dt>Cause</dt>
           <dd>${row.fault || told.cause || 'not told'}</dd>
@@ -138,7 +139,7 @@ export class ComponentPage extends ViewBase {
     const drivers = this.core.model.json.drivers;
     const driver = drivers.find((one) => one.interface === device?.interface && one.driver === row?.driver);
     return html`
-      <dl>
+      <dl class=${this.age}>
         ${fact(unit ? 'Type' : 'Interface', component.typeName)}
         ${fact('Driver', device && row?.driver ? `${row.driver}${driver ? ` (${driver.kind}): ${driver.summary}` : ''}` : undefined)}
         ${fact('Thread', component.thread === '' ? '' : html`<a href=${addressOf('threads', component.thread)}>${component.thread}</a>`)}
@@ -297,7 +298,7 @@ export class ComponentPage extends ViewBase {
     const members = [...this.core.model.components.values()].filter((one) => one.population === population);
     return html`
       <h3 id="members">Population ${population}</h3>
-      <table>
+      <table class=${this.age}>
         <caption>
           Members of the population
         </caption>

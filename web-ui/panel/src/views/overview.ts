@@ -65,6 +65,7 @@ export class Overview extends ViewBase {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    this.watchAge();
     this.until(this.core.watchState(() => this.requestUpdate()));
   }
 
@@ -91,7 +92,7 @@ export class Overview extends ViewBase {
     const faults = this.core.state?.faults ?? [];
     if (faults.length === 0) return nothing;
     return html`
-      <section class="wide box abnormal-box" role="alert">
+      <section class="wide box abnormal-box ${this.age}" role="alert">
         <h3 class="alarm">✕ ${faults.length === 1 ? 'A fault' : `${faults.length} faults`}</h3>
         <ul>${faults.map((fault) => html`<li>
           <a href=${this.address(fault)}>${fault.component}</a>
@@ -112,7 +113,7 @@ export class Overview extends ViewBase {
       <section>
         <h3>State</h3>
         ${state
-          ? html`<dl class=${this.core.link.stale ? 'stale' : ''}>
+          ? html`<dl class=${this.age}>
               <dt>Application</dt><dd>${modeText(state.mode)}${state.cause && state.cause !== 'none' ? `: ${state.cause}` : ''}</dd>
               <dt>Motion</dt><dd>${motionText[motionOf(state)]}</dd>
               <dt>Faults</dt><dd>${state.faults.length === 0 ? 'none' : html`<strong class="alarm">✕ ${state.faults.length}</strong>`}</dd>

@@ -95,13 +95,12 @@ export class Threads extends ViewBase {
   ];
 
   @state() private rows = new Map<string, ThreadRow>();
-  @state() private old = false;
   private readonly meters = new RateMeters();
   private readonly rates = new Map<string, { cycles: number | null; cpu: number | null }>();
 
   override connectedCallback(): void {
     super.connectedCallback();
-    this.until(this.host.watchAccess(() => (this.old = this.host.stale)));
+    this.watchAge();
     this.until(this.core.watchTopic('threads', (body) => this.take(body), 1));
   }
 
@@ -115,7 +114,7 @@ export class Threads extends ViewBase {
   protected override render(): unknown {
     return html`
       <h2>Threads</h2>
-      <div class=${this.old ? 'stale' : ''}>
+      <div class=${this.age}>
         ${repeat(this.core.model.threads, (thread) => thread.name, (thread) => this.thread(thread))}
       </div>
     `;

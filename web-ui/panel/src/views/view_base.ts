@@ -1,6 +1,6 @@
 // What the panel's own views have in common: the properties that the shell sets, and subscriptions that end with them.
 import { LitElement } from 'lit';
-import { property } from 'lit/decorators.js';
+import { property, state } from 'lit/decorators.js';
 import type { WidgetHost } from '../contract';
 import type { Core } from '../core/core';
 import { addressOfRoute } from '../shell/router';
@@ -11,6 +11,8 @@ export abstract class ViewBase extends LitElement implements ViewElement {
   @property({ attribute: false }) host!: WidgetHost;
   @property({ attribute: false }) path: readonly string[] = [];
 
+  /** Class of what shows values: "stale" once nothing was heard of the application for too long. */
+  @state() protected age = '';
   private ends: (() => void)[] = [];
 
   override disconnectedCallback(): void {
@@ -22,6 +24,13 @@ export abstract class ViewBase extends LitElement implements ViewElement {
   /** Called with the end of something that was begun in connectedCallback. */
   protected until(end: () => void): void {
     this.ends.push(end);
+  }
+
+  /** Keeps `age`, from connectedCallback on. */
+  protected watchAge(): void {
+    const look = (): void => { this.age = this.host.stale ? 'stale' : ''; };
+    look();
+    this.until(this.host.watchAccess(look));
   }
 }
 

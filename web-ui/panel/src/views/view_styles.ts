@@ -120,6 +120,8 @@ export const viewStyles = [
     .stale {
       color: var(--stale);
       font-style: italic;
+      --alarm: var(--stale);
+      --warning: var(--stale);
     }
     td a,
     th a {

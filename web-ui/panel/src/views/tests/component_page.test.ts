@@ -45,6 +45,24 @@ describe('the list', () => {
     expect(list.shadowRoot!.querySelector('tbody a')!.getAttribute('href')).toBe('#/units/axis%5B0%5D');
   });
 
+  it('turns grey with all that it says, also when it is opened then', async () => {
+    await shown('flexrf-units', []);
+    fake.topic('components', [alive('axis[0]', { life: 'fault', fault: 'too hot' })]);
+    const list = (): ShadowRoot => view.shadowRoot!.querySelector('flexrf-component-list')!.shadowRoot!;
+    const old = (): number => [...list().querySelectorAll('.scroll, .box')].filter((one) => one.classList.contains('stale')).length;
+    await settled();
+    expect(old()).toBe(0);
+    fake.turns(true);
+    await settled();
+    expect(old()).toBe(2);
+    view.remove();
+    await shown('flexrf-units', []);
+    expect(old()).toBe(1);
+    fake.turns(false);
+    await settled();
+    expect(old()).toBe(0);
+  });
+
   it('says that a name is none', async () => {
     await shown('flexrf-devices', ['axis[0]']);
     expect(text(view)).toContain('no device of this name');
@@ -88,6 +106,17 @@ describe('the page of a unit', () => {
     fake.topic('components', [alive('axis[0]', { life: 'fault', fault: 'too hot' })]);
     await settled();
     expect(page().shadowRoot!.querySelector('[role=alert]')!.textContent!.replace(/\s+/g, ' ')).toContain('Cause too hot Remedy Let it cool.');
+  });
+
+  it('turns grey: state, fault, times, members', async () => {
+    fake.topic('components', [alive('axis[0]', { life: 'fault', fault: 'too hot' })]);
+    fake.turns(true);
+    await settled();
+    const old = (): string[] => [...page().shadowRoot!.querySelectorAll(':is(p, div, dl, table).stale')].map((one) => one.localName);
+    expect(old()).toEqual(['p', 'div', 'dl', 'table']);
+    fake.turns(false);
+    await settled();
+    expect(old()).toEqual([]);
   });
 
   it('shows ports with links, ages and why they are NULL', async () => {

@@ -104,6 +104,11 @@ export class FakeCore {
     this.states.forEach((callback) => callback());
     this.access.forEach((callback) => callback());
   }
+  /** Nothing was heard for too long, or something is heard again. */
+  turns(stale: boolean): void {
+    Object.assign(this.host, { stale });
+    this.access.forEach((callback) => callback());
+  }
   isWatched(key: string): boolean {
     return (this.watched.get(key)?.size ?? 0) > 0;
   }

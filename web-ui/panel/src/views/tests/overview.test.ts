@@ -1,7 +1,8 @@
-import { describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it } from 'vitest';
 import { makeModel } from '../../core/descriptor';
 import { sample } from '../../core/tests/sample';
-import { chosenFeedback } from '../overview';
+import { chosenFeedback, type Overview } from '../overview';
+import { FakeCore } from './fake_core';
 
 describe('the overview without anything placed', () => {
   it('shows feedback that is not hidden', () => {
@@ -14,5 +15,24 @@ describe('the overview without anything placed', () => {
     expect(keys).toHaveLength(24);
     expect(units.every((unit) => keys.includes(`${unit.name}.feedback.mode`))).toBe(true);
     expect(keys.indexOf('jog_0.feedback.note')).toBe(keys.indexOf('jog_0.feedback.mode') + 1);
+  });
+});
+
+describe('the overview without a word from the application', () => {
+  let view: Overview;
+  afterEach(() => view.remove());
+  it('shows faults and state in grey', async () => {
+    const fake = new FakeCore(sample);
+    fake.says({ faults: [{ component: 'jog', cause: 'too hot' }] });
+    view = document.createElement('flexrf-overview') as Overview;
+    Object.assign(view, { core: fake.core, host: fake.host, path: [] });
+    document.body.append(view);
+    const old = (): string[] => [...view.shadowRoot!.querySelectorAll('.stale')].map((one) => one.localName);
+    await view.updateComplete;
+    expect(old()).toEqual([]);
+    fake.turns(true);
+    await view.updateComplete;
+    expect(old()).toEqual(['section', 'dl']);
+    expect(view.shadowRoot!.querySelector('section.stale')!.getAttribute('role')).toBe('alert');
   });
 });
