@@ -63,25 +63,32 @@ function colours(page: Page, selector: string): Promise<string[]> {
 }
 
 it('an application that is stopped: no view shows its values as new', async () => {
-  await open(running.address);
-  await viewer.go('units', 'fragile');
-  await viewer.page.getByRole('button', { name: 'Drop it' }).click();
-  await viewer.page.getByText('it was dropped').first().waitFor();
-  const pages: (readonly [string, string, Page])[] = [];
-  for (const [view, selector] of values) {
-    const page = await viewer.context.newPage();
-    await page.goto(`${running.base}/#/${view}`);
-    await page.locator(selector).first().waitFor();
-    pages.push([view, selector, page]);
+  const broken = await Application.start('panel_cell');
+  let how: unknown;
+  try {
+    await open(broken.address);
+    await viewer.go('units', 'fragile');
+    await viewer.page.getByRole('button', { name: 'Drop it' }).click();
+    await viewer.page.getByText('it was dropped').first().waitFor();
+    const pages: (readonly [string, string, Page])[] = [];
+    for (const [view, selector] of values) {
+      const page = await viewer.context.newPage();
+      await page.goto(`${broken.base}/#/${view}`);
+      await page.locator(selector).first().waitFor();
+      pages.push([view, selector, page]);
+    }
+    const seen = (): Promise<(readonly [string, string[]])[]> => Promise.all(
+      pages.map(async ([view, selector, page]) => [view, [...new Set(await colours(page, selector))]] as const));
+    const old = values.map(([view]) => [view, ['old']]);
+    await expect.poll(async () => (await seen()).filter(([, all]) => all.length === 0 || all.includes('old')), { timeout: within }).toEqual([]);
+    broken.process.kill('SIGSTOP');
+    await expect.poll(seen, { timeout: within }).toEqual(old);
+    broken.process.kill('SIGCONT');
+    await expect.poll(async () => (await seen()).filter(([, all]) => all.includes('old')), { timeout: within }).toEqual([]);
+  } finally {
+    how = await broken.stop();
   }
-  const seen = (): Promise<(readonly [string, string[]])[]> => Promise.all(
-    pages.map(async ([view, selector, page]) => [view, [...new Set(await colours(page, selector))]] as const));
-  const old = values.map(([view]) => [view, ['old']]);
-  await expect.poll(async () => (await seen()).filter(([, all]) => all.length === 0 || all.includes('old')), { timeout: within }).toEqual([]);
-  running.process.kill('SIGSTOP');
-  await expect.poll(seen, { timeout: within }).toEqual(old);
-  running.process.kill('SIGCONT');
-  await expect.poll(async () => (await seen()).filter(([, all]) => all.includes('old')), { timeout: within }).toEqual([]);
+  expect(how).toBe(2); // a fault that was survived is told
 });
 
 it('a robot that says nothing: its joints are grey, too', async () => {
