@@ -29,5 +29,5 @@ export function nameOf(session: ControlSession): string {
 
 /** What to do about a fault, when it does not say so itself. */
 export function remedyOf(fault: Fault): string {
-  return fault.remedy ?? `Remove the cause, then initialise ${fault.component} on its page, and start it.`;
+  return fault.remedy ?? `Remove the cause, then initialise ${fault.component} on its page. What it moves waits for the next Start motion.`;
 }
