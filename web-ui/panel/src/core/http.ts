@@ -31,11 +31,12 @@ async function ask<Body>(path: string, options: RequestInit): Promise<Fetched<Bo
 }
 
 async function detailOf(response: Response): Promise<string> {
-  if (response.status === 503) return 'All places of the panel are taken; close a page elsewhere.';
   try {
     const problem = (await response.json()) as Problem;
-    return problem.detail ?? problem.title;
+    if (problem.detail || response.status !== 503) return problem.detail || problem.title;
   } catch {
-    return `The server answered ${response.status} ${response.statusText}.`;
+    // not this server's own words
   }
+  if (response.status === 503) return 'All places of the panel are taken; close a page elsewhere.';
+  return `The server answered ${response.status} ${response.statusText}.`;
 }
