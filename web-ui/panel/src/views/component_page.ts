@@ -79,7 +79,7 @@ export class ComponentPage extends ViewBase {
     this.until(
       this.core.watchTopic('components', (body) => {
         this.rows = new Map(componentRows(body).map((row) => [row.name, row]));
-        if (this.row?.driver !== undefined) this.session.drivers.set(this.component.name, this.row.driver);
+        this.session.learnDrivers(this.rows.values());
         this.requestUpdate();
       }, 2),
     );

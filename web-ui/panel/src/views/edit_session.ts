@@ -3,6 +3,7 @@ import type { Core } from '../core/core';
 import type { Item } from '../core/descriptor';
 import { nameOf } from '../shell/words';
 import { checkValue } from './check_value';
+import type { ComponentRow } from './component_actions';
 import { EditFlow, type ApplyAnswer, type BeginAnswer, type Change, type Configuration, type Editor, type Outcome } from './edit_flow';
 import { EditHost } from './edit_host';
 
@@ -26,8 +27,8 @@ const sessions = new WeakMap<Core, EditSession>();
 export class EditSession {
   readonly flow: EditFlow;
   readonly host: EditHost;
-  /** The driver of each device whose page was shown, as the server says. */
-  readonly drivers = new Map<string, string>();
+  /** The driver of each device, as the server said when it was last asked. */
+  private readonly drivers = new Map<string, string>();
   private readonly watchers = new Set<() => void>();
   private timer: ReturnType<typeof setInterval> | undefined;
 
@@ -63,6 +64,17 @@ export class EditSession {
   watch(callback: () => void): () => void {
     this.watchers.add(callback);
     return () => this.watchers.delete(callback);
+  }
+
+  /** What topic "components" says; whether one has another driver than was known. */
+  learnDrivers(rows: Iterable<ComponentRow>): boolean {
+    let other = false;
+    for (const { name, driver } of rows) {
+      if (driver === undefined || this.drivers.get(name) === driver) continue;
+      this.drivers.set(name, driver);
+      other = true;
+    }
+    return other;
   }
 
   /** Configuration parameters of a unit, or of a device with the driver that it has. */

@@ -4,6 +4,8 @@ import { customElement, state } from 'lit/decorators.js';
 import { repeat } from 'lit/directives/repeat.js';
 import type { Value } from '../contract';
 import type { Item } from '../core/descriptor';
+import { componentRows } from './component_actions';
+import { EditSession } from './edit_session';
 import { Favourites } from './favourites';
 import './group_reset';
 import './item_widget';
@@ -61,22 +63,45 @@ export class Search extends ViewBase {
   @state() private most = rowsAtFirst;
   private groups: readonly Group[] = [];
   private favourites!: Favourites;
+  private session!: EditSession;
+  private watched = new Map<string, () => void>();
   private values = new Map<string, Value | null>();
   /** What was found stays while the same is asked for: a row that is set back must not vanish under the hand. */
   private found = new Set<string>();
 
   override connectedCallback(): void {
     super.connectedCallback();
-    const { host, model } = this.core;
-    this.favourites = new Favourites(model.application);
-    this.groups = searchable(model);
+    this.favourites = new Favourites(this.core.model.application);
+    this.session = EditSession.of(this.core);
     this.found.clear();
-    for (const item of this.groups.flatMap((group) => group.items).filter(isParameter)) {
-      this.until(host.watch(item.key, ({ value }) => {
-        this.values.set(item.key, value);
+    this.collect();
+    this.until(this.core.watchTopic('components', (body) => {
+      if (this.session.learnDrivers(componentRows(body))) this.collect();
+    }, 1));
+    this.until(() => {
+      this.watched.forEach((end) => end());
+      this.watched.clear();
+    });
+  }
+
+  /** Everything there is, with the drivers that the devices have. */
+  private collect(): void {
+    const { host, model } = this.core;
+    this.groups = searchable(model, (component) => this.session.items(component));
+    const keys = new Set(this.groups.flatMap((group) => group.items).filter(isParameter).map((item) => item.key));
+    for (const [key, end] of this.watched) {
+      if (keys.has(key)) continue;
+      end();
+      this.watched.delete(key);
+    }
+    for (const key of keys) {
+      if (this.watched.has(key)) continue;
+      this.watched.set(key, host.watch(key, ({ value }) => {
+        this.values.set(key, value);
         if (this.show === 'modified' || this.wanted !== '') this.requestUpdate();
       }, { rate: 2 }));
     }
+    this.requestUpdate();
   }
 
   protected override render(): unknown {

@@ -16,11 +16,11 @@ export function isParameter(item: Item): boolean {
   return item.role !== undefined && item.scalar !== 'button' && item.scalar !== 'hold';
 }
 
-/** Everything that units and devices declare, in the order of the tables. */
-export function searchable(model: Model): Group[] {
+/** Everything that units and devices declare, in the order of the tables; of a device with the driver that it has. */
+export function searchable(model: Model, configurationOf: (component: string) => readonly Item[]): Group[] {
   return [...model.components.values()].map((component) => ({
     component,
-    items: [...component.runtime, ...component.configuration, ...component.feedback].filter((item) => !item.hidden),
+    items: [...component.runtime, ...configurationOf(component.name), ...component.feedback].filter((item) => !item.hidden),
   }));
 }
 

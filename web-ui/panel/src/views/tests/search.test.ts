@@ -2,6 +2,7 @@ import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import '../search';
 import { sample } from '../../core/tests/sample';
 import type { Search } from '../search';
+import { cell } from './cell';
 import { FakeCore, FakeWidget, reading } from './fake_core';
 
 let fake: FakeCore;
@@ -121,6 +122,21 @@ describe('search', () => {
     await settled();
     expect(undo().disabled).toBe(true);
     expect(undo().title).toBe('take control first');
+  });
+
+  it('shows of a device the configuration of the driver that it has', async () => {
+    fake = new FakeCore(cell);
+    await shown();
+    const ofMotor = (): unknown[] => found().filter((key) => key?.startsWith('motor.configuration'));
+    expect(ofMotor()).toEqual(['motor.configuration.gear']);
+    fake.topic('components', [{ name: 'motor', kind: 'device', driver: 'can' }]);
+    await settled();
+    expect(ofMotor()).toEqual(['motor.configuration.gear', 'motor.configuration.node']);
+    expect(fake.isWatched('motor.configuration.node')).toBe(true);
+    fake.topic('components', [{ name: 'motor', kind: 'device', driver: 'model' }]);
+    await settled();
+    expect(ofMotor()).toEqual(['motor.configuration.gear']);
+    expect(fake.isWatched('motor.configuration.node')).toBe(false);
   });
 
   it('watches nothing when it is gone', async () => {
