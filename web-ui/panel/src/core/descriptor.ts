@@ -236,7 +236,9 @@ export function makeModel(json: DescriptorJson): Model {
         { parameter: merged, change });
       made.push(item);
       addAll(item);
-      if (item.menu && !item.hidden) menus.set(item.menu, [...(menus.get(item.menu) ?? []), item]);
+      // An interface's comes once with each driver.
+      const others = (menus.get(item.menu) ?? []).filter((one) => one.key !== item.key);
+      if (item.menu && !item.hidden) menus.set(item.menu, [...others, item]);
     }
     return made;
   };

@@ -1,6 +1,7 @@
 // @vitest-environment node
 import { describe, expect, it } from 'vitest';
 import { labelOf, makeModel, rowsOf } from '../descriptor';
+import { cell } from '../../views/tests/cell';
 import { sample } from './sample';
 
 const model = makeModel(sample);
@@ -45,6 +46,12 @@ describe('makeModel', () => {
     expect(model.item('slot:track.parts[1].high')?.source?.steps).toEqual([1, 'high']);
     expect(model.slotsByName.get('camera')?.image).toBe(true);
     expect(model.item('slot:nothing')).toBeUndefined();
+  });
+  it('lists a device\'s parameter once in its menu, whatever drivers the table permits', () => {
+    const [face] = cell.interfaces;
+    const declared = { type: 'MotorConfiguration', parameters: [{ name: 'gear', role: 'engineer' as const, menu: 'Motors' }] };
+    const { menus } = makeModel({ ...cell, interfaces: [{ ...face!, configuration: declared }] });
+    expect(menus.get('Motors')?.map((item) => item.key)).toEqual(['motor.configuration.gear']);
   });
   it('lists menus and places, without what is hidden', () => {
     expect([...model.menus].map(([name, items]) => [name, items.map((item) => item.key)])).toEqual([['Jogging', ['jog.step']]]);
