@@ -4,7 +4,8 @@
 // loads as /application/widgets/KIND.js when a row [widget.NAME] has this kind. It needs no build and no library:
 //
 //     export default class extends HTMLElement {
-//       connectedCallback() { this.host.watch(this.placement.slots.pose, (reading) => ...); }
+//       connectedCallback() { this.end = this.host.watch(`slot:${this.placement.slots.pose}`, (reading) => ...); }
+//       disconnectedCallback() { this.end(); }
 //     }
 //
 // The module's default export is the element's class, and its kind is the file's name. A module that brings several kinds
