@@ -108,16 +108,23 @@ void ModbusMaster::note_lost() noexcept {
 
 void ModbusMaster::serve() noexcept {
   const bool is_open = open();
-  for (auto& entry : exchanges_) {
-    ModbusExchange* exchange = entry.load(std::memory_order_acquire);
-    if (exchange == nullptr) continue;
-    const ModbusExchange::State state = exchange->state.load(std::memory_order_acquire);
-    if (state == ModbusExchange::State::leaving)
-      exchange->state.store(ModbusExchange::State::free, std::memory_order_release);
-    if (state != ModbusExchange::State::active || !is_open) continue;
-    const bool goes_on = serve_station(*exchange);
-    if (exchange->link.touched) publish(*exchange, transport_->now());
-    if (!goes_on) return;
+  // Who answered last comes first: those who did not may take a whole response timeout, and end the turn.
+  for (const bool failing : {false, true}) {
+    for (std::size_t n = 0; n < max_stations; ++n) {
+      const std::size_t i = (first_ + n) % max_stations;
+      ModbusExchange* exchange = exchanges_[i].load(std::memory_order_acquire);
+      if (exchange == nullptr) continue;
+      const ModbusExchange::State state = exchange->state.load(std::memory_order_acquire);
+      if (state == ModbusExchange::State::leaving)
+        exchange->state.store(ModbusExchange::State::free, std::memory_order_release);
+      if (state != ModbusExchange::State::active || !is_open) continue;
+      if ((exchange->link.failures > 0) != failing) continue;
+      const bool goes_on = serve_station(*exchange);
+      if (exchange->link.touched) publish(*exchange, transport_->now());
+      if (goes_on) continue;
+      first_ = (i + 1) % max_stations;
+      return;
+    }
   }
 }
 

@@ -31,8 +31,9 @@ class ModbusMaster {
   void start(const char* name, ModbusTransport& transport, Duration shortest, Duration longest) noexcept;
   void stop() noexcept;
 
-  /// The link's thread: everything that is due, one request after the other. A request that fails ends it, so
-  /// that one call waits for at most one of them.
+  /// The link's thread: everything that is due, one request after the other; of stations whose last request
+  /// failed after that of the others. A request that fails ends it, so that one call waits for at most one of
+  /// them; the next begins behind that station.
   void serve() noexcept;
   /// Every station has its safe values, as of its last answer; but for those that know that themselves.
   bool is_safe() const noexcept;
@@ -62,6 +63,7 @@ class ModbusMaster {
   ModbusTransport* transport_ = nullptr;
   Duration shortest_{};
   Duration longest_{};
+  std::size_t first_ = 0;  // whose turn is first
   Time open_at_{};
   std::uint32_t open_failures_ = 0;
   std::uint64_t connections_ = 0;

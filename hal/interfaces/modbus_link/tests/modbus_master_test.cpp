@@ -1,0 +1,189 @@
+// Whose turn it is, on a link whose stations are a script and whose clock is the test's.
+#include "hal/interfaces/modbus_link/modbus_master.hpp"
+
+#include <vector>
+
+#include "hal/interfaces/modbus_link/modbus_exchange.hpp"
+#include "runtime/executive/tests/checks.hpp"
+
+namespace flexrf {
+namespace {
+
+constexpr Duration response_timeout = std::chrono::milliseconds(300);
+constexpr Duration answer_time = std::chrono::milliseconds(2);
+constexpr Duration cycle = std::chrono::milliseconds(10);
+constexpr Duration shortest_pause = std::chrono::milliseconds(50);
+constexpr Duration longest_pause = std::chrono::seconds(1);
+
+constexpr ModbusRegister registers[] = {
+    {"level", 0, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::read,
+     ModbusPollGroup::fast, 1, "", 0},
+    {"speed", 10, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::write,
+     ModbusPollGroup::fast, 1, "", 0},
+};
+constexpr ModbusRegisterMap map{registers};
+
+class ScriptedLine final : public ModbusTransport {
+ public:
+  struct Station {
+    ModbusOutcome outcome = ModbusOutcome::answered;
+    int reads = 0;
+    int writes = 0;
+    std::uint16_t written = 0;
+  };
+  Station& station(std::size_t unit_id) { return stations_[unit_id]; }
+  int failures() const { return failures_; }
+  int resynchronisations() const { return resynchronisations_; }
+  void pass(Duration time) { now_ += time; }
+
+  Status open() noexcept override {
+    open_ = true;
+    return {};
+  }
+  void close() noexcept override { open_ = false; }
+  bool is_open() const noexcept override { return open_; }
+  ModbusReply read(std::uint8_t unit_id, const ModbusBlock& /*block*/,
+                   std::uint16_t* words) noexcept override {
+    Station& asked = stations_[unit_id];
+    ++asked.reads;
+    words[0] = unit_id;
+    return answer(asked);
+  }
+  ModbusReply write(std::uint8_t unit_id, const ModbusBlock& /*block*/,
+                    const std::uint16_t* words) noexcept override {
+    Station& asked = stations_[unit_id];
+    ++asked.writes;
+    if (asked.outcome == ModbusOutcome::answered) asked.written = words[0];
+    return answer(asked);
+  }
+  void resynchronise() noexcept override { ++resynchronisations_; }
+  Time now() const noexcept override { return now_; }
+
+ private:
+  ModbusReply answer(const Station& asked) noexcept {
+    now_ += asked.outcome == ModbusOutcome::timeout ? response_timeout : answer_time;
+    if (asked.outcome != ModbusOutcome::answered) ++failures_;
+    return {asked.outcome, "as the script has it"};
+  }
+
+  std::array<Station, 256> stations_{};
+  int failures_ = 0;
+  int resynchronisations_ = 0;
+  Time now_{std::chrono::seconds(1)};
+  bool open_ = false;
+};
+
+/// `count` stations, unit 1 the first; each is read in every cycle.
+struct Line {
+  explicit Line(std::size_t count) {
+    master.start("line", line, shortest_pause, longest_pause);
+    for (std::size_t unit = 1; unit <= count; ++unit) {
+      ModbusStationSetup setup;
+      setup.name = "station";
+      setup.map = &map;
+      setup.unit_id = static_cast<std::uint8_t>(unit);
+      const Result<ModbusExchange*> exchange = master.attach(setup);
+      CHECK(exchange);
+      exchanges.push_back(*exchange);
+    }
+  }
+  ~Line() { master.stop(); }
+
+  void make(std::size_t first, std::size_t last, ModbusOutcome outcome) {
+    for (std::size_t unit = first; unit <= last; ++unit) line.station(unit).outcome = outcome;
+  }
+  void command(std::size_t unit, std::uint16_t value, std::uint64_t sequence, bool safe) {
+    ModbusCommand command{};
+    command.words[0] = value;
+    command.sequence = sequence;
+    command.safe = safe;
+    exchanges[unit - 1]->commands.publish(command, line.now());
+  }
+  const ModbusImage& image(std::size_t unit) {
+    CHECK(exchanges[unit - 1]->images.newest() != nullptr);
+    return *static_cast<const ModbusImage*>(exchanges[unit - 1]->images.payload());
+  }
+  void turn() {
+    const int failed = line.failures();
+    master.serve();
+    CHECK(line.failures() - failed <= 1);
+    line.pass(cycle);
+  }
+
+  ScriptedLine line;
+  ModbusMaster master;
+  std::vector<ModbusExchange*> exchanges;
+};
+
+// More silent ones than there are time-outs in the longest pause: one of them is always due again.
+void silent_stations_do_not_keep_the_last_one_from_its_turn() {
+  constexpr std::size_t count = 12;
+  Line world(count);
+  world.make(1, count - 1, ModbusOutcome::timeout);
+  // Nobody knows yet who is silent: each may cost one turn.
+  for (std::size_t turn = 0; turn < count; ++turn) world.turn();
+  CHECK(world.line.station(count).reads >= 1);
+  for (int turn = 0; turn < 100; ++turn) {
+    const int reads = world.line.station(count).reads;
+    world.turn();
+    CHECK_EQUAL(world.line.station(count).reads, reads + 1);
+  }
+  CHECK(world.image(count).online);
+}
+
+void what_is_written_has_its_turn_likewise() {
+  constexpr std::size_t count = 12;
+  Line world(count);
+  world.make(1, count - 1, ModbusOutcome::timeout);
+  for (std::size_t unit = 1; unit <= count; ++unit) world.command(unit, 7, 1, false);
+  for (std::size_t turn = 0; turn < count; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(count).written, 7);
+  world.command(count, 0, 2, true);
+  world.turn();
+  CHECK_EQUAL(world.line.station(count).written, 0);
+  CHECK_EQUAL(world.image(count).written, 2U);
+}
+
+// Also while others do not come back, each of the silent ones is asked again.
+void every_silent_station_is_asked_again_and_found() {
+  constexpr std::size_t count = 12;
+  Line world(count);
+  world.make(1, count, ModbusOutcome::timeout);
+  for (int turn = 0; turn < 100; ++turn) world.turn();
+  for (std::size_t unit = 1; unit <= count; ++unit) {
+    const int reads = world.line.station(unit).reads;
+    for (std::size_t turn = 0; turn < 2 * count; ++turn) world.turn();
+    CHECK(world.line.station(unit).reads > reads);
+  }
+  for (const std::size_t unit : {std::size_t{1}, std::size_t{6}, count}) {
+    world.make(unit, unit, ModbusOutcome::answered);
+    for (std::size_t turn = 0; turn < 2 * count; ++turn) world.turn();
+    CHECK(world.image(unit).online);
+  }
+}
+
+// Those that answer and fail by turns end as many turns as there are of them.
+void stations_that_fail_now_and_then_do_not_starve_the_last_one() {
+  constexpr std::size_t count = 8;
+  Line world(count);
+  for (int round = 0; round < 20; ++round) {
+    world.make(1, count - 1, round % 2 == 0 ? ModbusOutcome::timeout : ModbusOutcome::answered);
+    const int reads = world.line.station(count).reads;
+    for (std::size_t turn = 0; turn < count; ++turn) world.turn();
+    CHECK(world.line.station(count).reads > reads);
+  }
+}
+
+}  // namespace
+}  // namespace flexrf
+
+int main() {
+  using namespace flexrf;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(silent_stations_do_not_keep_the_last_one_from_its_turn),
+      CONTAINED_TEST(what_is_written_has_its_turn_likewise),
+      CONTAINED_TEST(every_silent_station_is_asked_again_and_found),
+      CONTAINED_TEST(stations_that_fail_now_and_then_do_not_starve_the_last_one),
+  };
+  return cmocka_run_group_tests_name("Modbus master", tests, nullptr, nullptr);
+}
