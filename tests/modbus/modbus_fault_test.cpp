@@ -90,6 +90,25 @@ bool a_refusal_is_told_in_words() {
   });
 }
 
+// It answers itself for what is off: that is no answer of the station, and no reason to connect anew.
+bool a_station_that_is_off_behind_a_gateway_is_not_online() {
+  TcpWorld world;
+  if (!world.start(map)) return false;
+  if (!until(world, [&] { return feedback_of(world.station()).online; })) return false;
+  const std::uint64_t connections = feedback_of(world.link()).connections;
+  world.server().set_behaviour(ModbusServer::Behaviour::off_behind_gateway);
+  const bool told = until(world, [&] {
+    const ModbusStationFeedback& feedback = feedback_of(world.station());
+    return !feedback.online && feedback.timeouts > 1 && feedback.exceptions == 0 &&
+           says(feedback.last_error_view(), "a gateway answers in its place") &&
+           says(feedback.last_error_view(), "the station behind it on?") &&
+           world.station().read(0).reason == NullReason::writer_stopped;
+  });
+  world.server().set_behaviour(ModbusServer::Behaviour::well);
+  return told && until(world, [&] { return feedback_of(world.station()).online; }) &&
+         feedback_of(world.link()).connections == connections;
+}
+
 class Serial {
  public:
   explicit Serial(const char* device) {
@@ -224,6 +243,8 @@ int main() {
       {"an impossible unit id is refused", judged<an_impossible_unit_id_is_refused>, nullptr, nullptr,
        nullptr},
       {"a refusal is told in words", judged<a_refusal_is_told_in_words>, nullptr, nullptr, nullptr},
+      {"a station that is off behind a gateway is not online",
+       judged<a_station_that_is_off_behind_a_gateway_is_not_online>, nullptr, nullptr, nullptr},
       {"a missing serial line is no failure to start, and is told",
        judged<a_missing_serial_line_is_no_failure_to_start_and_is_told>, nullptr, nullptr, nullptr},
       {"a closed port is told", judged<a_closed_port_is_told>, nullptr, nullptr, nullptr},

@@ -240,8 +240,9 @@ void ModbusMaster::fail(ModbusExchange& exchange, const ModbusReply& reply) noex
     note_lost();
     return;
   }
-  ++(reply.outcome == ModbusOutcome::timeout ? side.image.timeouts : side.image.bad_replies);
+  ++(reply.outcome == ModbusOutcome::bad_reply ? side.image.bad_replies : side.image.timeouts);
   side.retry_at = transport_->now() + pause_after(side.failures);
+  if (reply.outcome == ModbusOutcome::unreachable) return;  // answered in its place: nothing is to come
   transport_->resynchronise();
   if (!transport_->is_open()) note_lost();
 }

@@ -11,10 +11,11 @@ namespace flexrf {
 
 enum class ModbusOutcome : std::uint8_t {
   answered,
-  exception,  ///< the station refuses: the link is well
-  timeout,    ///< no whole answer in time
-  bad_reply,  ///< damaged, cut, or not to this request
-  lost,       ///< the connection or the line is gone
+  exception,    ///< the station refuses: the link is well
+  unreachable,  ///< a gateway tells that it did not get through to the station: the link is well
+  timeout,      ///< no whole answer in time
+  bad_reply,    ///< damaged, cut, or not to this request
+  lost,         ///< the connection or the line is gone
 };
 
 struct ModbusReply {

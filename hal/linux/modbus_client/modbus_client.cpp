@@ -153,13 +153,16 @@ ModbusReply ModbusClient::outcome(int result) noexcept {
   if (result >= 0) return {};
   ModbusReply reply;
   reply.cause = cause_.data();
-  if (error > MODBUS_ENOBASE && error < MODBUS_ENOBASE + MODBUS_EXCEPTION_MAX) {
+  if (error == EMBXGPATH || error == EMBXGTAR) {
+    reply.outcome = ModbusOutcome::unreachable;
+    std::snprintf(cause_.data(), cause_.size(),
+                  "a gateway answers in its place: %s; is the unit id right, and the station behind it on?",
+                  modbus_strerror(error));
+  } else if (error > MODBUS_ENOBASE && error < MODBUS_ENOBASE + MODBUS_EXCEPTION_MAX) {
     reply.outcome = ModbusOutcome::exception;
     const char* advice = error == EMBXILADD   ? "; is the register map that of this station?"
                          : error == EMBXILFUN ? "; the station does not know this kind of register"
-                         : error == EMBXGTAR
-                             ? "; is the unit id right, and the station behind the gateway on?"
-                             : "";
+                                              : "";
     std::snprintf(cause_.data(), cause_.size(), "the station refuses: %s%s", modbus_strerror(error), advice);
   } else if (error == ETIMEDOUT) {
     reply.outcome = ModbusOutcome::timeout;

@@ -152,6 +152,9 @@ void ModbusServer::answer(std::uint8_t* request, int length) {
     case Behaviour::refuses:
       modbus_reply_exception(context_, request, MODBUS_EXCEPTION_SLAVE_OR_SERVER_FAILURE);
       return;
+    case Behaviour::off_behind_gateway:
+      modbus_reply_exception(context_, request, MODBUS_EXCEPTION_GATEWAY_TARGET);
+      return;
     case Behaviour::damaged: {
       std::array<std::uint8_t, 24> noise{};
       noise.fill(0x55);

@@ -25,12 +25,13 @@ class ModbusServer {
   enum class Behaviour : std::uint8_t {
     well,
     silent,
-    slow,        ///< answers after slow_delay
-    refuses,     ///< slave device failure (exception 4)
-    damaged,     ///< sends what is no answer
-    truncated,   ///< the answer ends early
-    other_unit,  ///< answers as the next unit
-    cut,         ///< ends every connection at once; over TCP only
+    slow,                ///< answers after slow_delay
+    refuses,             ///< slave device failure (exception 4)
+    off_behind_gateway,  ///< as a gateway answers for it: the target did not respond (exception 11)
+    damaged,             ///< sends what is no answer
+    truncated,           ///< the answer ends early
+    other_unit,          ///< answers as the next unit
+    cut,                 ///< ends every connection at once; over TCP only
   };
 
   ~ModbusServer();

@@ -174,6 +174,25 @@ void stations_that_fail_now_and_then_do_not_starve_the_last_one() {
   }
 }
 
+// Gateways answer for a station that they do not reach; the next answer is none of its.
+void who_is_not_reached_behind_a_gateway_is_not_online() {
+  Line world(2);
+  world.turn();
+  CHECK(world.image(1).online && world.image(2).online);
+  world.make(1, 1, ModbusOutcome::unreachable);
+  for (int turn = 0; turn < 20; ++turn) world.turn();
+  CHECK(!world.image(1).online);
+  CHECK(world.image(1).timeouts > 1);
+  CHECK_EQUAL(world.image(1).exceptions, 0U);
+  CHECK(world.line.station(1).reads < 10);  // it is left alone for a while
+  CHECK(world.image(2).online);
+  CHECK_EQUAL(world.line.station(2).reads, 20);  // in all turns but that in which the other was first lost
+  CHECK_EQUAL(world.line.resynchronisations(), 0);
+  world.make(1, 1, ModbusOutcome::answered);
+  for (int turn = 0; turn < 100; ++turn) world.turn();
+  CHECK(world.image(1).online);
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -184,6 +203,7 @@ int main() {
       CONTAINED_TEST(what_is_written_has_its_turn_likewise),
       CONTAINED_TEST(every_silent_station_is_asked_again_and_found),
       CONTAINED_TEST(stations_that_fail_now_and_then_do_not_starve_the_last_one),
+      CONTAINED_TEST(who_is_not_reached_behind_a_gateway_is_not_online),
   };
   return cmocka_run_group_tests_name("Modbus master", tests, nullptr, nullptr);
 }
