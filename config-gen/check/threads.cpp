@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "config-gen/check/checks.hpp"
+#include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
@@ -100,6 +101,16 @@ void check_deadline(const Thread& thread, Diagnostics& diagnostics) {
       "a step is finished before the next begins: shorten the deadline, or release the thread less often");
 }
 
+// A step is told by one bit each which of them fired.
+void check_sources(const Thread& thread, Diagnostics& diagnostics) {
+  const auto* trigger = std::get_if<SlotsTrigger>(&thread.trigger);
+  if (trigger == nullptr || trigger->sources.size() <= max_trigger_sources) return;
+  diagnostics.error(thread.trigger_position,
+                    "thread " + quote(thread.name) + " waits for " + std::to_string(trigger->sources.size()) +
+                        " slots and queues, more than " + std::to_string(max_trigger_sources),
+                    "an array counts as all its members: name fewer, or give the thread a period");
+}
+
 void check_device_trigger(const Model& model, const Thread& thread, Diagnostics& diagnostics) {
   const auto* trigger = std::get_if<DeviceTrigger>(&thread.trigger);
   if (trigger == nullptr || thread.io_device) return;
@@ -130,6 +141,7 @@ void check_triggers(const Model& model, Diagnostics& diagnostics) {
     if (thread.partial) continue;
     check_real_time(model, thread, diagnostics);
     check_deadline(thread, diagnostics);
+    check_sources(thread, diagnostics);
     check_device_trigger(model, thread, diagnostics);
   }
 }

@@ -15,6 +15,7 @@
 #include "runtime/executive/schedulability.hpp"
 #include "runtime/executive/service_manager.hpp"
 #include "runtime/executive/status_view.hpp"
+#include "runtime/executive/trigger.hpp"
 #include "runtime/executive/virtual_time.hpp"
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/last_gasp.hpp"
@@ -92,6 +93,7 @@ Executive::~Executive() {
 }
 
 Status Executive::prepare() {
+  if (const Status status = check_triggers(cell_.application()); !status) return status;
   if (const Status status = cell_.construct(); !status) return status;
   if (const Status status = load_values(); !status) return status;
   for (DeviceState& state : cell_.application().device_states) {

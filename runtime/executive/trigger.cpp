@@ -4,6 +4,18 @@
 
 namespace flexrf {
 
+Status check_triggers(const Application& application) {
+  for (const ThreadRecord& thread : application.threads) {
+    const std::size_t sources = thread.trigger.sources.size();
+    if (sources <= Trigger::max_sources) continue;
+    return Status::error(StatusCode::invalid_argument,
+                         "thread %s waits for %zu slots and queues, more than %zu; name fewer, or give it a "
+                         "period",
+                         thread.name, sources, Trigger::max_sources);
+  }
+  return {};
+}
+
 Trigger::Trigger(const TriggerRecord& record, const Application& application) noexcept
     : record_(&record),
       application_(&application),

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "runtime/core/status.hpp"
 #include "runtime/executive/application.hpp"
 #include "runtime/executive/backoff.hpp"
 
@@ -15,6 +16,10 @@ struct Due {
   std::uint32_t fired = 0;  ///< bit n: the n-th source advanced
   bool timed_out = false;
 };
+
+/// Refuses threads that wait for more than Trigger::max_sources. Before any Trigger of the application
+/// begins.
+Status check_triggers(const Application& application);
 
 /// All functions: the thread that is triggered.
 class Trigger {

@@ -10,6 +10,7 @@
 #include "runtime/blackboard/job_queue.hpp"
 #include "runtime/blackboard/queue_ring.hpp"
 #include "runtime/blackboard/slot.hpp"
+#include "runtime/executive/trigger.hpp"
 #include "runtime/parameters/parameter_store.hpp"
 #include "tests/cmocka.hpp"
 
@@ -21,6 +22,7 @@ static_assert(config_gen::page == page);
 static_assert(config_gen::large_payload == large_payload);
 static_assert(config_gen::max_runtime_size == max_runtime_size);
 static_assert(config_gen::max_holds == max_holds);
+static_assert(config_gen::max_trigger_sources == Trigger::max_sources);
 
 static_assert(config_gen::item_header == sizeof(ItemHeader));
 static_assert(config_gen::slot_control == sizeof(SlotControl));

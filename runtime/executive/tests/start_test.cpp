@@ -1,4 +1,4 @@
-// A start that fails although everything looked right before: nothing runs, and the report says why.
+// A start that fails, before anything runs or although everything looked right before: what is said of it.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -53,11 +53,23 @@ void a_right_lost_before_the_start_is_named() {
   CHECK_CONTAINS(ending.report, "not held");  // CAP_IPC_LOCK or, where no memory is locked, CAP_SYS_NICE
 }
 
+void a_thread_that_waits_for_too_much_is_refused() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger = TriggerPlan::on_slots(std::vector<std::uint16_t>(33, Cell::values));
+  Executive executive(cell.application(), in_virtual_time(std::chrono::seconds{1}));
+  const Status status = executive.prepare();
+  CHECK(status.code() == StatusCode::invalid_argument);
+  CHECK_CONTAINS(status.cause(), "thread consuming waits for 33 slots and queues, more than 32");
+}
+
 }  // namespace
 }  // namespace flexrf::fixture
 
 int main() {
   using namespace flexrf::fixture;
-  const CMUnitTest tests[] = {CONTAINED_TEST(a_right_lost_before_the_start_is_named)};
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(a_right_lost_before_the_start_is_named),
+      CONTAINED_TEST(a_thread_that_waits_for_too_much_is_refused),
+  };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,4 +1,6 @@
 // The five triggers, and what a step is told of its release.
+#include "runtime/executive/trigger.hpp"
+
 #include <sys/eventfd.h>
 #include <unistd.h>
 
@@ -69,6 +71,15 @@ void the_tick_says_which_source_fired() {
   CHECK_EQUAL(ticks[0].fired, 1U);
   CHECK_EQUAL(ticks[1].fired, 2U);
   CHECK_EQUAL(ticks[1].elapsed.count(), 2'000'000);
+}
+
+void as_many_sources_as_there_may_be_have_a_bit_each() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger =
+      TriggerPlan::on_slots(std::vector<std::uint16_t>(Trigger::max_sources, Cell::values));
+  const std::vector<Tick> ticks = ticks_of_consumer(cell, milliseconds{3});
+  CHECK_EQUAL(ticks.size(), 3U);
+  for (const Tick& tick : ticks) CHECK_EQUAL(tick.fired, 0xFFFF'FFFFU);
 }
 
 void publications_in_between_make_one_release() {
@@ -218,6 +229,7 @@ int main() {
       CONTAINED_TEST(a_period_has_its_phase_and_no_drift),
       CONTAINED_TEST(a_publication_releases_when_it_becomes_visible),
       CONTAINED_TEST(the_tick_says_which_source_fired),
+      CONTAINED_TEST(as_many_sources_as_there_may_be_have_a_bit_each),
       CONTAINED_TEST(publications_in_between_make_one_release),
       CONTAINED_TEST(a_timeout_is_a_release_of_its_own),
       CONTAINED_TEST(a_device_releases_its_thread_in_virtual_time),
