@@ -3,6 +3,7 @@
 #include <linux/netlink.h>
 #include <linux/rtnetlink.h>
 #include <net/if.h>
+#include <net/if_arp.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/ioctl.h>
@@ -79,24 +80,50 @@ void CanLinkWatch::run() noexcept {
 
 void CanLinkWatch::look() noexcept {
   int index = 0;
-  Link link = ask(index);
-  // An index is never given twice, so another one is another interface of the same name.
-  if (index != 0 && index != bound_) {
+  Link link = ask(socket_->descriptor(), interface_.c_str(), index);
+  if (link == Link::not_can) {
+    bound_ = 0;
+  } else if (index != 0 && index != bound_) {
+    // An index is never given twice, so another one is another interface of the same name. Binding fails when
+    // it has gone since it was asked for, and is tried again.
     bound_ = socket_->bind(index) ? index : 0;
     if (bound_ == 0) link = Link::gone;
   }
   view_.store(++looks_ << 8U | static_cast<std::uint8_t>(link), std::memory_order_release);
 }
 
-CanLinkWatch::Link CanLinkWatch::ask(int& index) noexcept {
+CanLinkWatch::Link CanLinkWatch::ask(int socket, const char* interface, int& index) noexcept {
   ifreq request{};
-  std::strncpy(request.ifr_name, interface_.c_str(), IFNAMSIZ - 1);
-  if (ioctl(socket_->descriptor(), SIOCGIFINDEX, &request) != 0) return Link::gone;
+  std::strncpy(request.ifr_name, interface, IFNAMSIZ - 1);
+  if (ioctl(socket, SIOCGIFINDEX, &request) != 0) return Link::gone;
   index = request.ifr_ifindex;
-  if (ioctl(socket_->descriptor(), SIOCGIFFLAGS, &request) != 0) return Link::gone;
+  if (ioctl(socket, SIOCGIFHWADDR, &request) != 0) return Link::gone;
+  if (request.ifr_hwaddr.sa_family != ARPHRD_CAN) return Link::not_can;
+  if (ioctl(socket, SIOCGIFFLAGS, &request) != 0) return Link::gone;
   const auto flags = static_cast<unsigned>(request.ifr_flags);
   if ((flags & IFF_UP) == 0) return Link::down;
   return (flags & IFF_RUNNING) == 0 ? Link::no_carrier : Link::up;
+}
+
+Status CanLinkWatch::advice(Link link, const char* interface) noexcept {
+  switch (link) {
+    case Link::gone:
+      return Status::error(StatusCode::unavailable,
+                           "there is no network interface %s; `ip link` lists those that are there",
+                           interface);
+    case Link::not_can:
+      return Status::error(StatusCode::unavailable,
+                           "%s is not a CAN interface; `ip link` lists those that are with `link/can`",
+                           interface);
+    case Link::down:
+      return Status::error(StatusCode::unavailable,
+                           "%s is down; `ip link set %s up type can bitrate RATE` sets it up", interface,
+                           interface);
+    case Link::no_carrier:
+    case Link::up:
+      break;
+  }
+  return {};
 }
 
 }  // namespace flexrf

@@ -18,6 +18,7 @@ class CanLinkWatch {
  public:
   enum class Link : std::uint8_t {
     gone,
+    not_can,  ///< an interface of another kind
     down,
     no_carrier,  ///< up, but its controller is off the bus
     up,
@@ -33,6 +34,12 @@ class CanLinkWatch {
   Status start(const char* interface, CanSocket& socket);
   void stop() noexcept;
 
+  /// What the interface of this name is now, and its index if it is there. `socket`: any; this may wait for
+  /// the kernel's lock.
+  static Link ask(int socket, const char* interface, int& index) noexcept;
+  /// For an operator, what is to be done about it; ok where nothing is.
+  static Status advice(Link link, const char* interface) noexcept;
+
   /// Any thread; no system call.
   View view() const noexcept {
     const std::uint64_t packed = view_.load(std::memory_order_acquire);
@@ -42,7 +49,6 @@ class CanLinkWatch {
  private:
   void run() noexcept;
   void look() noexcept;
-  Link ask(int& index) noexcept;
 
   std::string interface_;
   CanSocket* socket_ = nullptr;

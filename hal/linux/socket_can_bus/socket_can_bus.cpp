@@ -21,11 +21,8 @@ Status SocketCanBus::initialise() {
   if (Status status = watch_.start(interface, socket_); !status) return status;
   follow_link();
   // It may come later, as a USB adapter does: no reason not to begin.
-  if (link_.link == CanLinkWatch::Link::gone)
-    log_warning(name(), "there is no network interface {}; `ip link` lists those that are there", interface);
-  if (link_.link == CanLinkWatch::Link::down)
-    log_warning(name(), "{} is down; `ip link set {} up type can bitrate RATE` sets it up", interface,
-                interface);
+  if (const Status advice = CanLinkWatch::advice(link_.link, interface); !advice)
+    log_warning(name(), "{}", advice.cause());
   return {};
 }
 
@@ -41,7 +38,7 @@ void SocketCanBus::listen_to(std::span<const CanIdentifier> identifiers) {
 
 void SocketCanBus::receive(const Tick& /*tick*/) noexcept {
   follow_link();
-  if (link_.link == CanLinkWatch::Link::gone || !begin_delivery()) return;
+  if (usable_or_not() == CanBusState::gone || !begin_delivery()) return;
   const std::size_t count = socket_.receive();
   take(count);
   if (count == CanSocket::most_received) take(socket_.receive());
@@ -77,7 +74,7 @@ void SocketCanBus::follow_link() noexcept {
 }
 
 CanBusState SocketCanBus::usable_or_not() const noexcept {
-  if (link_.link == CanLinkWatch::Link::gone) return CanBusState::gone;
+  if (link_.link <= CanLinkWatch::Link::not_can) return CanBusState::gone;
   if (link_.link == CanLinkWatch::Link::down || refused_in_look_ == link_.look) return CanBusState::down;
   return controller_;
 }

@@ -2,6 +2,8 @@
 #include "hal/linux/socket_can_bus/can_error_frame.hpp"
 
 #include <linux/can/error.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <cstring>
 
@@ -58,11 +60,29 @@ void counters_are_told(void**) {
   assert_false(read_error_frame(error_frame(CAN_ERR_BUSOFF)).has_counters);
 }
 
+// The loopback interface is on every machine. Any socket will do to ask.
+void an_interface_of_another_kind_is_told(void**) {
+  using Link = CanLinkWatch::Link;
+  const int any = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  int loopback = 0;
+  int none = 0;
+  const Link found = CanLinkWatch::ask(any, "lo", loopback);
+  const Link missing = CanLinkWatch::ask(any, "flexrf-none", none);
+  close(any);
+  assert_true(found == Link::not_can && loopback != 0);
+  assert_true(missing == Link::gone && none == 0);
+  assert_string_equal(CanLinkWatch::advice(found, "lo").cause(),
+                      "lo is not a CAN interface; `ip link` lists those that are with `link/can`");
+  assert_non_null(std::strstr(CanLinkWatch::advice(missing, "can7").cause(), "no network interface can7"));
+  assert_non_null(std::strstr(CanLinkWatch::advice(Link::down, "can7").cause(), "set can7 up"));
+  assert_true(CanLinkWatch::advice(Link::up, "can7").is_ok());
+}
+
 // Where the kernel has CAN, an interface that is not there is waited for; elsewhere a person is told what to
 // do.
-bool a_missing_interface_is_said() {
+bool is_waited_for(const char* interface) {
   DeviceBench<SocketCanBus> bench(nullptr);
-  bench.configuration().set_interface("flexrf-none");
+  bench.configuration().set_interface(interface);
   const Status status = bench.driver().initialise();
   bool good = status.is_ok() || std::strstr(status.cause(), "modprobe can_raw") != nullptr;
   if (status) {
@@ -76,16 +96,16 @@ bool a_missing_interface_is_said() {
   return good;
 }
 void missing_interface(void**) {
-  assert_true(a_missing_interface_is_said());
+  assert_true(is_waited_for("flexrf-none"));
+  assert_true(is_waited_for("lo"));
 }
 
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(states_are_told),
-      cmocka_unit_test(events_are_told_apart),
-      cmocka_unit_test(counters_are_told),
+      cmocka_unit_test(states_are_told),   cmocka_unit_test(events_are_told_apart),
+      cmocka_unit_test(counters_are_told), cmocka_unit_test(an_interface_of_another_kind_is_told),
       cmocka_unit_test(missing_interface),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
