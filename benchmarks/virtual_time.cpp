@@ -12,7 +12,7 @@ constexpr int simulated_seconds = 60;
 /// A key press every quarter of a second: there and back along each axis, so that the arm moves all the time
 /// and meets no limit.
 void write_keys(const std::string& file) {
-  constexpr char keys[] = "wwssaaddrrff";
+  constexpr char keys[] = "wwssaaddqqee";
   std::ofstream stream{file};
   for (int press = 0; press < simulated_seconds * 4 - 1; ++press) {
     stream << 0.25 * (press + 1) << ' ' << keys[static_cast<std::size_t>(press) % (sizeof(keys) - 1)] << '\n';
