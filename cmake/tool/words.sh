@@ -27,14 +27,23 @@ edit_distance() {  # Levenshtein's distance of $1 and $2
   printf '%d\n' "${above[${#b}]}"
 }
 
-known_word() {  # known_word KIND WORD KNOWN...: returns if WORD is known, else names the nearest and ends
-  local kind=$1 word=$2 known nearest='' distance least=1000000
-  shift 2
+nearest_word() {  # nearest_word WORD KNOWN...: the known word that is the fewest edits away, or nothing
+  local word=$1 known nearest='' distance least=1000000
+  shift
   for known; do
-    [[ $known == "$word" ]] && return
     distance=$(edit_distance "$word" "$known")
     ((distance < least)) && least=$distance nearest=$known
   done
+  printf '%s\n' "$nearest"
+}
+
+known_word() {  # known_word KIND WORD KNOWN...: returns if WORD is known, else names the nearest and ends
+  local kind=$1 word=$2 known nearest
+  shift 2
+  for known; do
+    [[ $known == "$word" ]] && return
+  done
+  nearest=$(nearest_word "$word" "$@")
   [[ $nearest ]] || die "unknown $kind '$word'; there is none yet"
   die "unknown $kind '$word', did you mean '$nearest'? Known: $*"
 }

@@ -25,6 +25,20 @@ unknown password pasword
 unknown keyboard password keybord
 unknown guest guesst
 
+unknown_option() {  # unknown_option NEAREST ARGUMENT...: with the command's help, and nothing is run
+  unknown "$@"
+  expect "help of '${*:2}'" "$errors" "*./flexrf $2*"
+}
+unknown_option --full test --ful
+unknown_option --guest test release --geust
+unknown_option --preset build --prset release
+unknown_option --markdown bench --markdwon
+unknown_option --remove password --remov admin
+unknown_option --help test --hlep
+
+flexrf test release --full </dev/null
+expect "exit code of a misplaced option" "$status" 1
+expect "message of a misplaced option" "$errors" "*--full comes first*"
 flexrf run --keys file </dev/null
 expect "exit code of a misplaced argument" "$status" 1
 expect "message of a misplaced argument" "$errors" "*unknown option '--keys'*after --*"
