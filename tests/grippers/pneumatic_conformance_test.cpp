@@ -72,6 +72,42 @@ bool follows_mere_wires() {
   return true;
 }
 
+// The write that switches a valve off fails for a while.
+bool keeps_one_valve_off_while_the_other_does_not_go_off(bool closes) {
+  DeviceBench<MockGpioChip> chip(nullptr);
+  DeviceBench<PneumaticGripper> gripper(nullptr, {}, &chip.driver());
+  constexpr Duration cycle = std::chrono::milliseconds(1);
+  constexpr int dead_cycles = 20;
+  gripper.configuration().dead_time = 1e-3 * dead_cycles;
+  if (!gripper.driver().initialise()) return false;
+  VirtualLine& first = chip.driver().line(closes ? "VALVE_OPEN" : "VALVE_CLOSE");
+  VirtualLine& second = chip.driver().line(closes ? "VALVE_CLOSE" : "VALVE_OPEN");
+  bool both = false;
+  const auto run_for = [&](int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      chip.receive(cycle);
+      gripper.receive(cycle);
+      gripper.send();
+      both = both || (first.is_high() && second.is_high());
+    }
+  };
+  const auto go = [&](bool to_closed) { to_closed ? gripper.driver().close() : gripper.driver().open(); };
+  run_for(1);
+  go(!closes);
+  run_for(100);
+  if (!first.is_high()) return false;
+  first.jam(true);
+  go(closes);
+  run_for(200);
+  if (!first.is_high() || second.is_high()) return false;
+  first.jam(false);
+  // From when it is off, not from when that was wanted.
+  run_for(dead_cycles);
+  const bool waited = !first.is_high() && !second.is_high();
+  run_for(2);
+  return waited && second.is_high() && !both;
+}
+
 bool tells_a_line_it_cannot_have() {
   DeviceBench<MockGpioChip> chip(nullptr);
   chip.driver().refuse(Status::error(StatusCode::not_found, "no line of this name"));
@@ -82,6 +118,10 @@ bool tells_a_line_it_cannot_have() {
 void wires_of_a_simulated_chip_are_enough(void**) {
   assert_true(follows_mere_wires());
 }
+void the_valves_are_never_on_together_also_when_a_write_fails(void**) {
+  assert_true(keeps_one_valve_off_while_the_other_does_not_go_off(true));
+  assert_true(keeps_one_valve_off_while_the_other_does_not_go_off(false));
+}
 void a_line_it_cannot_have_is_told(void**) {
   assert_true(tells_a_line_it_cannot_have());
 }
@@ -91,6 +131,7 @@ void a_line_it_cannot_have_is_told(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(wires_of_a_simulated_chip_are_enough),
+      cmocka_unit_test(the_valves_are_never_on_together_also_when_a_write_fails),
       cmocka_unit_test(a_line_it_cannot_have_is_told),
   };
   return cmocka_run_group_tests_name("pneumatic gripper", tests, nullptr, nullptr) +

@@ -32,7 +32,8 @@ class GpioLine {
   virtual std::optional<bool> level() const noexcept = 0;
   /// The next change of an input, oldest first. What came and went between two cycles is two edges.
   virtual std::optional<GpioEdge> next_edge() noexcept = 0;
-  /// An output. False: the chip is away. After it came back the line is as `initially_on` says.
+  /// An output. False: it is as it was, as the chip did not take it or is away. After it came back the line
+  /// is as `initially_on` says.
   virtual bool set(bool on) noexcept = 0;
   /// Readable when an edge has come; −1: none, or away.
   virtual int descriptor() const noexcept { return -1; }

@@ -109,7 +109,7 @@ std::optional<GpioEdge> VirtualLine::next_edge() noexcept {
 }
 
 bool VirtualLine::set(bool on) noexcept {
-  if (!present_) return false;
+  if (!present_ || jammed_.load(std::memory_order_acquire)) return false;
   output_on_ = on;
   high_.store(on != settings_.active_low, std::memory_order_release);
   return true;

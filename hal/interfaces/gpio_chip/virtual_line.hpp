@@ -31,6 +31,8 @@ class VirtualLine final : public GpioLine {
   bool is_driven_high() const noexcept { return (changes_.load(std::memory_order_acquire) & 1U) != 0; }
   /// What an output drives; an input: what is seen of it.
   bool is_high() const noexcept { return high_.load(std::memory_order_acquire); }
+  /// An output takes no value from now on, and stays as it is.
+  void jam(bool on) noexcept { jammed_.store(on, std::memory_order_release); }
 
   // ---- the far end's, in the line's own thread or before it runs
 
@@ -56,6 +58,7 @@ class VirtualLine final : public GpioLine {
   const std::atomic<bool>* chip_present_ = nullptr;
   std::atomic<std::uint32_t> changes_{0};  // by drive(); bit 0 is the level
   std::atomic<bool> high_{false};
+  std::atomic<bool> jammed_{false};
   std::uint32_t taken_ = 0;  // of the changes
   const VirtualLine* source_ = nullptr;
   Duration wire_delay_{};

@@ -73,16 +73,23 @@ void PneumaticGripper::send(const Tick& tick) noexcept {
   switch_valves();
 }
 
-/// The one that is to be off first.
+/// The one that is to be off first. A chip that does not take that leaves it on: the other one waits until it
+/// is off, and for the dead time from then.
 void PneumaticGripper::switch_valves() noexcept {
   const pneumatic::End on = control_.valve();
-  const auto set = [&](DigitalLine& line, bool value) {
-    line.command(value, false);
-    line.send(now_, false);
+  const Duration dead_time = in_nanoseconds(configuration.dead_time);
+  const auto set = [&](DigitalLine& valve, bool value) {
+    valve.command(value, false);
+    valve.send(now_, false);
+  };
+  const auto is_vented = [&](const DigitalLine& valve) {
+    const auto state = valve.state();
+    return state && !state->on && now_ - Time{Duration{state->since}} >= dead_time;
   };
   if (on != pneumatic::End::open) set(valve_open_, false);
-  set(valve_close_, on == pneumatic::End::closed);
-  if (on == pneumatic::End::open) set(valve_open_, true);
+  if (on != pneumatic::End::closed) set(valve_close_, false);
+  if (on == pneumatic::End::open && is_vented(valve_close_)) set(valve_open_, true);
+  if (on == pneumatic::End::closed && is_vented(valve_open_)) set(valve_close_, true);
 }
 
 bool PneumaticGripper::make_safe() noexcept {
