@@ -42,7 +42,7 @@ it('an application that is stopped: grey values, dead controls, and back again',
 
 /** Each view, and what of it shows values. */
 const values: readonly (readonly [string, string])[] = [
-  ['overview', 'flexrf-overview :is(dd, [role=alert] h3, [role=alert] p)'],
+  ['overview', 'flexrf-overview :is(dd, [role=alert] h3, [role=alert] p:not(.muted))'],
   ['units', 'flexrf-component-list :is(td .state, .box .alarm)'],
   ['units/fragile', 'flexrf-component-page :is(strong, [role=alert] dd, dl:not([role] *) > dd)'],
   ['units/worker%5B0%5D', 'flexrf-component-page #members + table td'],
