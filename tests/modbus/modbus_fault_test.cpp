@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstring>
+#include <string>
 #include <string_view>
 #include <thread>
 
@@ -111,8 +112,9 @@ bool a_station_that_is_off_behind_a_gateway_is_not_online() {
 
 class Serial {
  public:
-  explicit Serial(const char* device) {
+  explicit Serial(const std::string& device) {
     bench_.configuration().set_device(device);
+    bench_.configuration().parity = ModbusParity::none;  // a pseudo-terminal knows no other
     bench_.configuration().reconnect_longest = 0.1;
   }
   ModbusRtuLink& link() { return bench_.driver(); }
@@ -130,6 +132,23 @@ bool a_missing_serial_line_is_no_failure_to_start_and_is_told() {
   return !feedback.connected &&
          says(feedback.last_error_view(), "serial line /dev/flexrf-no-such-line cannot be opened") &&
          says(feedback.last_error_view(), "plugged in");
+}
+
+bool a_line_that_another_link_has_is_told_and_taken_once_it_is_free() {
+  PseudoSerialLine line;
+  if (!line.open()) return false;
+  Serial first(line.path());
+  Serial second(line.path());
+  if (!first.link().initialise() || !second.link().initialise()) return false;
+  first.receive();
+  second.receive();
+  const bool kept_out = feedback_of(first.link()).connected && !feedback_of(second.link()).connected &&
+                        says(feedback_of(second.link()).last_error_view(), "another program has it open");
+  first.link().stop();
+  for (const Time start = MonotonicClock::now();
+       !feedback_of(second.link()).connected && MonotonicClock::now() - start < patience;)
+    second.receive();
+  return kept_out && feedback_of(second.link()).connected;
 }
 
 // A port that is taken, and on which nobody listens.
@@ -247,6 +266,8 @@ int main() {
        judged<a_station_that_is_off_behind_a_gateway_is_not_online>, nullptr, nullptr, nullptr},
       {"a missing serial line is no failure to start, and is told",
        judged<a_missing_serial_line_is_no_failure_to_start_and_is_told>, nullptr, nullptr, nullptr},
+      {"a line that another link has is told, and taken once it is free",
+       judged<a_line_that_another_link_has_is_told_and_taken_once_it_is_free>, nullptr, nullptr, nullptr},
       {"a closed port is told", judged<a_closed_port_is_told>, nullptr, nullptr, nullptr},
       {"a name for an address is refused", judged<a_name_for_an_address_is_refused>, nullptr, nullptr,
        nullptr},

@@ -2,6 +2,10 @@
 
 #include <arpa/inet.h>
 #include <modbus.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -35,6 +39,20 @@ const char* advice_to_open(int error) {
     default:
       return "it is tried again";
   }
+}
+
+bool is_pseudo_terminal(int line) noexcept {
+  struct stat status {};
+  return fstat(line, &status) == 0 && major(status.st_rdev) >= 136 && major(status.st_rdev) <= 143;
+}
+
+/// Two masters on one line garble each other. The lock keeps out who asks for it, as every link does, root's
+/// too; exclusive use all others. A pseudo-terminal would stay exclusive after who claimed it crashed, as
+/// long as its simulator runs.
+bool claim(int line) noexcept {
+  if (flock(line, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+  if (!is_pseudo_terminal(line)) static_cast<void>(ioctl(line, TIOCEXCL));
+  return true;
 }
 
 }  // namespace
@@ -88,17 +106,22 @@ Status ModbusClient::use_rtu(const SerialLine& line, Duration response_timeout) 
 
 Status ModbusClient::open() noexcept {
   close();
-  if (modbus_connect(context_) != 0) {
-    // libmodbus, too late, leaves what the connection was at.
-    const int error = errno == EINPROGRESS ? ETIMEDOUT : errno;
-    return Status::error(
-        error == EACCES || error == EPERM ? StatusCode::not_permitted : StatusCode::unavailable,
-        "%s cannot be opened: %s; %s", where_.data(), modbus_strerror(error), advice_to_open(error));
-  }
+  // libmodbus, too late, leaves what the connection was at.
+  if (modbus_connect(context_) != 0) return cannot_open(errno == EINPROGRESS ? ETIMEDOUT : errno);
   open_ = true;
+  if (serial_ && !claim(modbus_get_socket(context_))) {
+    close();
+    return cannot_open(EBUSY);
+  }
   quiet_since_ = now();
   if (serial_) modbus_flush(context_);
   return {};
+}
+
+Status ModbusClient::cannot_open(int error) const noexcept {
+  return Status::error(
+      error == EACCES || error == EPERM ? StatusCode::not_permitted : StatusCode::unavailable,
+      "%s cannot be opened: %s; %s", where_.data(), modbus_strerror(error), advice_to_open(error));
 }
 
 void ModbusClient::close() noexcept {

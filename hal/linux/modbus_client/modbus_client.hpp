@@ -41,6 +41,7 @@ class ModbusClient final : public ModbusTransport {
  private:
   Status use(_modbus* context, Duration response_timeout);
   void release() noexcept;
+  Status cannot_open(int error) const noexcept;
   /// Before a request. A serial line is silent between two frames, for the time of 3.5 characters (Modbus
   /// over serial line V1.02, 2.5.1.1); and an answer that came after its time is not the next one's.
   void prepare(std::uint8_t unit_id) noexcept;
