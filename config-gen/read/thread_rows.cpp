@@ -56,6 +56,19 @@ std::vector<SourceReference> find_sources(Assembly& assembly, const Scope& scope
   return {};
 }
 
+// A timeout releases whatever min_interval says, which the schedulability analysis counts on.
+template <typename TimedTrigger>
+void read_times(Assembly& assembly, Row& row, TimedTrigger& trigger) {
+  trigger.min_interval = row.positive_duration("min_interval");
+  trigger.timeout = row.positive_duration("timeout");
+  if (trigger.timeout && trigger.min_interval && *trigger.timeout < *trigger.min_interval)
+    assembly.diagnostics.error(
+        row.position("timeout"),
+        "'timeout' of " + row.name() + " is " + duration_text(*trigger.timeout) +
+            ", shorter than its 'min_interval' of " + duration_text(*trigger.min_interval),
+        "a release by the timeout comes no sooner than any other: lengthen it, or shorten min_interval");
+}
+
 Trigger read_slots_trigger(Assembly& assembly, Row& row, const Scope& scope) {
   SlotsTrigger trigger;
   if (const Node* names = row.list_of_texts("slots")) {
@@ -66,16 +79,14 @@ Trigger read_slots_trigger(Assembly& assembly, Row& row, const Scope& scope) {
       for (const SourceReference& source : find_sources(assembly, scope, name))
         trigger.sources.push_back(source);
   }
-  trigger.min_interval = row.positive_duration("min_interval");
-  trigger.timeout = row.positive_duration("timeout");
+  read_times(assembly, row, trigger);
   return trigger;
 }
 
 std::optional<Trigger> read_device_trigger(Assembly& assembly, Row& row, const Scope& scope) {
   DeviceTrigger trigger;
   const auto name = row.text("device");
-  trigger.min_interval = row.positive_duration("min_interval");
-  trigger.timeout = row.positive_duration("timeout");
+  read_times(assembly, row, trigger);
   if (!name) return std::nullopt;
   auto found = assembly.devices.find(scope.prefix + *name);
   if (found == assembly.devices.end()) found = assembly.devices.find(*name);
