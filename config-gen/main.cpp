@@ -126,8 +126,9 @@ int run(const Command& command) {
   Diagnostics diagnostics;
   Model model = read(*command.target, command.paths, diagnostics);
   check(model, diagnostics);
+  // Also where nothing is to be written: only the emitter reads what a URDF says.
   std::vector<GeneratedFile> files;
-  if (!diagnostics.failed() && !command.check_only) files = emit(model, *command.target, diagnostics);
+  if (!diagnostics.failed()) files = emit(model, *command.target, diagnostics);
   diagnostics.print(std::cerr);
   if (diagnostics.failed()) return EXIT_FAILURE;
   if (command.check_only) return EXIT_SUCCESS;

@@ -68,7 +68,7 @@ Tally judge_all() {
   Tally tally;
   for (const fs::path& folder : folders) {
     ++tally.cases;
-    const Result result = read_cell(folder);
+    const Result result = read_cell(folder, Stage::emit);
     const std::string actual = shortened(result.messages, folder.generic_string() + "/");
     if (rewrite) std::ofstream(folder / "expected.txt", std::ios::binary) << actual;
     const std::string expected = contents_of(folder / "expected.txt");

@@ -15,18 +15,22 @@ struct Result {
   bool failed = false;
 };
 
-// The application `folder`/cell.toml, with the tables of base/ and those in the folder itself. Paths in
-// messages are as given here, so tests run in the folder of the tests.
-inline Result read_cell(const std::filesystem::path& folder) {
+enum class Stage { check, emit };
+
+// The application `folder`/cell.toml as far as to that stage, with the tables of base/ and those in the
+// folder itself. Paths in messages are as given here, so tests run in the folder of the tests.
+inline Result read_cell(const std::filesystem::path& folder, Stage last = Stage::check) {
   SearchPaths paths;
   paths.types = {"base/types"};
   paths.units = {"base/units"};
   paths.interfaces = {"base/hal/interfaces", folder / "hal/interfaces"};
   paths.drivers = {"base/hal/linux", "base/hal/simulated", folder / "hal/drivers"};
+  const Target target{Target::Kind::application, folder / "cell.toml"};
   Diagnostics diagnostics;
   Result result;
-  result.model = read({Target::Kind::application, folder / "cell.toml"}, paths, diagnostics);
+  result.model = read(target, paths, diagnostics);
   check(result.model, diagnostics);
+  if (last == Stage::emit && !diagnostics.failed()) emit(result.model, target, diagnostics);
   std::ostringstream text;
   diagnostics.print(text);
   result.messages = text.str();
