@@ -129,6 +129,13 @@ void read_default(Library& library, Row& row, Parameter& parameter, bool broken)
     parameter.initial = std::move(*initial);
 }
 
+bool has_image(const Model& model, const FieldType& type) {
+  if (type.kind != FieldType::Kind::declared) return false;
+  const Type& declared = model.types[type.declared];
+  return declared.image || std::any_of(declared.fields.begin(), declared.fields.end(),
+                                       [&](const Field& field) { return has_image(model, field.type); });
+}
+
 Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kind,
                          const std::string& section) {
   Row row(node, "[" + section + "." + node.key + "]", library.diagnostics());
@@ -148,6 +155,10 @@ Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kin
   parameter.widget = row.text("widget").value_or("");
   parameter.label = row.text("label").value_or("");
   if (field) parameter.initial = zero_literal(library.model(), parameter.field, node.key_position);
+  if (field && kind == Parameter::Kind::feedback && has_image(library.model(), field->type))
+    library.diagnostics().error(row.position("type"), "an image cannot be in feedback: " + row.name(),
+                                "feedback is copied after each step: publish the image as an [output.NAME], "
+                                "which is read where it lies");
   if (kind != Parameter::Kind::feedback) {
     const FieldType& type = parameter.field.type;
     const bool numeric = field && parameter.input == Parameter::Input::value &&
