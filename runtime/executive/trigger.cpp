@@ -25,7 +25,8 @@ void Trigger::begin(Time start) noexcept {
   next_ = start + record_->phase;
   last_ = start;
   poll_at_ = start;
-  for (std::size_t i = 0; i < record_->sources.size(); ++i) cursors_[i] = count_of(i);
+  advanced();
+  cursors_ = seen_;
 }
 
 std::uint64_t Trigger::count_of(std::size_t source) const noexcept {
@@ -33,10 +34,11 @@ std::uint64_t Trigger::count_of(std::size_t source) const noexcept {
   return watched.slot != nullptr ? watched.slot->published() : watched.queue->arrivals();
 }
 
-std::uint32_t Trigger::advanced() const noexcept {
+std::uint32_t Trigger::advanced() noexcept {
   std::uint32_t fired = 0;
   for (std::size_t i = 0; i < record_->sources.size(); ++i) {
-    if (count_of(i) != cursors_[i]) fired |= std::uint32_t{1} << i;
+    seen_[i] = count_of(i);
+    if (seen_[i] != cursors_[i]) fired |= std::uint32_t{1} << i;
   }
   return fired;
 }
@@ -63,7 +65,7 @@ void Trigger::add_timeout(Due& due) const noexcept {
   if (timeout < due.at) due = Due{timeout, due.fired, due.fired == 0};
 }
 
-Due Trigger::due_by_sources(Time now) const noexcept {
+Due Trigger::due_by_sources(Time now) noexcept {
   Due due;
   due.fired = advanced();
   if (due.fired != 0) due.at = std::max(now, last_ + record_->min_interval);
@@ -81,17 +83,19 @@ Due Trigger::due_by_device(Time now, bool readable) const noexcept {
   if (const Device* device = owned_device(); device != nullptr)
     due.at = readable ? now : device->next_event();
   if (due.at != Time::max()) {
+    // What is still to come has not fired: the timeout may be first.
+    due.fired = due.at <= now ? 1 : 0;
     due.at = std::max(due.at, last_ + record_->min_interval);
-    due.fired = 1;
   }
   add_timeout(due);
   return due;
 }
 
 Due Trigger::due_by_backoff(Time now) noexcept {
+  if (!found_ && now < poll_at_) return Due{poll_at_, 0, false};
+  advanced();
   if (found_) return Due{now, 1, false};
-  if (now < poll_at_) return Due{poll_at_, 0, false};
-  const std::uint64_t arrived = count_of(0) - cursors_[0];
+  const std::uint64_t arrived = seen_[0] - cursors_[0];
   if (arrived == 0) {
     poll_at_ = backoff_.miss(now);
     return Due{poll_at_, 0, false};
@@ -107,7 +111,7 @@ void Trigger::released(Time nominal, Time now) noexcept {
   last_ = now;
   found_ = false;
   if (record_->kind == TriggerKind::period) next_ = nominal + record_->period;
-  for (std::size_t i = 0; i < record_->sources.size(); ++i) cursors_[i] = count_of(i);
+  for (std::size_t i = 0; i < record_->sources.size(); ++i) cursors_[i] = seen_[i];
 }
 
 std::uint64_t Trigger::finished(Time ended, OverrunPolicy policy) noexcept {

@@ -13,7 +13,7 @@ namespace flexrf {
 /// What is known of a thread's next release.
 struct Due {
   Time at = Time::max();    ///< max: not before somebody rings
-  std::uint32_t fired = 0;  ///< bit n: the n-th source advanced
+  std::uint32_t fired = 0;  ///< bit n: the n-th source advanced; of a device bit 0: it has something by now
   bool timed_out = false;
 };
 
@@ -35,7 +35,8 @@ class Trigger {
   /// something. With back-off this is a poll: it finds something or says when to look again.
   Due due(Time now, bool readable) noexcept;
 
-  /// A release begins: what has been published until now is its, and will not fire again.
+  /// A release begins: what the last due() saw is its, and will not fire again. What was published since then
+  /// is of the next release, which is told of it.
   void released(Time nominal, Time now) noexcept;
 
   /// A periodic release ended at `ended`: how many further releases lie in the past by now; they are left out
@@ -48,16 +49,17 @@ class Trigger {
 
  private:
   std::uint64_t count_of(std::size_t source) const noexcept;
-  std::uint32_t advanced() const noexcept;
+  std::uint32_t advanced() noexcept;
   const Device* owned_device() const noexcept;  // null while the lifecycle thread has it
-  Due due_by_sources(Time now) const noexcept;
+  Due due_by_sources(Time now) noexcept;
   Due due_by_device(Time now, bool readable) const noexcept;
   Due due_by_backoff(Time now) noexcept;
   void add_timeout(Due& due) const noexcept;
 
   const TriggerRecord* record_;
   const Application* application_;
-  std::array<std::uint64_t, max_sources> cursors_{};
+  std::array<std::uint64_t, max_sources> cursors_{};  // publications that had their release
+  std::array<std::uint64_t, max_sources> seen_{};     // publications when due() looked last
   Backoff backoff_;
   Time poll_at_{};
   bool found_ = false;  // back-off: a poll found items, the release is still to come

@@ -82,6 +82,30 @@ void as_many_sources_as_there_may_be_have_a_bit_each() {
   for (const Tick& tick : ticks) CHECK_EQUAL(tick.fired, 0xFFFF'FFFFU);
 }
 
+void a_publication_between_the_look_and_the_release_fires_the_next() {
+  Cell cell;
+  const std::uint16_t late = cell.add(SlotPlan{.name = "late"});
+  cell.thread(Cell::consuming).trigger = TriggerPlan::on_slots({Cell::values, late});
+  const Application& application = cell.application();
+  const auto publish = [&cell](std::uint16_t slot) {
+    const std::uint8_t buffer = cell.slot_control(slot).loan();
+    CHECK(buffer != SlotControl::none);
+    cell.slot_control(slot).publish(buffer, beginning);
+  };
+  Trigger trigger(application.threads[Cell::consuming].trigger, application);
+  trigger.begin(beginning);
+  publish(Cell::values);
+  CHECK_EQUAL(trigger.due(beginning, false).fired, 1U);
+  publish(late);
+  trigger.released(beginning, beginning);
+  const Time now = beginning + milliseconds{1};
+  const Due next = trigger.due(now, false);
+  CHECK_EQUAL(next.fired, 2U);
+  CHECK_EQUAL(nanoseconds(next.at), nanoseconds(now));
+  trigger.released(now, now);
+  CHECK_EQUAL(trigger.due(now, false).fired, 0U);
+}
+
 void publications_in_between_make_one_release() {
   Cell cell;
   cell.thread(Cell::consuming).trigger.min_interval = milliseconds{5};
@@ -131,6 +155,25 @@ void a_device_releases_its_thread_in_virtual_time() {
     CHECK_EQUAL((ticks[i].now - beginning).count(), 3'000'000 + 4'000'000 * static_cast<std::int64_t>(i));
     CHECK_EQUAL(ticks[i].fired, 1U);
   }
+}
+
+void before_a_device_has_something_it_is_the_timeout() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger = TriggerPlan::on_device(Cell::actuator);
+  cell.thread(Cell::consuming).trigger.timeout = milliseconds{1};
+  Time next = beginning + microseconds{3500};
+  cell.device(Cell::actuator).script.next_event = [&] { return next; };
+  cell.device(Cell::actuator).script.receive = [&](TestDevice&, const Tick& tick) {
+    if (tick.now >= next) next += milliseconds{4};
+  };
+  const std::vector<Tick> ticks = ticks_of_consumer(cell, milliseconds{9});
+  std::vector<std::int64_t> events;
+  for (const Tick& tick : ticks) {
+    CHECK_EQUAL(tick.timed_out, tick.fired == 0);
+    if (tick.fired == 1) events.push_back((tick.now - beginning).count() / 1000);
+  }
+  CHECK_EQUAL(ticks.size(), 9U);
+  CHECK((events == std::vector<std::int64_t>{3500, 7500}));
 }
 
 void a_device_releases_its_thread_on_the_wall_clock() {
@@ -230,9 +273,11 @@ int main() {
       CONTAINED_TEST(a_publication_releases_when_it_becomes_visible),
       CONTAINED_TEST(the_tick_says_which_source_fired),
       CONTAINED_TEST(as_many_sources_as_there_may_be_have_a_bit_each),
+      CONTAINED_TEST(a_publication_between_the_look_and_the_release_fires_the_next),
       CONTAINED_TEST(publications_in_between_make_one_release),
       CONTAINED_TEST(a_timeout_is_a_release_of_its_own),
       CONTAINED_TEST(a_device_releases_its_thread_in_virtual_time),
+      CONTAINED_TEST(before_a_device_has_something_it_is_the_timeout),
       CONTAINED_TEST(a_device_releases_its_thread_on_the_wall_clock),
       CONTAINED_TEST(a_flood_does_not_turn_a_thread_in_circles),
       CONTAINED_TEST(back_off_finds_every_item_of_a_steady_source_soon),
