@@ -53,6 +53,12 @@ constexpr Route table[] = {
      false, "", "", ""},
     {Resource::answer_control, Method::post, "control/answer", "Answers who asks for the control token",
      Role::operator_, true, "Grant", "", ""},
+    {Resource::access, Method::get, "session", "Who is logged in; 401: nobody", Role::viewer, false, "",
+     "LoggedIn", ""},
+    {Resource::access, Method::post, "login",
+     "Begins a session, which is in the answer's cookie; 409: there are no passwords", Role::viewer, false,
+     "Login", "LoggedIn", ""},
+    {Resource::access, Method::post, "logout", "Ends the session", Role::viewer, false, "", "204", ""},
 };
 
 constexpr std::string_view schemas = R"json({
@@ -65,6 +71,8 @@ constexpr std::string_view schemas = R"json({
 "Reconfiguration":{"type":"object","required":["outcome","causes","owners"],"properties":{"outcome":{"enum":["done","refused","rolled_back","fault"]},"causes":{"type":"array","items":{"type":"string"}},"owners":{"type":"array","items":{"type":"string"}}}},
 "Grant":{"type":"object","required":["grant"],"properties":{"grant":{"type":"boolean"}}},
 "Taken":{"type":"object","required":["taken"],"properties":{"taken":{"type":"boolean"}}},
+"Login":{"type":"object","required":["user","password"],"additionalProperties":false,"properties":{"user":{"type":"string"},"password":{"type":"string"}}},
+"LoggedIn":{"type":"object","required":["name","role","local","user"],"properties":{"name":{"type":"string"},"role":{"enum":["viewer","operator","engineer","admin"]},"local":{"type":"boolean"},"user":{"type":"string"}}},
 "Session":{"type":["object","null"],"properties":{"name":{"type":"string"},"user":{"type":"string"},"address":{"type":"string"},"local":{"type":"boolean"},"you":{"type":"boolean"}}},
 "State":{"type":"object","required":["mode","cause","motion","faults","control","edit","server"],"properties":{"mode":{"enum":["starting","running","finishing","stopping","safe","ended"]},"cause":{"type":"string"},"motion":{"type":"object","required":["stopped","may_move"],"properties":{"stopped":{"type":"boolean"},"may_move":{"type":"boolean"}}},"faults":{"type":"array","items":{"type":"object","required":["component","cause"]}},"control":{"type":"object","properties":{"holder":{"$ref":"#/components/schemas/Session"},"wanted_by":{"$ref":"#/components/schemas/Session"},"answer_within_ms":{"type":"integer"}}},"edit":{"type":["object","null"]},"server":{"type":"object"}}},
 "Component":{"type":"object","required":["name","kind","life","fault","active","member","steps","execution"],"properties":{"name":{"type":"string"},"kind":{"enum":["unit","device"]},"type":{"type":"string"},"driver":{"type":"string"},"life":{"enum":["created","initialised","running","stopped","fault"]},"fault":{"type":"string"},"active":{"type":"boolean"},"member":{"type":["object","null"]},"steps":{"type":"integer"},"execution":{"type":"object"}}},
@@ -76,6 +84,9 @@ constexpr std::string_view schemas = R"json({
 "Devices":{"type":"array","items":{"type":"object","required":["name","interface","driver","kind","life"]}},
 "Log":{"type":"object","required":["last","lines"],"properties":{"last":{"type":"integer"},"lines":{"type":"array","items":{"type":"object","required":["number","text"]}}}}
 })json";
+
+/// In place of an answer's schema.
+constexpr std::string_view no_content = "204";
 
 constexpr std::string_view words_of_methods[] = {"get", "head", "put", "post", "other"};
 constexpr std::string_view words_of_roles[] = {"viewer", "operator", "engineer", "admin"};
@@ -119,14 +130,16 @@ void write_parameter(JsonWriter& json, std::string_view name, const char* in) {
       .member("name", name)
       .member("in", in)
       .member("required", std::string_view{in} == "path");
-  json.key("schema").begin_object().member("type", std::string_view{in} == "path" ? "string" : "integer");
+  json.key("schema").begin_object().member("type", std::string_view{in} == "query" ? "integer" : "string");
   json.end_object().end_object();
 }
 
 void write_operation(JsonWriter& json, const Route& route) {
   json.key(words_of_methods[static_cast<std::size_t>(route.method)]).begin_object();
   json.member("summary", route.summary);
-  json.member("x-role", words_of_roles[static_cast<std::size_t>(route.role)]);
+  // Whoever asks for access has no role yet.
+  if (route.resource != Resource::access)
+    json.member("x-role", words_of_roles[static_cast<std::size_t>(route.role)]);
   json.member("x-needs-control", route.control).key("parameters").begin_array();
   std::string_view path = route.path;
   while (!path.empty()) {
@@ -134,14 +147,17 @@ void write_operation(JsonWriter& json, const Route& route) {
     if (segment.front() == '{') write_parameter(json, segment.substr(1, segment.size() - 2), "path");
   }
   if (!route.query.empty()) write_parameter(json, route.query, "query");
+  if (route.resource == Resource::put_parameters) write_parameter(json, "If-Match", "header");
   json.end_array();
   if (!route.request.empty()) {
     json.key("requestBody").begin_object();
     write_content(json, route.request);
     json.end_object();
   }
-  json.key("responses").begin_object().key("200").begin_object().member("description", "Done");
-  write_content(json, route.response);
+  const bool has_content = route.response != no_content;
+  json.key("responses").begin_object().key(has_content ? "200" : no_content).begin_object();
+  json.member("description", "Done");
+  if (has_content) write_content(json, route.response);
   json.end_object().key("default").begin_object().member("description", "Refused, and why (RFC 9457)");
   json.key("content").begin_object().key("application/problem+json").begin_object().key("schema");
   json.begin_object().member("$ref", "#/components/schemas/Problem").end_object().end_object().end_object();
@@ -158,7 +174,7 @@ Match match(Method method, std::string_view path) noexcept {
   const Method wanted = method == Method::head ? Method::get : method;
   Match found;
   for (const Route& route : table) {
-    if (!matches(route.path, path, found)) continue;
+    if (route.resource == Resource::access || !matches(route.path, path, found)) continue;
     found.known_path = true;
     if (route.method != wanted) continue;
     found.route = &route;

@@ -36,6 +36,7 @@ enum class Resource : std::uint8_t {
   take_control,
   release_control,
   answer_control,
+  access,  ///< described here, answered by AccessEndpoints
 };
 
 struct Route {
@@ -46,7 +47,7 @@ struct Route {
   Role role;
   bool control;               ///< needs the control token
   std::string_view request;   ///< name of the schema of the body; empty: no body
-  std::string_view response;  ///< likewise of the answer; empty: {}
+  std::string_view response;  ///< likewise of the answer; empty: {}; "204": no body
   std::string_view query;     ///< name of its integer parameter in the query; empty: none
 };
 
@@ -58,7 +59,7 @@ struct Match {
   bool known_path = false;                     ///< some other method is for it
   std::array<std::string_view, 2> segments{};  ///< what stood for each "{...}"
 };
-/// `path`: percent-decoded, below /api/v1/.
+/// `path`: percent-decoded, below /api/v1/. Routes of Resource::access are left out.
 Match match(Method method, std::string_view path) noexcept;
 
 /// The document that describes them all (OpenAPI 3.1).
