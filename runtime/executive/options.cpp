@@ -111,6 +111,16 @@ Status check_choice(const Application& application, const HardwareChoice& choice
                        choice.driver.c_str(), drivers_of(*device).c_str());
 }
 
+bool has_keyboard_with_script(const Application& application) {
+  for (const DeviceRecord& device : application.devices) {
+    if (std::strcmp(device.interface, "Keyboard") != 0) continue;
+    for (const DriverRecord& driver : device.drivers) {
+      if (std::strcmp(driver.name, "script") == 0) return true;
+    }
+  }
+  return false;
+}
+
 Status parse_hardware(const Application& application, std::string_view text,
                       std::vector<HardwareChoice>& choices) {
   while (!text.empty()) {
@@ -208,6 +218,13 @@ Result<Options> parse_options(const Application& application, int argument_count
   if (options.digest && !options.virtual_time) {
     return Status::error(StatusCode::invalid_argument,
                          "--digest needs --virtual-time: on the wall clock no two runs are the same");
+  }
+  if (!options.keys_file.empty() && !has_keyboard_with_script(application)) {
+    return Status::error(
+        StatusCode::invalid_argument,
+        "--keys %s: no Keyboard of this application has the driver `script`, which reads it; "
+        "leave --keys away, or add the driver to the device's table",
+        options.keys_file.c_str());
   }
   if (options.panel_given && options.virtual_time) {
     return Status::error(
