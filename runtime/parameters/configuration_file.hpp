@@ -45,9 +45,9 @@ struct ConfigurationIdentity {
 };
 
 enum class ConfigurationSource : std::uint8_t {
-  tables,    ///< there is no file: nothing was changed
+  tables,    ///< there is no file, nor a previous copy: nothing was changed
   file,      ///< the file's values were taken
-  previous,  ///< the file is damaged (see problems); those of FILE.previous were taken
+  previous,  ///< the file is damaged (see problems) or gone; those of FILE.previous were taken
   refused,   ///< nothing was taken and the application should not start (see problems)
 };
 
@@ -58,7 +58,7 @@ struct ConfigurationReport {
 };
 
 /// Reads the file into the components' values: all of it, or nothing. Damage (syntax, checksum, truncation)
-/// falls back to FILE.previous; a wrong name or value refuses the file. A file written for another descriptor
+/// or loss falls back to FILE.previous; a wrong name or value refuses the file. A file written for another descriptor
 /// is taken as far as it fits, under the names that `renames` give; the rest is noticed. Not real-time.
 ConfigurationReport load_configuration(const std::string& path, const ConfigurationIdentity& identity,
                                        std::span<const ConfigurationComponent> components);

@@ -360,33 +360,41 @@ Outcome try_file(const std::string& path, const ConfigurationIdentity& identity,
 ConfigurationReport load_configuration(const std::string& path, const ConfigurationIdentity& identity,
                                        std::span<const ConfigurationComponent> components) {
   ConfigurationReport report;
-  switch (try_file(path, identity, components, report)) {
-    case Outcome::absent:
-      report.source = ConfigurationSource::tables;
-      return report;
-    case Outcome::taken:
-      report.source = ConfigurationSource::file;
-      return report;
-    case Outcome::unreadable:
-    case Outcome::unfit:
-      report.source = ConfigurationSource::refused;
-      return report;
-    case Outcome::damaged:
-      break;
-  }
-  // A cell that was tuned must not start untuned because a file broke: without a good copy it does not start.
-  const std::string previous = path + ".previous";
-  const Outcome outcome = try_file(previous, identity, components, report);
+  const Outcome outcome = try_file(path, identity, components, report);
   if (outcome == Outcome::taken) {
-    report.source = ConfigurationSource::previous;
-    report.notices.push_back(path + ": the previous copy '" + previous + "' is used in its place");
+    report.source = ConfigurationSource::file;
     return report;
   }
   report.source = ConfigurationSource::refused;
-  report.problems.push_back(
-      path + ": error: " + (outcome == Outcome::absent ? "there is no previous copy '" : "nor can '") +
-      previous + (outcome == Outcome::absent ? "'" : "' be used") +
-      ": repair the file, or remove it to start with the values of the tables");
+  if (outcome == Outcome::unreadable || outcome == Outcome::unfit) return report;
+  // A cell that was tuned must not start untuned because a file broke or went astray: without a good copy it
+  // does not start, unless there has never been a file.
+  const bool is_absent = outcome == Outcome::absent;
+  const std::string previous = path + ".previous";
+  const Outcome fallback = try_file(previous, identity, components, report);
+  if (fallback == Outcome::taken) {
+    report.source = ConfigurationSource::previous;
+    report.notices.push_back(
+        path +
+        (is_absent ? ": there is no such file (remove its copy too to start with the tables' values)" : "") +
+        ": the previous copy '" + previous + "' is used in its place");
+  } else if (is_absent && fallback == Outcome::absent) {
+    report.source = ConfigurationSource::tables;
+    report.notices.push_back(
+        path +
+        ": there is no such file yet: the values of the tables hold, and the end of the run writes it");
+  } else if (is_absent) {
+    report.problems.push_back(path + ": error: there is no such file, and '" + previous +
+                              "' cannot be used in its place: repair that, or remove it to start with the "
+                              "values of the tables");
+  } else if (fallback == Outcome::absent) {
+    report.problems.push_back(path + ": error: there is no previous copy '" + previous +
+                              "': repair the file, or remove it to start with the values of the tables");
+  } else {
+    report.problems.push_back(
+        path + ": error: nor can '" + previous +
+        "' be used: repair the file, or remove both to start with the values of the tables");
+  }
   return report;
 }
 

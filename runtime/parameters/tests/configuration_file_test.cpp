@@ -124,6 +124,44 @@ void without_a_file_the_tables_hold(void**) {
   assert_int_equal(load(), ConfigurationSource::tables);
   assert_true(has_unchanged_values());
   assert_int_equal(world->report.problems.size(), 0);
+  assert_int_equal(world->report.notices.size(), 1);
+  expect_notice(
+      0,
+      "config.xml: there is no such file yet: the values of the tables hold, and the end of the run "
+      "writes it");
+  assert_true(save());
+  assert_int_equal(load(), ConfigurationSource::file);
+  assert_int_equal(world->report.notices.size(), 0);
+}
+
+void a_lost_file_falls_back_to_the_previous(void**) {
+  world->unit.runtime.step = 0.02;
+  assert_true(save());
+  world->unit.runtime.step = 0.03;
+  assert_true(save());
+  std::filesystem::remove(world->file);
+  reset_values();
+  assert_int_equal(load(), ConfigurationSource::previous);
+  assert_true(world->unit.runtime.step == 0.02);
+  assert_int_equal(world->report.problems.size(), 0);
+  expect_notice(
+      0,
+      "config.xml: there is no such file (remove its copy too to start with the tables' values): the "
+      "previous copy 'config.xml.previous' is used in its place");
+  // Saving writes the file and leaves the copy.
+  assert_true(save());
+  assert_int_equal(load(), ConfigurationSource::file);
+  assert_true(contents(".previous").find("0.02") != std::string::npos);
+  // A copy that is no good: nobody knows what the cell was tuned to.
+  std::filesystem::remove(world->file);
+  write("<flexrf", ".previous");
+  reset_values();
+  assert_int_equal(load(), ConfigurationSource::refused);
+  expect_problem(0, "config.xml.previous:1:7: error: damaged: Error parsing start element tag");
+  expect_problem(1,
+                 "config.xml: error: there is no such file, and 'config.xml.previous' cannot be used in its "
+                 "place: repair that, or remove it to start with the values of the tables");
+  assert_true(has_unchanged_values());
 }
 
 void what_is_saved_is_loaded(void**) {
@@ -277,8 +315,8 @@ void a_syntax_error_has_line_and_column(void**) {
   expect_problem(1, "config.xml.previous:1:7: error: damaged: Error parsing start element tag");
   expect_problem(
       2,
-      "config.xml: error: nor can 'config.xml.previous' be used: repair the file, or remove it to start "
-      "with the values of the tables");
+      "config.xml: error: nor can 'config.xml.previous' be used: repair the file, or remove both to "
+      "start with the values of the tables");
   assert_true(has_unchanged_values());
 }
 
@@ -439,6 +477,7 @@ int main() {
       cmocka_unit_test_setup_teardown(saving_keeps_the_former_file_and_its_permissions, begin, end),
       cmocka_unit_test_setup_teardown(a_failed_save_leaves_the_file, begin, end),
       cmocka_unit_test_setup_teardown(a_damaged_file_falls_back_to_the_previous, begin, end),
+      cmocka_unit_test_setup_teardown(a_lost_file_falls_back_to_the_previous, begin, end),
       cmocka_unit_test_setup_teardown(a_syntax_error_has_line_and_column, begin, end),
       cmocka_unit_test_setup_teardown(an_edited_file_is_taken_with_a_notice, begin, end),
       cmocka_unit_test_setup_teardown(all_that_does_not_fit_is_named_at_once_and_nothing_is_taken, begin,
