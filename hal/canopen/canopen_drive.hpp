@@ -16,7 +16,12 @@ class CanopenDrive : public Base {
     link_.receive(tick);
     auto& told = this->feedback;
     told.homing = link_.homing();
-    const Status& trouble = link_.axis().node().problem();
+    const canopen::Node& node = link_.axis().node();
+    told.bring_ups = node.times_operational();
+    told.resets = node.resets();
+    told.silences = node.silences();
+    told.emergencies = node.emergencies();
+    const Status& trouble = node.problem();
     const bool was_told = told.trouble[0] != '\0';
     if (was_told || !trouble.is_ok()) told.set_trouble(trouble.is_ok() ? "" : trouble.cause());
     const auto& state = link_.axis().state();

@@ -58,11 +58,13 @@ bool is_enabled_in_time(DriveFaultWorld& world) {
   return until(world, start, [&] { return is_enabled(world); }) && world.drive().fault().is_ok();
 }
 
+const CanopenServoDrive::Feedback& told(DriveFaultWorld& world) {
+  return *static_cast<const CanopenServoDrive::Feedback*>(world.drive().parameter_memory().feedback);
+}
+
 // What the operator reads of a drive that is not there, and is not in use.
 bool tells_trouble(DriveFaultWorld& world, std::string_view part) {
-  const auto& feedback =
-      *static_cast<const CanopenServoDrive::Feedback*>(world.drive().parameter_memory().feedback);
-  return says(feedback.trouble_view(), part);
+  return says(told(world).trouble_view(), part);
 }
 
 // It is on its way, and far from both ends of it.
@@ -135,8 +137,10 @@ bool drive_that_falls_silent_in_motion(DriveFaultWorld& world) {
 }
 
 bool heartbeat_of_the_drive_lost(DriveFaultWorld& world) {
-  if (!moves(world) || !world.tell("silence")) return false;
-  if (!reads(world, "no heartbeat of node 5 for 250 ms")) return false;
+  if (!moves(world)) return false;
+  const std::uint64_t silences = told(world).silences;
+  if (!world.tell("silence") || !reads(world, "no heartbeat of node 5 for 250 ms")) return false;
+  if (!until(world, target, [&] { return told(world).silences > silences; })) return false;
   if (!drive_is(world, "switch on disabled") || !stays_off(world) || !world.tell("speak")) return false;
   return comes_back(world, "a lost heartbeat of the drive");
 }
@@ -151,8 +155,11 @@ bool our_heartbeat_lost(DriveFaultWorld& world) {
 }
 
 bool drive_fault_in_motion(DriveFaultWorld& world) {
-  if (!moves(world) || !world.tell("trip 0x2310")) return false;
+  if (!moves(world)) return false;
+  const std::uint64_t emergencies = told(world).emergencies;
+  if (!world.tell("trip 0x2310")) return false;
   return reads(world, "the drive is in fault") && says(world.drive().fault().cause(), "current") &&
+         until(world, target, [&] { return told(world).emergencies > emergencies; }) &&
          drive_is(world, "fault") && stays_off(world) && comes_back(world, "a fault of the drive");
 }
 
@@ -164,8 +171,12 @@ bool drive_fault_whose_cause_stays(DriveFaultWorld& world) {
 }
 
 bool drive_that_resets_in_motion(DriveFaultWorld& world) {
-  if (!moves(world) || !world.tell("reset") || !reads(world, "node 5 reset itself")) return false;
-  return stays_off(world) && comes_back(world, "a reset of the drive");
+  if (!moves(world)) return false;
+  const std::uint64_t resets = told(world).resets;
+  const std::uint64_t bring_ups = told(world).bring_ups;
+  if (bring_ups == 0 || !world.tell("reset") || !reads(world, "node 5 reset itself")) return false;
+  const auto is_counted = [&] { return told(world).resets > resets && told(world).bring_ups > bring_ups; };
+  return until(world, target, is_counted) && stays_off(world) && comes_back(world, "a reset of the drive");
 }
 
 bool another_drive_than_was_declared(DriveFaultWorld& world) {
