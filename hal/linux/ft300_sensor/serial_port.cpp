@@ -60,7 +60,12 @@ Status SerialPort::open(const char* device) {
 }
 
 void SerialPort::close() noexcept {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ >= 0) {
+    // While something else holds a line, as a simulator does its pseudo-terminal, it would stay exclusive,
+    // and refuse this user too.
+    static_cast<void>(ioctl(descriptor_, TIOCNXCL));
+    ::close(descriptor_);
+  }
   descriptor_ = -1;
 }
 
