@@ -122,6 +122,7 @@ void ImageWorker::encode(std::uint16_t index, Slot& slot, std::uint32_t width) {
   if (reason == NullReason::none && header.sequence == 0) reason = NullReason::nothing_yet;
   const std::string_view jpeg =
       copied ? slot.encoder.encode(slot.layout, slot.raw.data(), width) : std::string_view{};
+  if (copied) tell(record, slot);
   const std::lock_guard lock(mutex_);
   if (copied) {
     slot.encoded_sequence = header.sequence;
@@ -133,6 +134,16 @@ void ImageWorker::encode(std::uint16_t index, Slot& slot, std::uint32_t width) {
   slot.newest.reason = reason;
   slot.newest.size = reason == NullReason::none ? slot.jpeg.size() : 0;
   ++slot.newest.version;
+}
+
+/// Once for each cause in a row: a camera whose pictures are all alike does not fill the log.
+void ImageWorker::tell(const SlotRecord& record, Slot& slot) {
+  const char* const cause = slot.encoder.cause();
+  if (cause == slot.told) return;
+  if (cause[0] != '\0')
+    log_warning(slot.telling, "panel", "Slot {}: a picture cannot be shown: {}", record.name, cause);
+  // One that was held back is tried again with the next picture.
+  slot.told = slot.telling.held_back() == 0 ? cause : nullptr;
 }
 
 }  // namespace flexrf::panel

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "runtime/executive/cell.hpp"
+#include "runtime/log/log.hpp"
 #include "web-ui/server/api/picture.hpp"
 
 namespace flexrf::panel {
@@ -57,6 +58,8 @@ class ImageWorker {
     // The worker's own.
     std::vector<std::byte> raw;
     PictureEncoder encoder;
+    const char* told = nullptr;  // why pictures cannot be encoded, as the log has it
+    LogLimit telling;
     // What was encoded last.
     Newest newest;
     std::string jpeg;
@@ -65,6 +68,7 @@ class ImageWorker {
 
   void run();
   void encode(std::uint16_t index, Slot& slot, std::uint32_t width);
+  void tell(const SlotRecord& record, Slot& slot);
 
   Cell* cell_;
   std::vector<std::unique_ptr<Slot>> slots_;  // null: no image, or not observed

@@ -3,6 +3,15 @@
 #include <cstring>
 
 namespace flexrf::panel {
+namespace {
+
+/// Why an observed slot is NULL whose newest item has this header.
+NullReason reason_of(const SlotRecord& record, const ItemHeader& header) noexcept {
+  const NullReason reason = null_reason_of(record.control->writer_state());
+  return reason == NullReason::none && header.sequence == 0 ? NullReason::nothing_yet : reason;
+}
+
+}  // namespace
 
 const ObservedSlot& ObservedSlots::read(std::uint16_t slot) {
   Cached& cached = slots_[slot];
@@ -25,10 +34,20 @@ const ObservedSlot& ObservedSlots::read(std::uint16_t slot) {
       newest.header = *header;
     }
   }
-  newest.reason = null_reason_of(record.control->writer_state());
-  if (newest.reason == NullReason::none && newest.header.sequence == 0)
-    newest.reason = NullReason::nothing_yet;
+  newest.reason = reason_of(record, newest.header);
   if (newest.reason == NullReason::none) newest.value = cached.bytes.data();
+  return newest;
+}
+
+ObservedSlot ObservedSlots::read_header(std::uint16_t slot) {
+  const SlotRecord& record = cell_->application().slots[slot];
+  ObservedSlot newest;
+  {
+    const auto lock = cell_->observe();
+    const ItemHeader* const header = record.observer->newest();
+    if (header != nullptr) newest.header = *header;
+  }
+  newest.reason = reason_of(record, newest.header);
   return newest;
 }
 

@@ -26,6 +26,8 @@ class ObservedSlots {
   std::uint64_t turn() const noexcept { return turn_; }
   /// As of this turn. Not for slots of images. Valid until the slot is read in another turn.
   const ObservedSlot& read(std::uint16_t slot);
+  /// Of an observed slot whose value is had in another way, as a picture is: all but the value, as of now.
+  ObservedSlot read_header(std::uint16_t slot);
   std::size_t size(std::uint16_t slot) const noexcept {
     return cell_->application().slots[slot].control->type()->size;
   }

@@ -202,19 +202,14 @@ void RestHandler::write_slot(JsonWriter& json, std::uint16_t slot) {
   json.begin_object().member("name", record.name).member("type", record.control->type()->name);
   json.member("published", record.control->published());
   // A picture is asked for as such; its bytes are no JSON.
-  if (is_picture) {
-    json.member("reason", "").member("sequence", record.control->published());
-    json.member("sampled_at_ns", nanoseconds(record.control->published_at())).key("value").null();
+  const ObservedSlot newest = is_picture ? parts_.slots.read_header(slot) : parts_.slots.read(slot);
+  json.member("reason", newest.reason == NullReason::none ? "" : name_of(newest.reason));
+  json.member("sequence", newest.header.sequence);
+  json.member("sampled_at_ns", nanoseconds(newest.header.sampled_at)).key("value");
+  if (newest.value == nullptr) {
+    json.null();
   } else {
-    const ObservedSlot& newest = parts_.slots.read(slot);
-    json.member("reason", newest.reason == NullReason::none ? "" : name_of(newest.reason));
-    json.member("sequence", newest.header.sequence);
-    json.member("sampled_at_ns", nanoseconds(newest.header.sampled_at)).key("value");
-    if (newest.value == nullptr) {
-      json.null();
-    } else {
-      write_value(json, *record.control->type(), newest.value);
-    }
+    write_value(json, *record.control->type(), newest.value);
   }
   json.key("readers");
   parts_.topics.write_readers(json, slot);

@@ -125,7 +125,9 @@ export class Store {
     const age = Math.max(0, this.options.serverNow() - item.sampledAt) / 1e9;
     const base = { sampledAt: item.sampledAt, sequence: item.sequence, age };
     if (item.reason !== 0 || item.bytes.byteLength === 0) {
-      return { ...base, value: null, reason: reasonText(item.reason) || 'no value' };
+      // Of a picture that is there but cannot be encoded, the log has the cause.
+      const otherwise = item.jpeg ? 'the picture cannot be shown: the log says why' : 'no value';
+      return { ...base, value: null, reason: reasonText(item.reason) || otherwise };
     }
     if (item.jpeg) {
       state.image ??= new Blob([item.bytes as DataView<ArrayBuffer>], { type: 'image/jpeg' });

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 
+#include "runtime/log/log.hpp"
 #include "web-ui/server/api/picture.hpp"
 #include "web-ui/server/api/tests/rig.hpp"
 
@@ -237,11 +238,12 @@ class PictureCell : public fixture::ProducerAndConsumer {
     records_.push_back({"camera", "", &control_, &observer_, "", no_index, no_index, 0, false});
     application.slots = records_;
   }
-  void publish(Format format) {
+  void publish(Format format, Time sampled_at = MonotonicClock::now()) {
     const std::uint8_t buffer = control_.loan();
     draw(*reinterpret_cast<Picture*>(control_.payload(buffer)), format);
-    control_.publish(buffer, MonotonicClock::now());
+    control_.publish(buffer, sampled_at);
   }
+  void end_in_fault() { control_.set_writer_state(WriterState::faulted); }
 
  private:
   std::unique_ptr<SlotMemory<Picture, 3>> memory_;
@@ -292,7 +294,50 @@ void pictures_come_to_all_who_look() {
   CHECK_EQUAL(picture.reply.content_type, "image/jpeg");
   CHECK(is_near(decode(picture.reply.text).at(8, 24, 0), 254));
   CHECK_EQUAL(rig.request(Method::get, "slots/camera/image", a_viewer, "", "", "", "width=0").status, 400U);
-  CHECK(rig.get("slots/camera").body.at("value").is_null());
+}
+
+void a_slot_of_pictures_is_described_as_any_other() {
+  PictureCell cell;
+  cell.add_to(const_cast<Application&>(cell.application()));
+  Rig rig(cell);
+  rig.start();
+  const auto is = [&rig](std::uint64_t sequence, const char* reason) {
+    const json slot = rig.get("slots/camera").body;
+    CHECK(slot.at("value").is_null());
+    CHECK_EQUAL(slot.at("sequence").get<std::uint64_t>(), sequence);
+    CHECK_EQUAL(slot.at("reason").get<std::string>(), reason);
+    return slot.at("sampled_at_ns").get<std::int64_t>();
+  };
+  is(0, name_of(NullReason::nothing_yet));
+  const Time sampled_at = MonotonicClock::now() - std::chrono::seconds{3};
+  cell.publish(rgb24, sampled_at);
+  CHECK_EQUAL(is(1, ""), nanoseconds(sampled_at));
+  cell.end_in_fault();
+  is(1, name_of(NullReason::writer_faulted));
+}
+
+void what_cannot_be_encoded_is_logged_once() {
+  PictureCell cell;
+  cell.add_to(const_cast<Application&>(cell.application()));
+  Rig rig(cell);
+  rig.start();
+  const std::string cause = "Slot camera: a picture cannot be shown: the picture's format";
+  for (int i = 0; i < 3; ++i) {
+    cell.publish(none);
+    const Answer picture = rig.get("slots/camera/image");
+    CHECK_EQUAL(picture.status, 409U);
+    CHECK_CONTAINS(picture.body.at("detail").get<std::string>(), "format");
+  }
+  log_info("test", "the last line");
+  const auto count = [&rig](const std::string& text) {
+    int lines = 0;
+    const json log = rig.get("log").body;
+    for (const json& line : log.at("lines"))
+      lines += line.at("text").get<std::string>().find(text) != std::string::npos ? 1 : 0;
+    return lines;
+  };
+  CHECK(rig.wait_until([&] { return count("the last line") == 1; }));
+  CHECK_EQUAL(count(cause), 1);
 }
 
 }  // namespace
@@ -301,10 +346,15 @@ void pictures_come_to_all_who_look() {
 int main() {
   using namespace flexrf::panel;
   const CMUnitTest tests[] = {
-      CONTAINED_TEST(every_format_keeps_its_colours),    CONTAINED_TEST(rows_may_have_gaps),
-      CONTAINED_TEST(rows_of_colour_have_the_same_gaps), CONTAINED_TEST(what_is_a_jpeg_already_is_passed_on),
-      CONTAINED_TEST(it_is_no_larger_than_it_is_shown),  CONTAINED_TEST(what_is_no_picture_says_why),
+      CONTAINED_TEST(every_format_keeps_its_colours),
+      CONTAINED_TEST(rows_may_have_gaps),
+      CONTAINED_TEST(rows_of_colour_have_the_same_gaps),
+      CONTAINED_TEST(what_is_a_jpeg_already_is_passed_on),
+      CONTAINED_TEST(it_is_no_larger_than_it_is_shown),
+      CONTAINED_TEST(what_is_no_picture_says_why),
       CONTAINED_TEST(pictures_come_to_all_who_look),
+      CONTAINED_TEST(a_slot_of_pictures_is_described_as_any_other),
+      CONTAINED_TEST(what_cannot_be_encoded_is_logged_once),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -79,6 +79,12 @@ describe('store', () => {
     expect(image).toMatchObject({ size: 2, type: 'image/jpeg' });
     expect(store.reading(item('slot:camera'))?.image).toBe(image);
   });
+  it('says where to look for why there is no image', () => {
+    arrive([{ slot: 3, jpeg: true, bytes: new Uint8Array() }]);
+    expect(store.reading(item('slot:camera'))).toMatchObject({ value: null, reason: 'the picture cannot be shown: the log says why' });
+    arrive([{ slot: 3, jpeg: true, reason: 4, bytes: new Uint8Array() }]);
+    expect(store.reading(item('slot:camera'))).toMatchObject({ value: null, reason: 'writer in fault' });
+  });
   it('leaves a frame of another application alone', () => {
     expect(arrive([{ slot: 0, bytes: runtimeBytes(1) }], '0000000000000001')).toBe(false);
     expect(store.reading(item('jog.step'))).toBeUndefined();
