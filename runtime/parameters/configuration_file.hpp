@@ -58,8 +58,9 @@ struct ConfigurationReport {
 };
 
 /// Reads the file into the components' values: all of it, or nothing. Damage (syntax, checksum, truncation)
-/// or loss falls back to FILE.previous; a wrong name or value refuses the file. A file written for another descriptor
-/// is taken as far as it fits, under the names that `renames` give; the rest is noticed. Not real-time.
+/// or loss falls back to FILE.previous; a wrong name or value refuses the file. A file written for another
+/// descriptor is taken as far as it fits, under the names that `renames` give; the rest is noticed. Not
+/// real-time.
 ConfigurationReport load_configuration(const std::string& path, const ConfigurationIdentity& identity,
                                        std::span<const ConfigurationComponent> components);
 
