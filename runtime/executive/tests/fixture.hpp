@@ -202,6 +202,15 @@ class ProducerAndConsumer : public TestApplication {
   static constexpr std::uint16_t consuming = 1;  ///< thread
 };
 
+/// A step of either thread that takes half a second hangs.
+class StrictProducerAndConsumer : public ProducerAndConsumer {
+ public:
+  StrictProducerAndConsumer() {
+    thread(producing).deadline = strict_deadline;
+    thread(consuming).deadline = strict_deadline;
+  }
+};
+
 Options in_virtual_time(Duration duration, std::uint64_t seed = 1);
 /// Ordinary priorities, no panel.
 Options on_the_wall_clock();

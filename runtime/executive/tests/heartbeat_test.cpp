@@ -19,17 +19,9 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Plan = ProducerAndConsumer;
 
-/// Both threads' hang time-out is half a second.
-struct StrictPlan : Plan {
-  StrictPlan() {
-    thread(producing).deadline = strict_deadline;
-    thread(consuming).deadline = strict_deadline;
-  }
-};
-
 /// None of the threads runs: the test says who turned.
 struct Watched {
-  StrictPlan plan;
+  StrictProducerAndConsumer plan;
   Options options = on_the_wall_clock();
   Cell cell{plan.application(), options};
   HeartbeatWatch watch{cell};

@@ -13,14 +13,11 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Plan = ProducerAndConsumer;
 
-/// The producer's thread has a period of a millisecond; the consumer's waits for events. Both threads' hang
-/// time-out is half a second.
-struct StrictPlan : Plan {
+/// The producer's thread has a period of a millisecond; the consumer's waits for events.
+struct StrictPlan : StrictProducerAndConsumer {
   StrictPlan() {
     thread(producing).trigger = TriggerPlan::periodic(milliseconds{1});
-    thread(producing).deadline = strict_deadline;
     thread(consuming).trigger = TriggerPlan::on_slots({values}, {jobs});
-    thread(consuming).deadline = strict_deadline;
   }
 };
 
