@@ -3,7 +3,7 @@
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
 boot_limit=300 # s, on a machine that does much else; alone it takes about 5
-test_limit=${FLEXRF_GUEST_TEST_LIMIT:-1800} # s for one test, which is for what hangs: alone the longest takes about two minutes
+test_limit=${FLEXRF_GUEST_TEST_LIMIT:-1800} # s for one test, which is for what hangs: alone the longest takes five
 long_test_limit=3600 # s for one that has the long tests too: a hundred picks are 11 minutes of the machine's time
 guest_folder=$root/build/guest
 guest_run='' guest_machine='' guest_console='' guest_pid='' heard='' lost=''
