@@ -41,7 +41,7 @@ export class ComponentPage extends ViewBase {
         border-inline-start: 4px solid var(--modified);
         padding-inline-start: 8px;
       }
-      .head {
+      .group-head {
         display: flex;
         flex-wrap: wrap;
         align-items: baseline;
@@ -217,7 +217,7 @@ export class ComponentPage extends ViewBase {
     if (items.length === 0) return nothing;
     return html`
       <section aria-label=${title}>
-        <div class="head">
+        <div class="group-head">
           <h3>${title}</h3>
           ${all === this.component.runtime
             ? html`<flexrf-group-reset .core=${this.core} .items=${all}></flexrf-group-reset>
