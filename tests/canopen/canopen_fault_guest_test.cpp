@@ -38,7 +38,7 @@ class RealFaultWorld final : public DriveFaultWorld {
 
  private:
   VirtualInterface interface_;
-  SimulatorProcess far_end_{CIA402_SIMULATOR, can_interface, "5"};
+  SimulatorProcess far_end_{CIA402_SIMULATOR, {can_interface, "--node", "5"}};
   RealAxis axis_;
   bool initialised_ = false;
 };

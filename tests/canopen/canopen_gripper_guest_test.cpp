@@ -30,7 +30,7 @@ class RealGripperWorld final : public AxisGripperWorld {
 
  private:
   VirtualInterface interface_{true};
-  SimulatorProcess far_end_{CIA402_SIMULATOR, can_interface, "5"};
+  SimulatorProcess far_end_{CIA402_SIMULATOR, {can_interface, "--node", "5"}};
   RealDevice<CanopenGripper> device_;
   bool ready_ = false;
 };

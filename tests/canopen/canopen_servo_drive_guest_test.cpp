@@ -35,7 +35,7 @@ class RealDriveWorld final : public ServoDriveWorld {
 
  private:
   VirtualInterface interface_{true};
-  SimulatorProcess far_end_{CIA402_SIMULATOR, can_interface, "5"};
+  SimulatorProcess far_end_{CIA402_SIMULATOR, {can_interface, "--node", "5"}};
   RealAxis axis_;
   bool ready_ = false;
 };

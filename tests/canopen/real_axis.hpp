@@ -12,7 +12,7 @@
 #include "hal/interfaces/device_bench.hpp"
 #include "hal/linux/canopen_servo_drive/canopen_servo_drive.hpp"
 #include "hal/linux/socket_can_bus/socket_can_bus.hpp"
-#include "tests/canopen/simulator_process.hpp"
+#include "tests/simulator_process.hpp"
 
 namespace flexrf {
 

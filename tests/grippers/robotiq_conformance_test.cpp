@@ -19,7 +19,8 @@ class PseudoTerminalWorld final : public RobotiqWorld {
     if (mkdtemp(folder_) == nullptr) return Status::error(StatusCode::unavailable, "no folder in /tmp");
     name_ = std::string{folder_} + "/line";
     if (const Status status = begin({"--pseudo-terminal"}); !status) return status;
-    return name(simulator().line()) ? Status{} : Status::error(StatusCode::unavailable, "no link in /tmp");
+    return name(simulator().first_line()) ? Status{}
+                                          : Status::error(StatusCode::unavailable, "no link in /tmp");
   }
   const char* device() const override { return name_.c_str(); }
   bool unplug() override {

@@ -9,7 +9,7 @@
 #include "hal/interfaces/gripper/conformance/gripper_conformance.hpp"
 #include "hal/linux/modbus_rtu_link/modbus_rtu_link.hpp"
 #include "hal/linux/robotiq_gripper/robotiq_gripper.hpp"
-#include "tests/grippers/robotiq_simulator_process.hpp"
+#include "tests/simulator_process.hpp"
 
 namespace flexrf {
 
@@ -87,15 +87,15 @@ class RobotiqWorld : public GripperWorld {
     // What stands still with the machine is on its way as long as it is not halted.
     words.insert(words.end(),
                  {"--width", std::to_string(GripperSetting::open_width), "--longest-step", "0.05"});
-    simulator_.emplace(words);
-    if (!simulator_->line().empty()) return {};
+    simulator_.emplace(ROBOTIQ_SIMULATOR, words);
+    if (simulator_->is_running()) return {};
     return Status::error(StatusCode::unavailable, "the simulator did not begin");
   }
-  RobotiqSimulatorProcess& simulator() { return *simulator_; }
+  SimulatorProcess& simulator() { return *simulator_; }
   bool say(const std::string& command) { return simulator_->ask(command) == "ok"; }
 
  private:
-  std::optional<RobotiqSimulatorProcess> simulator_;
+  std::optional<SimulatorProcess> simulator_;
   DeviceBench<ModbusRtuLink> link_{nullptr};
   std::optional<DeviceBench<RobotiqGripper>> gripper_;  // goes before its link
   GripperFarEnd behaviour_ = GripperFarEnd::well;
