@@ -3,42 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/conformance.hpp"
+#include "hal/interfaces/hand_device_cases.hpp"
 
 namespace flexrf {
 namespace {
 
-/// Cycles after which what must happen has happened. Only the real kernel takes more than one.
-constexpr int patience = 3000;
-/// Cycles after which what must not happen would have.
-constexpr int a_while = 5;
+using namespace hand_device;
 
 MakeJoystickWorld make_world = nullptr;
 
-template <class Condition>
-bool until(JoystickWorld& world, Condition is_true) {
-  for (int i = 0; i < patience; ++i) {
-    world.receive();
-    if (is_true(world.joystick().state())) return true;
-  }
-  return false;
-}
-
-template <class Condition>
-bool stays(JoystickWorld& world, Condition is_true) {
-  for (int i = 0; i < a_while; ++i) {
-    world.receive();
-    if (!is_true(world.joystick().state())) return false;
-  }
-  return true;
-}
-
-bool is_there(const JoystickState& state) {
-  return state.present;
-}
-bool is_away(const JoystickState& state) {
-  return !state.present;
-}
 bool at_rest(const JoystickState& state) {
   return state.buttons == 0 &&
          std::all_of(state.axes.begin(), state.axes.end(), [](double axis) { return axis == 0; });
@@ -63,7 +36,7 @@ Verdict an_axis_goes_from_end_to_end(JoystickWorld& world) {
       const double dead = std::copysign(JoystickWorld::dead_zone, part);
       if (!becomes(world, axis, (part - dead) / (1 - JoystickWorld::dead_zone))) return Verdict::failed;
     }
-    const JoystickState& state = world.joystick().state();
+    const JoystickState& state = world.device().state();
     const std::size_t other = axis == 0 ? 1 : 0;
     if (state.axes[other] != 0) return Verdict::failed;
     world.deflect(axis, 0);
@@ -78,7 +51,7 @@ Verdict the_dead_zone_is_rest(JoystickWorld& world) {
     world.deflect(0, part);
     world.press(0);  // after which the axis has been heard of, too
     if (!until(world, [](const JoystickState& state) { return state.buttons == 1; })) return Verdict::failed;
-    if (world.joystick().state().axes[0] != 0) return Verdict::failed;
+    if (world.device().state().axes[0] != 0) return Verdict::failed;
     world.let_go(0);
     if (!until(world, at_rest)) return Verdict::failed;
   }
@@ -97,16 +70,6 @@ Verdict a_button_is_down_until_it_is_let_go(JoystickWorld& world) {
   return verdict(until(world, at_rest));
 }
 
-Verdict a_press_shorter_than_a_cycle_counts(JoystickWorld& world) {
-  if (!world.start() || !until(world, is_there)) return Verdict::failed;
-  for (int i = 0; i < 2; ++i) {
-    world.press(2);
-    world.let_go(2);
-  }
-  return verdict(
-      until(world, [](const JoystickState& state) { return state.presses[2] == 2 && state.buttons == 0; }));
-}
-
 Verdict it_is_at_rest_once_it_is_unplugged(JoystickWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
   world.deflect(1, -1);
@@ -114,7 +77,7 @@ Verdict it_is_at_rest_once_it_is_unplugged(JoystickWorld& world) {
   if (!until(world, [](const JoystickState& state) { return state.buttons == 1 && state.axes[1] == -1; }))
     return Verdict::failed;
   world.unplug();
-  if (!until(world, is_away) || !at_rest(world.joystick().state()) || world.feedback().present ||
+  if (!until(world, is_away) || !at_rest(world.device().state()) || world.feedback().present ||
       world.feedback().losses != 1)
     return Verdict::failed;
   world.plug_in();
@@ -125,34 +88,7 @@ Verdict it_is_at_rest_once_it_is_unplugged(JoystickWorld& world) {
                        [](const JoystickState& state) {
                          return state.buttons == 1 && state.presses[0] == 2 && state.axes[1] == 1;
                        }) &&
-                 world.joystick().fault().is_ok());
-}
-
-Verdict it_comes_back_as_often_as_it_goes(JoystickWorld& world) {
-  if (!world.start()) return Verdict::failed;
-  for (int i = 0; i < 3; ++i) {
-    if (!until(world, is_there)) return Verdict::failed;
-    world.unplug();
-    if (!until(world, is_away)) return Verdict::failed;
-    world.plug_in();
-  }
-  return verdict(until(world, is_there) && world.feedback().losses == 3);
-}
-
-Verdict refused(JoystickWorld& world, StatusCode code) {
-  const Status status = world.start();
-  print_message("%s\n", status.cause());
-  return verdict(status.code() == code && status.cause()[0] != '\0');
-}
-
-Verdict one_that_is_not_there_is_told(JoystickWorld& world) {
-  return world.hide() ? refused(world, StatusCode::not_found) : Verdict::skipped;
-}
-Verdict a_missing_right_is_told(JoystickWorld& world) {
-  return world.forbid() ? refused(world, StatusCode::not_permitted) : Verdict::skipped;
-}
-Verdict one_that_somebody_else_has_is_told(JoystickWorld& world) {
-  return world.occupy() ? refused(world, StatusCode::busy) : Verdict::skipped;
+                 world.device().fault().is_ok());
 }
 
 template <Verdict (*Run)(JoystickWorld&)>

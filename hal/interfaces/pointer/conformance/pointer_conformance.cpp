@@ -1,41 +1,13 @@
 #include "hal/interfaces/pointer/conformance/pointer_conformance.hpp"
 
-#include "tests/conformance.hpp"
+#include "hal/interfaces/hand_device_cases.hpp"
 
 namespace flexrf {
 namespace {
 
-/// Cycles after which what must happen has happened. Only the real kernel takes more than one.
-constexpr int patience = 3000;
-/// Cycles after which what must not happen would have.
-constexpr int a_while = 5;
+using namespace hand_device;
 
 MakePointerWorld make_world = nullptr;
-
-template <class Condition>
-bool until(PointerWorld& world, Condition is_true) {
-  for (int i = 0; i < patience; ++i) {
-    world.receive();
-    if (is_true(world.pointer().state())) return true;
-  }
-  return false;
-}
-
-template <class Condition>
-bool stays(PointerWorld& world, Condition is_true) {
-  for (int i = 0; i < a_while; ++i) {
-    world.receive();
-    if (!is_true(world.pointer().state())) return false;
-  }
-  return true;
-}
-
-bool is_there(const PointerState& state) {
-  return state.present;
-}
-bool is_away(const PointerState& state) {
-  return !state.present;
-}
 
 Verdict nothing_is_moved_nothing_is_told(PointerWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
@@ -77,16 +49,6 @@ Verdict a_button_is_down_until_it_is_let_go(PointerWorld& world) {
   return verdict(until(world, [](const PointerState& state) { return state.buttons == 0; }));
 }
 
-Verdict a_press_shorter_than_a_cycle_counts(PointerWorld& world) {
-  if (!world.start() || !until(world, is_there)) return Verdict::failed;
-  for (int i = 0; i < 2; ++i) {
-    world.press(1);
-    world.let_go(1);
-  }
-  return verdict(
-      until(world, [](const PointerState& state) { return state.presses[1] == 2 && state.buttons == 0; }));
-}
-
 Verdict a_button_is_not_down_once_it_is_unplugged(PointerWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
   world.move(5, 5);
@@ -94,7 +56,7 @@ Verdict a_button_is_not_down_once_it_is_unplugged(PointerWorld& world) {
   if (!until(world, [](const PointerState& state) { return state.buttons == 1 && state.x == 5; }))
     return Verdict::failed;
   world.unplug();
-  if (!until(world, is_away) || world.pointer().state().buttons != 0 || world.feedback().present ||
+  if (!until(world, is_away) || world.device().state().buttons != 0 || world.feedback().present ||
       world.feedback().losses != 1)
     return Verdict::failed;
   world.plug_in();
@@ -107,34 +69,7 @@ Verdict a_button_is_not_down_once_it_is_unplugged(PointerWorld& world) {
                        [](const PointerState& state) {
                          return state.buttons == 1 && state.presses[0] == 2 && state.x == 6;
                        }) &&
-                 world.pointer().fault().is_ok());
-}
-
-Verdict it_comes_back_as_often_as_it_goes(PointerWorld& world) {
-  if (!world.start()) return Verdict::failed;
-  for (int i = 0; i < 3; ++i) {
-    if (!until(world, is_there)) return Verdict::failed;
-    world.unplug();
-    if (!until(world, is_away)) return Verdict::failed;
-    world.plug_in();
-  }
-  return verdict(until(world, is_there) && world.feedback().losses == 3);
-}
-
-Verdict refused(PointerWorld& world, StatusCode code) {
-  const Status status = world.start();
-  print_message("%s\n", status.cause());
-  return verdict(status.code() == code && status.cause()[0] != '\0');
-}
-
-Verdict one_that_is_not_there_is_told(PointerWorld& world) {
-  return world.hide() ? refused(world, StatusCode::not_found) : Verdict::skipped;
-}
-Verdict a_missing_right_is_told(PointerWorld& world) {
-  return world.forbid() ? refused(world, StatusCode::not_permitted) : Verdict::skipped;
-}
-Verdict one_that_somebody_else_has_is_told(PointerWorld& world) {
-  return world.occupy() ? refused(world, StatusCode::busy) : Verdict::skipped;
+                 world.device().fault().is_ok());
 }
 
 template <Verdict (*Run)(PointerWorld&)>

@@ -15,7 +15,7 @@ class JoystickInGuest final : public JoystickWorld {
     world_.bench().configuration().dead_zone = dead_zone;
     return world_.start();
   }
-  Joystick& joystick() override { return world_.driver(); }
+  Joystick& device() override { return world_.driver(); }
   const JoystickFeedback& feedback() override { return world_.bench().feedback(); }
   void receive() override { world_.receive(); }
 

@@ -10,7 +10,7 @@ namespace {
 class PointerInGuest final : public PointerWorld {
  public:
   Status start() override { return world_.start(); }
-  Pointer& pointer() override { return world_.driver(); }
+  Pointer& device() override { return world_.driver(); }
   const PointerFeedback& feedback() override { return world_.bench().feedback(); }
   void receive() override { world_.receive(); }
 

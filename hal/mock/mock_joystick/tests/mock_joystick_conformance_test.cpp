@@ -12,7 +12,7 @@ class MockWorld final : public JoystickWorld {
     bench_.configuration().dead_zone = dead_zone;
     return mock().initialise();
   }
-  Joystick& joystick() override { return mock(); }
+  Joystick& device() override { return mock(); }
   const JoystickFeedback& feedback() override { return bench_.feedback(); }
   void receive() override { bench_.receive(std::chrono::milliseconds(7)); }
 

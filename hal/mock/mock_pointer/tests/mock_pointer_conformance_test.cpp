@@ -9,7 +9,7 @@ using namespace flexrf;
 class MockWorld final : public PointerWorld {
  public:
   Status start() override { return mock().initialise(); }
-  Pointer& pointer() override { return mock(); }
+  Pointer& device() override { return mock(); }
   const PointerFeedback& feedback() override { return bench_.feedback(); }
   void receive() override { bench_.receive(std::chrono::milliseconds(7)); }
 
