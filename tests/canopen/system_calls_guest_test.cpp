@@ -1,4 +1,5 @@
 // What a cycle of six axes asks of the kernel, on a real interface (vcan), as root: counted by the kernel.
+// The drives are another process.
 #include <fcntl.h>
 #include <linux/perf_event.h>
 #include <sys/ioctl.h>
@@ -7,16 +8,13 @@
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
-#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
-#include "hal/linux/socket_can_bus/can_node_runner.hpp"
-#include "hal/simulated/simulated_cia402_drive/drive_on_can.hpp"
 #include "tests/canopen/real_axis.hpp"
 
 // Its macros would not spare names of ours.
@@ -70,37 +68,30 @@ class SystemCalls {
   int counter_ = -1;
 };
 
-/// A drive with a thread and a socket of its own.
-class FarEnd {
- public:
-  explicit FarEnd(std::uint8_t node) : drive_{{.node = node}, MonotonicClock::now()} {
-    thread_ = std::thread([this] { static_cast<void>(run_can_node(can_interface, drive_, ends_)); });
-  }
-  ~FarEnd() {
-    ends_.store(true, std::memory_order_release);
-    thread_.join();
-  }
-  FarEnd(const FarEnd&) = delete;
-  FarEnd& operator=(const FarEnd&) = delete;
+constexpr std::uint8_t node_of(std::size_t axis) {
+  return static_cast<std::uint8_t>(axis + 1);
+}
 
- private:
-  DriveOnCan drive_;
-  std::atomic<bool> ends_{false};
-  std::thread thread_;
-};
+/// Of the simulator's command line.
+std::vector<std::string> all_drives() {
+  std::vector<std::string> words{can_interface};
+  for (std::size_t i = 0; i < axes; ++i) {
+    words.emplace_back("--node");
+    words.push_back(std::to_string(node_of(i)));
+  }
+  return words;
+}
 
 class SixAxes {
  public:
   SixAxes() {
     bus_->configuration().set_interface(can_interface);
-    good_ = interface_.is_ready() && bus_->driver().initialise().is_ok();
+    good_ = interface_.is_ready() && far_end_.is_running() && bus_->driver().initialise().is_ok();
     for (std::size_t i = 0; i < axes && good_; ++i) {
-      const auto node = static_cast<std::uint8_t>(i + 1);
-      far_ends_[i].emplace(node);
       drives_[i] = std::make_unique<DeviceBench<CanopenServoDrive>>(nullptr, std::span<QueueSink* const>{},
                                                                     &bus_->driver());
       auto& configuration = drives_[i]->configuration();
-      configuration.node = node;
+      configuration.node = node_of(i);
       configuration.fastest = 20;
       good_ = drives_[i]->driver().initialise().is_ok();
     }
@@ -136,8 +127,8 @@ class SixAxes {
 
  private:
   VirtualInterface interface_{true};
+  SimulatorProcess far_end_{CIA402_SIMULATOR, all_drives()};
   std::unique_ptr<DeviceBench<SocketCanBus>> bus_ = std::make_unique<DeviceBench<SocketCanBus>>(nullptr);
-  std::array<std::optional<FarEnd>, axes> far_ends_;
   std::array<std::unique_ptr<DeviceBench<CanopenServoDrive>>, axes> drives_;
   Time next_ = MonotonicClock::now();
   bool good_ = false;
