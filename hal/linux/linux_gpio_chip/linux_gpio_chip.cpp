@@ -4,8 +4,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <string_view>
 
 #include "runtime/core/text.hpp"
+#include "runtime/log/log.hpp"
 
 namespace flexrf {
 namespace {
@@ -26,6 +28,7 @@ Status LinuxGpioChip::initialise() {
   {
     const std::lock_guard lock(mutex_);
     chip_ = chip;
+    trouble_ = {};
     stopping_ = false;
   }
   // The signals that end the application are for others to take.
@@ -70,9 +73,26 @@ void LinuxGpioChip::release(GpioLine* line) noexcept {
 void LinuxGpioChip::keep() {
   std::unique_lock lock(mutex_);
   while (!stopping_) {
-    for (const std::unique_ptr<LinuxGpioLine>& line : lines_) line->keep(chip_.c_str());
+    look_after_lines();
     stopped_.wait_for(lock, keeping_interval);
   }
+}
+
+/// Each reason is told once, however often and by however many lines it is met.
+void LinuxGpioChip::look_after_lines() {
+  Status trouble;
+  for (const std::unique_ptr<LinuxGpioLine>& line : lines_) {
+    const Status status = line->keep(chip_.c_str());
+    if (!status) trouble = status;
+  }
+  if (trouble.code() == trouble_.code()) return;
+  // Lines that were let go of meanwhile are not there again.
+  if (trouble && !lines_.empty())
+    log_info(name(), "the lines of GPIO chip {} are there again", std::string_view(chip_));
+  if (!trouble)
+    log_warning(name(), "a line was lost and is asked for until it is back: {}",
+                std::string_view(trouble.cause()));
+  trouble_ = trouble;
 }
 
 }  // namespace flexrf

@@ -28,6 +28,7 @@ class LinuxGpioChip final : public LinuxGpioChipDriver {
 
  private:
   void keep();
+  void look_after_lines();
 
   GpioLineCounters counters_;
   std::string chip_;
@@ -35,6 +36,7 @@ class LinuxGpioChip final : public LinuxGpioChipDriver {
   std::condition_variable stopped_;
   bool stopping_ = false;
   std::vector<std::unique_ptr<LinuxGpioLine>> lines_;
+  Status trouble_;  // why a line that was lost cannot be had, as last told
   std::thread keeper_;
 };
 

@@ -15,17 +15,18 @@ LinuxGpioLine::~LinuxGpioLine() {
   for (LibraryLine* line : {given_.load(), returned_.load(), line_}) delete line;
 }
 
-void LinuxGpioLine::keep(const char* chip) {
+Status LinuxGpioLine::keep(const char* chip) {
   if (LibraryLine* lost = returned_.exchange(nullptr, std::memory_order_acq_rel); lost != nullptr) {
     delete lost;
     wanted_ = true;
   }
-  if (!wanted_) return;
+  if (!wanted_) return {};
   Result<std::unique_ptr<LibraryLine>> line = LibraryLine::request(chip, settings_);
-  if (!line) return;
+  if (!line) return line.status();
   wanted_ = false;
   counters_->away.fetch_sub(1);
   given_.store((*line).release(), std::memory_order_release);
+  return {};
 }
 
 void LinuxGpioLine::receive(Time /*now*/) noexcept {

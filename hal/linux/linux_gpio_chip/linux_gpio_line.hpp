@@ -29,7 +29,8 @@ class LinuxGpioLine final : public GpioLine {
   // ---- the keeper's
 
   /// Takes back a line that was lost, and asks for it again.
-  void keep(const char* chip);
+  /// @returns why it cannot be had; ok: it was not lost, or is back.
+  Status keep(const char* chip);
 
   // ---- GpioLine
 

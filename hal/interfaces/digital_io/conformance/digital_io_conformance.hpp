@@ -18,7 +18,7 @@ class DigitalIoWorld {
   /// The thread's cycle: receive, then what the unit does, then send; `elapsed` or more after the last one.
   virtual void receive(Duration elapsed) = 0;
   virtual void send() = 0;
-  /// Of the cycle.
+  /// Of the cycle: virtual, or one that counts.
   virtual Time now() const = 0;
 
   /// The far end of an input; before start() also. Physical levels: high is some volts.
@@ -31,6 +31,9 @@ class DigitalIoWorld {
   /// Before start(): somebody else has the line; the right to use the chip is missing. False: as above.
   virtual bool occupy() { return false; }
   virtual bool forbid() { return false; }
+  /// Undo that.
+  virtual void let_go() {}
+  virtual void permit() {}
 };
 
 using MakeDigitalIoWorld = std::unique_ptr<DigitalIoWorld> (*)();

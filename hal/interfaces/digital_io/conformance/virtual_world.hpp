@@ -52,7 +52,12 @@ class VirtualDigitalIoWorld : public DigitalIoWorld {
     chip().plug_in();
     return true;
   }
-  bool occupy() override { return static_cast<bool>(chip().request({.name = name})); }
+  bool occupy() override {
+    const Result<GpioLine*> line = chip().request({.name = name});
+    occupied_ = line ? *line : nullptr;
+    return occupied_ != nullptr;
+  }
+  void let_go() override { chip().release(occupied_); }
 
  protected:
   Chip& chip() { return chip_.driver(); }
@@ -61,6 +66,7 @@ class VirtualDigitalIoWorld : public DigitalIoWorld {
   static constexpr const char* name = "LINE";
 
   DeviceBench<Chip> chip_{nullptr};
+  GpioLine* occupied_ = nullptr;
   std::optional<DeviceBench<Driver>> line_;
 };
 

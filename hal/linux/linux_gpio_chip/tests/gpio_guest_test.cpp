@@ -10,6 +10,8 @@
 #include "hal/linux/linux_gpio_chip/linux_gpio_chip.hpp"
 #include "hal/linux/linux_gpio_chip/tests/gpio_sim.hpp"
 #include "tests/cmocka.hpp"
+#include "tests/log_ear.hpp"
+#include "tests/recovery.hpp"
 
 namespace flexrf {
 namespace {
@@ -63,9 +65,14 @@ class GpioSimWorld final : public DigitalIoWorld {
     other_ = std::move(*line);
     return true;
   }
+  void let_go() override { other_.reset(); }
   bool forbid() override {
     forbidden_ = true;
     return true;
+  }
+  void permit() override {
+    if (seteuid(0) != 0) std::perror("seteuid");
+    forbidden_ = false;
   }
 
  private:
@@ -104,6 +111,53 @@ void a_line_that_is_not_there_is_told(void**) {
   assert_non_null(std::strstr(status.cause(), "gpioinfo"));
 }
 
+/// Cycles until it is so.
+template <class Condition>
+bool until(GpioSimWorld& world, const Condition& is_so) {
+  constexpr int most_cycles = 10'000;
+  for (int i = 0; i < most_cycles; ++i) {
+    world.receive(std::chrono::milliseconds(1));
+    if (is_so()) return true;
+    world.send();
+  }
+  return false;
+}
+
+/// The line of a chip that came back is somebody else's, who was quicker.
+bool is_plugged_in_for_another(GpioSimWorld& world) {
+  constexpr int most_tries = 20;
+  for (int i = 0; i < most_tries; ++i) {
+    if (!world.unplug() || !until(world, [&] { return !world.io().state(); }) || !world.plug_in())
+      return false;
+    if (world.occupy()) return true;
+    if (!until(world, [&] { return world.io().state().has_value(); })) return false;
+  }
+  return false;
+}
+
+bool what_keeps_a_lost_line_is_told() {
+  const LogEar log;
+  GpioSimWorld world;
+  if (!world.start({}) || !until(world, [&] { return world.io().state().has_value(); })) return false;
+  if (!world.unplug() || !until(world, [&] { return log.has_heard("there is no GPIO chip flexrf-sim"); }))
+    return false;
+  if (world.io().state() || !world.plug_in()) return false;
+  if (!until(world, [&] { return log.has_heard("GPIO chip flexrf-sim are there again"); })) return false;
+  if (!until(world, [&] { return world.io().state().has_value(); })) return false;
+  if (!is_plugged_in_for_another(world) ||
+      !until(world, [&] { return log.has_heard("BUTTON of GPIO chip flexrf-sim is in use by flexrf"); }))
+    return false;
+  if (world.io().state() || !world.io().fault().is_ok()) return false;
+  world.let_go();
+  const Time free = world.now();
+  return until(world, [&] { return world.io().state().has_value(); }) &&
+         is_back_in_time("another user of a lost line", world.now() - free);
+}
+
+void a_lost_line_that_cannot_be_had_is_told(void**) {
+  assert_true(what_keeps_a_lost_line_is_told());
+}
+
 void the_kernel_pulls_as_the_bias_says(void**) {
   int pulled_up = -1;
   int pulled_down = -1;
@@ -125,6 +179,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_line_in_use_names_its_user),
       cmocka_unit_test(a_line_that_is_not_there_is_told),
+      cmocka_unit_test(a_lost_line_that_cannot_be_had_is_told),
       cmocka_unit_test(the_kernel_pulls_as_the_bias_says),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr) +

@@ -1,9 +1,11 @@
 // What the operator reads when there is no chip. Everything that needs one is in gpio_guest_test.
 #include "hal/linux/linux_gpio_chip/linux_gpio_chip.hpp"
 
+#include <cerrno>
 #include <cstring>
 
 #include "hal/interfaces/device_bench.hpp"
+#include "hal/linux/linux_gpio_chip/gpio_messages.hpp"
 #include "runtime/core/text.hpp"
 #include "tests/cmocka.hpp"
 
@@ -31,6 +33,13 @@ void what_is_no_chip_is_told(void**) {
   assert_non_null(std::strstr(status.cause(), "/dev/null"));
 }
 
+// Scripted, not produced: whoever runs this may be root.
+void a_missing_right_is_told(void**) {
+  const Status status = cannot_open_chip("gpiochip0", EACCES);
+  assert_int_equal(status.code(), StatusCode::not_permitted);
+  assert_non_null(std::strstr(status.cause(), "udev rule"));
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -39,6 +48,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_chip_that_is_not_there_is_told),
       cmocka_unit_test(what_is_no_chip_is_told),
+      cmocka_unit_test(a_missing_right_is_told),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

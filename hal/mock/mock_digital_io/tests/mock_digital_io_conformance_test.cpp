@@ -12,6 +12,7 @@ class MockWorld final : public VirtualDigitalIoWorld<MockGpioChip, MockDigitalIo
     chip().refuse(Status::error(StatusCode::not_permitted, "scripted: this user may not open the chip"));
     return true;
   }
+  void permit() override { chip().refuse({}); }
 };
 
 }  // namespace
