@@ -1,7 +1,16 @@
+#include <string>
+
 #include "hal/interfaces/can_bus/conformance/can_bus_cases.hpp"
+#include "tests/log_ear.hpp"
+#include "tests/recovery.hpp"
 
 namespace flexrf::can_bus_cases {
 namespace {
+
+// What the operator reads.
+bool is_told(const LogEar& log, CanBusState lost) {
+  return log.has_heard(std::string("the bus is not usable: ") + name_of(lost));
+}
 
 // Sends and receives as it did before.
 bool works(CanBusWorld& world, CanInbox& inbox) {
@@ -24,14 +33,17 @@ Verdict comes_back(CanBusWorld& world, CanBusState lost, bool (CanBusWorld::*los
   CanInbox inbox;
   if (!opens(world, inbox, {{0x181}})) return Verdict::failed;
   cycle(world);
+  const LogEar log;
   if (!(world.*lose)()) return Verdict::skipped;
   if (!await(world, [&] { return world.bus().state() == lost; })) return Verdict::failed;
   const bool refused = !world.bus().queue(frame_of(0x201));
   cycle(world, settling_cycles);
-  const bool stays = world.bus().state() == lost && world.bus().fault().is_ok();
+  const bool stays = world.bus().state() == lost && world.bus().fault().is_ok() && is_told(log, lost);
   if (!(world.*restore)()) return Verdict::failed;
-  const bool back = await(world, [&] { return world.bus().is_usable(); });
-  return verdict(refused && stays && back && works(world, inbox) && world.bus().counters().recoveries == 1 &&
+  const Time restored = world.now();
+  const bool back = await(world, [&] { return world.bus().is_usable(); }) && works(world, inbox) &&
+                    is_back_in_time(name_of(lost), world.now() - restored);
+  return verdict(refused && stays && back && world.bus().counters().recoveries == 1 &&
                  world.bus().counters().frames_refused >= 1);
 }
 
@@ -48,12 +60,15 @@ Verdict comes_back_after_bus_off(CanBusWorld& world) {
   CanInbox inbox;
   if (!opens(world, inbox, {{0x181}})) return Verdict::failed;
   cycle(world);
+  const LogEar log;
   if (!world.cause_bus_off()) return Verdict::skipped;
   const bool off = await(world, [&] { return world.bus().state() == CanBusState::bus_off; });
-  const bool refused = !world.bus().queue(frame_of(0x201));
+  const bool refused = !world.bus().queue(frame_of(0x201)) && is_told(log, CanBusState::bus_off);
   world.end_bus_off();
-  const bool back = await(world, [&] { return world.bus().is_usable(); });
-  return verdict(off && refused && back && works(world, inbox) && world.bus().counters().bus_offs == 1 &&
+  const Time ended = world.now();
+  const bool back = await(world, [&] { return world.bus().is_usable(); }) && works(world, inbox) &&
+                    is_back_in_time(name_of(CanBusState::bus_off), world.now() - ended);
+  return verdict(off && refused && back && world.bus().counters().bus_offs == 1 &&
                  world.bus().counters().recoveries == 1);
 }
 

@@ -18,7 +18,7 @@ class CanBusWorld {
   /// The thread's cycle: receive, then what the devices do, then send. About a millisecond lies between two.
   virtual void receive() = 0;
   virtual void send() = 0;
-  /// The clock of the cycles, after all that has happened.
+  /// The clock of the cycles, after all that has happened: virtual, or one that counts.
   virtual Time now() const = 0;
 
   /// The far end says this, as soon as the wire lets it.

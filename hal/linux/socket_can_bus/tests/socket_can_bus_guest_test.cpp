@@ -15,6 +15,8 @@
 #include "hal/linux/socket_can_bus/can_node_runner.hpp"
 #include "hal/linux/socket_can_bus/socket_can_bus.hpp"
 #include "tests/cmocka.hpp"
+#include "tests/log_ear.hpp"
+#include "tests/recovery.hpp"
 
 namespace {
 
@@ -120,16 +122,20 @@ bool an_interface_that_comes_later_is_taken() {
   const Gone gone;
   const auto bench = std::make_unique<DeviceBench<SocketCanBus>>(nullptr);
   bench->configuration().set_interface(virtual_interface);
+  const LogEar log;
   if (!bench->driver().initialise()) return false;
   for (int i = 0; i < 50; ++i) bench->receive(pause);
-  const bool missing = bench->driver().state() == CanBusState::gone;
+  const bool missing = bench->driver().state() == CanBusState::gone &&
+                       log.has_heard(std::string("there is no network interface ") + virtual_interface);
   ip(std::string("link add ") + virtual_interface + " type vcan");
   ip(std::string("link set ") + virtual_interface + " up");
+  const Time came = MonotonicClock::now();
   for (int i = 0; i < most_tries && !bench->driver().is_usable(); ++i) {
     std::this_thread::sleep_for(pause);
     bench->receive(pause);
   }
-  const bool there = bench->driver().is_usable() && bench->driver().counters().recoveries == 0;
+  const bool there = bench->driver().is_usable() && bench->driver().counters().recoveries == 0 &&
+                     is_back_in_time("missing at the start", MonotonicClock::now() - came);
   bench->driver().stop();
   return missing && there;
 }
