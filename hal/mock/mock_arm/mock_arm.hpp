@@ -6,6 +6,8 @@
 
 #include "hal/interfaces/robot_arm/kinematics.hpp"
 #include "hal/interfaces/robot_arm/robot_arm.hpp"
+#include "hal/mock/mock_delay.hpp"
+#include "hal/mock/mock_noise.hpp"
 #include "mock_arm_driver.hpp"
 
 namespace flexrf {
@@ -17,10 +19,13 @@ class MockArm final : public MockArmDriver {
   Status initialise() override {
     state_.emplace();
     state_->position_map() = home_position(*chain);
+    noise_.seed(environment().seed);
+    delay_.clear();
+    tell(Time{});
     return {};
   }
 
-  std::optional<JointState> state() const noexcept override { return state_; }
+  std::optional<JointState> state() const noexcept override { return told_; }
 
   void command(const JointPositions& set_points) noexcept override {
     if (is_inhibited()) return;
@@ -34,12 +39,9 @@ class MockArm final : public MockArmDriver {
   }
 
   void receive(const Tick& tick) noexcept override {
-    if (!commanded_ || !follows_ || !state_ || is_inhibited() || !fault().is_ok()) return;
-    const JointVector next = within_limits(*chain, commanded_->position_map());
-    const double elapsed = last_cycle_ == Time{} ? 0 : seconds(tick.now - last_cycle_);
-    if (elapsed > 0) state_->velocity_map() = (next - state_->position_map()) / elapsed;
-    state_->position_map() = next;
+    follow(tick);
     last_cycle_ = tick.now;
+    tell(tick.now);
   }
 
   bool make_safe() noexcept override {
@@ -50,18 +52,42 @@ class MockArm final : public MockArmDriver {
   // ---- for tests
 
   /// Nothing: the sensors are silent.
-  void set_state(const std::optional<JointState>& state) noexcept { state_ = state; }
+  void set_state(const std::optional<JointState>& state) noexcept {
+    state_ = state;
+    tell(last_cycle_);
+  }
+  /// Its sensors tell so much later where it was.
+  void set_delay(Duration delay) noexcept { delay_.set(delay); }
   void set_follows(bool on) noexcept { follows_ = on; }
   void trip_drives() noexcept { fail(Status::error(StatusCode::device_fault, "the mock's drives tripped")); }
   const std::optional<JointPositions>& commanded() const noexcept { return commanded_; }
   std::uint64_t commands() const noexcept { return commands_; }
 
  private:
-  std::optional<JointState> state_;
+  void follow(const Tick& tick) noexcept {
+    if (!commanded_ || !follows_ || !state_ || is_inhibited() || !fault().is_ok()) return;
+    const JointVector next = within_limits(*chain, commanded_->position_map());
+    const double elapsed = last_cycle_ == Time{} ? 0 : seconds(tick.now - last_cycle_);
+    if (elapsed > 0) state_->velocity_map() = (next - state_->position_map()) / elapsed;
+    state_->position_map() = next;
+  }
+  void tell(Time now) noexcept {
+    std::optional<JointState> measured = state_;
+    if (measured) {
+      for (std::size_t i = 0; i < chain->joint_count; ++i)
+        measured->position[i] += noise_.around_zero(configuration.angle_noise);
+    }
+    told_ = delay_.pass(measured, now);
+  }
+
+  std::optional<JointState> state_;  // where it is
+  std::optional<JointState> told_;
   std::optional<JointPositions> commanded_;
   std::uint64_t commands_ = 0;
   bool follows_ = true;
   Time last_cycle_{};
+  MockNoise noise_;
+  MockDelay<std::optional<JointState>> delay_;
 };
 
 }  // namespace flexrf

@@ -10,7 +10,7 @@ MockCamera::MockCamera() {
 
 Status MockCamera::initialise() {
   next_ = 0;
-  random_ = environment().seed * 2 + 1;
+  noise_.seed(environment().seed);
   return VirtualCamera::initialise();
 }
 
@@ -27,15 +27,10 @@ void MockCamera::draw(const PictureCanvas& canvas, Time /*at*/, std::uint64_t se
   const auto base = script_.empty() ? static_cast<std::uint8_t>(sequence * 4) : brightness_;
   const auto level = static_cast<std::uint8_t>(base + value_of(0));
   std::fill(canvas.data.begin(), canvas.data.end(), level);
-  const unsigned noise = configuration.noise;
-  if (noise == 0) return;
-  for (std::uint8_t& byte : canvas.data) {
-    random_ ^= random_ << 13U;
-    random_ ^= random_ >> 7U;
-    random_ ^= random_ << 17U;
-    const int shifted = byte + static_cast<int>(random_ % (2 * noise + 1)) - static_cast<int>(noise);
-    byte = static_cast<std::uint8_t>(std::clamp(shifted, 0, 255));
-  }
+  const int most = configuration.noise;
+  if (most == 0) return;
+  for (std::uint8_t& byte : canvas.data)
+    byte = static_cast<std::uint8_t>(std::clamp(byte + noise_.around_zero(most), 0, 255));
 }
 
 }  // namespace flexrf

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hal/interfaces/camera/virtual_camera.hpp"
+#include "hal/mock/mock_noise.hpp"
 #include "mock_camera_driver.hpp"
 
 namespace flexrf {
@@ -33,7 +34,7 @@ class MockCamera final : public VirtualCamera<MockCameraDriver> {
   std::size_t next_ = 0;
   std::uint8_t coming_brightness_ = 0;
   std::uint8_t brightness_ = 0;
-  std::uint64_t random_ = 1;
+  MockNoise noise_;
 };
 
 }  // namespace flexrf

@@ -5,7 +5,7 @@ namespace flexrf {
 Status MockForceTorqueSensor::initialise() {
   due_ = Time{};
   missed_ = 0;
-  random_ = environment().seed * 2 + 1;
+  noise_.seed(environment().seed);
   return begin_measuring();
 }
 
@@ -32,18 +32,10 @@ void MockForceTorqueSensor::measure(WrenchMeter& meter, Time at) noexcept {
   }
   if (!fault_.is_ok()) return meter.take_fault(fault_, at);
   RawWrench raw = load_;
-  for (double& force : raw.force) force += noise(configuration.force_noise);
-  for (double& torque : raw.torque) torque += noise(configuration.torque_noise);
+  for (double& force : raw.force) force += noise_.around_zero(configuration.force_noise);
+  for (double& torque : raw.torque) torque += noise_.around_zero(configuration.torque_noise);
   meter.take(raw, at, missed_);
   missed_ = 0;
-}
-
-double MockForceTorqueSensor::noise(double most) noexcept {
-  if (most == 0) return 0;
-  random_ ^= random_ << 13U;
-  random_ ^= random_ >> 7U;
-  random_ ^= random_ << 17U;
-  return most * (static_cast<double>(random_ >> 11U) / static_cast<double>(1ULL << 52U) - 1);
 }
 
 }  // namespace flexrf

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hal/interfaces/force_torque_sensor/measuring_driver.hpp"
+#include "hal/mock/mock_noise.hpp"
 #include "mock_force_torque_sensor_driver.hpp"
 
 namespace flexrf {
@@ -30,7 +31,6 @@ class MockForceTorqueSensor final : public MeasuringDriver<MockForceTorqueSensor
  private:
   void listen(WrenchMeter& meter, Time now) noexcept override;
   void measure(WrenchMeter& meter, Time at) noexcept;
-  double noise(double most) noexcept;
 
   RawWrench load_;
   Status fault_;
@@ -39,7 +39,7 @@ class MockForceTorqueSensor final : public MeasuringDriver<MockForceTorqueSensor
   std::uint64_t to_lose_ = 0;
   std::uint64_t to_damage_ = 0;
   std::uint64_t missed_ = 0;  // since the last that came
-  std::uint64_t random_ = 1;
+  MockNoise noise_;
   Time due_{};
 };
 

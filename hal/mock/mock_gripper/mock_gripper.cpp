@@ -14,6 +14,8 @@ Status MockGripper::initialise() {
   goal_.reset();
   activating_ = releasing_ = false;
   last_cycle_ = Time{};
+  noise_.seed(environment().seed);
+  delay_.clear();
   report_.reset();
   return {};
 }
@@ -36,8 +38,10 @@ void MockGripper::receive(const Tick& tick) noexcept {
   if (fault_ != Fault::off) move(elapsed);
   const double opening = fingers_.opening();
   const bool at_end = opening == configuration.open_width || opening == configuration.closed_width;
+  const double measured = delay_.pass(opening + noise_.around_zero(configuration.opening_noise), tick.now);
   known_.opening.reset();
-  if (!configuration.two_state || at_end) known_.opening = opening;
+  if (configuration.two_state && at_end) known_.opening = opening;
+  if (!configuration.two_state) known_.opening = measured;
   state_.reset();
   if (is_heard()) state_ = known_;
   report_.fill(feedback, state_, trouble_);

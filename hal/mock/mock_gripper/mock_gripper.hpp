@@ -3,6 +3,8 @@
 
 #include "hal/interfaces/gripper/finger_model.hpp"
 #include "hal/interfaces/gripper/gripper_report.hpp"
+#include "hal/mock/mock_delay.hpp"
+#include "hal/mock/mock_noise.hpp"
 #include "mock_gripper_driver.hpp"
 
 namespace flexrf {
@@ -35,6 +37,8 @@ class MockGripper final : public MockGripperDriver {
 
   FingerModel& fingers() noexcept { return fingers_; }
   void set_fault(Fault which) noexcept;
+  /// The opening is told so much later, except by one of two states, which measures none.
+  void set_delay(Duration delay) noexcept { delay_.set(delay); }
   /// The goal in force, speed and force too.
   const std::optional<GripperGoal>& goal() const noexcept { return goal_; }
 
@@ -54,6 +58,8 @@ class MockGripper final : public MockGripperDriver {
   bool activating_ = false;
   bool releasing_ = false;  // on account of make_safe()
   Time last_cycle_{};
+  MockNoise noise_;
+  MockDelay<double> delay_;
   GripperReport report_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "hal/interfaces/modbus_station/modbus_station.hpp"
 #include "hal/interfaces/modbus_station/station_outputs.hpp"
+#include "hal/mock/mock_noise.hpp"
 #include "mock_modbus_station_driver.hpp"
 
 namespace flexrf {
@@ -29,6 +30,7 @@ class MockModbusStation final : public MockModbusStationDriver {
     }
     outputs_.reset(*registers);
     cells_ = {};
+    noise_.seed(environment().seed);
     behaviour_ = Fault::none;
     return {};
   }
@@ -39,10 +41,13 @@ class MockModbusStation final : public MockModbusStationDriver {
     ++feedback.requests;
     note_failure();
     if (behaviour_ != Fault::none) return;
-    for (Cell& cell : cells_) {
+    for (std::size_t i = 0; i < registers->registers.size(); ++i) {
+      Cell& cell = cells_[i];
       if (now_ < cell.visible_at) continue;
       cell.told = cell.held;
       cell.told_at = now_;
+      if (cell.noise > 0)
+        encode_register(registers->registers[i], held(i) + noise_.around_zero(cell.noise), cell.told.data());
     }
   }
 
@@ -100,6 +105,9 @@ class MockModbusStation final : public MockModbusStationDriver {
   double held(std::size_t index) const noexcept {
     return decode_register(registers->registers[index], cells_[index].held.data());
   }
+  /// What the register of this index tells is at most so much more or less than what it holds, at random,
+  /// seeded; 0 or more.
+  void set_noise(std::size_t index, double most) noexcept { cells_[index].noise = most; }
   void set_fault(Fault which) noexcept {
     behaviour_ = which;
     if (which != Fault::disconnected) return;
@@ -112,6 +120,7 @@ class MockModbusStation final : public MockModbusStationDriver {
     std::array<std::uint16_t, ModbusRegister::most_words> told{};
     Time visible_at{};
     Time told_at{};
+    double noise = 0;
   };
 
   void write() noexcept {
@@ -159,6 +168,7 @@ class MockModbusStation final : public MockModbusStationDriver {
   std::array<Cell, max_modbus_registers> cells_{};
   Fault behaviour_ = Fault::none;
   Time now_{};
+  MockNoise noise_;
 };
 
 }  // namespace flexrf

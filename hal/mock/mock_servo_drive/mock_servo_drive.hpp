@@ -6,6 +6,8 @@
 #include <cstdint>
 
 #include "hal/interfaces/servo_drive/servo_drive.hpp"
+#include "hal/mock/mock_delay.hpp"
+#include "hal/mock/mock_noise.hpp"
 #include "mock_servo_drive_driver.hpp"
 
 namespace flexrf {
@@ -20,11 +22,21 @@ class MockServoDrive final : public MockServoDriveDriver {
     homing_ = ServoHoming::not_homed;
     homing_problem_ = {};
     last_cycle_ = Time{};
+    noise_.seed(environment().seed);
+    delay_.clear();
+    measure();
     tell();
     return {};
   }
 
-  std::optional<ServoState> state() const noexcept override { return state_; }
+  std::optional<ServoState> state() const noexcept override {
+    std::optional<ServoState> told = state_;
+    if (told) {
+      told->position = measured_.position;
+      told->velocity = measured_.velocity;
+    }
+    return told;
+  }
 
   void command_position(double position) noexcept override {
     if (configuration.mode == ServoMode::cyclic_position && may_be_commanded()) take_position(position);
@@ -70,6 +82,7 @@ class MockServoDrive final : public MockServoDriveDriver {
     const double before = state_->position;
     if (elapsed > 0 && may_follow()) move(elapsed);
     state_->velocity = elapsed > 0 ? (state_->position - before) / elapsed : 0;
+    measure();
     tell();
   }
   void send(const Tick& /*tick*/) noexcept override {
@@ -88,8 +101,11 @@ class MockServoDrive final : public MockServoDriveDriver {
   void set_state(const std::optional<ServoState>& state) noexcept {
     state_ = state;
     if (state) homing_ = state->homing;
+    measure();
     tell();
   }
+  /// Position and velocity are told so much later. What a command changes is told at once.
+  void set_delay(Duration delay) noexcept { delay_.set(delay); }
   void trip() noexcept { fail(Status::error(StatusCode::device_fault, "the mock's drive tripped")); }
   /// A homing under way finds nothing.
   void fail_homing() noexcept { end_homing("the mock's drive found no home"); }
@@ -100,6 +116,11 @@ class MockServoDrive final : public MockServoDriveDriver {
   std::uint64_t halts() const noexcept { return halts_; }
 
  private:
+  struct Measured {
+    double position = 0;
+    double velocity = 0;
+  };
+
   bool takes_positions() const noexcept {
     return configuration.mode == ServoMode::cyclic_position ||
            configuration.mode == ServoMode::profile_position;
@@ -150,6 +171,11 @@ class MockServoDrive final : public MockServoDriveDriver {
     state_->position = reached ? wanted : state_->position + std::copysign(most, distance);
     return reached;
   }
+  void measure() noexcept {
+    if (!state_) return;
+    const double noise = noise_.around_zero(configuration.position_noise);
+    measured_ = delay_.pass({state_->position + noise, state_->velocity}, last_cycle_);
+  }
   void tell() noexcept {
     if (configuration.homing_method == 0) homing_ = ServoHoming::homed;
     feedback.homing = homing_;
@@ -157,16 +183,17 @@ class MockServoDrive final : public MockServoDriveDriver {
     feedback.target_reached = state_ && state_->target_reached;
     if (!state_) return;
     const bool cyclic = configuration.mode == ServoMode::cyclic_position;
-    state_->following_error = cyclic && commanded_ ? *commanded_ - state_->position : 0;
+    state_->following_error = cyclic && commanded_ ? *commanded_ - measured_.position : 0;
     state_->homing = homing_;
     if (homing_ == ServoHoming::running || !commanded_) state_->target_reached = false;
-    feedback.position = state_->position;
-    feedback.velocity = state_->velocity;
+    feedback.position = measured_.position;
+    feedback.velocity = measured_.velocity;
     feedback.following_error = state_->following_error;
     feedback.at_internal_limit = state_->at_internal_limit;
   }
 
-  std::optional<ServoState> state_;
+  std::optional<ServoState> state_;  // where it is
+  Measured measured_;
   std::optional<double> commanded_;
   double speed_ = 1;
   std::uint64_t commands_ = 0;
@@ -175,6 +202,8 @@ class MockServoDrive final : public MockServoDriveDriver {
   ServoHoming homing_ = ServoHoming::not_homed;
   Status homing_problem_;
   Time last_cycle_{};
+  MockNoise noise_;
+  MockDelay<Measured> delay_;
 };
 
 }  // namespace flexrf
