@@ -1,5 +1,6 @@
 // The driver and a drive that misbehaves, on a simulated bus in virtual time.
 #include <cstdlib>
+#include <limits>
 
 #include "hal/interfaces/device_bench.hpp"
 #include "hal/simulated/in_process_can_bus/in_process_can_bus.hpp"
@@ -43,7 +44,26 @@ class SimulatedWorld final : public DriveFaultWorld {
   }
 
   std::string ask(std::string_view line) override { return initialised_ ? far_end_.obey(line) : "no world"; }
-  bool set_cable(bool in) override { return tell(in ? "plug" : "unplug"); }
+  bool lose_bus(BusLoss how) override {
+    switch (how) {
+      case BusLoss::cable:
+        return tell("unplug");
+      case BusLoss::adapter:
+        bus_.driver().pretend(CanBusState::gone);
+        return true;
+      case BusLoss::bus_off:
+        // Also what it sends after each restart.
+        bus_.driver().station().corrupt_next(std::numeric_limits<unsigned>::max());
+        return true;
+    }
+    return false;
+  }
+  bool restore_bus(BusLoss how) override {
+    bus_.driver().station().corrupt_next(0);
+    bus_.driver().pretend(CanBusState::error_active);
+    return how != BusLoss::cable || tell("plug");
+  }
+  CanBusState bus_state() override { return bus_.driver().state(); }
 
   Time now() const override { return drive_.now(); }
 

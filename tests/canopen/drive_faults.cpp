@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "tests/cmocka.hpp"
+#include "tests/recovery.hpp"
 
 namespace flexrf {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr double start = 1;
 constexpr double target = 9;
 constexpr Duration patience = std::chrono::seconds(30);
-constexpr Duration soon = std::chrono::seconds(2);  // to come back, once the cause is gone
 
 MakeDriveFaultWorld make_world = nullptr;
 
@@ -100,31 +100,52 @@ bool comes_back(DriveFaultWorld& world, const char* from, bool by_itself = false
   const Time begin = world.now();
   if (!by_itself) world.restart();
   if (!is_enabled_in_time(world)) return false;
-  const Duration time = world.now() - begin;
-  std::printf("back after %s: %lld ms\n", from, static_cast<long long>(time.count() / 1'000'000));
-  return time <= soon;
+  return is_back_in_time(from, world.now() - begin);
+}
+
+// The bus is there, and the drive tells its state; in use or not.
+bool is_heard_again(DriveFaultWorld& world, double position, BusLoss lost) {
+  if (!world.restore_bus(lost)) return false;
+  const Time begin = world.now();
+  return until(world, position, [&] { return world.drive().state().has_value(); }) &&
+         is_back_in_time("silence on the bus", world.now() - begin);
+}
+
+// As the bus itself tells: of a cable out next to the drive it knows nothing.
+bool is_told(DriveFaultWorld& world, BusLoss lost) {
+  if (lost == BusLoss::cable) return true;
+  const CanBusState told = lost == BusLoss::adapter ? CanBusState::gone : CanBusState::bus_off;
+  return until(world, target, [&] { return world.bus_state() == told; });
+}
+
+bool lost_in_motion(DriveFaultWorld& world, BusLoss how, const char* what) {
+  if (!moves(world) || !world.lose_bus(how) || !is_told(world, how)) return false;
+  if (!reads(world, "no process data for 10 cycles") || world.drive().state()) return false;
+  // The drive no longer hears us, and stops by itself.
+  return drive_is(world, "switch on disabled") && is_heard_again(world, target, how) && stays_off(world) &&
+         comes_back(world, what);
 }
 
 bool cable_out_and_in_again_in_motion(DriveFaultWorld& world) {
-  if (!moves(world) || !world.set_cable(false)) return false;
-  if (!reads(world, "no process data for 10 cycles") || world.drive().state()) return false;
-  // The drive no longer hears us, and stops by itself.
-  if (!drive_is(world, "switch on disabled") || !world.set_cable(true)) return false;
-  if (!until(world, target, [&] { return world.drive().state().has_value(); })) return false;
-  return stays_off(world) && comes_back(world, "a cable that was out in motion");
+  return lost_in_motion(world, BusLoss::cable, "a cable that was out in motion");
+}
+
+bool adapter_gone_and_back_in_motion(DriveFaultWorld& world) {
+  return lost_in_motion(world, BusLoss::adapter, "an adapter that was gone in motion");
+}
+
+bool bus_off_in_motion(DriveFaultWorld& world) {
+  return lost_in_motion(world, BusLoss::bus_off, "being off the bus in motion");
 }
 
 bool cable_out_and_in_again_while_off(DriveFaultWorld& world) {
   world.drive().set_inhibited(true);
   if (!until(world, start, [&] { return world.drive().state().has_value(); })) return false;
-  if (!world.set_cable(false)) return false;
+  if (!world.lose_bus(BusLoss::cable)) return false;
   run(world, start, std::chrono::seconds(1));
   if (world.drive().state() || !tells_trouble(world, "node 5")) return false;
-  if (!world.drive().fault().is_ok() || !world.set_cable(true)) return false;
-  const Time begin = world.now();
   // It was not used: nothing to reset.
-  if (!until(world, start, [&] { return world.drive().state().has_value(); })) return false;
-  if (world.now() - begin > soon) return false;
+  if (!world.drive().fault().is_ok() || !is_heard_again(world, start, BusLoss::cable)) return false;
   world.drive().set_inhibited(false);
   return is_enabled_in_time(world);
 }
@@ -225,9 +246,10 @@ bool drive_that_answers_too_late(DriveFaultWorld& world) {
   run(world, start, std::chrono::seconds(4));
   if (world.drive().state() || !world.drive().fault().is_ok()) return false;
   if (!tells_trouble(world, "node 5") || !world.tell("delay 0")) return false;
+  const Time begin = world.now();
   // What it had said before is still on its way.
   run(world, start, std::chrono::seconds(1));
-  return comes_back(world, "answers that came too late", true);
+  return is_enabled_in_time(world) && is_back_in_time("answers that came too late", world.now() - begin);
 }
 
 bool garbage_and_truncated_frames(DriveFaultWorld& world) {
@@ -271,6 +293,8 @@ int run_drive_faults(const char* where, MakeDriveFaultWorld make) {
   make_world = make;
   const CMUnitTest tests[] = {
       cmocka_unit_test(judged<cable_out_and_in_again_in_motion>),
+      cmocka_unit_test(judged<adapter_gone_and_back_in_motion>),
+      cmocka_unit_test(judged<bus_off_in_motion>),
       cmocka_unit_test(judged<cable_out_and_in_again_while_off>),
       cmocka_unit_test(judged<drive_that_falls_silent_in_motion>),
       cmocka_unit_test(judged<heartbeat_of_the_drive_lost>),

@@ -10,6 +10,12 @@
 
 namespace flexrf {
 
+enum class BusLoss {
+  cable,    ///< between both, or what comes next to it
+  adapter,  ///< the interface of this end is gone
+  bus_off,  ///< this end went off the bus, by the errors that it counted
+};
+
 /// A driver that goes slowly from 1 towards 9 when it is told, its bus, and the drive at the far end, which
 /// is told by lines what shall go wrong (drive_console.hpp).
 class DriveFaultWorld {
@@ -30,8 +36,10 @@ class DriveFaultWorld {
   /// The far end's answer.
   virtual std::string ask(std::string_view line) = 0;
   bool tell(std::string_view line) { return ask(line) == "ok"; }
-  /// The cable between both, or what comes next to it.
-  virtual bool set_cable(bool in) = 0;
+  /// Until it is restored.
+  virtual bool lose_bus(BusLoss how) = 0;
+  virtual bool restore_bus(BusLoss how) = 0;
+  virtual CanBusState bus_state() = 0;
 
   /// The clock of step().
   virtual Time now() const = 0;

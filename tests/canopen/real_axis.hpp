@@ -25,6 +25,9 @@ inline bool ip(const std::string& words) {
 inline bool add_interface() {
   return ip(std::string("link add ") + can_interface + " type vcan");
 }
+inline bool remove_interface() {
+  return ip(std::string("link del ") + can_interface);
+}
 inline bool set_interface(bool up) {
   return ip(std::string("link set ") + can_interface + (up ? " up" : " down"));
 }
@@ -33,16 +36,15 @@ inline bool set_interface(bool up) {
 class VirtualInterface {
  public:
   explicit VirtualInterface(bool there) {
-    if (if_nametoindex(can_interface) != 0) remove();
+    if (if_nametoindex(can_interface) != 0) remove_interface();
     if (there) ready_ = add_interface() && set_interface(true);
   }
   ~VirtualInterface() {
-    if (if_nametoindex(can_interface) != 0) remove();
+    if (if_nametoindex(can_interface) != 0) remove_interface();
   }
   bool is_ready() const { return ready_; }
 
  private:
-  static void remove() { ip(std::string("link del ") + can_interface); }
   bool ready_ = false;
 };
 
@@ -58,6 +60,7 @@ class RealDevice {
 
   auto& configuration() { return drive_->configuration(); }
   Driver& drive() { return drive_->driver(); }
+  SocketCanBus& bus() { return bus_->driver(); }
   bool initialise() { return bus_->driver().initialise().is_ok() && drive_->driver().initialise().is_ok(); }
   void receive() {
     next_ = std::max(next_ + real_cycle, MonotonicClock::now() - real_cycle);
