@@ -2,6 +2,7 @@
 // camera goes away and comes back.
 #include "hal/linux/v4l2_camera/tests/vivid.hpp"
 #include "tests/camera/running_belt.hpp"
+#include "tests/recovery.hpp"
 
 namespace flexrf::whole {
 namespace {
@@ -13,8 +14,9 @@ void a_real_camera_comes_back_and_nothing_was_copied() {
   RunningBelt belt("v4l2");
   CHECK(belt.pictures_come());
   CHECK_EQUAL(belt.told("camera").at("copied_bytes").get<int>(), 0);
-  it_goes_away_and_comes_back(
+  const Duration took = it_goes_away_and_comes_back(
       belt, [&] { CHECK(vivid.unplug()); }, [&] { vivid.plug_in(); });
+  CHECK(is_back_in_time("the camera's absence", took));
 }
 
 void a_silent_camera_is_told_and_comes_back() {
@@ -27,6 +29,9 @@ void a_silent_camera_is_told_and_comes_back() {
   CHECK(belt.becomes("finder", "sees", false));
   CHECK_CONTAINS(belt.trouble(), "no pictures");
   CHECK(vivid.set("Percentage of Dropped Buffers", 0));
+  const Time heard = MonotonicClock::now();
+  CHECK(belt.becomes("finder", "sees", true));
+  CHECK(is_back_in_time("the camera's silence", MonotonicClock::now() - heard));
   CHECK(belt.pictures_come());
   CHECK(belt.becomes("camera", "recoveries", 1));
   belt.check_ends_well();

@@ -51,21 +51,25 @@ class RunningBelt {
 };
 
 /// What the unit and the operator see of a camera that goes away and comes back.
+/// @returns how long after it was plugged in the unit saw again.
 template <class Unplug, class PlugIn>
-void it_goes_away_and_comes_back(RunningBelt& belt, const Unplug& unplug, const PlugIn& plug_in) {
+Duration it_goes_away_and_comes_back(RunningBelt& belt, const Unplug& unplug, const PlugIn& plug_in) {
   CHECK(belt.pictures_come());
   unplug();
   CHECK(belt.becomes("camera", "present", false));
   CHECK(belt.becomes("finder", "sees", false));
   CHECK_CONTAINS(belt.trouble(), "plugged in");
   plug_in();
+  const Time plugged = MonotonicClock::now();
   CHECK(belt.becomes("finder", "sees", true));
+  const Duration took = MonotonicClock::now() - plugged;
   CHECK(belt.becomes("camera", "present", true));
   CHECK(belt.pictures_come());
   CHECK_EQUAL(belt.told("camera").at("losses").get<int>(), 1);
   CHECK_EQUAL(belt.told("camera").at("recoveries").get<int>(), 1);
   CHECK_EQUAL(belt.trouble(), "");
   belt.check_ends_well();
+  return took;
 }
 
 }  // namespace flexrf::whole

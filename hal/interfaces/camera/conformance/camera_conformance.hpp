@@ -34,7 +34,7 @@ class CameraWorld {
   virtual Status set_controls(std::string_view controls) = 0;
   /// The thread's cycle, some milliseconds after the last or when something has come.
   virtual void receive() = 0;
-  /// Of the cycle.
+  /// Of the cycle: virtual, or one that counts.
   virtual Time now() const = 0;
 
   /// False: cannot be made to happen here. Also before start().
@@ -45,6 +45,7 @@ class CameraWorld {
   virtual bool occupy() { return false; }
   virtual bool let_go() { return false; }
   virtual bool forbid() { return false; }
+  virtual void permit() {}
   /// One picture or more of those to come is lost, or comes damaged.
   virtual bool lose() { return false; }
   virtual bool damage() { return false; }

@@ -50,6 +50,7 @@ class VirtualCameraWorld : public CameraWorld {
     forbidden_ = true;
     return true;
   }
+  void permit() override { forbidden_ = false; }
   bool lose() override {
     camera_->driver().cable().to_lose = 3;
     return true;

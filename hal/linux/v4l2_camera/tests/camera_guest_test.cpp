@@ -9,6 +9,7 @@
 #include "hal/interfaces/camera/conformance/camera_eye.hpp"
 #include "hal/linux/v4l2_camera/tests/vivid_world.hpp"
 #include "tests/cmocka.hpp"
+#include "tests/recovery.hpp"
 
 namespace flexrf {
 namespace {
@@ -153,6 +154,36 @@ void a_stream_that_refuses_a_buffer_is_begun_anew(void**) {
                        "failed (Invalid argument); it is begun anew"));
 }
 
+/// It comes back and cannot be used, until that is over: neither it nor its unit is in fault.
+template <class Hinder, class Help>
+bool is_told_and_taken(const Hinder& hinder, const Help& help, std::string_view trouble) {
+  VividWorld world;
+  if (!world.start({.into_slot = true})) return false;
+  CameraEye eye(world);
+  if (!eye.next() || !world.unplug() || !eye.until([&] { return !world.feedback().present; })) return false;
+  hinder(world);
+  if (!world.plug_in() ||
+      !eye.until([&] { return text_view(world.feedback().trouble).find(trouble) != std::string_view::npos; }))
+    return false;
+  print_message("%s\n", std::string(text_view(world.feedback().trouble)).c_str());
+  if (eye.see() || world.feedback().present || !world.camera().fault().is_ok()) return false;
+  help(world);
+  const Time since = world.now();
+  return eye.next() && is_back_in_time("what hindered it", world.now() - since) &&
+         world.feedback().trouble[0] == '\0' && world.feedback().recoveries == 1;
+}
+
+void a_right_that_is_missing_once_it_is_back_is_told(void**) {
+  assert_true(is_told_and_taken([](VividWorld& world) { world.deny(); },
+                                [](VividWorld& world) { world.permit(); }, "no permission"));
+}
+
+void a_format_that_it_refuses_once_it_is_back_is_told_injected_not_produced(void**) {
+  assert_true(is_told_and_taken([](VividWorld& world) { world.calls.refuse(VIDIOC_S_FMT, true); },
+                                [](VividWorld& world) { world.calls.refuse(0); },
+                                "does not give 640x360 yuyv"));
+}
+
 bool a_stream_that_cannot_begin_is_refused_in_words() {
   VividWorld world;
   if (!world.vivid().set("Inject VIDIOC_STREAMON Error", 1)) return false;
@@ -201,6 +232,8 @@ int main() {
       cmocka_unit_test(a_camera_is_found_by_its_name),
       cmocka_unit_test(a_stream_that_the_driver_ends_is_begun_anew),
       cmocka_unit_test(a_stream_that_refuses_a_buffer_is_begun_anew),
+      cmocka_unit_test(a_right_that_is_missing_once_it_is_back_is_told),
+      cmocka_unit_test(a_format_that_it_refuses_once_it_is_back_is_told_injected_not_produced),
       cmocka_unit_test(a_stream_that_cannot_begin_is_refused),
       cmocka_unit_test(a_control_that_the_camera_refuses_injected_not_produced),
   };

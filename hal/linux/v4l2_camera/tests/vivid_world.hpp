@@ -18,14 +18,14 @@
 
 namespace flexrf {
 
-/// The kernel; it notes what was queued for it to fill, and refuses what it is told to, once.
+/// The kernel; it notes what was queued for it to fill, and refuses what it is told to.
 class WatchedCalls final : public VideoCalls {
  public:
   int control(int descriptor, unsigned long request, void* argument) noexcept override {
     {
       const std::lock_guard lock(mutex_);
       if (request == refused_) {
-        refused_ = 0;
+        if (!refuses_always_) refused_ = 0;
         return -EIO;
       }
       if (request == VIDIOC_S_FMT) {
@@ -39,9 +39,11 @@ class WatchedCalls final : public VideoCalls {
     return result;
   }
 
-  void refuse(unsigned long request) {
+  /// Once, or until it is told otherwise; 0: nothing.
+  void refuse(unsigned long request, bool always = false) {
     const std::lock_guard lock(mutex_);
     refused_ = request;
+    refuses_always_ = always;
   }
   std::size_t count() {
     const std::lock_guard lock(mutex_);
@@ -70,6 +72,7 @@ class WatchedCalls final : public VideoCalls {
 
   std::mutex mutex_;  // the camera's thread and its keeper
   unsigned long refused_ = 0;
+  bool refuses_always_ = false;
   std::uint32_t picture_size_ = 0;
   std::vector<const std::uint8_t*> queued_;
 };
@@ -78,7 +81,7 @@ class VividWorld final : public CameraWorld {
  public:
   VividWorld() { vivid_.restore(); }
   ~VividWorld() override {
-    if (forbidden_ && seteuid(0) != 0) std::perror("seteuid");
+    VividWorld::permit();
     stop();
     vivid_.let_go();
     vivid_.plug_in();
@@ -92,7 +95,7 @@ class VividWorld final : public CameraWorld {
     camera_->bench().configuration().user_pointers = user_pointers;
     set_text(camera_->bench().configuration().device, device);
     camera_->driver().use(calls);
-    if (forbidden_ && seteuid(nobody) != 0) return Status::error(StatusCode::internal, "seteuid");
+    if (forbidden_ && !deny()) return Status::error(StatusCode::internal, "seteuid");
     return camera_->driver().initialise();
   }
   void stop() override {
@@ -127,6 +130,15 @@ class VividWorld final : public CameraWorld {
     vivid_.plug_in();
     forbidden_ = true;
     return true;
+  }
+  /// At once, of all threads.
+  bool deny() {
+    forbidden_ = true;
+    return seteuid(nobody) == 0;
+  }
+  void permit() override {
+    if (forbidden_ && seteuid(0) != 0) std::perror("seteuid");
+    forbidden_ = false;
   }
   bool has_sizes_of_its_own() const override { return true; }
 
