@@ -3,7 +3,6 @@
 
 #include <cstdlib>
 
-#include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
 #include "tests/force_torque/ft300_line_cases.hpp"
 #include "tests/force_torque/ft300_world.hpp"
 
@@ -14,36 +13,34 @@ class PseudoTerminalWorld final : public Ft300World {
  public:
   ~PseudoTerminalWorld() override {
     driver().stop();
-    end_server();
     unlink(name_.c_str());
     rmdir(folder_);
   }
 
  private:
   Status plug() override {
-    end_server();
     if (name_.empty()) {
       if (mkdtemp(folder_) == nullptr) return Status::error(StatusCode::unavailable, "no folder in /tmp");
       name_ = std::string{folder_} + "/line";
     }
-    if (const Status status = line_.open(); !status) return status;
-    // A name that stays, as /dev/serial/by-id has: the pseudo-terminal behind it is another each time.
-    unlink(name_.c_str());
-    if (symlink(line_.path().c_str(), name_.c_str()) != 0)
-      return Status::error(StatusCode::unavailable, "no link in /tmp");
-    return serve(Ft300Server::on_descriptor(line_.descriptor(), ft300::usual_unit_id));
+    if (const Status status = begin({"--pseudo-terminal"}); !status) return status;
+    return name(simulator().first_line()) ? Status{}
+                                          : Status::error(StatusCode::unavailable, "no link in /tmp");
   }
   bool unplug() override {
-    end_server();
     unlink(name_.c_str());
-    line_.close();
-    return true;
+    return say("unplug");
   }
+  bool plug_in() override { return name(simulator().ask("plug")); }
   const char* device() const override { return name_.c_str(); }
+  /// A name that stays, as /dev/serial/by-id has: the pseudo-terminal behind it is another each time.
+  bool name(const std::string& line) const {
+    unlink(name_.c_str());
+    return symlink(line.c_str(), name_.c_str()) == 0;
+  }
 
   char folder_[32] = "/tmp/flexrf-ft300-XXXXXX";
   std::string name_;
-  PseudoSerialLine line_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
-// In the guest, whose /dev/ttyS1 and /dev/ttyS2 are two UARTs on one wire. The wire between them cannot be
-// cut.
+// In the guest, whose /dev/ttyS1 and /dev/ttyS2 are two UARTs on one wire. What is pulled out is the adapter:
+// the wire between them cannot be cut.
 #include "tests/force_torque/ft300_world.hpp"
+#include "tests/guest/serial_adapter.hpp"
 
 namespace {
 
@@ -9,13 +10,16 @@ using namespace flexrf;
 class SerialLineWorld final : public Ft300World {
  public:
   ~SerialLineWorld() override { driver().stop(); }
+  /// The clock is counted: what the host does meanwhile is not seen in it.
+  bool has_virtual_time() const override { return true; }
 
  private:
-  Status plug() override {
-    end_server();
-    return serve(Ft300Server::on_serial_line("/dev/ttyS1", ft300::usual_unit_id));
-  }
+  Status plug() override { return begin({"--serial", "/dev/ttyS1"}); }
   const char* device() const override { return "/dev/ttyS2"; }
+  bool unplug() override { return adapter_.unplug(); }
+  bool plug_in() override { return adapter_.plug_in(); }
+
+  SerialAdapter adapter_{"ttyS2"};
 };
 
 }  // namespace

@@ -2,6 +2,9 @@
 #include "tests/force_torque/ft300_line_cases.hpp"
 
 #include <poll.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstring>
 
@@ -37,6 +40,33 @@ void what_is_no_line_is_refused(void**) {
   assert_non_null(std::strstr(status.cause(), "/dev/null is no serial line"));
 }
 
+constexpr uid_t nobody = 65534;
+
+/// In a process of its own, as root may open everything.
+bool is_told_as_nobody(const char* device) {
+  const pid_t process = fork();
+  if (process == 0) {
+    if (geteuid() == 0 && setuid(nobody) != 0) _exit(2);
+    const Status status = begin(device);
+    _exit(status.code() == StatusCode::not_permitted && std::strstr(status.cause(), device) != nullptr &&
+                  std::strstr(status.cause(), "add this user to the group dialout") != nullptr
+              ? 0
+              : 1);
+  }
+  int end = 1;
+  return process > 0 && waitpid(process, &end, 0) == process && end == 0;
+}
+
+void a_line_that_is_not_this_users_is_refused(void**) {
+  bool told = false;
+  {
+    PseudoSerialLine line;
+    told =
+        line.open().is_ok() && chmod(line.path().c_str(), 0) == 0 && is_told_as_nobody(line.path().c_str());
+  }
+  assert_true(told);
+}
+
 /// Its driver is gone, and it sends no more.
 bool the_stream_is_ended() {
   PseudoSerialLine line;
@@ -70,6 +100,7 @@ int run_ft300_line_cases() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_line_that_is_not_there_is_waited_for),
       cmocka_unit_test(what_is_no_line_is_refused),
+      cmocka_unit_test(a_line_that_is_not_this_users_is_refused),
       cmocka_unit_test(a_driver_that_stops_ends_the_stream),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -7,6 +7,7 @@
 //   force X Y Z | torque X Y Z     what loads it, in N and N m
 //   status HEXADECIMAL             its status, as C0000000: the load is out of range
 //   lose N                         so many of the next records
+//   off                            without power and with it again: everything is forgotten
 //   silent | damaged | truncated | foreign | well     what it sends from now on
 //   unplug | plug                  nobody is at its port; somebody is again, and everything forgotten
 //
@@ -70,6 +71,8 @@ class Simulator {
       if (std::sscanf(rest, "%lf %lf %lf", &values[0], &values[1], &values[2]) != 3)
         return "three numbers are needed";
       server_.with_model([this](NetFtModel& model) { model.set_load(force_, torque_); });
+    } else if (command == "off") {
+      server_.with_model([](NetFtModel& model) { model.switch_off_and_on(); });
     } else if (command == "status") {
       const auto status = static_cast<std::uint32_t>(std::strtoul(rest, nullptr, 16));
       server_.with_model([status](NetFtModel& model) { model.set_status(status); });
