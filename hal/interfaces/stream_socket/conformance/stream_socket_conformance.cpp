@@ -35,6 +35,17 @@ bool connected(StreamSocketWorld& world, const StreamWishes& wishes = {}) {
          until(world, [&] { return world.connections() == 1; });
 }
 
+/// How soon a connection has to be there once the cause why there was none is gone.
+class Recovery {
+ public:
+  explicit Recovery(const StreamSocketWorld& world) : world_(world), since_(world.now()) {}
+  bool is_in_time() const { return !since_ || *world_.now() - *since_ <= std::chrono::seconds(2); }
+
+ private:
+  const StreamSocketWorld& world_;
+  std::optional<Time> since_;
+};
+
 /// Of a driver that does nothing more: what it did is on its way through the kernel.
 bool sees_its_end(StreamSocketWorld& world, std::size_t number) {
   for (int i = 0; i < patience && !world.is_ended(number); ++i) {
@@ -95,14 +106,17 @@ Verdict a_peer_that_comes_later_is_found(StreamSocketWorld& world) {
   if (!world.start({})) return Verdict::failed;
   if (!until(world, [&] { return !world.feedback().trouble_view().empty(); })) return Verdict::failed;
   world.listen(true);
-  return verdict(has(world, 1) && world.feedback().trouble_view().empty());
+  const Recovery recovery(world);
+  return verdict(has(world, 1) && recovery.is_in_time() && world.feedback().trouble_view().empty());
 }
 
 Verdict a_peer_that_ended_is_connected_to_again(StreamSocketWorld& world) {
   if (!connected(world)) return Verdict::failed;
   const SocketSession first = world.socket().sessions()[0];
   world.end(0);
-  if (!until(world, [&] { return world.connections() == 2 && world.socket().sessions().size() == 1; })) {
+  const Recovery recovery(world);
+  if (!until(world, [&] { return world.connections() == 2 && world.socket().sessions().size() == 1; }) ||
+      !recovery.is_in_time()) {
     return Verdict::failed;
   }
   const SocketSession second = world.socket().sessions()[0];
@@ -116,8 +130,20 @@ Verdict a_peer_that_ended_is_connected_to_again(StreamSocketWorld& world) {
 Verdict a_connection_that_breaks_comes_again(StreamSocketWorld& world) {
   if (!connected(world)) return Verdict::failed;
   world.break_off(0);
+  const Recovery recovery(world);
   return verdict(until(world, [&] { return world.connections() == 2; }) && has(world, 1) &&
-                 world.feedback().ended == 1);
+                 recovery.is_in_time() && world.feedback().ended == 1);
+}
+
+Verdict a_cable_that_is_in_again_connects_again(StreamSocketWorld& world) {
+  if (!connected(world, {.peer_timeout = std::chrono::seconds(2)})) return Verdict::failed;
+  if (!world.unplug()) return Verdict::skipped;
+  if (!has(world, 0) || world.feedback().trouble_view().empty()) return Verdict::failed;
+  world.plug_in();
+  const Recovery recovery(world);
+  return verdict(until(world, [&] { return world.connections() == 2; }) && has(world, 1) &&
+                 recovery.is_in_time() && world.feedback().ended == 1 &&
+                 world.feedback().trouble_view().empty());
 }
 
 Verdict what_came_before_its_end_is_read(StreamSocketWorld& world) {
@@ -262,6 +288,7 @@ int run_stream_socket_conformance(const char* driver, MakeStreamSocketWorld make
       CASE(a_peer_that_comes_later_is_found),
       CASE(a_peer_that_ended_is_connected_to_again),
       CASE(a_connection_that_breaks_comes_again),
+      CASE(a_cable_that_is_in_again_connects_again),
       CASE(what_came_before_its_end_is_read),
       CASE(peers_are_told_apart),
       CASE(one_peer_too_many_is_refused),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -16,6 +17,8 @@ struct StreamWishes {
   bool listen = false;
   std::uint8_t sessions = 1;
   std::uint32_t buffer = 4096;
+  /// Who does not read for so long is gone, too, and one of the cases does not.
+  Duration peer_timeout = std::chrono::seconds(60);
 };
 
 class StreamSocketWorld {
@@ -29,6 +32,9 @@ class StreamSocketWorld {
   /// The thread's cycle, some milliseconds after the last one: receive, then what the unit does, then send.
   virtual void receive() = 0;
   virtual void send() = 0;
+  /// By a clock that does not see a machine that stands still: how soon something happens may be judged by
+  /// it.
+  virtual std::optional<Time> now() const { return std::nullopt; }
 
   /// Before start(): somebody else listens where it is to. False: cannot be made to happen here.
   virtual bool occupy() = 0;
@@ -46,6 +52,10 @@ class StreamSocketWorld {
   virtual void end(std::size_t number) = 0;
   /// It breaks: it is reset, and what is on its way is lost.
   virtual void break_off(std::size_t number) = 0;
+  /// The cable between the two, out and in again: nothing arrives, nobody is told. False: cannot be made to
+  /// happen here.
+  virtual bool unplug() { return false; }
+  virtual void plug_in() {}
 };
 
 using MakeStreamSocketWorld = std::unique_ptr<StreamSocketWorld> (*)();

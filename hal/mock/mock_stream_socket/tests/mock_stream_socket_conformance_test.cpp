@@ -26,6 +26,7 @@ class MockWorld final : public StreamSocketWorld {
     bench_->receive(std::chrono::milliseconds(1));
   }
   void send() override { bench_->send(); }
+  std::optional<Time> now() const override { return bench_->now(); }
 
   bool occupy() override { return occupied_ = true; }
   void listen(bool on) override {
@@ -44,6 +45,12 @@ class MockWorld final : public StreamSocketWorld {
   void break_off(std::size_t number) override {
     far_ends().break_off(number, Status::error(StatusCode::unavailable, "scripted: it broke"));
   }
+  bool unplug() override {
+    listen(false);
+    break_off(0);
+    return true;
+  }
+  void plug_in() override { listen(true); }
 
  private:
   MockStreamTransport& far_ends() { return bench_->driver().far_ends(); }
