@@ -10,6 +10,18 @@ namespace {
 
 constexpr std::size_t standard_identifiers = 0x800;
 
+/// What a person can do about a bus that is not usable.
+const char* hint_for(CanBusState state) noexcept {
+  switch (state) {
+    case CanBusState::gone:
+      return "is its adapter plugged in? `ip link` lists the interfaces";
+    case CanBusState::down:
+      return "`ip link` shows why its interface is not up";
+    default:
+      return "look at cable, termination and bit rate";
+  }
+}
+
 }  // namespace
 
 Status CanBus::open(CanInbox& inbox, std::span<const CanIdentifier> identifiers, std::uint32_t capacity) {
@@ -123,7 +135,8 @@ void CanBus::enter(CanBusState state) noexcept {
   if (is_usable()) return;
   feedback.frames_discarded += waiting_.size();
   waiting_.clear();
-  log_warning(name(), "the bus is not usable: {}", StaticText{name_of(state)});
+  log_warning(name(), "the bus is not usable: {}; {}", StaticText{name_of(state)},
+              StaticText{hint_for(state)});
 }
 
 }  // namespace flexrf

@@ -9,7 +9,7 @@ namespace {
 
 // What the operator reads.
 bool is_told(const LogEar& log, CanBusState lost) {
-  return log.has_heard(std::string("the bus is not usable: ") + name_of(lost));
+  return log.has_heard(std::string("the bus is not usable: ") + name_of(lost) + "; ");
 }
 
 // Sends and receives as it did before.
