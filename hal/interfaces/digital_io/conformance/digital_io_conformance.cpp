@@ -224,6 +224,13 @@ Verdict a_line_in_use_is_refused_with_its_cause(DigitalIoWorld& world) {
   return verdict(starts(world) && is_back(world, "another user of the line"));
 }
 
+Verdict a_chip_that_is_missing_at_the_start_is_told(DigitalIoWorld& world) {
+  if (!world.unplug()) return Verdict::skipped;
+  const Status status = world.start({});
+  if (status.code() != StatusCode::unavailable || status.cause()[0] == '\0') return Verdict::failed;
+  return verdict(world.plug_in() && starts(world) && is_back(world, "a chip that was missing"));
+}
+
 Verdict a_missing_right_is_told(DigitalIoWorld& world) {
   if (!world.forbid()) return Verdict::skipped;
   const Status status = world.start({});
@@ -291,6 +298,7 @@ int run_digital_io_conformance(const char* driver, MakeDigitalIoWorld make) {
       CASE(a_released_emergency_stop_is_debounced),
       CASE(an_output_is_no_emergency_stop),
       CASE(a_line_in_use_is_refused_with_its_cause),
+      CASE(a_chip_that_is_missing_at_the_start_is_told),
       CASE(a_missing_right_is_told),
       CASE(an_input_survives_its_chip),
       CASE(an_output_comes_back_safe),
