@@ -8,6 +8,7 @@
 
 // Its macros would not spare names of ours.
 #include "tests/cmocka.hpp"
+#include "tests/recovery.hpp"
 
 namespace flexrf {
 // Beside drive_faults.cpp, whose cases have names of their own for the same.
@@ -15,8 +16,6 @@ namespace gripper_faults {
 namespace {
 
 using namespace gripper_cases;
-
-constexpr Duration soon = std::chrono::seconds(2);  // to come back, once the cause is gone
 
 MakeAxisGripperWorld make_axis = nullptr;
 
@@ -74,9 +73,7 @@ bool stays_off(AxisGripperWorld& world) {
 bool comes_back(AxisGripperWorld& world, const char* from) {
   const Time begin = world.now();
   if (!becomes_active(world)) return false;
-  const Duration time = world.now() - begin;
-  std::printf("back after %s: %lld ms\n", from, static_cast<long long>(time.count() / 1'000'000));
-  return (!world.has_virtual_time() || time <= soon) && world.gripper().trouble().is_ok() &&
+  return is_back_in_time(from, world.now() - begin) && world.gripper().trouble().is_ok() &&
          goes_to(world, closed) && fingers_at(world, closed);
 }
 
