@@ -28,8 +28,16 @@ prepare_gpio() {
   echo 1 >"$chip/live"
 }
 
+prepare_lines() {  # serial lines whose driver was taken from them
+  local port
+  for port in /sys/bus/pnp/devices/*; do
+    [[ $(<"$port/id") == PNP0501* && ! -e $port/driver ]] && echo "${port##*/}" >/sys/bus/pnp/drivers/serial/bind
+  done
+}
+
 prepare_devices() {
   prepare_link lo
+  prepare_lines
   [[ -e /sys/class/net/vcan0 ]] || ip link add dev vcan0 type vcan
   prepare_link vcan0
   prepare_link can0 type can bitrate 500000
