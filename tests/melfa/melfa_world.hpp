@@ -1,73 +1,41 @@
-// The real driver and a simulated controller, that meet at a UDP port of this machine only. The driver's
-// clock is the test's, so that no judgement depends on how busy the machine is.
+// The real driver and a simulated controller that meet at a UDP port of this machine only, and are both led
+// by a test.
 #pragma once
 
-#include <poll.h>
-
-#include <ctime>
-#include <memory>
 #include <string>
+#include <string_view>
 
 #include "hal/interfaces/device_bench.hpp"
+#include "hal/interfaces/robot_arm/conformance/robot_arm_conformance.hpp"
 #include "hal/linux/melfa_mxt/melfa_mxt.hpp"
-#include "hal/simulated/mxt_simulator/mxt_server.hpp"
 #include "six_axis.hpp"
 
 namespace flexrf {
 
 class MelfaWorld {
  public:
-  static constexpr Duration cycle = std::chrono::milliseconds(7);
-
-  MelfaWorld() {
-    melfa::ControllerPlan plan;
-    plan.joints = six_axis.joint_count;
-    plan.cycle = seconds(cycle);
-    for (std::size_t i = 0; i < six_axis.joint_count; ++i) {
-      plan.start[i] = six_axis.joints[i].home;
-      plan.fastest[i] = six_axis.joints[i].velocity;
-    }
-    auto server = melfa::MxtServer::open(plan, false, "127.0.0.1", 0);
-    if (!server) return;
-    server_ = std::move(*server);
-    auto& set = bench_.configuration();
-    set.set_address("127.0.0.1");
-    set.port = server_->port();
-    set.cycle = plan.cycle;
-    initialised_ = bench_.driver().initialise().is_ok();
-  }
-  ~MelfaWorld() { bench_.driver().stop(); }
+  MelfaWorld() = default;
+  virtual ~MelfaWorld() = default;
   MelfaWorld(const MelfaWorld&) = delete;
   MelfaWorld& operator=(const MelfaWorld&) = delete;
 
   bool initialised() const { return initialised_; }
   MelfaMxt& arm() { return bench_.driver(); }
-  std::uint16_t port() const { return server_->port(); }
   const auto& feedback() { return bench_.feedback(); }
-  template <class Act>
-  auto with(Act act) {
-    return server_->with(act);
-  }
+  /// The driver's clock.
+  Time now() const { return bench_.now(); }
 
-  /// What was sent before has arrived, and its answers are there.
-  void receive(Duration elapsed = cycle) {
-    await_far_end();
-    const auto& counted = arm().counters();
-    if (server_->sent() > answers_before_ + counted.answered + counted.late + counted.foreign) {
-      // On its way through the kernel.
-      pollfd answer{arm().descriptor(), POLLIN, 0};
-      poll(&answer, 1, patience);
-    }
-    bench_.receive(elapsed);
-  }
-  /// What was sent has arrived at the far end.
-  void await_far_end() {
-    for (int i = 0; i < 10 * patience && server_->received() < sent_before_ + arm().counters().sent; ++i) {
-      const timespec pause{0, 100'000};
-      nanosleep(&pause, nullptr);
-    }
-  }
+  /// Of the controller.
+  virtual std::uint16_t port() const = 0;
+  /// Its answer (mxt_console.hpp).
+  virtual std::string ask(std::string_view line) = 0;
+  bool tell(std::string_view line) { return ask(line) == "ok"; }
+
+  /// The next cycle begins: the answer to what was sent before is there, or does not come.
+  virtual void receive() = 0;
   void send() { bench_.send(); }
+  /// What was sent has arrived at the far end.
+  virtual void await_far_end() = 0;
 
   /// Cycles without a command.
   void idle(int cycles) {
@@ -90,8 +58,7 @@ class MelfaWorld {
     arm().stop();
     // It may say its end several times while nobody answers, and be gone before it is heard.
     await_far_end();
-    sent_before_ += arm().counters().sent;
-    answers_before_ = server_->sent();
+    begin_to_count_anew();
     arm().clear_fault();
     return arm().initialise().is_ok();
   }
@@ -99,18 +66,38 @@ class MelfaWorld {
     for (int i = 0; i < 100 && !arm().is_leading(); ++i) idle(1);
     return arm().is_leading();
   }
-  std::string alarm() {
-    return with([](melfa::MxtWire& wire) { return std::string{wire.controller().alarm()}; });
+
+ protected:
+  /// When the controller is at its port.
+  void initialise_arm(double cycle) {
+    auto& set = bench_.configuration();
+    set.set_address("127.0.0.1");
+    set.port = port();
+    set.cycle = cycle;
+    initialised_ = arm().initialise().is_ok();
   }
+  DeviceBench<MelfaMxt>& bench() { return bench_; }
+  /// The driver's counters are at 0 from now on.
+  virtual void begin_to_count_anew() {}
 
  private:
-  static constexpr int patience = 30'000;  // ms
-
-  std::unique_ptr<melfa::MxtServer> server_;
   DeviceBench<MelfaMxt> bench_{&six_axis};
   bool initialised_ = false;
-  std::uint64_t sent_before_ = 0;     // by drivers before the restart
-  std::uint64_t answers_before_ = 0;  // to them
+};
+
+/// As the conformance suite of arms wants it.
+template <class World>
+class MelfaConformanceWorld final : public RobotArmWorld {
+ public:
+  MelfaConformanceWorld() { world_.begin_leading(); }
+  RobotArm& arm() override { return world_.arm(); }
+  void receive(Duration /*elapsed*/) override { world_.receive(); }
+  void send() override { world_.send(); }
+  double noise() const override { return 1e-6; }  // single precision
+  bool lose_sensors() override { return world_.initialised() && world_.tell("silence"); }
+
+ private:
+  World world_;
 };
 
 }  // namespace flexrf

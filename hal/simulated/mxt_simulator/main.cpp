@@ -1,28 +1,21 @@
 // mxt_simulator: a MELFA controller in real-time external control to try a cell with, at a UDP port.
 //
-//   mxt_simulator [--address A] [--port N] [--joints N] [--speed RAD_PER_SECOND] [--cycle SECONDS] [--once]
+//   mxt_simulator [--address A] [--port N] [--joints N] [--start RAD[,RAD]...] [--speed RAD_PER_SECOND[,...]]
+//                 [--cycle SECONDS] [--once]
 //
-// --once: its program does not come to MXT again after the end of a session. Says its port, then takes
-// commands from standard input, a line each, and answers each by a line:
-//
-//   joints             where the arm is, rad
-//   alarm | reset      why it stopped; without alarm again, its program at MXT
-//   ends               how many sessions were ended
-//   trip               a drive trips: an alarm, and no more answers
-//   silence | well     its cable is out, or in again
-//   drop N | lose N    so many of its answers are lost, or packets to it
-//   delay N            so many of its answers come with the one after them
-//   foreign KIND       one datagram more: stranger, short, long, number, nonsense
-//
-// Runs until it is interrupted.
+// --start, --speed: of all joints, or of each. --once: its program does not come to MXT again after the end
+// of a session. Says its port, then takes commands from standard input, a line each, and answers each by a
+// line; "help" tells which. Runs until it is interrupted.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <iostream>
 #include <string>
 #include <string_view>
 
+#include "hal/simulated/mxt_simulator/mxt_console.hpp"
 #include "hal/simulated/mxt_simulator/mxt_server.hpp"
 
 namespace {
@@ -31,15 +24,25 @@ using namespace flexrf;
 using namespace flexrf::melfa;
 
 constexpr const char* usage =
-    "usage: mxt_simulator [--address A] [--port N] [--joints N] [--speed RAD_PER_SECOND] [--cycle SECONDS] "
-    "[--once]\n";
+    "usage: mxt_simulator [--address A] [--port N] [--joints N] [--start RAD[,RAD]...]\n"
+    "                     [--speed RAD_PER_SECOND[,...]] [--cycle SECONDS] [--once]\n";
+
+constexpr double most_speed = 100;  // rad/s
+constexpr double most_angle = 10;   // rad
+
+JointAngles of_all_joints(double value) {
+  JointAngles all{};
+  all.fill(value);
+  return all;
+}
 
 struct Options {
   const char* address = "127.0.0.1";
   double port = usual_port;
   double joints = 6;
-  double speed = 6;
   double cycle = 0.00711;
+  JointAngles start{};
+  JointAngles speed = of_all_joints(6);
   bool once = false;
 };
 
@@ -47,6 +50,21 @@ bool is_number(const char* text, double least, double most, double& value) {
   char* end = nullptr;
   value = std::strtod(text, &end);
   return end != text && *end == '\0' && value >= least && value <= most;
+}
+
+/// One number for all joints, or one for each of the first.
+bool are_numbers(std::string_view text, double least, double most, JointAngles& values) {
+  std::size_t joint = 0;
+  for (std::string_view rest = text; joint < values.size(); ++joint) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    if (!is_number(std::string{rest.substr(0, comma)}.c_str(), least, most, values[joint])) return false;
+    if (comma == rest.size()) {
+      if (joint == 0) values = of_all_joints(values[0]);
+      return true;
+    }
+    rest.remove_prefix(comma + 1);
+  }
+  return false;
 }
 
 bool parse(int count, char** words, Options& options) {
@@ -63,8 +81,10 @@ bool parse(int count, char** words, Options& options) {
       if (!is_number(words[i], 0, 65535, options.port)) return false;
     } else if (word == "--joints") {
       if (!is_number(words[i], 1, most_joints, options.joints)) return false;
+    } else if (word == "--start") {
+      if (!are_numbers(words[i], -most_angle, most_angle, options.start)) return false;
     } else if (word == "--speed") {
-      if (!is_number(words[i], 0.01, 100, options.speed)) return false;
+      if (!are_numbers(words[i], 0.01, most_speed, options.speed)) return false;
     } else if (word == "--cycle") {
       if (!is_number(words[i], 0.001, 1, options.cycle)) return false;
     } else {
@@ -72,55 +92,6 @@ bool parse(int count, char** words, Options& options) {
     }
   }
   return true;
-}
-
-std::string joints_of(MxtWire& wire) {
-  std::string line;
-  for (const double joint : wire.controller().measured()) {
-    line += (line.empty() ? "" : " ") + std::to_string(joint);
-  }
-  return line;
-}
-
-bool add_foreign(MxtWire& wire, std::string_view kind) {
-  constexpr std::string_view kinds[] = {"stranger", "short", "long", "number", "nonsense"};
-  for (std::size_t i = 0; i < std::size(kinds); ++i) {
-    if (kind != kinds[i]) continue;
-    wire.add_foreign(static_cast<Foreign>(i));
-    return true;
-  }
-  return false;
-}
-
-bool obeys(MxtWire& wire, std::string_view command, const char* word) {
-  const int number = std::atoi(word);
-  if (command == "reset") {
-    wire.controller().reset();
-  } else if (command == "trip") {
-    wire.controller().trip();
-  } else if (command == "silence" || command == "well") {
-    wire.set_silent(command == "silence");
-  } else if (command == "drop" && number > 0) {
-    wire.lose_answers(number);
-  } else if (command == "lose" && number > 0) {
-    wire.lose_packets(number);
-  } else if (command == "delay" && number > 0) {
-    wire.delay_answers(number);
-  } else {
-    return command == "foreign" && add_foreign(wire, word);
-  }
-  return true;
-}
-
-std::string answer(MxtWire& wire, const char* line) {
-  char command[16] = "";
-  char word[16] = "";
-  if (std::sscanf(line, "%15s %15s", command, word) < 1) return "that is no command";
-  const std::string_view said = command;
-  if (said == "joints") return joints_of(wire);
-  if (said == "alarm") return wire.controller().alarm()[0] == '\0' ? "none" : wire.controller().alarm();
-  if (said == "ends") return std::to_string(wire.controller().ends());
-  return obeys(wire, said, word) ? "ok" : "that is no command";
 }
 
 }  // namespace
@@ -133,7 +104,8 @@ int main(int count, char** words) {
   }
   ControllerPlan plan;
   plan.joints = static_cast<std::size_t>(options.joints);
-  plan.fastest.fill(options.speed);
+  plan.start = options.start;
+  plan.fastest = options.speed;
   plan.cycle = options.cycle;
   plan.loops = !options.once;
   auto server = MxtServer::open(plan, true, options.address, static_cast<std::uint16_t>(options.port));
@@ -143,11 +115,8 @@ int main(int count, char** words) {
   }
   std::printf("%u\n", unsigned{(*server)->port()});
   std::fflush(stdout);
-  char line[128];
-  while (std::fgets(line, sizeof(line), stdin) != nullptr) {
-    const std::string said = (*server)->with([&line](MxtWire& wire) { return answer(wire, line); });
-    std::puts(said.c_str());
-    std::fflush(stdout);
+  for (std::string line; std::getline(std::cin, line);) {
+    std::cout << (*server)->with([&line](MxtWire& wire) { return obey(wire, line); }) << std::endl;
   }
   while (true) pause();
 }

@@ -26,6 +26,10 @@ void MxtController::reset() {
   commanded_ = measured_;
 }
 
+void MxtController::be_led(double way) {
+  for (std::size_t i = 0; i < plan_.joints; ++i) commanded_[i] += way;
+}
+
 std::optional<PacketBytes> MxtController::answer(std::span<const std::uint8_t> datagram,
                                                  std::uint64_t cycles) {
   const auto packet = unpack(datagram);
@@ -47,6 +51,7 @@ std::optional<PacketBytes> MxtController::answer(std::span<const std::uint8_t> d
 }
 
 bool MxtController::obey(const Packet& packet, std::uint64_t cycles) {
+  in_session_ = packet.command != commands::end;
   switch (packet.command) {
     case commands::monitor:
       return true;

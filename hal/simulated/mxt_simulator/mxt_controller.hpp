@@ -32,10 +32,14 @@ class MxtController {
   void trip() { alarm_ = "a drive tripped"; }
   /// Without alarm, and its program at MXT.
   void reset();
+  /// As if somebody else had led each joint so far, rad; what is measured follows.
+  void be_led(double way);
   const JointAngles& measured() const { return measured_; }
   const JointAngles& commanded() const { return commanded_; }
   /// Sessions that were ended as they should be.
   int ends() const { return ends_; }
+  /// Something was said to it, and after that no end.
+  bool is_in_session() const { return in_session_; }
   /// Packets that commanded a position.
   std::uint64_t moves() const { return moves_; }
 
@@ -49,6 +53,7 @@ class MxtController {
   const char* alarm_ = "";
   bool at_mxt_ = true;
   int ends_ = 0;
+  bool in_session_ = false;
   std::uint64_t moves_ = 0;
 };
 

@@ -25,6 +25,7 @@ class MxtWire {
   MxtWire(const ControllerPlan& plan, bool paced) : controller_(plan), plan_(plan), paced_(paced) {}
 
   MxtController& controller() { return controller_; }
+  const MxtController& controller() const { return controller_; }
 
   /// From the PC.
   void arrived(std::span<const std::uint8_t> datagram, Time now);
