@@ -51,6 +51,7 @@ Ending run(const std::string& keys) {
     std::fprintf(stderr, "%s\n", status.cause());
     return {};
   }
+  executive.control().permit_motion_at_power_on();  // a person's Start
   const RunSummary summary = executive.run();
   Ending ending{summary.exit_code, summary.had_fault};
   for (std::size_t i = 0; i < application.threads.size(); ++i) {
