@@ -14,9 +14,10 @@ class RealGripperWorld final : public AxisGripperWorld {
 
   Status start(const GripperSetting& setting) override {
     configure(device_.configuration(), setting);
-    ready_ = interface_.is_ready() && far_end_.is_running() && device_.initialise();
-    if (ready_) return {};
-    return Status::error(StatusCode::unavailable, "no interface, no simulator, or no driver");
+    if (!interface_.is_ready()) return Status::error(StatusCode::unavailable, "no interface");
+    if (!far_end_.is_running()) return Status::error(StatusCode::unavailable, "no simulator");
+    ready_ = device_.initialise();
+    return ready_ ? Status{} : Status::error(StatusCode::unavailable, "no driver");
   }
   CanopenGripper& driver() override { return device_.drive(); }
   void receive() override { device_.receive(); }

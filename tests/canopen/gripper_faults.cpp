@@ -25,7 +25,9 @@ void judged(void**) {
   bool good = false;
   {
     const std::unique_ptr<AxisGripperWorld> world = make_axis({.homes = Homes});
-    good = world->start({}) && Run(*world);
+    const Status started = world->start({});
+    good = started && Run(*world);
+    if (!started) std::printf("the test's world cannot be made: %s\n", started.cause());
     if (!good) {
       std::printf("the operator reads: %s; the drive: %s\n", world->gripper().trouble().cause(),
                   world->ask("state").c_str());
