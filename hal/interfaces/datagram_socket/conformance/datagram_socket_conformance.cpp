@@ -1,6 +1,7 @@
 #include "hal/interfaces/datagram_socket/conformance/datagram_socket_conformance.hpp"
 
 #include "tests/conformance.hpp"
+#include "tests/recovery.hpp"
 
 namespace flexrf {
 namespace {
@@ -138,6 +139,7 @@ Verdict a_peer_that_comes_back_is_heard_again(DatagramSocketWorld& world) {
     world.send();
   }
   world.come_back();
+  const std::optional<Time> since = world.now();
   const bool heard = until(world, [&] {
     world.socket().write(bytes_of("there?"));
     const Texts got = world.got(FarEnd::peer);
@@ -145,7 +147,9 @@ Verdict a_peer_that_comes_back_is_heard_again(DatagramSocketWorld& world) {
   });
   world.give(FarEnd::peer, "here");
   Texts texts;
-  return verdict(heard && hears(world, texts, 1) && texts == Texts{"here"} && world.socket().fault().is_ok());
+  return verdict(heard && hears(world, texts, 1) && texts == Texts{"here"} &&
+                 (!since || is_back_in_time("a peer that was away", *world.now() - *since)) &&
+                 world.socket().fault().is_ok());
 }
 
 Verdict an_address_in_use_is_refused_with_its_cause(DatagramSocketWorld& world) {

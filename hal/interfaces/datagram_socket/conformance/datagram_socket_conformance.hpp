@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,13 +34,16 @@ class DatagramSocketWorld {
   /// The thread's cycle, some milliseconds after the last one: receive, then what the unit does, then send.
   virtual void receive() = 0;
   virtual void send() = 0;
+  /// By a clock that does not see a machine that stands still: how soon something happens may be judged by
+  /// it.
+  virtual std::optional<Time> now() const { return std::nullopt; }
 
   virtual void give(FarEnd end, std::string_view bytes) = 0;
   /// All datagrams that have come to it so far.
   virtual std::vector<std::string> got(FarEnd end) = 0;
   /// Before start(): somebody else has the driver's address. False: cannot be made to happen here.
   virtual bool occupy() = 0;
-  /// The peer goes away, and comes back where it was.
+  /// The peer goes away, or its cable, and comes back where it was.
   virtual void leave() = 0;
   virtual void come_back() = 0;
 };

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tests/conformance.hpp"
+#include "tests/recovery.hpp"
 
 namespace flexrf {
 namespace {
@@ -35,16 +36,10 @@ bool connected(StreamSocketWorld& world, const StreamWishes& wishes = {}) {
          until(world, [&] { return world.connections() == 1; });
 }
 
-/// How soon a connection has to be there once the cause why there was none is gone.
-class Recovery {
- public:
-  explicit Recovery(const StreamSocketWorld& world) : world_(world), since_(world.now()) {}
-  bool is_in_time() const { return !since_ || *world_.now() - *since_ <= std::chrono::seconds(2); }
-
- private:
-  const StreamSocketWorld& world_;
-  std::optional<Time> since_;
-};
+/// `since`: the world's time when the cause why there was no connection was gone.
+bool is_in_time(const StreamSocketWorld& world, std::optional<Time> since, const char* from) {
+  return !since || is_back_in_time(from, *world.now() - *since);
+}
 
 /// Of a driver that does nothing more: what it did is on its way through the kernel.
 bool sees_its_end(StreamSocketWorld& world, std::size_t number) {
@@ -106,17 +101,18 @@ Verdict a_peer_that_comes_later_is_found(StreamSocketWorld& world) {
   if (!world.start({})) return Verdict::failed;
   if (!until(world, [&] { return !world.feedback().trouble_view().empty(); })) return Verdict::failed;
   world.listen(true);
-  const Recovery recovery(world);
-  return verdict(has(world, 1) && recovery.is_in_time() && world.feedback().trouble_view().empty());
+  const std::optional<Time> since = world.now();
+  return verdict(has(world, 1) && is_in_time(world, since, "nobody at the address") &&
+                 world.feedback().trouble_view().empty());
 }
 
 Verdict a_peer_that_ended_is_connected_to_again(StreamSocketWorld& world) {
   if (!connected(world)) return Verdict::failed;
   const SocketSession first = world.socket().sessions()[0];
   world.end(0);
-  const Recovery recovery(world);
+  const std::optional<Time> since = world.now();
   if (!until(world, [&] { return world.connections() == 2 && world.socket().sessions().size() == 1; }) ||
-      !recovery.is_in_time()) {
+      !is_in_time(world, since, "an end")) {
     return Verdict::failed;
   }
   const SocketSession second = world.socket().sessions()[0];
@@ -130,9 +126,9 @@ Verdict a_peer_that_ended_is_connected_to_again(StreamSocketWorld& world) {
 Verdict a_connection_that_breaks_comes_again(StreamSocketWorld& world) {
   if (!connected(world)) return Verdict::failed;
   world.break_off(0);
-  const Recovery recovery(world);
+  const std::optional<Time> since = world.now();
   return verdict(until(world, [&] { return world.connections() == 2; }) && has(world, 1) &&
-                 recovery.is_in_time() && world.feedback().ended == 1);
+                 is_in_time(world, since, "a connection reset") && world.feedback().ended == 1);
 }
 
 Verdict a_cable_that_is_in_again_connects_again(StreamSocketWorld& world) {
@@ -140,9 +136,9 @@ Verdict a_cable_that_is_in_again_connects_again(StreamSocketWorld& world) {
   if (!world.unplug()) return Verdict::skipped;
   if (!has(world, 0) || world.feedback().trouble_view().empty()) return Verdict::failed;
   world.plug_in();
-  const Recovery recovery(world);
+  const std::optional<Time> since = world.now();
   return verdict(until(world, [&] { return world.connections() == 2; }) && has(world, 1) &&
-                 recovery.is_in_time() && world.feedback().ended == 1 &&
+                 is_in_time(world, since, "a cable out") && world.feedback().ended == 1 &&
                  world.feedback().trouble_view().empty());
 }
 

@@ -23,6 +23,7 @@ class MockWorld final : public DatagramSocketWorld {
   const DatagramSocketFeedback& feedback() override { return bench_->feedback(); }
   void receive() override { bench_->receive(std::chrono::milliseconds(1)); }
   void send() override { bench_->send(); }
+  std::optional<Time> now() const override { return bench_->now(); }
   void give(FarEnd end, std::string_view bytes) override { far_ends().give(text_of(end), bytes); }
   std::vector<std::string> got(FarEnd end) override { return far_ends().got(text_of(end)); }
   bool occupy() override { return occupied_ = true; }
