@@ -2,13 +2,18 @@
 // and a link in a thread of its own.
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <string_view>
 #include <thread>
 
+#include "hal/simulated/modbus_server/modbus_server.hpp"
+#include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
 #include "tests/modbus/rtu_world.hpp"
 
 // Its macros would not spare names of ours.
@@ -97,7 +102,7 @@ bool a_station_that_is_off_behind_a_gateway_is_not_online() {
   if (!world.start(map)) return false;
   if (!until(world, [&] { return feedback_of(world.station()).online; })) return false;
   const std::uint64_t connections = feedback_of(world.link()).connections;
-  world.server().set_behaviour(ModbusServer::Behaviour::off_behind_gateway);
+  if (!world.say("off_behind_gateway")) return false;
   const bool told = until(world, [&] {
     const ModbusStationFeedback& feedback = feedback_of(world.station());
     return !feedback.online && feedback.timeouts > 1 && feedback.exceptions == 0 &&
@@ -105,7 +110,7 @@ bool a_station_that_is_off_behind_a_gateway_is_not_online() {
            says(feedback.last_error_view(), "the station behind it on?") &&
            world.station().read(0).reason == NullReason::writer_stopped;
   });
-  world.server().set_behaviour(ModbusServer::Behaviour::well);
+  world.make(ModbusFarEnd::well);
   return told && until(world, [&] { return feedback_of(world.station()).online; }) &&
          feedback_of(world.link()).connections == connections;
 }
@@ -149,6 +154,46 @@ bool a_line_that_another_link_has_is_told_and_taken_once_it_is_free() {
        !feedback_of(second.link()).connected && MonotonicClock::now() - start < patience;)
     second.receive();
   return kept_out && feedback_of(second.link()).connected;
+}
+
+// Root may open everything: for as long as this lives, it is nobody.
+class WithoutPrivileges {
+ public:
+  WithoutPrivileges() : given_up_(geteuid() != 0 || seteuid(nobody) == 0) {}
+  WithoutPrivileges(const WithoutPrivileges&) = delete;
+  WithoutPrivileges& operator=(const WithoutPrivileges&) = delete;
+  ~WithoutPrivileges() {
+    if (geteuid() != before_ && seteuid(before_) != 0) std::abort();
+  }
+  bool given_up() const { return given_up_; }
+
+ private:
+  static constexpr uid_t nobody = 65534;
+  uid_t before_ = geteuid();
+  bool given_up_ = false;
+};
+
+bool a_line_that_may_not_be_opened_is_told_and_taken_once_it_may() {
+  PseudoSerialLine line;
+  if (!line.open() || chmod(line.path().c_str(), 0) != 0) return false;
+  Serial serial(line.path());
+  if (!serial.link().initialise()) return false;
+  {
+    const WithoutPrivileges user;
+    serial.receive();
+    if (!user.given_up()) return false;
+  }
+  const ModbusLinkFeedback& feedback = feedback_of(serial.link());
+  const bool told = !feedback.connected &&
+                    says(feedback.last_error_view(), "serial line " + line.path() + " cannot be opened") &&
+                    says(feedback.last_error_view(), "the user needs the right to it") &&
+                    says(feedback.last_error_view(), "dialout");
+  if (chmod(line.path().c_str(), 0666) != 0) return false;
+  const WithoutPrivileges user;
+  for (const Time start = MonotonicClock::now();
+       !feedback.connected && MonotonicClock::now() - start < patience;)
+    serial.receive();
+  return told && feedback.connected;
 }
 
 // A port that is taken, and on which nobody listens.
@@ -268,6 +313,8 @@ int main() {
        judged<a_missing_serial_line_is_no_failure_to_start_and_is_told>, nullptr, nullptr, nullptr},
       {"a line that another link has is told, and taken once it is free",
        judged<a_line_that_another_link_has_is_told_and_taken_once_it_is_free>, nullptr, nullptr, nullptr},
+      {"a line that may not be opened is told, and taken once it may",
+       judged<a_line_that_may_not_be_opened_is_told_and_taken_once_it_may>, nullptr, nullptr, nullptr},
       {"a closed port is told", judged<a_closed_port_is_told>, nullptr, nullptr, nullptr},
       {"a name for an address is refused", judged<a_name_for_an_address_is_refused>, nullptr, nullptr,
        nullptr},

@@ -1,87 +1,115 @@
-// The real station and link; their far end is a ModbusServer.
+// The real station and link; their far end is modbus_server, another process.
 #pragma once
 
+#include <cstdlib>
 #include <ctime>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "hal/interfaces/modbus_station/conformance/linked_world.hpp"
 #include "hal/linux/modbus_rtu_link/modbus_rtu_link.hpp"
 #include "hal/linux/modbus_tcp_link/modbus_tcp_link.hpp"
 #include "hal/linux/real_modbus_station/real_modbus_station.hpp"
-#include "hal/simulated/modbus_server/modbus_server.hpp"
+#include "tests/simulator_process.hpp"
 
 namespace flexrf {
 
 template <class Link>
 class RealWorld : public LinkedWorld<Link, RealModbusStation> {
  public:
+  Status start(const ModbusRegisterMap& map) override {
+    const Status status = LinkedWorld<Link, RealModbusStation>::start(map);
+    if (!status || is_plugged()) return status;
+    return Status::error(StatusCode::unavailable, "modbus_server did not begin");
+  }
   bool make(ModbusFarEnd behaviour) override {
-    using Behaviour = ModbusServer::Behaviour;
     switch (behaviour) {
       case ModbusFarEnd::well:
         return reconnect();
       case ModbusFarEnd::disconnected:
         return disconnect();
+      case ModbusFarEnd::cut:
+        return has_connections() && say("cut");
       case ModbusFarEnd::silent:
-        return behave(Behaviour::silent);
+        return say("silent");
       case ModbusFarEnd::slow:
-        return behave(Behaviour::slow);
+        return say("slow");
       case ModbusFarEnd::refuses:
-        return behave(Behaviour::refuses);
+        return say("refuses");
       case ModbusFarEnd::damaged:
-        return behave(Behaviour::damaged);
+        return say("damaged");
       case ModbusFarEnd::truncated:
-        return behave(Behaviour::truncated);
+        return say("truncated");
       case ModbusFarEnd::other_unit:
-        return checks_unit() && behave(Behaviour::other_unit);
+        return checks_unit() && say("other_unit");
     }
     return false;
   }
   /// The benches count from a time of their own until the first cycle.
   Time now() const override { return MonotonicClock::now(); }
-  int requests() override { return server_->requests(); }
-  ModbusServer& server() { return *server_; }
+  bool has_counted_time() const override { return false; }
+  int requests() override { return std::atoi(ask("requests").c_str()); }
+  /// A command of modbus_server that is answered by "ok".
+  bool say(const std::string& command) { return ask(command) == "ok"; }
 
  protected:
   virtual bool disconnect() = 0;
-  virtual bool reconnect() { return behave(ModbusServer::Behaviour::well); }
+  virtual bool reconnect() { return say("well"); }
+  /// A serial line has none, and none is cut.
+  virtual bool has_connections() const { return false; }
   /// Over TCP libmodbus knows an answer by its transaction, and does not look at its unit.
-  virtual bool checks_unit() const { return true; }
+  bool checks_unit() const { return !has_connections(); }
 
-  bool behave(ModbusServer::Behaviour behaviour) {
-    server_->set_behaviour(behaviour);
-    return true;
+  /// What it says of where it is to be found; empty: it did not begin.
+  const std::string& switch_on(const std::vector<std::string>& arguments) {
+    return far_end_.emplace(MODBUS_SERVER, arguments).first_line();
   }
-  void take(Result<std::unique_ptr<ModbusServer>> server) {
-    if (server) server_ = std::move(*server);
-  }
-  void drop_server() { server_.reset(); }
+  void switch_off() { far_end_.reset(); }
+  bool is_plugged() const { return far_end_ && far_end_->is_running(); }
+  std::string ask(const std::string& line) { return far_end_ ? far_end_->ask(line) : std::string(); }
 
  private:
   Duration pass_time() override {
-    const timespec pause{0, 200'000};
+    // Where instructions are counted, each takes long by the clock of the person who waits for this.
+    const timespec pause{0, has_counted_time() ? 2'000'000 : 200'000};
     nanosleep(&pause, nullptr);
     return MonotonicClock::now() - LinkedWorld<Link, RealModbusStation>::now();
   }
-  void put_word(ModbusArea area, std::uint16_t address, std::uint16_t value) override {
-    server_->put(area, address, value);
+  static std::string place(ModbusArea area, std::uint16_t address) {
+    return std::string(" ") + name_of(area) + " " + std::to_string(address);
   }
-  std::uint16_t word(ModbusArea area, std::uint16_t address) override { return server_->word(area, address); }
+  void put_word(ModbusArea area, std::uint16_t address, std::uint16_t value) override {
+    say("put" + place(area, address) + " " + std::to_string(value));
+  }
+  std::uint16_t word(ModbusArea area, std::uint16_t address) override {
+    return static_cast<std::uint16_t>(std::atoi(ask("word" + place(area, address)).c_str()));
+  }
 
-  std::unique_ptr<ModbusServer> server_;
+  std::optional<SimulatorProcess> far_end_;
 };
 
-class TcpWorld final : public RealWorld<ModbusTcpLink> {
+class TcpWorld : public RealWorld<ModbusTcpLink> {
  protected:
+  bool disconnect() override { return say("cut") && say("clear"); }
+  /// At the port that it had.
+  bool switch_on_again() { return listen_on(port_) != 0; }
+
+ private:
   void prepare(const ModbusRegisterMap& /*map*/, ModbusTcpLink::Configuration& link) override {
-    take(ModbusServer::on_tcp(1, 0));
-    link.port = server().port();
+    port_ = listen_on(0);
+    link.port = port_;
   }
-  bool disconnect() override {
-    behave(ModbusServer::Behaviour::cut);
-    server().clear();
-    return true;
+  bool has_connections() const override { return true; }
+  /// 0: it did not begin.
+  std::uint16_t listen_on(std::uint16_t port) {
+    const std::string place = switch_on({"--tcp", std::to_string(port)});
+    const std::size_t blank = place.rfind(' ');
+    return blank == std::string::npos ? std::uint16_t{0}
+                                      : static_cast<std::uint16_t>(std::atoi(place.c_str() + blank));
   }
-  bool checks_unit() const override { return false; }
+
+  std::uint16_t port_ = 0;
 };
 
 }  // namespace flexrf

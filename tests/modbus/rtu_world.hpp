@@ -3,10 +3,8 @@
 
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 
-#include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
 #include "tests/modbus/real_world.hpp"
 
 namespace flexrf {
@@ -14,39 +12,33 @@ namespace flexrf {
 class RtuWorld final : public RealWorld<ModbusRtuLink> {
  public:
   ~RtuWorld() override {
-    unplug();
+    unlink(name_.c_str());
     rmdir(folder_);
   }
 
- protected:
+ private:
   void prepare(const ModbusRegisterMap& /*map*/, ModbusRtuLink::Configuration& link) override {
     if (mkdtemp(folder_) == nullptr) return;
     // A name that stays, as /dev/serial/by-id has: the pseudo-terminal behind it is another each time.
-    std::snprintf(name_, sizeof(name_), "%s/line", folder_);
+    name_ = std::string(folder_) + "/line";
     link.set_device(name_);
-    plug();
+    in_ = name(switch_on({"--pseudo-terminal"}));
   }
   bool disconnect() override {
-    unplug();
-    return true;
+    unlink(name_.c_str());
+    in_ = false;
+    return say("unplug");
   }
-  bool reconnect() override { return line_.descriptor() >= 0 ? RealWorld::reconnect() : plug(); }
-
- private:
-  bool plug() {
-    if (!line_.open()) return false;
-    take(ModbusServer::on_descriptor(1, line_.descriptor()));
-    return symlink(line_.path().c_str(), name_) == 0;
+  bool reconnect() override {
+    if (in_) return RealWorld::reconnect();
+    in_ = name(ask("plug"));
+    return in_;
   }
-  void unplug() {
-    unlink(name_);
-    drop_server();
-    line_.close();
-  }
+  bool name(const std::string& line) const { return symlink(line.c_str(), name_.c_str()) == 0; }
 
   char folder_[32] = "/tmp/flexrf-modbus-XXXXXX";
-  char name_[64] = "";
-  PseudoSerialLine line_;
+  std::string name_;
+  bool in_ = false;
 };
 
 }  // namespace flexrf

@@ -2,11 +2,27 @@
 //
 //   modbus_server (--tcp PORT | --serial DEVICE BAUD | --pseudo-terminal) [--unit N]
 //
-// Has every register, 0 at first, and tells what was written. Runs until it is interrupted.
-#include <csignal>
+// Has every register, 0 at first. Says where it is to be found, then takes commands from standard input, a
+// line each, and answers each by a line:
+//
+//   put AREA ADDRESS VALUE     a word of a coil, discrete_input, holding_register or input_register
+//   word AREA ADDRESS          what it is
+//   clear                      every register becomes 0
+//   requests                   to this unit so far
+//   well | silent | slow | refuses | off_behind_gateway | damaged | truncated | other_unit | cut
+//                              how it answers from now on
+//   unplug | plug              a pseudo-terminal: its adapter is pulled out; plugged in, with the line's new
+//                              name and every register 0
+//
+// Runs until it is interrupted.
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
+#include <string>
+#include <string_view>
 
 #include "hal/simulated/modbus_server/modbus_server.hpp"
 #include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
@@ -54,6 +70,90 @@ bool parse(int count, char** words, Command& command) {
   return command.line != Line::none;
 }
 
+class Console {
+ public:
+  explicit Console(const Command& command) : command_(command) {}
+
+  Status plug() {
+    if (command_.line == Line::pseudo_terminal) {
+      if (const Status status = pseudo_.open(); !status) return status;
+    }
+    auto server = begin(static_cast<std::uint8_t>(command_.unit));
+    if (!server) return server.status();
+    server_ = std::move(*server);
+    return {};
+  }
+
+  /// Where it is to be found.
+  std::string place() const {
+    if (command_.line == Line::tcp) return "127.0.0.1 port " + std::to_string(server_->port());
+    return command_.line == Line::serial ? command_.device : pseudo_.path();
+  }
+
+  /// The answer, without the end of the line.
+  std::string answer(const char* line) {
+    char first[24] = "";
+    char area[24] = "";
+    unsigned address = 0;
+    unsigned value = 0;
+    const int parts = std::sscanf(line, "%23s %23s %u %u", first, area, &address, &value);
+    const std::string_view command = first;
+    if (parts == 1 && command_.line == Line::pseudo_terminal && (command == "plug" || command == "unplug"))
+      return command == "plug" ? plugged() : unplugged();
+    if (server_ == nullptr) return "it is unplugged";
+    if (parts >= 3 && address <= greatest && value <= greatest)
+      return registers_obey(command, area, parts, address, value);
+    if (parts != 1) return refusal;
+    if (command == "requests") return std::to_string(server_->requests());
+    if (command == "clear") {
+      server_->clear();
+      return "ok";
+    }
+    const auto behaviour = ModbusServer::behaviour_named(command);
+    if (!behaviour) return refusal;
+    server_->set_behaviour(*behaviour);
+    return "ok";
+  }
+
+ private:
+  static constexpr unsigned greatest = 65535;  // address and value
+  static constexpr const char* refusal = "that is no command";
+
+  Result<std::unique_ptr<ModbusServer>> begin(std::uint8_t unit) const {
+    if (command_.line == Line::tcp)
+      return ModbusServer::on_tcp(unit, static_cast<std::uint16_t>(command_.number));
+    if (command_.line == Line::serial)
+      return ModbusServer::on_serial_line(unit, command_.device, static_cast<int>(command_.number));
+    return ModbusServer::on_descriptor(unit, pseudo_.descriptor());
+  }
+  std::string plugged() {
+    const Status status = plug();
+    return status ? place() : status.cause();
+  }
+  std::string unplugged() {
+    server_.reset();
+    pseudo_.close();
+    return "ok";
+  }
+  std::string registers_obey(std::string_view command, std::string_view name, int parts, unsigned address,
+                             unsigned value) {
+    using enum ModbusArea;
+    for (const ModbusArea area : {holding_register, input_register, coil, discrete_input}) {
+      if (name != name_of(area)) continue;
+      const auto at = static_cast<std::uint16_t>(address);
+      if (command == "word" && parts == 3) return std::to_string(server_->word(area, at));
+      if (command != "put" || parts != 4) break;
+      server_->put(area, at, static_cast<std::uint16_t>(value));
+      return "ok";
+    }
+    return refusal;
+  }
+
+  Command command_;
+  PseudoSerialLine pseudo_;
+  std::unique_ptr<ModbusServer> server_;  // ends before its line; null: unplugged
+};
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -62,36 +162,17 @@ int main(int count, char** words) {
     std::fputs(usage, stderr);
     return 2;
   }
-  // Before the server's thread begins, so that only this one is interrupted.
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-
-  const auto unit = static_cast<std::uint8_t>(command.unit);
-  PseudoSerialLine pseudo;
-  Status status;
-  if (command.line == Line::pseudo_terminal) status = pseudo.open();
-  if (!status) {
+  Console console(command);
+  if (const Status status = console.plug(); !status) {
     std::fprintf(stderr, "modbus_server: %s\n", status.cause());
     return 1;
   }
-  const auto server =
-      command.line == Line::tcp ? ModbusServer::on_tcp(unit, static_cast<std::uint16_t>(command.number))
-      : command.line == Line::serial
-          ? ModbusServer::on_serial_line(unit, command.device, static_cast<int>(command.number))
-          : ModbusServer::on_descriptor(unit, pseudo.descriptor());
-  if (!server) {
-    std::fprintf(stderr, "modbus_server: %s\n", server.status().cause());
-    return 1;
-  }
-  if (command.line == Line::tcp)
-    std::printf("127.0.0.1 port %u\n", unsigned{(*server)->port()});
-  else
-    std::printf("%s\n", command.line == Line::serial ? command.device : pseudo.path().c_str());
+  std::puts(console.place().c_str());
   std::fflush(stdout);
-  int signal = 0;
-  sigwait(&signals, &signal);
-  return 0;
+  char line[128];
+  while (std::fgets(line, sizeof(line), stdin) != nullptr) {
+    std::puts(console.answer(line).c_str());
+    std::fflush(stdout);
+  }
+  while (true) pause();
 }

@@ -30,6 +30,24 @@ std::uint16_t port_of(int listener) {
 
 }  // namespace
 
+std::optional<ModbusServer::Behaviour> ModbusServer::behaviour_named(std::string_view name) noexcept {
+  using enum Behaviour;
+  constexpr std::array<std::pair<std::string_view, Behaviour>, 9> names{
+      {{"well", well},
+       {"silent", silent},
+       {"slow", slow},
+       {"refuses", refuses},
+       {"off_behind_gateway", off_behind_gateway},
+       {"damaged", damaged},
+       {"truncated", truncated},
+       {"other_unit", other_unit},
+       {"cut", cut}}};
+  for (const auto& [known, behaviour] : names) {
+    if (known == name) return behaviour;
+  }
+  return std::nullopt;
+}
+
 ModbusServer::~ModbusServer() {
   if (thread_.joinable()) {
     eventfd_write(wake_, 1);

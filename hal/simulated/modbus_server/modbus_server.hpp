@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "hal/interfaces/modbus_link/modbus_station_model.hpp"
@@ -33,6 +35,8 @@ class ModbusServer {
     other_unit,          ///< answers as the next unit
     cut,                 ///< ends every connection at once; over TCP only
   };
+  /// By its name above, for what is commanded by text.
+  static std::optional<Behaviour> behaviour_named(std::string_view name) noexcept;
 
   ~ModbusServer();
 

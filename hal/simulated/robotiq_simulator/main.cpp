@@ -142,20 +142,13 @@ class Simulator {
   }
 
   bool line_obeys(std::string_view command) {
-    using Behaviour = ModbusServer::Behaviour;
     if (server_ == nullptr) return false;
     if (command == "on") model_.switch_off_and_on();
-    if (command == "well" || command == "on") {
-      server_->set_behaviour(Behaviour::well);
-    } else if (command == "silent" || command == "off") {
-      server_->set_behaviour(Behaviour::silent);
-    } else if (command == "damaged") {
-      server_->set_behaviour(Behaviour::damaged);
-    } else if (command == "truncated") {
-      server_->set_behaviour(Behaviour::truncated);
-    } else {
-      return false;
-    }
+    if (command == "on") command = "well";
+    if (command == "off") command = "silent";
+    const auto behaviour = ModbusServer::behaviour_named(command);
+    if (!behaviour) return false;
+    server_->set_behaviour(*behaviour);
     return true;
   }
 

@@ -15,9 +15,8 @@ class LinkedWorld : public ModbusStationWorld {
   Status start(const ModbusRegisterMap& map) override {
     map_ = &map;
     link_.emplace(nullptr);
-    auto& link = link_->configuration();
+    auto& link = link_->configuration();  // its pauses are the table's
     link.response_timeout = response_timeout_;
-    link.reconnect_longest = 0.2;
     prepare(map, link);
     if (const Status status = link_->driver().initialise(); !status) return status;
     station_.emplace(&map, std::span<QueueSink* const>{}, &link_->driver());

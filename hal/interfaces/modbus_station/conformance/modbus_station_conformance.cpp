@@ -12,6 +12,10 @@ namespace {
 
 // By the world's clock, for what must happen sooner or later: a loaded machine takes long.
 constexpr Duration patience = std::chrono::seconds(30);
+// Where time is counted: how long it may take until a station works again. It has been away for so long that
+// it is tried as seldom as ever.
+constexpr Duration recovery_limit = std::chrono::seconds(2);
+constexpr Duration long_away = std::chrono::seconds(5);
 
 MakeModbusStationWorld make_world = nullptr;
 
@@ -195,6 +199,17 @@ Verdict unknown_names_are_refused_with_the_nearest(ModbusStationWorld& world) {
                  std::strstr(not_written.status().cause(), "not written") != nullptr);
 }
 
+// Up to just after a try, where one is counted: what ends its cause then is found latest.
+void stay_away(ModbusStationWorld& world) {
+  const Time start = world.now();
+  std::uint64_t tried = failures(feedback(world));
+  const auto passed = [&](Duration time) { return world.now() - start >= time; };
+  static_cast<void>(until(world, [&] {
+    if (!passed(long_away)) tried = failures(feedback(world));
+    return passed(long_away + recovery_limit) || failures(feedback(world)) > tried;
+  }));
+}
+
 // The value is no longer valid, for this reason; what happened is counted and said; once the cause is gone it
 // reads and writes again.
 Verdict is_noticed_and_survived(ModbusStationWorld& world, ModbusFarEnd behaviour, NullReason reason) {
@@ -214,11 +229,14 @@ Verdict is_noticed_and_survived(ModbusStationWorld& world, ModbusFarEnd behaviou
       }))
     return Verdict::failed;
   const bool said = failures(feedback(world)) > failed_before && !feedback(world).last_error_view().empty();
-  world.make(ModbusFarEnd::well);
+  if (world.has_counted_time()) stay_away(world);
+  if (!world.make(ModbusFarEnd::well)) return Verdict::failed;
+  const Time gone = world.now();
   world.put(pressure, 9);
-  return verdict(said && until(world, [&] {
-                   return reads(world, pressure, 9) && holds(world, speed, 2) && feedback(world).online;
-                 }));
+  const bool back = until(
+      world, [&] { return reads(world, pressure, 9) && holds(world, speed, 2) && feedback(world).online; });
+  print_message("works again after %.3f s\n", seconds(world.now() - gone));
+  return verdict(said && back && (!world.has_counted_time() || world.now() - gone <= recovery_limit));
 }
 
 template <ModbusFarEnd Behaviour, NullReason Reason = NullReason::writer_stopped>
@@ -274,6 +292,7 @@ int run_modbus_station_conformance(const char* driver, MakeModbusStationWorld ma
       test("garbage for an answer", judged<survives<damaged>>),
       test("answers that end early", judged<survives<truncated>>),
       test("answers of another unit", judged<survives<other_unit>>),
+      test("connection cut and back", judged<survives<cut>>),
       test("connection cut and back, far end switched off meanwhile", judged<survives<disconnected>>),
   };
   return cmocka_run_group_tests_name(driver, tests, nullptr, nullptr);

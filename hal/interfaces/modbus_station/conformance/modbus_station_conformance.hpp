@@ -18,6 +18,7 @@ enum class ModbusFarEnd : std::uint8_t {
   truncated,     ///< its answers end early
   other_unit,    ///< answers as another unit
   disconnected,  ///< the connection is cut, and the station is switched off: its registers are 0 afterwards
+  cut,           ///< every connection is ended as soon as it has come about
 };
 
 class ModbusStationWorld {
@@ -35,6 +36,9 @@ class ModbusStationWorld {
   virtual void receive() = 0;
   virtual void send() = 0;
   virtual Time now() const = 0;
+  /// Its clock is virtual, or the guest's, which counts: what the machine does otherwise is not seen in it,
+  /// so that a bound in time can be a pass mark.
+  virtual bool has_counted_time() const { return true; }
 
   /// A register of the far end; `index` of the map.
   virtual void put(std::size_t index, double value) = 0;

@@ -39,6 +39,7 @@ class MockWorld final : public ModbusStationWorld {
       case ModbusFarEnd::damaged:
       case ModbusFarEnd::truncated:
       case ModbusFarEnd::other_unit:
+      case ModbusFarEnd::cut:
         break;
     }
     return false;

@@ -29,6 +29,7 @@ class SimulatedWorld final : public LinkedWorld<SimulatedModbusLink, SimulatedMo
       case ModbusFarEnd::slow:
       case ModbusFarEnd::truncated:
       case ModbusFarEnd::other_unit:
+      case ModbusFarEnd::cut:
         break;
     }
     return false;
