@@ -3,6 +3,8 @@
 
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "tests/cmocka.hpp"
@@ -98,6 +100,27 @@ bool run_a_file_is_not_removed() {
   return kept && !status;
 }
 
+/// In a process of its own, which is nobody's, as root may write everywhere.
+bool run_a_folder_of_others_is_told() {
+  constexpr uid_t nobody = 65534;
+  const Folder folder;
+  if (!folder.made || ::chmod(folder.path, S_IRUSR | S_IXUSR) != 0) return false;
+  const pid_t process = ::fork();
+  if (process == 0) {
+    if (::geteuid() == 0 && ::setuid(nobody) != 0) ::_exit(2);
+    const std::string text = std::string("unix:") + folder.path + "/socket";
+    Status status;
+    listener_at(text, status);
+    const std::string cause = status.cause();
+    ::_exit(status.code() == StatusCode::not_permitted && cause.find(text) == 0 &&
+                    cause.find("others' folders need a right") != std::string::npos
+                ? 0
+                : 1);
+  }
+  int end = 1;
+  return process > 0 && ::waitpid(process, &end, 0) == process && end == 0;
+}
+
 template <bool (*Run)()>
 void judged(void**) {
   assert_true(Run());
@@ -114,6 +137,7 @@ int main() {
       CASE(a_name_that_nobody_can_have_is_told),
       CASE(a_path_is_taken_over_only_from_the_dead),
       CASE(a_file_is_not_removed),
+      CASE(a_folder_of_others_is_told),
   };
 #undef CASE
   return cmocka_run_group_tests(tests, nullptr, nullptr);
