@@ -19,6 +19,9 @@ namespace {
 
 constexpr std::size_t words = bytes_per_slot / sizeof(std::uint64_t);
 constexpr int none = -1;
+/// What a descriptor is waited for at most, and what others are given to be through with a call, ms.
+constexpr int longest_wait = 10;
+constexpr int moment = 1;
 
 /// What a driver prepared. It fills the side that is not current and then makes it current, so that a handler
 /// that interrupts it, or runs beside it, finds one side whole.
@@ -30,6 +33,7 @@ struct Side {
 struct Slot {
   std::atomic<std::uint32_t> generation{0};  ///< its lowest bit is the current side; 0: nothing prepared yet
   std::atomic<bool> claimed{false};
+  std::atomic<Turn> turn{Turn::first};
   Side sides[2];
 };
 
@@ -71,26 +75,60 @@ bool copy_prepared(const Slot& slot, Prepared& prepared) noexcept {
 
 bool write_all(int descriptor, const std::byte* bytes, std::size_t size) noexcept {
   std::size_t written = 0;
-  for (int attempt = 0; attempt < 4 && written < size; ++attempt) {
+  for (int attempt = 0; attempt < longest_wait / moment && written < size; ++attempt) {
     pollfd ready{descriptor, POLLOUT, 0};
     // Anything beside writable is an end that is closed, where writing would raise SIGPIPE.
-    if (poll(&ready, 1, 10) <= 0 || ready.revents != POLLOUT) return false;
+    if (poll(&ready, 1, longest_wait) <= 0 || ready.revents != POLLOUT) return false;
     const ssize_t count = write(descriptor, bytes + written, size - written);
-    if (count > 0) written += static_cast<std::size_t>(count);
-    if (count < 0 && errno != EINTR && errno != EAGAIN) return false;
+    if (count > 0) {
+      written += static_cast<std::size_t>(count);
+    } else if (errno == ENOBUFS) {
+      poll(nullptr, 0, moment);  // a network interface's queue is full, which is not seen by the socket
+    } else if (errno != EINTR && errno != EAGAIN) {
+      return false;
+    }
   }
   return written == size;
 }
 
+/// Descriptors that took nothing: what else is prepared for them would only wait as long again.
+class Refusals {
+ public:
+  void note(int descriptor) noexcept { descriptors_[count_++] = descriptor; }
+  bool has(int descriptor) const noexcept {
+    return std::find(descriptors_, descriptors_ + count_, descriptor) != descriptors_ + count_;
+  }
+
+ private:
+  int descriptors_[slots];
+  std::size_t count_ = 0;
+};
+
 int write_prepared() noexcept {
   int written = 0;
-  for (const Slot& slot : table) {
-    Prepared prepared;
-    if (copy_prepared(slot, prepared) && prepared.descriptor >= 0 &&
-        write_all(prepared.descriptor, prepared.bytes, prepared.size))
-      ++written;
+  Refusals refusals;
+  for (const Turn turn : {Turn::first, Turn::last}) {
+    for (const Slot& slot : table) {
+      Prepared prepared;
+      if (slot.turn.load(std::memory_order_relaxed) != turn || !copy_prepared(slot, prepared) ||
+          prepared.descriptor < 0 || refusals.has(prepared.descriptor)) {
+        continue;
+      }
+      if (write_all(prepared.descriptor, prepared.bytes, prepared.size)) {
+        ++written;
+      } else {
+        refusals.note(prepared.descriptor);
+      }
+    }
   }
   return written;
+}
+
+/// After has_begun() became true: a thread that looked at it just before gets its call through, so that what
+/// was prepared is the last that is said.
+int write_last() noexcept {
+  poll(nullptr, 0, moment);
+  return write_prepared();
 }
 
 void restore_terminal() noexcept {
@@ -156,11 +194,11 @@ void handle(int signal, siginfo_t* information, void* /*context*/) noexcept {
   if (crashing.exchange(true, std::memory_order_acq_rel)) {
     // Another thread crashed first and is about to end the process: leave it the time to.
     for (int i = 0; i < 10; ++i) {
-      const timespec moment{0, 100'000'000};
-      ppoll(nullptr, 0, &moment, nullptr);  // a real-time thread of the checked build may not sleep
+      const timespec time{0, 100'000'000};
+      ppoll(nullptr, 0, &time, nullptr);  // a real-time thread of the checked build may not sleep
     }
   } else {
-    const int written = write_prepared();
+    const int written = write_last();
     restore_terminal();
     Message message;
     message << "\nflexrf: " << meaning_of(signal);
@@ -180,7 +218,7 @@ void at_exit() noexcept {
   if (!exit_is_unexpected.load(std::memory_order_acquire)) return;
   // A thread that crashes meanwhile ends the process itself.
   if (!crashing.exchange(true, std::memory_order_acq_rel)) {
-    const int written = write_prepared();
+    const int written = write_last();
     restore_terminal();
     Message message;
     message << "\nflexrf: exit() was called while the application ran";
@@ -211,11 +249,12 @@ void expect_no_exit(bool on) noexcept {
   exit_is_unexpected.store(on && registered, std::memory_order_release);
 }
 
-int claim_slot() noexcept {
+int claim_slot(Turn turn) noexcept {
   for (std::size_t i = 0; i < slots; ++i) {
     bool expected = false;
-    if (table[i].claimed.compare_exchange_strong(expected, true, std::memory_order_acq_rel))
-      return static_cast<int>(i);
+    if (!table[i].claimed.compare_exchange_strong(expected, true, std::memory_order_acq_rel)) continue;
+    table[i].turn.store(turn, std::memory_order_relaxed);
+    return static_cast<int>(i);
   }
   return -1;
 }
@@ -266,6 +305,10 @@ int fire() noexcept {
   const int written = write_prepared();
   restore_terminal();
   return written;
+}
+
+bool has_begun() noexcept {
+  return crashing.load(std::memory_order_acquire);
 }
 
 void set_stepped(const char* unit) noexcept {

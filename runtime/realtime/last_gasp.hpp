@@ -27,8 +27,12 @@ Status install() noexcept;
 /// Main thread.
 void expect_no_exit(bool on) noexcept;
 
+/// What is written when. `last`: after all that is `first`, as a message by which several devices do at the
+/// same time what each of them was told before.
+enum class Turn : std::uint8_t { first, last };
+
 /// A slot for one device's bytes; −1 when all 64 are taken. Lifecycle thread.
-int claim_slot() noexcept;
+int claim_slot(Turn turn = Turn::first) noexcept;
 /// Frees it; nothing is written for it any more. Lifecycle thread.
 void release_slot(int slot) noexcept;
 /// What is written to `descriptor` in the last gasp, at most 64 bytes; replaces what was prepared before. The
@@ -47,6 +51,11 @@ void clear_terminal() noexcept;
 /// Async-signal-safe. Not when a crash or an exit() is writing them already.
 /// @returns number of slots written in full.
 int fire() noexcept;
+
+/// A crash or an exit() is ending the process. Whoever sends in every cycle then says nothing any more, or
+/// might take back what was prepared: what is under way is let through first, a new one is not to begin. Any
+/// thread; no system call.
+bool has_begun() noexcept;
 
 /// The unit that this thread steps (a name that lives for ever; null: none), for the crash's message. Its
 /// thread.

@@ -1,13 +1,19 @@
 #include "runtime/realtime/last_gasp.hpp"
 
 #include <fcntl.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -208,6 +214,67 @@ void fires_for_an_owner_that_does_not_answer(void**) {
   assert_int_equal(fire_into_pipe(text, sizeof(text), true), 0);
 }
 
+/// In the order of their turns, not of their slots.
+void what_is_last_comes_after_all_others(void**) {
+  const Pipe pipe;
+  const int last = last_gasp::claim_slot(last_gasp::Turn::last);
+  const int first = last_gasp::claim_slot();
+  const int second = last_gasp::claim_slot();
+  last_gasp::prepare_write(last, pipe.ends[1], bytes_of("all"));
+  last_gasp::prepare_write(first, pipe.ends[1], bytes_of("one "));
+  last_gasp::prepare_write(second, pipe.ends[1], bytes_of("other "));
+  const int written = last_gasp::fire();
+  for (const int slot : {last, first, second}) last_gasp::release_slot(slot);
+  // The slot itself is for anybody again.
+  const int reused = last_gasp::claim_slot();
+  const int behind = last_gasp::claim_slot();
+  last_gasp::prepare_write(reused, pipe.ends[1], bytes_of("; again "));
+  last_gasp::prepare_write(behind, pipe.ends[1], bytes_of("in order"));
+  last_gasp::fire();
+  for (const int slot : {reused, behind}) last_gasp::release_slot(slot);
+  char text[64] = {};
+  assert_true(read(pipe.ends[0], text, sizeof(text) - 1) > 0);
+  assert_int_equal(written, 3);
+  assert_string_equal(text, "one other all; again in order");
+}
+
+/// From now on, as of a network interface whose queue is full, of which the socket, ready to be written,
+/// knows nothing.
+bool leave_no_room(int descriptor) {
+  sock_filter program[] = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_write, 0, 3),
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args[0])),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<unsigned>(descriptor), 0, 1),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOBUFS),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+  };
+  const sock_fprog filter{static_cast<unsigned short>(std::size(program)), program};
+  return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
+}
+
+void a_full_queue_holds_up_no_other(void**) {
+  const Pipe full;
+  const Pipe other;
+  const pid_t child = fork();
+  if (child == 0) {
+    if (!leave_no_room(full.ends[1])) _exit(100);
+    for (int i = 0; i < 30; ++i) {
+      last_gasp::prepare_write(last_gasp::claim_slot(), full.ends[1], bytes_of("no"));
+      last_gasp::prepare_write(last_gasp::claim_slot(), other.ends[1], bytes_of("stop;"));
+    }
+    _exit(last_gasp::fire() == 30 ? 0 : 1);
+  }
+  int result = 0;
+  waitpid(child, &result, 0);
+  char text[256] = {};
+  const ssize_t size = read(other.ends[0], text, sizeof(text) - 1);
+  assert_true(WIFEXITED(result));
+  assert_int_equal(WEXITSTATUS(result), 0);
+  assert_int_equal(size, 30 * 5);
+}
+
 void slots_are_bounded(void**) {
   int claimed[last_gasp::slots];
   for (int& slot : claimed) slot = last_gasp::claim_slot();
@@ -267,6 +334,8 @@ int main() {
       cmocka_unit_test(stack_overflow_in_a_thread),
       cmocka_unit_test(a_thread_without_a_unit),
       cmocka_unit_test(fires_for_an_owner_that_does_not_answer),
+      cmocka_unit_test(what_is_last_comes_after_all_others),
+      cmocka_unit_test(a_full_queue_holds_up_no_other),
       cmocka_unit_test(slots_are_bounded),
       cmocka_unit_test(preparing_beside_firing_is_safe),
   };
