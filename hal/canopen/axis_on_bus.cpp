@@ -24,6 +24,7 @@ Status AxisOnBus::open(const cia402::AxisPlan& plan, CanBus& bus) {
   // Tried here, for its errors; begun in the first cycle, whose time counts.
   if (const Status status = axis_.begin(plan_, Time{}, outbox_); !status.is_ok()) return status;
   outbox_.clear();
+  if (last_word_ < 0) last_word_ = bus_->claim_last_word();
   const std::uint8_t node = plan_.node;
   const CanIdentifier heard[] = {
       {identifier_of(emergency_base, node)}, {transmit_pdo_identifier(1, node)},
@@ -35,7 +36,10 @@ Status AxisOnBus::open(const cia402::AxisPlan& plan, CanBus& bus) {
 
 void AxisOnBus::close() {
   // No message: the thread that could send it no longer steps. Without our heartbeat the drive stays off.
-  if (bus_ != nullptr) bus_->close(inbox_);
+  if (bus_ == nullptr) return;
+  bus_->close(inbox_);
+  bus_->release_last_word(last_word_);
+  last_word_ = CanBus::no_last_word;
 }
 
 void AxisOnBus::receive(const Tick& tick) noexcept {
@@ -61,6 +65,10 @@ void AxisOnBus::send(const Tick& tick, bool may_move) noexcept {
     } else {
       bus_->queue(to_frame(message));
     }
+  }
+  if (last_word_ < 0) return;
+  if (const auto word = axis_.last_word()) {
+    bus_->prepare_last_word(last_word_, to_frame(*word), to_frame({sync_identifier, 0, {}}));
   }
 }
 

@@ -11,6 +11,10 @@ namespace flexrf::canopen {
 /// Each axis says SYNC and our heartbeat; the bus sends what several say in a cycle once. It is brought up in
 /// the thread that it lives in, an answer in each cycle: open() does not wait for it, and a drive that is
 /// switched on later comes up then.
+///
+/// In each cycle it prepares on the bus what stops the axis should this process die: the axis's last word,
+/// and SYNC, at which the drive takes it. A bus that says nothing then leaves it to the drive, which no
+/// longer hears our heartbeat.
 class AxisOnBus {
  public:
   /// The lifecycle thread. Error: the plan makes no sense, or the bus has no place.
@@ -35,6 +39,7 @@ class AxisOnBus {
   Outbox outbox_;
   CanInbox inbox_;
   CanBus* bus_ = nullptr;
+  int last_word_ = CanBus::no_last_word;  // its place
   bool began_ = false;
   Time last_sent_{};
 };

@@ -229,9 +229,20 @@ bool ServoAxis::has_reached(std::uint16_t statusword) const noexcept {
   return cycles_ == settle_cycles && (statusword & status_bit::target_reached) != 0;
 }
 
-void ServoAxis::say(std::uint16_t word, Outbox& outbox) const noexcept {
+std::optional<Message> ServoAxis::last_word() const noexcept {
+  if (!state_ || plan_.abort_connection == 0) return std::nullopt;
+  // No controlword asks for a fault: where 6007 does, it comes with the lost heartbeat.
+  constexpr std::int16_t goes_off = 2;
+  return process_data(plan_.abort_connection == goes_off ? command::disable_voltage : command::quick_stop);
+}
+
+Message ServoAxis::process_data(std::uint16_t word) const noexcept {
   const std::uint64_t values[] = {word, target_object_, static_cast<std::uint8_t>(mode_said_)};
-  outbox.push(pack(commands_, values));
+  return pack(commands_, values);
+}
+
+void ServoAxis::say(std::uint16_t word, Outbox& outbox) const noexcept {
+  outbox.push(process_data(word));
   if (plan_.mode != Mode::profile_position) return;
   const double torque = std::clamp(std::round(most_torque_ * whole_torque), 0.0, 65535.0);
   const std::uint64_t profile[] = {to_amount(to_velocity_object(speed_)), static_cast<std::uint64_t>(torque)};

@@ -27,11 +27,13 @@ struct AxisPlan {
   /// The drive's units of velocity for one increment/s, and of acceleration for one increment/s^2; above 0.
   double velocity_factor = 1;
   double acceleration_factor = 1;
-  std::int8_t homing_method = 0;      ///< object 6098; 0: its encoder is absolute
-  double homing_speed = 0.1;          ///< unit/s, above 0
-  double homing_creep_speed = 0.02;   ///< unit/s, above 0
-  double rest_velocity = 0.001;       ///< unit/s: at most so fast is at rest
-  std::int16_t abort_connection = 3;  ///< object 6007: what it does without our heartbeat: quick stop
+  std::int8_t homing_method = 0;     ///< object 6098; 0: its encoder is absolute
+  double homing_speed = 0.1;         ///< unit/s, above 0
+  double homing_creep_speed = 0.02;  ///< unit/s, above 0
+  double rest_velocity = 0.001;      ///< unit/s: at most so fast is at rest
+  /// Object 6007, what it does without our heartbeat, and last_word(): 0 goes on, 1 fault, 2 off, 3 quick
+  /// stop.
+  std::int16_t abort_connection = 3;
   // What not every drive has, or takes.
   bool tells_abort_connection = true;  ///< object 6007
   bool tells_period = true;            ///< object 60C2
@@ -106,6 +108,18 @@ class ServoAxis {
   bool is_off() const noexcept { return !node_.is_operational() || power_.is_off(); }
   /// What stopped it, for a person; ok while nothing did.
   const Status& fault() const noexcept { return fault_; }
+  /// What it is told when this process dies; nothing while it is not heard, or where plan.abort_connection
+  /// says that it goes on. SYNC has to follow: its PDOs are synchronous.
+  ///
+  /// What the drive does at last without our heartbeat (object 6007), only at once: the process data that it
+  /// was told last, set-point and mode included, so that nothing but its state changes, with the controlword
+  /// quick stop (transition 11 of CiA 402), or disable voltage (9) where 6007 says so. Disabled, or in fault,
+  /// it stays so: neither word leads to torque from any state. Process data, because their mapping is known,
+  /// configured or read back, and they act at the SYNC behind them. An SDO would have to wait for the answer
+  /// to one under way, and a drive may refuse it for an object that is in a PDO; NMT stop takes everybody on
+  /// the bus out of operation, of a drive asks no more than 6007 says, if it has that, and makes it deaf to
+  /// process data.
+  std::optional<Message> last_word() const noexcept;
   /// After a send() without the permission to move: what stopped it is forgotten, and with the permission it
   /// is enabled anew. A node that was refused stays so.
   void forget_fault() noexcept { fault_ = {}; }
@@ -132,6 +146,7 @@ class ServoAxis {
   double target_for(Duration elapsed) noexcept;
   double velocity_for(Duration elapsed) noexcept;
   bool has_reached(std::uint16_t statusword) const noexcept;
+  Message process_data(std::uint16_t word) const noexcept;
   void say(std::uint16_t word, Outbox& outbox) const noexcept;
 
   /// A speed or an acceleration as the drive counts it; at least 1, or it would never move.

@@ -27,6 +27,8 @@ class CanWire;
 /// feedback.recoveries counts it. What a device does meanwhile is for the device to say.
 class CanBus : public CanBusInterface {
  public:
+  static constexpr int no_last_word = -1;
+
   // ---- for devices on the bus: in initialise() and stop(), the lifecycle thread
 
   /// From now on frames with these identifiers go into `inbox`, which keeps the newest `capacity` (rounded up
@@ -40,6 +42,12 @@ class CanBus : public CanBusInterface {
   /// Before the inbox goes; nothing when it is not open.
   void close(CanInbox& inbox);
 
+  /// A place for a device's last word, see prepare_last_word(). Below 0: this bus says nothing then, or has
+  /// no place left, which it has told.
+  virtual int claim_last_word() { return no_last_word; }
+  /// Nothing is said for this device any more. The device no longer steps. `place`: also below 0.
+  virtual void release_last_word(int /*place*/) {}
+
   // ---- for devices on the bus: while they live in its thread
 
   /// Sends this frame at the end of the cycle; what does not fit into the controller's queue then waits for
@@ -50,6 +58,11 @@ class CanBus : public CanBusInterface {
   /// what is said in every cycle, where only the newest counts (set-points), and for what several devices
   /// may say and is to be said once (SYNC).
   bool post(const CanFrame& frame) noexcept { return put(frame, true); }
+
+  /// Should this process crash from now on, or its thread hang, `word` is said for this device; then, once
+  /// the words of all devices on the bus have been, `all`: the same for all of them, as SYNC. In each cycle,
+  /// if need be; no system call. `place`: of claim_last_word(), not below 0.
+  virtual void prepare_last_word(int /*place*/, const CanFrame& /*word*/, const CanFrame& /*all*/) noexcept {}
 
   CanBusState state() const noexcept { return feedback.state; }
   bool is_usable() const noexcept { return feedback.state >= CanBusState::error_passive; }

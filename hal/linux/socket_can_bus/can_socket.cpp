@@ -141,20 +141,21 @@ CanFrame CanSocket::frame(std::size_t index) noexcept {
   return frame;
 }
 
-void CanSocket::put(std::size_t index, const CanFrame& frame) noexcept {
-  can_frame& out = out_frames_[index];
+can_frame CanSocket::as_kernel_takes(const CanFrame& frame) noexcept {
+  can_frame out{};
   out.can_id = frame.identifier | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
   out.can_dlc = frame.length;
   std::copy(frame.data.begin(), frame.data.end(), out.data);
+  return out;
 }
 
 CanSocket::Sent CanSocket::send(const CanSendQueue& frames) noexcept {
-  for (std::size_t i = 0; i < frames.size(); ++i) put(i, frames[i]);
+  for (std::size_t i = 0; i < frames.size(); ++i) out_frames_[i] = as_kernel_takes(frames[i]);
   return hand_over(frames.size());
 }
 
 CanSocket::Sent CanSocket::send(const CanFrame& frame) noexcept {
-  put(0, frame);
+  out_frames_[0] = as_kernel_takes(frame);
   return hand_over(1);
 }
 

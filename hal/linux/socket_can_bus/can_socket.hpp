@@ -54,6 +54,8 @@ class CanSocket {
   /// Frames that the kernel dropped because nobody fetched them, since open().
   std::uint32_t dropped() const noexcept { return dropped_; }
 
+  static can_frame as_kernel_takes(const CanFrame& frame) noexcept;
+
   /// In their order, as many as there is room for: one system call.
   Sent send(const CanSendQueue& frames) noexcept;
   Sent send(const CanFrame& frame) noexcept;
@@ -64,7 +66,6 @@ class CanSocket {
 
   Status set_filters() const noexcept;
   Sent hand_over(std::size_t count) noexcept;
-  void put(std::size_t index, const CanFrame& frame) noexcept;
 
   int socket_ = -1;
   std::mutex wanted_guard_;  // between who listens to more and who binds anew

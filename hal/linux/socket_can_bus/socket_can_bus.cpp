@@ -4,6 +4,7 @@
 
 #include "hal/linux/socket_can_bus/can_error_frame.hpp"
 #include "runtime/log/log.hpp"
+#include "runtime/realtime/last_gasp.hpp"
 
 namespace flexrf {
 
@@ -28,7 +29,20 @@ Status SocketCanBus::initialise() {
 
 void SocketCanBus::stop() {
   watch_.stop();
+  last_words_.clear();
   socket_.close();
+}
+
+int SocketCanBus::claim_last_word() {
+  const int place = last_words_.claim();
+  if (place < 0) {
+    log_warning(
+        name(),
+        "there is no room for what a further device on this bus is told in a crash ({} in all): it has "
+        "to notice by itself, as a drive does by our heartbeat",
+        last_gasp::slots);
+  }
+  return place;
 }
 
 void SocketCanBus::listen_to(std::span<const CanIdentifier> identifiers) {
@@ -48,7 +62,8 @@ void SocketCanBus::receive(const Tick& /*tick*/) noexcept {
 
 void SocketCanBus::send(const Tick& /*tick*/) noexcept {
   CanSendQueue& frames = waiting();
-  if (frames.is_empty()) return;
+  // What was prepared for a crash of another thread is the last that is said.
+  if (frames.is_empty() || last_gasp::has_begun()) return;
   const CanSocket::Sent sent = socket_.send(frames);
   feedback.frames_sent += sent.frames;
   frames.drop_first(sent.frames);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hal/interfaces/can_bus/can_bus.hpp"
+#include "hal/linux/socket_can_bus/can_last_words.hpp"
 #include "hal/linux/socket_can_bus/can_link_watch.hpp"
 #include "hal/linux/socket_can_bus/can_socket.hpp"
 #include "socket_can_bus_driver.hpp"
@@ -18,6 +19,11 @@ class SocketCanBus final : public SocketCanBusDriver {
   void stop() override;
   void receive(const Tick& tick) noexcept override;
   void send(const Tick& tick) noexcept override;
+  int claim_last_word() override;
+  void release_last_word(int place) override { last_words_.release(place); }
+  void prepare_last_word(int place, const CanFrame& word, const CanFrame& all) noexcept override {
+    last_words_.prepare(place, socket_, word, all);
+  }
   int descriptor() const noexcept override { return socket_.descriptor(); }
 
  private:
@@ -28,11 +34,11 @@ class SocketCanBus final : public SocketCanBusDriver {
   CanBusState usable_or_not() const noexcept;
 
   CanSocket socket_;
+  CanLastWords last_words_;
   CanLinkWatch watch_;
   CanLinkWatch::View link_;
   CanBusState controller_ = CanBusState::error_active;  // as its error frames say
   std::uint64_t refused_in_look_ = 0;                   // the kernel refused a frame when this was the link
-  std::uint64_t overflows_ = 0;
   std::uint32_t dropped_ = 0;
 };
 
