@@ -3,6 +3,7 @@
 #include <string_view>
 #include <utility>
 
+#include "hal/canopen/object.hpp"
 #include "tests/pick_station/devices.hpp"
 
 namespace flexrf::pick_station {
@@ -37,6 +38,12 @@ void Cell::trip_drive(const char* axis) {
     DriveOnCan& drive = station_.device<SimulatedServoDrive>(axis).far_end();
     drive.drive().trip(over_current, false, drive.said());
   }
+}
+
+void Cell::connect_drive_of(std::uint32_t vendor, const char* axis) {
+  SimulatedCia402Drive& drive = station_.device<SimulatedServoDrive>(axis).far_end().drive();
+  drive.objects().set_first(canopen::objects::vendor, vendor);
+  drive.power_on(station_.now());
 }
 
 void Cell::plug_can(bool in) {

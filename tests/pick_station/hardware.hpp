@@ -32,6 +32,8 @@ class Cell {
   RunSummary run(Duration longest);
 
   void trip_drive(const char* axis);
+  /// Simulated, once it runs: a drive of this vendor is connected instead, and boots.
+  void connect_drive_of(std::uint32_t vendor, const char* axis);
   /// Simulated: the application's plug on the bus. Mock: neither drive is heard.
   void plug_can(bool in);
   /// The gripper's serial line, the IO station's connection. The mocks have none: they are not heard, or what

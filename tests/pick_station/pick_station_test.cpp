@@ -263,6 +263,7 @@ int main() {
       TEST_APART(an_emergency_stop_in_mid_pick_is_recovered_from<simulated>),
       TEST_APART(a_drive_that_faults_in_motion_is_initialised_and_homed<mock>),
       TEST_APART(a_drive_that_faults_in_motion_is_initialised_and_homed<simulated>),
+      TEST_APART(a_drive_of_another_vendor_is_refused_until_the_right_one_is_connected),
       TEST_APART(a_station_that_falls_silent_is_waited_for<mock>),
       TEST_APART(a_station_that_falls_silent_is_waited_for<simulated>),
       TEST_APART(a_part_that_is_lost_on_the_way_is_a_fault<mock>),

@@ -65,6 +65,8 @@ class StationInVirtualTime {
   Driver& device(const char* name) {
     return dynamic_cast<Driver&>(find(name));
   }
+  /// Of the newest cycle.
+  Time now() const { return looked_at_; }
   Control& control() { return executive_.control(); }
   void press_emergency_stop(bool pressed);
   /// The whole chip of the operator's box, as an adapter that is pulled out.

@@ -94,6 +94,55 @@ void a_drive_that_faults_in_motion_is_initialised_and_homed() {
   CHECK_EQUAL(cell.run(long_enough).exit_code, with_a_fault);
 }
 
+void a_drive_of_another_vendor_is_refused_until_the_right_one_is_connected() {
+  Cell cell(Hardware::simulated);
+  StationInVirtualTime& station = cell.station();
+  const auto refused = [&] { return !station.device<ServoDrive>("axis_x").fault().is_ok(); };
+  station
+      .when(
+          "the first cycle", [] { return true; }, [&] { cell.connect_drive_of(0x999, "axis_x"); })
+      .when("the drive is refused", refused,
+            [&] {
+              CHECK_EQUAL(std::string{station.device<ServoDrive>("axis_x").fault().cause()},
+                          "node 1 is not the one that was declared: its vendor is 00000999 and not 00000123; "
+                          "is the number set right on the device?");
+              CHECK(station.device<ServoDrive>("axis_z").fault().is_ok());
+            })
+      .clear_and_start()
+      .when("it says so at once",
+            [&] {
+              return station.message().find("The axes do not follow: axis_x: node 1 is not the one") == 0;
+            })
+      .when_in(PickState::fault,
+               [&] {
+                 CHECK_CONTAINS(station.message(),
+                                "The axes cannot go on: axis_x: node 1 is not the one that was declared: its "
+                                "vendor is 00000999 and not 00000123");
+                 CHECK_CONTAINS(station.remedy(), "initialise it on its page");
+               })
+      .after(std::chrono::milliseconds(100),
+             [&] {
+               CHECK(station.is_lit("LAMP_RED"));
+               CHECK(!station.told_by<ServoDriveFeedback>("axis_x").enabled);
+               cell.connect_drive_of(0x123, "axis_x");
+             })
+      .after(std::chrono::seconds(2),
+             [&] {
+               // It is brought up, and does not go on by itself.
+               CHECK_EQUAL(text_view(station.told_by<ServoDriveFeedback>("axis_x").trouble), "");
+               CHECK_EQUAL(station.seen().state, PickState::fault);
+               station.initialise("axis_x");
+             })
+      .when_in(PickState::off)
+      .after(std::chrono::seconds(1))
+      .clear_and_start()
+      .when_in(PickState::fault, [&] { station.press("reset"); })
+      .when_in(PickState::not_homed, [&] { station.press("home"); })
+      .when_in(PickState::ready, [&] { station.press("start"); })
+      .when("a part", [&] { return station.seen().parts == 1; });
+  CHECK_EQUAL(cell.run(long_enough).exit_code, with_a_fault);
+}
+
 template <Hardware hardware>
 void a_station_that_falls_silent_is_waited_for() {
   Cell cell(hardware);

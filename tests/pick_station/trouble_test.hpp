@@ -9,6 +9,8 @@ template <Hardware hardware>
 void an_emergency_stop_in_mid_pick_is_recovered_from();
 template <Hardware hardware>
 void a_drive_that_faults_in_motion_is_initialised_and_homed();
+/// On simulated hardware: the mocks have no identity.
+void a_drive_of_another_vendor_is_refused_until_the_right_one_is_connected();
 template <Hardware hardware>
 void a_station_that_falls_silent_is_waited_for();
 template <Hardware hardware>

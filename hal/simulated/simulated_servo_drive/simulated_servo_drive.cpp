@@ -24,6 +24,8 @@ Status SimulatedServoDrive::initialise() {
   if (far_end_) wire->detach(*far_end_);
   canopen::cia402::AxisPlan plan = plan_from_interface();
   plan.node = configuration.node;
+  plan.vendor = configuration.vendor;
+  plan.product = configuration.product;
   plan.period = canopen::whole_milliseconds(configuration.period);
   plan.increments_per_unit = configuration.increments_per_unit;
   plan.quick_stop_deceleration = quick_stop_reserve * configuration.acceleration;
