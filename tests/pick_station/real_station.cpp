@@ -1,11 +1,13 @@
 #include "tests/pick_station/real_station.hpp"
 
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <future>
 #include <memory>
 
 #include "runtime/core/time.hpp"
+#include "runtime/realtime/realtime_scope.hpp"
 
 namespace flexrf::application {
 extern const Application application;
@@ -42,8 +44,9 @@ std::uint16_t index_of(const Records& records, const char* name) {
 
 }  // namespace
 
-RealStation::RealStation()
-    : drives_(folder_, {CIA402_SIMULATOR, "can1", "--node", "1", "--node", "2", "--position", "5000"}),
+RealStation::RealStation(const char* vendor)
+    : drives_(folder_, {CIA402_SIMULATOR, "can1", "--node", "1", "--node", "2", "--position", "5000",
+                        "--vendor", vendor, "--product", "0x456"}),
       gripper_(folder_, {ROBOTIQ_SIMULATOR, "--serial", "/dev/ttyS1", "115200"}),
       feeder_(folder_, {FEEDER_SIMULATOR, "1502"}),
       running_(application::application, real_hardware(), RightsOfATest::real_time) {
@@ -116,6 +119,28 @@ void RealStation::initialise(const char* device) {
   auto told = outcome->get_future();
   CHECK(told.wait_for(patience) == std::future_status::ready);
   CHECK_EQUAL(told.get(), "");
+}
+
+int RealStation::stop() {
+  const int exit_code = running_.stop().exit_code;
+  check_nothing_was_allocated();
+  return exit_code;
+}
+
+void RealStation::check_nothing_was_allocated() {
+  CHECK(has_allocation_guard());
+  const Application& application = running_.application();
+  bool has_any = false;
+  for (std::size_t i = 0; i < application.threads.size(); ++i) {
+    if (application.threads[i].priority == 0) continue;  // it may allocate
+    const ThreadState& thread = application.thread_states[i];
+    has_any = has_any || thread.cycles.load() > 0;
+    std::fprintf(stderr, "%s allocated %llu times in %llu cycles\n", application.threads[i].name,
+                 static_cast<unsigned long long>(thread.allocations.load()),
+                 static_cast<unsigned long long>(thread.cycles.load()));
+    CHECK_EQUAL(thread.allocations.load(), 0U);
+  }
+  CHECK(has_any);
 }
 
 void RealStation::give_start() {

@@ -17,7 +17,10 @@ namespace flexrf::whole {
 /// line and a TCP port. Whatever is waited for in vain fails the test with what the operator reads.
 class RealStation {
  public:
-  RealStation();
+  static constexpr const char* declared_vendor = "0x123";  // as in apps/pick-station/pick_station.toml
+
+  /// `vendor`: what the drives say of themselves, as it is declared unless said otherwise.
+  explicit RealStation(const char* vendor = declared_vendor);
   /// Whatever is out is in again.
   ~RealStation();
   RealStation(const RealStation&) = delete;
@@ -67,14 +70,15 @@ class RealStation {
   void tell_gripper(const std::string& line) { gripper_.type(line + "\n"); }
 
   Control& control() { return running_.control(); }
-  /// The exit code.
-  int stop() { return running_.stop().exit_code; }
+  /// The exit code. No real-time thread may have allocated or freed anything until then, whatever happened.
+  int stop();
 
  private:
   void change(const char* name, const void* value, std::size_t size);
   ParameterRequest to_pick(RequestKind kind);
   std::uint16_t parameter(const char* name);
   void accept(const ParameterRequest& request);
+  void check_nothing_was_allocated();
 
   Folder folder_;
   StationBox box_;
