@@ -12,7 +12,10 @@
 namespace flexrf {
 namespace {
 
-constexpr int patience = 30'000;  // ms, against what hangs
+// Against what hangs, in ms.
+constexpr int patience = 30'000;
+// A guest's clock runs on while its host reads the program's file: seconds, where the host has much to do.
+constexpr int patience_at_start = 600'000;
 constexpr int cannot_be_run = 127;
 
 }  // namespace
@@ -39,7 +42,7 @@ SimulatorProcess::SimulatorProcess(const std::string& executable, const std::vec
   }
   close(ends[1]);
   conversation_ = ends[0];
-  if (process_ > 0) first_line_ = read_line();
+  if (process_ > 0) first_line_ = read_line(patience_at_start);
 }
 
 SimulatorProcess::~SimulatorProcess() {
@@ -53,7 +56,7 @@ std::string SimulatorProcess::ask(std::string_view line) {
       send(conversation_, text.data(), text.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(text.size())) {
     return {};
   }
-  return read_line();
+  return read_line(patience);
 }
 
 void SimulatorProcess::pause() {
@@ -71,7 +74,7 @@ void SimulatorProcess::kill() {
   process_ = -1;
 }
 
-std::string SimulatorProcess::read_line() {
+std::string SimulatorProcess::read_line(int milliseconds) {
   while (true) {
     if (const std::size_t end = read_.find('\n'); end != std::string::npos) {
       std::string line = read_.substr(0, end);
@@ -80,7 +83,7 @@ std::string SimulatorProcess::read_line() {
     }
     pollfd wanted{conversation_, POLLIN, 0};
     std::array<char, 256> text{};
-    if (poll(&wanted, 1, patience) != 1) return {};
+    if (poll(&wanted, 1, milliseconds) != 1) return {};
     const ssize_t size = read(conversation_, text.data(), text.size());
     if (size <= 0) return {};
     read_.append(text.data(), static_cast<std::size_t>(size));

@@ -13,7 +13,7 @@ namespace flexrf {
 /// which outlives it: the process ends with this object, with that thread and with the test's process.
 class SimulatorProcess {
  public:
-  /// `arguments`: of its command line, without the program. Waits for its first line, up to 30 s.
+  /// `arguments`: of its command line, without the program. Waits for its first line, up to 10 min.
   SimulatorProcess(const std::string& executable, const std::vector<std::string>& arguments);
   ~SimulatorProcess();
   SimulatorProcess(const SimulatorProcess&) = delete;
@@ -33,7 +33,7 @@ class SimulatorProcess {
   void kill();
 
  private:
-  std::string read_line();
+  std::string read_line(int milliseconds);
 
   pid_t process_ = -1;
   int conversation_ = -1;
