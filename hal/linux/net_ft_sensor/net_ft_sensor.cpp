@@ -50,7 +50,7 @@ Status NetFtSensor::initialise() {
 
 void NetFtSensor::stop() {
   if (socket_ < 0) return;
-  send(rdt::encode(rdt::Request{rdt::Command::stop, 0}));
+  send_request(rdt::encode(rdt::Request{rdt::Command::stop, 0}));
   close(socket_);
   socket_ = -1;
 }
@@ -61,7 +61,7 @@ void NetFtSensor::listen(WrenchMeter& meter, Time now) noexcept {
   }
   const auto request = session_.request(now);
   if (!request) return;
-  const int error = send(*request);
+  const int error = send_request(*request);
   if (error == 0) return;
   meter.note_away(
       Status::error(error == EACCES || error == EPERM ? StatusCode::not_permitted : StatusCode::unavailable,
@@ -119,7 +119,7 @@ Time NetFtSensor::time_of(msghdr& header, Time now) const noexcept {
 }
 
 /// 0, or an error number. A socket whose buffer is full loses the request, as the network may.
-int NetFtSensor::send(const rdt::RequestBytes& request) noexcept {
+int NetFtSensor::send_request(const rdt::RequestBytes& request) noexcept {
   const ssize_t sent = sendto(socket_, request.data(), request.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
                               reinterpret_cast<const sockaddr*>(&sensor_), sizeof(sensor_));
   return sent >= 0 || errno == EAGAIN ? 0 : errno;

@@ -27,7 +27,7 @@ class NetFtSensor final : public MeasuringDriver<NetFtSensorDriver> {
   bool take_datagram(WrenchMeter& meter, Time now) noexcept;
   bool is_from_sensor(const sockaddr_in& from) const noexcept;
   Time time_of(msghdr& header, Time now) const noexcept;
-  int send(const rdt::RequestBytes& request) noexcept;
+  int send_request(const rdt::RequestBytes& request) noexcept;
 
   int socket_ = -1;
   sockaddr_in sensor_{};
