@@ -71,14 +71,8 @@ void a_can_cable_that_is_pulled_out_in_motion_stops_the_axes() {
         station.initialise("axis_x");
         station.initialise("axis_z");
       });
-  if (hardware == Hardware::simulated) {
-    // The drives forgot what they were told, and where they are.
-    station.when_in(PickState::off)
-        .after(std::chrono::seconds(1))
-        .clear_and_start()
-        .when_in(PickState::fault, [&] { station.press("reset"); })
-        .when_in(PickState::not_homed, [&] { station.press("home"); });
-  }
+  // The drives forgot what they were told, and where they are.
+  if (hardware == Hardware::simulated) station.leave_fault_and_home();
   station.when_in(PickState::ready, [&] { station.press("start"); }).when("two parts", [&] {
     return station.seen().parts == 2;
   });

@@ -114,6 +114,12 @@ StationInVirtualTime& StationInVirtualTime::clear_and_start() {
   });
 }
 
+StationInVirtualTime& StationInVirtualTime::leave_fault_and_home() {
+  when_in(PickState::off).after(std::chrono::seconds(1)).clear_and_start();
+  when_in(PickState::fault, [this] { press("reset"); });
+  return when_in(PickState::not_homed, [this] { press("home"); });
+}
+
 StationInVirtualTime& StationInVirtualTime::make_ready() {
   clear_and_start();
   when_in(PickState::not_homed, [this] { press("home"); });

@@ -31,6 +31,8 @@ class StationInVirtualTime {
   StationInVirtualTime& after(Duration pause, std::function<void()> act = {});
   /// A person clears a stop and gives Start until it is accepted.
   StationInVirtualTime& clear_and_start();
+  /// From off, once a drive or axis that faulted works again: Start, Reset, Home.
+  StationInVirtualTime& leave_fault_and_home();
   /// From power-on to ready: Start, Home.
   StationInVirtualTime& make_ready();
 

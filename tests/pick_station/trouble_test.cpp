@@ -84,11 +84,7 @@ void a_drive_that_faults_in_motion_is_initialised_and_homed() {
                CHECK_EQUAL(station.seen().state, PickState::fault);
                station.initialise("axis_x");
              })
-      .when_in(PickState::off)
-      .after(std::chrono::seconds(1))
-      .clear_and_start()
-      .when_in(PickState::fault, [&] { station.press("reset"); })
-      .when_in(PickState::not_homed, [&] { station.press("home"); })
+      .leave_fault_and_home()
       .when_in(PickState::ready, [&] { station.press("start"); })
       .when("two parts", [&] { return station.seen().parts == 2; });
   CHECK_EQUAL(cell.run(long_enough).exit_code, with_a_fault);
@@ -133,11 +129,7 @@ void a_drive_of_another_vendor_is_refused_until_the_right_one_is_connected() {
                CHECK_EQUAL(station.seen().state, PickState::fault);
                station.initialise("axis_x");
              })
-      .when_in(PickState::off)
-      .after(std::chrono::seconds(1))
-      .clear_and_start()
-      .when_in(PickState::fault, [&] { station.press("reset"); })
-      .when_in(PickState::not_homed, [&] { station.press("home"); })
+      .leave_fault_and_home()
       .when_in(PickState::ready, [&] { station.press("start"); })
       .when("a part", [&] { return station.seen().parts == 1; });
   CHECK_EQUAL(cell.run(long_enough).exit_code, with_a_fault);
