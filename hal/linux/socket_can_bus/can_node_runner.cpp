@@ -64,6 +64,9 @@ Status run_can_node(const char* interface, CanNode& node, const std::atomic<bool
     wait(socket->descriptor(), due - now);
     const std::size_t count = socket->receive();
     for (std::size_t i = 0; i < count; ++i) node.on_frame(socket->frame(i), port);
+    // Its answers leave before it does anything else: who is told there that its cable is out must not hear
+    // one of them afterwards.
+    if (!port.flush()) continue;  // the interface is gone, as the loop's beginning says
     const Time after = MonotonicClock::now();
     if (node.next_event() <= after) node.on_time(after, port);
   }

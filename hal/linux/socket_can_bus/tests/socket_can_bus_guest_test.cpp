@@ -192,11 +192,70 @@ bool a_simulated_node_answers_over_the_wire() {
   return good && got && got->data[0] == 0x42 && outcome.is_ok();
 }
 
+/// Answers a frame, and in the same turn says (as a simulator's console does) that it is quiet from now on.
+class QuietNode final : public CanNode {
+ public:
+  explicit QuietNode(CanSocket& listener) : listener_(&listener) {}
+
+  void on_frame(const CanFrame& frame, CanPort& port) noexcept override {
+    CanFrame answer = frame;
+    answer.identifier = answer_identifier;
+    has_answered_ = port.send(answer);
+    next_ = {};
+  }
+  Time next_event() const noexcept override { return next_; }
+  void on_time(Time /*now*/, CanPort& /*port*/) noexcept override {
+    next_ = Time::max();
+    if (!has_answered_) return;
+    const std::size_t count = listener_->receive();
+    for (std::size_t i = 0; i < count; ++i)
+      was_heard_ = was_heard_ || listener_->frame(i).identifier == answer_identifier;
+    is_quiet_.store(true, std::memory_order_release);
+  }
+  bool is_quiet() const { return is_quiet_.load(std::memory_order_acquire); }
+  /// Its answer, before it was quiet.
+  bool was_heard() const { return was_heard_; }
+
+ private:
+  static constexpr std::uint32_t answer_identifier = 0x602;
+
+  CanSocket* listener_;
+  Time next_{};
+  bool has_answered_ = false;
+  bool was_heard_ = false;
+  std::atomic<bool> is_quiet_{false};
+};
+
+bool what_a_simulated_node_answered_leaves_before_it_acts() {
+  VirtualWorld world;
+  const auto listener = std::make_unique<CanSocket>();
+  const auto asker = std::make_unique<CanSocket>();
+  const auto index = static_cast<int>(if_nametoindex(virtual_interface));
+  if (!listener->open() || !listener->listen_to_all() || !listener->bind(index)) return false;
+  if (!asker->open() || !asker->bind(index)) return false;
+  QuietNode node(*listener);
+  std::atomic<bool> ends{false};
+  Status outcome;
+  std::thread thread([&] { outcome = run_can_node(virtual_interface, node, ends); });
+  CanFrame question;
+  question.identifier = 0x601;
+  for (int i = 0; i < most_tries && !node.is_quiet(); ++i) {  // until it is there
+    if (i % 100 == 0) asker->send(question);
+    std::this_thread::sleep_for(pause);
+  }
+  ends = true;
+  thread.join();
+  return outcome.is_ok() && node.is_quiet() && node.was_heard();
+}
+
 void comes_later(void**) {
   assert_true(an_interface_that_comes_later_is_taken());
 }
 void node_answers(void**) {
   assert_true(a_simulated_node_answers_over_the_wire());
+}
+void node_is_quiet(void**) {
+  assert_true(what_a_simulated_node_answered_leaves_before_it_acts());
 }
 
 }  // namespace
@@ -205,6 +264,7 @@ int main() {
   const CMUnitTest tests[] = {
       {"an interface that comes later is taken", comes_later, nullptr, nullptr, nullptr},
       {"a simulated node answers over the wire", node_answers, nullptr, nullptr, nullptr},
+      {"what a simulated node answered leaves before it acts", node_is_quiet, nullptr, nullptr, nullptr},
   };
   int failed = run_can_bus_conformance(
       "SocketCAN on vcan (errors injected, not produced)",
