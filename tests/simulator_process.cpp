@@ -14,8 +14,6 @@ namespace {
 
 // Against what hangs, in ms.
 constexpr int patience = 30'000;
-// A guest's clock runs on while its host reads the program's file: seconds, where the host has much to do.
-constexpr int patience_at_start = 600'000;
 constexpr int cannot_be_run = 127;
 
 }  // namespace
@@ -42,7 +40,7 @@ SimulatorProcess::SimulatorProcess(const std::string& executable, const std::vec
   }
   close(ends[1]);
   conversation_ = ends[0];
-  if (process_ > 0) first_line_ = read_line(patience_at_start);
+  if (process_ > 0) first_line_ = read_line(patience);
 }
 
 SimulatorProcess::~SimulatorProcess() {

@@ -22,10 +22,22 @@ guest_obstacle() {  # prints why there can be no guest on this machine; nothing 
   fi
 }
 
+remembered_kernel() {  # remembered_kernel RECIPE: the archive of the newest one that this machine's package lists name
+  local version
+  version=$(apt-cache show --no-all-versions linux-image-rt-amd64 2>/dev/null | sed -n 's/^Version: //p')
+  [[ $cache && $version ]] && printf '%s/guest-kernel/%s-%s.tar\n' "$cache" "$version" "${1:0:16}"
+}
+
 make_kernel() {  # once, and anew when what it is made by has changed
-  local recipe start log=$guest_folder/kernel.log
+  local recipe start remembered log=$guest_folder/kernel.log
   recipe=$(cat "$root"/image/guest/{fetch_kernel.sh,modules.txt} | sha256sum)
   [[ -f $guest_folder/recipe && -d $guest_folder/kernel && $(<"$guest_folder/recipe") == "$recipe" ]] && return
+  find_cache
+  remembered=$(remembered_kernel "$recipe")
+  if [[ -f $remembered ]] && take_kernel "$remembered"; then
+    printf '%s\n' "$recipe" >"$guest_folder/recipe"
+    return
+  fi
   say "making the guest's kernel from packages of Debian 12 (220 MB to download, once)"
   start=$(microseconds)
   if ! bash "$root/image/guest/fetch_kernel.sh" "$guest_folder/kernel" >"$log" 2>&1; then
@@ -35,20 +47,43 @@ make_kernel() {  # once, and anew when what it is made by has changed
   fi
   printf '%s\n' "$recipe" >"$guest_folder/recipe"
   say "made the guest's kernel: $(since "$start")"
+  remembered=$(remembered_kernel "$recipe") # the lists may be newer now
+  if [[ $remembered ]]; then keep_kernel "$remembered"; fi
+}
+
+keep_kernel() {  # keep_kernel ARCHIVE: the only one; its checksum stands beside it
+  local folder=${1%/*} new=$1.$$
+  rm -rf "$folder"
+  mkdir -p "$folder" && tar -C "$guest_folder" -cf "$new" kernel 2>/dev/null &&
+    sha256sum <"$new" >"$1.sum" && mv "$new" "$1"
+}
+
+take_kernel() {  # take_kernel ARCHIVE: fails when it is damaged
+  [[ $(sha256sum <"$1") == "$(cat "$1.sum" 2>/dev/null)" ]] || return
+  rm -rf "$guest_folder/kernel"
+  tar -C "$guest_folder" -xf "$1"
 }
 
 guest_executables() {  # what is built and may be started in the guest
   find "$root"/build/release/{guest,apps,hal} -name CMakeFiles -prune -o -type f -perm -100 ! -name '*.so*' -print 2>/dev/null
 }
 
-prepare_guest() {  # what all machines have in common
+guest_programs() {  # the tests, and the programs that they start
+  local build=$root/build/release
+  awk -F '\t' -v folder="$build/guest/" 'is == "name" { tests[$1]; print folder $1; next } $1 in tests { print $2 }' \
+    is=name "$build/guest_tests.txt" is=read "$build/tests_read.txt" | sort -u | while read -r program; do
+    [[ -f $program && -x $program ]] && printf '%s\n' "$program"
+  done
+}
+
+prepare_guest() {  # prepare_guest [PROGRAM...]: what all machines have in common; the PROGRAMs come along
   local -a executables
   mkdir -p "$guest_folder"
   (flock 9 && make_kernel 9>&-) 9>"$guest_folder/.lock" || return
   guest_run=$(mktemp -d "${TMPDIR:-/tmp}/flexrf-guest.XXXXXX")
   trap 'stop_guest; rm -rf "$guest_run"' EXIT
   mapfile -t executables < <(guest_executables)
-  bash "$root/image/guest/make_initramfs.sh" "$guest_folder/kernel" "$guest_run/initramfs" "${executables[@]}"
+  bash "$root/image/guest/make_initramfs.sh" "$guest_folder/kernel" "$guest_run/initramfs" "$@" -- "${executables[@]}"
 }
 
 use_machine() {  # use_machine NUMBER: the one that all of the following is about; there may be several, each of a shell's own
@@ -264,12 +299,15 @@ guest_report() {  # guest_report NUMBER NAME RESULT MICROSECONDS TEXT: a line as
   ) 9>"$guest_run/reporting"
 }
 
-guest_tests() {  # all of them, in a machine for each of this one's CPUs; counts them in tests_run and tests_failed
-  local machine failed
-  local -a names machines=()
+guest_tests() {  # guest_tests [NAME...]: these or all, in a machine for each of this one's CPUs; counts them
+  local machine failed name
+  local -a names programs machines=()
   mapfile -t names <"$root/build/release/guest_tests.txt"
+  for name; do known_word "test in the guest" "$name" "${names[@]}"; done
+  (($#)) && names=("$@")
+  mapfile -t programs < <(guest_programs)
   # What did not build is a test that fails.
-  ((${#names[@]})) && prepare_guest || { ((++tests_failed, ++tests_run)); return 1; }
+  ((${#names[@]})) && prepare_guest "${programs[@]}" || { count 1 1; return 1; }
   : >"$guest_run/failed"
   printf '0\n' >"$guest_run/taken"
   for ((machine = 1; machine <= $(nproc) && machine <= ${#names[@]}; ++machine)); do
@@ -279,7 +317,7 @@ guest_tests() {  # all of them, in a machine for each of this one's CPUs; counts
   wait "${machines[@]}"
   (($(<"$guest_run/taken") == ${#names[@]})) || printf 'not all were begun\n' >>"$guest_run/failed"
   failed=$(wc -l <"$guest_run/failed")
-  ((tests_run += ${#names[@]}, tests_failed += failed))
+  count "${#names[@]}" "$failed"
   printf '\n%d%% tests passed, %d tests failed out of %d\n' \
     $(((${#names[@]} - failed) * 100 / ${#names[@]})) "$failed" "${#names[@]}"
   ((failed)) || return 0

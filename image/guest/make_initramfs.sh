@@ -1,12 +1,20 @@
 #!/usr/bin/env bash
-# make_initramfs.sh KERNEL OUTPUT EXECUTABLE...: the guest's root file system as an archive that its kernel unpacks into
-# memory: modules and busybox from the folder KERNEL (fetch_kernel.sh), this machine's bash and ip, and the libraries that
-# those and the EXECUTABLEs need; these themselves the guest finds in the repository's folder, which it mounts.
+# make_initramfs.sh KERNEL OUTPUT [PROGRAM...] -- [EXECUTABLE...]: the guest's root file system as an archive that its kernel
+# unpacks into memory: modules and busybox from the folder KERNEL (fetch_kernel.sh), this machine's bash and ip, the PROGRAMs
+# without what is for debuggers, and the libraries that all these and the EXECUTABLEs need. An EXECUTABLE itself the guest finds
+# in the repository's folder, which it mounts; a PROGRAM lies there in front of the host's file, so that nothing
+# waits for the host while it runs.
 set -eu -o pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 kernel=$1 output=$2
 PATH=$PATH:/usr/sbin:/sbin # ip, wherever it is
 shift 2
+programs=()
+while [[ $1 != -- ]]; do
+  programs+=("$1")
+  shift
+done
+shift
 root=$output.making
 trap 'rm -rf "$root" "$output.new"' EXIT
 rm -rf "$root"
@@ -29,8 +37,13 @@ ln -s bash "$root/usr/bin/sh" # busybox's own shell would prefer its applet ip, 
   [[ -e $root/usr/bin/$applet ]] || ln -s busybox "$root/usr/bin/$applet"
 done
 
+for program in "${programs[@]}"; do
+  mkdir -p "$root/programs/$(dirname "$program")"
+  strip -o "$root/programs/$program" "$program"
+done
+
 # Each library where its user looks for it; /lib and /lib64 are the same folders as those in /usr here, too.
-for file in "${tools[@]/#/$root/usr/bin/}" "$@"; do ldd "$file" 2>/dev/null || true; done |
+for file in "${tools[@]/#/$root/usr/bin/}" "${programs[@]}" "$@"; do ldd "$file" 2>/dev/null || true; done |
   sed -n -E 's|^\s*(.* => )?(/[^ ]+) \(0x[0-9a-f]+\)$|\2|p' | sort -u | while read -r library; do
     mkdir -p "$root/$(dirname "$library")"
     cp -L "$library" "$root/$library"

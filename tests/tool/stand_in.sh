@@ -9,6 +9,7 @@ trap 'rm -rf "$work"' EXIT
 tree=$work/tree
 calls=$work/calls
 export STAND_IN=$work
+export FLEXRF_CACHE=$work/cache
 failures=0
 
 mkdir -p "$tree/apps/keyboard" "$tree/apps/keyboard-single" "$tree/cmake" "$work/bin"
