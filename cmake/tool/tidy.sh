@@ -1,18 +1,64 @@
 #!/usr/bin/env bash
-# tidy.sh DATABASE_DIR HEADERS BATCH: analyses a batch of files and prints only what it finds. If two of its files have a
-# name of their own in common, its halves are analysed instead.
+# tidy.sh ROOT DATABASE_DIR HEADERS MEMORY BATCH: analyses a batch of files and prints only what it finds. If two of its files
+# have a name of their own in common, its halves are analysed instead.
+# In the folder MEMORY, unless it is empty, a batch in which nothing is found leaves what it read: the checksum of each file, by
+# a name that stands for analyser, settings, command and batch. As long as all of it is the same, the analysis is not repeated.
+root=$1 database=$2 headers=$3 memory=$4 batch=${5%.cpp}
+cd "$root" || exit 1
+failed=0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+checksum() { sha256sum | cut -d ' ' -f 1; }
+
+# The same in a clone elsewhere.
+name_of_memory() {
+  {
+    clang-tidy --version
+    cat .clang-tidy "$0"
+    printf '%s\n' "$headers"
+    grep -F "$batch.cpp" "$database/compile_commands.json"
+    cat "$batch.cpp"
+  } | sed "s|$batch|batch|g; s|$root|.|g" | checksum
+}
+
+is_remembered() {  # the first line is the checksum of the others, so that one that is damaged is none
+  [[ -f $1 && $(tail -n +2 "$1" | checksum) == "$(head -n 1 "$1")" ]] &&
+    tail -n +2 "$1" | sha256sum --check --strict --status 2>/dev/null
+}
+
+remember() {  # what clang-tidy listed as read, with one dot or more for its depth
+  sed -n -E "s|^\.+ (.*)$|\1|p" "$work/read" | sed "s|^$root/|./|" | sort -u >"$work/files"
+  # Who changed a file meanwhile wants it looked at.
+  [[ $(tr '\n' '\0' <"$work/files" | find -files0-from - -maxdepth 0 -newer "$work/begin" -print -quit 2>&1) ]] && return
+  xargs -d '\n' sha256sum <"$work/files" >"$work/sums" || return
+  { checksum <"$work/sums" && cat "$work/sums"; } >"$1.$$" && mv "$1.$$" "$1"
+}
+
 analyse() {  # analyse BATCH without .cpp
   local found
-  found=$(clang-tidy -p "$database" --quiet --header-filter="$headers" "$1.cpp" 2>&1) && return
+  found=$(clang-tidy -p "$database" --quiet --header-filter="$headers" --extra-arg=-H "$1.cpp" 2>"$work/errors") && {
+    cat "$work/errors" >>"$work/read"
+    return
+  }
+  found+=$'\n'$(grep -v -E '^\.+ ' "$work/errors")
   if [[ $found == *clang-diagnostic-error* && -e $1_a.cpp ]]; then
     analyse "$1_a"
     analyse "$1_b"
     return
   fi
   failed=1
-  grep -v -E '^[0-9]+ (warning|error)s? .*generated|^Suppressed ' <<<"$found"
+  grep -v -E '^$|^[0-9]+ (warning|error)s? .*generated|^Suppressed ' <<<"$found"
 }
 
-database=$1 headers=$2 failed=0
-analyse "${3%.cpp}"
+if [[ $memory ]]; then
+  place=$memory/$(name_of_memory)
+  if is_remembered "$place"; then
+    touch "$place" "$batch.remembered" # what is of use still is kept
+    exit
+  fi
+fi
+touch "$work/begin"
+analyse "$batch"
+[[ $memory ]] && ((!failed)) && remember "$place"
 exit "$failed"

@@ -3,29 +3,46 @@
 # the same for all files of a batch, so a batch takes hardly longer than one of its files. Prints the batches.
 # Variables: root, out, size (files of a batch).
 
-function system_includes(file, line) {
-  while ((getline line < file) > 0)
-    if (line ~ /^#include </ && !(line in included)) {
-      included[line] = 1
+# What a file defines must not meet the libraries of the next, nor CMocka's macros, which come with a test's own headers, the
+# headers of what it tests.
+function early_includes(file, line) {
+  while ((getline line < file) > 0) {
+    if (line !~ /^#include (<|"[a-z-]+\/)/ || line ~ /"[^"]*(tests|conformance|benchmarks)\// || line in included) continue
+    included[line] = 1
+    if (line ~ /</)
       head = head line "\n"
-    }
+    else
+      own_head = own_head line "\n"
+  }
   close(file)
+}
+
+function add_folders(list, options, n, i) {
+  n = split(list, options, "\n") - 1
+  for (i = 1; i <= n; ++i)
+    if (!(options[i] in looked)) {
+      looked[options[i]] = 1
+      folders = folders options[i]
+    }
 }
 
 # NAME.cpp with files `from` to `to`, and its halves NAME_a.cpp and NAME_b.cpp in case they do not go together.
 function write_batch(name, from, to, file, body, i) {
   file = out "/" name ".cpp"
   split("", included)
-  head = "" # before all else: what one file defines must not meet the libraries of the next
+  head = own_head = ""
   body = ""
+  split("", looked)
+  folders = ""
   for (i = from; i <= to; ++i) {
-    if (from < to) system_includes(files[i])
+    add_folders(includes_of[files[i]])
+    if (from < to) early_includes(files[i])
     body = body "#define main main_of_" i "\n#include \"" files[i] "\"\n#undef main\n"
   }
-  printf "%s%s", head, body > file
+  printf "%s%s%s", head, own_head, body > file
   close(file)
-  printf "%s{ \"directory\": \"%s\", \"command\": \"%s -c %s\", \"file\": \"%s\" }", comma, directory_of[key],
-    command_of[key], file, file > database
+  printf "%s{ \"directory\": \"%s\", \"command\": \"%s%s -c %s\", \"file\": \"%s\" }", comma, directory,
+    command_of[files[from]], folders, file, file > database
   comma = ",\n"
   if (from < to) {
     write_batch(name "_a", from, int((from + to) / 2))
@@ -48,8 +65,10 @@ function write_list(list, most, names, n, i) {
 function names_of(file, line, found) {
   found = " "
   while ((getline line < file) > 0) {
-    if (line !~ /^[A-Za-z]/ || line ~ /^(using )?namespace |^int main\(/) continue
+    if (line !~ /^[A-Za-z]/ || line ~ /^(using )?namespace |^template |^static_assert|^int main\(/) continue
+    if (sub(/^(class|struct|union|enum( class)?) /, "", line)) sub(/[^A-Za-z0-9_].*/, "", line)
     sub(/[({=;\[].*/, "", line)
+    if (line ~ /::~?[A-Za-z0-9_]+ *$/) continue # a member of what has the name
     sub(/[^A-Za-z0-9_]+$/, "", line)
     sub(/.*[^A-Za-z0-9_]/, "", line)
     found = found line " "
@@ -65,12 +84,13 @@ function share_a_name(left, right, names, n, i) {
   return 0
 }
 
-# Tests and benchmarks have the same names again and again: each goes into the first batch that has none of its own.
-function write_packed(list, most, names, n, i, b, bins, given, content, count) {
+# Files of several programs have the same names again and again: each goes into the first batch that has none of its own.
+function write_packed(list, most, names, n, i, b, bins, given, content, count, packed) {
   n = split(list, names, "\n") - 1
   bins = 0
   for (i = 1; i <= n; ++i) {
     given = names_of(names[i])
+    if (includes_of[names[i]] ~ /\/places\//) given = given "places.hpp " # one of its own for each program
     for (b = 1; b <= bins; ++b)
       if (count[b] < most && !share_a_name(given, content[b])) break
     if (b > bins) {
@@ -101,37 +121,45 @@ BEGIN { database = out "/compile_commands.json"; printf "[\n" > database }
   sub(/ -o [^ ]+ -c [^ ]+$/, "", command)
   # A precompiled header is the other compiler's, and each file names what it needs.
   gsub(/ -Winvalid-pch| -include [^ ]*cmake_pch\.hxx| -Werror/, "", command)
+  # The compiler's cache stands before it.
+  if (match(command, /[^ ]*ccache /) == 1) command = substr(command, RLENGTH + 1)
+  includes = ""
+  while (match(command, / -(I|isystem )[^ ]+/)) {
+    includes = includes substr(command, RSTART, RLENGTH) "\n"
+    command = substr(command, 1, RSTART - 1) substr(command, RSTART + RLENGTH)
+  }
 }
 
-function add(file, key) {
+# Files go together that lie in the same two folders and are compiled alike; where they look for headers is put together. So a
+# file that is added changes the batches of its neighbours only. Tests bring CMocka's macros, and asio.cpp is that library itself.
+function add(file, part, key) {
   if (index(file, root "/") != 1 || index(file, root "/build/") == 1 || file in seen) return
   seen[file] = 1
-  directory_of[key] = directory
-  command_of[key] = command
-  if (file !~ /\/tests\/|_test\.cpp$|_stress\.cpp$|\/benchmarks\//)
-    product[key] = product[key] file "\n"
-  else
-    rest[key] = rest[key] file "\n"
+  split(substr(file, length(root) + 2), part, "/")
+  key = (file ~ /\/(tests|conformance|benchmarks)\/|_(test|stress)\.cpp$/) SUBSEP (file ~ /\/asio\.cpp$/) SUBSEP part[1] "/" part[2] SUBSEP command
+  if (!(key in files_of)) keys[++key_count] = key
+  files_of[key] = files_of[key] file "\n"
+  command_of[file] = command
+  includes_of[file] = includes
 }
 
 /^ *"file": / {
   file = value_of($0)
-  if (file !~ /\/Unity\/unity_[0-9]+_cxx\.cxx$/) {
-    add(file, directory SUBSEP command)
+  if (file !~ /\/batches\/[^\/]+\/batch_[0-9]+\.cpp$/) {
+    add(file)
     next
   }
-  # The build's own batch, of what belongs to one library.
+  # The build's own batch, of what belongs to one library. What is generated is named from where the batch lies.
   while ((getline line < file) > 0)
-    if (line ~ /^#include "/) {
+    if (line ~ /^#include "[^.]/) {
       sub(/^#include "/, "", line)
       sub(/"$/, "", line)
-      add(line, directory SUBSEP command)
+      add(root "/" line)
     }
   close(file)
 }
 
 END {
-  for (key in product) write_list(product[key], size)
-  for (key in rest) write_packed(rest[key], size)
+  for (i = 1; i <= key_count; ++i) write_packed(files_of[keys[i]], size)
   printf "\n]\n" > database
 }
