@@ -19,7 +19,8 @@ need_free_class() {  # need_free_class NAME: the unit's class is nobody else's
   local class place
   class=$(camel_case "$1")
   place=$(find "$root" -path "$root/build" -prune -o -path '*/types/'"$1.toml" -print | head -n 1)
-  [[ $place ]] || place=$(grep -r -l -E --include='*.hpp' "^(class|struct|enum class|union) ($class|${class}Unit)\b" \
+  [[ $place ]] || place=$(grep -r -l -E --include='*.hpp' \
+    "^(class|struct|enum|enum class|union|concept|using)( \[\[[^]]*\]\]| alignas\([^ ]*\))* ($class|${class}Unit)\b" \
     "$root/runtime" "$root/hal" "$root/units" | head -n 1)
   [[ $place ]] && refuse "$1" "${place#"$root/"} has a $class already"
 }

@@ -12,6 +12,9 @@ printf 'add_subdirectory(jog)' >"$tree/units/CMakeLists.txt" # and no end of lin
 printf 'add_subdirectory(keyboard)\n' >"$tree/apps/CMakeLists.txt"
 touch "$tree/hal/interfaces/keyboard/types/key_event.toml"
 echo 'class TextTable {' >"$tree/runtime/core/text_table.hpp"
+echo 'class [[nodiscard]] Status {' >"$tree/runtime/core/status.hpp"
+echo 'using Time = long;' >"$tree/runtime/core/time.hpp"
+echo 'struct alignas(64) StepUnit {' >"$tree/runtime/core/step.hpp"
 
 made() { (cd "$1" && find . -type f | LC_ALL=C sort | tr '\n' ' '); }
 
@@ -47,6 +50,9 @@ refused "a word of C++" app operator
 refused "more than 40" unit "$(printf 'x%.0s' {1..41})"
 refused "key_event.toml has a KeyEvent already" unit key_event
 refused "text_table.hpp has a TextTable already" unit text_table
+refused "status.hpp has a Status already" unit status
+refused "time.hpp has a Time already" unit time
+refused "step.hpp has a Step already" unit step
 refused "the build" app test
 expect "what a refusal changes" "$(find "$tree/units" "$tree/apps" -type f -exec cksum {} +)" "$before"
 flexrf new </dev/null
