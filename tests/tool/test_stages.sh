@@ -26,9 +26,11 @@ done
 expect "tests of checked" "$(grep "^ctest .*/checked " "$calls")" "!(* -L *) -LE ^long\$"
 expect "tests of release" "$(grep "^ctest .*/release " "$calls")" \
   "!(* -L *) -LE ^long\$|^panel\$"$'\n'"* -L ^panel\$ -LE ^long\$"
+expect "tests of asan" "$(grep "^ctest .*/asan " "$calls")" "* -L ^(unit|stress)\$ -LE ^long\$"
+expect "what is built of asan" "$(grep "^ninja .*/asan" "$calls")" "*tests_unit tests_stress"
+expect "tests of tsan" "$(grep "^ctest .*/tsan " "$calls")" "* -L ^threads\$ -LE ^long\$"
+expect "what is built of tsan" "$(grep "^ninja .*/tsan" "$calls")" "*tests_threads"
 for preset in asan tsan; do
-  expect "tests of $preset" "$(grep "^ctest .*/$preset " "$calls")" "* -L ^(unit|stress)\$ -LE ^long\$"
-  expect "what is built of $preset" "$(grep "^ninja .*/$preset" "$calls")" "*tests_unit tests_stress"
   expect "start of $preset" "$(grep "^setarch --addr-no-randomize ctest .*/$preset " "$calls")" "?*"
 done
 expect "long tests" "$(sort -u <(grep ^long: "$calls"))" "long: unset"
