@@ -4,6 +4,7 @@
 #include "benchmarks/harness.hpp"
 #include "benchmarks/program.hpp"
 #include "benchmarks/scale_tables.hpp"
+#include "places.hpp"
 
 namespace flexrf::bench {
 namespace {
@@ -26,7 +27,7 @@ bool measure_generator(Report& report, const std::string& folder, const std::str
   for (int i = 0; i < report.choose(20, 3); ++i) {
     const std::string output = folder + text("/output-%d", i);
     ProgramRun run;
-    if (!run_or_say({FLEXRF_CONFIG_GEN, "--application", folder + "/scale.toml", "--types", folder + "/types",
+    if (!run_or_say({place::config_gen, "--application", folder + "/scale.toml", "--types", folder + "/types",
                      "--units", folder + "/units", "--output", output},
                     log, run)) {
       return false;
@@ -45,7 +46,7 @@ bool measure_compiler(Report& report, const std::string& folder, const std::stri
   const std::string build = folder + "/build";
   ProgramRun run;
   if (!write_scale_tables(folder, units, outputs_of_each) ||
-      !run_or_say({"cmake", "--install", FLEXRF_BUILD, "--prefix", prefix}, log, run) ||
+      !run_or_say({"cmake", "--install", place::build, "--prefix", prefix}, log, run) ||
       !run_or_say({"cmake", "-S", folder, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
                    "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -g1 -DNDEBUG", "-DCMAKE_PREFIX_PATH=" + prefix},
                   log, run)) {

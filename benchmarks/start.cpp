@@ -4,6 +4,7 @@
 
 #include "benchmarks/harness.hpp"
 #include "benchmarks/program.hpp"
+#include "places.hpp"
 
 namespace flexrf::bench {
 namespace {
@@ -15,7 +16,7 @@ int run(int argument_count, char** arguments) {
   const std::string log = folder.file("log");
   const std::string result = folder.file("report.json");
   std::ofstream{keys} << "0.05 w\n";
-  const std::vector<std::string> command{FLEXRF_KEYBOARD, "--keys",   keys,  "--panel",
+  const std::vector<std::string> command{place::keyboard, "--keys",   keys,  "--panel",
                                          "off",           "--report", result};
   std::vector<double> milliseconds;
   std::vector<double> locked;

@@ -3,6 +3,7 @@
 
 #include "benchmarks/harness.hpp"
 #include "benchmarks/program.hpp"
+#include "places.hpp"
 
 namespace flexrf::bench {
 namespace {
@@ -26,7 +27,7 @@ int run(int argument_count, char** arguments) {
   const std::string log = folder.file("log");
   const std::string result = folder.file("report.json");
   write_keys(keys);
-  const std::vector<std::string> command{FLEXRF_KEYBOARD,
+  const std::vector<std::string> command{place::keyboard,
                                          "--virtual-time",
                                          text("%ds", simulated_seconds),
                                          "--keys",

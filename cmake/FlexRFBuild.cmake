@@ -8,27 +8,34 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 option(FLEXRF_CHECKED "Poison loans, abort on allocation and on waiting system calls in real-time threads" OFF)
 option(FLEXRF_FUZZ "Fuzz targets too, which need clang and its libFuzzer (preset fuzz)" OFF)
 option(FLEXRF_COMMON_HEADERS "Read the standard library's headers once for all targets" OFF)
+set(FLEXRF_BATCH_SIZE "" CACHE STRING "How many source files of a target are compiled as one; empty: each by itself")
 set(FLEXRF_SANITIZER "" CACHE STRING "Sanitizers to build with: empty, 'address,undefined' or 'thread'")
+
+# For the few targets that are compiled otherwise in a checked build. All others are compiled alike, which the compiler's
+# cache knows.
+set(FLEXRF_CHECKED_DEFINITION "")
+if(FLEXRF_CHECKED)
+  set(FLEXRF_CHECKED_DEFINITION FLEXRF_CHECKED=1)
+endif()
 
 add_library(flexrf_options INTERFACE)
 add_library(FlexRF::options ALIAS flexrf_options)
 target_compile_features(flexrf_options INTERFACE cxx_std_20)
 target_compile_options(flexrf_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
-if(CMAKE_UNITY_BUILD)
+if(FLEXRF_BATCH_SIZE)
+  # Debuggers find the sources from the repository's folder, wherever that lies: the compiler's cache may have had them from
+  # a clone elsewhere.
+  add_compile_options("-ffile-prefix-map=${PROJECT_SOURCE_DIR}=.")
   # What a source file keeps to itself looks like a header's to the compiler when files are compiled in batches.
   target_compile_options(flexrf_options INTERFACE -Wno-subobject-linkage)
 endif()
-if(FLEXRF_COMMON_HEADERS)
-  # GCC 12 forgets that precompiled headers are the system's, and warns of what std::string does in them. The release preset,
-  # which has none of these, looks for all four in the same sources.
+if(FLEXRF_COMMON_HEADERS AND FLEXRF_SANITIZER)
+  # False alarms of GCC 12 (see flexrf_read_headers_themselves). The release preset looks for all four in the same sources.
   target_compile_options(flexrf_options INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
                                                   -Wno-stringop-overread)
 endif()
 # Includes name their layer from the repository's root: "runtime/blackboard/slot.hpp".
 target_include_directories(flexrf_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
-if(FLEXRF_CHECKED)
-  target_compile_definitions(flexrf_options INTERFACE FLEXRF_CHECKED=1)
-endif()
 if(FLEXRF_SANITIZER)
   # What a sanitizer finds must fail the test: undefined behaviour would only be printed.
   add_compile_options(-fsanitize=${FLEXRF_SANITIZER} -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -41,21 +48,43 @@ find_package(Threads REQUIRED)
 pkg_check_modules(cmocka REQUIRED IMPORTED_TARGET cmocka)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
-foreach(label unit stress whole long guest)
+foreach(label unit stress threads whole long guest)
   add_custom_target(tests_${label})
 endforeach()
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/guest_tests.txt
   CONTENT "$<JOIN:$<TARGET_PROPERTY:tests_guest,flexrf_slow>;$<TARGET_PROPERTY:tests_guest,flexrf_names>,\n>\n")
 
-# flexrf_add_test(NAME name SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT seconds] [SERIAL]
+# What tells a test's folder of the threads that it starts and does not declare; where sanitizers and guards have no say.
+set(FLEXRF_WITNESSES_THREADS OFF)
+if(NOT FLEXRF_SANITIZER AND NOT FLEXRF_CHECKED AND NOT FLEXRF_FUZZ)
+  set(FLEXRF_WITNESSES_THREADS ON)
+endif()
+
+# flexrf_test_reads(NAME path...)
+# What a test's result depends on: files, and folders with all that is in them. `flexrf test --quick` runs a test again when
+# something of this has changed. A test of flexrf_add_test reads its program and its places; one that says nothing is
+# always run.
+file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/tests_read.txt
+  CONTENT "$<JOIN:$<TARGET_GENEX_EVAL:tests_unit,$<TARGET_PROPERTY:tests_unit,flexrf_reads>>,\n>\n")
+function(flexrf_test_reads name)
+  list(TRANSFORM ARGN PREPEND "${name}\t" OUTPUT_VARIABLE lines)
+  set_property(TARGET tests_unit APPEND PROPERTY flexrf_reads ${lines})
+endfunction()
+
+# flexrf_add_test(NAME name SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT seconds] [SERIAL] [THREADS]
 #                 [PRECOMPILED target])
 # One CMocka executable that ctest runs. Labels: unit (default), stress, whole; long beside one of these for what only
-# `flexrf test --full` runs. SERIAL: nothing else runs meanwhile, for a test that needs the CPUs to itself. PRECOMPILED: the
-# library of LIBRARIES whose precompiled headers the test is built with. The target tests_<label> builds the tests of a label.
+# `flexrf test --full` runs. SERIAL: nothing else runs meanwhile, for a test that needs the CPUs to itself. THREADS: a unit or
+# stress test that starts threads, which `flexrf test` gives to the thread sanitizer, too; one that does not say so fails
+# in the release build. PRECOMPILED: the library of LIBRARIES whose precompiled headers the test is built with. The target
+# tests_<label> builds the tests of a label.
 function(flexrf_add_test)
-  cmake_parse_arguments(PARSE_ARGV 0 test "SERIAL" "NAME;TIMEOUT;PRECOMPILED" "SOURCES;LIBRARIES;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 0 test "SERIAL;THREADS" "NAME;TIMEOUT;PRECOMPILED" "SOURCES;LIBRARIES;LABELS")
   if(NOT test_LABELS)
     set(test_LABELS unit)
+  endif()
+  if(test_THREADS)
+    list(APPEND test_LABELS threads)
   endif()
   if(NOT test_TIMEOUT)
     set(test_TIMEOUT 300) # ends what hangs, also on a machine with much else to do
@@ -73,9 +102,39 @@ function(flexrf_add_test)
   if(test_SERIAL)
     set_tests_properties(${test_NAME} PROPERTIES RUN_SERIAL ON)
   endif()
+  flexrf_test_reads(${test_NAME} "$<TARGET_FILE:${test_NAME}>")
+  if(FLEXRF_WITNESSES_THREADS AND NOT test_THREADS AND NOT "whole" IN_LIST test_LABELS)
+    set_tests_properties(${test_NAME} PROPERTIES
+      ENVIRONMENT "LD_PRELOAD=$<TARGET_FILE:thread_witness>;FLEXRF_WITHOUT_THREADS=${test_NAME}")
+    add_dependencies(${test_NAME} thread_witness)
+  endif()
   foreach(label IN LISTS test_LABELS)
     add_dependencies(tests_${label} ${test_NAME})
   endforeach()
+endfunction()
+
+# flexrf_add_places(TARGET NAME PATH [NAME PATH]...)
+# Tells a program where files and other programs lie: "places.hpp" declares place::NAME for each, a C string. The paths
+# themselves are compiled apart, so that all else is the same wherever the repository lies.
+function(flexrf_add_places target)
+  set(folder "${CMAKE_CURRENT_BINARY_DIR}/places/${target}")
+  set(declarations "")
+  set(definitions "")
+  set(rest ${ARGN})
+  while(rest)
+    list(POP_FRONT rest name path)
+    string(APPEND declarations "extern const char* const ${name};\n")
+    string(APPEND definitions "const char* const ${name} = \"${path}\";\n")
+    flexrf_test_reads(${target} "${path}")
+  endwhile()
+  file(CONFIGURE OUTPUT "${folder}/places.hpp"
+    CONTENT "#pragma once\n\nnamespace place {\n\n${declarations}\n}  // namespace place\n" @ONLY)
+  file(GENERATE OUTPUT "${folder}/places.cpp"
+    CONTENT "#include \"places.hpp\"\n\nnamespace place {\n\n${definitions}\n}  // namespace place\n")
+  target_sources(${target} PRIVATE "${folder}/places.cpp")
+  target_include_directories(${target} PRIVATE "${folder}")
+  set_source_files_properties("${folder}/places.cpp" PROPERTIES
+    SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # flexrf_add_guest_test(NAME name [SLOW] SOURCES file... LIBRARIES target...)
@@ -109,39 +168,102 @@ function(flexrf_add_benchmark)
   set_target_properties(bench_${benchmark_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/benchmarks)
 endfunction()
 
-# flexrf_precompile_headers()
-# For the end of the top CMakeLists.txt: with FLEXRF_COMMON_HEADERS the standard library's headers are read once for all targets
-# that are compiled alike, which is a sixth of the time a build takes. Nothing may rely on it: the presets release and debug
-# and the static analysis take each file as it is.
-function(flexrf_precompile_headers)
-  if(NOT FLEXRF_COMMON_HEADERS)
-    return()
+# flexrf_compile_together()
+# For the end of the top CMakeLists.txt: has few compiler runs do what many would repeat. With FLEXRF_BATCH_SIZE the source
+# files of a target are compiled in batches, with FLEXRF_COMMON_HEADERS the standard library's headers are read once for all
+# targets that are compiled alike. Nothing may rely on either: the preset debug and the static analysis take each file
+# as it is.
+function(flexrf_compile_together)
+  if(FLEXRF_BATCH_SIZE)
+    _flexrf_each_target("${PROJECT_SOURCE_DIR}" _flexrf_batch_sources)
   endif()
-  file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/flexrf_standard_headers.cpp" CONTENT "")
-  add_library(flexrf_standard_headers STATIC "${PROJECT_BINARY_DIR}/flexrf_standard_headers.cpp")
-  target_link_libraries(flexrf_standard_headers PRIVATE FlexRF::options)
-  target_precompile_headers(flexrf_standard_headers PRIVATE
-    <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <cstdio> <cstring> <functional> <limits> <memory> <optional> <span>
-    <string> <string_view> <thread> <type_traits> <utility> <vector>)
-  flexrf_reuse_headers("${PROJECT_SOURCE_DIR}")
+  if(FLEXRF_COMMON_HEADERS)
+    file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/flexrf_standard_headers.cpp" CONTENT "")
+    add_library(flexrf_standard_headers STATIC "${PROJECT_BINARY_DIR}/flexrf_standard_headers.cpp")
+    target_link_libraries(flexrf_standard_headers PRIVATE FlexRF::options)
+    target_precompile_headers(flexrf_standard_headers PRIVATE
+      <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <cstdio> <cstring> <functional> <limits> <memory> <optional>
+      <span> <string> <string_view> <thread> <type_traits> <utility> <vector>)
+    _flexrf_each_target("${PROJECT_SOURCE_DIR}" _flexrf_reuse_headers)
+  endif()
 endfunction()
 
-function(flexrf_reuse_headers folder)
+# Calls a function with each target below a folder that is compiled.
+function(_flexrf_each_target folder function)
   get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target IN LISTS targets)
     get_target_property(type ${target} TYPE)
-    if(NOT type MATCHES "^(EXECUTABLE|STATIC_LIBRARY|OBJECT_LIBRARY)$")
-      continue()
-    endif()
-    get_target_property(own_headers ${target} PRECOMPILE_HEADERS)
-    get_target_property(reused_headers ${target} PRECOMPILE_HEADERS_REUSE_FROM)
-    get_target_property(own_options ${target} COMPILE_OPTIONS)
-    if(NOT own_headers AND NOT reused_headers AND NOT own_options)
-      target_precompile_headers(${target} REUSE_FROM flexrf_standard_headers)
+    if(type MATCHES "^(EXECUTABLE|(STATIC|SHARED|OBJECT)_LIBRARY)$")
+      cmake_language(CALL ${function} ${target})
     endif()
   endforeach()
   get_property(folders DIRECTORY "${folder}" PROPERTY SUBDIRECTORIES)
   foreach(folder IN LISTS folders)
-    flexrf_reuse_headers("${folder}")
+    _flexrf_each_target("${folder}" ${function})
   endforeach()
+endfunction()
+
+# As CMake's own UNITY_BUILD does it; but a batch names its files in a way that is the same in a clone elsewhere, so that the
+# compiler's cache knows it there. Those that are generated stand in the target's sources still: they are made first.
+function(_flexrf_batch_sources target)
+  get_target_property(listed ${target} SOURCES)
+  get_target_property(own ${target} SOURCE_DIR)
+  get_target_property(build ${target} BINARY_DIR)
+  set(sources "")
+  foreach(source IN LISTS listed)
+    get_source_file_property(is_apart "${source}" TARGET_DIRECTORY ${target} SKIP_UNITY_BUILD_INCLUSION)
+    if(source MATCHES "\\.cpp$" AND NOT is_apart)
+      list(APPEND sources "${source}")
+    endif()
+  endforeach()
+  list(LENGTH sources count)
+  if(count LESS 2)
+    return()
+  endif()
+  set(output "${build}/batches/${target}")
+  set(batches "")
+  set(content "")
+  set(taken 0)
+  foreach(source IN LISTS sources)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY "${own}" OUTPUT_VARIABLE path)
+    cmake_path(IS_PREFIX PROJECT_BINARY_DIR "${path}" is_generated)
+    if(is_generated)
+      cmake_path(RELATIVE_PATH path BASE_DIRECTORY "${output}" OUTPUT_VARIABLE name)
+      set_source_files_properties("${path}" TARGET_DIRECTORY ${target} PROPERTIES HEADER_FILE_ONLY ON)
+    else()
+      cmake_path(RELATIVE_PATH path BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE name)
+      list(REMOVE_ITEM listed "${source}")
+    endif()
+    string(APPEND content "#include \"${name}\"\n")
+    math(EXPR taken "${taken} + 1")
+    math(EXPR is_full "${taken} % ${FLEXRF_BATCH_SIZE}")
+    if(taken EQUAL count OR is_full EQUAL 0)
+      list(LENGTH batches number)
+      file(CONFIGURE OUTPUT "${output}/batch_${number}.cpp" CONTENT "${content}" @ONLY)
+      list(APPEND batches "${output}/batch_${number}.cpp")
+      set(content "")
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES SOURCES "${listed};${batches}")
+endfunction()
+
+# GCC 12 forgets that precompiled headers are the system's, and warns of what std::string does in them, with sanitizers at
+# every turn, else in these targets: they read the headers themselves. One that is new here warns of something in
+# /usr/include/c++/12/bits/char_traits.h.
+set(flexrf_read_headers_themselves
+  bench_panel canopen_crash_guest_test canopen_gripper_guest_test canopen_system_calls_guest_test flexrf_panel_api
+  reception_cell_test remote_entrance_test)
+
+function(_flexrf_reuse_headers target)
+  get_target_property(own_headers ${target} PRECOMPILE_HEADERS)
+  get_target_property(reused_headers ${target} PRECOMPILE_HEADERS_REUSE_FROM)
+  get_target_property(options ${target} COMPILE_OPTIONS)
+  get_target_property(common_options flexrf_standard_headers COMPILE_OPTIONS)
+  get_target_property(type ${target} TYPE)
+  if(target IN_LIST flexrf_read_headers_themselves AND NOT FLEXRF_SANITIZER)
+    return()
+  endif()
+  if(NOT type STREQUAL SHARED_LIBRARY AND NOT own_headers AND NOT reused_headers AND "${options}" STREQUAL "${common_options}")
+    target_precompile_headers(${target} REUSE_FROM flexrf_standard_headers)
+  endif()
 endfunction()

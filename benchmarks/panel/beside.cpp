@@ -7,6 +7,7 @@
 #include "benchmarks/panel/http_load.hpp"
 #include "benchmarks/panel/live_load.hpp"
 #include "benchmarks/panel/rows.hpp"
+#include "places.hpp"
 
 namespace flexrf::bench {
 namespace {
@@ -56,7 +57,7 @@ class Load {
 };
 
 std::optional<Lateness> run_block(bool with_panel, const Machine& machine, int seconds) {
-  Cell cell{{FLEXRF_PANEL_LOAD, {}, with_panel}};
+  Cell cell{{place::panel_load, {}, with_panel}};
   if (!cell.begin()) return std::nullopt;
   std::optional<Load> load;
   if (with_panel) {

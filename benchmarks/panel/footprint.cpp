@@ -8,6 +8,7 @@
 #include "benchmarks/panel/cell.hpp"
 #include "benchmarks/panel/live_load.hpp"
 #include "benchmarks/panel/rows.hpp"
+#include "places.hpp"
 
 namespace flexrf::bench {
 namespace {
@@ -72,7 +73,7 @@ std::string first_starting(const std::set<std::string>& files, const std::string
 }  // namespace
 
 bool measure_memory(Report& report) {
-  Cell cell{{FLEXRF_KEYBOARD}};
+  Cell cell{{place::keyboard}};
   if (!cell.begin()) return false;
   LiveLoad load;
   // A page: it looks at a few values, and something is asked for now and then.
@@ -101,7 +102,7 @@ bool measure_memory(Report& report) {
 }
 
 bool measure_page(Report& report) {
-  Cell cell{{FLEXRF_KEYBOARD}};
+  Cell cell{{place::keyboard}};
   if (!cell.begin()) return false;
   Page page{cell.port()};
   std::set<std::string> files;

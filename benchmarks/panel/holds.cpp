@@ -14,6 +14,7 @@
 #include "benchmarks/panel/cell.hpp"
 #include "benchmarks/panel/live_client.hpp"
 #include "benchmarks/panel/rows.hpp"
+#include "places.hpp"
 
 namespace flexrf::bench {
 namespace {
@@ -153,7 +154,7 @@ bool add_row(Report& report, const char* cause, double goal_ms, int trials, cons
 }  // namespace
 
 bool measure_holds(Report& report, const Machine& /*machine*/) {
-  Cell cell{{FLEXRF_PANEL_LOAD}};
+  Cell cell{{place::panel_load}};
   if (!cell.begin()) return false;
   if (!start_motion(cell)) return false;
   Recording& recording = cell.recording();

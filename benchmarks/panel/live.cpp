@@ -8,6 +8,7 @@
 #include "benchmarks/panel/counts_file.hpp"
 #include "benchmarks/panel/live_load.hpp"
 #include "benchmarks/panel/rows.hpp"
+#include "places.hpp"
 
 namespace flexrf::bench {
 namespace {
@@ -43,7 +44,7 @@ bool measure_values(Report& report, const Machine& machine) {
   constexpr int clients = 100;
   // A frame's head, the message's, the item's, and the value.
   constexpr std::size_t bytes = 4 + 32 + 32 + 1024;
-  Cell cell{{FLEXRF_PANEL_LOAD}};
+  Cell cell{{place::panel_load}};
   if (!cell.begin()) return false;
   cell.process().pin("panel", machine.server_cpu);
   const int blocks = report.choose(20, 4);
@@ -86,7 +87,7 @@ bool measure_values(Report& report, const Machine& machine) {
 }
 
 bool measure_stalled_client(Report& report, const Machine& machine) {
-  Cell cell{{FLEXRF_PANEL_LOAD}};
+  Cell cell{{place::panel_load}};
   if (!cell.begin()) return false;
   LiveLoad load;
   if (!load.begin({cell.port(), cell.session(), 20, true, both, {}, machine.load_cpu})) return false;
@@ -108,7 +109,7 @@ bool measure_stalled_client(Report& report, const Machine& machine) {
 
 bool measure_pictures(Report& report, const Machine& machine) {
   constexpr int clients = 10;
-  Cell cell{{FLEXRF_PANEL_LOAD, {}, true, FLEXRF_COUNTING}};
+  Cell cell{{place::panel_load, {}, true, place::counting_allocator}};
   if (!cell.begin()) return false;
   const CountsFile counts{cell.counts_file()};
   if (!counts) return false;
@@ -145,7 +146,7 @@ bool measure_pictures(Report& report, const Machine& machine) {
 }
 
 bool measure_allocations(Report& report, const Machine& machine) {
-  Cell cell{{FLEXRF_PANEL_LOAD, {}, true, FLEXRF_COUNTING}};
+  Cell cell{{place::panel_load, {}, true, place::counting_allocator}};
   if (!cell.begin()) return false;
   const CountsFile counts{cell.counts_file()};
   if (!counts) return false;

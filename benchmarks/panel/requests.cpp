@@ -4,6 +4,7 @@
 #include "benchmarks/panel/cell.hpp"
 #include "benchmarks/panel/http_load.hpp"
 #include "benchmarks/panel/rows.hpp"
+#include "places.hpp"
 
 namespace flexrf::bench {
 namespace {
@@ -30,7 +31,7 @@ std::optional<Block> run_block(int port, const std::string& path, const std::str
 }  // namespace
 
 bool measure_requests(Report& report, const Machine& machine) {
-  Cell cell{{FLEXRF_PANEL_LOAD}};
+  Cell cell{{place::panel_load}};
   if (!cell.begin()) return false;
   cell.process().pin("panel", machine.server_cpu);
   std::string body = cell.ask("GET", value).body;

@@ -14,6 +14,7 @@ configure() {  # configure PRESET: once; later ninja itself sees when a CMakeLis
   local -a options=()
   # The generator is the same in every preset, and takes longest to compile.
   [[ $1 == release ]] || options=("-DFLEXRF_HOST_TOOLS=$root/build/release/config-gen")
+  command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   [[ -f $directory/build.ninja && ! $root/CMakePresets.json -nt $directory/build.ninja ]] && return
   start=$(microseconds)
   if ! (cd "$root" && cmake --preset "$1" "${options[@]}") </dev/null >"$directory/configure.log" 2>&1; then
@@ -45,6 +46,8 @@ build() {  # build PRESET [TARGET...]: one line when it goes well, the compiler'
     flock 9 # two commands at once must not build in one folder
     configure "$preset" 9>&- || exit 1
     set_launcher "$preset"
+    find_cache
+    use_compiler_cache
     start=$(microseconds)
     if ! "${launcher[@]}" ninja "${ninja_options[@]}" -C "$directory" "$@" </dev/null 2>&1 9>&- | show_progress >"$directory/build.log"; then
       grep -v -E '^\[[0-9]+/[0-9]+\] |^ninja: Entering' "$directory/build.log" >&2

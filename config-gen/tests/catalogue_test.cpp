@@ -10,6 +10,7 @@
 
 #include "config-gen/model/file_contents.hpp"
 #include "config-gen/tests/tables.hpp"
+#include "places.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf::config_gen::tests {
@@ -60,7 +61,7 @@ struct Tally {
 };
 
 Tally judge_all() {
-  fs::current_path(TESTS_FOLDER);
+  fs::current_path(place::tests_folder);
   const bool rewrite = std::getenv("FLEXRF_REWRITE_CATALOGUE") != nullptr;
   std::vector<fs::path> folders;
   for (const auto& entry : fs::directory_iterator("catalogue")) folders.push_back(entry.path());

@@ -8,6 +8,7 @@
 #include "config-gen/read/eds_check.hpp"
 #include "config-gen/tests/find.hpp"
 #include "config-gen/tests/tables.hpp"
+#include "places.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf::config_gen::tests {
@@ -133,7 +134,7 @@ void every_cut_and_every_damage_ends_in_words(void**) {
 }
 
 void a_cell_with_an_odd_but_good_file(void**) {
-  std::filesystem::current_path(TESTS_FOLDER);
+  std::filesystem::current_path(place::tests_folder);
   const Result result = read_cell("cells/eds");
   assert_string_equal(result.messages.c_str(), "");
   const auto depends_on = [&](std::string_view name) {
@@ -150,7 +151,7 @@ void a_cell_with_an_odd_but_good_file(void**) {
 // What one of the repository's own drivers asks, of the drive that its simulator is; with another mode and
 // vendor than the defaults.
 std::string messages_for(const std::string& driver, std::int64_t mode, std::int64_t vendor) {
-  const std::filesystem::path hal = std::filesystem::path(TESTS_FOLDER) / "../../hal";
+  const std::filesystem::path hal = std::filesystem::path(place::tests_folder) / "../../hal";
   SearchPaths paths;
   paths.types = {hal / "interfaces/servo_drive/types", hal / "interfaces/gripper/types",
                  hal / "interfaces/can_bus/types"};

@@ -1,6 +1,7 @@
 // Groups: instances, arguments, nesting, ports.
 #include "config-gen/tests/find.hpp"
 #include "config-gen/tests/tables.hpp"
+#include "places.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf::config_gen::tests {
@@ -8,7 +9,7 @@ namespace {
 
 const Result& axes() {
   static const Result result = [] {
-    std::filesystem::current_path(TESTS_FOLDER);
+    std::filesystem::current_path(place::tests_folder);
     return read_cell("cells/axes");
   }();
   return result;

@@ -9,6 +9,7 @@
 #include "config-gen/model/memory.hpp"
 #include "config-gen/tests/find.hpp"
 #include "config-gen/tests/tables.hpp"
+#include "places.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf::config_gen::tests {
@@ -16,7 +17,7 @@ namespace {
 
 const Result& cell(const std::string& name) {
   static std::map<std::string, Result> results;
-  std::filesystem::current_path(TESTS_FOLDER);
+  std::filesystem::current_path(place::tests_folder);
   if (!results.contains(name)) results.emplace(name, read_cell("cells/" + name));
   return results.at(name);
 }
@@ -157,7 +158,7 @@ std::string summary_of(const Model& model) {
 }
 
 void a_large_application_reads_the_same_twice(void**) {
-  std::filesystem::current_path(TESTS_FOLDER);
+  std::filesystem::current_path(place::tests_folder);
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("flexrf_large_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder / "units/twin");

@@ -22,8 +22,4 @@ void SlotControl::make_visible(std::uint8_t buffer) noexcept {
   for (Doorbell* bell : bells_) bell->ring();
 }
 
-void SlotControl::poison(std::uint8_t buffer) noexcept {
-  std::memset(payload(buffer), 0xA5, type_->size);
-}
-
 }  // namespace flexrf

@@ -145,6 +145,9 @@ class SlotControl {
   void make_visible(std::uint8_t buffer) noexcept;
   void poison(std::uint8_t buffer) noexcept;
 
+  // Whether this is a checked build. Known when it is linked: what uses slots is compiled once for both.
+  static const bool poisons_loans;
+
   // Read by both sides, written by nobody after the start.
   Memory memory_;
   const TypeDescriptor* type_;

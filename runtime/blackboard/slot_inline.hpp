@@ -25,9 +25,9 @@ inline std::uint8_t SlotControl::loan() noexcept {
     loaned_ |= std::uint64_t{1} << buffer;
   }
   ++loans_out_;
-#ifdef FLEXRF_CHECKED
-  poison(buffer);
-#endif
+  if (poisons_loans) [[unlikely]] {
+    poison(buffer);
+  }
   return buffer;
 }
 

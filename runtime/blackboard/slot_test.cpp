@@ -399,7 +399,7 @@ void large_payload_is_page_aligned_and_apart_from_headers(void**) {
 }
 
 void loans_are_poisoned_in_checked_builds(void**) {
-#ifdef FLEXRF_CHECKED
+#if FLEXRF_CHECKED
   Slot<Sample, 1> slot;
   publish(slot.control(), 1);
   assert_int_equal(sample(slot.control(), slot.control().loan()).number, 0xA5A5A5A5);

@@ -1,13 +1,14 @@
 // --config FILE over several starts: written, restored, damaged, wrong.
 #include <algorithm>
 
+#include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
 #include "tests/applications/process.hpp"
 
 namespace flexrf::whole {
 namespace {
 
-const std::string application = APPLICATION;
+const std::string application = place::application;
 
 Ending start(const Folder& folder) {
   write_file(folder / "keys", "0.5 d\n0.6 d\n");

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <csignal>
 
+#include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
 #include "tests/applications/process.hpp"
 
 namespace flexrf::whole {
 namespace {
 
-const std::string application = APPLICATION;  // the executable
+const std::string application = place::application;  // the executable
 const std::string name = APPLICATION_NAME;
 
 constexpr double tolerance = 1e-3;  // m: the sensors' noise, and what the servos lag at the end

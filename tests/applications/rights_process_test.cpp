@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
 #include "tests/applications/process.hpp"
 
@@ -39,7 +40,7 @@ void check_tells_what_is_missing(const Ending& ending, const std::string& copy) 
 void without_rights_and_real_actuators_it_goes_on() {
   const Folder folder;
   const Ending ending =
-      run(folder, as_nobody(folder, KEYBOARD, {"--panel", "off", "--report", "report"}), "w");
+      run(folder, as_nobody(folder, place::keyboard, {"--panel", "off", "--report", "report"}), "w");
   check_tells_what_is_missing(ending, folder / "application");
   CHECK_CONTAINS(ending.errors, "Going on without real time: no real actuator is chosen.");
   CHECK_EQUAL(ending.exit_code, 0);
@@ -48,7 +49,7 @@ void without_rights_and_real_actuators_it_goes_on() {
 
 void without_rights_a_real_actuator_is_refused() {
   const Folder folder;
-  const Ending ending = run(folder, as_nobody(folder, CROWD, {"--hardware", "press=real"}));
+  const Ending ending = run(folder, as_nobody(folder, place::crowd, {"--hardware", "press=real"}));
   check_tells_what_is_missing(ending, folder / "application");
   CHECK_CONTAINS(ending.errors,
                  "crowd: missing right: SCHED_FIFO priority 20 (RLIMIT_RTPRIO 0, no CAP_SYS_NICE)");
@@ -58,7 +59,7 @@ void without_rights_a_real_actuator_is_refused() {
 
 void a_real_actuator_is_refused_with_no_realtime() {
   const Folder folder;
-  const Ending ending = run(folder, {CROWD, "--hardware", "press=real", "--no-realtime"});
+  const Ending ending = run(folder, {place::crowd, "--hardware", "press=real", "--no-realtime"});
   CHECK_CONTAINS(ending.errors, "--no-realtime is refused: a real actuator is chosen");
   CHECK_EQUAL(ending.exit_code, 1);
 }
@@ -70,7 +71,7 @@ void a_limit_between_budget_and_need_is_noticed() {
   const Ending ending =
       run(folder,
           {"bash", "-c", "ulimit -l 8192; exec \"$0\" \"$@\"", "setpriv", "--bounding-set=-ipc_lock",
-           "--inh-caps=-ipc_lock", KEYBOARD, "--panel", "off", "--report", "report"},
+           "--inh-caps=-ipc_lock", place::keyboard, "--panel", "off", "--report", "report"},
           "w");
   CHECK_CONTAINS(ending.errors, "RLIMIT_MEMLOCK is 8192 KiB and the process does not hold CAP_IPC_LOCK.");
   CHECK_CONTAINS(ending.errors, "Going on without real time");

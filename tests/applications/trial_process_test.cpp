@@ -6,13 +6,14 @@
 #include <cmath>
 #include <csignal>
 
+#include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
 #include "tests/applications/process.hpp"
 
 namespace flexrf::whole {
 namespace {
 
-const std::string application = APPLICATION;
+const std::string application = place::application;
 
 const std::string at_rest = "made safe at rest\nsafe\n";
 const std::string while_moving = "made safe while moving\nsafe\n";

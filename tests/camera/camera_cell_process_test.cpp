@@ -1,4 +1,5 @@
 // A cell with a simulated camera, in virtual time.
+#include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
 #include "tests/applications/process.hpp"
 
@@ -14,7 +15,7 @@ struct Result {
 Result run_for_a_passage() {
   const Folder folder;
   const Ending ending =
-      run(folder, {WATCHED_BELT, "--virtual-time", "3950ms", "--digest", "--report", "report"});
+      run(folder, {place::watched_belt, "--virtual-time", "3950ms", "--digest", "--report", "report"});
   CHECK_EQUAL(ending.exit_code, 0);
   const Report report(folder / "report");
   return {report.last("finder.feedback"), report.last("camera.feedback"),

@@ -11,6 +11,7 @@
 #include "hal/linux/canopen_servo_drive/canopen_servo_drive.hpp"
 #include "hal/simulated/in_process_can_bus/in_process_can_bus.hpp"
 #include "hal/simulated/simulated_cia402_drive/drive_console.hpp"
+#include "places.hpp"
 
 // Its macros would not spare names of ours.
 #include "tests/cmocka.hpp"
@@ -47,7 +48,7 @@ std::uint32_t number_in(const std::string& text) {
 
 std::vector<Row> read_list() {
   std::vector<Row> rows;
-  std::FILE* const file = std::fopen(OBJECT_LIST, "r");
+  std::FILE* const file = std::fopen(place::object_list, "r");
   if (file == nullptr) return rows;
   char line[512];
   while (std::fgets(line, sizeof line, file) != nullptr) {
@@ -187,7 +188,7 @@ std::size_t bytes_of_data_type(std::uint32_t type) {
 
 // Each object of its EDS file, with its size and what it is after power-on.
 bool simulated_drive_is_as_its_data_sheet_says() {
-  std::FILE* const file = std::fopen(DATA_SHEET, "r");
+  std::FILE* const file = std::fopen(place::data_sheet, "r");
   if (file == nullptr) return false;
   DriveObjects objects;
   canopen::ObjectAddress address;

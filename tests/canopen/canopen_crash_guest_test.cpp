@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "hal/canopen/can_message.hpp"
+#include "places.hpp"
 #include "runtime/realtime/last_gasp.hpp"
 #include "tests/canopen/real_axis.hpp"
 
@@ -189,7 +190,7 @@ void see_it_die(pid_t process, int errors, Outcome& outcome) {
 Outcome die(const Death& death) {
   Outcome outcome;
   const VirtualInterface interface { true };
-  SimulatorProcess drive{CIA402_SIMULATOR, {can_interface, "--node", "5"}};
+  SimulatorProcess drive{place::cia402_simulator, {can_interface, "--node", "5"}};
   Listener listener;
   int orders[2];
   int errors[2];

@@ -4,6 +4,7 @@
 #include <net/if.h>
 #include <unistd.h>
 
+#include "places.hpp"
 #include "tests/canopen/drive_faults.hpp"
 #include "tests/canopen/real_axis.hpp"
 
@@ -77,7 +78,7 @@ class RealFaultWorld final : public DriveFaultWorld {
 
  private:
   VirtualInterface interface_;
-  SimulatorProcess far_end_{CIA402_SIMULATOR, {can_interface, "--node", "5"}};
+  SimulatorProcess far_end_{place::cia402_simulator, {can_interface, "--node", "5"}};
   RealAxis axis_;
   bool initialised_ = false;
 };

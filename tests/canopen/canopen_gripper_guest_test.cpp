@@ -1,6 +1,7 @@
 // The gripper that is an axis on a real interface (vcan), as root: the conformance suite and the faults. The
 // drive is another process, the cable is the interface that goes down.
 #include "hal/linux/canopen_gripper/canopen_gripper.hpp"
+#include "places.hpp"
 #include "tests/canopen/gripper_faults.hpp"
 #include "tests/canopen/real_axis.hpp"
 
@@ -31,7 +32,7 @@ class RealGripperWorld final : public AxisGripperWorld {
 
  private:
   VirtualInterface interface_{true};
-  SimulatorProcess far_end_{CIA402_SIMULATOR, {can_interface, "--node", "5"}};
+  SimulatorProcess far_end_{place::cia402_simulator, {can_interface, "--node", "5"}};
   RealDevice<CanopenGripper> device_;
   bool ready_ = false;
 };

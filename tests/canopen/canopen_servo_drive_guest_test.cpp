@@ -1,6 +1,7 @@
 // The driver on a real interface (vcan), as root; the drive is another process, and both meet only on the
 // wire.
 #include "hal/interfaces/servo_drive/conformance/servo_drive_conformance.hpp"
+#include "places.hpp"
 #include "tests/canopen/real_axis.hpp"
 
 namespace {
@@ -35,7 +36,7 @@ class RealDriveWorld final : public ServoDriveWorld {
 
  private:
   VirtualInterface interface_{true};
-  SimulatorProcess far_end_{CIA402_SIMULATOR, {can_interface, "--node", "5"}};
+  SimulatorProcess far_end_{place::cia402_simulator, {can_interface, "--node", "5"}};
   RealAxis axis_;
   bool ready_ = false;
 };

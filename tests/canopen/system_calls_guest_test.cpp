@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "places.hpp"
 #include "tests/canopen/real_axis.hpp"
 
 // Its macros would not spare names of ours.
@@ -127,7 +128,7 @@ class SixAxes {
 
  private:
   VirtualInterface interface_{true};
-  SimulatorProcess far_end_{CIA402_SIMULATOR, all_drives()};
+  SimulatorProcess far_end_{place::cia402_simulator, all_drives()};
   std::unique_ptr<DeviceBench<SocketCanBus>> bus_ = std::make_unique<DeviceBench<SocketCanBus>>(nullptr);
   std::array<std::unique_ptr<DeviceBench<CanopenServoDrive>>, axes> drives_;
   Time next_ = MonotonicClock::now();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hal/linux/ft300_sensor/ft300_sensor.hpp"
+#include "places.hpp"
 #include "tests/force_torque/sensor_world.hpp"
 
 namespace flexrf {
@@ -46,7 +47,9 @@ class Ft300World : public SensorWorld<Ft300Sensor> {
   virtual bool unplug() = 0;
   virtual bool plug_in() = 0;
 
-  Status begin(const std::vector<std::string>& words) { return SensorWorld::begin(FT300_SIMULATOR, words); }
+  Status begin(const std::vector<std::string>& words) {
+    return SensorWorld::begin(place::ft300_simulator, words);
+  }
 
  private:
   SensorFarEnd behaviour_ = SensorFarEnd::well;

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "hal/linux/net_ft_sensor/net_ft_sensor.hpp"
+#include "places.hpp"
 #include "tests/force_torque/sensor_world.hpp"
 
 namespace flexrf {
@@ -12,7 +13,7 @@ class NetFtWorld : public SensorWorld<NetFtSensor> {
  public:
   Status start(const ForceTorqueSetting& setting) override {
     driver().stop();
-    if (const Status status = begin(NET_FT_SIMULATOR, {"--port", "0", "--rate", "200"}); !status)
+    if (const Status status = begin(place::net_ft_simulator, {"--port", "0", "--rate", "200"}); !status)
       return status;
     auto& configuration = bench().configuration();
     if (std::sscanf(simulator().first_line().c_str(), "127.0.0.1 port %hu", &configuration.port) != 1)

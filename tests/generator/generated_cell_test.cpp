@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "places.hpp"
 #include "runtime/core/digest.hpp"
 #include "runtime/executive/application.hpp"
 #include "tests/cmocka.hpp"
@@ -219,7 +220,7 @@ void the_panel_has_its_settings_and_files(void**) {
   assert_true(panel.files[0].path == "widgets/spectrum.js");
   assert_true(panel.files[0].content_type == "text/javascript");
   static std::string file;
-  std::ifstream stream(WIDGET);
+  std::ifstream stream(place::widget);
   file.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
   assert_true(panel.files[0].bytes == file);
 }
@@ -273,7 +274,7 @@ void the_descriptor_tells_what_a_page_needs(void**) {
 }
 
 void the_descriptor_is_embedded(void**) {
-  std::ifstream stream(DESCRIPTOR_JSON);
+  std::ifstream stream(place::descriptor_json);
   const std::string file{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   assert_string_equal(cell.descriptor_json, file.c_str());
   const auto json = nlohmann::json::parse(file);

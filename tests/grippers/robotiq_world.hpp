@@ -9,6 +9,7 @@
 #include "hal/interfaces/gripper/conformance/gripper_conformance.hpp"
 #include "hal/linux/modbus_rtu_link/modbus_rtu_link.hpp"
 #include "hal/linux/robotiq_gripper/robotiq_gripper.hpp"
+#include "places.hpp"
 #include "tests/simulator_process.hpp"
 
 namespace flexrf {
@@ -87,7 +88,7 @@ class RobotiqWorld : public GripperWorld {
     // What stands still with the machine is on its way as long as it is not halted.
     words.insert(words.end(),
                  {"--width", std::to_string(GripperSetting::open_width), "--longest-step", "0.05"});
-    simulator_.emplace(ROBOTIQ_SIMULATOR, words);
+    simulator_.emplace(place::robotiq_simulator, words);
     if (simulator_->is_running()) return {};
     return Status::error(StatusCode::unavailable, "the simulator did not begin");
   }

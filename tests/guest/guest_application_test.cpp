@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "places.hpp"
 #include "tests/cmocka.hpp"
 
 namespace {
@@ -55,7 +56,7 @@ void keyboard_runs_real_time_until_its_keys_end(void**) {
     ::dup2(keys[0], STDIN_FILENO);
     ::close(keys[0]);
     ::close(keys[1]);
-    ::execl(KEYBOARD, KEYBOARD, static_cast<char*>(nullptr));
+    ::execl(place::keyboard, place::keyboard, static_cast<char*>(nullptr));
     ::_exit(127);
   }
   ::close(keys[0]);

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "places.hpp"
 #include "tests/applications/process.hpp"
 #include "tests/applications/running.hpp"
 #include "tests/melfa/melfa_controller.hpp"
@@ -47,7 +48,7 @@ class LedCell {
 
   Running& running() { return running_; }
   SimulatorProcess& controller() { return *controller_; }
-  void switch_on() { controller_.emplace(MXT_SIMULATOR, arguments_of_controller(port_, start())); }
+  void switch_on() { controller_.emplace(place::mxt_simulator, arguments_of_controller(port_, start())); }
 
   void wait_for(const char* what, const std::function<bool()>& condition) {
     if (wait_until(condition)) return;

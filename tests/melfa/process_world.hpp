@@ -9,6 +9,7 @@
 #include <ctime>
 #include <optional>
 
+#include "places.hpp"
 #include "tests/melfa/melfa_controller.hpp"
 #include "tests/melfa/melfa_world.hpp"
 #include "tests/simulator_process.hpp"
@@ -43,7 +44,7 @@ class ProcessWorld final : public MelfaWorld {
   SimulatorProcess& controller() { return *controller_; }
   /// Anew after controller().kill(), at the same port.
   void switch_on() {
-    controller_.emplace(MXT_SIMULATOR, arguments_of_controller(port_, melfa_home()));
+    controller_.emplace(place::mxt_simulator, arguments_of_controller(port_, melfa_home()));
     port_ = static_cast<std::uint16_t>(std::atoi(controller_->first_line().c_str()));
   }
 

@@ -11,6 +11,7 @@
 #include "hal/linux/modbus_rtu_link/modbus_rtu_link.hpp"
 #include "hal/linux/modbus_tcp_link/modbus_tcp_link.hpp"
 #include "hal/linux/real_modbus_station/real_modbus_station.hpp"
+#include "places.hpp"
 #include "tests/simulator_process.hpp"
 
 namespace flexrf {
@@ -63,7 +64,7 @@ class RealWorld : public LinkedWorld<Link, RealModbusStation> {
 
   /// What it says of where it is to be found; empty: it did not begin.
   const std::string& switch_on(const std::vector<std::string>& arguments) {
-    return far_end_.emplace(MODBUS_SERVER, arguments).first_line();
+    return far_end_.emplace(place::modbus_server, arguments).first_line();
   }
   void switch_off() { far_end_.reset(); }
   bool is_plugged() const { return far_end_ && far_end_->is_running(); }

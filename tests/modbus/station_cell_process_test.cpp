@@ -1,4 +1,5 @@
 // From the list in CSV to the station: an application with a simulated link, in virtual time.
+#include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
 #include "tests/applications/process.hpp"
 
@@ -13,7 +14,8 @@ struct Result {
 
 Result run_for_three_seconds() {
   const Folder folder;
-  const Ending ending = run(folder, {STATION_CELL, "--virtual-time", "3s", "--digest", "--report", "report"});
+  const Ending ending =
+      run(folder, {place::station_cell, "--virtual-time", "3s", "--digest", "--report", "report"});
   CHECK_EQUAL(ending.exit_code, 0);
   const Report report(folder / "report");
   return {report.last("stirrer.feedback"), report.last("line.feedback"),

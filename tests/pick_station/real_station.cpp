@@ -6,6 +6,7 @@
 #include <future>
 #include <memory>
 
+#include "places.hpp"
 #include "runtime/core/time.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
 
@@ -45,10 +46,10 @@ std::uint16_t index_of(const Records& records, const char* name) {
 }  // namespace
 
 RealStation::RealStation(const char* vendor)
-    : drives_(folder_, {CIA402_SIMULATOR, "can1", "--node", "1", "--node", "2", "--position", "5000",
+    : drives_(folder_, {place::cia402_simulator, "can1", "--node", "1", "--node", "2", "--position", "5000",
                         "--vendor", vendor, "--product", "0x456"}),
-      gripper_(folder_, {ROBOTIQ_SIMULATOR, "--serial", "/dev/ttyS1", "115200"}),
-      feeder_(folder_, {FEEDER_SIMULATOR, "1502"}),
+      gripper_(folder_, {place::robotiq_simulator, "--serial", "/dev/ttyS1", "115200"}),
+      feeder_(folder_, {place::feeder_simulator, "1502"}),
       running_(application::application, real_hardware(), RightsOfATest::real_time) {
   box_.press_emergency_stop(false);
   tell_gripper("object 0.03");  // a part is there whenever the feeder says so

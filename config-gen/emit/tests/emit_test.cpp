@@ -12,6 +12,7 @@
 
 #include "config-gen/emit/text.hpp"
 #include "config-gen/model/target.hpp"
+#include "places.hpp"
 #include "tests/cmocka.hpp"
 
 namespace {
@@ -49,16 +50,16 @@ constexpr Case cases[] = {{Target::Kind::types, "cell/types", 16},
 std::string difference_between_places(const Case& one) {
   const fs::path elsewhere = fs::temp_directory_path() / "flexrf_emit_test" / std::to_string(::getpid());
   fs::create_directories(elsewhere / "tests");
-  fs::copy(fs::path(SOURCE_FOLDER) / "tests/generator", elsewhere / "tests/generator",
+  fs::copy(fs::path(place::source_folder) / "tests/generator", elsewhere / "tests/generator",
            fs::copy_options::recursive);
-  const auto here = generate(SOURCE_FOLDER, one.kind, one.file);
+  const auto here = generate(place::source_folder, one.kind, one.file);
   const auto there = generate(elsewhere, one.kind, one.file);
   fs::remove_all(elsewhere);
   if (here.size() != one.files) return std::to_string(here.size()) + " files";
   if (there.size() != one.files) return std::to_string(there.size()) + " files elsewhere";
   for (std::size_t i = 0; i < here.size(); ++i) {
     if (here[i].path != there[i].path || here[i].contents != there[i].contents) return here[i].path.string();
-    if (here[i].contents.find(SOURCE_FOLDER) != std::string::npos)
+    if (here[i].contents.find(place::source_folder) != std::string::npos)
       return "an absolute path in " + here[i].path.string();
     if (here[i].path.is_absolute()) return here[i].path.string() + " is absolute";
   }
@@ -74,7 +75,7 @@ void same_tables_same_bytes(void**) {
 }
 
 std::uint64_t hash_of_application() {
-  const fs::path tests = fs::path(SOURCE_FOLDER) / "tests/generator";
+  const fs::path tests = fs::path(place::source_folder) / "tests/generator";
   const SearchPaths paths{
       {tests / "cell/types"}, {tests / "cell/units"}, {tests / "interfaces"}, {tests / "drivers"}};
   Diagnostics diagnostics;

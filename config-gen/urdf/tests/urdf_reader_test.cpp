@@ -2,6 +2,7 @@
 #include <string>
 
 #include "config-gen/urdf/urdf_chain.hpp"
+#include "places.hpp"
 #include "tests/cmocka.hpp"
 
 namespace {
@@ -70,7 +71,7 @@ void test_fixed_joints_are_merged(void**) {
 
 void test_six_axis_arm_is_read(void**) {
   const bool good = [] {
-    const UrdfResult result = read_urdf(SIX_AXIS_URDF);
+    const UrdfResult result = read_urdf(place::six_axis_urdf);
     for (const UrdfError& error : result.errors) print_message("%s\n", error.text().c_str());
     return result.chain && result.chain->joints.size() == 6;
   }();

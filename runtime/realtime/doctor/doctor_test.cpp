@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "places.hpp"
 #include "runtime/realtime/doctor/checks.hpp"
 #include "tests/cmocka.hpp"
 
@@ -225,7 +226,7 @@ void an_empty_machine_is_looked_at_too(void**) {
 /// Runs the executable; its standard output is then in `output`. @returns exit code.
 int run(const std::string& arguments) {
   output.clear();
-  std::FILE* const pipe = popen((std::string(DOCTOR_EXECUTABLE) + " " + arguments + " 2>&1").c_str(), "r");
+  std::FILE* const pipe = popen((std::string(place::doctor) + " " + arguments + " 2>&1").c_str(), "r");
   char buffer[4096];
   std::size_t size = 0;
   while ((size = std::fread(buffer, 1, sizeof(buffer), pipe)) > 0) output.append(buffer, size);

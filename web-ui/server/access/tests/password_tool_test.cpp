@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <string>
 
+#include "places.hpp"
 #include "tests/cmocka.hpp"
 #include "web-ui/server/access/panel_access.hpp"
 #include "web-ui/server/access/password.hpp"
@@ -40,8 +41,8 @@ int end(void**) {
 
 /// The exit code; what it printed, on either, is in `output`.
 int run(const char* input, const std::string& arguments) {
-  const std::string command =
-      std::string{"printf '"} + input + "' | " PASSWORD_EXECUTABLE " " + arguments + " " + file + " 2>&1";
+  const std::string command = std::string{"printf '"} + input + "' | " + place::password_tool + " " +
+                              arguments + " " + file + " 2>&1";
   std::FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return -1;
   output.clear();
@@ -118,7 +119,7 @@ int run_on_terminal(std::initializer_list<const char*> answers) {
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
   if (child == 0) {
-    execl(PASSWORD_EXECUTABLE, "flexrf-password", file.c_str(), nullptr);
+    execl(place::password_tool, "flexrf-password", file.c_str(), nullptr);
     _exit(127);
   }
   if (child < 0) return -1;
