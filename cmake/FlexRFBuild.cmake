@@ -54,7 +54,8 @@ endforeach()
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/guest_tests.txt
   CONTENT "$<JOIN:$<TARGET_PROPERTY:tests_guest,flexrf_slow>;$<TARGET_PROPERTY:tests_guest,flexrf_names>,\n>\n")
 
-# What tells a test's folder of the threads that it starts and does not declare; where sanitizers and guards have no say.
+# Whether unit tests are watched for threads that they start and do not declare (tests/thread_witness.cpp): not where a
+# sanitizer or a guard is loaded before them.
 set(FLEXRF_WITNESSES_THREADS OFF)
 if(NOT FLEXRF_SANITIZER AND NOT FLEXRF_CHECKED AND NOT FLEXRF_FUZZ)
   set(FLEXRF_WITNESSES_THREADS ON)

@@ -46,7 +46,6 @@ build() {  # build PRESET [TARGET...]: one line when it goes well, the compiler'
     flock 9 # two commands at once must not build in one folder
     configure "$preset" 9>&- || exit 1
     set_launcher "$preset"
-    find_cache
     use_compiler_cache
     start=$(microseconds)
     if ! "${launcher[@]}" ninja "${ninja_options[@]}" -C "$directory" "$@" </dev/null 2>&1 9>&- | show_progress >"$directory/build.log"; then

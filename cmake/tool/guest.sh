@@ -32,7 +32,6 @@ make_kernel() {  # once, and anew when what it is made by has changed
   local recipe start remembered log=$guest_folder/kernel.log
   recipe=$(cat "$root"/image/guest/{fetch_kernel.sh,modules.txt} | sha256sum)
   [[ -f $guest_folder/recipe && -d $guest_folder/kernel && $(<"$guest_folder/recipe") == "$recipe" ]] && return
-  find_cache
   remembered=$(remembered_kernel "$recipe")
   if [[ -f $remembered ]] && take_kernel "$remembered"; then
     printf '%s\n' "$recipe" >"$guest_folder/recipe"

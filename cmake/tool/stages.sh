@@ -100,7 +100,6 @@ analyse() {
     sort | paste -s -d '|'))/"
   rm -rf "$analysis"
   mkdir -p "$analysis"
-  find_cache
   if [[ $cache ]]; then
     memory=$cache/analysis
     mkdir -p "$memory"
@@ -115,9 +114,11 @@ analyse() {
   return "$status"
 }
 
-# What each test of the release build reads, as lines "NAME CHECKSUMS"; one that does not say what it reads is not among them.
-checksums_of_tests() {
+# What each test of the release build reads, as lines "NAME CHECKSUMS" of $stages/checksums, once after the build; one that
+# does not say what it reads is not among them.
+find_checksums() {
   local path reads=$stages/reads
+  [[ -e $stages/checksums ]] && return
   ctest --test-dir "$root/build/release" -N | sed -n 's/^ *Test *#[0-9]*: //p' |
     awk -F '\t' 'is == "name" { tests[$1]; next } $1 in tests' is=name - is=read "$root/build/release/tests_read.txt" >"$reads"
   cut -f 2 "$reads" | sort -u >"$reads.paths"
@@ -130,16 +131,17 @@ checksums_of_tests() {
     done <"$reads.paths"
   } | awk 'is == "sum" { sums[substr($0, 35)] = $1; next }
     { split($0, part, "\t"); all[part[1]] = all[part[1]] "," sums[part[2]] }
-    END { for (name in all) print name, all[name] }' is=sum - is=read "$reads"
+    END { for (name in all) print name, all[name] }' is=sum - is=read "$reads" >"$stages/checksums"
 }
 
-remember_passed() {  # remember_passed CTEST_LOG CHECKSUMS: what the tests that passed had read; those that failed are forgotten
+remember_passed() {  # remember_passed CTEST_LOG: what the tests that passed had read; those that failed are forgotten
   local known=$root/build/release/tests_passed.txt
   touch "$known"
   awk 'is == "sums" { sums[$1] = $2; next }
     is == "log" { if ($2 == "Test") { ran[$4]; if (/ Passed /) passed[$4] } next }
     !($1 in ran)
-    END { for (name in passed) if (name in sums) print name, sums[name] }' is=sums "$2" is=log "$1" is=known "$known" >"$known.new"
+    END { for (name in passed) if (name in sums) print name, sums[name] }' \
+    is=sums "$stages/checksums" is=log "$1" is=known "$known" >"$known.new"
   mv "$known.new" "$known"
 }
 
@@ -149,7 +151,7 @@ run_tests() {  # run_tests PRESET CTEST ARGUMENT...
   log=$(mktemp "$stages/ctest.XXXXXX")
   shift
   set_launcher "$preset"
-  [[ $preset == release ]] && checksums_of_tests >"$log.checksums"
+  [[ $preset == release ]] && find_checksums
   "${launcher[@]}" ctest --test-dir "$root/build/$preset" --output-on-failure --no-tests=error --no-label-summary \
     -j "$(nproc)" "$@" </dev/null 2>&1 |
     sed -u '/^Could not find executable/,/^Unable to find executable/d' | tee "$log"
@@ -157,14 +159,14 @@ run_tests() {  # run_tests PRESET CTEST ARGUMENT...
   sum=$(sed -n 's/^[0-9]*% tests passed, \([0-9]*\) tests failed out of \([0-9]*\)$/\1 \2/p' "$log")
   read -r failed total <<<"${sum:-1 1}"
   count "$total" "$failed"
-  [[ $preset == release ]] && remember_passed "$log" "$log.checksums"
+  [[ $preset == release ]] && remember_passed "$log"
   return "$status"
 }
 
 quick_tests() {  # the release build's tests whose reads are not as they were when they passed
   local known=$root/build/release/tests_passed.txt left_out='^long$|^panel$' chosen
   touch "$known"
-  checksums_of_tests >"$stages/checksums"
+  find_checksums
   chosen=$(ctest --test-dir "$root/build/release" -N -LE "$left_out" | sed -n 's/^ *Test *#[0-9]*: //p' |
     awk 'is == "passed" { passed[$1] = $2; next } is == "now" { now[$1] = $2; next } !($1 in now) || passed[$1] != now[$1]' \
       is=passed "$known" is=now "$stages/checksums" is=name - | paste -s -d '|')

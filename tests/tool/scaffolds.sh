@@ -27,6 +27,7 @@ for part in words cache build; do
   # shellcheck source=/dev/null
   source "$tool/$part.sh"
 done
+find_cache
 build release lift_guard_test level_cell_cell_test level-cell
 if grep 'warning:' build/release/build.log; then exit 1; fi
 ctest --test-dir build/release --output-on-failure --no-tests=error \
