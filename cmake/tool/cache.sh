@@ -27,3 +27,9 @@ use_compiler_cache() {
   export CCACHE_MAXSIZE=${CCACHE_MAXSIZE:-5G}
   export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 }
+
+# sums_of_memory FOLDER ROOT: of all that remembered batches of the analysis had read in a repository, as it is now; once, not
+# for each that read it.
+sums_of_memory() {
+  find "$1" -type f -exec tail -q -n +2 {} + | cut -c 67- | sort -u | (cd "$2" && xargs -r -d '\n' sha256sum 2>/dev/null)
+}

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# tidy.sh ROOT DATABASE_DIR HEADERS MEMORY BATCH: analyses a batch of files and prints only what it finds. If two of its files
+# tidy.sh ROOT DATABASE_DIR HEADERS MEMORY VERSION BATCH: analyses a batch of files and prints only what it finds. If two of its files
 # have a name of their own in common, its halves are analysed instead.
 # In the folder MEMORY, unless it is empty, a batch in which nothing is found leaves what it read: the checksum of each file, by
-# a name that stands for analyser, settings, command and batch. As long as all of it is the same, the analysis is not repeated.
-root=$1 database=$2 headers=$3 memory=$4 batch=${5%.cpp}
+# a name that stands for analyser, settings, command and batch. As long as all of it is the same, as DATABASE_DIR/sums has it now,
+# the analysis is not repeated.
+root=$1 database=$2 headers=$3 memory=$4 version=$5 batch=${6%.cpp}
 cd "$root" || exit 1
 failed=0
 work=$(mktemp -d)
@@ -14,9 +15,8 @@ checksum() { sha256sum | cut -d ' ' -f 1; }
 # The same in a clone elsewhere.
 name_of_memory() {
   {
-    clang-tidy --version
     cat .clang-tidy "$0"
-    printf '%s\n' "$headers"
+    printf '%s\n' "$version" "$headers"
     grep -F "$batch.cpp" "$database/compile_commands.json"
     cat "$batch.cpp"
   } | sed "s|$batch|batch|g; s|$root|.|g" | checksum
@@ -24,7 +24,7 @@ name_of_memory() {
 
 is_remembered() {  # the first line is the checksum of the others, so that one that is damaged is none
   [[ -f $1 && $(tail -n +2 "$1" | checksum) == "$(head -n 1 "$1")" ]] &&
-    tail -n +2 "$1" | sha256sum --check --strict --status 2>/dev/null
+    ! tail -n +2 "$1" | grep -q -v -x -F -f "$database/sums"
 }
 
 remember() {  # what clang-tidy listed as read, with one dot or more for its depth

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # A batch in which nothing was found is not analysed again until something of what was read is another; in any clone.
 source "$(dirname "$0")/stand_in.sh"
+source "$tree/cmake/tool/cache.sh"
 shopt -s extglob
 
 # Reads what the batch includes, and a header; finds the word "mistake" in either.
 stand_in clang-tidy <<'BODY'
-[[ $1 == --version ]] && { cat "$STAND_IN/version"; exit; }
 batch=${!#}
 while read -r file; do echo ". $file" >&2; done < <(sed -n 's/^#include "\(.*\)"$/\1/p' "$batch")
 echo ".. $STAND_IN/system.hpp" >&2
@@ -30,9 +30,11 @@ clone() {  # clone NAME: with one batch of one file
 
 analyse() {  # analyse CLONE BATCH: sets status, output and calls_made
   : >"$calls"
-  output=$(bash "$tree/cmake/tool/tidy.sh" "$work/$1" "$work/$1/build" "^$work/$1/" "${3-$memory}" "$work/$1/build/$2.cpp" 2>&1)
+  sums_of_memory "$memory" "$work/$1" >"$work/$1/build/sums"
+  output=$(bash "$tree/cmake/tool/tidy.sh" "$work/$1" "$work/$1/build" "^$work/$1/" "${3-$memory}" "$(<"$work/version")" \
+    "$work/$1/build/$2.cpp" 2>&1)
   status=$?
-  calls_made=$(grep -c -v -- --version "$calls")
+  calls_made=$(grep -c clang-tidy "$calls")
 }
 expect_analysed() {  # expect_analysed WHEN TIMES
   expect "exit code $1" "$status" 0
