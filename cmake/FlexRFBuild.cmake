@@ -9,6 +9,7 @@ option(FLEXRF_CHECKED "Poison loans, abort on allocation and on waiting system c
 option(FLEXRF_FUZZ "Fuzz targets too, which need clang and its libFuzzer (preset fuzz)" OFF)
 option(FLEXRF_COMMON_HEADERS "Read the standard library's headers once for all targets" OFF)
 set(FLEXRF_BATCH_SIZE "" CACHE STRING "How many source files of a target are compiled as one; empty: each by itself")
+set(FLEXRF_LINKER "" CACHE STRING "Linker, as for -fuse-ld; empty: the compiler's own")
 set(FLEXRF_SANITIZER "" CACHE STRING "Sanitizers to build with: empty, 'address,undefined' or 'thread'")
 
 # For the few targets that are compiled otherwise in a checked build. All others are compiled alike, which the compiler's
@@ -36,6 +37,9 @@ if(FLEXRF_COMMON_HEADERS AND FLEXRF_SANITIZER)
 endif()
 # Includes name their layer from the repository's root: "runtime/blackboard/slot.hpp".
 target_include_directories(flexrf_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+if(FLEXRF_LINKER)
+  add_link_options(-fuse-ld=${FLEXRF_LINKER})
+endif()
 if(FLEXRF_SANITIZER)
   # What a sanitizer finds must fail the test: undefined behaviour would only be printed.
   add_compile_options(-fsanitize=${FLEXRF_SANITIZER} -fno-sanitize-recover=all -fno-omit-frame-pointer)

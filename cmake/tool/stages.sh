@@ -4,6 +4,7 @@
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
 stage_names=() stage_times=() stage_loads=() stage_results=()
+left_out='' # labels of ctest's that are not run: the long ones, or none
 stages=$root/build/.stages # what each stage leaves: NAME.log, NAME.counts, NAME.result
 behind=()                  # the processes that run stages behind the others
 
@@ -165,14 +166,14 @@ run_tests() {  # run_tests PRESET CTEST ARGUMENT...
 }
 
 quick_tests() {  # the release build's tests whose reads are not as they were when they passed
-  local known=$root/build/release/tests_passed.txt left_out='^long$|^panel$' chosen
+  local known=$root/build/release/tests_passed.txt without="$left_out|^panel\$" chosen
   touch "$known"
   find_checksums
-  chosen=$(ctest --test-dir "$root/build/release" -N -LE "$left_out" | sed -n 's/^ *Test *#[0-9]*: //p' |
+  chosen=$(ctest --test-dir "$root/build/release" -N -LE "$without" | sed -n 's/^ *Test *#[0-9]*: //p' |
     awk 'is == "passed" { passed[$1] = $2; next } is == "now" { now[$1] = $2; next } !($1 in now) || passed[$1] != now[$1]' \
       is=passed "$known" is=now "$stages/checksums" is=name - | paste -s -d '|')
   if [[ $chosen ]]; then
-    run_tests release -R "^($chosen)\$" -LE "$left_out"
+    run_tests release -R "^($chosen)\$" -LE "$without"
   else
     echo "nothing has changed of what the tests read"
   fi
@@ -196,20 +197,18 @@ build_preset() {  # build_preset PRESET
 }
 
 test_preset() {  # test_preset PRESET: what does not build is a test that fails, the others run all the same
-  local long='^long$'
   local -a selection
-  [[ ${FLEXRF_LONG-} ]] && long=''
   read -r -a selection <<<"${test_selection[$1]-}"
   if [[ $1 == release ]]; then
-    # The page and a browser before it: only here, and apart, as they are of another kind and take their time.
-    stage "test release" run_tests release -LE "${long:+$long|}^panel\$"
-    stage panel run_tests release -L '^panel$' ${long:+-LE "$long"}
+    stage "test release" run_tests release -LE "${left_out:+$left_out|}^panel\$"
   else
-    stage "test $1" run_tests "$1" "${selection[@]}" ${long:+-LE "$long"}
+    stage "test $1" run_tests "$1" "${selection[@]}" ${left_out:+-LE "$left_out"}
   fi
 }
 
 behind_presets=() behind_analysis='' behind_guest=''
+# The page and a browser before it: only in release, and apart, as they are of another kind and mostly wait themselves.
+test_panel() { stage_behind panel run_tests release -L '^panel$' ${left_out:+-LE "$left_out"}; }
 build_behind() {
   local preset
   for preset in "${behind_presets[@]}"; do stage_behind "build $preset" build_preset "$preset"; done
@@ -225,6 +224,8 @@ run_stages() {  # run_stages PRESET...: these, and what runs behind them
   if [[ ${1-} == release ]]; then
     stage "build release" build_preset release
     behind_presets=("${@:2}")
+    find_checksums
+    begin_behind 0 test_panel
   else
     behind_presets=("$@")
   fi
@@ -234,6 +235,7 @@ run_stages() {  # run_stages PRESET...: these, and what runs behind them
     [[ $preset == release ]] || end_behind "build $preset"
     test_preset "$preset"
   done
+  [[ ${1-} == release ]] && end_behind panel
   [[ $behind_analysis ]] && end_behind "static analysis"
   [[ $behind_guest ]] && end_behind guest
   wait "${behind[@]}"
@@ -265,7 +267,8 @@ test_stages() {  # test_stages [--full | --guest [--long] [NAME...] | --quick | 
   rm -f "$stages"/*
   start=$(microseconds)
   unset FLEXRF_LONG
-  [[ ${1-} == --full || ${2-} == --long ]] && export FLEXRF_LONG=1
+  left_out='^long$'
+  [[ ${1-} == --full || ${2-} == --long ]] && export FLEXRF_LONG=1 left_out=''
   [[ ${2-} == --long ]] && chosen=("${@:3}")
   choose_extent some
   obstacle=$(guest_obstacle)

@@ -19,7 +19,17 @@ cmake --install "$build" --prefix "$work/first" >/dev/null
 mv "$work/first" "$work/prefix"
 ! grep -rq -F -e "$source/" -e "$work/first" "$work/prefix/lib/cmake" || fail "the package names folders of its build"
 cp -r "$source/tests/outside/project" "$work/project"
-cmake -S "$work/project" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH="$work/prefix" \
+# What the compiler made here before is remembered, as in the build itself.
+launcher=()
+for part in words cache; do
+  # shellcheck source=/dev/null
+  source "$source/cmake/tool/$part.sh"
+done
+root=$work
+find_cache
+use_compiler_cache
+command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+cmake "${launcher[@]}" -S "$work/project" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH="$work/prefix" \
   -DCMAKE_COMPILE_WARNING_AS_ERROR=ON >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "does not configure"; }
 rebuild
 
