@@ -21,6 +21,7 @@
 #include "config-gen/model/file_contents.hpp"
 #include "config-gen/model/target.hpp"
 #include "config-gen/model/words.hpp"
+#include "runtime/core/standard_descriptors.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -142,6 +143,7 @@ int run(const Command& command) {
 
 int main(int argument_count, char** arguments) {
   using namespace flexrf::config_gen;
+  flexrf::hold_standard_descriptors();
   try {
     return run(parse({arguments + 1, arguments + argument_count}));
   } catch (const std::invalid_argument& error) {

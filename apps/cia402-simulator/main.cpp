@@ -22,6 +22,7 @@
 
 #include "hal/linux/socket_can_bus/can_node_runner.hpp"
 #include "hal/simulated/simulated_cia402_drive/drive_console.hpp"
+#include "runtime/core/standard_descriptors.hpp"
 #include "runtime/core/time.hpp"
 
 namespace {
@@ -166,6 +167,7 @@ class NoWire final : public CanPort {
 }  // namespace
 
 int main(int count, char** words) {
+  flexrf::hold_standard_descriptors();
   Command command;
   if (!parse(count, words, command)) {
     std::fputs(usage, stderr);

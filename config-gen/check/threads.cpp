@@ -101,6 +101,14 @@ void check_deadline(const Thread& thread, Diagnostics& diagnostics) {
       "a step is finished before the next begins: shorten the deadline, or release the thread less often");
 }
 
+void check_hang_timeout(const Thread& thread, Diagnostics& diagnostics) {
+  if (!thread.hang_timeout || thread.priority == 0) return;
+  diagnostics.error(
+      thread.position, "real-time thread " + quote(thread.name) + " has a 'hang_timeout'",
+      "its step hangs after 500 ms, or 20 deadlines where that is longer; what takes more time belongs "
+      "into a thread with priority = 0");
+}
+
 // A step is told by one bit each which of them fired.
 void check_sources(const Thread& thread, Diagnostics& diagnostics) {
   const auto* trigger = std::get_if<SlotsTrigger>(&thread.trigger);
@@ -141,6 +149,7 @@ void check_triggers(const Model& model, Diagnostics& diagnostics) {
     if (thread.partial) continue;
     check_real_time(model, thread, diagnostics);
     check_deadline(thread, diagnostics);
+    check_hang_timeout(thread, diagnostics);
     check_sources(thread, diagnostics);
     check_device_trigger(model, thread, diagnostics);
   }

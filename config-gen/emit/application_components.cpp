@@ -162,6 +162,16 @@ const char* restart_policy(Unit::Restart restart) {
   return "always";
 }
 
+std::string instead_of(const Device& device) {
+  const auto& instead = device.instead;
+  if (!instead[0] && !instead[1] && !instead[2]) return "";
+  const auto place = [](const std::optional<Index>& driver) {
+    return driver ? std::to_string(*driver) : std::string("no_driver");
+  };
+  return ",\n     .instead = {" + place(instead[0]) + ", " + place(instead[1]) + ", " + place(instead[2]) +
+         "}";
+}
+
 }  // namespace
 
 void emit_devices(const Model& model, const ApplicationNames& names, Diagnostics& diagnostics, Text& out,
@@ -188,9 +198,10 @@ void emit_devices(const Model& model, const ApplicationNames& names, Diagnostics
     const std::string drivers = emit_drivers(model, device, prefix, out);
     records << "    {.name = \"" << device.name
             << "\",\n     .summary = " << string_literal(interface.summary) << ",\n     .interface = \""
-            << interface.class_name << "\",\n     .drivers = " << drivers << ",\n     .storage = " << prefix
-            << ",\n     .storage_size = sizeof(" << prefix << "),\n     .instance = &constructed_devices["
-            << i << "],\n     .binding = {&context_" << names.thread(device.thread.value_or(0)) << ", "
+            << interface.class_name << "\",\n     .drivers = " << drivers << instead_of(device)
+            << ",\n     .storage = " << prefix << ",\n     .storage_size = sizeof(" << prefix
+            << "),\n     .instance = &constructed_devices[" << i << "],\n     .binding = {&context_"
+            << names.thread(device.thread.value_or(0)) << ", "
             << array_or_none(prefix + "_outputs", outputs.slots) << ", "
             << array_or_none(prefix + "_queue_outputs", outputs.queues) << ", " << resources
             << ", nullptr},\n     .bus = " << index_or_none(device.bus)

@@ -137,6 +137,7 @@ void emit_thread_records(const Model& model, const ApplicationNames& names, Text
             << ",\n     .limit = " << overrun_limit(thread.overrun)
             << ",\n     .budget = " << duration_literal(thread.demand)
             << ",\n     .deadline = " << duration_literal(deadline_of(thread))
+            << ",\n     .hang_timeout = " << duration_literal(thread.hang_timeout.value_or(0))
             << ",\n     .units = " << array_or_none("thread_units_" + name, units)
             << ",\n     .devices = " << array_or_none("thread_devices_" + name, devices)
             << ",\n     .stack = stack_" << name << ",\n     .stack_size = sizeof(stack_" << name

@@ -412,6 +412,7 @@ Json application_json(const Model& model) {
   if (application.memory_budget) json["memory_budget"] = *application.memory_budget;
   json["stop_timeout_ns"] = application.stop_timeout;
   json["finish_timeout_ns"] = application.finish_timeout;
+  json["standstill_limit_ns"] = application.standstill_limit;
   Json types = Json::array();
   for (const Type& type : model.types) types.push_back(type_json(model, type));
   const auto add_all = [&](const char* key, const auto& rows, const auto& make) {

@@ -6,6 +6,7 @@
 // sizes bytes. Every vector is in table order, which is source order.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -352,6 +353,7 @@ struct Thread {
   std::optional<Index> io_device;  // an IO thread: the device that it serves (and, of a bus, all on it)
   std::vector<Index> units;        // step order
   std::vector<Index> devices;      // that live in it, buses before what they carry: the order of receive()
+  std::optional<Nanoseconds> hang_timeout;
   std::optional<Nanoseconds> deadline;  // written; else the period or min_interval
   Overrun overrun;
   std::size_t stack = 256 * 1024;
@@ -415,11 +417,14 @@ struct Device {
   Position position;
   Index interface = 0;
   std::vector<DriverChoice> drivers;  // the first is the default
-  std::optional<Index> bus;           // on = "..."
-  std::vector<Index> children;        // the devices on this bus
-  std::optional<Index> owner_unit;    // none: owned by its bus, or served by its IO thread only
-  std::optional<Index> owner_port;    // into the unit type's devices
-  std::optional<Index> thread;        // in which its calls are made: its IO thread, its bus's, or its owner's
+  // Of each kind (Driver::Kind's order): the place of the driver for a --hardware KIND that this device
+  // lacks.
+  std::array<std::optional<Index>, 3> instead;
+  std::optional<Index> bus;         // on = "..."
+  std::vector<Index> children;      // the devices on this bus
+  std::optional<Index> owner_unit;  // none: owned by its bus, or served by its IO thread only
+  std::optional<Index> owner_port;  // into the unit type's devices
+  std::optional<Index> thread;      // in which its calls are made: its IO thread, its bus's, or its owner's
   std::optional<Index> io_thread;
   std::vector<OutputConnection> outputs;  // per output of the interface
   std::vector<DeviceResource> resources;  // in the interface's order
@@ -523,6 +528,7 @@ struct Application {
   bool autostart = false;
   Nanoseconds stop_timeout = 2'000'000'000;
   Nanoseconds finish_timeout = 10'000'000'000;
+  Nanoseconds standstill_limit = 1'000'000'000;
 };
 
 // ---- The whole

@@ -1,5 +1,6 @@
 // [device.N] rows of applications and groups.
 #include <algorithm>
+#include <array>
 
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
@@ -82,6 +83,34 @@ void read_drivers(Assembly& assembly, Row& row, Device& device) {
                                        "configuration", row.name() + ", driver " + quote(name.text));
     device.drivers.push_back(std::move(choice));
   }
+}
+
+// instead = { mock = "simulated" }: what --hardware mock chooses of a device that has no mock.
+void read_instead(Assembly& assembly, Row& row, Device& device) {
+  const Node* value = row.table("instead");
+  if (value == nullptr) return;
+  Row kinds(*value, "'instead' of " + row.name(), assembly.diagnostics);
+  constexpr std::array<const char*, 3> names{"mock", "simulated", "real"};
+  for (std::size_t kind = 0; kind < names.size(); ++kind) {
+    const auto wanted = kinds.text(names[kind]);
+    if (!wanted) continue;
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < device.drivers.size(); ++i) {
+      const Driver& driver = assembly.model.drivers[device.drivers[i].driver];
+      known.push_back(driver.name);
+      if (driver.name == *wanted) device.instead[kind] = i;
+      if (static_cast<std::size_t>(driver.kind) != kind) continue;
+      assembly.diagnostics.error(
+          kinds.position(names[kind]),
+          row.name() + " has a driver of the kind " + quote(names[kind]) + ": " + quote(driver.name),
+          "remove this key: --hardware " + std::string(names[kind]) + " chooses that one");
+    }
+    if (!device.instead[kind])
+      assembly.diagnostics.error(kinds.position(names[kind]),
+                                 row.name() + " permits no driver " + quote(*wanted),
+                                 suggest(*wanted, known, "drivers", "name one of drivers = [...]"));
+  }
+  kinds.finish();
 }
 
 void read_resources(Assembly& assembly, Row& row, Device& device) {
@@ -169,6 +198,7 @@ void read_device_row(Assembly& assembly, const FlatRow& flat) {
   assembly.device_rows.push_back({&flat, index});
   Device& device = assembly.model.devices[index];
   read_drivers(assembly, row, device);
+  read_instead(assembly, row, device);
   read_resources(assembly, row, device);
   row.text("on");
   row.table("out");

@@ -32,6 +32,8 @@ void read_application(Library& library, const std::filesystem::path& file) {
   application.autostart = row.boolean("autostart").value_or(false);
   application.stop_timeout = row.positive_duration("stop_timeout").value_or(application.stop_timeout);
   application.finish_timeout = row.positive_duration("finish_timeout").value_or(application.finish_timeout);
+  application.standstill_limit =
+      row.positive_duration("standstill_limit").value_or(application.standstill_limit);
   for (const char* section :
        {"device", "unit", "slot", "queue", "thread", "group", "renamed", "panel", "widget"})
     row.also(section);

@@ -264,6 +264,7 @@ void read_thread_row(Assembly& assembly, const FlatRow& flat) {
   thread.rest = row.word("cpu", {"rest"}).has_value();
   thread.above_interrupts = row.boolean("above_interrupts").value_or(false);
   thread.deadline = row.positive_duration("deadline");
+  thread.hang_timeout = row.positive_duration("hang_timeout");
   thread.stack = row.size("stack").value_or(thread.stack);
   thread.summary = row.text("summary").value_or("");
   read_overrun(assembly, row, thread.overrun);

@@ -1,6 +1,15 @@
 #include "runtime/executive/accounting.hpp"
 
 namespace flexrf {
+namespace {
+
+/// One writer.
+template <class Value>
+void add(std::atomic<Value>& counter, Value value) noexcept {
+  counter.store(counter.load(std::memory_order_relaxed) + value, std::memory_order_relaxed);
+}
+
+}  // namespace
 
 bool Accounting::count(const Release& release, Time ended, std::uint64_t past_releases) noexcept {
   state_->lateness.add(release.now - release.nominal);
@@ -17,13 +26,17 @@ bool Accounting::count(const Release& release, Time ended, std::uint64_t past_re
     }
     return false;
   }
-  state_->overruns.store(state_->overruns.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  if (record_->overrun != OverrunPolicy::catch_up) {
-    state_->skipped.store(state_->skipped.load(std::memory_order_relaxed) + past_releases,
-                          std::memory_order_relaxed);
-  }
+  add(state_->overruns, std::uint64_t{1});
+  const std::uint64_t skipped = record_->overrun == OverrunPolicy::catch_up ? 0 : past_releases;
+  const Duration skipped_time = record_->trigger.period * static_cast<std::int64_t>(skipped);
+  add(state_->skipped, skipped);
+  add(state_->skipped_time, skipped_time.count());
+  // After the deadline, or after the next release was due.
+  const Duration allowed = past_releases > 0 ? record_->trigger.period : record_->deadline;
+  log_.note(ended, ended - release.nominal - allowed, skipped, skipped_time);
   if (record_->overrun == OverrunPolicy::fault && record_->limit.limit == 0) return true;
-  if (record_->limit.limit == 0 || ++level_ < record_->limit.limit) return false;
+  level_ += 1 + skipped;
+  if (record_->limit.limit == 0 || level_ < record_->limit.limit) return false;
   // Counted anew for what is started again, and for what was not yet running when it happened.
   level_ = 0;
   good_ = 0;

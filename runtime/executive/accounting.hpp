@@ -2,6 +2,7 @@
 // reached.
 #pragma once
 
+#include "runtime/executive/overrun_log.hpp"
 #include "runtime/executive/stepper.hpp"
 #include "runtime/executive/trigger.hpp"
 
@@ -10,15 +11,20 @@ namespace flexrf {
 /// Owning thread only.
 class Accounting {
  public:
-  Accounting(const ThreadRecord& record, ThreadState& state) noexcept : record_(&record), state_(&state) {}
+  Accounting(const ThreadRecord& record, ThreadState& state) noexcept
+      : record_(&record), state_(&state), log_(record.name) {}
 
   /// Counts a release that ended at `ended`. True when the thread's overrun policy or limit makes it a fault.
+  /// The limits count time: a release that was left out counts as an overrun of its own.
   bool count(const Release& release, Time ended, std::uint64_t past_releases) noexcept;
+  /// In every turn: says of overruns what is to be said by then; at the end, with Time::max(), the rest.
+  void say(Time now) noexcept { log_.say(now); }
 
  private:
   const ThreadRecord* record_;
   ThreadState* state_;
-  std::uint32_t level_ = 0;  // consecutive overruns, or the leaky counter
+  OverrunLog log_;
+  std::uint64_t level_ = 0;  // consecutive overruns, or the leaky counter
   std::uint32_t good_ = 0;   // good releases since it last leaked
 };
 

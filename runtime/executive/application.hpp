@@ -2,6 +2,7 @@
 // lives. Order within each table is the order of the application's source tables.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -54,11 +55,15 @@ struct DriverRecord {
   const void* runtime;
 };
 
+inline constexpr std::uint8_t no_driver = 0xFF;
+
 struct DeviceRecord {
   const char* name;
   const char* summary;
   const char* interface;
   std::span<const DriverRecord> drivers;  ///< permitted ones; the first is the default
+  /// By DriverKind: index of the driver that a `--hardware KIND` means where none is of that kind.
+  std::array<std::uint8_t, 3> instead{no_driver, no_driver, no_driver};
   void* storage;
   std::size_t storage_size;
   Device** instance;          ///< where the constructed driver is put
@@ -144,6 +149,7 @@ struct ThreadRecord {
   OverrunLimit limit;
   Duration budget;                         ///< sum of its units'
   Duration deadline;                       ///< of one release
+  Duration hang_timeout{};                 ///< of a step; 0: 500 ms, or 20 deadlines where that is longer
   std::span<const std::uint16_t> units;    ///< in step order
   std::span<const std::uint16_t> devices;  ///< in receive order: buses before what they carry
   void* stack;                             ///< page-aligned, preallocated; the lowest page is the guard
@@ -170,6 +176,7 @@ struct Application {
   bool autostart;
   Duration stop_timeout;
   Duration finish_timeout;
+  Duration standstill_limit{};  ///< of a thread or the process, see Standstill; 0: not judged
   std::span<const SlotRecord> slots;
   std::span<const QueueRecord> queues;
   std::span<const DeviceRecord> devices;

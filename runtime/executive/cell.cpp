@@ -48,24 +48,54 @@ Cell::~Cell() {
   destroy();
 }
 
+namespace {
+
+std::optional<DriverKind> kind_named(std::string_view word) noexcept {
+  for (const DriverKind kind : {DriverKind::mock, DriverKind::simulated, DriverKind::real}) {
+    if (word == name_of(kind)) return kind;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint16_t> find_driver(const DeviceRecord& device, std::string_view wanted) noexcept {
+  for (std::size_t i = 0; i < device.drivers.size(); ++i) {
+    const DriverRecord& driver = device.drivers[i];
+    if (wanted == driver.name || wanted == name_of(driver.kind)) return static_cast<std::uint16_t>(i);
+  }
+  if (const auto kind = kind_named(wanted); kind) {
+    const std::uint8_t instead = device.instead[static_cast<std::size_t>(*kind)];
+    if (instead != no_driver) return instead;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 Status Cell::choose_drivers() {
+  // The kind that was asked for, of all devices, and those that have no driver of it.
+  std::string kind;
+  std::string without;
   for (std::size_t i = 0; i < application_->devices.size(); ++i) {
     const DeviceRecord& device = application_->devices[i];
     DeviceState& state = application_->device_states[i];
     state.driver = 0;
+    std::string lacks;
     const auto choose = [&](std::string_view wanted) {
-      for (std::size_t d = 0; d < device.drivers.size(); ++d) {
-        const DriverRecord& driver = device.drivers[d];
-        if (wanted == driver.name || wanted == name_of(driver.kind)) {
-          state.driver = static_cast<std::uint16_t>(d);
-          return;
-        }
+      if (const auto found = find_driver(device, wanted); found) {
+        state.driver = *found;
+        lacks.clear();
+      } else if (kind_named(wanted)) {
+        lacks = wanted;
       }
     };
     // A file of key presses implies the driver that reads it; what --hardware says comes after and wins.
     if (!options_->keys_file.empty() && std::strcmp(device.interface, "Keyboard") == 0) choose("script");
     for (const HardwareChoice& choice : options_->hardware) {
       if (choice.device.empty() || choice.device == device.name) choose(choice.driver);
+    }
+    if (!lacks.empty()) {
+      kind = lacks;
+      without += (without.empty() ? "" : ", ") + std::string{device.name};
     }
     const DriverRecord& driver = device.drivers[state.driver];
     std::vector<const char*>& others = other_drivers_.emplace_back();
@@ -85,7 +115,12 @@ Status Cell::choose_drivers() {
           able.empty() ? "no driver of this device can" : "choose --hardware with one of: ", able.c_str());
     }
   }
-  return {};
+  if (without.empty()) return {};
+  return Status::error(
+      StatusCode::invalid_argument,
+      "--hardware %s: no such driver has: %.100s; name one of each, as `--hardware %s,DEVICE=DRIVER`, "
+      "or say in its table `instead = { %s = \"DRIVER\" }`",
+      kind.c_str(), without.c_str(), kind.c_str(), kind.c_str());
 }
 
 void Cell::narrow_ranges() {
@@ -277,12 +312,18 @@ void Cell::answer(std::uint16_t requester, const ParameterAnswer& answer) noexce
   if (requester < requester_count_ && requesters_[requester] != nullptr) requesters_[requester]->push(answer);
 }
 
-bool Cell::has_real_actuator() const noexcept {
-  for (std::size_t i = 0; i < application_->devices.size(); ++i) {
-    const DriverRecord& chosen = driver(static_cast<std::uint16_t>(i));
-    if (chosen.actuates && chosen.kind == DriverKind::real) return true;
+/// A real driver on a simulated bus reaches nothing real.
+bool Cell::is_real(std::uint16_t device) const noexcept {
+  if (driver(device).kind != DriverKind::real) return false;
+  const std::uint16_t bus = application_->devices[device].bus;
+  return bus == no_index || is_real(bus);
+}
+
+const char* Cell::real_actuator() const noexcept {
+  for (std::uint16_t i = 0; i < application_->devices.size(); ++i) {
+    if (driver(i).actuates && is_real(i)) return application_->devices[i].name;
   }
-  return false;
+  return nullptr;
 }
 
 bool Cell::owns_actuator(std::uint16_t unit) const noexcept {

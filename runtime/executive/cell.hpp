@@ -57,6 +57,10 @@ class Cell {
   ComponentIndex component_of_device(std::uint16_t device) const noexcept {
     return static_cast<ComponentIndex>(application_->units.size() + device);
   }
+  /// How long a thread or the process may do nothing before that is a fault; 0: as long as it likes.
+  Duration standstill_limit() const noexcept {
+    return options_->standstill_limit.value_or(application_->standstill_limit);
+  }
   const char* component_name(ComponentIndex component) const noexcept;
   /// The object: its owning thread, and whoever knows that nobody restarts it. Others ask component_type().
   Component& component(ComponentIndex component) const noexcept;
@@ -88,7 +92,10 @@ class Cell {
   /// report, panel; never a real-time thread, none of which reads as the observer.
   [[nodiscard]] std::unique_lock<std::mutex> observe() const { return std::unique_lock(observing_); }
 
-  bool has_real_actuator() const noexcept;
+  /// The chosen driver is of the kind `real`, and so is that of each bus that carries it.
+  bool is_real(std::uint16_t device) const noexcept;
+  /// The first device that would move something real; null: none.
+  const char* real_actuator() const noexcept;
   /// A device that actuates and belongs to the unit. Any thread.
   bool owns_actuator(std::uint16_t unit) const noexcept;
   /// How readers see what the unit writes.

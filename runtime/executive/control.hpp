@@ -7,6 +7,7 @@
 
 #include "runtime/blackboard/doorbell.hpp"
 #include "runtime/core/status.hpp"
+#include "runtime/core/time.hpp"
 
 namespace flexrf {
 
@@ -116,6 +117,28 @@ class Control {
            demands_.load(std::memory_order_acquire) == 0;
   }
 
+  /// The process is about to be stopped by somebody's wish, and what its threads miss is no fault of theirs.
+  /// The supervising thread.
+  void begin_break() noexcept { on_break_.store(true, std::memory_order_seq_cst); }
+  void end_break() noexcept { on_break_.store(false, std::memory_order_seq_cst); }
+  bool is_on_break() const noexcept { return on_break_.load(std::memory_order_seq_cst); }
+
+  /// The longest time in which a thread, or the process, did nothing although it should have (Standstill).
+  /// Any thread.
+  void note_standstill(Duration missed) noexcept {
+    std::int64_t longest = longest_standstill_.load(std::memory_order_relaxed);
+    while (longest < missed.count() &&
+           !longest_standstill_.compare_exchange_weak(longest, missed.count(), std::memory_order_acq_rel)) {
+    }
+  }
+  Duration longest_standstill() const noexcept {
+    return Duration{longest_standstill_.load(std::memory_order_acquire)};
+  }
+  /// The supervising thread, in every look: who has nothing else to tell time by sees when it looked last.
+  void note_look(Time now) noexcept { looked_at_.store(nanoseconds(now), std::memory_order_release); }
+  /// No time: it has not looked yet, or nobody does (virtual time).
+  Time looked_at() const noexcept { return Time{Duration{looked_at_.load(std::memory_order_acquire)}}; }
+
   /// Counts units and devices that went into fault. Any thread.
   void note_fault() noexcept { faults_.fetch_add(1, std::memory_order_release); }
   std::uint32_t faults() const noexcept { return faults_.load(std::memory_order_acquire); }
@@ -136,6 +159,9 @@ class Control {
   std::atomic<bool> stop_motion_{false};
   std::atomic<bool> safe_state_{false};
   std::atomic<bool> started_{false};
+  std::atomic<bool> on_break_{false};
+  std::atomic<std::int64_t> longest_standstill_{0};
+  std::atomic<std::int64_t> looked_at_{0};
   std::atomic<std::uint32_t> demands_{0};
   std::atomic<std::uint32_t> withdrawals_{0};
   std::atomic<std::uint32_t> faults_{0};

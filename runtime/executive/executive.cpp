@@ -12,9 +12,10 @@
 #include <optional>
 
 #include "runtime/executive/heartbeat_watch.hpp"
+#include "runtime/executive/job_control.hpp"
 #include "runtime/executive/schedulability.hpp"
 #include "runtime/executive/service_manager.hpp"
-#include "runtime/executive/status_view.hpp"
+#include "runtime/executive/standstill.hpp"
 #include "runtime/executive/trigger.hpp"
 #include "runtime/executive/virtual_time.hpp"
 #include "runtime/log/log.hpp"
@@ -23,6 +24,7 @@
 #include "runtime/realtime/process_statistics.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
 #include "runtime/realtime/rights.hpp"
+#include "runtime/realtime/signals.hpp"
 #include "runtime/realtime/system_call_filter.hpp"
 
 namespace flexrf {
@@ -30,15 +32,12 @@ namespace {
 
 constexpr Duration supervision_interval = std::chrono::milliseconds{5};
 constexpr timespec lifecycle_pause{0, 10'000'000};
+/// Of whoever ended the application, while others do not read what it says last.
+constexpr Duration patience_with_readers = std::chrono::seconds{2};
 
-/// The signals that end an application by a controlled stop.
-constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
-
-sigset_t ending_set() noexcept {
-  sigset_t set;
-  sigemptyset(&set);
-  for (const int signal : ending_signals) sigaddset(&set, signal);
-  return set;
+/// Nobody asked for the end, nobody waits for it: readers have the time that they take.
+bool is_unhurried(EndCause cause) noexcept {
+  return cause == EndCause::end_of_input || cause == EndCause::virtual_time_over;
 }
 
 /// In virtual time there is no thread to wait for signals; the handler tells the control, which is all
@@ -48,6 +47,8 @@ volatile std::sig_atomic_t last_signal = 0;
 
 extern "C" void end_virtual_time(int signal) {
   last_signal = signal;
+  // Whoever asks again does not want to wait for a reader that takes nothing: the next one ends the process.
+  std::signal(signal, SIG_DFL);
   if (Control* control = signalled_control.load(); control != nullptr) {
     control->set_cause(EndCause::signal);
     control->rise_to(Mode::stopping);
@@ -85,7 +86,8 @@ Executive::Executive(const Application& application, Options options)
     : options_(std::move(options)),
       cell_(application, options_),
       lifecycle_(cell_, !options_.virtual_time.has_value()),
-      began_(MonotonicClock::now()) {}
+      began_(MonotonicClock::now()),
+      output_(cell_, options_.status_view && !options_.virtual_time) {}
 
 /// After a run that got stuck: whoever hung may have let go since, else this waits.
 Executive::~Executive() {
@@ -105,10 +107,11 @@ Status Executive::prepare() {
     cell_.prepare_virtual_time(options_.digest);
     return {};
   }
-  if (!options_.realtime && cell_.has_real_actuator()) {
+  if (!options_.realtime && cell_.real_actuator() != nullptr) {
     return Status::error(
         StatusCode::invalid_argument,
-        "--no-realtime is refused: a real actuator is chosen, and it must not be commanded late");
+        "--no-realtime is refused: a real actuator is chosen (%s), and it must not be commanded late",
+        cell_.real_actuator());
   }
   if (!options_.realtime) return {};
   RightsNeeded needed;
@@ -119,7 +122,10 @@ Status Executive::prepare() {
   const RightsReport rights = probe_rights(needed);
   if (rights.is_complete()) return {};
   std::fprintf(stderr, "%s\n", rights.text);
-  if (cell_.has_real_actuator()) return rights.status();
+  if (const char* const actuator = cell_.real_actuator(); actuator != nullptr) {
+    std::fprintf(stderr, "A real actuator is chosen: %s.\n", actuator);
+    return rights.status();
+  }
   std::fprintf(stderr, "Going on without real time: no real actuator is chosen.\n");
   options_.realtime = false;
   return {};
@@ -191,7 +197,7 @@ RunSummary Executive::run() {
   RunSummary summary;
   set_log_origin(began_);
   if (cell_.application().autostart) cell_.control().permit_motion_at_power_on();
-  std::signal(SIGPIPE, SIG_IGN);
+  signals::ignore_what_writes_tell();
   if (options_.virtual_time) {
     run_in_virtual_time(summary);
   } else {
@@ -199,7 +205,6 @@ RunSummary Executive::run() {
   }
   // With a thread that hangs nobody may look at the values.
   if (!summary.stuck) save_values();
-  drain_log(STDERR_FILENO);
   summary.cause = cell_.control().cause();
   summary.wall_time = MonotonicClock::now() - began_;
   if (summary.start_failure.code() == StatusCode::not_permitted) {
@@ -210,6 +215,22 @@ RunSummary Executive::run() {
     summary.exit_code = 128 + summary.signal;
   }
   return summary;
+}
+
+Status Executive::say_last(std::vector<std::string> texts) {
+  const bool unhurried = is_unhurried(cell_.control().cause());
+  const sigset_t ending = signals::ending_set();
+  const timespec interval{0, supervision_interval.count()};
+  const Time begun = MonotonicClock::now();
+  output_.begin_end(std::move(texts));
+  while (output_.is_ending()) {
+    const bool asked = sigtimedwait(&ending, nullptr, &interval) > 0;
+    if (asked || (!unhurried && MonotonicClock::now() - begun > patience_with_readers)) {
+      return Status::error(StatusCode::unavailable,
+                           "nobody reads standard output or error; what is left to be said is not written");
+    }
+  }
+  return output_.failure();
 }
 
 void Executive::begin_running() noexcept {
@@ -227,7 +248,10 @@ void Executive::run_in_virtual_time(RunSummary& summary) {
   signalled_control = &cell_.control();
   struct sigaction action {};
   action.sa_handler = end_virtual_time;
-  for (const int signal : ending_signals) sigaction(signal, &action, nullptr);
+  const sigset_t ending = signals::ending_set();
+  for (const int signal : signals::ending) {
+    if (sigismember(&ending, signal) == 1) sigaction(signal, &action, nullptr);
+  }
   VirtualTime time(cell_, lifecycle_, supervision);
   const Status status = lifecycle_.start_all();
   if (status) {
@@ -253,8 +277,8 @@ void Executive::run_in_virtual_time(RunSummary& summary) {
 
 void Executive::run_on_the_wall_clock(RunSummary& summary) {
   // Every thread inherits the mask: only the supervising thread takes these signals, and it waits for them.
-  const sigset_t ending = ending_set();
-  pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+  const sigset_t awaited = signals::supervised_set();
+  pthread_sigmask(SIG_BLOCK, &awaited, nullptr);
   alignas(16) static std::byte handler_stack[last_gasp::handler_stack_size];
   const last_gasp::AlternateStack crash_stack(handler_stack);
   Status status = last_gasp::install();
@@ -297,8 +321,9 @@ Status Executive::start_threads(RunSummary& summary) {
                 describe_response_time(estimate->task, estimate->result, text, sizeof(text)));
   }
   const CpuSet rest = machine->rest(claimed);
-  // The supervising, lifecycle, observing and library threads stay away from the real-time ones.
+  // The supervising, lifecycle, observing, writing and library threads stay away from the real-time ones.
   if (options_.realtime) sched_setaffinity(0, sizeof(cpu_set_t), &rest.mask());
+  if (const Status status = output_.start(); !status) return status;
   if (observer_ != nullptr) {
     if (const Status status = start_observer(); !status) return status;
   }
@@ -375,22 +400,20 @@ void Executive::supervise(RunSummary& summary) {
   HeartbeatWatch heartbeats(cell_);
   ServiceManager manager(cell_.application().name, ServiceManagerAddress::of_environment(),
                          cell_.heartbeat());
-  const sigset_t ending = ending_set();
+  const sigset_t awaited = signals::supervised_set();
   const timespec interval{0, supervision_interval.count()};
+  Standstill standstill(cell_, no_index);
   Time running_since{};
-  std::optional<StatusView> view;
-  if (options_.status_view && StatusView::is_possible()) view.emplace(cell_);
-  // Where the log would go to the terminal that the view is in, the view shows it.
-  const int log = view && isatty(STDERR_FILENO) == 1 ? -1 : STDERR_FILENO;
+  Time looked = MonotonicClock::now();
   while (control.mode() != Mode::ended) {
-    const int signal = sigtimedwait(&ending, nullptr, &interval);
-    if (signal > 0) {
-      summary.signal = signal;
-      control.set_cause(EndCause::signal);
-      // Asked twice, whoever asks does not want to wait for units to come to rest.
-      control.rise_to(control.mode() == Mode::stopping ? Mode::safe : Mode::stopping);
-    }
+    siginfo_t sent;
+    const int signal = sigtimedwait(&awaited, &sent, &interval);
     const Time now = MonotonicClock::now();
+    standstill.judge(now - looked);
+    control.note_look(now);
+    if (signal > 0) obey(sent, summary);
+    // A stop that was asked for is no standstill.
+    looked = signal > 0 ? MonotonicClock::now() : now;
     if (running_since == Time{} && control.mode() >= Mode::running) {
       running_since = now;
       summary.start_time = now - began_;
@@ -398,11 +421,8 @@ void Executive::supervise(RunSummary& summary) {
     supervision.observe(now);
     heartbeats.observe(now, supervision.is_stuck());
     manager.observe(now, control);
-    drain_log(log);
-    if (view) view->draw(now);
+    output_.observe();
   }
-  drain_log(log);
-  view.reset();
   summary.had_fault = summary.had_fault || supervision.had_fault();
   summary.cut_short = supervision.was_cut_short();
   if (running_since != Time{}) summary.run_time = MonotonicClock::now() - running_since;
@@ -413,6 +433,27 @@ void Executive::supervise(RunSummary& summary) {
   join_threads();
   // In a step that had begun before.
   summary.had_fault = summary.had_fault || control.faults() > 0;
+}
+
+void Executive::obey(const siginfo_t& sent, RunSummary& summary) noexcept {
+  Control& control = cell_.control();
+  const int signal = sent.si_signo;
+  switch (signals::use_of(signal)) {
+    case signals::Use::end:
+      summary.signal = signal;
+      control.set_cause(EndCause::signal);
+      // Asked twice, or by Ctrl-\, whoever asks does not want to wait for units to come to rest.
+      control.rise_to(signal == SIGQUIT || control.mode() == Mode::stopping ? Mode::safe : Mode::stopping);
+      return;
+    case signals::Use::stop:
+      return JobControl(cell_).stop(signal);
+    case signals::Use::crash:
+    case signals::Use::none:
+      log_warning(useless_signal_, cell_.application().name,
+                  "{} from process {} has no meaning here and changes nothing; SIGTERM ends the application",
+                  StaticText{signals::name_of(signal)}, sent.si_pid);
+      return;
+  }
 }
 
 void Executive::join_threads() noexcept {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <csignal>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -12,10 +13,12 @@
 #include "runtime/executive/component_actions.hpp"
 #include "runtime/executive/lifecycle.hpp"
 #include "runtime/executive/observer.hpp"
+#include "runtime/executive/output_thread.hpp"
 #include "runtime/executive/reconfiguration.hpp"
 #include "runtime/executive/run_summary.hpp"
 #include "runtime/executive/supervision.hpp"
 #include "runtime/executive/thread_loop.hpp"
+#include "runtime/log/log.hpp"
 #include "runtime/realtime/thread_setup.hpp"
 
 namespace flexrf {
@@ -34,6 +37,12 @@ class Executive {
   Status prepare();
   /// Until the application ended. Signals SIGINT and SIGTERM end it by a controlled stop.
   RunSummary run();
+  /// After run(): the rest of the log, then these on standard output. Waits for whoever reads them; when a
+  /// signal or a fault ended the application 2 s at most, and never longer than to the next ending signal. An
+  /// error: they are not there as a whole.
+  Status say_last(std::vector<std::string> texts);
+  /// say_last() waited in vain: the process can only be left by _exit().
+  bool is_still_saying() const noexcept { return output_.is_ending(); }
 
   /// Changes configuration parameters of the running application, as one transaction; waits for the outcome.
   /// Another thread than run()'s, not real-time, while the application runs.
@@ -71,6 +80,7 @@ class Executive {
   Status start_threads(RunSummary& summary);
   Status start_observer();
   void supervise(RunSummary& summary);
+  void obey(const siginfo_t& sent, RunSummary& summary) noexcept;
   void live();  // the lifecycle thread
   void join_threads() noexcept;
   void begin_running() noexcept;
@@ -85,7 +95,9 @@ class Executive {
   std::deque<RunningThread> threads_;
   Status start_status_;
   std::atomic<bool> lives_{false};
+  LogLimit useless_signal_;
   Time began_{};
+  OutputThread output_;
 };
 
 }  // namespace flexrf

@@ -266,8 +266,8 @@ bool Lifecycle::may_restart(std::uint16_t index) const noexcept {
   const RestartPolicy policy = application.units[index].restart;
   if (policy == RestartPolicy::never || (policy == RestartPolicy::once && restarts_[index] > 0)) return false;
   for (std::size_t d = 0; d < application.devices.size(); ++d) {
-    const DriverRecord& driver = cell_->driver(static_cast<std::uint16_t>(d));
-    if (application.devices[d].unit == index && driver.actuates && driver.kind == DriverKind::real)
+    const auto device = static_cast<std::uint16_t>(d);
+    if (application.devices[d].unit == index && cell_->driver(device).actuates && cell_->is_real(device))
       return false;
   }
   return true;

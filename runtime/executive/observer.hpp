@@ -22,9 +22,9 @@ class Observer {
   /// priority, and, as all memory is locked, stacks of observer_stack_size. An error refuses the start. The
   /// main thread.
   virtual Status start() = 0;
-  /// The application ended and its report is written; its objects still stand: ends and joins the observer's
-  /// threads. Also after a prepare() or start() that failed or was never called; not when a thread hangs and
-  /// the process can only be left. The main thread.
+  /// The application ended, its report is still to be written; its objects still stand: ends and joins the
+  /// observer's threads. Also after a prepare() or start() that failed or was never called; not when a thread
+  /// hangs and the process can only be left. The main thread.
   virtual void stop() noexcept = 0;
 };
 

@@ -31,8 +31,11 @@ constexpr std::array flags{
     Flag{"--tls-certificate", "FILE", "serve the panel by TLS: certificate (PEM)"},
     Flag{"--tls-key", "FILE", "and its key (PEM)"},
     Flag{"--insecure-http", nullptr, "let other machines use the panel without TLS"},
+    Flag{"--standstill-limit", "DURATION",
+         "instead of the application's: what is a fault of time missed at a stretch"},
     Flag{"--no-realtime", nullptr, "ordinary priorities; refused with a real actuator"},
     Flag{"--descriptor", nullptr, "print descriptor.json and end"},
+    Flag{"--version", nullptr, "which application of which FlexRF this is"},
     Flag{"--help", nullptr, "this text"},
 };
 
@@ -168,6 +171,9 @@ Status take(const Application& application, std::string_view name, std::string_v
     const std::optional<Duration> timeout = parse_duration(value);
     if (!timeout) return no_duration(name, value);
     options.panel_edit_timeout = *timeout;
+  } else if (name == "--standstill-limit") {
+    options.standstill_limit = parse_duration(value);
+    if (!options.standstill_limit) return no_duration(name, value);
   } else if (name == "--virtual-time") {
     options.virtual_time = parse_duration(value);
     if (!options.virtual_time) return no_duration(name, value);
@@ -200,6 +206,7 @@ Result<Options> parse_options(const Application& application, int argument_count
       }
       options.digest |= name == "--digest";
       options.help |= name == "--help";
+      options.version |= name == "--version";
       options.insecure_http |= name == "--insecure-http";
       options.descriptor |= name == "--descriptor";
       if (name == "--no-realtime") options.realtime = false;

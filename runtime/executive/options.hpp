@@ -33,11 +33,13 @@ struct Options {
   bool observed = false;                 ///< somebody observes: memory is locked for its threads too
   /// Of an edit of the configuration that nobody applies.
   Duration panel_edit_timeout = std::chrono::minutes{5};
+  std::optional<Duration> standstill_limit;  ///< instead of the application's
   std::uint64_t seed = 1;
   bool realtime = true;
   bool status_view = false;  ///< show the live status while standard output is a terminal
   bool digest = false;
   bool help = false;
+  bool version = false;     ///< print it and end
   bool descriptor = false;  ///< print descriptor.json and end
 };
 

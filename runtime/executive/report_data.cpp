@@ -32,6 +32,8 @@ std::vector<ThreadReport> collect_threads(const Application& application, const 
     thread.cycles = state.cycles.load();
     thread.overruns = state.overruns.load();
     thread.skipped = state.skipped.load();
+    thread.skipped_time = Duration{state.skipped_time.load()};
+    thread.longest_standstill = Duration{state.longest_standstill.load()};
     thread.allocations = state.allocations.load();
     thread.minor_faults = state.minor_faults.load();
     thread.major_faults = state.major_faults.load();
@@ -152,6 +154,14 @@ std::string blame(const ReportData& data) {
   for (const ThreadReport& thread : data.threads) {
     if (thread.hangs) return "thread " + std::string{thread.record->name} + ": its step does not return";
   }
+  for (const ThreadReport& thread : data.threads) {
+    if (thread.longest_standstill.count() > 0) {
+      return "thread " + std::string{thread.record->name} + " stood still for " +
+             duration_text(thread.longest_standstill);
+    }
+  }
+  if (data.longest_standstill.count() > 0)
+    return "the process stood still for " + duration_text(data.longest_standstill);
   if (data.faults > 0)
     return std::to_string(data.faults) +
            (data.faults == 1 ? " fault, restarted by policy" : " faults, restarted by policy");
@@ -220,6 +230,8 @@ ReportData collect_report(const Cell& cell, const RunSummary& summary) {
   data.queues = collect_queues(application);
   if (const Result<ProcessStatistics> process = read_process_statistics()) data.process = *process;
   data.faults = cell.control().faults();
+  data.longest_standstill = cell.control().longest_standstill();
+  data.unwritten_log_lines = unwritten_log_lines();
   data.dropped_log_messages = dropped_log_messages();
   data.guarded = has_allocation_guard();
   data.ending = ending_of(data);

@@ -25,6 +25,8 @@ struct ThreadReport {
   std::uint64_t cycles = 0;
   std::uint64_t overruns = 0;
   std::uint64_t skipped = 0;
+  Duration skipped_time{};
+  Duration longest_standstill{};
   std::uint64_t allocations = 0;
   std::uint64_t minor_faults = 0;
   std::uint64_t major_faults = 0;
@@ -75,8 +77,10 @@ struct ReportData {
   std::vector<SlotReport> slots;
   std::vector<QueueReport> queues;
   std::optional<ProcessStatistics> process;
-  std::uint64_t faults = 0;  ///< how often a unit or device went into fault, those restarted too
+  std::uint64_t faults = 0;       ///< how often a unit or device went into fault, those restarted too
+  Duration longest_standstill{};  ///< of a thread or the process
   std::uint64_t dropped_log_messages = 0;
+  std::uint64_t unwritten_log_lines = 0;
   bool guarded = false;  ///< the allocation guard was linked in
   std::string ending;    ///< one sentence: how the run ended and why
 };

@@ -44,7 +44,9 @@ void write_threads(JsonWriter& json, const ReportData& data) {
     json.begin_object().member("name", thread.record->name).member("priority", thread.record->priority);
     json.member("cycles", thread.cycles)
         .member("overruns", thread.overruns)
-        .member("skipped", thread.skipped);
+        .member("skipped", thread.skipped)
+        .member("skipped_time_ns", thread.skipped_time.count())
+        .member("longest_standstill_ns", thread.longest_standstill.count());
     write_durations(json, "lateness", thread.lateness);
     write_durations(json, "execution", thread.execution);
     json.member("budget_ns", thread.record->budget.count());

@@ -35,17 +35,18 @@ std::string heading(const ReportData& data) {
 
 std::string threads_text(const ReportData& data) {
   if (data.threads.empty()) return {};
-  TextTable counts(
-      {"thread", "cycles", "overruns", "skipped", "page faults", "switches", "preempted", "allocations"});
+  TextTable counts({"thread", "cycles", "overruns", "skipped", "left out", "page faults", "switches",
+                    "preempted", "allocations"});
   TextTable lateness({"lateness", "p50", "p99", "p99.9", "max"});
   TextTable execution({"execution", "p50", "p99", "p99.9", "max", "budget", "deadline", "response*"});
   bool estimated = false;
   for (const ThreadReport& thread : data.threads) {
     const char* name = thread.record->name;
     counts.add({name, std::to_string(thread.cycles), std::to_string(thread.overruns),
-                or_nothing(thread.skipped), or_nothing(thread.minor_faults + thread.major_faults),
-                or_nothing(thread.voluntary_switches), or_nothing(thread.involuntary_switches),
-                or_nothing(thread.allocations)});
+                or_nothing(thread.skipped),
+                thread.skipped_time.count() > 0 ? duration_text(thread.skipped_time) : "",
+                or_nothing(thread.minor_faults + thread.major_faults), or_nothing(thread.voluntary_switches),
+                or_nothing(thread.involuntary_switches), or_nothing(thread.allocations)});
     if (thread.cycles == 0) continue;
     const auto row = [name](const MeasuredDurations& measured) {
       return std::vector<std::string>{name, duration_text(measured.p50), duration_text(measured.p99),
@@ -152,7 +153,12 @@ std::string faults_text(const ReportData& data) {
   }
   for (const ThreadReport& thread : data.threads) {
     if (thread.hangs) table.add({thread.record->name, "this thread's step does not return"});
+    if (thread.longest_standstill.count() > 0)
+      table.add({thread.record->name, "stood still for " + duration_text(thread.longest_standstill)});
   }
+  if (data.longest_standstill.count() > 0)
+    table.add(
+        {data.application->name, "the process stood still for " + duration_text(data.longest_standstill)});
   std::string text = "\nFaults: " + std::to_string(std::max<std::uint64_t>(data.faults, 1)) + " in all\n";
   return table.is_empty() ? text : text + table.text("  ");
 }
@@ -177,6 +183,9 @@ std::string guard_text(const ReportData& data) {
   }
   if (data.dropped_log_messages > 0) {
     text += "Log messages dropped: " + std::to_string(data.dropped_log_messages) + "\n";
+  }
+  if (data.unwritten_log_lines > 0) {
+    text += "Lines of the log that nobody took: " + std::to_string(data.unwritten_log_lines) + "\n";
   }
   return text;
 }

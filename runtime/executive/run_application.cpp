@@ -1,4 +1,5 @@
 // The main function of every application.
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -6,7 +7,10 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "runtime/core/standard_descriptors.hpp"
 #include "runtime/executive/executive.hpp"
 #include "runtime/executive/report.hpp"
 #include "runtime/realtime/instance_lock.hpp"
@@ -36,6 +40,19 @@ int refuse(const Application& application, const Status& status) {
   return exit_code_of(status);
 }
 
+/// Where standard error takes it at once.
+void complain(const Application& application, const Status& status) {
+  pollfd errors{STDERR_FILENO, POLLOUT, 0};
+  if (poll(&errors, 1, 0) > 0 && (errors.revents & POLLOUT) != 0)
+    std::fprintf(stderr, "%s: %s\n", application.name, status.cause());
+}
+
+std::string digest_line(std::uint64_t digest) {
+  char text[20];
+  std::snprintf(text, sizeof(text), "%016" PRIx64 "\n", digest);
+  return text;
+}
+
 Status write_file(const std::string& path, const std::string& text) {
   std::FILE* file = std::fopen(path.c_str(), "w");
   bool written = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
@@ -44,13 +61,28 @@ Status write_file(const std::string& path, const std::string& text) {
   return Status::error(StatusCode::unavailable, "--report %s: %s", path.c_str(), std::strerror(errno));
 }
 
+/// Before anything of the cell is touched. In virtual time nothing is: any number may run.
+Status lock_cell(const Cell& cell, const Options& options, InstanceLock& lock) {
+  if (options.virtual_time) return {};
+  char directory[lock_directory_size];
+  const LockScope scope = cell.real_actuator() != nullptr ? LockScope::machine : LockScope::user;
+  if (const Status status = find_lock_directory(scope, directory); !status) return status;
+  return lock.acquire(cell.application().name, directory);
+}
+
 }  // namespace
 
 int run_application(const Application& application, int argument_count, char** arguments, MakeObserver make) {
+  hold_standard_descriptors();
   Result<Options> options = parse_options(application, argument_count, arguments);
   if (!options) return refuse(application, options.status());
   if (options->help) {
     std::fputs(usage(application).c_str(), stdout);
+    return 0;
+  }
+  if (options->version) {
+    std::printf("%s, descriptor %016" PRIx64 ", FlexRF %s\n", application.name, application.descriptor_hash,
+                FLEXRF_VERSION);
     return 0;
   }
   if (options->descriptor) {
@@ -66,12 +98,10 @@ int run_application(const Application& application, int argument_count, char** a
   }
   options->observed = make != nullptr && options->panel != "off" && !options->virtual_time;
   InstanceLock lock;
-  // In virtual time nothing of the cell is touched: any number may run.
-  if (!options->virtual_time) {
-    if (const Status status = lock.acquire(application.name); !status) return refuse(application, status);
-  }
   Executive executive(application, *options);
   if (const Status status = executive.prepare(); !status) return refuse(application, status);
+  if (const Status status = lock_cell(executive.cell(), *options, lock); !status)
+    return refuse(application, status);
   std::unique_ptr<Observer> observer;
   if (options->observed) {
     observer = make(executive);
@@ -83,19 +113,20 @@ int run_application(const Application& application, int argument_count, char** a
     executive.set_observer(*observer);
   }
   RunSummary summary = executive.run();
-  std::fputs(report_text(executive.cell(), summary).c_str(), stdout);
-  if (!options->report_file.empty()) {
-    if (const Status status = write_file(options->report_file, report_json(executive.cell(), summary));
-        !status) {
-      std::fprintf(stderr, "%s: %s\n", application.name, status.cause());
-      if (summary.exit_code == 0) summary.exit_code = exit_usage;
-    }
-  }
-  if (summary.digest) std::printf("%016" PRIx64 "\n", *summary.digest);
-  std::fflush(nullptr);
+  // Whatever is left to be said may wait for its reader: nobody else does by then.
+  if (!summary.stuck && observer != nullptr) observer->stop();
+  const auto note_failure = [&](const Status& status) {
+    if (status) return;
+    complain(application, status);
+    if (summary.exit_code == 0) summary.exit_code = exit_usage;
+  };
+  if (!options->report_file.empty())
+    note_failure(write_file(options->report_file, report_json(executive.cell(), summary)));
+  std::vector<std::string> texts{report_text(executive.cell(), summary)};
+  if (summary.digest) texts.push_back(digest_line(*summary.digest));
+  note_failure(executive.say_last(std::move(texts)));
   // A thread that hangs can be neither joined nor destroyed under; the process can only be left.
-  if (summary.stuck) _exit(exit_fault);
-  if (observer != nullptr) observer->stop();
+  if (summary.stuck || executive.is_still_saying()) _exit(summary.exit_code);
   return summary.exit_code;
 }
 

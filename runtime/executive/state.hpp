@@ -58,9 +58,12 @@ struct ThreadState {
   std::atomic<std::uint64_t> cycles{0};
   std::atomic<std::uint64_t> overruns{0};     ///< cycles that ended after their deadline or the next release
   std::atomic<std::uint64_t> skipped{0};      ///< releases left out by the policy
-  std::atomic<std::uint64_t> allocations{0};  ///< allocations and frees in the real-time part
-  std::atomic<bool> asked_back{false};        ///< a unit or device of this thread is asked_back
-  std::atomic<std::int64_t> step_began{0};    ///< ns; 0 while not stepping: how a hung thread is seen
+  std::atomic<std::int64_t> skipped_time{0};  ///< ns, of those
+  std::atomic<std::int64_t> longest_standstill{0};  ///< ns; see Standstill. 0: there was none
+  std::atomic<std::uint64_t> allocations{0};        ///< allocations and frees in the real-time part
+  std::atomic<bool> asked_back{false};              ///< a unit or device of this thread is asked_back
+  std::atomic<std::int64_t> step_began{0};          ///< ns; 0 while not stepping: how a hung thread is seen
+  std::atomic<const char*> stepped{nullptr};  ///< unit or device that its thread is busy with; null: none
   std::atomic<std::uint64_t> turns{0};  ///< with a step or without: that it runs at all; see HeartbeatWatch
   std::atomic<std::int32_t> thread_id{0};  ///< kernel's, for /proc
   // What the kernel counted from the thread's first wait to its end; filled in at the end.

@@ -11,8 +11,8 @@
 
 namespace flexrf {
 
-/// All functions: the supervising thread (not real-time), which is the observer. Never waits for the
-/// terminal: while it does not take more, frames are left out.
+/// All functions: one thread (not real-time), for which nothing waits. While the terminal does not take more,
+/// frames are left out; one that does not let itself be opened anew is waited for.
 class StatusView {
  public:
   /// `descriptor`: a terminal. While the view lives, the log is to be drained to nowhere (drain_log(-1))

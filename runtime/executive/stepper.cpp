@@ -248,7 +248,7 @@ void Stepper::receive(Time now) noexcept {
   for (const std::uint16_t index : record_->devices) {
     if (!owns_device(index)) continue;
     Device& device = *application_->device_states[index].device;
-    last_gasp::set_stepped(application_->devices[index].name);
+    note_stepped(application_->devices[index].name);
     cell_->parameters(cell_->component_of_device(index)).before_step(now);
     device.receive(tick_);
     // What comes to its end before all is initialised is noticed afterwards: until then nothing can be
@@ -279,7 +279,7 @@ bool Stepper::step(std::size_t place, Time now) noexcept {
   state.stepped_at = now;
   context_->now = now;
   ++context_->step;
-  last_gasp::set_stepped(record.name);
+  note_stepped(record.name);
   parameters.before_step(now);
   try {
     unit.step(tick_);
@@ -301,6 +301,12 @@ bool Stepper::step(std::size_t place, Time now) noexcept {
   return true;
 }
 
+/// For the crash's message, and for whoever finds that this thread hangs.
+void Stepper::note_stepped(const char* component) noexcept {
+  last_gasp::set_stepped(component);
+  state_->stepped.store(component, std::memory_order_relaxed);
+}
+
 void Stepper::send(Time now) noexcept {
   if (!receives_) return;
   tick_.now = now;
@@ -311,7 +317,7 @@ void Stepper::send(Time now) noexcept {
     const std::uint16_t index = record_->devices[place];
     if (!owns_device(index)) continue;
     DeviceState& state = application_->device_states[index];
-    last_gasp::set_stepped(application_->devices[index].name);
+    note_stepped(application_->devices[index].name);
     state.device->send(tick_);
     check_device(index);
     if (SlotControl* slot = application_->devices[index].feedback_slot; slot != nullptr) {
@@ -320,7 +326,7 @@ void Stepper::send(Time now) noexcept {
     }
     cell_->parameters(cell_->component_of_device(index)).after_step(now);
   }
-  last_gasp::set_stepped(nullptr);
+  note_stepped(nullptr);
 }
 
 void Stepper::publish_feedback(SlotControl* slot, const ParameterBlock& block, const void* values,

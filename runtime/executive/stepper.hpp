@@ -50,6 +50,7 @@ class Stepper {
   ThreadState& state() noexcept { return *state_; }
 
  private:
+  void note_stepped(const char* component) noexcept;
   void give_back() noexcept;
   void apply_requests(Time now) noexcept;
   void apply(const ParameterRequest& request, Time now) noexcept;

@@ -30,6 +30,7 @@ Supervision::Supervision(Cell& cell, Lifecycle& lifecycle, bool watch_for_hangs)
 }
 
 Duration Supervision::hang_timeout(const ThreadRecord& thread) noexcept {
+  if (thread.hang_timeout.count() > 0) return thread.hang_timeout;
   return std::max(least_hang_timeout, 20 * thread.deadline);
 }
 
@@ -65,13 +66,24 @@ void Supervision::watch_hangs(Time now, Duration missed) noexcept {
   const Application& application = cell_->application();
   for (std::size_t i = 0; i < application.threads.size(); ++i) {
     if (hangs(i, now, missed)) {
-      give_up(application.threads[i].name, "this thread's step does not return");
+      const char* const stepped = application.thread_states[i].stepped.load(std::memory_order_relaxed);
+      log_error(
+          application.threads[i].name,
+          "this thread's step does not return: {} has kept it for more than {} ms; end what it waits for, or "
+          "have it in a thread with priority = 0 and a hang_timeout",
+          StaticText{stepped != nullptr ? stepped : "the executive"},
+          std::chrono::duration_cast<std::chrono::milliseconds>(hang_timeout(application.threads[i]))
+              .count());
+      give_up();
       return;
     }
   }
   const Lifecycle::Operation operation = lifecycle_->operation();
   if (operation.component != nullptr && is_overdue(operation, now, missed)) {
-    give_up(operation.component, "initialise() or stop() does not return in its time");
+    log_error(operation.component,
+              "initialise() or stop() does not return in its time; give it more by initialise_timeout or "
+              "stop_timeout");
+    give_up();
   }
 }
 
@@ -96,10 +108,11 @@ bool Supervision::is_overdue(const Lifecycle::Operation& operation, Time now, Du
   return now - operation_missed_ > operation.overdue_at;
 }
 
-void Supervision::give_up(const char* name, const char* what) noexcept {
+void Supervision::give_up() noexcept {
   stuck_ = true;
   had_fault_ = true;
-  log_error(name, "{}; every device is made safe", StaticText{what});
+  log_error(cell_->application().name,
+            "what hangs cannot be ended: every device is made safe, then the process ends");
   cell_->control().set_cause(EndCause::fault);
   cell_->control().rise_to(Mode::safe);
   // Whoever hangs cannot make its own devices safe: their drivers prepared for this.

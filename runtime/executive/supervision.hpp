@@ -26,8 +26,8 @@ class Supervision {
   /// finish_timeout or stop_timeout ended a phase, not the units' coming to rest.
   bool was_cut_short() const noexcept { return cut_short_; }
 
-  /// A thread whose step does not return for this long hangs: 500 ms, or 20 deadlines where that is longer.
-  /// Time in which nobody watched does not count.
+  /// A thread whose step does not return for this long hangs: its hang_timeout, else 500 ms, or 20 deadlines
+  /// where that is longer. Time in which nobody watched does not count.
   static Duration hang_timeout(const ThreadRecord& thread) noexcept;
 
  private:
@@ -41,7 +41,7 @@ class Supervision {
   void watch_hangs(Time now, Duration missed) noexcept;
   bool hangs(std::size_t thread, Time now, Duration missed) noexcept;
   bool is_overdue(const Lifecycle::Operation& operation, Time now, Duration missed) noexcept;
-  void give_up(const char* name, const char* what) noexcept;
+  void give_up() noexcept;
   void finish(Time now) noexcept;
   void stop(Time now) noexcept;
   void make_safe(Time now) noexcept;

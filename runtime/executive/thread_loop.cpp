@@ -32,7 +32,8 @@ ThreadLoop::ThreadLoop(Cell& cell, std::uint16_t thread)
       record_(&cell.application().threads[thread]),
       stepper_(cell, thread),
       trigger_(record_->trigger, cell.application()),
-      accounting_(*record_, cell.application().thread_states[thread]) {}
+      accounting_(*record_, cell.application().thread_states[thread]),
+      standstill_(cell, thread) {}
 
 ThreadLoop::~ThreadLoop() {
   if (event_descriptor_ >= 0) close(event_descriptor_);
@@ -69,6 +70,7 @@ void ThreadLoop::run() noexcept {
   count(state.major_faults, before.ru_majflt, after.ru_majflt);
   count(state.voluntary_switches, before.ru_nvcsw, after.ru_nvcsw);
   count(state.involuntary_switches, before.ru_nivcsw, after.ru_nivcsw);
+  accounting_.say(Time::max());
   // What the lifecycle thread still asks for is given back here; after this nobody steps.
   stepper_.serve(MonotonicClock::now());
 }
@@ -85,6 +87,7 @@ void ThreadLoop::turn(std::uint32_t heard) noexcept {
   std::atomic<std::uint64_t>& turns = stepper_.state().turns;
   turns.store(turns.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   stepper_.serve(now);
+  accounting_.say(now);
   Due due = trigger_.due(now, readable_);
   if (stepper_.needs_attention() && due.at > trigger_.last_release() + Stepper::attention_interval) {
     due = Due{trigger_.last_release() + Stepper::attention_interval, due.fired, true};
@@ -101,7 +104,10 @@ void ThreadLoop::release(Time nominal, Time now, const Due& due) noexcept {
   const Release release{nominal, now, due.fired, due.timed_out};
   readable_ = false;
   trigger_.released(nominal, now);
+  // Before the step: what was commanded before the standstill is not to go on by itself.
+  if (standstill_.judge(missed_before(release))) stepper_.serve(now);
   const Time ended = stepper_.run(release);
+  if (record_->hang_timeout.count() == 0) standstill_.judge(ended - now);
   const std::uint64_t past = trigger_.finished(ended, record_->overrun);
   if (accounting_.count(release, ended, past)) {
     stepper_.fault_all(
@@ -109,6 +115,13 @@ void ThreadLoop::release(Time nominal, Time now, const Due& due) noexcept {
                       record_->name, static_cast<long long>((ended - release.nominal).count() / 1000)));
   }
   if (record_->trigger.kind == TriggerKind::free) sched_yield();
+}
+
+Duration ThreadLoop::missed_before(const Release& release) const noexcept {
+  if (record_->trigger.kind == TriggerKind::period) return release.now - release.nominal;
+  // Nothing tells when it should have run; while the process is stopped, nobody supervises either.
+  const Time looked = cell_->control().looked_at();
+  return looked == Time{} ? Duration{} : release.now - looked;
 }
 
 void ThreadLoop::wait(std::uint32_t heard, Time until) noexcept {

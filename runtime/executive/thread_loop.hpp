@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "runtime/executive/accounting.hpp"
+#include "runtime/executive/standstill.hpp"
 #include "runtime/executive/stepper.hpp"
 #include "runtime/executive/trigger.hpp"
 
@@ -27,6 +28,7 @@ class ThreadLoop {
   void watch_system_calls() noexcept;
   void turn(std::uint32_t heard) noexcept;
   void release(Time nominal, Time now, const Due& due) noexcept;
+  Duration missed_before(const Release& release) const noexcept;
   void wait(std::uint32_t heard, Time until) noexcept;
   void wait_with_descriptor(std::uint32_t heard, Time until, int descriptor) noexcept;
 
@@ -35,6 +37,7 @@ class ThreadLoop {
   Stepper stepper_;
   Trigger trigger_;
   Accounting accounting_;
+  Standstill standstill_;
   std::unique_ptr<std::byte[]> handler_stack_;  // for crash signals
   int event_descriptor_ = -1;
   bool readable_ = false;

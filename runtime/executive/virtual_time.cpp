@@ -78,6 +78,7 @@ Duration VirtualTime::run(Duration duration) noexcept {
     }
   }
   supervision_->observe(now_);
+  for (Thread& thread : threads_) thread.accounting.say(Time::max());
   return now_ - beginning;
 }
 
@@ -170,6 +171,7 @@ void VirtualTime::end(Thread& thread) noexcept {
     thread.stepper.fault_all(
         Status::error(StatusCode::timeout, "thread %s reached its overrun limit", record.name));
   }
+  thread.accounting.say(now_);
   thread.phase = Phase::waiting;
   look_for_release(thread);
 }

@@ -17,6 +17,9 @@ constexpr std::size_t recent_lines = 200;
 constinit LogRing ring;
 constinit std::atomic<Severity> threshold{Severity::info};
 constinit std::atomic<std::int64_t> origin{0};
+/// Since when a line is being written, ns of the monotonic clock; 0: none is.
+constinit std::atomic<std::int64_t> writing_since{0};
+constinit std::atomic<std::uint64_t> unwritten{0};
 constinit thread_local const Time* thread_clock [[gnu::tls_model("initial-exec")]] = nullptr;
 
 /// What was drained. The mutex is between threads that are not real-time: those that drain and those that
@@ -25,6 +28,7 @@ struct Drained {
   std::mutex mutex;
   std::uint64_t lines = 0;
   std::uint64_t drops_said = 0;
+  std::uint64_t unwritten_said = 0;
   char text[recent_lines][line_capacity]{};
   std::uint16_t size[recent_lines]{};
 
@@ -33,30 +37,58 @@ struct Drained {
     size[lines % recent_lines] = static_cast<std::uint16_t>(length);
     ++lines;
   }
-  /// Formats what was recorded next and keeps it; its length, or 0 when there is nothing.
-  std::size_t take(char* line) noexcept;
+  /// Formats what was recorded next and keeps it; its length, or 0 when there is nothing. `is_written`: the
+  /// line before was, so that it is the time to say what was not.
+  std::size_t take(char* line, bool is_written) noexcept;
 };
 constinit Drained drained;
 
-std::size_t Drained::take(char* line) noexcept {
+/// A line that the log says of itself.
+LogRecord remark(const char* format, std::uint64_t count) noexcept {
+  LogRecord said{};
+  said.time = log_time();
+  said.source = "log";
+  said.format = format;
+  said.severity = Severity::warning;
+  said.set(0, count);
+  return said;
+}
+
+std::size_t Drained::take(char* line, bool is_written) noexcept {
   const Time zero{Duration{origin.load(std::memory_order_relaxed)}};
+  // One character is left for the newline.
+  const auto format = [&](const LogRecord& record) {
+    return format_log_record(record, zero, line, line_capacity - 1);
+  };
   std::size_t length = 0;
-  if (const LogRecord* const record = ring.front(); record != nullptr) {
-    // One character is left for the newline.
-    length = format_log_record(*record, zero, line, line_capacity - 1);
+  if (const std::uint64_t lost = unwritten.load(std::memory_order_relaxed);
+      is_written && lost != unwritten_said) {
+    length = format(remark("{} lines were not written here: nobody read them in time, or writing failed",
+                           lost - unwritten_said));
+    unwritten_said = lost;
+  } else if (const LogRecord* const record = ring.front(); record != nullptr) {
+    length = format(*record);
     ring.pop();
   } else if (const std::uint64_t dropped = ring.dropped(); dropped != drops_said) {
-    LogRecord said{};
-    said.time = log_time();
-    said.source = "log";
-    said.format = "{} messages dropped, the ring was full";
-    said.severity = Severity::warning;
-    said.set(0, dropped - drops_said);
+    length = format(remark("{} messages dropped, the ring was full", dropped - drops_said));
     drops_said = dropped;
-    length = format_log_record(said, zero, line, line_capacity - 1);
   }
   if (length != 0) keep(line, length);
   return length;
+}
+
+/// One line, kept as the newest; its length, 0 when there is none.
+std::size_t take_line(char* line, bool is_written) noexcept {
+  const std::lock_guard lock(drained.mutex);
+  return drained.take(line, is_written);
+}
+
+/// All of it, or false.
+bool write_line(int descriptor, const char* line, std::size_t size) noexcept {
+  writing_since.store(nanoseconds(MonotonicClock::now()), std::memory_order_relaxed);
+  const ssize_t written = write(descriptor, line, size);
+  writing_since.store(0, std::memory_order_relaxed);
+  return written == static_cast<ssize_t>(size);
 }
 
 }  // namespace
@@ -88,20 +120,32 @@ void set_log_origin(Time time) noexcept {
 std::size_t drain_log(int descriptor) noexcept {
   char line[line_capacity];
   std::size_t lines = 0;
+  bool is_written = false;
   for (; lines <= LogRing::capacity; ++lines) {
-    std::size_t length = 0;
-    {
-      const std::lock_guard lock(drained.mutex);
-      length = drained.take(line);
-    }
+    const std::size_t length = take_line(line, is_written);
     if (length == 0) break;
     if (descriptor < 0) continue;
-    // One write per line, so that lines of several processes do not mix; nobody can be told when it fails.
-    // Without the lock: whoever looks at the recent lines does not wait for a terminal that takes nothing.
+    // One write per line, so that lines of several processes do not mix. Without the lock: whoever looks at
+    // the recent lines does not wait for a terminal that takes nothing.
     line[length] = '\n';
-    [[maybe_unused]] const ssize_t written = write(descriptor, line, length + 1);
+    is_written = write_line(descriptor, line, length + 1);
+    if (!is_written) unwritten.fetch_add(1, std::memory_order_relaxed);
   }
   return lines;
+}
+
+std::size_t relieve_log(Duration patience) noexcept {
+  const std::int64_t since = writing_since.load(std::memory_order_relaxed);
+  if (since == 0 || nanoseconds(MonotonicClock::now()) - since < patience.count()) return 0;
+  char line[line_capacity];
+  std::size_t lines = 0;
+  while (lines <= LogRing::capacity && take_line(line, false) != 0) ++lines;
+  unwritten.fetch_add(lines, std::memory_order_relaxed);
+  return lines;
+}
+
+std::uint64_t unwritten_log_lines() noexcept {
+  return unwritten.load(std::memory_order_relaxed);
 }
 
 std::uint64_t visit_recent_log(std::uint64_t after, void* context,

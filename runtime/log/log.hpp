@@ -46,9 +46,19 @@ void set_log_clock(const Time* now) noexcept;
 void set_log_origin(Time origin) noexcept;
 
 /// Formats what was recorded and writes it to `descriptor` (−1: nowhere), a line `[  12.345678] warning jog:
-/// …` each; at most one ring's worth per call. Non-real-time threads.
+/// …` each; at most one ring's worth per call. Waits for whoever reads there: for a thread that nothing else
+/// waits for. Non-real-time threads.
 /// @returns number of lines.
 std::size_t drain_log(int descriptor) noexcept;
+
+/// For a thread that must not wait: where another one's drain_log() has been waiting for its reader for
+/// longer than `patience`, takes over what was recorded, so that the panel shows it and the ring does not
+/// fill. These lines are not written; drain_log() says how many when it goes on. Non-real-time threads.
+/// @returns number of lines.
+std::size_t relieve_log(Duration patience) noexcept;
+
+/// Lines that were not written because nobody took them, or because writing failed. Any thread.
+std::uint64_t unwritten_log_lines() noexcept;
 
 /// The last lines that were drained, for the panel. Calls `line(context, number, text)` for each line whose
 /// number is greater than `after`, oldest first; numbers count from 1. Non-real-time threads; must not drain

@@ -1,7 +1,11 @@
 #include "runtime/log/log.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstring>
 #include <string>
 #include <thread>
 #include <vector>
@@ -205,6 +209,76 @@ void loses_nothing_uncounted(void**) {
   assert_int_equal(collected.lines + dropped_log_messages() - dropped_before, said);
 }
 
+/// A pipe that takes no more than it has: whoever writes into it waits.
+struct FullPipe {
+  FullPipe() {
+    if (pipe(ends) != 0) return;
+    fcntl(ends[1], F_SETFL, O_NONBLOCK);
+    const char block[512] = {};
+    while (write(ends[1], block, sizeof(block)) > 0) {
+    }
+    fcntl(ends[1], F_SETFL, 0);
+  }
+  ~FullPipe() {
+    close(ends[0]);
+    close(ends[1]);
+  }
+  /// Until all that was written is read: everything before the first line of the log is filling.
+  std::string rest() {
+    close(ends[1]);
+    ends[1] = -1;
+    std::string text;
+    char block[4096];
+    for (ssize_t count = 0; (count = read(ends[0], block, sizeof(block))) > 0;)
+      text.append(block, static_cast<std::size_t>(count));
+    return text.substr(std::min(text.find('['), text.size()));
+  }
+  int ends[2] = {-1, -1};
+};
+
+void a_reader_that_takes_nothing_holds_up_nobody_else(void**) {
+  static std::string written;
+  static std::size_t relieved;
+  relieved = 0;
+  {
+    FullPipe pipe;
+    log_info("a", "first");
+    std::thread writer([&pipe] {
+      drain_log(pipe.ends[1]);
+      log_info("a", "last");
+      drain_log(pipe.ends[1]);
+    });
+    // While the writer waits, others take over; what they took is in the recent lines.
+    for (int number = 0; relieved < 5; ++number) {
+      if (number < 5) log_info("a", "number {}", number);
+      relieved += relieve_log(std::chrono::milliseconds{20});
+      std::this_thread::sleep_for(std::chrono::milliseconds{5});
+    }
+    assert_string_equal(std::strstr(last_line(), "info"), "info a: number 4");
+    // Somebody reads at last.
+    char block[65536];
+    assert_true(read(pipe.ends[0], block, sizeof(block)) > 0);
+    writer.join();
+    written = pipe.rest();
+  }
+  assert_int_equal(relieved, 5);
+  assert_true(written.find("a: first\n") != std::string::npos);
+  assert_true(written.find("number") == std::string::npos);
+  assert_true(written.find("warning log: 5 lines were not written here: nobody read them in time") !=
+              std::string::npos);
+  assert_true(written.find("a: last\n") != std::string::npos);
+}
+
+void lines_that_cannot_be_written_are_counted(void**) {
+  const int full = open("/dev/full", O_WRONLY);
+  const std::uint64_t before = unwritten_log_lines();
+  for (int number = 0; number < 3; ++number) log_info("a", "number {}", number);
+  drain_log(full);
+  close(full);
+  assert_int_equal(unwritten_log_lines() - before, 3);
+  assert_string_equal(std::strstr(last_line(), "info"), "info a: number 2");
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -220,6 +294,8 @@ int main() {
       cmocka_unit_test_setup(keeps_the_last_lines_for_the_panel, start_clean),
       cmocka_unit_test_setup(says_a_repeated_warning_once_a_second, start_clean),
       cmocka_unit_test_setup(loses_nothing_uncounted, start_clean),
+      cmocka_unit_test_setup(a_reader_that_takes_nothing_holds_up_nobody_else, start_clean),
+      cmocka_unit_test_setup(lines_that_cannot_be_written_are_counted, start_clean),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

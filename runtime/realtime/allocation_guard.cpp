@@ -3,13 +3,12 @@
 // new comes through malloc.
 
 #include <errno.h>
-#include <execinfo.h>
-#include <unistd.h>
 
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
 
+#include "runtime/realtime/last_gasp.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
 
 extern "C" {
@@ -32,15 +31,10 @@ namespace {
   AllocationCounter& counter = *detail::allocation_counter;
   counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
 #if FLEXRF_CHECKED
-  // What is done on the way out may allocate.
-  detail::allocation_counter = nullptr;
   char message[128] = "\nflexrf: ";
   std::strcat(message, function);
   std::strcat(message, " called in a real-time thread, where nothing may be allocated or freed:\n");
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message, std::strlen(message));
-  void* frames[64];
-  backtrace_symbols_fd(frames, backtrace(frames, 64), STDERR_FILENO);
-  std::abort();
+  last_gasp::abort_with_trace(message);
 #endif
 }
 

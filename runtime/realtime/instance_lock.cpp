@@ -34,23 +34,48 @@ void describe_self(char* text, std::size_t capacity) noexcept {
   std::snprintf(text, capacity, "process %d (%s), since %s", getpid(), command, since);
 }
 
-const char* usual_directory() noexcept {
-  // A folder of the machine comes before the user's: a cell's hardware is there once, whoever starts it.
-  if (access("/run/flexrf", W_OK) == 0) return "/run/flexrf";
-  const char* const user = std::getenv("XDG_RUNTIME_DIR");  // NOLINT(concurrency-mt-unsafe): at start
-  if (user != nullptr && user[0] == '/' && access(user, W_OK) == 0) return user;
-  return "/tmp";
+constexpr const char* machine_directory = "/run/flexrf";
+
+/// Of this user alone, so that nobody else can have put anything there.
+bool is_own(const char* directory) noexcept {
+  struct stat found {};
+  return lstat(directory, &found) == 0 && S_ISDIR(found.st_mode) && found.st_uid == geteuid() &&
+         (found.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
 }  // namespace
 
+Status find_lock_directory(LockScope scope, char (&path)[lock_directory_size]) noexcept {
+  if (scope == LockScope::machine) {
+    std::snprintf(path, sizeof(path), "%s", machine_directory);
+    // What root makes here is root's alone, until somebody sets it up for a group.
+    if (geteuid() == 0) mkdir(machine_directory, 0755);
+    if (access(machine_directory, W_OK | X_OK) == 0) return {};
+    return Status::error(
+        StatusCode::not_permitted,
+        "real actuators are run by one process of the whole machine, and its lock file belongs into %s: "
+        "%s; make it by `sudo install -d -m 2775 -g $(id -gn) %s` (docs/stopping.md)",
+        machine_directory, strerrordesc_np(errno), machine_directory);
+  }
+  const char* const user = std::getenv("XDG_RUNTIME_DIR");  // NOLINT(concurrency-mt-unsafe): at start
+  if (user != nullptr && user[0] == '/' && std::strlen(user) < sizeof(path) && is_own(user)) {
+    std::snprintf(path, sizeof(path), "%s", user);
+    return {};
+  }
+  std::snprintf(path, sizeof(path), "/tmp/flexrf-%u", geteuid());
+  mkdir(path, 0700);
+  if (is_own(path)) return {};
+  return Status::error(
+      StatusCode::not_permitted,
+      "the lock file's folder %s is not this user's alone: remove it, or set XDG_RUNTIME_DIR", path);
+}
+
 Status InstanceLock::acquire(const char* cell, const char* directory) noexcept {
   if (is_held()) return Status::error(StatusCode::busy, "this process holds %s already", path_);
-  if (directory == nullptr) directory = usual_directory();
   const int length = std::snprintf(path_, sizeof(path_), "%s/flexrf-%s.lock", directory, cell);
   if (length < 0 || static_cast<std::size_t>(length) >= sizeof(path_))
     return Status::error(StatusCode::invalid_argument, "the lock file's path is too long: %.100s...", path_);
-  // Another user's file may be read and locked, but in /tmp not opened for writing.
+  // Another user's file may be read and locked, but not opened for writing.
   int file = open(path_, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
   const bool is_writable = file >= 0;
   if (!is_writable) file = open(path_, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);

@@ -112,6 +112,63 @@ void a_directory_that_is_not_there_is_named(void**) {
                       "cannot open the lock file /nowhere/flexrf-one.lock: No such file or directory");
 }
 
+// ---- where it belongs
+
+void a_user_has_a_place_of_its_own(void**) {
+  char place[lock_directory_size];
+  setenv("XDG_RUNTIME_DIR", directory, 1);
+  assert_true(find_lock_directory(LockScope::user, place).is_ok());
+  assert_string_equal(place, directory);
+  // Where others may write, a lock could have been taken beforehand.
+  chmod(directory, 0777);
+  assert_true(find_lock_directory(LockScope::user, place).is_ok());
+  char own[lock_directory_size];
+  std::snprintf(own, sizeof(own), "/tmp/flexrf-%u", geteuid());
+  assert_string_equal(place, own);
+  chmod(directory, 0755);
+  unsetenv("XDG_RUNTIME_DIR");
+  assert_true(find_lock_directory(LockScope::user, place).is_ok());
+  assert_string_equal(place, own);
+}
+
+/// As another user, who finds that folder made by somebody else.
+int stranger_asks(LockScope scope) {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (setuid(65534) != 0) _exit(10);
+    unsetenv("XDG_RUNTIME_DIR");
+    char place[lock_directory_size];
+    const Status status = find_lock_directory(scope, place);
+    if (status) _exit(0);
+    const bool told =
+        scope == LockScope::user
+            ? std::strstr(status.cause(), "/tmp/flexrf-65534") != nullptr
+            : std::strstr(status.cause(), "`sudo install -d -m 2775 -g $(id -gn) /run/flexrf`") != nullptr;
+    _exit(status.code() == StatusCode::not_permitted && told ? 1 : 2);
+  }
+  int result = 0;
+  waitpid(child, &result, 0);
+  return WIFEXITED(result) ? WEXITSTATUS(result) : -1;
+}
+
+void somebody_elses_folder_is_not_taken(void**) {
+  if (geteuid() != 0) skip();  // nobody else can become another user
+  const char* const place = "/tmp/flexrf-65534";
+  rmdir(place);
+  assert_int_equal(mkdir(place, 0777), 0);
+  const int answer = stranger_asks(LockScope::user);
+  rmdir(place);
+  assert_int_equal(answer, 1);
+}
+
+void the_machines_place_is_roots_to_make(void**) {
+  if (geteuid() != 0) skip();
+  char place[lock_directory_size];
+  assert_true(find_lock_directory(LockScope::machine, place).is_ok());
+  assert_string_equal(place, "/run/flexrf");
+  assert_int_equal(stranger_asks(LockScope::machine), 1);
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -122,6 +179,9 @@ int main() {
       cmocka_unit_test(a_dead_holder_holds_nothing),
       cmocka_unit_test(another_user_is_kept_out_too),
       cmocka_unit_test(a_directory_that_is_not_there_is_named),
+      cmocka_unit_test(a_user_has_a_place_of_its_own),
+      cmocka_unit_test(somebody_elses_folder_is_not_taken),
+      cmocka_unit_test(the_machines_place_is_roots_to_make),
   };
   return cmocka_run_group_tests(tests, make_directory, remove_directory);
 }

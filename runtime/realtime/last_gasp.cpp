@@ -1,5 +1,6 @@
 #include "runtime/realtime/last_gasp.hpp"
 
+#include <execinfo.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -12,6 +13,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+
+#include "runtime/realtime/realtime_scope.hpp"
+#include "runtime/realtime/signals.hpp"
 
 namespace flexrf::last_gasp {
 
@@ -45,6 +49,9 @@ struct Terminal {
 constinit Slot table[slots];
 constinit Terminal terminal;
 constinit std::atomic<bool> crashing{false};
+/// What the thread that ended the process first has written; −1: nothing yet.
+constinit std::atomic<int> written_in_crash{none};
+constinit thread_local bool crashed_here [[gnu::tls_model("initial-exec")]] = false;
 constinit std::atomic<bool> exit_is_unexpected{false};
 constinit thread_local const char* stepped_unit [[gnu::tls_model("initial-exec")]] = nullptr;
 
@@ -131,9 +138,14 @@ int write_last() noexcept {
   return write_prepared();
 }
 
-void restore_terminal() noexcept {
-  const int descriptor = terminal.descriptor.load(std::memory_order_acquire);
-  if (descriptor >= 0) tcsetattr(descriptor, TCSANOW, &terminal.settings);
+/// Once: what was prepared leaves the machine before anybody says why.
+bool write_first() noexcept {
+  if (crashing.exchange(true, std::memory_order_acq_rel)) return false;
+  crashed_here = true;
+  const int written = write_last();
+  restore_terminal();
+  written_in_crash.store(written, std::memory_order_release);
+  return true;
 }
 
 /// Text made of pieces, without the C library's formatting, which a signal handler may not use.
@@ -185,31 +197,15 @@ const char* meaning_of(int signal) noexcept {
       return "SIGILL (invalid instruction)";
     case SIGABRT:
       return "SIGABRT (abort)";
+    case SIGSYS:
+      return "SIGSYS (system call that is not permitted)";
+    case SIGTRAP:
+      return "SIGTRAP (breakpoint)";
+    case SIGXCPU:
+      return "SIGXCPU (limit of processor time; of a real-time thread that never waited, by RLIMIT_RTTIME)";
     default:
       return "a signal";
   }
-}
-
-void handle(int signal, siginfo_t* information, void* /*context*/) noexcept {
-  if (crashing.exchange(true, std::memory_order_acq_rel)) {
-    // Another thread crashed first and is about to end the process: leave it the time to.
-    for (int i = 0; i < 10; ++i) {
-      const timespec time{0, 100'000'000};
-      ppoll(nullptr, 0, &time, nullptr);  // a real-time thread of the checked build may not sleep
-    }
-  } else {
-    const int written = write_last();
-    restore_terminal();
-    Message message;
-    message << "\nflexrf: " << meaning_of(signal);
-    if (signal == SIGSEGV || signal == SIGBUS) (message << " at ").address(information->si_addr);
-    if (stepped_unit != nullptr) message << " while stepping " << stepped_unit;
-    message << "; prepared outputs written: " << written << "\n";
-    message.write_to(STDERR_FILENO);
-  }
-  // Delivered with the default action as soon as this handler returns.
-  ::signal(signal, SIG_DFL);
-  syscall(SYS_tgkill, getpid(), gettid(), signal);
 }
 
 constexpr int exit_fault = 2;
@@ -217,19 +213,61 @@ constexpr int exit_fault = 2;
 void at_exit() noexcept {
   if (!exit_is_unexpected.load(std::memory_order_acquire)) return;
   // A thread that crashes meanwhile ends the process itself.
-  if (!crashing.exchange(true, std::memory_order_acq_rel)) {
-    const int written = write_last();
-    restore_terminal();
+  if (write_first()) {
     Message message;
     message << "\nflexrf: exit() was called while the application ran";
     if (stepped_unit != nullptr) message << ", in " << stepped_unit;
-    message << "; prepared outputs written: " << written << "\n";
+    message << "; prepared outputs written: " << written_in_crash.load() << "\n";
     message.write_to(STDERR_FILENO);
   }
   _exit(exit_fault);
 }
 
+bool takes_text(int descriptor) noexcept {
+  pollfd ready{descriptor, POLLOUT, 0};
+  return poll(&ready, 1, longest_wait) > 0 && ready.revents == POLLOUT;
+}
+
 }  // namespace
+
+void handle(int signal, siginfo_t* information, void* /*context*/) noexcept {
+  if (write_first() || crashed_here) {
+    Message message;
+    message << "\nflexrf: " << meaning_of(signal);
+    if (signal == SIGSEGV || signal == SIGBUS) (message << " at ").address(information->si_addr);
+    if (stepped_unit != nullptr) message << " while stepping " << stepped_unit;
+    message << "; prepared outputs written: " << written_in_crash.load(std::memory_order_acquire) << "\n";
+    message.write_to(STDERR_FILENO);
+  } else {
+    // Another thread crashed first and is about to end the process: leave it the time to.
+    for (int i = 0; i < 10; ++i) {
+      const timespec time{0, 100'000'000};
+      ppoll(nullptr, 0, &time, nullptr);  // a real-time thread of the checked build may not sleep
+    }
+  }
+  // Delivered with the default action as soon as this handler returns.
+  ::signal(signal, SIG_DFL);
+  syscall(SYS_tgkill, getpid(), gettid(), signal);
+}
+
+void abort_with_trace(const char* text) noexcept {
+  // What is done on the way out may allocate.
+  detail::allocation_counter = nullptr;
+  write_first();
+  write_all(STDERR_FILENO, reinterpret_cast<const std::byte*>(text), std::strlen(text));
+  void* frames[64];
+  const int count = backtrace(frames, 64);
+  // Each by itself: a reader that is stuck must not keep the process from its end.
+  for (int i = 0; i < count && takes_text(STDERR_FILENO); ++i)
+    backtrace_symbols_fd(frames + i, 1, STDERR_FILENO);
+  std::abort();
+}
+
+void restore_terminal() noexcept {
+  const int descriptor = terminal.descriptor.load(std::memory_order_acquire);
+  if (descriptor >= 0 && !signals::is_in_background(descriptor))
+    tcsetattr(descriptor, TCSANOW, &terminal.settings);
+}
 
 Status install() noexcept {
   struct sigaction action {};
@@ -237,7 +275,7 @@ Status install() noexcept {
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;
   // All others wait: a crash in the handler itself then ends the process at once.
   sigfillset(&action.sa_mask);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+  for (const int signal : signals::crashing)
     if (sigaction(signal, &action, nullptr) != 0)
       return Status::error(StatusCode::internal, "%s cannot be handled: %s", meaning_of(signal),
                            strerrordesc_np(errno));

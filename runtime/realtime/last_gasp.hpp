@@ -2,6 +2,7 @@
 // driver prepares the bytes that make its device safe; a handler that needs nothing else writes them.
 #pragma once
 
+#include <signal.h>
 #include <termios.h>
 
 #include <cstddef>
@@ -17,10 +18,17 @@ inline constexpr std::size_t bytes_per_slot = 64;
 /// Each thread that may crash needs a stack of its own for the handler.
 inline constexpr std::size_t handler_stack_size = 64 * 1024;
 
-/// Handles SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT: writes everything prepared, restores the terminal,
+/// Handles the signals of a crash (signals::crashing): writes everything prepared, restores the terminal,
 /// says which signal and which unit, and lets the signal's default action end the process. Once, by the main
 /// thread. It and every other thread that may crash take an AlternateStack.
 Status install() noexcept;
+/// What it does on one of them, for a handler of one's own that finds it not to be its own.
+void handle(int signal, siginfo_t* information, void* context) noexcept;
+
+/// For a guard that ends the process: writes everything prepared and restores the terminal, then says `text`
+/// and where the program stood on standard error, as far as it takes that at once, and aborts. Also in a
+/// signal handler; a thread of any kind.
+[[noreturn]] void abort_with_trace(const char* text) noexcept;
 
 /// While on, an exit() from anywhere does as a crash does: prepared bytes, terminal, a message. The process
 /// then ends at once with code 2, before destructors of static objects take away what running threads use.
@@ -45,6 +53,8 @@ void clear(int slot) noexcept;
 void prepare_terminal(int descriptor, const termios& settings) noexcept;
 /// Before the descriptor is closed.
 void clear_terminal() noexcept;
+/// As prepare_terminal() was told; before the process is stopped. Async-signal-safe.
+void restore_terminal() noexcept;
 
 /// Writes everything prepared now and restores the terminal; the process goes on. For a supervising thread
 /// when an owner does not answer. A descriptor that would block for more than 10 ms is left out.

@@ -3,7 +3,6 @@
 
 #include "runtime/realtime/system_call_filter.hpp"
 
-#include <execinfo.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <seccomp.h>
@@ -76,7 +75,7 @@ constinit thread_local const char* thread_name [[gnu::tls_model("initial-exec")]
 class Report {
  public:
   Report& operator<<(const char* text) noexcept {
-    while (*text != '\0' && size_ < sizeof(text_)) text_[size_++] = *text++;
+    while (*text != '\0' && size_ + 1 < sizeof(text_)) text_[size_++] = *text++;
     return *this;
   }
   Report& number(std::uintptr_t value, unsigned base) noexcept {
@@ -89,23 +88,16 @@ class Report {
     } while (value > 0);
     return *this << digits + place;
   }
-  void write_out() const noexcept {
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text_, size_);
-  }
+  const char* text() const noexcept { return text_; }
 
  private:
-  char text_[512];
+  char text_[512] = {};  // ends with a zero
   std::size_t size_ = 0;
 };
 
-void trapped(int signal, siginfo_t* information, void* /*context*/) noexcept {
-  if (information->si_code != sent_by_filter) {  // somebody sent it: what it does without us
-    ::signal(signal, SIG_DFL);
-    syscall(SYS_tgkill, getpid(), gettid(), signal);
-    return;
-  }
-  // What is done on the way out may allocate.
-  detail::allocation_counter = nullptr;
+void trapped(int signal, siginfo_t* information, void* context) noexcept {
+  // Somebody sent it: what it does without us.
+  if (information->si_code != sent_by_filter) return last_gasp::handle(signal, information, context);
   const int call = information->si_syscall;
   const char* const name =
       call >= 0 && call < call_numbers ? prepared->names[static_cast<std::size_t>(call)] : nullptr;
@@ -122,10 +114,7 @@ void trapped(int signal, siginfo_t* information, void* /*context*/) noexcept {
   }
   report << ", where nothing may be called that can wait;\nopen, map and start things in initialise(), and "
             "leave what waits to a thread that is not real-time:\n";
-  report.write_out();
-  void* frames[64];
-  backtrace_symbols_fd(frames, backtrace(frames, 64), STDERR_FILENO);
-  std::abort();
+  last_gasp::abort_with_trace(report.text());
 }
 
 struct ReleaseContext {

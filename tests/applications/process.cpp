@@ -49,7 +49,8 @@ Folder::~Folder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-Process::Process(const Folder& folder, std::vector<std::string> words, Input input)
+Process::Process(const Folder& folder, std::vector<std::string> words, Input input,
+                 const std::function<void()>& in_child)
     : kind_(input), output_path_(folder / "output"), error_path_(folder / "errors") {
   int ends[2];
   if (input == Input::terminal) {
@@ -77,6 +78,7 @@ Process::Process(const Folder& folder, std::vector<std::string> words, Input inp
     dup2(output, STDOUT_FILENO);
     dup2(errors, STDERR_FILENO);
     setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
+    if (in_child) in_child();
     if (chdir(folder.path().c_str()) == 0) execvp(arguments[0], arguments.data());
     _exit(126);
   }
@@ -114,6 +116,13 @@ void Process::send(int signal) const {
 bool Process::has_ended() {
   if (!ended_) ended_ = waitpid(id_, &status_, WNOHANG) == id_;
   return ended_;
+}
+
+void Process::wait_until_stopped() {
+  CHECK(wait_until([&] {
+    int status = 0;
+    return waitpid(id_, &status, WNOHANG | WUNTRACED) == id_ && WIFSTOPPED(status);
+  }));
 }
 
 void Process::wait_for_error(const std::string& text) {

@@ -43,7 +43,9 @@ enum class Input { pipe, terminal };
 /// and waiting in vain, end in CheckFailed.
 class Process {
  public:
-  Process(const Folder& folder, std::vector<std::string> words, Input input = Input::pipe);
+  /// `in_child`: done in the new process just before it becomes the application; nothing that allocates.
+  Process(const Folder& folder, std::vector<std::string> words, Input input = Input::pipe,
+          const std::function<void()>& in_child = {});
   ~Process();  // kills what still runs
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -55,13 +57,14 @@ class Process {
   void send(int signal) const;
   /// Until the text stands in what was written to standard error.
   void wait_for_error(const std::string& text);
+  /// Until it is stopped, as by Ctrl-Z.
+  void wait_until_stopped();
+  bool has_ended();
   Ending wait();
   /// The far end of its terminal.
   int terminal() const { return input_; }
 
  private:
-  bool has_ended();
-
   Input kind_;
   std::string output_path_;
   std::string error_path_;

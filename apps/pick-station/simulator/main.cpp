@@ -10,6 +10,7 @@
 
 #include "apps/pick-station/world/feeder.hpp"
 #include "hal/simulated/modbus_server/modbus_server.hpp"
+#include "runtime/core/standard_descriptors.hpp"
 
 namespace {
 
@@ -24,6 +25,7 @@ long number(const char* text, long most) {
 
 int main(int count, char** words) {
   using namespace flexrf;
+  hold_standard_descriptors();
   const long port = count >= 2 ? number(words[1], 65535) : -1;
   const long stock = count == 3 ? number(words[2], 1'000'000) : 0;
   if (count > 3 || port < 0 || stock < 0) {

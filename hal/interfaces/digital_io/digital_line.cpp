@@ -65,7 +65,10 @@ void DigitalLine::come_back(bool level, Time now) noexcept {
 
 bool DigitalLine::take_edges() noexcept {
   bool any = false;
-  while (const std::optional<GpioEdge> edge = line_->next_edge()) {
+  // A contact that chatters as fast as it is read does not hold up the cycle: the rest is for the next one.
+  for (std::size_t taken = 0; taken < edges_.size(); ++taken) {
+    const std::optional<GpioEdge> edge = line_->next_edge();
+    if (!edge) break;
     any = true;
     ++seen_;
     const bool missed = last_edge_ == edge->on;

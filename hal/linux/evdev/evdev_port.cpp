@@ -6,11 +6,11 @@
 
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstring>
 #include <string_view>
 
 #include "runtime/log/log.hpp"
+#include "runtime/realtime/signals.hpp"
 
 namespace flexrf {
 namespace {
@@ -38,12 +38,8 @@ Status EvdevPort::begin(const EvdevRequest& request) {
   given_.store(kept_.get(), std::memory_order_release);
   ring();
   // The signals that end the application are for others to take.
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const signals::Blocked blocked;
   keeper_ = std::thread([this] { keep(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return {};
 }
 

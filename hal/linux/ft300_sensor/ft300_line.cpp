@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 
 #include "runtime/core/text.hpp"
+#include "runtime/realtime/signals.hpp"
 
 namespace flexrf {
 namespace {
@@ -48,12 +48,8 @@ Status Ft300Line::start(const std::string& device, std::uint8_t unit_id) {
     return why;
   }
   // The signals that end the application are for others to take.
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const signals::Blocked blocked;
   thread_ = std::thread([this] { run(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return {};
 }
 

@@ -3,11 +3,11 @@
 #include <pthread.h>
 
 #include <chrono>
-#include <csignal>
 #include <string_view>
 
 #include "runtime/core/text.hpp"
 #include "runtime/log/log.hpp"
+#include "runtime/realtime/signals.hpp"
 
 namespace flexrf {
 namespace {
@@ -32,12 +32,8 @@ Status LinuxGpioChip::initialise() {
     stopping_ = false;
   }
   // The signals that end the application are for others to take.
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const signals::Blocked blocked;
   keeper_ = std::thread([this] { keep(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
   return {};
 }
 

@@ -14,6 +14,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "runtime/realtime/signals.hpp"
+
 namespace flexrf {
 namespace {
 
@@ -44,6 +46,8 @@ Status CanLinkWatch::start(const char* interface, CanSocket& socket) {
                          std::strerror(errno));
   look();
   try {
+    // The signals that end the application are for others to take.
+    const signals::Blocked blocked;
     thread_ = std::thread([this] { run(); });
   } catch (const std::system_error& error) {
     return Status::error(StatusCode::unavailable, "%s cannot be watched: %s", interface, error.what());

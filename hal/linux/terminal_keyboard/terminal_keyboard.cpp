@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "hal/linux/terminal_keyboard/raw_terminal.hpp"
+#include "runtime/realtime/signals.hpp"
 
 namespace flexrf {
 namespace {
@@ -17,6 +18,8 @@ constexpr int input = STDIN_FILENO;
 constexpr std::uint8_t end_of_transmission = 0x04;  // Ctrl-D
 // A terminal sends an escape sequence in one go; a person's next key comes later than this.
 constexpr Duration sequence_timeout = std::chrono::milliseconds(30);
+// A writer as fast as this reader, of keys or of what is none, must not hold the thread for ever.
+constexpr int most_bytes_per_cycle = 64;
 
 bool watch(int set, int descriptor) {
   epoll_event event{};
@@ -34,6 +37,7 @@ Status TerminalKeyboard::initialise() {
   stop();
   decoder_ = {};
   ended_ = false;
+  away_ = false;
   waiting_ = false;
   rests_ = false;
   terminal_ = isatty(input) == 1;
@@ -58,8 +62,12 @@ void TerminalKeyboard::stop() {
 }
 
 void TerminalKeyboard::receive(const Tick& tick) noexcept {
+  bytes_left_ = most_bytes_per_cycle;
+  events_ = 0;
   TerminalKeyboardDriver::receive(tick);
-  const bool rest = is_backed_up() || ended_;
+  // Bytes that are no key presses may come for ever.
+  const bool only_noise = bytes_left_ == 0 && events_ == 0;
+  const bool rest = is_backed_up() || ended_ || away_ || only_noise;
   if (!rest && !rests_) return;
   rests_ = rest;
   if (waiting_) return;  // the timer runs already
@@ -70,7 +78,10 @@ void TerminalKeyboard::receive(const Tick& tick) noexcept {
 std::optional<KeyEvent> TerminalKeyboard::read() noexcept {
   std::uint8_t byte = 0;
   // No byte is read ahead of need: what nobody has room for stays in the pipe and holds up its writer.
-  while (!decoder_.has_event() && !ended_ && read_byte(byte)) take_byte(byte);
+  while (!decoder_.has_event() && !ended_ && bytes_left_ > 0 && read_byte(byte)) {
+    --bytes_left_;
+    take_byte(byte);
+  }
   if (decoder_.is_undecided() && !decoder_.has_event()) {
     if (ended_ || has_waited()) {
       decoder_.decide();
@@ -81,7 +92,9 @@ std::optional<KeyEvent> TerminalKeyboard::read() noexcept {
   } else {
     await_rest_of_sequence(false);
   }
-  return decoder_.take();
+  const std::optional<KeyEvent> event = decoder_.take();
+  if (event) ++events_;
+  return event;
 }
 
 void TerminalKeyboard::take_byte(std::uint8_t byte) noexcept {
@@ -92,14 +105,16 @@ void TerminalKeyboard::take_byte(std::uint8_t byte) noexcept {
   }
 }
 
-/// False when there is none now; at the end, ended_ becomes true. Standard input is shared with the shell, so
+/// False when there is none now; at the end, ended_ becomes true, and away_ while the terminal is another
+/// process's: the keys that are typed there are for that one. Standard input is shared with the shell, so
 /// it is not made non-blocking but asked first.
 bool TerminalKeyboard::read_byte(std::uint8_t& byte) noexcept {
   pollfd ready{input, POLLIN, 0};
   if (poll(&ready, 1, 0) <= 0) return false;
   const ssize_t count = (ready.revents & POLLNVAL) != 0 ? 0 : ::read(input, &byte, 1);
   if (count < 0 && (errno == EINTR || errno == EAGAIN)) return false;
-  ended_ = count <= 0;
+  away_ = count < 0 && errno == EIO && terminal_ && signals::is_in_background(input);
+  ended_ = count <= 0 && !away_;
   return count > 0;
 }
 

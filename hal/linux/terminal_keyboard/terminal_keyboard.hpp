@@ -32,8 +32,11 @@ class TerminalKeyboard final : public TerminalKeyboardDriver {
   KeyDecoder decoder_;
   bool terminal_ = false;
   bool ended_ = false;
+  bool away_ = false;     // in the background
   bool waiting_ = false;  // for the rest of an escape sequence
   bool rests_ = false;    // standard input, readable all the time, is not watched
+  int bytes_left_ = 0;    // that this cycle may still read
+  int events_ = 0;        // key presses in this cycle
   int timer_ = -1;
   int wait_ = -1;      // readable when standard input or the timer is
   int own_wait_ = -1;  // the same, when it is ours to close

@@ -2,10 +2,9 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include <csignal>
-
 #include "hal/linux/v4l2_camera/v4l2_camera.hpp"
 #include "runtime/log/log.hpp"
+#include "runtime/realtime/signals.hpp"
 
 namespace flexrf {
 namespace {
@@ -18,12 +17,8 @@ constexpr std::chrono::milliseconds keeping_interval{50};
 void V4l2Camera::start_keeper() {
   stopping_ = false;
   // The signals that end the application are for others to take.
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const signals::Blocked blocked;
   keeper_ = std::thread([this] { keep(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 void V4l2Camera::end_keeper() {

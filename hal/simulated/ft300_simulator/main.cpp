@@ -22,6 +22,7 @@
 
 #include "hal/simulated/ft300_simulator/ft300_server.hpp"
 #include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
+#include "runtime/core/standard_descriptors.hpp"
 
 namespace {
 
@@ -128,6 +129,7 @@ class Simulator {
 }  // namespace
 
 int main(int count, char** words) {
+  flexrf::hold_standard_descriptors();
   Options options;
   if (!parse(count, words, options)) {
     std::fputs(usage, stderr);

@@ -26,6 +26,7 @@
 
 #include "hal/simulated/modbus_server/modbus_server.hpp"
 #include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
+#include "runtime/core/standard_descriptors.hpp"
 
 namespace {
 
@@ -157,6 +158,7 @@ class Console {
 }  // namespace
 
 int main(int count, char** words) {
+  flexrf::hold_standard_descriptors();
   Command command;
   if (!parse(count, words, command)) {
     std::fputs(usage, stderr);

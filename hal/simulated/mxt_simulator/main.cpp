@@ -17,6 +17,7 @@
 
 #include "hal/simulated/mxt_simulator/mxt_console.hpp"
 #include "hal/simulated/mxt_simulator/mxt_server.hpp"
+#include "runtime/core/standard_descriptors.hpp"
 
 namespace {
 
@@ -97,6 +98,7 @@ bool parse(int count, char** words, Options& options) {
 }  // namespace
 
 int main(int count, char** words) {
+  flexrf::hold_standard_descriptors();
   Options options;
   if (!parse(count, words, options)) {
     std::fputs(usage, stderr);

@@ -21,6 +21,7 @@
 #include <utility>
 
 #include "hal/simulated/net_ft_simulator/net_ft_server.hpp"
+#include "runtime/core/standard_descriptors.hpp"
 
 namespace {
 
@@ -109,6 +110,7 @@ class Simulator {
 }  // namespace
 
 int main(int count, char** words) {
+  flexrf::hold_standard_descriptors();
   Options options;
   if (!parse(count, words, options)) {
     std::fputs(usage, stderr);

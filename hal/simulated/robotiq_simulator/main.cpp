@@ -31,6 +31,7 @@
 #include "hal/simulated/modbus_server/modbus_server.hpp"
 #include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
 #include "hal/simulated/robotiq_simulator/robotiq_model.hpp"
+#include "runtime/core/standard_descriptors.hpp"
 
 namespace {
 
@@ -161,6 +162,7 @@ class Simulator {
 }  // namespace
 
 int main(int count, char** words) {
+  flexrf::hold_standard_descriptors();
   Options options;
   if (!parse(count, words, options)) {
     std::fputs(usage, stderr);

@@ -1,6 +1,7 @@
 // Steps that take longer than they may: what is left out, what is caught up with, what is a fault.
 #include "runtime/executive/accounting.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
+#include "tests/log_ear.hpp"
 
 namespace flexrf::fixture {
 namespace {
@@ -77,7 +78,8 @@ void so_many_in_a_row_are_a_fault() {
   cell.thread(Cell::producing).limit = OverrunLimit{false, 4, 0};
   Executive executive(cell.application(), in_virtual_time(milliseconds{100}));
   CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
-  CHECK_EQUAL(ticks.size(), 4U);
+  // Each leaves one release out, which counts as well.
+  CHECK_EQUAL(ticks.size(), 2U);
 }
 
 // ---- the counting itself
@@ -147,6 +149,42 @@ void without_a_limit_overruns_are_only_counted() {
   CHECK_EQUAL(counting.state.skipped.load(), 3000U);
 }
 
+/// What was left out is time that was missed: 712 releases are no single overrun.
+void a_limit_counts_every_release_that_was_left_out() {
+  Counting counting(OverrunPolicy::skip, OverrunLimit{false, 700, 0});
+  counting.record.trigger.period = milliseconds{7};
+  CHECK(counting.cycle(milliseconds{5000}, 712));
+  CHECK_EQUAL(counting.state.overruns.load(), 1U);
+  CHECK_EQUAL(counting.state.skipped_time.load(), 712 * 7'000'000LL);
+  // What is caught up with is not left out: each of them ends late by itself.
+  Counting patient(OverrunPolicy::catch_up, OverrunLimit{false, 3, 0});
+  CHECK(!patient.cycle(milliseconds{50}, 4));
+  CHECK(!patient.cycle(milliseconds{50}, 3));
+  CHECK(patient.cycle(milliseconds{50}, 2));
+}
+
+void overruns_are_said_at_once_and_then_as_a_sum() {
+  LogEar ear;
+  Counting counting(OverrunPolicy::skip, OverrunLimit{});
+  counting.record.name = "control";
+  counting.record.trigger.period = milliseconds{1};
+  Accounting accounting(counting.record, counting.state);
+  Time at = beginning;
+  accounting.count(Release{at, at, 0, false}, at + milliseconds{4}, 3);
+  CHECK(ear.has_heard("control: overrun: 3.0 ms late, 3 releases (3.0 ms) left out"));
+  for (int i = 0; i < 4; ++i) {
+    at += std::chrono::seconds{2};
+    accounting.count(Release{at, at, 0, false}, at + milliseconds{3}, 2);
+    accounting.say(at);
+  }
+  CHECK(!ear.has_heard("since then"));
+  accounting.say(beginning + std::chrono::seconds{11});
+  CHECK(ear.has_heard("control: overruns since then: 4, 2.0 ms late at most, 8 releases (8.0 ms) left out"));
+  accounting.count(Release{at, at, 0, false}, at + milliseconds{3}, 0);
+  accounting.say(Time::max());
+  CHECK(ear.has_heard("control: overruns since then: 1,"));
+}
+
 void a_late_beginning_counts_too() {
   Counting counting(OverrunPolicy::skip, OverrunLimit{});
   const Time due = beginning;
@@ -187,6 +225,8 @@ int main() {
       CONTAINED_TEST(a_limit_that_was_reached_is_counted_anew),
       CONTAINED_TEST(a_leaky_limit_drains_by_good_cycles),
       CONTAINED_TEST(without_a_limit_overruns_are_only_counted),
+      CONTAINED_TEST(a_limit_counts_every_release_that_was_left_out),
+      CONTAINED_TEST(overruns_are_said_at_once_and_then_as_a_sum),
       CONTAINED_TEST(a_late_beginning_counts_too),
       CONTAINED_TEST(a_real_overrun_is_noticed_on_the_wall_clock),
   };

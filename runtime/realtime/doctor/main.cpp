@@ -5,6 +5,7 @@
 #include <string>
 
 #include "runtime/core/json_writer.hpp"
+#include "runtime/core/standard_descriptors.hpp"
 #include "runtime/realtime/doctor/checks.hpp"
 #include "runtime/realtime/machine_file.hpp"
 
@@ -54,6 +55,7 @@ void print_json(const std::vector<Finding>& findings) {
 }  // namespace
 
 int main(int argument_count, char** arguments) {
+  flexrf::hold_standard_descriptors();
   bool as_json = false;
   std::string root;
   for (int i = 1; i < argument_count; ++i) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/core/standard_descriptors.hpp"
 #include "web-ui/server/access/panel_access.hpp"
 #include "web-ui/server/access/password.hpp"
 #include "web-ui/server/access/secret_prompt.hpp"
@@ -115,6 +116,7 @@ Status serve(const Request& request) {
 }  // namespace
 
 int main(int argument_count, char** arguments) {
+  flexrf::hold_standard_descriptors();
   if (argument_count == 2 && std::string_view{arguments[1]} == "--help") {
     std::fputs(usage, stdout);
     return 0;

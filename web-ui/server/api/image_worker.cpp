@@ -4,6 +4,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "runtime/realtime/signals.hpp"
+
 namespace flexrf::panel {
 
 ImageWorker::ImageWorker(Cell& cell) : cell_(&cell), slots_(cell.application().slots.size()) {
@@ -21,6 +23,8 @@ Status ImageWorker::start() {
       std::any_of(slots_.begin(), slots_.end(), [](const auto& slot) { return slot != nullptr; });
   if (!has_any || thread_.joinable()) return {};
   try {
+    // The signals that end the application are for others to take.
+    const signals::Blocked blocked;
     thread_ = std::thread([this] {
       pthread_setname_np(pthread_self(), "panel-pictures");
       run();

@@ -1,6 +1,7 @@
 #include "web-ui/server/api/state_event.hpp"
 
 #include "runtime/core/digest.hpp"
+#include "runtime/core/text_table.hpp"
 #include "runtime/executive/report_data.hpp"
 
 namespace flexrf::panel {
@@ -79,14 +80,25 @@ void StateEvent::write_session(JsonWriter& json, SessionIndex session, SessionIn
 void StateEvent::write_faults(JsonWriter& json) const {
   const Application& application = executive_->cell().application();
   json.key("faults").begin_array();
-  const auto write = [&json](const char* name, const auto& state) {
-    if (state.life.load(std::memory_order_acquire) != Life::fault) return;
-    json.begin_object().member("component", name).member("cause", state.fault.read().cause()).end_object();
+  const auto write = [&json](const char* kind, const char* name, const std::string& cause) {
+    json.begin_object().member("component", name).member("kind", kind).member("cause", cause).end_object();
+  };
+  const auto write_component = [&write](const char* kind, const char* name, const auto& state) {
+    if (state.life.load(std::memory_order_acquire) == Life::fault)
+      write(kind, name, state.fault.read().cause());
   };
   for (std::size_t i = 0; i < application.units.size(); ++i)
-    write(application.units[i].name, application.unit_states[i]);
+    write_component("unit", application.units[i].name, application.unit_states[i]);
   for (std::size_t i = 0; i < application.devices.size(); ++i)
-    write(application.devices[i].name, application.device_states[i]);
+    write_component("device", application.devices[i].name, application.device_states[i]);
+  const auto write_standstill = [&write](const char* kind, const char* name, Duration longest) {
+    if (longest.count() > 0) write(kind, name, "stood still for " + duration_text(longest));
+  };
+  for (std::size_t i = 0; i < application.threads.size(); ++i) {
+    const Duration longest{application.thread_states[i].longest_standstill.load(std::memory_order_relaxed)};
+    write_standstill("thread", application.threads[i].name, longest);
+  }
+  write_standstill("process", application.name, executive_->control().longest_standstill());
   json.end_array();
 }
 

@@ -238,6 +238,8 @@ void TopicBodies::write_threads(JsonWriter& json, Time now) {
     }
     json.begin_object().member("name", thread.name).member("cycles", state.cycles.load());
     json.member("overruns", state.overruns.load()).member("skipped", state.skipped.load());
+    json.member("skipped_time_ns", state.skipped_time.load());
+    json.member("longest_standstill_ns", state.longest_standstill.load());
     json.member("allocations", state.allocations.load()).member("budget_ns", number(thread.budget));
     json.key("response_estimate_ns");
     response_estimates_[i] ? json.value(number(*response_estimates_[i])) : json.null();

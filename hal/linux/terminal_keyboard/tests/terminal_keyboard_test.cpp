@@ -91,6 +91,12 @@ class Terminal {
     if (waitpid(child_, &status, WUNTRACED) == child_ && !WIFSTOPPED(status)) child_ = -1;
     return status;
   }
+  void cook() const {
+    termios settings{};
+    tcgetattr(descriptor_, &settings);
+    settings.c_lflag |= ICANON | ECHO;
+    tcsetattr(descriptor_, TCSANOW, &settings);
+  }
   void signal(int number) { kill(child_, number); }
   const std::string& shown() const { return shown_; }
 
@@ -122,11 +128,13 @@ bool run_control_d_closes() {
   return terminal.shows("<w>") && terminal.shows("left") && terminal.is_as_before();
 }
 
-bool run_control_z_lends_the_terminal_back() {
+bool run_fg_takes_the_terminal_back() {
   Terminal terminal;
   if (!terminal.shows("ready")) return false;
-  terminal.type("\x1A");
-  if (!WIFSTOPPED(terminal.wait()) || !terminal.is_as_before()) return false;
+  terminal.signal(SIGSTOP);
+  if (!WIFSTOPPED(terminal.wait())) return false;
+  // As a shell does, which wants to be typed to.
+  terminal.cook();
   terminal.signal(SIGCONT);
   terminal.type("w");
   // The key is read only once the terminal is raw again: a cooked one would wait for the line's end.
@@ -155,8 +163,8 @@ void keys_come_one_by_one(void**) {
 void control_d_closes(void**) {
   assert_true(run_control_d_closes());
 }
-void control_z_lends_the_terminal_back(void**) {
-  assert_true(run_control_z_lends_the_terminal_back());
+void fg_takes_the_terminal_back(void**) {
+  assert_true(run_fg_takes_the_terminal_back());
 }
 void control_c_still_ends(void**) {
   assert_true(run_control_c_still_ends());
@@ -171,7 +179,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(keys_come_one_by_one),
       cmocka_unit_test(control_d_closes),
-      cmocka_unit_test(control_z_lends_the_terminal_back),
+      cmocka_unit_test(fg_takes_the_terminal_back),
       cmocka_unit_test(control_c_still_ends),
       cmocka_unit_test(exit_restores),
   };

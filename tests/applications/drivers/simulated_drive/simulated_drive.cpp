@@ -35,7 +35,14 @@ void SimulatedDrive::stop() {
 }
 
 void SimulatedDrive::send(const Tick& /*tick*/) noexcept {
-  if (making_safe_ || is_inhibited()) return;
+  if (making_safe_) return;
+  if (is_inhibited()) {
+    if (moves_ && !held_) write_down("inhibited\n");
+    held_ = true;
+    commanded_ = 0;
+  } else {
+    held_ = false;
+  }
   speed_ += std::clamp(commanded_ - speed_, -change_per_cycle, change_per_cycle);
   if (speed_ > 0.4 && !moves_) write_down("moving\n");
   moves_ = moves_ || speed_ > 0.4;

@@ -22,6 +22,7 @@ class SimulatedDrive final : public SimulatedDriveDriver {
   int log_ = -1;
   int last_gasp_ = -1;
   bool moves_ = false;  // or did
+  bool held_ = false;   // inhibited, as of the last cycle
   bool making_safe_ = false;
 };
 

@@ -39,7 +39,9 @@ export interface Hello {
 export type Mode = 'starting' | 'running' | 'finishing' | 'stopping' | 'safe' | 'ended';
 
 export interface Fault {
+  /** A unit, a device; a thread or the application that stood still. */
   readonly component: string;
+  readonly kind: 'unit' | 'device' | 'thread' | 'process';
   readonly cause: string;
   /** What to do about it, where the component says so. */
   readonly remedy?: string;

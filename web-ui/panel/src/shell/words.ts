@@ -29,5 +29,7 @@ export function nameOf(session: ControlSession): string {
 
 /** What to do about a fault, when it does not say so itself. */
 export function remedyOf(fault: Fault): string {
+  if (fault.kind === 'thread' || fault.kind === 'process')
+    return 'Find out what kept it from its work: a debugger, another program of high priority, a machine without real time. Then clear the stop and give Start.';
   return fault.remedy ?? `Remove the cause, then initialise ${fault.component} on its page. What it moves waits for the next Start motion.`;
 }

@@ -118,7 +118,7 @@ export class ComponentPage extends ViewBase {
 
   private fault(row: ComponentRow): unknown {
     if (row.life !== 'fault') return nothing;
-    const told = this.core.state?.faults.find((fault) => fault.component === row.name) ?? { component: row.name, cause: row.fault };
+    const told = this.core.state?.faults.find((fault) => fault.component === row.name) ?? { component: row.name, kind: row.kind, cause: row.fault };
     return html`
       <div class="box abnormal-box ${this.age}" role="alert">
         <dl>

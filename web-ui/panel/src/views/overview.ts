@@ -3,6 +3,7 @@ import { css, html, nothing } from 'lit';
 import { customElement } from 'lit/decorators.js';
 import type { Item, Model } from '../core/descriptor';
 import type { Fault } from '../core/protocol';
+import { addressOfRoute } from '../shell/router';
 import { modeText, motionOf, motionText, remedyOf } from '../shell/words';
 import './item_widget';
 import './placement_widget';
@@ -103,8 +104,8 @@ export class Overview extends ViewBase {
   }
 
   private address(fault: Fault): string {
-    const kind = this.core.model.components.get(fault.component)?.kind;
-    return addressOf(kind === 'device' ? 'devices' : 'units', fault.component);
+    if (fault.kind === 'process') return addressOfRoute({ view: 'threads', path: [] });
+    return addressOf(`${fault.kind}s`, fault.component);
   }
 
   private stateCard(): unknown {

@@ -15,6 +15,9 @@ export interface ThreadRow {
   readonly cycles: number;
   readonly overruns: number;
   readonly skipped: number;
+  readonly skipped_time_ns: number;
+  /** 0: there was none. */
+  readonly longest_standstill_ns: number;
   readonly allocations: number;
   readonly budget_ns: number;
   readonly response_estimate_ns: number | null;
@@ -172,7 +175,11 @@ export class Threads extends ViewBase {
               <dt>Overruns</dt>
               <dd>${abnormal(row.overruns)}</dd>
               <dt>Skipped</dt>
-              <dd>${countText(row.skipped)}</dd>
+              <dd>${row.skipped === 0 ? 0 : `${countText(row.skipped)}, ${durationText(row.skipped_time_ns)} in all`}</dd>
+              ${row.longest_standstill_ns === 0
+                ? nothing
+                : html`<dt>Stood still</dt>
+                    <dd><strong class="alarm">▲ ${durationText(row.longest_standstill_ns)}</strong> at most</dd>`}
               <dt>Allocations</dt>
               <dd>${thread.priority === 0 ? countText(row.allocations) : abnormal(row.allocations)}</dd>
               ${row.response_estimate_ns === null

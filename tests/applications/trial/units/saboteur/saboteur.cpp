@@ -17,6 +17,10 @@ namespace {
   for (;;) ppoll(nullptr, 0, nullptr, nullptr);  // as on a lock: the checked build lets nobody pause()
 }
 
+[[noreturn]] void work_for_ever() {
+  for (volatile int count = 0;;) count = count + 1;
+}
+
 /// The signal is wanted, not a sanitizer's word for what causes it.
 __attribute__((no_sanitize("address", "thread", "undefined"))) void write_where_nothing_is() {
   volatile int* volatile nowhere = nullptr;
@@ -74,6 +78,8 @@ void Saboteur::obey(char key) {
       throw std::runtime_error("a library's text");
     case 'h':
       hang();
+    case 'w':
+      work_for_ever();
     case 's':
       write_where_nothing_is();
       break;

@@ -6,7 +6,7 @@ import { FakeCore } from './fake_core';
 
 const histogram = { count: 1000, p50_ns: 20_000, p99_ns: 60_000, 'p99.9_ns': 120_000, max_ns: 150_000, buckets: [200, 900, 240, 100] };
 const row = {
-  name: 'control', cycles: 1000, overruns: 3, skipped: 0, allocations: 0, budget_ns: 100_000, response_estimate_ns: 250_000,
+  name: 'control', cycles: 1000, overruns: 3, skipped: 0, skipped_time_ns: 0, longest_standstill_ns: 0, allocations: 0, budget_ns: 100_000, response_estimate_ns: 250_000,
   cpu: 1, cpu_time_ns: 5, lateness: { ...histogram, count: 0, buckets: [] }, execution: histogram,
 };
 

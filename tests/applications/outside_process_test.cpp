@@ -1,0 +1,378 @@
+// What comes from outside of a running application: readers that take nothing, signals of every kind, closed
+// descriptors, a process that is stopped and goes on.
+#include <fcntl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <vector>
+
+#include "places.hpp"
+#include "runtime/executive/tests/checks.hpp"
+#include "tests/applications/process.hpp"
+
+namespace flexrf::whole {
+namespace {
+
+const std::string application = place::application;
+
+const std::string at_rest = "made safe at rest\nsafe\n";
+const std::string while_moving = "made safe while moving\nsafe\n";
+const std::string moving = "moving\n";
+const std::string last_gasp = "last gasp: brake\n";
+
+std::vector<std::string> words(std::vector<std::string> more = {}) {
+  std::vector<std::string> all{application, "--report", "report"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+std::string drive_log(const Folder& folder) {
+  return contents_of(folder / "drive.log");
+}
+
+void start_moving(const Folder& folder, Process& process, const std::string& keys = "d") {
+  process.type(keys);
+  CHECK(wait_until([&] { return drive_log(folder) == moving; }));
+}
+
+// ---- readers that take nothing
+
+/// A pipe that takes nothing any more, and that nobody reads.
+class FullPipe {
+ public:
+  FullPipe() {
+    CHECK(pipe2(ends_, O_CLOEXEC) == 0);
+    CHECK(fcntl(ends_[1], F_SETFL, O_NONBLOCK) == 0);
+    const std::string block(4096, '.');
+    while (write(ends_[1], block.data(), block.size()) > 0) {
+    }
+    CHECK(fcntl(ends_[1], F_SETFL, 0) == 0);
+  }
+  ~FullPipe() {
+    close(ends_[0]);
+    close(ends_[1]);
+  }
+  FullPipe(const FullPipe&) = delete;
+  FullPipe& operator=(const FullPipe&) = delete;
+  int end() const { return ends_[1]; }
+
+ private:
+  int ends_[2];
+};
+
+void a_full_standard_error_holds_up_no_stop() {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    const Folder folder;
+    const FullPipe pipe;
+    Process process(folder, words(), Input::pipe, [&] { dup2(pipe.end(), STDERR_FILENO); });
+    start_moving(folder, process);
+    process.send(signal);
+    CHECK_EQUAL(process.wait().exit_code, 128 + signal);
+    CHECK_EQUAL(drive_log(folder), moving + at_rest);
+  }
+}
+
+void a_full_standard_error_hides_no_hang() {
+  const Folder folder;
+  const FullPipe pipe;
+  Process process(folder, words(), Input::pipe, [&] { dup2(pipe.end(), STDERR_FILENO); });
+  start_moving(folder, process);
+  process.type("h");
+  CHECK_EQUAL(process.wait().exit_code, 2);
+  CHECK_EQUAL(drive_log(folder), moving + last_gasp);
+}
+
+/// The guards of the checked build, too: what was prepared comes before what they say.
+void a_full_standard_error_holds_up_no_last_gasp() {
+  for (const char* const key : {"s", "a", "x", "k", "o"}) {
+    const Folder folder;
+    const FullPipe pipe;
+    Process process(folder, words(), Input::pipe, [&] { dup2(pipe.end(), STDERR_FILENO); });
+    start_moving(folder, process);
+    process.type(key);
+#if !FLEXRF_CHECKED || FLEXRF_SANITIZER
+    if (*key == 'k' || *key == 'o') process.send(SIGABRT);
+#endif
+    process.wait();
+    CHECK_EQUAL(drive_log(folder), moving + last_gasp);
+  }
+}
+
+void a_full_standard_output_is_told_and_left() {
+  const Folder folder;
+  const FullPipe pipe;
+  Process process(folder, words(), Input::pipe, [&] { dup2(pipe.end(), STDOUT_FILENO); });
+  start_moving(folder, process);
+  process.send(SIGTERM);
+  const Ending ending = process.wait();
+  CHECK_EQUAL(ending.exit_code, 128 + SIGTERM);
+  CHECK_CONTAINS(ending.errors, "nobody reads standard output");
+  CHECK_EQUAL(drive_log(folder), moving + at_rest);
+}
+
+/// Whose input has ended waits for its reader, as every program does; whoever is tired of that says so.
+void a_reader_that_is_slow_gets_the_report_and_a_signal_ends_the_wait() {
+  const Folder folder;
+  const FullPipe pipe;
+  Process process(folder, words(), Input::pipe, [&] { dup2(pipe.end(), STDOUT_FILENO); });
+  process.type("d");
+  process.end_input();
+  CHECK(wait_until([&] { return drive_log(folder).ends_with("safe\n"); }));
+  usleep(300'000);
+  CHECK(!process.has_ended());
+  process.send(SIGTERM);
+  CHECK_EQUAL(process.wait().exit_code, 1);
+}
+
+void a_standard_output_that_fails_is_an_error() {
+  const Folder folder;
+  Process process(folder, words(), Input::pipe, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
+  process.end_input();
+  const Ending ending = process.wait();
+  CHECK_EQUAL(ending.exit_code, 1);
+  CHECK_CONTAINS(ending.errors, "standard output: No space left on device");
+}
+
+// ---- signals
+
+void what_somebody_ends_it_with_is_a_controlled_stop() {
+  for (const int signal : {SIGPWR, SIGQUIT}) {
+    const Folder folder;
+    Process process(folder, words());
+    start_moving(folder, process, "dn");
+    if (signal == SIGPWR) process.type("m");
+    process.send(signal);
+    if (signal == SIGPWR) process.send(SIGTERM);  // it does not come to rest, as it was told
+    CHECK(process.wait().exit_code > 128);
+    // SIGQUIT does not wait for units to come to rest.
+    CHECK_EQUAL(drive_log(folder), moving + while_moving);
+    CHECK_EQUAL(Report(folder / "report")["run"].at("cause").get<std::string>(), "signal");
+  }
+}
+
+void what_takes_the_process_away_is_preceded_by_the_last_gasp() {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP, SIGXCPU}) {
+    const Folder folder;
+    Process process(folder, words());
+    start_moving(folder, process);
+    process.send(signal);
+    const Ending ending = process.wait();
+    CHECK_EQUAL(ending.signal, signal);
+    CHECK_CONTAINS(ending.errors, "prepared outputs written: 1");
+    CHECK_EQUAL(drive_log(folder), moving + last_gasp);
+  }
+}
+
+void what_means_nothing_changes_nothing_and_is_told() {
+  std::vector<int> signals{SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF,  SIGIO,  SIGSTKFLT,
+                           SIGPIPE, SIGXFSZ, SIGCHLD, SIGURG,    SIGWINCH, SIGCONT};
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) signals.push_back(signal);
+  const Folder folder;
+  Process process(folder, words());
+  start_moving(folder, process);
+  for (const int signal : signals) process.send(signal);
+  process.wait_for_error("SIGUSR1 from process " + std::to_string(getpid()) + " has no meaning here");
+  process.type("m");
+  process.send(SIGTERM);
+  CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
+  CHECK_EQUAL(drive_log(folder), moving + at_rest);
+}
+
+void nohup_is_respected() {
+  const Folder folder;
+  Process process(folder, words(), Input::pipe, [] { std::signal(SIGHUP, SIG_IGN); });
+  start_moving(folder, process);
+  process.send(SIGHUP);
+  usleep(100'000);
+  CHECK(!process.has_ended());
+  process.send(SIGTERM);
+  CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
+}
+
+void a_real_time_thread_that_never_waits_is_ended_by_the_kernel_and_leaves_the_drive_safe() {
+#if FLEXRF_SANITIZER
+  skip();
+#endif
+  const Folder folder;
+  // 0.2 s, then SIGXCPU; SIGKILL would follow after 2 s.
+  Process process(folder, {"prlimit", "--rttime=200000:2000000", application, "--report", "report"});
+  start_moving(folder, process);
+  process.type("w");
+  const Ending ending = process.wait();
+  if (geteuid() != 0) skip();  // without the rights no thread is real-time
+  CHECK_EQUAL(ending.signal, SIGXCPU);
+  CHECK_CONTAINS(ending.errors, "SIGXCPU (limit of processor time");
+  CHECK_EQUAL(drive_log(folder), moving + last_gasp);
+}
+
+// ---- stopped, and going on
+
+void whoever_stops_it_finds_its_actuators_inhibited() {
+  for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) {
+    const Folder folder;
+    Process process(folder, words({"--standstill-limit", "200ms"}));
+    start_moving(folder, process);
+    process.send(signal);
+    process.wait_until_stopped();
+    CHECK_EQUAL(drive_log(folder), moving + "inhibited\n");
+    usleep(400'000);
+    process.send(SIGCONT);
+    process.wait_for_error("nothing moves before a Start");
+    process.send(SIGTERM);
+    // Somebody wanted it so: no fault.
+    CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
+  }
+}
+
+void a_process_that_stood_still_says_so_and_moves_nothing() {
+  const Folder folder;
+  Process process(folder, words({"--standstill-limit", "1s"}));
+  start_moving(folder, process);
+  process.send(SIGSTOP);
+  process.wait_until_stopped();
+  usleep(1'500'000);
+  process.send(SIGCONT);
+  process.wait_for_error("the process stood still for 1.");
+  process.wait_for_error("motion is stopped: clear the stop and give Start");
+  CHECK(wait_until([&] { return drive_log(folder) == moving + "inhibited\n"; }));
+  process.send(SIGTERM);
+  const Ending ending = process.wait();
+  CHECK_EQUAL(ending.exit_code, 2);
+  CHECK_CONTAINS(ending.output, "stood still for 1.");
+  const Report report(folder / "report");
+  CHECK(report.row("threads", "sabotage").at("longest_standstill_ns").get<std::int64_t>() > 1'000'000'000);
+  CHECK(report.row("threads", "sabotage").at("skipped_time_ns").get<std::int64_t>() > 1'000'000'000);
+}
+
+void a_shorter_stop_is_a_warning() {
+  const Folder folder;
+  Process process(folder, words());
+  start_moving(folder, process);
+  process.send(SIGSTOP);
+  process.wait_until_stopped();
+  usleep(300'000);
+  process.send(SIGCONT);
+  process.wait_for_error("overrun: ");
+  process.wait_for_error(" left out");
+  process.send(SIGTERM);
+  CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
+}
+
+// ---- the terminal
+
+tcflag_t modes_of(const Process& process) {
+  termios settings{};
+  CHECK(tcgetattr(process.terminal(), &settings) == 0);
+  return settings.c_lflag & (ICANON | ECHO);
+}
+
+void the_terminal_comes_back_from_every_signal() {
+  for (const int signal : {SIGQUIT, SIGXCPU, SIGSYS, SIGTRAP, SIGPWR}) {
+    const Folder folder;
+    Process process(folder, words(), Input::terminal);
+    CHECK(wait_until([&] { return modes_of(process) == 0; }));
+    process.wait_for_error("autostart");
+    process.send(signal);
+    process.wait();
+    CHECK_EQUAL(modes_of(process), static_cast<tcflag_t>(ICANON | ECHO));
+  }
+}
+
+void control_z_lends_the_terminal_back_and_fg_takes_it() {
+  const Folder folder;
+  Process process(folder, words(), Input::terminal);
+  CHECK(wait_until([&] { return modes_of(process) == 0; }));
+  process.wait_for_error("autostart");
+  process.type("\x1a");
+  process.wait_until_stopped();
+  CHECK_EQUAL(modes_of(process), static_cast<tcflag_t>(ICANON | ECHO));
+  process.send(SIGCONT);
+  CHECK(wait_until([&] { return modes_of(process) == 0; }));
+  process.type("\x04");
+  CHECK_EQUAL(process.wait().exit_code, 0);
+}
+
+/// As by Ctrl-S, or behind a line that is cut: the terminal takes nothing any more.
+void a_terminal_that_is_held_holds_up_no_stop() {
+  const Folder folder;
+  Process process(folder, words(), Input::terminal, [] {
+    dup2(STDIN_FILENO, STDOUT_FILENO);
+    const int terminal = open("/dev/tty", O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    const char block[256] = {};
+    while (write(terminal, block, sizeof(block)) > 0) {
+    }
+  });
+  CHECK(wait_until([&] { return modes_of(process) == 0; }));
+  process.wait_for_error("autostart");
+  process.send(SIGTERM);
+  CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
+  CHECK_EQUAL(modes_of(process), static_cast<tcflag_t>(ICANON | ECHO));
+}
+
+// ---- descriptors
+
+/// A file that is opened takes the number of one that is closed: it must not be read as keys, or written
+/// over.
+void closed_descriptors_are_nobodys() {
+  for (const int closed : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    const Folder folder;
+    Process process(folder, words(), Input::pipe, [&] { close(closed); });
+    if (closed == STDIN_FILENO) {
+      // No input: the end of it.
+      CHECK_EQUAL(process.wait().exit_code, 0);
+      CHECK_EQUAL(Report(folder / "report").last("saboteur.feedback").at("keys_done").get<int>(), 0);
+    } else {
+      start_moving(folder, process);
+      process.send(SIGTERM);
+      CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
+    }
+    const std::string lock = contents_of(folder / "flexrf-trial.lock");
+    CHECK(lock.starts_with("process "));
+    CHECK_EQUAL(lock.find('\n'), lock.size() - 1);
+  }
+}
+
+// ---- input without end
+
+/// `yes ''`: bytes that are no key presses, as fast as they are taken.
+void bytes_that_are_no_keys_harm_nothing() {
+  const Folder folder;
+  Process process(folder, words());
+  process.type("d" + std::string(10'000, '\n') + "m");
+  CHECK(wait_until([&] { return drive_log(folder) == moving; }));
+  process.end_input();
+  CHECK_EQUAL(process.wait().exit_code, 0);
+  const Report report(folder / "report");
+  CHECK_EQUAL(report.last("saboteur.feedback").at("keys_done").get<int>(), 2);
+  CHECK_EQUAL(report["faults"].get<int>(), 0);
+}
+
+}  // namespace
+}  // namespace flexrf::whole
+
+int main() {
+  using namespace flexrf::whole;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(a_full_standard_error_holds_up_no_stop),
+      CONTAINED_TEST(a_full_standard_error_hides_no_hang),
+      CONTAINED_TEST(a_full_standard_error_holds_up_no_last_gasp),
+      CONTAINED_TEST(a_full_standard_output_is_told_and_left),
+      CONTAINED_TEST(a_reader_that_is_slow_gets_the_report_and_a_signal_ends_the_wait),
+      CONTAINED_TEST(a_standard_output_that_fails_is_an_error),
+      CONTAINED_TEST(what_somebody_ends_it_with_is_a_controlled_stop),
+      CONTAINED_TEST(what_takes_the_process_away_is_preceded_by_the_last_gasp),
+      CONTAINED_TEST(what_means_nothing_changes_nothing_and_is_told),
+      CONTAINED_TEST(nohup_is_respected),
+      CONTAINED_TEST(a_real_time_thread_that_never_waits_is_ended_by_the_kernel_and_leaves_the_drive_safe),
+      CONTAINED_TEST(whoever_stops_it_finds_its_actuators_inhibited),
+      CONTAINED_TEST(a_process_that_stood_still_says_so_and_moves_nothing),
+      CONTAINED_TEST(a_shorter_stop_is_a_warning),
+      CONTAINED_TEST(the_terminal_comes_back_from_every_signal),
+      CONTAINED_TEST(control_z_lends_the_terminal_back_and_fg_takes_it),
+      CONTAINED_TEST(a_terminal_that_is_held_holds_up_no_stop),
+      CONTAINED_TEST(closed_descriptors_are_nobodys),
+      CONTAINED_TEST(bytes_that_are_no_keys_harm_nothing),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
