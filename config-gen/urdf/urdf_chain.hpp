@@ -12,6 +12,9 @@ namespace flexrf::config_gen {
 
 // The most joints a chain may have: that of the runtime's KinematicChain.
 inline constexpr std::size_t urdf_max_joints = 8;
+// Of any number in the file, in m, rad and their derivatives: with more, poses would not be finite, or
+// without meaning.
+inline constexpr double urdf_greatest_number = 1e6;
 
 // Position in m and rotation column by column: p_parent = rotation * p + position.
 struct UrdfTransform {

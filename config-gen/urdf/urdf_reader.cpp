@@ -56,7 +56,7 @@ bool parse_number(std::string_view text, double& value) {
   text = text.substr(first, last - first + 1);
   if (text.front() == '+') text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+  return error == std::errc() && end == text.data() + text.size() && std::abs(value) <= urdf_greatest_number;
 }
 
 bool parse_triple(const std::string& text, std::array<double, 3>& values) {
@@ -69,6 +69,8 @@ bool parse_triple(const std::string& text, std::array<double, 3>& values) {
   }
   return count == 3;
 }
+
+const std::string greatest_text = "1e6";
 
 class Reader {
  public:
@@ -173,7 +175,7 @@ class Reader {
       const pugi::xml_attribute found = origin.attribute(attribute);
       if (found && !parse_triple(found.value(), *values)) {
         fail(origin, "joint '" + joint.value.name + "': " + attribute + "=\"" + found.value() +
-                         "\" is not three numbers");
+                         "\" is not three numbers up to " + greatest_text);
       }
     }
     joint.value.origin.rotation = rotation_of(rpy);
@@ -203,7 +205,8 @@ class Reader {
     if (!axis) return;  // URDF's default, x
     std::array<double, 3>& value = joint.value.axis;
     if (!parse_triple(axis.attribute("xyz").value(), value)) {
-      fail(axis, "joint '" + joint.value.name + "': the axis's xyz is not three numbers");
+      fail(axis,
+           "joint '" + joint.value.name + "': the axis's xyz is not three numbers up to " + greatest_text);
       return;
     }
     const double length = std::hypot(value[0], value[1], value[2]);
@@ -224,7 +227,7 @@ class Reader {
       return false;
     }
     if (!parse_number(found.value(), value)) {
-      fail(node, start + attribute + "=\"" + found.value() + "\" is not a number");
+      fail(node, start + attribute + "=\"" + found.value() + "\" is not a number up to " + greatest_text);
       return false;
     }
     return true;

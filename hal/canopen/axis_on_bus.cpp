@@ -7,6 +7,8 @@
 namespace flexrf::canopen {
 namespace {
 
+static_assert(cia402::ServoAxis::full_speed == ServoDrive::full_speed);
+
 // What is not asked for and answered, but said in every cycle: only the newest counts.
 bool is_cyclic(const Message& message) {
   const auto base = static_cast<std::uint16_t>(message.identifier & 0x780);

@@ -37,6 +37,8 @@ class CanopenDrive : public Base {
   void send(const Tick& tick) noexcept override {
     if (this->is_inhibited()) made_safe_ = false;
     link_.send(tick, takes_commands() && this->fault().is_ok());
+    if (const Restraint held = link_.axis().take_restraint(); held.reason != nullptr)
+      this->restrain(held.reason, held.asked, held.given);
     if (!link_.axis().fault().is_ok()) this->fail(link_.axis().fault());
   }
 
@@ -69,6 +71,8 @@ class CanopenDrive : public Base {
     plan.mode = canopen::mode_of(from.mode);
     plan.lowest = from.lowest;
     plan.highest = from.highest;
+    plan.endless = from.endless;
+    plan.modulo = from.modulo;
     plan.fastest = from.fastest;
     plan.acceleration = from.acceleration;
     plan.homing_method = from.homing_method;

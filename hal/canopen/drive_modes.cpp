@@ -57,10 +57,13 @@ std::uint16_t SetPointHandshake::advance(std::uint16_t statusword, Time now) noe
   } else if (step_ == Step::withdrawn && !acknowledged) {
     step_ = Step::free;
   }
-  if (step_ == Step::free && waiting_ && !acknowledged) {
+  if (step_ == Step::prepared) {
+    step_ = Step::offered;
+    since_ = now;
+  } else if (step_ == Step::free && waiting_ && !acknowledged) {
     target_ = *waiting_;
     waiting_.reset();
-    step_ = Step::offered;
+    step_ = Step::prepared;
     since_ = now;
   }
   if (step_ != Step::free && now - since_ > timeout_ && problem_.is_ok()) {

@@ -51,7 +51,9 @@ class SetPointHandshake {
   void reset(std::int32_t actual) noexcept;
   /// The newest one counts: one that has not been offered yet is forgotten.
   void command(std::int32_t target) noexcept { waiting_ = target; }
-  /// Once for each cycle in which operation is enabled: the bits to add to the controlword.
+  /// Once for each cycle in which operation is enabled: the bits to add to the controlword. The new set-point
+  /// bit rises a cycle after its target is told: a drive may act on each object as it is written, on the
+  /// controlword before the target beside it, or after it at the next SYNC.
   std::uint16_t advance(std::uint16_t statusword, Time now) noexcept;
   /// For object 607A, beside the bits.
   std::int32_t target() const noexcept { return target_; }
@@ -63,7 +65,7 @@ class SetPointHandshake {
   const Status& problem() const noexcept { return problem_; }
 
  private:
-  enum class Step : std::uint8_t { free, offered, withdrawn };
+  enum class Step : std::uint8_t { free, prepared, offered, withdrawn };
 
   Duration timeout_;
   Step step_ = Step::free;

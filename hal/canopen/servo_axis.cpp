@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hal/interfaces/servo_drive/servo_restraints.hpp"
+
 namespace flexrf::canopen::cia402 {
 namespace {
 
@@ -42,6 +44,8 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   speed_ = plan.fastest;
   most_torque_ = 1;
   target_object_ = 0;
+  counted_.reset();
+  restraint_ = {};
   return node_.begin(node_plan(), now, outbox);
 }
 
@@ -69,13 +73,25 @@ bool ServoAxis::take_process_data(const Message& message, Time now) noexcept {
   if (!unpack(states_, message, values)) return true;
   if (!state_) state_.emplace();
   statusword_ = static_cast<std::uint16_t>(values[0]);
-  state_->position = static_cast<double>(with_sign(values[1], 32)) / plan_.increments_per_unit;
+  state_->position = position_of(static_cast<std::int32_t>(with_sign(values[1], 32)));
   state_->at_internal_limit = (statusword_ & status_bit::internal_limit) != 0;
   state_->target_reached = has_reached(statusword_);
   if (plan_.maps_mode) mode_shown_ = static_cast<Mode>(with_sign(values[2], 8));
   heard_ = now;
   heard_now_ = true;
   return true;
+}
+
+/// The drive's counter runs over after 2^32 increments; an endless axis goes on.
+double ServoAxis::position_of(std::int32_t increments) noexcept {
+  if (!plan_.endless) return increments / plan_.increments_per_unit;
+  if (!counted_) way_ = increments / plan_.increments_per_unit;
+  const auto step = static_cast<std::int32_t>(static_cast<std::uint32_t>(increments) -
+                                              static_cast<std::uint32_t>(counted_.value_or(increments)));
+  counted_ = increments;
+  way_ += step / plan_.increments_per_unit;
+  if (plan_.modulo > 0) way_ -= plan_.modulo * std::floor(way_ / plan_.modulo);
+  return way_;
 }
 
 void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) noexcept {
@@ -214,17 +230,24 @@ double ServoAxis::velocity_for(Duration elapsed) noexcept {
     velocity_ -= std::clamp(velocity_, -step, step);
   }
   cycles_ = std::min(cycles_ + 1, settle_cycles);
-  return would_leave() ? 0 : velocity_;
+  if (!would_leave()) return velocity_;
+  restraint_ = {servo_restraints::end_of_range, velocity_, 0};
+  return 0;
 }
 
 bool ServoAxis::would_leave() const noexcept {
+  if (plan_.endless) return false;
   return (velocity_ > 0 && state_->position >= plan_.highest) ||
          (velocity_ < 0 && state_->position <= plan_.lowest);
 }
 
 bool ServoAxis::has_reached(std::uint16_t statusword) const noexcept {
   if (!power_.is_enabled() || !was_commanded_ || halts_) return false;
-  if (plan_.mode == Mode::profile_position) return handshake_.is_reached(statusword);
+  if (plan_.mode == Mode::profile_position) {
+    // What the drive says may be about another target: it is there only if it is there.
+    const double off = state_->position - handshake_.target() / plan_.increments_per_unit;
+    return handshake_.is_reached(statusword) && std::abs(off) <= plan_.fastest * seconds(plan_.period);
+  }
   if (plan_.mode != Mode::profile_velocity || would_leave()) return false;
   return cycles_ == settle_cycles && (statusword & status_bit::target_reached) != 0;
 }

@@ -2,11 +2,15 @@
 // stopped.
 #pragma once
 
+#include <limits>
+#include <utility>
+
 #include "hal/canopen/axis_homing.hpp"
 #include "hal/canopen/drive_modes.hpp"
 #include "hal/canopen/drive_power.hpp"
 #include "hal/canopen/mode_by_sdo.hpp"
 #include "hal/canopen/node.hpp"
+#include "runtime/unit/restraint.hpp"
 
 namespace flexrf::canopen::cia402 {
 
@@ -21,9 +25,11 @@ struct AxisPlan {
   double increments_per_unit = 1000;               ///< negative: it turns the other way; not 0
   double lowest = -1000;                           ///< position, unit
   double highest = 1000;                           ///< position, unit
-  double fastest = 1;                              ///< unit/s, above 0
-  double acceleration = 10;                        ///< unit/s^2, above 0: of profiles, and of a halt
-  double quick_stop_deceleration = 0;              ///< unit/s^2; 0: as the drive has it
+  bool endless = false;                ///< it has no end: neither of them counts; led by velocities
+  double modulo = 0;                   ///< of an endless one, unit: told from 0 up to this; 0: counted on
+  double fastest = 1;                  ///< unit/s, above 0
+  double acceleration = 10;            ///< unit/s^2, above 0: of profiles, and of a halt
+  double quick_stop_deceleration = 0;  ///< unit/s^2; 0: as the drive has it
   /// The drive's units of velocity for one increment/s, and of acceleration for one increment/s^2; above 0.
   double velocity_factor = 1;
   double acceleration_factor = 1;
@@ -70,6 +76,9 @@ struct AxisState {
 /// then send(). A fault stays until begin(): nothing is enabled again by itself.
 class ServoAxis {
  public:
+  /// A speed of move_to(): as fast as the plan says.
+  static constexpr double full_speed = std::numeric_limits<double>::max();
+
   /// Error: the plan makes no sense.
   Status begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept;
   /// The drive is to be off already; the node leaves its operation.
@@ -124,6 +133,8 @@ class ServoAxis {
   /// is enabled anew. A node that was refused stays so.
   void forget_fault() noexcept { fault_ = {}; }
   const Node& node() const noexcept { return node_; }
+  /// Why it does less than it was commanded, in this cycle; once.
+  Restraint take_restraint() noexcept { return std::exchange(restraint_, Restraint{}); }
 
  private:
   static constexpr int silent_cycles = 10;  // without process data it is not known where it is
@@ -137,10 +148,13 @@ class ServoAxis {
   bool take_process_data(const Message& message, Time now) noexcept;
   void settle_mode(Time now, Outbox& outbox) noexcept;
   bool mode_is_taken(bool wanted, Time now) noexcept;
-  bool takes(Mode one, Mode other) const noexcept;
+  bool is_led_in(Mode one, Mode other) const noexcept { return plan_.mode == one || plan_.mode == other; }
+  bool takes(Mode one, Mode other) noexcept;
   bool may_be_commanded() const noexcept;
   bool would_leave() const noexcept;
   bool is_number(double value, const char* what) noexcept;
+  double position_of(std::int32_t increments) noexcept;
+  double within(double value, double lowest, double highest, const char* reason) noexcept;
   void seed() noexcept;
   std::uint16_t mode_bits(bool at_rest, Time now) noexcept;
   double target_for(Duration elapsed) noexcept;
@@ -184,6 +198,10 @@ class ServoAxis {
   double speed_ = 1;                 // of the profile
   double most_torque_ = 1;           // of its rated torque
   std::uint64_t target_object_ = 0;  // as it was sent
+  std::optional<std::int32_t>
+      counted_;  // of an endless axis: what the drive said last, and how far it has come, unit
+  double way_ = 0;
+  Restraint restraint_;
 };
 
 }  // namespace flexrf::canopen::cia402

@@ -3,19 +3,19 @@
 #include <cmath>
 
 #include "hal/canopen/servo_axis.hpp"
+#include "hal/interfaces/servo_drive/servo_restraints.hpp"
 
 namespace flexrf::canopen::cia402 {
-
 void ServoAxis::command_position(double position) noexcept {
   if (!takes(Mode::cyclic_position, Mode::cyclic_position) || !may_be_commanded()) return;
   if (!is_number(position, "position")) return;
-  cyclic_.command(std::clamp(position, plan_.lowest, plan_.highest));
+  cyclic_.command(within(position, plan_.lowest, plan_.highest, servo_restraints::out_of_range));
 }
 
 void ServoAxis::command_velocity(double velocity) noexcept {
   if (!takes(Mode::cyclic_velocity, Mode::profile_velocity) || !may_be_commanded()) return;
   if (!is_number(velocity, "velocity")) return;
-  const double kept = std::clamp(velocity, -plan_.fastest, plan_.fastest);
+  const double kept = within(velocity, -plan_.fastest, plan_.fastest, servo_restraints::too_fast);
   if (kept == velocity_ && was_commanded_ && !halts_) return;
   velocity_ = kept;
   cycles_ = 0;
@@ -31,15 +31,20 @@ void ServoAxis::move_to(double position, double speed) noexcept {
     fail(Status::error(StatusCode::invalid_argument, "it was commanded to move with a speed of %g", speed));
     return;
   }
-  speed_ = std::min(speed, plan_.fastest);
-  const double kept = std::clamp(position, plan_.lowest, plan_.highest);
+  // As fast as it may: nothing is held back.
+  speed_ = speed == full_speed ? plan_.fastest : within(speed, 0, plan_.fastest, servo_restraints::too_fast);
+  const double kept = within(position, plan_.lowest, plan_.highest, servo_restraints::out_of_range);
   handshake_.command(static_cast<std::int32_t>(std::llround(kept * plan_.increments_per_unit)));
   was_commanded_ = true;
   state_->target_reached = false;
 }
 
 void ServoAxis::home() noexcept {
-  if (!may_be_commanded() || plan_.homing_method == 0) return;
+  if (!may_be_commanded()) return;
+  if (plan_.homing_method == 0) {
+    restraint_ = {.reason = servo_restraints::no_homing};
+    return;
+  }
   halt();
   homing_.start();
 }
@@ -59,8 +64,16 @@ bool ServoAxis::may_be_commanded() const noexcept {
   return power_.is_enabled() && state_ && !homing_.is_running();
 }
 
-bool ServoAxis::takes(Mode one, Mode other) const noexcept {
-  return plan_.mode == one || plan_.mode == other;
+bool ServoAxis::takes(Mode one, Mode other) noexcept {
+  if (is_led_in(one, other)) return true;
+  if (may_be_commanded()) restraint_ = {.reason = servo_restraints::another_mode};
+  return false;
+}
+
+double ServoAxis::within(double value, double lowest, double highest, const char* reason) noexcept {
+  const double kept = std::clamp(value, lowest, highest);
+  if (kept != value) restraint_ = {reason, value, kept};
+  return kept;
 }
 
 bool ServoAxis::is_number(double value, const char* what) noexcept {

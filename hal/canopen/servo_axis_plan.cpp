@@ -40,7 +40,15 @@ Status ServoAxis::check(const AxisPlan& plan) const noexcept {
   if (plan.limits_torque && plan.mode != Mode::profile_position) {
     return wrong("its torque can be limited in mode profile position alone");
   }
-  if (!(plan.lowest < plan.highest)) return wrong("its lowest position is not below its highest");
+  const bool is_led_by_velocity = plan.mode == Mode::cyclic_velocity || plan.mode == Mode::profile_velocity;
+  if (plan.endless && !is_led_by_velocity) {
+    return wrong("it is endless, and is not led by velocities (mode cyclic_velocity or profile_velocity)");
+  }
+  if (!(plan.modulo >= 0) || !std::isfinite(plan.modulo) || (plan.modulo > 0 && !plan.endless)) {
+    return wrong("its modulo is below 0, or it is not endless");
+  }
+  if (!plan.endless && !(plan.lowest < plan.highest))
+    return wrong("its lowest position is not below its highest");
   if (!is_above_zero(plan.fastest)) return wrong("its greatest velocity is not above 0");
   if (!is_above_zero(plan.acceleration)) return wrong("its acceleration is not above 0");
   if (!(plan.quick_stop_deceleration >= 0) || !std::isfinite(plan.quick_stop_deceleration)) {
@@ -53,7 +61,7 @@ Status ServoAxis::check(const AxisPlan& plan) const noexcept {
     return wrong("a speed of its homing is not above 0");
   }
   const double farthest = std::max(std::abs(plan.lowest), std::abs(plan.highest));
-  if (!(farthest * std::abs(plan.increments_per_unit) <= largest_increments)) {
+  if (!plan.endless && !(farthest * std::abs(plan.increments_per_unit) <= largest_increments)) {
     return wrong("its range has more increments than the drive can count");
   }
   return {};
@@ -63,7 +71,7 @@ NodePlan ServoAxis::node_plan() noexcept {
   commands_ = {.direction = PdoDirection::received_by_node,
                .identifier = receive_pdo_identifier(1, plan_.node)};
   commands_.add(objects::controlword, 16);
-  const bool takes_positions = takes(Mode::cyclic_position, Mode::profile_position);
+  const bool takes_positions = is_led_in(Mode::cyclic_position, Mode::profile_position);
   commands_.add(takes_positions ? objects::target_position : objects::target_velocity, 32);
   if (plan_.maps_mode) commands_.add(objects::mode, 8);
   states_ = {.direction = PdoDirection::sent_by_node, .identifier = transmit_pdo_identifier(1, plan_.node)};
@@ -115,7 +123,7 @@ void ServoAxis::plan_motion(Configuration& list) const noexcept {
   if (plan_.quick_stop_deceleration > 0) {
     list.write(objects::quick_stop_deceleration, 4, to_amount(plan_.quick_stop_deceleration * scale));
   }
-  if (takes(Mode::profile_position, Mode::profile_velocity)) {
+  if (is_led_in(Mode::profile_position, Mode::profile_velocity)) {
     list.write(objects::profile_acceleration, 4, to_amount(acceleration));
     list.write(objects::profile_deceleration, 4, to_amount(acceleration));
   }

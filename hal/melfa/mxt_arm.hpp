@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "hal/interfaces/robot_arm/kinematics.hpp"
 #include "hal/interfaces/robot_arm/robot_arm.hpp"
 #include "hal/melfa/mxt_dialogue.hpp"
 
@@ -64,6 +65,7 @@ class MxtArm : public Base {
     for (std::size_t i = 0; i < this->chain->joint_count; ++i) {
       if (!std::isfinite(set_points.position[i])) return this->fail(no_number(i));
     }
+    this->restrain(restraint_of(*this->chain, set_points.position));
     dialogue_.command(set_points.position);
   }
 

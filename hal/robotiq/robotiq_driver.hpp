@@ -99,6 +99,7 @@ class RobotiqDriver : public Base {
   void command(const GripperGoal& goal) noexcept override {
     if (this->is_inhibited()) return;
     if (const Status status = check_goal(goal, capabilities()); !status) return this->fail(status);
+    this->restrain(restraint_of(goal, capabilities()));
     control_.command({within_reach(goal.opening, capabilities()), goal.speed, goal.force});
   }
   void halt() noexcept override { control_.halt(); }

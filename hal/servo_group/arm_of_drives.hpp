@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "hal/interfaces/robot_arm/kinematics.hpp"
 #include "hal/servo_group/same_columns.hpp"
 #include "hal/servo_group/servo_group.hpp"
 
@@ -40,7 +41,10 @@ class ArmOfDrives : public Base {
   void send(const Tick& tick) noexcept override {
     if (this->is_inhibited()) made_safe_ = false;
     group_.lead(!this->is_inhibited() && !made_safe_ && this->fault().is_ok());
-    for (Drive& drive : drives()) drive.send(tick);
+    for (Drive& drive : drives()) {
+      drive.send(tick);
+      this->restrain(drive.take_restraint());
+    }
     group_.watch();
     if (!group_.fault().is_ok()) this->fail(group_.fault());
   }
@@ -51,7 +55,9 @@ class ArmOfDrives : public Base {
 
   std::optional<JointState> state() const noexcept override { return group_.state(); }
   void command(const JointPositions& set_points) noexcept override {
-    if (!this->is_inhibited() && !made_safe_) group_.command(set_points);
+    if (this->is_inhibited() || made_safe_) return;
+    group_.command(set_points);
+    if (group_.is_ready()) this->restrain(restraint_of(*this->chain, set_points.position));
   }
   /// All drives are enabled and know where they are: commands are followed.
   bool is_ready() const noexcept { return group_.is_ready(); }

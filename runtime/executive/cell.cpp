@@ -116,11 +116,11 @@ Status Cell::choose_drivers() {
     }
   }
   if (without.empty()) return {};
-  return Status::error(
-      StatusCode::invalid_argument,
-      "--hardware %s: no such driver has: %.100s; name one of each, as `--hardware %s,DEVICE=DRIVER`, "
-      "or say in its table `instead = { %s = \"DRIVER\" }`",
-      kind.c_str(), without.c_str(), kind.c_str(), kind.c_str());
+  return Status::error(StatusCode::invalid_argument,
+                       "--hardware %s: these devices have no such driver: %.100s; name one for each, as "
+                       "`--hardware %s,DEVICE=DRIVER`, "
+                       "or say in its table `instead = { %s = \"DRIVER\" }`",
+                       kind.c_str(), without.c_str(), kind.c_str(), kind.c_str());
 }
 
 void Cell::narrow_ranges() {
@@ -320,8 +320,9 @@ bool Cell::is_real(std::uint16_t device) const noexcept {
 }
 
 const char* Cell::real_actuator() const noexcept {
-  for (std::uint16_t i = 0; i < application_->devices.size(); ++i) {
-    if (driver(i).actuates && is_real(i)) return application_->devices[i].name;
+  for (std::size_t i = 0; i < application_->devices.size(); ++i) {
+    const auto device = static_cast<std::uint16_t>(i);
+    if (driver(device).actuates && is_real(device)) return application_->devices[i].name;
   }
   return nullptr;
 }

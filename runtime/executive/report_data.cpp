@@ -68,6 +68,7 @@ std::vector<ComponentReport> collect_units(const Application& application) {
     if (unit.steps > 0)
       unit.execution_mean = Duration{state.execution_total.load() / static_cast<std::int64_t>(unit.steps)};
     if (unit.life == Life::fault) unit.fault = state.fault.read().cause();
+    unit.restraints = state.restraint.count();
   }
   return units;
 }
@@ -82,6 +83,7 @@ std::vector<ComponentReport> collect_devices(const Cell& cell) {
     device.driver = cell.driver(static_cast<std::uint16_t>(i)).name;
     device.life = state.life.load();
     if (device.life == Life::fault) device.fault = state.fault.read().cause();
+    device.restraints = state.restraint.count();
   }
   return devices;
 }
@@ -232,6 +234,7 @@ ReportData collect_report(const Cell& cell, const RunSummary& summary) {
   data.faults = cell.control().faults();
   data.longest_standstill = cell.control().longest_standstill();
   data.unwritten_log_lines = unwritten_log_lines();
+  data.warnings = logged_warnings();
   data.dropped_log_messages = dropped_log_messages();
   data.guarded = has_allocation_guard();
   data.ending = ending_of(data);

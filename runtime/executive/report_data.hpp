@@ -49,7 +49,8 @@ struct ComponentReport {
   Duration budget{};
   Duration execution_mean{};
   Duration execution_maximum{};
-  std::string fault;  ///< the cause while it is in fault, else empty
+  std::string fault;             ///< the cause while it is in fault, else empty
+  std::uint64_t restraints = 0;  ///< how often it did less than it was commanded
 };
 
 struct SlotReaderReport {
@@ -81,6 +82,7 @@ struct ReportData {
   Duration longest_standstill{};  ///< of a thread or the process
   std::uint64_t dropped_log_messages = 0;
   std::uint64_t unwritten_log_lines = 0;
+  LoggedWarnings warnings;
   bool guarded = false;  ///< the allocation guard was linked in
   std::string ending;    ///< one sentence: how the run ended and why
 };

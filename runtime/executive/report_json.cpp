@@ -85,6 +85,7 @@ void write_components(JsonWriter& json, const ReportData& data) {
     json.member("steps", unit.steps).member("budget_ns", unit.budget.count());
     json.member("execution_mean_ns", unit.execution_mean.count());
     json.member("execution_max_ns", unit.execution_maximum.count());
+    json.member("restraints", unit.restraints);
     write_fault(json, unit.fault);
     json.end_object();
   }
@@ -92,6 +93,7 @@ void write_components(JsonWriter& json, const ReportData& data) {
   for (const ComponentReport& device : data.devices) {
     json.begin_object().member("name", device.name).member("driver", device.driver);
     json.member("life", name_of(device.life));
+    json.member("restraints", device.restraints);
     write_fault(json, device.fault);
     json.end_object();
   }
@@ -177,6 +179,13 @@ std::string report_json(const Cell& cell, const RunSummary& summary) {
   write_queues(json, data);
   write_memory(json, data);
   json.member("faults", data.faults).member("dropped_log_messages", data.dropped_log_messages);
+  json.member("longest_standstill_ns", data.longest_standstill.count());
+  json.member("unwritten_log_lines", data.unwritten_log_lines);
+  json.member("warnings", data.warnings.count).key("first_warnings").begin_array();
+  for (const std::string& line : data.warnings.first) {
+    if (!line.empty()) json.value(line.c_str());
+  }
+  json.end_array();
   return json.end_object().take();
 }
 

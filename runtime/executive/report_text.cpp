@@ -97,8 +97,9 @@ std::string units_text(const ReportData& data) {
 
 std::string devices_text(const ReportData& data) {
   if (data.devices.empty()) return {};
-  TextTable table({"device", "<driver", "<life"});
-  for (const ComponentReport& device : data.devices) table.add({device.name, device.driver, life_of(device)});
+  TextTable table({"device", "<driver", "<life", "restrained"});
+  for (const ComponentReport& device : data.devices)
+    table.add({device.name, device.driver, life_of(device), or_nothing(device.restraints)});
   return "\nDevices\n" + table.text("  ");
 }
 
@@ -183,6 +184,12 @@ std::string guard_text(const ReportData& data) {
   }
   if (data.dropped_log_messages > 0) {
     text += "Log messages dropped: " + std::to_string(data.dropped_log_messages) + "\n";
+  }
+  if (data.warnings.count > 0) {
+    text += "Warnings and errors in the log: " + std::to_string(data.warnings.count) + ", the first:\n";
+    for (const std::string& line : data.warnings.first) {
+      if (!line.empty()) text += "  " + line + "\n";
+    }
   }
   if (data.unwritten_log_lines > 0) {
     text += "Lines of the log that nobody took: " + std::to_string(data.unwritten_log_lines) + "\n";

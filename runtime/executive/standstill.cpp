@@ -9,9 +9,9 @@ namespace {
 
 bool owns_actuator(const Cell& cell, std::uint16_t thread) noexcept {
   const Application& application = cell.application();
-  for (std::uint16_t device = 0; device < application.devices.size(); ++device) {
-    const bool concerned = thread == no_index || application.devices[device].thread == thread;
-    if (concerned && cell.driver(device).actuates) return true;
+  for (std::size_t i = 0; i < application.devices.size(); ++i) {
+    const bool concerned = thread == no_index || application.devices[i].thread == thread;
+    if (concerned && cell.driver(static_cast<std::uint16_t>(i)).actuates) return true;
   }
   return false;
 }

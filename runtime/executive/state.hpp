@@ -35,8 +35,9 @@ struct UnitState {
   std::atomic<bool> stop_requested{
       false};  ///< it alone is to come to rest: the lifecycle thread will stop it
   std::atomic<std::uint64_t> steps{0};
-  Time stepped_at{};                               ///< the unit's thread only
-  SharedStatus fault;                              ///< why; published before life becomes fault
+  Time stepped_at{};   ///< the unit's thread only
+  SharedStatus fault;  ///< why; published before life becomes fault
+  SharedRestraint restraint;
   std::atomic<std::int64_t> execution_maximum{0};  ///< ns, longest step
   std::atomic<std::int64_t> execution_total{0};    ///< ns, all steps
 };
@@ -51,6 +52,7 @@ struct DeviceState {
   std::atomic<bool> guards{false};     ///< guards_motion(), as it was or is to be initialised
   bool demands = false;  ///< counted in Control; its thread only, before the start the main thread
   SharedStatus fault;    ///< why; published before life becomes fault
+  SharedRestraint restraint;
   DeviceEnvironment environment;
 };
 

@@ -1,6 +1,7 @@
 #include "runtime/executive/stepper.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 
 #include "runtime/log/log.hpp"
@@ -293,6 +294,7 @@ bool Stepper::step(std::size_t place, Time now) noexcept {
   }
   parameters.after_step(now);
   add(state.steps, std::uint64_t{1});
+  note_restraint(record.name, unit, state.restraint, now);
   if (!unit.fault().is_ok()) [[unlikely]] {
     fault_unit(index, unit.fault());
   } else {
@@ -319,6 +321,7 @@ void Stepper::send(Time now) noexcept {
     DeviceState& state = application_->device_states[index];
     note_stepped(application_->devices[index].name);
     state.device->send(tick_);
+    note_restraint(application_->devices[index].name, *state.device, state.restraint, now);
     check_device(index);
     if (SlotControl* slot = application_->devices[index].feedback_slot; slot != nullptr) {
       publish_feedback(slot, cell_->driver(index).type->feedback, state.device->parameter_memory().feedback,
@@ -327,6 +330,18 @@ void Stepper::send(Time now) noexcept {
     cell_->parameters(cell_->component_of_device(index)).after_step(now);
   }
   note_stepped(nullptr);
+}
+
+void Stepper::note_restraint(const char* name, Component& component, SharedRestraint& shared,
+                             Time now) noexcept {
+  const Restraint restraint = component.take_restraint();
+  if (!shared.note(restraint, now)) return;
+  if (std::isnan(restraint.asked)) {
+    log_warning(name, "{}", StaticText{restraint.reason});
+  } else {
+    log_warning(name, "{}: {:.4} was asked for, {:.4} is done", StaticText{restraint.reason}, restraint.asked,
+                restraint.given);
+  }
 }
 
 void Stepper::publish_feedback(SlotControl* slot, const ParameterBlock& block, const void* values,

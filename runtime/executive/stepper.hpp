@@ -51,6 +51,7 @@ class Stepper {
 
  private:
   void note_stepped(const char* component) noexcept;
+  void note_restraint(const char* name, Component& component, SharedRestraint& shared, Time now) noexcept;
   void give_back() noexcept;
   void apply_requests(Time now) noexcept;
   void apply(const ParameterRequest& request, Time now) noexcept;

@@ -31,7 +31,16 @@ struct Drained {
   std::uint64_t unwritten_said = 0;
   char text[recent_lines][line_capacity]{};
   std::uint16_t size[recent_lines]{};
+  std::uint64_t warnings = 0;
+  char first_warnings[LoggedWarnings::kept][line_capacity]{};  // each ends with a zero
 
+  void keep_warning(const char* line, std::size_t length) noexcept {
+    if (warnings < LoggedWarnings::kept) {
+      std::memcpy(first_warnings[warnings], line, length);
+      first_warnings[warnings][length] = '\0';
+    }
+    ++warnings;
+  }
   void keep(const char* line, std::size_t length) noexcept {
     std::memcpy(text[lines % recent_lines], line, length);
     size[lines % recent_lines] = static_cast<std::uint16_t>(length);
@@ -68,6 +77,7 @@ std::size_t Drained::take(char* line, bool is_written) noexcept {
     unwritten_said = lost;
   } else if (const LogRecord* const record = ring.front(); record != nullptr) {
     length = format(*record);
+    if (record->severity >= Severity::warning) keep_warning(line, length);
     ring.pop();
   } else if (const std::uint64_t dropped = ring.dropped(); dropped != drops_said) {
     length = format(remark("{} messages dropped, the ring was full", dropped - drops_said));
@@ -158,6 +168,15 @@ std::uint64_t visit_recent_log(std::uint64_t after, void* context,
     line(context, i + 1, std::string_view(drained.text[place], drained.size[place]));
   }
   return drained.lines;
+}
+
+LoggedWarnings logged_warnings() {
+  const std::lock_guard lock(drained.mutex);
+  LoggedWarnings result;
+  result.count = drained.warnings;
+  for (std::size_t i = 0; i < LoggedWarnings::kept && i < drained.warnings; ++i)
+    result.first[i] = drained.first_warnings[i];
+  return result;
 }
 
 std::uint64_t dropped_log_messages() noexcept {

@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -67,6 +68,16 @@ std::uint64_t unwritten_log_lines() noexcept;
 std::uint64_t visit_recent_log(std::uint64_t after, void* context,
                                void (*line)(void* context, std::uint64_t number,
                                             std::string_view text)) noexcept;
+
+/// What was logged as a warning or an error since the start: how often, and the first of them, which are the
+/// causes of most that follow.
+struct LoggedWarnings {
+  static constexpr std::size_t kept = 3;
+  std::uint64_t count = 0;
+  std::string first[kept];  ///< lines, oldest first
+};
+/// Non-real-time threads.
+LoggedWarnings logged_warnings();
 
 /// Messages dropped since the start because the ring was full. Any thread.
 std::uint64_t dropped_log_messages() noexcept;

@@ -131,18 +131,18 @@ void a_user_has_a_place_of_its_own(void**) {
   assert_string_equal(place, own);
 }
 
-/// As another user, who finds that folder made by somebody else.
+/// As a user that nobody is, who finds that folder made by somebody else.
 int stranger_asks(LockScope scope) {
   const pid_t child = fork();
   if (child == 0) {
-    if (setuid(65534) != 0) _exit(10);
+    if (setuid(64321) != 0) _exit(10);
     unsetenv("XDG_RUNTIME_DIR");
     char place[lock_directory_size];
     const Status status = find_lock_directory(scope, place);
     if (status) _exit(0);
     const bool told =
         scope == LockScope::user
-            ? std::strstr(status.cause(), "/tmp/flexrf-65534") != nullptr
+            ? std::strstr(status.cause(), "/tmp/flexrf-64321") != nullptr
             : std::strstr(status.cause(), "`sudo install -d -m 2775 -g $(id -gn) /run/flexrf`") != nullptr;
     _exit(status.code() == StatusCode::not_permitted && told ? 1 : 2);
   }
@@ -153,7 +153,7 @@ int stranger_asks(LockScope scope) {
 
 void somebody_elses_folder_is_not_taken(void**) {
   if (geteuid() != 0) skip();  // nobody else can become another user
-  const char* const place = "/tmp/flexrf-65534";
+  const char* const place = "/tmp/flexrf-64321";
   rmdir(place);
   assert_int_equal(mkdir(place, 0777), 0);
   const int answer = stranger_asks(LockScope::user);

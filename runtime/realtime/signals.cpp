@@ -27,7 +27,7 @@ bool does(int signal, void (*action)(int)) noexcept {
 }
 
 /// A name for each of the kernel's signals, for a log that copies no texts.
-using Names = std::array<std::array<char, 16>, NSIG>;
+using Names = std::array<std::array<char, 24>, NSIG>;
 Names make_names() noexcept {
   Names names{};
   for (int signal = 1; signal < NSIG; ++signal) {

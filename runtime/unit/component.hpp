@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <utility>
 
 #include "runtime/blackboard/item.hpp"
 #include "runtime/core/status.hpp"
 #include "runtime/parameters/parameter_descriptor.hpp"
+#include "runtime/unit/restraint.hpp"
 
 namespace flexrf {
 
@@ -44,17 +47,32 @@ class Component {
   void set_type_in_force(const ComponentType& type) noexcept { type_in_force_ = &type; }
   void set_fault(const Status& cause) noexcept { fault_ = cause; }
   void clear_fault() noexcept { fault_ = {}; }
+  /// What restrain() said since it was asked last. Owning thread.
+  Restraint take_restraint() noexcept { return std::exchange(restraint_, Restraint{}); }
 
  protected:
   /// Puts this component in fault after the current call returns; `cause` is what the operator reads.
   void fail(const Status& cause) noexcept {
     if (fault_.is_ok()) fault_ = cause;
   }
+  /// This cycle it does not do all that it was commanded: a command is clamped, refused or without effect.
+  /// Said in each cycle in which that is so. The operator sees it on the component's page, the log says it
+  /// once. Not for inhibition, which the cell tells. `reason` lives for ever. Owning thread; no cost worth
+  /// counting.
+  void restrain(const char* reason, double asked = std::numeric_limits<double>::quiet_NaN(),
+                double given = std::numeric_limits<double>::quiet_NaN()) noexcept {
+    restraint_ = {reason, asked, given};
+  }
+  /// The same; nothing where there is none.
+  void restrain(const Restraint& restraint) noexcept {
+    if (restraint.reason != nullptr) restraint_ = restraint;
+  }
 
  private:
   const char* name_ = "";
   const ComponentType* type_in_force_ = nullptr;  // null: its own
   Status fault_;
+  Restraint restraint_;
 };
 
 }  // namespace flexrf

@@ -64,6 +64,19 @@ void a_real_actuator_is_refused_with_no_realtime() {
   CHECK_EQUAL(ending.exit_code, 1);
 }
 
+/// A kind of hardware that was asked for is what all devices get, or none: never another one in silence.
+void a_kind_of_hardware_is_for_all_devices() {
+  const Folder folder;
+  const Ending ending = run(folder, {place::crowd, "--hardware", "real"});
+  CHECK_EQUAL(ending.exit_code, 1);
+  CHECK_CONTAINS(ending.errors,
+                 "--hardware real: these devices have no such driver: drive; name one for each, as "
+                 "`--hardware real,DEVICE=DRIVER`, or say in its table `instead = { real = \"DRIVER\" }`");
+  // Whoever names them gets what is named, and is told what moves.
+  const Ending named = run(folder, {place::crowd, "--hardware", "real,drive=simulated", "--no-realtime"});
+  CHECK_CONTAINS(named.errors, "a real actuator is chosen (press)");
+}
+
 /// Enough for the table's budget, too little for all that is mapped: this is known before anything starts.
 void a_limit_between_budget_and_need_is_noticed() {
   if (geteuid() != 0) skip();  // only root can keep the priorities and give up the capability
@@ -87,6 +100,7 @@ int main() {
       CONTAINED_TEST(without_rights_and_real_actuators_it_goes_on),
       CONTAINED_TEST(without_rights_a_real_actuator_is_refused),
       CONTAINED_TEST(a_real_actuator_is_refused_with_no_realtime),
+      CONTAINED_TEST(a_kind_of_hardware_is_for_all_devices),
       CONTAINED_TEST(a_limit_between_budget_and_need_is_noticed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -119,6 +119,8 @@ void columns_of_a_drive(void**) {
       "mode",
       "lowest",
       "highest",
+      "endless",
+      "modulo",
       "fastest",
       "acceleration",
       "node",

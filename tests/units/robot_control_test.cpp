@@ -27,7 +27,8 @@ struct World {
   SlotBench<JointState> joints;
   InputBinding inputs[2] = {target.input(std::chrono::milliseconds(500)),
                             velocity.input(std::chrono::milliseconds(100))};
-  SlotControl* outputs[2] = {&pose.control(), &joints.control()};
+  SlotBench<TargetAnswer> answer;
+  SlotControl* outputs[3] = {&pose.control(), &joints.control(), &answer.control()};
   Device* device = &arm.driver();
   Device* const* devices[1] = {&device};
   Pose wanted{};
@@ -47,6 +48,9 @@ struct World {
     wanted = to_pose(forward_kinematics(six_axis, home_position(six_axis)));
   }
 
+  static double home_x() {
+    return to_pose(forward_kinematics(six_axis, home_position(six_axis))).position[0];
+  }
   // As jog and the thread do: the target every cycle, receive, step, send.
   void run(double duration) {
     for (double time = 0; time < duration; time += cycle_seconds) {
@@ -122,6 +126,14 @@ bool refuses_what_it_cannot_reach() {
   world.run(0.5);
   if (!world.at(0, 0, 0) || !world.holding("refused") || !world.bench.unit().is_idle()) return false;
   world.wanted.position[0] = NAN;
+  world.run(0.5);
+  if (!world.at(0, 0, 0) || !world.holding("not a pose")) return false;
+  // Once for each target; whoever made it learns where to go on from, and the first cause stays to be read.
+  if (world.bench.feedback().refusals != 2) return false;
+  if (world.bench.feedback().first_refusal_view().find("m refused: ") == std::string_view::npos) return false;
+  const auto said = world.answer.latest();
+  if (!said || said->accepted || std::abs(said->kept.position[0] - world.home_x()) > 1e-3) return false;
+  world.wanted = said->kept;
   world.run(0.5);
   if (!world.at(0, 0, 0) || !world.holding("not a pose")) return false;
   world.wanted.position[0] =

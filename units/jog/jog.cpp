@@ -1,5 +1,6 @@
 #include "units/jog/jog.hpp"
 
+#include "runtime/core/text.hpp"
 #include "units/motion/key_motion.hpp"
 
 namespace flexrf {
@@ -36,12 +37,23 @@ void Jog::step(const Tick& tick) {
     target_ = *pose;
     left_behind_ = false;
   }
+  heed_answer();
   for (int n = 0; n < most_keys_per_step; ++n) {
     const auto key = keys.pop();
     if (!key) break;
     if (move_by_key(*target_, *key, runtime.step, runtime.turn)) ++feedback.presses;
   }
   target.publish(*target_);
+}
+
+/// Further presses must not lead ever farther out of reach, from where as many are needed to come back.
+void Jog::heed_answer() {
+  const auto said = answer.latest();
+  if (!said || !said.is_new()) return;
+  feedback.set_refusal(text_view(said->reason));
+  if (said->accepted) return;
+  ++feedback.refusals;
+  target_ = said->kept;
 }
 
 /// Whether any arrow is held.

@@ -18,6 +18,7 @@ class Jog final : public JogUnit {
 
  private:
   bool publish_velocity(const Tick& tick);
+  void heed_answer();
 
   std::optional<Pose> target_;
   bool left_behind_ = false;  // the arm was moved by a velocity since the target was seeded

@@ -34,7 +34,7 @@ void KeyboardRobot::step(const Tick& tick) {
     pose.publish(actual);
     if (tick.motion_inhibited || !motion_.is_seeded()) {
       motion_.seed(state->position_map());
-      target_ = actual;
+      target_ = kept_ = actual;
     }
     if (tick.motion_inhibited) {
       for (int n = 0; n < most_keys_per_step && keyboard->read(); ++n)
@@ -64,7 +64,16 @@ void KeyboardRobot::follow_keys() noexcept {
   }
   if (!moved_ || motion_.is_moving()) return;
   moved_ = false;
-  feedback.set_refusal(motion_.move_to(target_, 1.0).cause());
+  const Status moved = motion_.move_to(target_, 1.0);
+  feedback.set_refusal(moved.cause());
+  if (moved) {
+    kept_ = target_;
+    return;
+  }
+  // Further presses must not lead ever farther out of reach.
+  target_ = kept_;
+  ++feedback.refusals;
+  log_warning(refusals_, name(), "{}", moved.cause());
 }
 
 }  // namespace flexrf

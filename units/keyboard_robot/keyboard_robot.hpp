@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "keyboard_robot_unit.hpp"
+#include "runtime/log/log.hpp"
 #include "units/motion/arm_motion.hpp"
 
 namespace flexrf {
@@ -19,6 +20,8 @@ class KeyboardRobot final : public KeyboardRobotUnit {
 
   ArmMotion motion_;
   Pose target_{};
+  Pose kept_{};  // the last one moved to
+  LogLimit refusals_;
   bool moved_ = false;  // the target was, since the last motion began
   bool idle_ = true;
 };

@@ -1,6 +1,7 @@
 #include "units/robot_control/robot_control.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "hal/interfaces/robot_arm/pose_conversion.hpp"
 
@@ -11,7 +12,8 @@ namespace {
 constexpr double arrived = 1e-3;  // rad
 
 bool same(const Pose& a, const Pose& b) {
-  return a.position == b.position && a.orientation == b.orientation;
+  // Also of one that is not a number, which equals nothing.
+  return std::memcmp(&a, &b, sizeof(Pose)) == 0;
 }
 
 }  // namespace
@@ -32,7 +34,10 @@ void RobotControl::step(const Tick& tick) {
   if (tick.motion_inhibited) tool_velocity_.setZero();
   if (tick.motion_inhibited || !motion_.is_seeded()) {
     // The first set-point is where the arm is, and a target from before the Start is not followed after it.
-    if (state) motion_.seed(state->position_map());
+    if (state) {
+      motion_.seed(state->position_map());
+      kept_ = to_pose(forward_kinematics(arm->kinematic_chain(), motion_.set_point()));
+    }
     if (const auto wanted = target.latest(); wanted && tick.motion_inhibited) handled_ = *wanted;
   }
   if (!motion_.is_seeded()) {
@@ -75,10 +80,28 @@ void RobotControl::follow_target() noexcept {
     feedback.set_holding({});
   }
   if (motion_.is_moving() || (handled_ && same(*wanted, *handled_))) return;
+  // Whoever asked for more than can be reached goes on from what holds: the reason stays to be read.
+  const bool goes_back = handled_ && same(*wanted, kept_);
   handled_ = *wanted;
+  if (goes_back) return;
   const Status planned = motion_.move_to(*wanted, runtime.speed);
   feedback.set_holding(planned.cause());
-  if (planned) ++feedback.motions;
+  if (planned) {
+    ++feedback.motions;
+    kept_ = *wanted;
+  } else {
+    refuse(planned);
+  }
+  TargetAnswer said{};
+  said.accepted = planned.is_ok();
+  said.kept = kept_;
+  said.set_reason(planned.cause());
+  answer.publish(said);
+}
+
+void RobotControl::refuse(const Status& cause) noexcept {
+  if (feedback.refusals++ == 0) feedback.set_first_refusal(cause.cause());
+  log_warning(refusals_, name(), "{}", cause.cause());
 }
 
 /// While a velocity is wanted (and `allowed`), and until the tool is at rest again; false: there is nothing

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "robot_control_unit.hpp"
+#include "runtime/log/log.hpp"
 #include "units/motion/arm_motion.hpp"
 
 namespace flexrf {
@@ -29,9 +30,12 @@ class RobotControl final : public RobotControlUnit {
   void command(double elapsed) noexcept;
   void publish(const JointState& state) noexcept;
   void hold(std::string_view reason) noexcept;
+  void refuse(const Status& cause) noexcept;
 
   ArmMotion motion_;
-  std::optional<Pose> handled_;                              // the target that was moved to or refused
+  std::optional<Pose> handled_;  // the target that was moved to or refused
+  Pose kept_{};                  // the last one moved to, or where the arm was seeded
+  LogLimit refusals_;
   bool held_ = false;                                        // the last cycle did not follow a target
   Eigen::Vector3d tool_velocity_ = Eigen::Vector3d::Zero();  // m/s, of the tool as a hand moves it
   Time last_cycle_{};

@@ -92,16 +92,23 @@ void test_errors_cite_their_place(void**) {
   assert_true(yields(lines, "arm.urdf:5:5: error: joint 'j1': <limit> has no velocity"));
   lines = {};
   lines.first_limit = "    <limit lower='-1' upper='nan' velocity='1'/>";
-  assert_true(yields(lines, "arm.urdf:5:5: error: joint 'j1': <limit> upper=\"nan\" is not a number"));
+  assert_true(
+      yields(lines, "arm.urdf:5:5: error: joint 'j1': <limit> upper=\"nan\" is not a number up to 1e6"));
   lines = {};
   lines.first_axis = "    <axis xyz='0 0 0'/>";
   assert_true(yields(lines, "arm.urdf:4:5: error: joint 'j1': the axis has no length"));
   lines = {};
   lines.first_axis = "    <axis xyz='0 1'/>";
-  assert_true(yields(lines, "arm.urdf:4:5: error: joint 'j1': the axis's xyz is not three numbers"));
+  assert_true(
+      yields(lines, "arm.urdf:4:5: error: joint 'j1': the axis's xyz is not three numbers up to 1e6"));
   lines = {};
   lines.first_axis = "    <origin xyz='a b c'/>";
-  assert_true(yields(lines, "arm.urdf:4:5: error: joint 'j1': xyz=\"a b c\" is not three numbers"));
+  assert_true(yields(lines, "arm.urdf:4:5: error: joint 'j1': xyz=\"a b c\" is not three numbers up to 1e6"));
+  lines = {};
+  // A pose of such numbers would not be finite.
+  lines.first_axis = "    <origin xyz='1e308 0 0'/>";
+  assert_true(
+      yields(lines, "arm.urdf:4:5: error: joint 'j1': xyz=\"1e308 0 0\" is not three numbers up to 1e6"));
   lines = {};
   lines.first_extra = "    </joint>";
   assert_true(yields(

@@ -34,6 +34,14 @@ Status check_goal(const GripperGoal& goal, const GripperCapabilities& capabiliti
   return {};
 }
 
+Restraint restraint_of(const GripperGoal& goal, const GripperCapabilities& capabilities) noexcept {
+  if (const double kept = within_reach(goal.opening, capabilities); kept != goal.opening)
+    return {"an opening outside of `closed_width` to `open_width` is not gone to", goal.opening, kept};
+  if (goal.speed && !capabilities.speed) return {.reason = "a speed is without effect: it has but one"};
+  if (goal.force && !capabilities.force) return {.reason = "a force is without effect: it has but one"};
+  return {};
+}
+
 void GripperReport::fill(GripperFeedback& feedback, const std::optional<GripperState>& state,
                          const Status& trouble) noexcept {
   const GripperState now = state.value_or(GripperState{});

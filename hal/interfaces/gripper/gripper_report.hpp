@@ -10,6 +10,8 @@ namespace flexrf {
 Status check_goal(const GripperGoal& goal, const GripperCapabilities& capabilities) noexcept;
 /// Kept within closed_width and open_width.
 double within_reach(double opening, const GripperCapabilities& capabilities) noexcept;
+/// What of a goal that it can go to is not done as it is asked for; none: all is.
+Restraint restraint_of(const GripperGoal& goal, const GripperCapabilities& capabilities) noexcept;
 /// Error: the widths of the configuration are no range.
 Status check_widths(double closed_width, double open_width) noexcept;
 

@@ -94,6 +94,8 @@ class LinkedStation : public Base {
     } else if (!outputs_.set(index, value)) {
       this->fail(Status::error(StatusCode::invalid_argument,
                                "%zu is no output: ask output(name) for its index", index));
+    } else {
+      this->restrain(outputs_.restraint_of(index));
     }
   }
 

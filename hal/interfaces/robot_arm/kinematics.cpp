@@ -248,6 +248,21 @@ JointVector within_limits(const KinematicChain& chain, const JointVector& joints
   return result;
 }
 
+Restraint restraint_of(const KinematicChain& chain, std::span<const double> joints) {
+  // Each joint's own words, as a restraint keeps none.
+  static constexpr const char* reasons[max_joints] = {
+      "joint 1 is kept to its limit", "joint 2 is kept to its limit", "joint 3 is kept to its limit",
+      "joint 4 is kept to its limit", "joint 5 is kept to its limit", "joint 6 is kept to its limit",
+      "joint 7 is kept to its limit", "joint 8 is kept to its limit"};
+  // What is computed to be on the limit is not beyond it.
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < chain.joint_count && i < joints.size(); ++i) {
+    const double kept = std::clamp(joints[i], chain.joints[i].lower, chain.joints[i].upper);
+    if (std::abs(joints[i] - kept) > rounding) return {reasons[i], joints[i], kept};
+  }
+  return {};
+}
+
 JointVector home_position(const KinematicChain& chain) {
   JointVector result = JointVector::Zero();
   for (std::size_t i = 0; i < chain.joint_count; ++i) {

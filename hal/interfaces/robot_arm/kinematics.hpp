@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <span>
 
 #include "hal/interfaces/robot_arm/kinematic_chain.hpp"
+#include "runtime/unit/restraint.hpp"
 
 namespace flexrf {
 
@@ -24,6 +26,9 @@ double smallest_singular_value(const JacobianMatrix& jacobian);
 
 // `joints` with every angle within its limits; what is not finite becomes the home angle.
 JointVector within_limits(const KinematicChain& chain, const JointVector& joints);
+
+// The first of finite `joints` that its limits do not let go there; none: all may.
+Restraint restraint_of(const KinematicChain& chain, std::span<const double> joints);
 
 JointVector home_position(const KinematicChain& chain);
 

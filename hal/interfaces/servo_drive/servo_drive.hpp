@@ -27,8 +27,9 @@ struct ServoState {
 /// set-point where it is; that takes as long as the drive takes. Without it, it stops and is off.
 ///
 /// configuration.mode says which of the commands it takes. The others are without effect, as are all of them
-/// while the drive is not enabled or is homing; none of those is remembered. What is not finite, or a speed
-/// that is not above 0, puts the drive in fault.
+/// while the drive is not enabled or is homing; none of those is remembered. What is kept to a limit or is
+/// without effect for another reason than these two is told (Component::restrain()). What is not finite, or a
+/// speed that is not above 0, puts the drive in fault.
 class ServoDrive : public ServoDriveInterface {
  public:
   /// The speed of move_to() that is the greatest of the configuration.
@@ -42,7 +43,7 @@ class ServoDrive : public ServoDriveInterface {
   /// command. Kept to the range and the velocity of the configuration.
   virtual void command_position(double position) noexcept = 0;
   /// In mode cyclic_velocity or profile_velocity: how fast it shall be, kept to the velocity of the
-  /// configuration; zero once the axis is beyond its range and would go on.
+  /// configuration; zero once the axis is beyond its range and would go on, unless it is endless.
   virtual void command_velocity(double velocity) noexcept = 0;
   /// In mode profile_position: where it shall go, once for each target and not in each cycle; kept to the
   /// range. It gives up the target before. `speed`: above 0, kept to the velocity of the configuration.

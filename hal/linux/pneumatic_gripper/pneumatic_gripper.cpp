@@ -121,6 +121,7 @@ void PneumaticGripper::activate() noexcept {
 void PneumaticGripper::command(const GripperGoal& goal) noexcept {
   if (is_inhibited()) return;
   if (const Status status = check_goal(goal, capabilities()); !status) return fail(status);
+  restrain(restraint_of(goal, capabilities()));
   const bool to_open = within_reach(goal.opening, capabilities()) == configuration.open_width;
   control_.go(to_open ? pneumatic::End::open : pneumatic::End::closed);
 }

@@ -34,6 +34,7 @@ class MockArm final : public MockArmDriver {
                          "a joint was commanded to an angle that is not a number"));
       return;
     }
+    restrain(restraint_of(*chain, set_points.position));
     commanded_ = set_points;
     ++commands_;
   }

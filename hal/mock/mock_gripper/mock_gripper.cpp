@@ -110,6 +110,7 @@ void MockGripper::activate() noexcept {
 void MockGripper::command(const GripperGoal& goal) noexcept {
   if (is_inhibited()) return;
   if (const Status status = check_goal(goal, capabilities()); !status) return fail(status);
+  restrain(restraint_of(goal, capabilities()));
   if (is_heard() && known_.activated) go(goal);
 }
 

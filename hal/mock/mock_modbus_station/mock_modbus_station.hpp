@@ -91,6 +91,8 @@ class MockModbusStation final : public MockModbusStationDriver {
     } else if (!outputs_.set(index, value)) {
       fail(Status::error(StatusCode::invalid_argument, "%zu is no output: ask output(name) for its index",
                          index));
+    } else {
+      restrain(outputs_.restraint_of(index));
     }
   }
 

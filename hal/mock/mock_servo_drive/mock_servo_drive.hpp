@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "hal/interfaces/servo_drive/servo_drive.hpp"
+#include "hal/interfaces/servo_drive/servo_restraints.hpp"
 #include "hal/mock/mock_delay.hpp"
 #include "hal/mock/mock_noise.hpp"
 #include "mock_servo_drive_driver.hpp"
@@ -39,26 +40,29 @@ class MockServoDrive final : public MockServoDriveDriver {
   }
 
   void command_position(double position) noexcept override {
-    if (configuration.mode == ServoMode::cyclic_position && may_be_commanded()) take_position(position);
+    if (takes(ServoMode::cyclic_position, ServoMode::cyclic_position)) take_position(position);
   }
   void command_velocity(double velocity) noexcept override {
-    if (takes_positions() || !may_be_commanded() || !is_number(velocity)) return;
+    if (!takes(ServoMode::cyclic_velocity, ServoMode::profile_velocity) || !is_number(velocity)) return;
     const double kept = std::clamp(velocity, -configuration.fastest, configuration.fastest);
+    if (kept != velocity) restrain(servo_restraints::too_fast, velocity, kept);
     if (commanded_ != kept) state_->target_reached = false;
     take(kept);
   }
   void move_to(double position, double speed) noexcept override {
-    if (configuration.mode != ServoMode::profile_position || !may_be_commanded() || !is_number(speed)) return;
+    if (!takes(ServoMode::profile_position, ServoMode::profile_position) || !is_number(speed)) return;
     if (!(speed > 0)) {
       fail(Status::error(StatusCode::invalid_argument, "the drive was commanded to move with a speed of %g",
                          speed));
       return;
     }
     speed_ = std::min(speed, configuration.fastest);
+    if (speed_ != speed && speed != full_speed) restrain(servo_restraints::too_fast, speed, speed_);
     take_position(position);
   }
   void home() noexcept override {
-    if (!may_be_commanded() || configuration.homing_method == 0) return;
+    if (!may_be_commanded()) return;
+    if (configuration.homing_method == 0) return restrain(servo_restraints::no_homing);
     commanded_.reset();
     homing_ = ServoHoming::running;
     homing_problem_ = {};
@@ -126,6 +130,12 @@ class MockServoDrive final : public MockServoDriveDriver {
            configuration.mode == ServoMode::profile_position;
   }
   bool may_follow() const noexcept { return state_ && state_->enabled && !is_inhibited() && fault().is_ok(); }
+  bool takes(ServoMode one, ServoMode other) noexcept {
+    if (!may_be_commanded()) return false;
+    if (configuration.mode == one || configuration.mode == other) return true;
+    restrain(servo_restraints::another_mode);
+    return false;
+  }
   bool may_be_commanded() const noexcept { return may_follow() && homing_ != ServoHoming::running; }
   bool is_number(double value) noexcept {
     if (std::isfinite(value)) return true;
@@ -134,7 +144,9 @@ class MockServoDrive final : public MockServoDriveDriver {
   }
   void take_position(double position) noexcept {
     if (!is_number(position)) return;
-    take(std::clamp(position, configuration.lowest, configuration.highest));
+    const double kept = std::clamp(position, configuration.lowest, configuration.highest);
+    if (kept != position) restrain(servo_restraints::out_of_range, position, kept);
+    take(kept);
     state_->target_reached = false;
   }
   void take(double value) noexcept {
@@ -161,7 +173,14 @@ class MockServoDrive final : public MockServoDriveDriver {
       return;
     }
     const double wanted = state_->position + *commanded_ * elapsed;
+    if (configuration.endless) {
+      const double modulo = configuration.modulo;
+      state_->position = modulo > 0 ? wanted - modulo * std::floor(wanted / modulo) : wanted;
+      state_->target_reached = configuration.mode == ServoMode::profile_velocity;
+      return;
+    }
     state_->position = std::clamp(wanted, configuration.lowest, configuration.highest);
+    if (state_->position != wanted) restrain(servo_restraints::end_of_range, *commanded_, 0);
     state_->target_reached = configuration.mode == ServoMode::profile_velocity && state_->position == wanted;
   }
   // True: it is there.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hal/interfaces/robot_arm/kinematics.hpp"
+
 namespace flexrf {
 namespace {
 
@@ -43,6 +45,7 @@ void SimulatedArm::command(const JointPositions& set_points) noexcept {
     commanded_.reset();
     return;
   }
+  restrain(restraint_of(*chain, set_points.position));
   commanded_ = set_points;
 }
 

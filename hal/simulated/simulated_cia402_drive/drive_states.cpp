@@ -93,6 +93,8 @@ void SimulatedCia402Drive::command(Time now) {
       if (quick_stop) enter(DriveState::quick_stop_active, now);
       if ((risen & control_bit::new_set_point) != 0) {
         profile_target_ = static_cast<double>(objects_.get_signed(axis::target_position));
+        profile_speed_ = static_cast<double>(objects_.get(axis::profile_velocity));
+        if (objects_.get_signed(axis::mode) == static_cast<int>(Mode::profile_position)) ++set_points_;
         mode_bits_ = status_bit::set_point_acknowledged;
         if (objects_.get_signed(axis::mode) == static_cast<int>(Mode::homing)) mode_bits_ = 0;
       }
@@ -159,7 +161,6 @@ void SimulatedCia402Drive::meet_obstacles() {
 void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
   const auto word = static_cast<std::uint16_t>(objects_.get(axis::controlword));
   const auto acceleration = static_cast<double>(objects_.get(axis::profile_acceleration));
-  const auto profile_velocity = static_cast<double>(objects_.get(axis::profile_velocity));
   const auto mode = static_cast<Mode>(objects_.get_signed(axis::mode));
   const bool halts = (word & control_bit::halt) != 0;
   if (halts && mode != Mode::cyclic_position && mode != Mode::cyclic_velocity) {
@@ -198,7 +199,7 @@ void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
     }
     case Mode::profile_position:
       mode_bits_ &= static_cast<std::uint16_t>(~status_bit::target_reached);
-      if (motion_.travel(profile_target_, profile_velocity, acceleration, time)) {
+      if (motion_.travel(profile_target_, profile_speed_, acceleration, time)) {
         mode_bits_ |= status_bit::target_reached;
       }
       break;

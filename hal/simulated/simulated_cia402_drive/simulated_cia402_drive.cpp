@@ -79,10 +79,10 @@ void SimulatedCia402Drive::receive(const Message& message, Time now, Outbox& out
   }
   if (nmt_ != NmtState::operational) return;
   if (message.identifier == canopen::sync_identifier) {
-    synchronise(outbox);
+    synchronise(now, outbox);
     command(now);
   } else {
-    take_pdo(message, outbox);
+    take_pdo(message, now, outbox);
     command(now);
   }
 }
@@ -145,23 +145,23 @@ void SimulatedCia402Drive::answer_guard(const Message& question, Time now, Outbo
   master_lost_ = false;
 }
 
-void SimulatedCia402Drive::take_pdo(const Message& message, Outbox& outbox) {
+void SimulatedCia402Drive::take_pdo(const Message& message, Time now, Outbox& outbox) {
   for (std::uint16_t number = 1; number <= DriveObjects::pdos; ++number) {
     const auto plan = objects_.pdo(PdoDirection::received_by_node, number);
     if (!plan || plan->identifier != message.identifier) continue;
     if (plan->transmission <= last_synchronous) {
       pending_[number - 1U] = message;
     } else {
-      apply(*plan, message, outbox);
+      apply(*plan, message, now, outbox);
     }
   }
 }
 
-void SimulatedCia402Drive::synchronise(Outbox& outbox) {
+void SimulatedCia402Drive::synchronise(Time now, Outbox& outbox) {
   for (std::uint16_t number = 1; number <= DriveObjects::pdos; ++number) {
     auto& pending = pending_[number - 1U];
     const auto plan = objects_.pdo(PdoDirection::received_by_node, number);
-    if (plan && pending) apply(*plan, *pending, outbox);
+    if (plan && pending) apply(*plan, *pending, now, outbox);
     const bool awaited = plan && plan->transmission <= last_synchronous;
     if (awaited && !pending && state_ == DriveState::operation_enabled) ++missed_;
     pending.reset();
@@ -177,7 +177,8 @@ void SimulatedCia402Drive::synchronise(Outbox& outbox) {
   }
 }
 
-void SimulatedCia402Drive::apply(const canopen::PdoPlan& plan, const Message& message, Outbox& outbox) {
+void SimulatedCia402Drive::apply(const canopen::PdoPlan& plan, const Message& message, Time now,
+                                 Outbox& outbox) {
   std::uint64_t values[canopen::PdoPlan::most_entries] = {};
   if (!canopen::unpack(plan, message, values)) {
     emit(0x8210, outbox);
@@ -185,6 +186,7 @@ void SimulatedCia402Drive::apply(const canopen::PdoPlan& plan, const Message& me
   }
   for (std::size_t i = 0; i < plan.count; ++i) {
     objects_.set(plan.entries[i].object, static_cast<std::int64_t>(values[i]));
+    if (options_.acts_on_each_object) command(now);
   }
   targets_fresh_ = true;
   // It goes to a cyclic position within the period that it was told, as drives do that interpolate.

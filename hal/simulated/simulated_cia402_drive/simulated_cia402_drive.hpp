@@ -20,6 +20,9 @@ class SimulatedCia402Drive {
     Duration brake_delay = std::chrono::milliseconds(50);  ///< from switched on to enabled
     double fastest = 50000;                                ///< increments/s, of the motor
     double first_position = 1000;                          ///< increments
+    /// Acts on each object of a PDO as it is written, as some drives do: on a controlword before the target
+    /// that stands behind it. Else when all of the PDO is taken.
+    bool acts_on_each_object = false;
   };
 
   explicit SimulatedCia402Drive(const Options& options);
@@ -68,14 +71,20 @@ class SimulatedCia402Drive {
   std::uint64_t missed() const { return missed_; }
   /// The farthest that a cyclic target ever was from the axis, in increments.
   double longest_jump() const { return longest_jump_; }
+  /// How often a set-point was taken in mode profile_position.
+  std::uint64_t set_points() const { return set_points_; }
+  /// Of the last one: where to, increments, and how fast, increments/s.
+  double set_point() const { return profile_target_; }
+  double set_point_speed() const { return profile_speed_; }
 
  private:
   void boot(Time now, bool all);
   void obey(canopen::NmtCommand command, Time now);
   void answer_guard(const canopen::Message& question, Time now, canopen::Outbox& outbox);
-  void take_pdo(const canopen::Message& message, canopen::Outbox& outbox);
-  void synchronise(canopen::Outbox& outbox);
-  void apply(const canopen::PdoPlan& plan, const canopen::Message& message, canopen::Outbox& outbox);
+  void take_pdo(const canopen::Message& message, Time now, canopen::Outbox& outbox);
+  void synchronise(Time now, canopen::Outbox& outbox);
+  void apply(const canopen::PdoPlan& plan, const canopen::Message& message, Time now,
+             canopen::Outbox& outbox);
   bool is_cyclic_position() const;
   void supervise(Time now, canopen::Outbox& outbox);
   void emit(std::uint16_t error_code, canopen::Outbox& outbox);
@@ -121,6 +130,8 @@ class SimulatedCia402Drive {
   bool targets_fresh_ = false;  // a target came since it was enabled
   double cyclic_speed_ = 0;     // increments/s that the last cyclic target asks for
   double profile_target_ = 0;
+  double profile_speed_ = 0;  // increments/s that came with it
+  std::uint64_t set_points_ = 0;
   double longest_jump_ = 0;
   std::uint64_t synchronised_ = 0;
   std::uint64_t missed_ = 0;

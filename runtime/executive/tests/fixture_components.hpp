@@ -95,6 +95,7 @@ class TestUnit final : public Unit {
 
   /// fail(), which CMocka has a macro for.
   void give_up(const Status& cause) noexcept;
+  using Unit::restrain;
 
   Status initialise() override;
   void step(const Tick& tick) override;

@@ -4,6 +4,7 @@
 #include "runtime/executive/report_data.hpp"
 #include "runtime/executive/tests/checks.hpp"
 #include "runtime/executive/tests/fixture.hpp"
+#include "tests/log_ear.hpp"
 
 namespace flexrf::fixture {
 namespace {
@@ -24,6 +25,32 @@ Report report_of(TestApplication& cell, const Options& options) {
   report.text = report_text(executive.cell(), report.summary);
   report.json = report_json(executive.cell(), report.summary);
   return report;
+}
+
+/// Less than was commanded: told in the log once while it lasts, counted, and read by whoever looks.
+void a_restraint_is_told_once_while_it_lasts() {
+  ProducerAndConsumer cell;
+  const LogEar ear;
+  Restraint seen;
+  std::uint64_t step = 0;
+  // In steps of 1 ms: from the 10th to the 100th with a step in between that is without, and again 2 s later.
+  cell.unit(ProducerAndConsumer::producer).script.step = [&](TestUnit& unit, const Tick& tick) {
+    const bool held = (step >= 10 && step <= 100 && step != 50) || step >= 2500;
+    if (held && !tick.stop_requested) unit.restrain("a position above `highest` is not gone to", 12.5, 10);
+    if (step == 60) seen = cell.unit_state(ProducerAndConsumer::producer).restraint.read();
+    if (step == 2000)
+      CHECK(cell.unit_state(ProducerAndConsumer::producer).restraint.read().reason == nullptr);
+    ++step;
+  };
+  const Report report = report_of(cell, in_virtual_time(seconds{3}));
+  CHECK_EQUAL(std::string{seen.reason}, "a position above `highest` is not gone to");
+  CHECK_EQUAL(seen.asked, 12.5);
+  CHECK_EQUAL(seen.given, 10.0);
+  CHECK(ear.has_heard(
+      "producer: a position above `highest` is not gone to: 12.5000 was asked for, 10.0000 is done"));
+  CHECK_EQUAL(cell.unit_state(ProducerAndConsumer::producer).restraint.count(), 2U);
+  CHECK_CONTAINS(report.json, "\"restraints\": 2");
+  CHECK_CONTAINS(report.text, "Warnings and errors in the log: ");
 }
 
 void an_ordinary_run_tells_all_and_ends_in_a_sentence() {
@@ -127,6 +154,7 @@ void on_the_wall_clock_units_are_measured() {
 int main() {
   using namespace flexrf::fixture;
   const CMUnitTest tests[] = {
+      CONTAINED_TEST(a_restraint_is_told_once_while_it_lasts),
       CONTAINED_TEST(an_ordinary_run_tells_all_and_ends_in_a_sentence),
       CONTAINED_TEST(a_thread_that_is_in_a_step_does_not_hang),
       CONTAINED_TEST(readers_are_counted),

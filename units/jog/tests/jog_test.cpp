@@ -18,7 +18,8 @@ struct World {
   SlotBench<Pose> actual;
   SlotBench<Pose> target;
   SlotBench<Velocity> velocity;
-  InputBinding inputs[1] = {actual.input(std::chrono::milliseconds(500))};
+  SlotBench<TargetAnswer> answer;
+  InputBinding inputs[2] = {actual.input(std::chrono::milliseconds(500)), answer.input()};
   SlotControl* outputs[2] = {&target.control(), &velocity.control()};
   QueueSource* sources[1] = {&keys.ring()};
 
@@ -97,6 +98,27 @@ bool target_is_its_own() {
   world.arm_is_at(0.5, 0.5, 0.5);
   world.bench.step(interval);
   return world.target_is(0.7, 0, 1);
+}
+
+/// However often a key is pressed that leads out of reach, one press leads back in.
+bool stays_within_reach() {
+  World world;
+  world.arm_is_at(0.7, 0, 1);
+  world.bench.step(interval);
+  world.press("wwwwwwwwww");
+  world.bench.step(interval);
+  if (!world.target_is(0.8, 0, 1)) return false;
+  TargetAnswer said{};
+  said.kept.position = {0.72, 0, 1};
+  said.kept.orientation = {0, 1, 0, 0};
+  said.set_reason("target (0.800, 0.000, 1.000) m refused: out of reach");
+  world.answer.publish(said, world.bench.now());
+  world.bench.step(interval);
+  if (!world.target_is(0.72, 0, 1) || world.bench.feedback().refusals != 1) return false;
+  if (world.bench.feedback().refusal_view().find("out of reach") == std::string_view::npos) return false;
+  world.press("s");
+  world.bench.step(interval);
+  return world.target_is(0.71, 0, 1);
 }
 
 bool nothing_is_kept_while_inhibited() {
@@ -184,6 +206,9 @@ void gives_a_velocity_while_held(void**) {
 void gives_none_while_inhibited(void**) {
   assert_true(no_velocity_while_inhibited_or_stopping());
 }
+void goes_on_from_what_is_kept(void**) {
+  assert_true(stays_within_reach());
+}
 void leaves_the_target_behind(void**) {
   assert_true(a_key_after_an_arrow_begins_where_the_arm_is());
 }
@@ -214,7 +239,7 @@ int main() {
       cmocka_unit_test(publishes_in_every_step),     cmocka_unit_test(does_not_follow_the_arm),
       cmocka_unit_test(forgets_while_inhibited),     cmocka_unit_test(old_pose_is_no_seed),
       cmocka_unit_test(gives_a_velocity_while_held), cmocka_unit_test(gives_none_while_inhibited),
-      cmocka_unit_test(leaves_the_target_behind),
+      cmocka_unit_test(leaves_the_target_behind),    cmocka_unit_test(goes_on_from_what_is_kept),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

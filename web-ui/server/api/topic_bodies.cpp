@@ -1,5 +1,7 @@
 #include "web-ui/server/api/topic_bodies.hpp"
 
+#include <cmath>
+#include <cstdio>
 #include <ctime>
 
 #include "runtime/executive/schedulability.hpp"
@@ -88,6 +90,17 @@ TopicBodies::TopicBodies(Executive& executive)
   }
 }
 
+/// Why it does less than it was commanded now, and how often that was so.
+void TopicBodies::write_restraint(JsonWriter& json, const SharedRestraint& shared) {
+  const Restraint restraint = shared.read();
+  char numbers[80] = "";
+  if (restraint.reason != nullptr && !std::isnan(restraint.asked))
+    std::snprintf(numbers, sizeof(numbers), ": %.4g asked for, %.4g done", restraint.asked, restraint.given);
+  char text[200] = "";
+  if (restraint.reason != nullptr) std::snprintf(text, sizeof(text), "%.110s%s", restraint.reason, numbers);
+  json.member("restraint", text).member("restraints", shared.count());
+}
+
 std::string_view TopicBodies::body(Topic topic, Time now) {
   Body& body = bodies_[static_cast<std::size_t>(topic)];
   if (body.version != 0 && now < body.made_at + shortest_interval) return body.text;
@@ -137,6 +150,7 @@ void TopicBodies::write_unit(JsonWriter& json, std::size_t index) const {
   json.begin_object().member("name", unit.name).member("kind", "unit").member("type", unit.type->name);
   json.member("life", flexrf::name_of(life))
       .member("fault", life == Life::fault ? state.fault.read().cause() : "");
+  write_restraint(json, state.restraint);
   json.member("active", state.active.load(std::memory_order_relaxed)).key("member");
   if (unit.population == no_index) {
     json.null();
@@ -157,6 +171,7 @@ void TopicBodies::write_device(JsonWriter& json, std::size_t index) const {
   json.member("driver", executive_->cell().driver(static_cast<std::uint16_t>(index)).name);
   json.member("life", flexrf::name_of(life))
       .member("fault", life == Life::fault ? state.fault.read().cause() : "");
+  write_restraint(json, state.restraint);
   json.member("active", true).key("member").null().member("steps", 0).key("execution").begin_object();
   json.member("mean_ns", 0).member("max_ns", 0).end_object().end_object();
 }

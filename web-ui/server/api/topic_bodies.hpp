@@ -59,6 +59,7 @@ class TopicBodies {
   };
 
   void write(JsonWriter& json, Topic topic, Time now);
+  static void write_restraint(JsonWriter& json, const SharedRestraint& shared);
   void write_unit(JsonWriter& json, std::size_t unit) const;
   void write_device(JsonWriter& json, std::size_t device) const;
   void write_slots(JsonWriter& json) const;

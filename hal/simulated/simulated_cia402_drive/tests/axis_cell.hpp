@@ -35,7 +35,8 @@ inline AxisPlan plan() {
 }
 
 struct Cell {
-  explicit Cell(const AxisPlan& with = plan()) {
+  explicit Cell(const AxisPlan& with = plan(), const SimulatedCia402Drive::Options& options = {.node = node})
+      : drive{options} {
     drive.power_on(now);
     began = axis.begin(with, now, said);
   }
@@ -81,7 +82,7 @@ struct Cell {
   }
 
   Time now{std::chrono::seconds(1)};
-  SimulatedCia402Drive drive{{.node = node}};
+  SimulatedCia402Drive drive;
   ServoAxis axis;
   Status began;
   Outbox said;

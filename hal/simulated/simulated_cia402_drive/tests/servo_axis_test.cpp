@@ -99,6 +99,103 @@ void velocities_are_followed_up_to_the_range(void**) {
   assert_true(cell.axis.state()->velocity == 0);
 }
 
+/// However a drive acts, on each object as it is written or when a PDO is taken as a whole: it is never told
+/// to go to where it was sent before, nor as fast as before.
+void a_set_point_counts_only_with_its_target_and_its_speed(void**) {
+  for (const bool on_each_object : {false, true}) {
+    AxisPlan with = plan();
+    with.mode = Mode::profile_position;
+    Cell cell(with, {.node = node, .acts_on_each_object = on_each_object});
+    assert_true(cell.run_until_enabled());
+    struct Leg {
+      double position;
+      double speed;
+    };
+    double before = cell.axis.state()->position;
+    for (const Leg& leg : {Leg{5, 4}, Leg{-3, 15}, Leg{2, 1.5}}) {
+      const std::uint64_t set_points = cell.drive.set_points();
+      cell.axis.move_to(leg.position, leg.speed);
+      const double from = before;
+      const double direction = leg.position > from ? 1 : -1;
+      bool reached = false;
+      for (int i = 0; i < 2000 && !reached; ++i) {
+        cell.step();
+        assert_true(cell.axis.fault().is_ok());
+        const double now = cell.axis.state()->position;
+        // Never away from its target, and never "reached" anywhere else.
+        assert_true((now - before) * direction >= -resolution);
+        reached = cell.axis.state()->target_reached;
+        if (reached) assert_true(cell.is_at(leg.position));
+        before = now;
+      }
+      assert_true(reached);
+      assert_int_equal(cell.drive.set_points() - set_points, 1);
+      assert_true(std::abs(cell.drive.set_point() + leg.position * 1000) < 1);
+      assert_true(std::abs(cell.drive.set_point_speed() - leg.speed * 1000) <= 1);
+    }
+  }
+}
+
+/// What it does less than it was told, it says, in each cycle in which that is so.
+void what_is_held_back_is_said(void**) {
+  const auto says = [](Cell& cell, const char* words, double asked, double given) {
+    cell.step();
+    const Restraint said = cell.axis.take_restraint();
+    return said.reason != nullptr && std::strstr(said.reason, words) != nullptr && said.asked == asked &&
+           said.given == given;
+  };
+  Cell cyclic;
+  assert_true(cyclic.run_until_enabled());
+  cyclic.run(100);
+  assert_true(cyclic.axis.take_restraint().reason == nullptr);
+  cyclic.position = 12;
+  assert_true(says(cyclic, "outside of `lowest` to `highest`", 12, 10));
+  cyclic.position.reset();
+  cyclic.axis.take_restraint();
+  cyclic.axis.command_velocity(1);
+  assert_non_null(std::strstr(cyclic.axis.take_restraint().reason, "another mode"));
+  cyclic.axis.home();
+  assert_non_null(std::strstr(cyclic.axis.take_restraint().reason, "`homing_method` is 0"));
+
+  AxisPlan with = plan();
+  with.mode = Mode::cyclic_velocity;
+  Cell turning(with);
+  assert_true(turning.run_until_enabled());
+  turning.velocity = 25;
+  assert_true(says(turning, "above `fastest`", 25, 20));
+  turning.velocity = 4;
+  turning.run(6000);
+  assert_true(says(turning, "the end of its range", 4, 0));
+}
+
+/// A conveyor: nothing ends it, and its position counts on, or from 0 to its modulo again and again.
+void an_endless_axis_has_no_end(void**) {
+  AxisPlan with = plan();
+  with.mode = Mode::profile_velocity;
+  with.endless = true;
+  with.modulo = 7;
+  Cell cell(with);
+  assert_true(cell.run_until_enabled());
+  cell.velocity = 15;
+  double turned = 0;
+  double before = cell.axis.state()->position;
+  for (int i = 0; i < 1500; ++i) {
+    cell.step();
+    const double now = cell.axis.state()->position;
+    assert_true(now >= 0 && now < 7);
+    turned += now >= before ? now - before : now - before + 7;
+    before = now;
+  }
+  assert_true(turned > 100);
+  assert_null(cell.axis.take_restraint().reason);
+  with.modulo = 0;
+  Cell counting(with);
+  assert_true(counting.run_until_enabled());
+  counting.velocity = 15;
+  counting.run(10'000);
+  assert_true(counting.axis.state()->position > 100);
+}
+
 void a_drive_fault_is_told_with_what_the_drive_says(void**) {
   Cell cell;
   assert_true(cell.run_until_enabled());
@@ -281,6 +378,9 @@ int main() {
       cmocka_unit_test(without_permission_it_stops_and_forgets),
       cmocka_unit_test(what_is_no_number_is_a_fault_and_never_followed),
       cmocka_unit_test(velocities_are_followed_up_to_the_range),
+      cmocka_unit_test(a_set_point_counts_only_with_its_target_and_its_speed),
+      cmocka_unit_test(what_is_held_back_is_said),
+      cmocka_unit_test(an_endless_axis_has_no_end),
       cmocka_unit_test(a_drive_fault_is_told_with_what_the_drive_says),
       cmocka_unit_test(a_node_that_resets_in_motion_is_a_fault_and_comes_back_off),
       cmocka_unit_test(a_cable_out_in_motion_stops_the_drive_and_is_told),

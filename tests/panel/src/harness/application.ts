@@ -44,6 +44,8 @@ export class Application {
     const given = [...(options.arguments ?? [])];
     if (options.certificateFor) given.push(...makeCertificate(folder, options.certificateFor));
     if (options.users) given.push('--panel-users', writeUsers(folder, options.users));
+    // What stops the application on purpose goes on with it afterwards; a test of a standstill says so itself.
+    if (!given.includes('--standstill-limit')) given.push('--standstill-limit', '10min');
     const child = spawn(executableOf(name), ['--panel', options.listen ?? '127.0.0.1:0', ...given], {
       cwd: folder,
       stdio: ['pipe', 'pipe', 'pipe'],

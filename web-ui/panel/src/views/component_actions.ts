@@ -12,6 +12,10 @@ export interface ComponentRow {
   readonly life: Life;
   /** Why it is in fault; empty when it is not. */
   readonly fault: string;
+  /** Why it does less than it is commanded now; empty when it does all. */
+  readonly restraint: string;
+  /** How often that was so since the start. */
+  readonly restraints: number;
   readonly active: boolean;
   readonly member: { readonly population: string; readonly index: number } | null;
   readonly steps: number;

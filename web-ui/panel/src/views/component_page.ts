@@ -112,8 +112,16 @@ export class ComponentPage extends ViewBase {
       <h3>State</h3>
       <p class=${this.age}><strong class=${row.life === 'fault' ? 'alarm' : ''}>${stateText(row)}</strong></p>
       ${this.fault(row)}
+      ${this.restraint(row)}
       <flexrf-component-buttons .core=${this.core} .host=${this.host} .row=${row} .sources=${sources}></flexrf-component-buttons>
     `;
+  }
+
+  private restraint(row: ComponentRow): unknown {
+    if (row.restraint !== '')
+      return html`<p class="box abnormal-box ${this.age}" role="status"><strong class="alarm">▲ Restrained:</strong> ${row.restraint}</p>`;
+    if (row.restraints === 0) return nothing;
+    return html`<p class="muted">Restrained ${row.restraints === 1 ? 'once' : `${row.restraints} times`}: the log says by what.</p>`;
   }
 
   private fault(row: ComponentRow): unknown {

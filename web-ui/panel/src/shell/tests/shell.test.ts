@@ -29,10 +29,10 @@ describe('words', () => {
     expect(linkText({ ...link, phase: 'waiting' })).toBe('✕ No connection');
   });
   it('give a remedy, the fault\'s own where it has one', () => {
-    expect(remedyOf({ component: 'robot', cause: 'x', remedy: 'Press reset.' })).toBe('Press reset.');
+    expect(remedyOf({ component: 'robot', kind: 'unit', cause: 'x', remedy: 'Press reset.' })).toBe('Press reset.');
     // Initialised it runs already; what is missing is Start motion.
-    expect(remedyOf({ component: 'robot', cause: 'x' })).toMatch(/initialise robot on its page\. .*Start motion\.$/);
-    expect(remedyOf({ component: 'robot', cause: 'x' })).not.toContain('start it');
+    expect(remedyOf({ component: 'robot', kind: 'unit', cause: 'x' })).toMatch(/initialise robot on its page\. .*Start motion\.$/);
+    expect(remedyOf({ component: 'robot', kind: 'unit', cause: 'x' })).not.toContain('start it');
   });
 });
 

@@ -7,7 +7,7 @@ import { cell } from './cell';
 import { FakeCore, quiet, reading } from './fake_core';
 
 const alive = (name: string, more: object = {}) => ({
-  name, kind: 'unit', type: 'drive', life: 'running', fault: '', active: true, member: { population: 'axis', index: Number(name.at(-2)) },
+  name, kind: 'unit', type: 'drive', life: 'running', fault: '', restraint: '', restraints: 0, active: true, member: { population: 'axis', index: Number(name.at(-2)) },
   steps: 10, execution: { mean_ns: 1500, max_ns: 9000 }, ...more,
 });
 
@@ -106,6 +106,16 @@ describe('the page of a unit', () => {
     fake.topic('components', [alive('axis[0]', { life: 'fault', fault: 'too hot' })]);
     await settled();
     expect(page().shadowRoot!.querySelector('[role=alert]')!.textContent!.replace(/\s+/g, ' ')).toContain('Cause too hot Remedy Let it cool.');
+  });
+
+  it('says what holds it back, and that something did', async () => {
+    const text = (): string => page().shadowRoot!.textContent!.replace(/\s+/g, ' ');
+    fake.topic('components', [alive('axis[0]', { restraint: 'a velocity above `fastest` is not taken: 3 asked for, 1 done', restraints: 1 })]);
+    await settled();
+    expect(text()).toContain('▲ Restrained: a velocity above `fastest` is not taken: 3 asked for, 1 done');
+    fake.topic('components', [alive('axis[0]', { restraints: 2 })]);
+    await settled();
+    expect(text()).toContain('Restrained 2 times: the log says by what.');
   });
 
   it('turns grey: state, fault, times, members', async () => {

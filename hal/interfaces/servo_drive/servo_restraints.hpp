@@ -1,0 +1,15 @@
+// What drives say of commands that they do not follow as they are.
+#pragma once
+
+namespace flexrf::servo_restraints {
+
+inline constexpr const char* out_of_range = "a position outside of `lowest` to `highest` is not gone to";
+inline constexpr const char* end_of_range =
+    "it goes no farther than the end of its range, `lowest` or `highest`";
+inline constexpr const char* too_fast = "a velocity above `fastest` is not taken";
+inline constexpr const char* another_mode =
+    "a command of another mode than the configured `mode` is without effect";
+inline constexpr const char* no_homing =
+    "it is not sent home: `homing_method` is 0, its encoder is taken for absolute";
+
+}  // namespace flexrf::servo_restraints
