@@ -35,6 +35,8 @@ OutputThread::OutputThread(Cell& cell, bool status_view) : cell_(&cell), status_
 OutputThread::~OutputThread() {
   ends_.store(true, std::memory_order_release);
   thread_.join();
+  // What was said names the application's parts, which may be gone when somebody else would write it.
+  drain_log(STDERR_FILENO);
 }
 
 Status OutputThread::start() noexcept {
