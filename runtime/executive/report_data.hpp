@@ -8,6 +8,7 @@
 
 #include "runtime/executive/cell.hpp"
 #include "runtime/executive/run_summary.hpp"
+#include "runtime/log/log.hpp"
 #include "runtime/realtime/process_statistics.hpp"
 
 namespace flexrf {

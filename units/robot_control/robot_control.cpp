@@ -1,7 +1,7 @@
 #include "units/robot_control/robot_control.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 
 #include "hal/interfaces/robot_arm/pose_conversion.hpp"
 
@@ -11,9 +11,14 @@ namespace {
 // The arm has arrived when its joints are this near to their set-points: above the sensors' noise.
 constexpr double arrived = 1e-3;  // rad
 
+/// What is not a number equals nothing, and would be taken for another target in each cycle.
+bool same_number(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
 bool same(const Pose& a, const Pose& b) {
-  // Also of one that is not a number, which equals nothing.
-  return std::memcmp(&a, &b, sizeof(Pose)) == 0;
+  return std::equal(a.position.begin(), a.position.end(), b.position.begin(), same_number) &&
+         std::equal(a.orientation.begin(), a.orientation.end(), b.orientation.begin(), same_number);
 }
 
 }  // namespace
