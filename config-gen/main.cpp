@@ -18,10 +18,10 @@
 #include <string>
 #include <vector>
 
+#include "base/standard_descriptors.hpp"
 #include "config-gen/model/file_contents.hpp"
 #include "config-gen/model/target.hpp"
 #include "config-gen/model/words.hpp"
-#include "runtime/core/standard_descriptors.hpp"
 
 namespace flexrf::config_gen {
 namespace {

@@ -20,9 +20,9 @@
 #include <thread>
 #include <vector>
 
+#include "base/standard_descriptors.hpp"
 #include "hal/linux/socket_can_bus/can_node_runner.hpp"
 #include "hal/simulated/simulated_cia402_drive/drive_console.hpp"
-#include "runtime/core/standard_descriptors.hpp"
 #include "runtime/core/time.hpp"
 
 namespace {

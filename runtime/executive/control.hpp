@@ -123,14 +123,12 @@ class Control {
   void end_break() noexcept { on_break_.store(false, std::memory_order_seq_cst); }
   bool is_on_break() const noexcept { return on_break_.load(std::memory_order_seq_cst); }
 
-  /// The longest time in which a thread, or the process, did nothing although it should have (Standstill).
-  /// Any thread.
+  /// The longest time in which the process as a whole did nothing although it should have (Standstill). The
+  /// supervising thread.
   void note_standstill(Duration missed) noexcept {
-    std::int64_t longest = longest_standstill_.load(std::memory_order_relaxed);
-    while (longest < missed.count() &&
-           !longest_standstill_.compare_exchange_weak(longest, missed.count(), std::memory_order_acq_rel)) {
-    }
+    if (missed > longest_standstill()) longest_standstill_.store(missed.count(), std::memory_order_release);
   }
+  /// Any thread. 0: there was none.
   Duration longest_standstill() const noexcept {
     return Duration{longest_standstill_.load(std::memory_order_acquire)};
   }

@@ -205,6 +205,7 @@ RunSummary Executive::run() {
   }
   // With a thread that hangs nobody may look at the values.
   if (!summary.stuck) save_values();
+  output_.catch_up();
   summary.cause = cell_.control().cause();
   summary.wall_time = MonotonicClock::now() - began_;
   if (summary.start_failure.code() == StatusCode::not_permitted) {

@@ -55,6 +55,18 @@ void OutputThread::observe() noexcept {
   }
 }
 
+void OutputThread::catch_up() noexcept {
+  // The turn that is under way may have looked before.
+  const std::uint32_t enough = turns_.load(std::memory_order_acquire) + 2;
+  const Time give_up = MonotonicClock::now() + 2 * log_patience;
+  do {
+    observe();
+    if (!thread_.is_started()) return;
+    nanosleep(&turn_interval, nullptr);
+  } while (static_cast<std::int32_t>(turns_.load(std::memory_order_acquire) - enough) < 0 &&
+           MonotonicClock::now() < give_up);
+}
+
 void OutputThread::begin_end(std::vector<std::string> texts) noexcept {
   texts_ = std::move(texts);
   ends_.store(true, std::memory_order_release);
@@ -69,6 +81,7 @@ void OutputThread::run() noexcept {
   while (!ends_.load(std::memory_order_acquire)) {
     drain_log(log);
     if (view) view->draw(MonotonicClock::now());
+    turns_.fetch_add(1, std::memory_order_release);
     nanosleep(&turn_interval, nullptr);
   }
   drain_log(log);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,10 @@ class OutputThread {
   /// the same. Never waits.
   void observe() noexcept;
 
+  /// What was logged so far is formatted, for who looks at it afterwards (logged_warnings()). Waits for the
+  /// thread, not for its reader.
+  void catch_up() noexcept;
+
   /// Takes the status view away, then writes the rest of the log and these texts on standard output. Once;
   /// does not wait.
   void begin_end(std::vector<std::string> texts) noexcept;
@@ -43,6 +48,7 @@ class OutputThread {
   bool status_view_;
   std::atomic<bool> ends_{false};
   std::atomic<bool> ended_{false};
+  std::atomic<std::uint32_t> turns_{0};
   std::vector<std::string> texts_;
   Status failure_;
   RunningThread thread_;

@@ -80,7 +80,7 @@ struct ReportData {
   std::vector<QueueReport> queues;
   std::optional<ProcessStatistics> process;
   std::uint64_t faults = 0;       ///< how often a unit or device went into fault, those restarted too
-  Duration longest_standstill{};  ///< of a thread or the process
+  Duration longest_standstill{};  ///< of the process as a whole
   std::uint64_t dropped_log_messages = 0;
   std::uint64_t unwritten_log_lines = 0;
   LoggedWarnings warnings;

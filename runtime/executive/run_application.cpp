@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/core/standard_descriptors.hpp"
+#include "base/standard_descriptors.hpp"
 #include "runtime/executive/executive.hpp"
 #include "runtime/executive/report.hpp"
 #include "runtime/realtime/instance_lock.hpp"

@@ -30,10 +30,12 @@ bool Standstill::judge(Duration missed) noexcept {
   Control& control = cell_->control();
   const Mode mode = control.mode();
   if ((mode != Mode::running && mode != Mode::finishing) || control.is_on_break()) return false;
-  control.note_standstill(missed);
-  control.note_fault();
-  if (state_ != nullptr && missed.count() > state_->longest_standstill.load(std::memory_order_relaxed))
+  if (state_ == nullptr) {
+    control.note_standstill(missed);
+  } else if (missed.count() > state_->longest_standstill.load(std::memory_order_relaxed)) {
     state_->longest_standstill.store(missed.count(), std::memory_order_relaxed);
+  }
+  control.note_fault();
   if (actuates_) control.stop_motion();
   log_error(name_, "{} stood still for {:.2} s (standstill_limit {:.2} s){}",
             StaticText{state_ == nullptr ? "the process" : "this thread"}, seconds(missed), seconds(limit),

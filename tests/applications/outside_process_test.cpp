@@ -10,30 +10,22 @@
 #include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
 #include "tests/applications/process.hpp"
+#include "tests/applications/trial_process.hpp"
 
 namespace flexrf::whole {
 namespace {
 
+using namespace trial;
+
 const std::string application = place::application;
 
-const std::string at_rest = "made safe at rest\nsafe\n";
-const std::string while_moving = "made safe while moving\nsafe\n";
-const std::string moving = "moving\n";
-const std::string last_gasp = "last gasp: brake\n";
-
-std::vector<std::string> words(std::vector<std::string> more = {}) {
-  std::vector<std::string> all{application, "--report", "report"};
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
-
-std::string drive_log(const Folder& folder) {
-  return contents_of(folder / "drive.log");
+std::vector<std::string> words(const std::vector<std::string>& more = {}) {
+  return command_line(application, more);
 }
 
 void start_moving(const Folder& folder, Process& process, const std::string& keys = "d") {
   process.type(keys);
-  CHECK(wait_until([&] { return drive_log(folder) == moving; }));
+  wait_until_moving(folder);
 }
 
 // ---- readers that take nothing

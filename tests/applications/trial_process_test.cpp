@@ -1,5 +1,7 @@
 // Each level of stopping on each of its causes, in a process: what is written to the drive, to the terminal
 // and to the report, and how the process ends.
+#include "tests/applications/trial_process.hpp"
+
 #include <termios.h>
 #include <unistd.h>
 
@@ -13,15 +15,12 @@
 namespace flexrf::whole {
 namespace {
 
+using namespace trial;
+
 const std::string application = place::application;
 
-const std::string at_rest = "made safe at rest\nsafe\n";
-const std::string while_moving = "made safe while moving\nsafe\n";
-const std::string moving = "moving\n";
-const std::string last_gasp = "last gasp: brake\n";
-
 std::vector<std::string> words() {
-  return {application, "--report", "report"};
+  return command_line(application);
 }
 
 std::string fault_of(const Report& report, const char* array, const std::string& component) {
@@ -31,10 +30,6 @@ std::string fault_of(const Report& report, const char* array, const std::string&
 
 std::string cause_of(const Report& report) {
   return report["run"].at("cause");
-}
-
-void wait_until_moving(const Folder& folder) {
-  CHECK(wait_until([&] { return contents_of(folder / "drive.log") == moving; }));
 }
 
 enum class More : std::uint8_t { may_come, none };
@@ -60,7 +55,7 @@ void check_survived_fault(const std::string& keys, const std::string& cause) {
   const Ending ending = process.wait();
   CHECK_EQUAL(ending.exit_code, 2);
   CHECK_CONTAINS(ending.output, cause);
-  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + while_moving);
+  CHECK_EQUAL(drive_log(folder), moving + while_moving);
   const Report report(folder / "report");
   CHECK_CONTAINS(fault_of(report, "units", "saboteur"), cause);
   CHECK_EQUAL(report["faults"].get<int>(), 1);
@@ -90,7 +85,7 @@ void a_hung_step_ends_in_the_last_gasp() {
   CHECK_EQUAL(ending.exit_code, 2);
   CHECK_CONTAINS(ending.errors, "step does not return");
   CHECK_CONTAINS(ending.output, "\nFault: thread sabotage: its step does not return; ");
-  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + last_gasp);
+  CHECK_EQUAL(drive_log(folder), moving + last_gasp);
   const Report report(folder / "report");
   CHECK(report["run"].at("stuck").get<bool>());
   CHECK(report.row("threads", "sabotage").at("hangs").get<bool>());
@@ -107,7 +102,7 @@ void a_signal_is_a_controlled_stop() {
     wait_until_moving(folder);
     process.send(signal);
     CHECK_EQUAL(process.wait().exit_code, 128 + signal);
-    CHECK_EQUAL(contents_of(folder / "drive.log"), moving + at_rest);
+    CHECK_EQUAL(drive_log(folder), moving + at_rest);
     const Report report(folder / "report");
     CHECK(!report["run"].at("cut_short").get<bool>());
     CHECK_EQUAL(report["run"].at("signal").get<int>(), signal);
@@ -123,7 +118,7 @@ void stop_timeout_ends_what_does_not_come_to_rest() {
   const Ending ending = process.wait();
   CHECK_EQUAL(ending.exit_code, 128 + SIGTERM);
   CHECK_CONTAINS(ending.errors, "not at rest within stop_timeout");
-  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + while_moving);
+  CHECK_EQUAL(drive_log(folder), moving + while_moving);
   CHECK(Report(folder / "report")["run"].at("cut_short").get<bool>());
 }
 
@@ -138,7 +133,7 @@ void a_second_signal_does_not_wait() {
   const Ending ending = process.wait();
   CHECK_EQUAL(ending.exit_code, 128 + SIGINT);
   CHECK_EQUAL(ending.errors.find("stop_timeout"), std::string::npos);
-  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + while_moving);
+  CHECK_EQUAL(drive_log(folder), moving + while_moving);
 }
 
 void crash_signals_write_the_last_gasp() {
@@ -154,7 +149,7 @@ void crash_signals_write_the_last_gasp() {
     CHECK_EQUAL(ending.signal, one.signal);
     CHECK_CONTAINS(ending.errors, std::string{"flexrf: "} + one.name);
     CHECK_CONTAINS(ending.errors, " while stepping saboteur; prepared outputs written: 1\n");
-    CHECK_EQUAL(contents_of(folder / "drive.log"), moving + last_gasp);
+    CHECK_EQUAL(drive_log(folder), moving + last_gasp);
   }
 }
 
@@ -164,7 +159,7 @@ void exit_from_a_unit_writes_the_last_gasp() {
   CHECK_EQUAL(ending.exit_code, 2);
   CHECK_CONTAINS(ending.errors,
                  "exit() was called while the application ran, in saboteur; prepared outputs written: 1");
-  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + last_gasp);
+  CHECK_EQUAL(drive_log(folder), moving + last_gasp);
 }
 
 // ---- the end of the input
@@ -173,7 +168,7 @@ void the_end_of_input_is_the_gentlest() {
   const Folder folder;
   const Ending ending = run(folder, words(), "ddddm");
   CHECK_EQUAL(ending.exit_code, 0);
-  CHECK(contents_of(folder / "drive.log").ends_with(at_rest));
+  CHECK(drive_log(folder).ends_with(at_rest));
   const Report report(folder / "report");
   CHECK(!report["run"].at("cut_short").get<bool>());
   CHECK_EQUAL(cause_of(report), "end of input");
@@ -206,7 +201,7 @@ void an_allocation_is_caught() {
   CHECK_CONTAINS(ending.errors,
                  "malloc called in a real-time thread, where nothing may be allocated or freed:");
   CHECK_CONTAINS(ending.errors, " while stepping saboteur");
-  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + last_gasp);
+  CHECK_EQUAL(drive_log(folder), moving + last_gasp);
 #else
   CHECK_EQUAL(ending.exit_code, 0);
   const Report report(folder / "report");
@@ -228,7 +223,7 @@ void a_system_call_that_may_wait_is_caught() {
   CHECK_CONTAINS(ending.errors, "open, map and start things in initialise()");
   CHECK_CONTAINS(ending.errors, "/trial(");  // the trace
   CHECK_CONTAINS(ending.errors, " while stepping saboteur; prepared outputs written: 1");
-  CHECK_EQUAL(contents_of(folder / "drive.log"), moving + last_gasp);
+  CHECK_EQUAL(drive_log(folder), moving + last_gasp);
 #else
   CHECK_EQUAL(ending.exit_code, 0);
 #endif

@@ -9,8 +9,8 @@
 #include <cstdlib>
 
 #include "apps/pick-station/world/feeder.hpp"
+#include "base/standard_descriptors.hpp"
 #include "hal/simulated/modbus_server/modbus_server.hpp"
-#include "runtime/core/standard_descriptors.hpp"
 
 namespace {
 

@@ -24,9 +24,9 @@
 #include <string>
 #include <string_view>
 
+#include "base/standard_descriptors.hpp"
 #include "hal/simulated/modbus_server/modbus_server.hpp"
 #include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
-#include "runtime/core/standard_descriptors.hpp"
 
 namespace {
 

@@ -15,9 +15,9 @@
 #include <string>
 #include <string_view>
 
+#include "base/standard_descriptors.hpp"
 #include "hal/simulated/mxt_simulator/mxt_console.hpp"
 #include "hal/simulated/mxt_simulator/mxt_server.hpp"
-#include "runtime/core/standard_descriptors.hpp"
 
 namespace {
 

@@ -20,8 +20,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/standard_descriptors.hpp"
 #include "hal/simulated/net_ft_simulator/net_ft_server.hpp"
-#include "runtime/core/standard_descriptors.hpp"
 
 namespace {
 

@@ -28,10 +28,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/standard_descriptors.hpp"
 #include "hal/simulated/modbus_server/modbus_server.hpp"
 #include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
 #include "hal/simulated/robotiq_simulator/robotiq_model.hpp"
-#include "runtime/core/standard_descriptors.hpp"
 
 namespace {
 

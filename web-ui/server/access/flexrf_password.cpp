@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/core/standard_descriptors.hpp"
+#include "base/standard_descriptors.hpp"
 #include "web-ui/server/access/panel_access.hpp"
 #include "web-ui/server/access/password.hpp"
 #include "web-ui/server/access/secret_prompt.hpp"
