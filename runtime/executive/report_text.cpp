@@ -165,12 +165,16 @@ std::string faults_text(const ReportData& data) {
 }
 
 std::string memory_text(const ReportData& data) {
-  std::string text = "\nMemory: ";
+  std::string text = "\nMemory: " + size_text(data.application->memory_budget) +
+                     " budget of the application's own (slots, queues, stacks, units, devices)\n";
   if (data.process) {
-    text += size_text(data.process->resident_peak) + " resident at most, " + size_text(data.process->locked) +
-            " locked; ";
+    text += "  " + size_text(data.process->resident_peak) +
+            " in use at most, with the program's code, its libraries and what serves the panel\n";
   }
-  text += "budget of the application's own " + size_text(data.application->memory_budget) + "\n";
+  if (data.process && data.process->locked > 0) {
+    text += "  " + size_text(data.process->locked) +
+            " of addresses locked: what of them is in use stays in memory, the rest takes none\n";
+  }
   return text;
 }
 

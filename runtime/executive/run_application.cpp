@@ -8,11 +8,13 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/standard_descriptors.hpp"
 #include "runtime/executive/executive.hpp"
 #include "runtime/executive/report.hpp"
+#include "runtime/log/log.hpp"
 #include "runtime/realtime/instance_lock.hpp"
 
 namespace flexrf {
@@ -67,7 +69,13 @@ Status lock_cell(const Cell& cell, const Options& options, InstanceLock& lock) {
   char directory[lock_directory_size];
   const LockScope scope = cell.real_actuator() != nullptr ? LockScope::machine : LockScope::user;
   if (const Status status = find_lock_directory(scope, directory); !status) return status;
-  return lock.acquire(cell.application().name, directory);
+  if (const Status status = lock.acquire(cell.application().name, directory); !status) return status;
+  if (scope == LockScope::user) {
+    log_info(cell.application().name,
+             "no real actuator is chosen: this cell runs once per user (lock file {})",
+             std::string_view(lock.path()));
+  }
+  return {};
 }
 
 }  // namespace

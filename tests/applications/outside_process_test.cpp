@@ -9,6 +9,7 @@
 
 #include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
+#include "runtime/executive/tests/notify_listener.hpp"
 #include "tests/applications/process.hpp"
 #include "tests/applications/trial_process.hpp"
 
@@ -73,6 +74,21 @@ void a_full_standard_error_hides_no_hang() {
   process.type("h");
   CHECK_EQUAL(process.wait().exit_code, 2);
   CHECK_EQUAL(drive_log(folder), moving + last_gasp);
+}
+
+void a_full_standard_error_holds_up_no_heartbeat() {
+  const Folder folder;
+  const FullPipe pipe;
+  const fixture::NotifyListener manager;
+  std::vector<std::string> all{"env", "NOTIFY_SOCKET=" + manager.name(), "WATCHDOG_USEC=20000"};
+  for (const std::string& word : words()) all.push_back(word);
+  Process process(folder, all, Input::pipe, [&] { dup2(pipe.end(), STDERR_FILENO); });
+  start_moving(folder, process);
+  // Its socket holds fewer than this: they were sent while nobody read standard error.
+  for (int i = 0; i < 100; ++i) CHECK(wait_until([&] { return manager.next() == "WATCHDOG=1"; }));
+  process.send(SIGTERM);
+  CHECK(wait_until([&] { return manager.next() == "STOPPING=1"; }));
+  CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
 }
 
 /// The guards of the checked build, too: what was prepared comes before what they say.
@@ -348,6 +364,7 @@ int main() {
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_full_standard_error_holds_up_no_stop),
       CONTAINED_TEST(a_full_standard_error_hides_no_hang),
+      CONTAINED_TEST(a_full_standard_error_holds_up_no_heartbeat),
       CONTAINED_TEST(a_full_standard_error_holds_up_no_last_gasp),
       CONTAINED_TEST(a_full_standard_output_is_told_and_left),
       CONTAINED_TEST(a_reader_that_is_slow_gets_the_report_and_a_signal_ends_the_wait),

@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 
 #include "places.hpp"
@@ -77,6 +78,35 @@ void a_kind_of_hardware_is_for_all_devices() {
   CHECK_CONTAINS(named.errors, "a real actuator is chosen (press)");
 }
 
+/// Whoever starts it, in whatever environment: there is one press.
+void a_real_actuator_is_run_once_on_the_machine() {
+  if (geteuid() != 0) skip();  // only root may take the place as another user, too
+  const Folder folder;
+  const Folder elsewhere;
+  Process first(folder, {place::crowd, "--hardware", "press=real"});
+  const std::string holder = "process " + std::to_string(first.id());
+  CHECK(wait_until([&] { return contents_of("/run/flexrf/flexrf-crowd.lock").starts_with(holder + " "); }));
+  const Ending second = run(elsewhere, {place::crowd, "--hardware", "press=real"});
+  CHECK_EQUAL(second.exit_code, 2);
+  CHECK_CONTAINS(second.errors, "cell crowd is run already by " + holder);
+  CHECK_CONTAINS(second.errors, "lock file /run/flexrf/flexrf-crowd.lock");
+  const Ending nobodys =
+      run(elsewhere,
+          {"setpriv", "--reuid=nobody", "--regid=nogroup", "--clear-groups", "--inh-caps=+sys_nice,+ipc_lock",
+           "--ambient-caps=+sys_nice,+ipc_lock", place::crowd, "--hardware", "press=real"});
+  CHECK_EQUAL(nobodys.exit_code, 3);
+  CHECK_CONTAINS(nobodys.errors,
+                 "its lock file belongs into /run/flexrf: Permission denied; make it by `sudo install");
+  // What moves nothing real is another's business, and says where its lock is.
+  Process simulated(elsewhere, {place::crowd});
+  simulated.wait_for_error("no real actuator is chosen: this cell runs once per user (lock file " +
+                           elsewhere.path() + "/flexrf-crowd.lock)");
+  for (Process* const process : {&first, &simulated}) {
+    process->send(SIGTERM);
+    CHECK_EQUAL(process->wait().exit_code, 128 + SIGTERM);
+  }
+}
+
 /// Enough for the table's budget, too little for all that is mapped: this is known before anything starts.
 void a_limit_between_budget_and_need_is_noticed() {
   if (geteuid() != 0) skip();  // only root can keep the priorities and give up the capability
@@ -101,6 +131,7 @@ int main() {
       CONTAINED_TEST(without_rights_a_real_actuator_is_refused),
       CONTAINED_TEST(a_real_actuator_is_refused_with_no_realtime),
       CONTAINED_TEST(a_kind_of_hardware_is_for_all_devices),
+      CONTAINED_TEST(a_real_actuator_is_run_once_on_the_machine),
       CONTAINED_TEST(a_limit_between_budget_and_need_is_noticed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

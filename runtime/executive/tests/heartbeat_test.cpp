@@ -1,14 +1,12 @@
 // Who is alive, and what the service manager is told of it.
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
-#include <cstddef>
 #include <cstdlib>
 #include <initializer_list>
 
 #include "runtime/executive/heartbeat_watch.hpp"
 #include "runtime/executive/service_manager.hpp"
+#include "runtime/executive/tests/notify_listener.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
 #include "runtime/log/log.hpp"
 
@@ -131,39 +129,8 @@ void a_step_that_hangs_misses_it() {
   CHECK(!executive.cell().heartbeat().is_met(MonotonicClock::now()));
 }
 
-/// The other end of NOTIFY_SOCKET, under a name that nobody else has.
-class Listener {
- public:
-  Listener() : socket_(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    CHECK(bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address.sun_family)) == 0);
-    socklen_t size = sizeof(address);
-    CHECK(getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size) == 0);
-    name_ = "@" + std::string(address.sun_path + 1, size - offsetof(sockaddr_un, sun_path) - 1);
-  }
-  Listener(const Listener&) = delete;
-  Listener& operator=(const Listener&) = delete;
-  ~Listener() { close(socket_); }
-
-  const std::string& name() const { return name_; }
-  /// Empty: nothing came.
-  std::string next() {
-    char text[256];
-    const ssize_t size = recv(socket_, text, sizeof(text), 0);
-    return size > 0 ? std::string(text, static_cast<std::size_t>(size)) : std::string{};
-  }
-  bool waits_for(const std::string& message) {
-    return RunningCell::wait_until([&] { return next() == message; });
-  }
-
- private:
-  int socket_;
-  std::string name_;
-};
-
 void the_manager_is_told_how_it_stands() {
-  Listener listener;
+  NotifyListener listener;
   Heartbeat heartbeat;
   Control control({});
   Time now{seconds{1}};
@@ -192,7 +159,7 @@ void the_manager_is_told_how_it_stands() {
 }
 
 void the_manager_hears_the_heartbeat_twice_in_its_interval_and_only_while_it_is_met() {
-  Listener listener;
+  NotifyListener listener;
   Heartbeat heartbeat;
   Control control({});
   Time now{seconds{1}};
@@ -252,10 +219,13 @@ void the_environment_says_who_listens() {
 }
 
 void a_running_application_tells_of_itself() {
-  Listener listener;
+  NotifyListener listener;
   const Environment environment;
   setenv("NOTIFY_SOCKET", listener.name().c_str(), 1);
   setenv("WATCHDOG_USEC", "20000", 1);
+  const auto hears = [&](const std::string& message) {
+    return RunningCell::wait_until([&] { return listener.next() == message; });
+  };
   // While nobody listens the socket fills, and what finds it full is told again: it comes to its end only
   // when all was heard.
   std::atomic<bool> may_rest{false};
@@ -263,10 +233,10 @@ void a_running_application_tells_of_itself() {
   plan.unit(Plan::producer).script.is_idle = [&](const TestUnit&) { return may_rest.load(); };
   RunningCell running(plan);
   running.start();
-  CHECK(listener.waits_for("READY=1"));
-  for (int i = 0; i < 3; ++i) CHECK(listener.waits_for("WATCHDOG=1"));
+  CHECK(hears("READY=1"));
+  for (int i = 0; i < 3; ++i) CHECK(hears("WATCHDOG=1"));
   running.stop();
-  CHECK(listener.waits_for("STOPPING=1"));
+  CHECK(hears("STOPPING=1"));
   may_rest = true;
   CHECK_EQUAL(running.join().exit_code, 0);
 }
