@@ -30,7 +30,7 @@ class MxtArm : public Base {
     plan.pacing.search = in_nanoseconds(set.search_interval);
     made_safe_ = false;
     state_.reset();
-    this->begin_supervision();
+    this->begin_supervision(this->configuration);
     if (const Status status = open_link(); !status) return status;
     const Status status = dialogue_.begin(plan, *this->chain, link());
     if (!status) close_link();

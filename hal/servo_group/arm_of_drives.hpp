@@ -27,7 +27,7 @@ class ArmOfDrives : public Base {
       }
     }
     group_.begin(std::span(members_).first(joints), *this->chain);
-    this->begin_supervision();
+    this->begin_supervision(this->configuration);
     return {};
   }
   void stop() override { stop_first(this->chain->joint_count); }

@@ -26,7 +26,8 @@ class RobotArm : public RobotArmInterface {
 
  protected:
   /// In initialise(), by every driver.
-  void begin_supervision() noexcept {
+  /// `configuration`: the driver's.
+  void begin_supervision(const auto& configuration) noexcept {
     supervision_.begin(*chain, {configuration.following_time, configuration.silence});
   }
   /// At the end of receive(), by every driver: an arm that does not follow what its drives are asked to
@@ -34,7 +35,7 @@ class RobotArm : public RobotArmInterface {
   void supervise(Time now) noexcept {
     const bool may_move = !is_inhibited() && fault().is_ok();
     if (const Status found = supervision_.look(state(), feedback.following_error, may_move, now); !found)
-      fail(found);
+      set_fault(found);
   }
 
  private:

@@ -63,12 +63,14 @@ class ServoDrive : public ServoDriveInterface {
 
  protected:
   /// At the end of receive(), by every driver: an axis that does not follow its set-points is in fault.
-  void supervise() noexcept {
+  /// `configuration`: the driver's.
+  void supervise(const auto& configuration) noexcept {
     const auto now = state();
-    if (!now || !now->enabled || is_inhibited() || configuration.following_time == 0) return;
+    if (!now || !now->enabled || is_inhibited() || !fault().is_ok() || configuration.following_time == 0)
+      return;
     const double most = configuration.following_time * configuration.fastest;
     if (std::abs(now->following_error) <= most) return;
-    fail(Status::error(
+    set_fault(Status::error(
         StatusCode::device_fault,
         "its axis is %.4g behind, more than it moves in `following_time` (%g s): does it stick, or does its "
         "encoder?",

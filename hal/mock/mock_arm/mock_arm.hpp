@@ -22,7 +22,7 @@ class MockArm final : public MockArmDriver {
     noise_.seed(environment().seed);
     delay_.clear();
     tell(Time{});
-    begin_supervision();
+    begin_supervision(configuration);
     return {};
   }
 

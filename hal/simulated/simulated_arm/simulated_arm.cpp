@@ -22,7 +22,7 @@ Status SimulatedArm::initialise() {
   commanded_.reset();
   started_ = Time{};
   sensors_lost_ = false;
-  begin_supervision();
+  begin_supervision(configuration);
   return {};
 }
 
