@@ -88,6 +88,7 @@ class MockServoDrive final : public MockServoDriveDriver {
     state_->velocity = elapsed > 0 ? (state_->position - before) / elapsed : 0;
     measure();
     tell();
+    supervise(configuration);
   }
   void send(const Tick& /*tick*/) noexcept override {
     if (state_) state_->enabled = !is_inhibited() && fault().is_ok();
