@@ -72,6 +72,10 @@ class CanopenArmWorld final : public RobotArmWorld {
     far_ends_[4]->drive().power_off();
     return initialised_;
   }
+  bool stick_joint() override {
+    far_ends_[0]->drive().cut_motor(true);
+    return initialised_;
+  }
   bool trip_drives() override {
     far_ends_[4]->drive().trip(0x2310, false, far_ends_[4]->said());
     return initialised_;

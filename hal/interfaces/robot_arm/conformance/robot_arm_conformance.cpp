@@ -153,15 +153,14 @@ Verdict says_nothing_when_its_sensors_are_lost(RobotArmWorld& world) {
   return verdict(!world.arm().state());
 }
 
-/// Half a second may pass; then nobody knows where it is, and that is no reason to go on.
+/// Half a second may pass, or less where the driver has a limit of its own; then nobody knows where it is,
+/// and that is no reason to go on.
 Verdict silence_in_operation_is_a_fault(RobotArmWorld& world) {
   const JointVector goal = beside(world, 0.02);
   command_for(world, goal, 0.1);
   if (!world.lose_sensors()) return Verdict::skipped;
-  idle_for(world, 0.3);
-  if (!world.arm().fault().is_ok()) return Verdict::failed;
-  idle_for(world, 0.4);
-  return verdict(world.arm().fault().code() == StatusCode::unavailable);
+  idle_for(world, 0.7);
+  return verdict(!world.arm().fault().is_ok() && world.arm().fault().cause()[0] != '\0');
 }
 
 /// Without the permission to move nobody needs to know.
