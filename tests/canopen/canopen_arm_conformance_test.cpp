@@ -131,6 +131,8 @@ void columns_of_a_drive(void**) {
       "increments_per_unit",
       "homing_method",
       "set_point_timeout",
+      "maps_speed",
+      "tells_speed",
   };
   const auto fields = descriptor_of<CanopenArm::Configuration>->fields;
   for (const FieldDescriptor& wanted : descriptor_of<CanopenServoDrive::Configuration>->fields) {

@@ -56,6 +56,7 @@ void SimulatedCia402Drive::take_mode() {
   if (ignores_mode_) return;
   const std::int64_t mode = objects_.get_signed(axis::mode);
   if (mode == objects_.get_signed(axis::mode_display)) return;
+  if (mode > 0 && (objects_.get(axis::supported_modes) >> (mode - 1) & 1) == 0) return;
   objects_.set(axis::mode_display, mode);
   mode_bits_ = 0;
   targets_fresh_ = false;
@@ -206,6 +207,7 @@ void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
     case Mode::homing:
       find_home((word & control_bit::start_homing) != 0, acceleration, time);
       break;
+    case Mode::interpolated_position:  // it has none, see object 6502
     case Mode::none:
       break;
   }
