@@ -97,6 +97,7 @@ inline constexpr std::uint16_t fault_reset = 0x0080;  ///< acts when bit 7 rises
 namespace control_bit {
 inline constexpr std::uint16_t new_set_point = 1 << 4;       ///< profile position; when it rises
 inline constexpr std::uint16_t change_immediately = 1 << 5;  ///< profile position
+inline constexpr std::uint16_t relative = 1 << 6;            ///< profile position: to the last target
 inline constexpr std::uint16_t start_homing = 1 << 4;        ///< homing
 inline constexpr std::uint16_t interpolate = 1 << 4;         ///< interpolated position; while it is set
 inline constexpr std::uint16_t halt = 1 << 8;                ///< profile modes and homing

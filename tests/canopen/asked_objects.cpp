@@ -208,7 +208,6 @@ bool simulated_drive_is_as_its_data_sheet_says() {
   std::size_t bytes = 0;
   int known = 0;
   bool good = true;
-  bool is_constant = false;
   char line[256];
   while (std::fgets(line, sizeof line, file) != nullptr) {
     unsigned index = 0;
@@ -218,17 +217,17 @@ bool simulated_drive_is_as_its_data_sheet_says() {
       address = {static_cast<std::uint16_t>(found >= 1 ? index : 0U), static_cast<std::uint8_t>(subindex)};
     } else if (const char* type = value_of(line, "DataType=")) {
       bytes = bytes_of_data_type(number_in(type));
-    } else if (const char* access = value_of(line, "AccessType=")) {
-      is_constant = std::strncmp(access, "const", 5) == 0;
+    } else if (value_of(line, "AccessType=") != nullptr) {
       std::uint8_t value[8] = {};
       std::size_t size = 0;
-      if (is_constant) continue;  // numbers of entries, which it does not have
       good = good && objects.read(address, value, size) == 0 && size == bytes;
       ++known;
-    } else if (const char* first = value_of(line, "DefaultValue=");
-               first != nullptr && !is_constant && first[0] != '$') {
+    } else if (const char* first = value_of(line, "DefaultValue="); first != nullptr && first[0] != '$') {
       const auto mask = bytes == 4 ? 0xFFFFFFFFU : (1U << (8 * bytes)) - 1;
-      good = good && objects.get(address) == (number_in(first) & mask);
+      std::uint8_t value[8] = {};
+      std::size_t size = 0;
+      good = good && objects.read(address, value, size) == 0 &&
+             canopen::read_number(value, size) == (number_in(first) & mask);
     }
     if (good) continue;
     std::printf("%04X:%02X is not as its data sheet says\n", unsigned{address.index},

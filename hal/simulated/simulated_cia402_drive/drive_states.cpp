@@ -64,7 +64,7 @@ void SimulatedCia402Drive::take_mode() {
 }
 
 // Transitions that the controlword asks for.
-void SimulatedCia402Drive::command(Time now) {
+void SimulatedCia402Drive::command(Time now, Outbox& outbox) {
   const auto word = static_cast<std::uint16_t>(objects_.get(axis::controlword));
   const auto risen = static_cast<std::uint16_t>(word & ~last_command_);
   last_command_ = word;
@@ -76,7 +76,10 @@ void SimulatedCia402Drive::command(Time now) {
   const bool quick_stop = (word & 0x86) == 0x02;
   switch (state_) {
     case DriveState::switch_on_disabled:
-      if (shutdown) enter(DriveState::ready_to_switch_on, now);
+      if (shutdown) {
+        if (!master_lost_) end(Error::heartbeat, outbox);
+        enter(DriveState::ready_to_switch_on, now);
+      }
       break;
     case DriveState::ready_to_switch_on:
       if (disable_voltage || quick_stop) enter(DriveState::switch_on_disabled, now);
@@ -93,7 +96,8 @@ void SimulatedCia402Drive::command(Time now) {
       if (disable_voltage) enter(DriveState::switch_on_disabled, now);
       if (quick_stop) enter(DriveState::quick_stop_active, now);
       if ((risen & control_bit::new_set_point) != 0) {
-        profile_target_ = static_cast<double>(objects_.get_signed(axis::target_position));
+        const auto told = static_cast<double>(objects_.get_signed(axis::target_position));
+        profile_target_ = (word & control_bit::relative) != 0 ? profile_target_ + told : told;
         profile_speed_ = static_cast<double>(objects_.get(axis::profile_velocity));
         if (objects_.get_signed(axis::mode) == static_cast<int>(Mode::profile_position)) ++set_points_;
         mode_bits_ = status_bit::set_point_acknowledged;
@@ -110,6 +114,7 @@ void SimulatedCia402Drive::command(Time now) {
     case DriveState::fault:
       if ((risen & 0x80) != 0 && !cause_persists_) {
         objects_.set(axis::error_code, 0);
+        end(Error::fault, outbox);
         enter(DriveState::switch_on_disabled, now);
       }
       break;
