@@ -1,8 +1,9 @@
 // cia402_simulator: CiA 402 drives on a CAN interface, to try a cell with.
 //
 //   cia402_simulator INTERFACE [--node N]... [--vendor N] [--product N] [--boot-delay MS] [--brake-delay MS]
-//                    [--position INCREMENTS] [--off]
+//                    [--position INCREMENTS] [--off] [--each-object]
 //
+// With --each-object a drive acts on each object of a PDO as it is written, else when all of it is taken.
 // Runs until it is interrupted, also while the interface is down or not there yet. Lines on its standard
 // input make the drives misbehave: "help" tells which; with several drives the node's number comes first ("5
 // off"). Each is answered with a line.
@@ -31,7 +32,7 @@ using namespace flexrf;
 
 constexpr const char* usage =
     "usage: cia402_simulator INTERFACE [--node N]... [--vendor N] [--product N] [--boot-delay MS]\n"
-    "                        [--brake-delay MS] [--position INCREMENTS] [--off]\n";
+    "                        [--brake-delay MS] [--position INCREMENTS] [--off] [--each-object]\n";
 constexpr Duration look = std::chrono::milliseconds(50);
 constexpr Duration a_while = std::chrono::seconds(1);
 
@@ -87,6 +88,8 @@ bool parse(int count, char** words, Command& command) {
   for (int i = 1; i < count; ++i) {
     if (std::strcmp(words[i], "--off") == 0) {
       command.off = true;
+    } else if (std::strcmp(words[i], "--each-object") == 0) {
+      command.drive.acts_on_each_object = true;
     } else if (std::strncmp(words[i], "--", 2) != 0) {
       if (command.interface != nullptr) return false;
       command.interface = words[i];

@@ -30,14 +30,20 @@ struct NeededObject {
   Pdo pdo = Pdo::none;
   bool optional = false;
   // Asked for only if this parameter of the configuration is true, with `unless` if it is false, and with
-  // `values` if it is one of them; empty: always.
-  std::string when;
-  bool unless = false;
-  std::vector<std::int64_t> values;
+  // `values` if it is one of them.
+  struct Condition {
+    std::string parameter;
+    bool unless = false;
+    std::vector<std::int64_t> values;
+  };
+  std::vector<Condition> when;  // all of them; none: always
   // What it has to be, or is set to: a number, or the parameter that says it.
   std::variant<std::monostate, std::int64_t, std::string> value;
+  bool of_node = false;  // the number of the node is added to that number
   std::uint32_t mask = 0xFFFFFFFF;
   std::string without;  // it, what the drive cannot do
+  std::string
+      helps;  // what in the device's configuration is for drives that are otherwise: "maps_mode = false"
 };
 
 // The words of the list. Types by their number in CiA 301 beside.

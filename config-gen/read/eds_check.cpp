@@ -48,18 +48,25 @@ class EdsCheck {
 
  private:
   bool is_asked_for(const NeededObject& needed) const {
-    if (needed.when.empty()) return true;
-    const Literal* parameter = use_.parameter(needed.when);
+    return std::all_of(needed.when.begin(), needed.when.end(),
+                       [this](const NeededObject::Condition& condition) { return holds(condition); });
+  }
+
+  bool holds(const NeededObject::Condition& condition) const {
+    const Literal* parameter = use_.parameter(condition.parameter);
     if (parameter == nullptr) return false;
     const auto value = static_cast<std::int64_t>(number_of(*parameter));
-    const bool holds = needed.values.empty() ? number_of(*parameter) != 0
-                                             : std::find(needed.values.begin(), needed.values.end(), value) !=
-                                                   needed.values.end();
-    return holds != needed.unless;
+    const auto& values = condition.values;
+    const bool is_so = values.empty() ? number_of(*parameter) != 0
+                                      : std::find(values.begin(), values.end(), value) != values.end();
+    return is_so != condition.unless;
   }
 
   void error(const Position& position, std::string text, std::string hint) {
     if (!needed_->without.empty()) text += ": " + needed_->without;
+    if (!needed_->helps.empty())
+      hint = "with " + quote(needed_->helps) +
+             " in its configuration the driver takes a drive that is so; else: " + hint;
     diagnostics_.error(position, std::move(text), std::move(hint));
   }
 
@@ -152,7 +159,7 @@ class EdsCheck {
     const bool fixed = needed_->access == Access::map && is_known(found.access) && !is_writable(found.access);
     if (needed_->access == Access::read || fixed)
       check_equal(found, *wanted, from, fixed);
-    else
+    else if (!needed_->of_node)
       check_limits(found, *wanted);
   }
 
@@ -163,6 +170,12 @@ class EdsCheck {
     if (needed_->index == identity && (!value || value->value == 0)) {
       if (needed_->subindex == vendor_id) value = use_.eds.vendor;
       if (needed_->subindex == product_code) value = use_.eds.product;
+    }
+    if (value && value->of_node && needed_->of_node) {
+      value->of_node = false;
+    } else if (value && needed_->of_node) {
+      const Literal* node = use_.parameter("node");
+      if (node != nullptr) wanted += static_cast<std::int64_t>(number_of(*node));
     }
     if (!value || value->of_node) {
       if (fixed)

@@ -10,9 +10,24 @@
 namespace flexrf::config_gen {
 namespace {
 
-enum Column { index, subindex, name, type, access, pdo, presence, when, value, mask, without, columns };
-constexpr std::array<const char*, columns> column_names = {
-    "index", "subindex", "name", "type", "access", "pdo", "presence", "when", "value", "mask", "without"};
+enum Column {
+  index,
+  subindex,
+  name,
+  type,
+  access,
+  pdo,
+  presence,
+  when,
+  value,
+  mask,
+  without,
+  helps,
+  columns
+};
+constexpr std::array<const char*, columns> column_names = {"index",  "subindex", "name",     "type",
+                                                           "access", "pdo",      "presence", "when",
+                                                           "value",  "mask",     "without",  "helps"};
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(' ');
@@ -101,6 +116,7 @@ class ListReader {
     entry_.subindex = static_cast<std::uint8_t>(integer(subindex, 0, 0xFF, 0));
     if (const CsvCell* found = cell(name)) entry_.name = found->text;
     if (const CsvCell* found = cell(without)) entry_.without = found->text;
+    if (const CsvCell* found = cell(helps)) entry_.helps = found->text;
     entry_.type = required_word(type, object_types).value_or(0);
     entry_.access = static_cast<NeededObject::Access>(required_word(access, object_accesses).value_or(0));
     if (const auto direction = word(pdo, object_pdos))
@@ -111,29 +127,40 @@ class ListReader {
     read_value();
   }
 
-  // "homing_method", "not takes_velocities", "mode = cyclic_position | profile_position".
+  // "homing_method", "not takes_velocities", "mode = cyclic_position | profile_position and maps_mode".
   void read_when() {
     const CsvCell* found = cell(when);
     if (found == nullptr) return;
-    std::string_view text = found->text;
-    constexpr std::string_view negation = "not ";
-    entry_.unless = text.starts_with(negation);
-    if (entry_.unless) text.remove_prefix(negation.size());
-    const std::size_t equals = text.find('=');
-    entry_.when = trimmed(text.substr(0, equals));
-    const ListParameter* parameter = find_parameter(*found, entry_.when);
-    if (parameter == nullptr || equals == std::string_view::npos) return;
-    for (std::size_t at = equals; at < text.size();) {
-      const std::size_t end = std::min(text.find('|', at + 1), text.size());
-      read_condition(*found, *parameter, std::string(trimmed(text.substr(at + 1, end - at - 1))));
-      at = end;
+    constexpr std::string_view conjunction = " and ";
+    for (std::string_view text = found->text; !text.empty();) {
+      const std::size_t end = std::min(text.find(conjunction), text.size());
+      read_condition(*found, text.substr(0, end));
+      text.remove_prefix(std::min(end + conjunction.size(), text.size()));
     }
   }
 
-  void read_condition(const CsvCell& found, const ListParameter& parameter, const std::string& wanted) {
+  void read_condition(const CsvCell& found, std::string_view text) {
+    NeededObject::Condition condition;
+    constexpr std::string_view negation = "not ";
+    condition.unless = text.starts_with(negation);
+    if (condition.unless) text.remove_prefix(negation.size());
+    const std::size_t equals = text.find('=');
+    condition.parameter = trimmed(text.substr(0, equals));
+    const ListParameter* parameter = find_parameter(found, condition.parameter);
+    if (parameter == nullptr) return;
+    for (std::size_t at = equals; at < text.size();) {
+      const std::size_t end = std::min(text.find('|', at + 1), text.size());
+      read_choice(found, *parameter, std::string(trimmed(text.substr(at + 1, end - at - 1))), condition);
+      at = end;
+    }
+    entry_.when.push_back(std::move(condition));
+  }
+
+  void read_choice(const CsvCell& found, const ListParameter& parameter, const std::string& wanted,
+                   NeededObject::Condition& condition) {
     const auto place = std::find(parameter.values.begin(), parameter.values.end(), wanted);
     if (place != parameter.values.end())
-      entry_.values.push_back(place - parameter.values.begin());
+      condition.values.push_back(place - parameter.values.begin());
     else
       error(found, quote(parameter.name) + " cannot be " + quote(wanted),
             suggest(wanted, parameter.values, "values", "it is no enumeration: name it alone"));
@@ -145,11 +172,20 @@ class ListReader {
     if (is_snake_case(found->text)) {
       entry_.value = found->text;
       find_parameter(*found, found->text);
-    } else if (const auto number = CsvTable::integer(*found, diagnostics_)) {
+    } else if (const auto number = read_number(*found)) {
       entry_.value = *number;
     } else {
       good_ = false;
     }
+  }
+
+  // "0x80", or as EDS files write what is of the node: "$NODEID+0x200".
+  std::optional<std::int64_t> read_number(const CsvCell& found) {
+    constexpr std::string_view of_node = "$NODEID+";
+    entry_.of_node = found.text.starts_with(of_node);
+    CsvCell number = found;
+    if (entry_.of_node) number.text.erase(0, of_node.size());
+    return CsvTable::integer(number, diagnostics_);
   }
 
   const ListParameter* find_parameter(const CsvCell& found, const std::string& wanted) {

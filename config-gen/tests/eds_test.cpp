@@ -3,7 +3,12 @@
 #include "config-gen/read/eds.hpp"
 
 #include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "config-gen/read/eds_check.hpp"
 #include "config-gen/tests/find.hpp"
@@ -148,9 +153,11 @@ void a_cell_with_an_odd_but_good_file(void**) {
   assert_int_equal(driver.objects.size(), 13);
 }
 
-// What one of the repository's own drivers asks, of the drive that its simulator is; with another mode and
-// vendor than the defaults.
-std::string messages_for(const std::string& driver, std::int64_t mode, std::int64_t vendor) {
+// What one of the repository's own drivers asks of the drive that its simulator is, or of one that is so in
+// all but the texts that are exchanged in its EDS file; with these parameters instead of the defaults.
+using Numbers = std::map<std::string, std::int64_t>;
+using Texts = std::vector<std::pair<std::string, std::string>>;
+std::string messages_for(const std::string& driver, const Numbers& said, const Texts& exchanged = {}) {
   const std::filesystem::path hal = std::filesystem::path(place::tests_folder) / "../../hal";
   SearchPaths paths;
   paths.types = {hal / "interfaces/servo_drive/types", hal / "interfaces/gripper/types",
@@ -159,12 +166,18 @@ std::string messages_for(const std::string& driver, std::int64_t mode, std::int6
   Diagnostics diagnostics;
   const Model model =
       read({Target::Kind::driver, hal / "linux" / driver / (driver + ".toml")}, paths, diagnostics);
-  const auto eds = read_eds(hal / "../apps/cia402-simulator/cia402_simulator.eds", diagnostics);
-  const Literal mode_value{mode, {}, {}};
-  const Literal vendor_value{vendor, {}, {}};
+  std::ifstream file(hal / "../apps/cia402-simulator/cia402_simulator.eds");
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  for (const auto& [from, to] : exchanged) {
+    const std::size_t at = text.find(from);
+    if (at == std::string::npos) return "the EDS file has no " + from;
+    text.replace(at, from.size(), to);
+  }
+  const auto eds = parse_eds(text, "drive.eds", diagnostics);
+  std::map<std::string, Literal> values;
+  for (const auto& [name, value] : said) values[name] = {value, {}, {}};
   const auto parameter = [&](const std::string& name) -> const Literal* {
-    if (name == "mode") return &mode_value;
-    if (name == "vendor") return &vendor_value;
+    if (const auto found = values.find(name); found != values.end()) return &found->second;
     for (const Parameter& one : model.drivers.front().configuration.parameters)
       if (one.field.name == name) return &one.initial;
     for (const Parameter& one : model.interfaces.front().configuration.parameters)
@@ -178,18 +191,100 @@ std::string messages_for(const std::string& driver, std::int64_t mode, std::int6
   return eds && !model.drivers.empty() ? out.str() : "nothing was read";
 }
 
+// It has another object of the maker's own instead.
+Texts without(const std::string& index) {
+  const std::string own = "2" + index.substr(1);
+  return {{"=0x" + index + "\n", "=0x" + own + "\n"}, {"[" + index + "]", "[" + own + "]"}};
+}
+
+bool says(const std::string& messages, const char* part) {
+  if (messages.find(part) != std::string::npos) return true;
+  print_message("%s", messages.c_str());
+  return false;
+}
+
+constexpr std::int64_t cyclic_position = 0;
+constexpr std::int64_t profile_position = 2;
+
 void the_driver_of_drives_and_the_simulated_drive(void**) {
   for (std::int64_t mode = 0; mode < 4; ++mode) {
-    assert_string_equal(messages_for("canopen_servo_drive", mode, 0x123).c_str(), "");
-    assert_non_null(std::strstr(messages_for("canopen_servo_drive", mode, 0x999).c_str(),
-                                "object 0x1018:01 (vendor) is 0x00000123, and the "
-                                "device's vendor is 0x00000999"));
+    assert_string_equal(messages_for("canopen_servo_drive", {{"mode", mode}, {"vendor", 0x123}}).c_str(), "");
+    assert_true(says(messages_for("canopen_servo_drive", {{"mode", mode}, {"vendor", 0x999}}),
+                     "object 0x1018:01 (vendor) is 0x00000123, and the device's vendor is 0x00000999"));
   }
 }
 
 void the_driver_of_grippers_and_the_simulated_drive(void**) {
-  assert_string_equal(messages_for("canopen_gripper", 0, 0x123).c_str(), "");
-  assert_non_null(std::strstr(messages_for("canopen_gripper", 0, 0x999).c_str(), "(vendor) is 0x00000123"));
+  assert_string_equal(messages_for("canopen_gripper", {{"vendor", 0x123}}).c_str(), "");
+  assert_true(says(messages_for("canopen_gripper", {{"vendor", 0x999}}), "(vendor) is 0x00000123"));
+}
+
+// What is optional in CiA 402, or of use to nobody here.
+void what_a_drive_need_not_have(void**) {
+  const Numbers plain{{"mode", profile_position}, {"vendor", 0x123}};
+  assert_string_equal(messages_for("canopen_servo_drive", plain, without("6084")).c_str(), "");
+  assert_string_equal(messages_for("canopen_servo_drive", plain, {{"[1018sub2]", "[1018sub3]"}}).c_str(), "");
+  Numbers named = plain;
+  named["product"] = 0x456;
+  assert_true(says(messages_for("canopen_servo_drive", named, {{"[1018sub2]", "[1018sub3]"}}),
+                   "object 0x1018:02 (product code) is missing"));
+}
+
+// The column of the table that is for such a drive stands in the hint, and with it nothing is said any more.
+void the_column_that_helps_is_in_the_hint(void**) {
+  struct Case {
+    Numbers plain;
+    Texts exchanged;
+    const char* hint;
+    Numbers said;
+  };
+  const Texts no_cyclic{{"DefaultValue=0x000001A5", "DefaultValue=0x00000065"}};
+  const Texts unmapped_speed{{"DefaultValue=10000\nPDOMapping=1", "DefaultValue=10000\nPDOMapping=0"}};
+  const Case cases[] = {
+      {{{"mode", cyclic_position}}, no_cyclic, "with 'interpolates = true' in its configuration", {}},
+      {{{"mode", profile_position}}, unmapped_speed, "'maps_speed = false'", {{"maps_speed", 0}}},
+      {{{"mode", profile_position}}, without("6081"), "'maps_speed = false'", {}},
+      {{{"mode", profile_position}, {"maps_speed", 0}},
+       without("6081"),
+       "'tells_speed = false'",
+       {{"tells_speed", 0}}},
+      {{{"mode", cyclic_position}},
+       without("6007"),
+       "'tells_abort_connection = false'",
+       {{"tells_abort_connection", 0}}},
+      {{{"mode", cyclic_position}}, without("1017"), "'guarded = true'", {{"guarded", 1}}},
+      {{{"mode", cyclic_position}},
+       {{"[60C2sub1]", "[20C2sub1]"}},
+       "'tells_period = false'",
+       {{"tells_period", 0}}},
+  };
+  for (const Case& one : cases) {
+    const std::string plain = messages_for("canopen_servo_drive", one.plain, one.exchanged);
+    assert_true(says(plain, ": error: ") && says(plain, one.hint));
+    if (one.said.empty()) continue;
+    Numbers said = one.plain;
+    for (const auto& [name, value] : one.said) said[name] = value;
+    assert_string_equal(messages_for("canopen_servo_drive", said, one.exchanged).c_str(), "");
+  }
+  assert_true(
+      says(messages_for("canopen_servo_drive", {{"mode", cyclic_position}, {"interpolates", 1}}, no_cyclic),
+           "object 0x60C1:01 (interpolation point) is missing"));
+}
+
+// An identifier that cannot be written is as good if it is the right one.
+void identifiers_that_are_fixed(void**) {
+  const auto fixed = [](const char* value) {
+    return messages_for("canopen_servo_drive", {{"node", 5}},
+                        {{"AccessType=rw\nDefaultValue=$NODEID+0x80000200",
+                          std::string("AccessType=const\nDefaultValue=") + value}});
+  };
+  assert_string_equal(fixed("$NODEID+0x200").c_str(), "");
+  assert_string_equal(fixed("0x205").c_str(), "");
+  assert_true(
+      says(fixed("$NODEID+0x300"), "object 0x1400:01 (identifier of RPDO 1) is 0x00000300 and cannot be"));
+  assert_true(says(fixed("0x206"), "is 0x00000206 and cannot be changed, and 0x00000205 is needed"));
+  // It is out of use, for good.
+  assert_true(says(fixed("$NODEID+0x80000200"), "object 0x1400:01"));
 }
 
 }  // namespace
@@ -205,6 +300,9 @@ int main() {
                               cmocka_unit_test(every_cut_and_every_damage_ends_in_words),
                               cmocka_unit_test(a_cell_with_an_odd_but_good_file),
                               cmocka_unit_test(the_driver_of_drives_and_the_simulated_drive),
-                              cmocka_unit_test(the_driver_of_grippers_and_the_simulated_drive)};
+                              cmocka_unit_test(the_driver_of_grippers_and_the_simulated_drive),
+                              cmocka_unit_test(what_a_drive_need_not_have),
+                              cmocka_unit_test(the_column_that_helps_is_in_the_hint),
+                              cmocka_unit_test(identifiers_that_are_fixed)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

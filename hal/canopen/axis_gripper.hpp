@@ -41,7 +41,7 @@ class AxisGripper : public Base {
             .closed_width = this->configuration.closed_width,
             .positions = true,
             .measures_opening = true,
-            .speed = true,
+            .speed = tells_speed_,
             .force = limits_force_,
             .detects_object = true,
             .halts = true};
@@ -77,6 +77,7 @@ class AxisGripper : public Base {
     report_.reset();
     releasing_ = false;
     limits_force_ = axis.limits_torque;
+    tells_speed_ = axis.tells_speed;
     return control_.open(plan, axis, *this->bus);
   }
 
@@ -85,6 +86,7 @@ class AxisGripper : public Base {
   GripperReport report_;
   bool releasing_ = false;  // on account of make_safe(), until it may move again
   bool limits_force_ = false;
+  bool tells_speed_ = true;
 };
 
 }  // namespace flexrf

@@ -33,6 +33,9 @@ inline constexpr ObjectAddress quick_stop_deceleration{0x6085, 0};  ///< u32
 inline constexpr ObjectAddress homing_method{0x6098, 0};            ///< i8
 inline constexpr ObjectAddress homing_search_speed{0x6099, 1};      ///< u32: towards the switch
 inline constexpr ObjectAddress homing_creep_speed{0x6099, 2};       ///< u32: towards the zero
+inline constexpr ObjectAddress interpolation_kind{0x60C0, 0};       ///< i16: 0 is linear
+inline constexpr ObjectAddress interpolation_point{0x60C1, 1};      ///< i32
+inline constexpr ObjectAddress interpolation_buffer{0x60C4, 6};     ///< u8: 1 lets points in
 inline constexpr ObjectAddress period_value{0x60C2, 1};             ///< u8
 inline constexpr ObjectAddress period_exponent{0x60C2, 2};          ///< i8: of ten, in s
 inline constexpr ObjectAddress following_error{0x60F4, 0};          ///< i32
@@ -45,6 +48,7 @@ enum class Mode : std::int8_t {
   profile_position = 1,
   profile_velocity = 3,
   homing = 6,
+  interpolated_position = 7,
   cyclic_position = 8,
   cyclic_velocity = 9,
 };
@@ -73,6 +77,7 @@ inline constexpr std::uint16_t internal_limit = 1 << 11;
 inline constexpr std::uint16_t set_point_acknowledged = 1 << 12;  ///< profile position
 inline constexpr std::uint16_t speed_is_zero = 1 << 12;           ///< profile velocity
 inline constexpr std::uint16_t homing_attained = 1 << 12;         ///< homing
+inline constexpr std::uint16_t interpolates = 1 << 12;            ///< interpolated position: it is active
 inline constexpr std::uint16_t follows = 1 << 12;                 ///< cyclic modes: the target is not ignored
 inline constexpr std::uint16_t following_error = 1 << 13;         ///< position modes
 inline constexpr std::uint16_t homing_error = 1 << 13;            ///< homing
@@ -92,7 +97,9 @@ inline constexpr std::uint16_t fault_reset = 0x0080;  ///< acts when bit 7 rises
 namespace control_bit {
 inline constexpr std::uint16_t new_set_point = 1 << 4;       ///< profile position; when it rises
 inline constexpr std::uint16_t change_immediately = 1 << 5;  ///< profile position
+inline constexpr std::uint16_t relative = 1 << 6;            ///< profile position: to the last target
 inline constexpr std::uint16_t start_homing = 1 << 4;        ///< homing
+inline constexpr std::uint16_t interpolate = 1 << 4;         ///< interpolated position; while it is set
 inline constexpr std::uint16_t halt = 1 << 8;                ///< profile modes and homing
 }  // namespace control_bit
 

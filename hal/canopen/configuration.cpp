@@ -11,8 +11,13 @@ constexpr std::uint32_t pdo_without_remote = 0x40000000;
 
 }  // namespace
 
-void Configuration::write(ObjectAddress object, std::uint8_t size, std::uint32_t value) noexcept {
-  add({.act = Act::write, .size = size, .object = object, .value = value});
+void Configuration::write(ObjectAddress object, std::uint8_t size, std::uint32_t value,
+                          const char* helps) noexcept {
+  add({.act = Act::write, .size = size, .object = object, .value = value, .held = value, .helps = helps});
+}
+
+void Configuration::write_if_there(ObjectAddress object, std::uint8_t size, std::uint32_t value) noexcept {
+  add({.act = Act::write, .size = size, .object = object, .value = value, .held = value, .optional = true});
 }
 
 void Configuration::expect(ObjectAddress object, std::uint32_t value, std::uint32_t mask,
@@ -23,18 +28,27 @@ void Configuration::expect(ObjectAddress object, std::uint32_t value, std::uint3
 void Configuration::configure_pdo(const PdoPlan& plan) noexcept {
   const bool sent = plan.direction == PdoDirection::sent_by_node;
   const std::uint32_t identifier = plan.identifier | (sent && plan.forbids_remote ? pdo_without_remote : 0);
-  write(plan.communication(1), 4, pdo_not_in_use | identifier);
+  const auto identify = [&](std::uint32_t value) {
+    add({.act = Act::write,
+         .object = plan.communication(1),
+         .value = value,
+         .held = plan.identifier,
+         .mask = ~pdo_without_remote,
+         .helps = plan.helps});
+  };
+  identify(pdo_not_in_use | identifier);
   add({.act = Act::map, .size = 1, .object = plan.mapping(0), .value = 0});
   for (std::uint8_t i = 0; i < plan.count; ++i) {
     add({.act = Act::map,
          .object = plan.mapping(static_cast<std::uint8_t>(i + 1)),
-         .value = mapping_word(plan.entries[i])});
+         .value = mapping_word(plan.entries[i]),
+         .helps = plan.entries[i].helps});
   }
   add({.act = Act::map, .size = 1, .object = plan.mapping(0), .value = plan.count});
   write(plan.communication(2), 1, plan.transmission);
   if (sent && plan.inhibit != 0) write(plan.communication(3), 2, plan.inhibit);
   if (plan.event_timer != 0) write(plan.communication(5), 2, plan.event_timer);
-  write(plan.communication(1), 4, identifier);
+  identify(identifier);
 }
 
 void Configuration::add(const ConfigurationStep& step) noexcept {

@@ -8,7 +8,7 @@ namespace flexrf::canopen {
 
 struct ConfigurationStep {
   enum class Act : std::uint8_t {
-    write,   ///< write `value`
+    write,   ///< write `value`; what cannot be written has to be `held` already, under `mask`
     expect,  ///< read, and be equal to `value` under `mask`
     map,     ///< as write; refused by a node whose mapping is fixed: then what is there must be equal
   };
@@ -16,8 +16,11 @@ struct ConfigurationStep {
   std::uint8_t size = 4;  ///< bytes written: 1, 2 or 4
   ObjectAddress object{};
   std::uint32_t value = 0;
+  std::uint32_t held = 0;
   std::uint32_t mask = 0xFFFFFFFF;
   const char* meaning = "";  ///< of what is expected, for a person: "vendor"
+  bool optional = false;     ///< a node that has no such object does without it
+  const char* helps = "";    ///< what a person may write into the table when it is refused; lives for ever
 };
 
 /// A list of bounded length; a step that no longer fits makes it incomplete, and then it is not used.
@@ -25,11 +28,15 @@ class Configuration {
  public:
   static constexpr std::size_t capacity = 96;
 
-  void write(ObjectAddress object, std::uint8_t size, std::uint32_t value) noexcept;
+  /// `helps`: see ConfigurationStep.
+  void write(ObjectAddress object, std::uint8_t size, std::uint32_t value, const char* helps = "") noexcept;
+  /// Left out of a node that has no such object.
+  void write_if_there(ObjectAddress object, std::uint8_t size, std::uint32_t value) noexcept;
   /// `meaning` outlives the configuration.
   void expect(ObjectAddress object, std::uint32_t value, std::uint32_t mask, const char* meaning) noexcept;
   /// Takes the PDO out of use, writes its mapping, how it is transmitted, and takes it into use: the order
-  /// that CiA 301 prescribes, in pre-operational.
+  /// that CiA 301 prescribes, in pre-operational. An identifier that cannot be written is as good if it is
+  /// the planned one already, and in use.
   void configure_pdo(const PdoPlan& plan) noexcept;
 
   bool is_complete() const noexcept { return complete_; }

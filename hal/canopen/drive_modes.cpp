@@ -49,7 +49,7 @@ void SetPointHandshake::reset(std::int32_t actual) noexcept {
   problem_ = {};
 }
 
-std::uint16_t SetPointHandshake::advance(std::uint16_t statusword, Time now) noexcept {
+std::uint16_t SetPointHandshake::advance(std::uint16_t statusword, Time now, bool is_told) noexcept {
   const bool acknowledged = (statusword & status_bit::set_point_acknowledged) != 0;
   if (step_ == Step::offered && acknowledged) {
     step_ = Step::withdrawn;
@@ -58,20 +58,67 @@ std::uint16_t SetPointHandshake::advance(std::uint16_t statusword, Time now) noe
     step_ = Step::free;
   }
   if (step_ == Step::prepared) {
-    step_ = Step::offered;
-    since_ = now;
+    if (is_told) {
+      step_ = Step::offered;
+      since_ = now;
+    }
   } else if (step_ == Step::free && waiting_ && !acknowledged) {
-    target_ = *waiting_;
+    target_ = waiting_->target;
+    speed_ = waiting_->speed;
     waiting_.reset();
     step_ = Step::prepared;
     since_ = now;
   }
   if (step_ != Step::free && now - since_ > timeout_ && problem_.is_ok()) {
     problem_ = Status::error(StatusCode::timeout, "the drive does not %s a new set-point (statusword %04X)",
-                             step_ == Step::offered ? "acknowledge" : "let go of", unsigned{statusword});
+                             unanswered(), unsigned{statusword});
   }
   if (step_ == Step::offered) return control_bit::new_set_point | control_bit::change_immediately;
   return control_bit::change_immediately;
+}
+
+const char* SetPointHandshake::unanswered() const noexcept {
+  switch (step_) {
+    case Step::prepared:
+      return "answer that it took the speed of";
+    case Step::offered:
+      return "acknowledge";
+    default:
+      return "let go of";
+  }
+}
+
+std::uint16_t InterpolationSwitch::advance(std::uint16_t statusword, Time now) noexcept {
+  const bool active = (statusword & status_bit::interpolates) != 0;
+  switch (step_) {
+    case Step::off:
+      step_ = Step::prepared;
+      return 0;
+    case Step::prepared:
+      step_ = Step::asked;
+      since_ = now;
+      break;
+    case Step::asked:
+      if (active) {
+        step_ = Step::active;
+        was_active_ = true;
+      } else if (now - since_ > timeout_ && problem_.is_ok()) {
+        problem_ = Status::error(StatusCode::timeout,
+                                 "the drive does not begin to interpolate positions (statusword %04X)",
+                                 unsigned{statusword});
+      }
+      break;
+    case Step::active:
+      if (!active && problem_.is_ok()) {
+        problem_ =
+            Status::error(StatusCode::device_fault,
+                          "the drive no longer follows interpolated positions (statusword %04X): do they "
+                          "come each period that it was told?",
+                          unsigned{statusword});
+      }
+      break;
+  }
+  return control_bit::interpolate;
 }
 
 void HomingRun::start() noexcept {

@@ -45,18 +45,23 @@ class CyclicSetPoint {
 /// and its acknowledge (statusword bit 12).
 class SetPointHandshake {
  public:
-  explicit SetPointHandshake(Duration timeout) noexcept : timeout_{timeout} {}
+  /// `speed`: before the first command.
+  explicit SetPointHandshake(Duration timeout, double speed = 0) noexcept
+      : timeout_{timeout}, speed_{speed} {}
 
   /// At every enabling: nothing is on its way. `actual`: where the axis is, for target().
   void reset(std::int32_t actual) noexcept;
-  /// The newest one counts: one that has not been offered yet is forgotten.
-  void command(std::int32_t target) noexcept { waiting_ = target; }
+  /// The newest one counts: one that has not been offered yet is forgotten. `speed`: of its profile.
+  void command(std::int32_t target, double speed) noexcept { waiting_ = {target, speed}; }
   /// Once for each cycle in which operation is enabled: the bits to add to the controlword. The new set-point
-  /// bit rises a cycle after its target is told: a drive may act on each object as it is written, on the
-  /// controlword before the target beside it, or after it at the next SYNC.
-  std::uint16_t advance(std::uint16_t statusword, Time now) noexcept;
+  /// bit rises a cycle after its target and its speed are told: a drive may act on each object as it is
+  /// written, on the controlword before the target beside it, or after it at the next SYNC. `is_told` false:
+  /// what does not go beside the controlword has not arrived yet, and the bit waits for it.
+  std::uint16_t advance(std::uint16_t statusword, Time now, bool is_told = true) noexcept;
   /// For object 607A, beside the bits.
   std::int32_t target() const noexcept { return target_; }
+  /// Of that target.
+  double speed() const noexcept { return speed_; }
   /// The drive took the last command and says that it is there; before it took it, it may say so of the one
   /// before.
   bool is_reached(std::uint16_t statusword) const noexcept {
@@ -67,10 +72,46 @@ class SetPointHandshake {
  private:
   enum class Step : std::uint8_t { free, prepared, offered, withdrawn };
 
+  struct Waiting {
+    std::int32_t target = 0;
+    double speed = 0;
+  };
+
+  const char* unanswered() const noexcept;
+
   Duration timeout_;
   Step step_ = Step::free;
-  std::optional<std::int32_t> waiting_;
+  std::optional<Waiting> waiting_;
   std::int32_t target_ = 0;
+  double speed_;
+  Time since_{};
+  Status problem_;
+};
+
+/// Interpolated position: points are followed once interpolation is enabled (controlword bit 4) and active
+/// (statusword bit 12); before that they are ignored.
+class InterpolationSwitch {
+ public:
+  explicit InterpolationSwitch(Duration timeout) noexcept : timeout_{timeout} {}
+
+  /// Operation is not enabled: all begins anew.
+  void reset() noexcept { *this = InterpolationSwitch{timeout_}; }
+  /// Another mode in between, as homing is: it is enabled anew afterwards.
+  void lower() noexcept { step_ = Step::off; }
+  /// Once for each cycle in which operation is enabled in this mode: the bit to add to the controlword. It
+  /// rises a cycle after the first point, where the axis is, is told.
+  std::uint16_t advance(std::uint16_t statusword, Time now) noexcept;
+  bool is_active() const noexcept { return step_ == Step::active; }
+  /// Since reset().
+  bool was_active() const noexcept { return was_active_; }
+  const Status& problem() const noexcept { return problem_; }
+
+ private:
+  enum class Step : std::uint8_t { off, prepared, asked, active };
+
+  Duration timeout_;
+  Step step_ = Step::off;
+  bool was_active_ = false;
   Time since_{};
   Status problem_;
 };

@@ -7,6 +7,13 @@ namespace {
 
 using Act = ConfigurationStep::Act;
 
+// A node that starts itself does so once after its boot-up, or each time that it is brought back.
+constexpr unsigned most_brought_back = 8;
+
+bool cannot_be_written(std::uint32_t code) {
+  return code == sdo_abort::read_only || code == sdo_abort::access;
+}
+
 long long milliseconds_of(Duration duration) {
   return static_cast<long long>(duration.count() / 1'000'000);
 }
@@ -132,8 +139,17 @@ void Node::observe(NmtState heard, Time now, Outbox& outbox) noexcept {
     emergency_.reset();
     state_ = NodeState::configuring;
     step_ = 0;
-    mapping_is_fixed_ = false;
+    mapping_is_fixed_ = reads_back_ = false;
+    brought_back_ = 0;
+    // It may be about to start itself (object 1F80), and takes no mapping then.
+    outbox.push(nmt_message(NmtCommand::enter_pre_operational, plan_.node));
     begin_step(now, outbox);
+    return;
+  }
+  if (state_ == NodeState::configuring && heard == NmtState::operational &&
+      brought_back_ < most_brought_back) {
+    ++brought_back_;
+    outbox.push(nmt_message(NmtCommand::enter_pre_operational, plan_.node));
     return;
   }
   if (state_ == NodeState::starting && heard == NmtState::operational) {
@@ -178,37 +194,80 @@ void Node::end_step(Time now, Outbox& outbox) noexcept {
       begin_again(client_.status(), now, outbox);
       return;
     }
-    if (!tells_of_fixed_mapping(step)) {
-      refuse(client_.status());
-      return;
-    }
-    mapping_is_fixed_ = true;
-  } else if (reads(step)) {
-    const auto found = static_cast<std::uint32_t>(client_.number());
-    const bool is_mapping = step.act == Act::map;
-    if ((found & step.mask) != (step.value & step.mask)) {
-      refuse(is_mapping
-                 ? Status::error(
-                       StatusCode::device_fault,
-                       "node %u has a fixed PDO mapping, and object %04X:%02X is %08lX, where %08lX "
-                       "is needed: choose another of its PDOs",
-                       unsigned{plan_.node}, unsigned{step.object.index}, unsigned{step.object.subindex},
-                       static_cast<unsigned long>(found), static_cast<unsigned long>(step.value))
-                 : Status::error(
-                       StatusCode::device_fault,
-                       "node %u is not the one that was declared: its %s is %08lX and not %08lX; is "
-                       "the number set right on the device?",
-                       unsigned{plan_.node}, step.meaning, static_cast<unsigned long>(found & step.mask),
-                       static_cast<unsigned long>(step.value & step.mask)));
-      return;
-    }
+    if (!judge_refusal(step, now, outbox)) return;
+  } else if (reads(step) && !judge_value(step)) {
+    return;
   }
+  reads_back_ = false;
   ++step_;
   begin_step(now, outbox);
 }
 
+// False: the step is not over, or the node is refused.
+bool Node::judge_refusal(const ConfigurationStep& step, Time now, Outbox& outbox) noexcept {
+  const std::uint32_t code = client_.abort_code();
+  const bool is_missing = code == sdo_abort::no_object || code == sdo_abort::no_subindex;
+  if (step.optional && is_missing) return true;
+  if (tells_of_fixed_mapping(step)) {
+    mapping_is_fixed_ = true;
+    return true;
+  }
+  if (code == sdo_abort::device_state && brings_back(now, outbox)) return false;
+  if (step.act == Act::write && !reads_back_ && cannot_be_written(code)) {
+    reads_back_ = true;
+    begin_step(now, outbox);
+    return false;
+  }
+  const Status refusal = client_.status();
+  refuse(step.helps[0] == '\0' ? refusal
+                               : Status::error(refusal.code(), "%s; if it is a matter of that: `%s`",
+                                               refusal.cause(), step.helps));
+  return false;
+}
+
+// What it refuses in operation it may take in pre-operational. False: it was brought there often enough.
+bool Node::brings_back(Time now, Outbox& outbox) noexcept {
+  if (brought_back_ == most_brought_back) return false;
+  ++brought_back_;
+  outbox.push(nmt_message(NmtCommand::enter_pre_operational, plan_.node));
+  begin_step(now, outbox);
+  return true;
+}
+
+// False: it is not what is needed, and the node is refused.
+bool Node::judge_value(const ConfigurationStep& step) noexcept {
+  const std::uint32_t in_size = step.size == 4 ? 0xFFFFFFFF : (1U << (8U * step.size)) - 1;
+  const std::uint32_t mask = reads_back_ ? step.mask & in_size : step.mask;
+  const std::uint32_t wanted = (reads_back_ ? step.held : step.value) & mask;
+  const std::uint32_t found = static_cast<std::uint32_t>(client_.number()) & mask;
+  if (found == wanted) return true;
+  const auto shown = static_cast<unsigned long>(found);
+  const auto needed = static_cast<unsigned long>(wanted);
+  const unsigned index = step.object.index;
+  const unsigned subindex = step.object.subindex;
+  if (reads_back_) {
+    const bool helps = step.helps[0] != '\0';
+    refuse(Status::error(
+        StatusCode::device_fault,
+        "object %04X:%02X of node %u cannot be written and is %08lX, where %08lX is needed%s%s%s", index,
+        subindex, unsigned{plan_.node}, shown, needed, helps ? "; if the drive is right: `" : "", step.helps,
+        helps ? "`" : ""));
+  } else if (step.act == Act::map) {
+    refuse(Status::error(StatusCode::device_fault,
+                         "node %u has a fixed PDO mapping, and object %04X:%02X is %08lX, where %08lX "
+                         "is needed: choose another of its PDOs",
+                         unsigned{plan_.node}, index, subindex, shown, needed));
+  } else {
+    refuse(Status::error(StatusCode::device_fault,
+                         "node %u is not the one that was declared: its %s is %08lX and not %08lX; is "
+                         "the number set right on the device?",
+                         unsigned{plan_.node}, step.meaning, shown, needed));
+  }
+  return false;
+}
+
 bool Node::reads(const ConfigurationStep& step) const noexcept {
-  return step.act == Act::expect || (step.act == Act::map && mapping_is_fixed_);
+  return reads_back_ || step.act == Act::expect || (step.act == Act::map && mapping_is_fixed_);
 }
 
 // Taking the mapping out of use is the first thing that such a node refuses.

@@ -81,7 +81,10 @@ class Node {
   void begin_step(Time now, Outbox& outbox) noexcept;
   void end_step(Time now, Outbox& outbox) noexcept;
   bool reads(const ConfigurationStep& step) const noexcept;
+  bool judge_refusal(const ConfigurationStep& step, Time now, Outbox& outbox) noexcept;
+  bool judge_value(const ConfigurationStep& step) noexcept;
   bool tells_of_fixed_mapping(const ConfigurationStep& step) const noexcept;
+  bool brings_back(Time now, Outbox& outbox) noexcept;
   void start(Time now, Outbox& outbox) noexcept;
 
   NodePlan plan_;
@@ -92,6 +95,8 @@ class Node {
   bool toggle_ = false;  // of its last answer to guarding
   std::size_t step_ = 0;
   bool mapping_is_fixed_ = false;  // of the PDO that is being configured
+  bool reads_back_ = false;        // what the step could not write
+  unsigned brought_back_ = 0;      // to pre-operational, since it booted
   Time deadline_{};
   Status problem_;
   std::optional<Emergency> emergency_;

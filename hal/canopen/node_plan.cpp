@@ -55,12 +55,13 @@ void Node::plan_supervision() noexcept {
     plan_.configuration.write(objects::life_time_factor, 1,
                               static_cast<std::uint32_t>(life_time_factor_of(plan_)));
   } else {
-    plan_.configuration.write(objects::producer_heartbeat, 2, period);
+    plan_.configuration.write(objects::producer_heartbeat, 2, period, "guarded = true");
   }
   if (plan_.master_heartbeat_limit == Duration{}) return;
   plan_.configuration.write(
       objects::consumer_heartbeat, 4,
-      std::uint32_t{plan_.master} << 16 | static_cast<std::uint32_t>(in_ms(plan_.master_heartbeat_limit)));
+      std::uint32_t{plan_.master} << 16 | static_cast<std::uint32_t>(in_ms(plan_.master_heartbeat_limit)),
+      "supervises_us = false");
 }
 
 Status Node::begin(const NodePlan& plan, Time now, Outbox& outbox) noexcept {

@@ -15,6 +15,7 @@ struct ObjectAddress {
 namespace objects {
 inline constexpr ObjectAddress device_type{0x1000, 0};
 inline constexpr ObjectAddress error_register{0x1001, 0};
+inline constexpr ObjectAddress sync{0x1005, 0};                ///< u32: identifier of SYNC
 inline constexpr ObjectAddress guard_time{0x100C, 0};          ///< u16: ms, 0 is off
 inline constexpr ObjectAddress life_time_factor{0x100D, 0};    ///< u8: guard times without a question
 inline constexpr ObjectAddress consumer_heartbeat{0x1016, 1};  ///< u32: node << 16 | ms

@@ -11,9 +11,9 @@ constexpr std::uint64_t mask_of(unsigned bits) noexcept {
 
 }  // namespace
 
-bool PdoPlan::add(ObjectAddress object, std::uint8_t entry_bits) noexcept {
+bool PdoPlan::add(ObjectAddress object, std::uint8_t entry_bits, const char* entry_helps) noexcept {
   if (count == most_entries || entry_bits == 0 || bits() + entry_bits > message_bits) return false;
-  entries[count++] = {object, entry_bits};
+  entries[count++] = {object, entry_bits, entry_helps};
   return true;
 }
 

@@ -13,9 +13,10 @@ enum class PdoDirection : std::uint8_t { received_by_node, sent_by_node };
 
 struct PdoEntry {
   ObjectAddress object{};
-  std::uint8_t bits = 0;  ///< 1 to 64
+  std::uint8_t bits = 0;   ///< 1 to 64
+  const char* helps = "";  ///< see ConfigurationStep
 
-  bool operator==(const PdoEntry&) const = default;
+  bool operator==(const PdoEntry& other) const { return object == other.object && bits == other.bits; }
 };
 
 struct PdoPlan {
@@ -28,11 +29,12 @@ struct PdoPlan {
   std::uint16_t inhibit = 0;  ///< least time between two, in 100 us; only if sent by the node; 0: not written
   std::uint16_t event_timer = 0;  ///< ms; 0: not written
   bool forbids_remote = true;     ///< nobody may ask for it (bit 30); only if sent by the node
+  const char* helps = "";         ///< see ConfigurationStep
   std::uint8_t count = 0;
   std::array<PdoEntry, most_entries> entries{};
 
   /// False: there are 8 entries, or their bits are more than a message holds.
-  bool add(ObjectAddress object, std::uint8_t bits) noexcept;
+  bool add(ObjectAddress object, std::uint8_t bits, const char* helps = "") noexcept;
   unsigned bits() const noexcept;
   std::uint8_t bytes() const noexcept { return static_cast<std::uint8_t>((bits() + 7) / 8); }
 

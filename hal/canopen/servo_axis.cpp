@@ -23,14 +23,15 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   plan_ = plan;
   power_.begin(plan.limits);
   cyclic_ = CyclicSetPoint{plan.fastest};
-  handshake_ = SetPointHandshake{plan.set_point_timeout};
+  handshake_ = SetPointHandshake{plan.set_point_timeout, plan.fastest};
+  interpolation_ = InterpolationSwitch{plan.set_point_timeout};
   homing_.begin({.run = plan.homing_timeout,
                  .settle = plan.homing_settle,
                  .mode = plan.mode_timeout,
                  .stop = plan.limits.stop},
                 plan.mode, plan.homing_method != 0);
   beat_.begin(plan.heartbeat_period, now);
-  unmapped_mode_.forget();
+  unmapped_.forget();
   state_.reset();
   fault_ = {};
   mode_wanted_.reset();
@@ -41,7 +42,6 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   bring_ups_ = node_.times_operational();
   was_commanded_ = halts_ = false;
   velocity_ = 0;
-  speed_ = plan.fastest;
   most_torque_ = 1;
   target_object_ = 0;
   counted_.reset();
@@ -105,7 +105,7 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
     if (!fault_.is_ok()) say(command::quick_stop, outbox);
     return;
   }
-  if (!plan_.maps_mode) settle_mode(now, outbox);
+  if (is_told_by_sdo()) settle_unmapped(now, outbox);
   const bool wanted = may_move && fault_.is_ok();
   const bool enables = mode_is_taken(wanted, now) && wanted && fault_.is_ok();
   power_.pursue(enables ? DrivePower::Goal::enabled : DrivePower::Goal::off);
@@ -114,9 +114,12 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   if (!power_.problem().is_ok()) fail(power_.problem());
   if (!power_.is_enabled()) homing_.interrupt();
   const bool homes = homing_.is_running() && !homing_.is_resting();
-  if (power_.was_just_enabled() || !power_.is_enabled() || homes) seed();
+  if (!power_.is_enabled()) interpolation_.reset();
+  if (homes) interpolation_.lower();
+  const bool ignores = plan_.mode == Mode::interpolated_position && !interpolation_.is_active();
+  if (power_.was_just_enabled() || !power_.is_enabled() || homes || ignores) seed();
   if (power_.is_enabled()) word |= mode_bits(at_rest, now);
-  state_->enabled = power_.is_enabled();
+  state_->enabled = is_enabled();
   // Where it stops by itself, it stops in the mode that it moves in.
   if (power_.is_enabled() || power_.is_off()) mode_said_ = homing_.mode();
   target_object_ = to_object(target_for(elapsed));
@@ -145,7 +148,7 @@ void ServoAxis::watch(bool may_move, Time now) noexcept {
     }
     power_.begin(plan_.limits);
     homing_.forget();
-    unmapped_mode_.forget();
+    unmapped_.forget();
     state_.reset();
   }
   if (node_.state() == NodeState::refused && fault_.is_ok()) fault_ = node_.problem();
@@ -162,11 +165,19 @@ void ServoAxis::watch(bool may_move, Time now) noexcept {
   }
 }
 
+bool ServoAxis::is_told_by_sdo() const noexcept {
+  return !plan_.maps_mode || (plan_.mode == Mode::profile_position && plan_.tells_speed && !plan_.maps_speed);
+}
+
 // What it refuses on the way to a homing ends the homing alone, in its time.
-void ServoAxis::settle_mode(Time now, Outbox& outbox) noexcept {
-  const Status refusal = unmapped_mode_.advance(mode_said_, node_, now, outbox);
+void ServoAxis::settle_unmapped(Time now, Outbox& outbox) noexcept {
+  UnmappedObjects::Wanted wanted;
+  if (!plan_.maps_mode) wanted.mode = mode_said_;
+  if (plan_.mode == Mode::profile_position && plan_.tells_speed && !plan_.maps_speed)
+    wanted.speed = speed_object();
+  const Status refusal = unmapped_.advance(wanted, node_, now, outbox);
   if (!refusal.is_ok() && mode_said_ == plan_.mode) fail(refusal);
-  mode_shown_ = unmapped_mode_.shown();
+  if (!plan_.maps_mode) mode_shown_ = unmapped_.shown_mode();
 }
 
 // A drive may take its time to change its mode, and is enabled only then.
@@ -177,8 +188,10 @@ bool ServoAxis::mode_is_taken(bool wanted, Time now) noexcept {
   }
   if (!mode_wanted_) mode_wanted_ = now;
   if (now - *mode_wanted_ > plan_.mode_timeout) {
-    fail(Status::error(StatusCode::timeout, "the drive does not take mode %d, it shows %d: does it have it?",
-                       static_cast<int>(plan_.mode), static_cast<int>(mode_shown_)));
+    fail(Status::error(
+        StatusCode::timeout, "the drive does not take mode %d, it shows %d: does it have it%s?",
+        static_cast<int>(plan_.mode), static_cast<int>(mode_shown_),
+        plan_.mode == Mode::cyclic_position ? ", or is it one with `interpolates = true`" : ""));
   }
   return false;
 }
@@ -198,8 +211,14 @@ std::uint16_t ServoAxis::mode_bits(bool at_rest, Time now) noexcept {
     if (!homing_.trouble().is_ok()) fail(homing_.trouble());
     if (!homing_.is_resting()) return bits;
   }
+  if (plan_.mode == Mode::interpolated_position) {
+    const std::uint16_t bits = interpolation_.advance(statusword_, now);
+    if (!interpolation_.problem().is_ok()) fail(interpolation_.problem());
+    return bits;
+  }
   if (plan_.mode != Mode::profile_position) return 0;
-  std::uint16_t bits = handshake_.advance(statusword_, now);
+  const bool is_told = !plan_.tells_speed || plan_.maps_speed || unmapped_.has_speed(speed_object());
+  std::uint16_t bits = handshake_.advance(statusword_, now, is_told);
   if (!handshake_.problem().is_ok()) fail(handshake_.problem());
   // It would go on to where it was halted on its way to, before it is told where to go now.
   if ((bits & control_bit::new_set_point) != 0) halts_ = false;
@@ -207,7 +226,7 @@ std::uint16_t ServoAxis::mode_bits(bool at_rest, Time now) noexcept {
   return bits;
 }
 
-// For object 607A or 60FF.
+// For object 607A, 60C1 or 60FF.
 double ServoAxis::target_for(Duration elapsed) noexcept {
   switch (plan_.mode) {
     case Mode::profile_position:
@@ -266,9 +285,13 @@ Message ServoAxis::process_data(std::uint16_t word) const noexcept {
 
 void ServoAxis::say(std::uint16_t word, Outbox& outbox) const noexcept {
   outbox.push(process_data(word));
-  if (plan_.mode != Mode::profile_position) return;
+  if (profile_.count == 0) return;
   const double torque = std::clamp(std::round(most_torque_ * whole_torque), 0.0, 65535.0);
-  const std::uint64_t profile[] = {to_amount(to_velocity_object(speed_)), static_cast<std::uint64_t>(torque)};
+  std::uint64_t profile[PdoPlan::most_entries] = {};
+  for (std::size_t i = 0; i < profile_.count; ++i) {
+    const bool is_speed = profile_.entries[i].object == objects::profile_velocity;
+    profile[i] = is_speed ? speed_object() : static_cast<std::uint64_t>(torque);
+  }
   outbox.push(pack(profile_, profile));
 }
 

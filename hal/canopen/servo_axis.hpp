@@ -8,8 +8,8 @@
 #include "hal/canopen/axis_homing.hpp"
 #include "hal/canopen/drive_modes.hpp"
 #include "hal/canopen/drive_power.hpp"
-#include "hal/canopen/mode_by_sdo.hpp"
 #include "hal/canopen/node.hpp"
+#include "hal/canopen/unmapped_objects.hpp"
 #include "runtime/unit/restraint.hpp"
 
 namespace flexrf::canopen::cia402 {
@@ -46,7 +46,9 @@ struct AxisPlan {
   bool is_supervised_by_it = true;     ///< object 1016: it looks for our heartbeat
   bool forbids_remote = true;          ///< bit 30 of the identifiers of what it sends
   bool is_guarded = false;             ///< it has no heartbeat, see NodePlan
-  bool maps_mode = true;               ///< objects 6060 and 6061 in its PDOs; else see ModeBySdo
+  bool maps_mode = true;               ///< objects 6060 and 6061 in its PDOs; else see UnmappedObjects
+  bool maps_speed = true;              ///< object 6081 in a PDO; else likewise
+  bool tells_speed = true;             ///< object 6081; else each profile is as fast as the drive's own
   // Of an axis that may meet something, as a gripper's does.
   bool limits_torque = false;   ///< object 6072, see limit_torque(); in mode profile_position only
   bool tells_torque = false;    ///< object 6077
@@ -92,7 +94,8 @@ class ServoAxis {
   // What follows is without effect in other modes, while the axis is not enabled, and while it homes, and is
   // not remembered. What is not finite is a fault.
 
-  /// In mode cyclic_position: unit, kept within lowest and highest. Held until the next one.
+  /// In modes cyclic_position and interpolated_position: unit, kept within lowest and highest. Held until the
+  /// next one.
   void command_position(double position) noexcept;
   /// In modes cyclic_velocity and profile_velocity: unit/s, kept within fastest; zero once the axis is beyond
   /// its range and would go on.
@@ -112,7 +115,10 @@ class ServoAxis {
 
   /// What the drive said last; nothing while it is not operational or says nothing.
   const std::optional<AxisState>& state() const noexcept { return state_; }
-  bool is_enabled() const noexcept { return power_.is_enabled(); }
+  /// It follows commands; in mode interpolated_position that takes some cycles more than its state machine.
+  bool is_enabled() const noexcept {
+    return power_.is_enabled() && (plan_.mode != Mode::interpolated_position || interpolation_.was_active());
+  }
   /// It has no torque, or nobody hears it: then it has stopped by itself, if it does as it was told.
   bool is_off() const noexcept { return !node_.is_operational() || power_.is_off(); }
   /// What stopped it, for a person; ok while nothing did.
@@ -146,7 +152,9 @@ class ServoAxis {
   void fail(const Status& cause) noexcept;
   void watch(bool may_move, Time now) noexcept;
   bool take_process_data(const Message& message, Time now) noexcept;
-  void settle_mode(Time now, Outbox& outbox) noexcept;
+  bool is_told_by_sdo() const noexcept;
+  std::uint32_t speed_object() const noexcept { return to_amount(to_velocity_object(handshake_.speed())); }
+  void settle_unmapped(Time now, Outbox& outbox) noexcept;
   bool mode_is_taken(bool wanted, Time now) noexcept;
   bool is_led_in(Mode one, Mode other) const noexcept { return plan_.mode == one || plan_.mode == other; }
   bool takes(Mode one, Mode other) noexcept;
@@ -174,10 +182,11 @@ class ServoAxis {
   DrivePower power_;
   CyclicSetPoint cyclic_{1};
   SetPointHandshake handshake_{std::chrono::milliseconds(500)};
+  InterpolationSwitch interpolation_{std::chrono::milliseconds(500)};
   AxisHoming homing_;
-  ModeBySdo unmapped_mode_;
+  UnmappedObjects unmapped_;
   PdoPlan commands_;
-  PdoPlan profile_;  // in mode profile_position
+  PdoPlan profile_;  // in mode profile_position; may be empty
   PdoPlan states_;
   PdoPlan motion_;
   HeartbeatProducer beat_;
@@ -195,7 +204,6 @@ class ServoAxis {
   bool halts_ = false;               // until the next command, in profile_position until it is handed over
   int cycles_ = 0;                   // since the velocity was commanded, at most settle_cycles
   double velocity_ = 0;              // commanded
-  double speed_ = 1;                 // of the profile
   double most_torque_ = 1;           // of its rated torque
   std::uint64_t target_object_ = 0;  // as it was sent
   std::optional<std::int32_t>

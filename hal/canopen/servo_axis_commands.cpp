@@ -7,7 +7,7 @@
 
 namespace flexrf::canopen::cia402 {
 void ServoAxis::command_position(double position) noexcept {
-  if (!takes(Mode::cyclic_position, Mode::cyclic_position) || !may_be_commanded()) return;
+  if (!takes(Mode::cyclic_position, Mode::interpolated_position) || !may_be_commanded()) return;
   if (!is_number(position, "position")) return;
   cyclic_.command(within(position, plan_.lowest, plan_.highest, servo_restraints::out_of_range));
 }
@@ -32,9 +32,13 @@ void ServoAxis::move_to(double position, double speed) noexcept {
     return;
   }
   // As fast as it may: nothing is held back.
-  speed_ = speed == full_speed ? plan_.fastest : within(speed, 0, plan_.fastest, servo_restraints::too_fast);
+  double kept_speed = plan_.fastest;
+  if (speed != full_speed) {
+    kept_speed = within(speed, 0, plan_.fastest, servo_restraints::too_fast);
+    if (!plan_.tells_speed) restraint_ = {.reason = servo_restraints::own_speed, .asked = speed};
+  }
   const double kept = within(position, plan_.lowest, plan_.highest, servo_restraints::out_of_range);
-  handshake_.command(static_cast<std::int32_t>(std::llround(kept * plan_.increments_per_unit)));
+  handshake_.command(static_cast<std::int32_t>(std::llround(kept * plan_.increments_per_unit)), kept_speed);
   was_commanded_ = true;
   state_->target_reached = false;
 }
@@ -61,7 +65,7 @@ void ServoAxis::halt() noexcept {
 }
 
 bool ServoAxis::may_be_commanded() const noexcept {
-  return power_.is_enabled() && state_ && !homing_.is_running();
+  return is_enabled() && state_ && !homing_.is_running();
 }
 
 bool ServoAxis::takes(Mode one, Mode other) noexcept {

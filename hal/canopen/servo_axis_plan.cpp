@@ -71,23 +71,32 @@ NodePlan ServoAxis::node_plan() noexcept {
   commands_ = {.direction = PdoDirection::received_by_node,
                .identifier = receive_pdo_identifier(1, plan_.node)};
   commands_.add(objects::controlword, 16);
-  const bool takes_positions = is_led_in(Mode::cyclic_position, Mode::profile_position);
-  commands_.add(takes_positions ? objects::target_position : objects::target_velocity, 32);
-  if (plan_.maps_mode) commands_.add(objects::mode, 8);
+  if (plan_.mode == Mode::interpolated_position) {
+    commands_.add(objects::interpolation_point, 32);
+  } else {
+    const bool takes_positions = is_led_in(Mode::cyclic_position, Mode::profile_position);
+    commands_.add(takes_positions ? objects::target_position : objects::target_velocity, 32);
+  }
+  if (plan_.maps_mode) commands_.add(objects::mode, 8, "maps_mode = false");
   states_ = {.direction = PdoDirection::sent_by_node, .identifier = transmit_pdo_identifier(1, plan_.node)};
   states_.add(objects::statusword, 16);
   states_.add(objects::actual_position, 32);
-  if (plan_.maps_mode) states_.add(objects::mode_display, 8);
+  if (plan_.maps_mode) states_.add(objects::mode_display, 8, "maps_mode = false");
   motion_ = {.direction = PdoDirection::sent_by_node,
              .number = 2,
              .identifier = transmit_pdo_identifier(2, plan_.node)};
   motion_.add(objects::actual_velocity, 32);
   if (plan_.tells_torque) motion_.add(objects::actual_torque, 16);
   states_.forbids_remote = motion_.forbids_remote = plan_.forbids_remote;
+  if (plan_.forbids_remote) states_.helps = motion_.helps = "forbids_remote = false";
   profile_ = {.direction = PdoDirection::received_by_node,
               .number = 2,
               .identifier = receive_pdo_identifier(2, plan_.node)};
-  profile_.add(objects::profile_velocity, 32);
+  if (plan_.mode == Mode::profile_position && plan_.tells_speed && plan_.maps_speed) {
+    constexpr const char* helps = "maps_speed = false";
+    profile_.add(objects::profile_velocity, 32, helps);
+    profile_.helps = helps;
+  }
   if (plan_.limits_torque) profile_.add(objects::most_torque, 16);
 
   NodePlan node{.node = plan_.node,
@@ -103,16 +112,18 @@ NodePlan ServoAxis::node_plan() noexcept {
   if (plan_.vendor != 0) list.expect(canopen::objects::vendor, plan_.vendor, 0xFFFFFFFF, "vendor");
   if (plan_.product != 0) list.expect(canopen::objects::product, plan_.product, 0xFFFFFFFF, "product");
   if (plan_.tells_abort_connection) {
-    list.write(objects::abort_connection, 2, static_cast<std::uint16_t>(plan_.abort_connection));
+    list.write(objects::abort_connection, 2, static_cast<std::uint16_t>(plan_.abort_connection),
+               "tells_abort_connection = false");
   }
   if (plan_.tells_period) {
+    constexpr const char* helps = "tells_period = false";
     list.write(objects::period_value, 1,
-               static_cast<std::uint32_t>(plan_.period / std::chrono::milliseconds(1)));
-    list.write(objects::period_exponent, 1, milliseconds_exponent);
+               static_cast<std::uint32_t>(plan_.period / std::chrono::milliseconds(1)), helps);
+    list.write(objects::period_exponent, 1, milliseconds_exponent, helps);
   }
   plan_motion(list);
   for (const PdoPlan& pdo : {commands_, states_, motion_}) list.configure_pdo(pdo);
-  if (plan_.mode == Mode::profile_position) list.configure_pdo(profile_);
+  if (profile_.count > 0) list.configure_pdo(profile_);
   return node;
 }
 
@@ -125,7 +136,14 @@ void ServoAxis::plan_motion(Configuration& list) const noexcept {
   }
   if (is_led_in(Mode::profile_position, Mode::profile_velocity)) {
     list.write(objects::profile_acceleration, 4, to_amount(acceleration));
-    list.write(objects::profile_deceleration, 4, to_amount(acceleration));
+    // Where it is missing, the acceleration serves for both (CiA 402).
+    list.write_if_there(objects::profile_deceleration, 4, to_amount(acceleration));
+  }
+  if (plan_.mode == Mode::interpolated_position) {
+    constexpr std::uint32_t linear = 0;
+    constexpr std::uint32_t points_come_in = 1;
+    list.write_if_there(objects::interpolation_kind, 2, linear);
+    list.write_if_there(objects::interpolation_buffer, 1, points_come_in);
   }
   if (plan_.may_be_blocked) list.write(objects::following_window, 4, no_window);
   if (plan_.homing_method == 0) return;

@@ -30,6 +30,7 @@ class MxtArm : public Base {
     plan.pacing.search = in_nanoseconds(set.search_interval);
     made_safe_ = false;
     state_.reset();
+    this->begin_supervision(this->configuration);
     if (const Status status = open_link(); !status) return status;
     const Status status = dialogue_.begin(plan, *this->chain, link());
     if (!status) close_link();
@@ -45,6 +46,7 @@ class MxtArm : public Base {
     if (dialogue_.has_lost_it() && this->fault().is_ok())
       this->fail(lost_controller(where(), this->configuration.silence_limit, dialogue_.counters()));
     tell_state();
+    this->supervise(tick.now);
   }
   void send(const Tick& tick) noexcept override {
     if (this->is_inhibited() && made_safe_ && dialogue_.has_ended()) {

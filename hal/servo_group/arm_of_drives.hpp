@@ -27,6 +27,7 @@ class ArmOfDrives : public Base {
       }
     }
     group_.begin(std::span(members_).first(joints), *this->chain);
+    this->begin_supervision(this->configuration);
     return {};
   }
   void stop() override { stop_first(this->chain->joint_count); }
@@ -37,6 +38,7 @@ class ArmOfDrives : public Base {
     const auto state = group_.state();
     if (state) this->feedback.position = state->position;
     group_.following_error(this->feedback.following_error);
+    this->supervise(tick.now);
   }
   void send(const Tick& tick) noexcept override {
     if (this->is_inhibited()) made_safe_ = false;

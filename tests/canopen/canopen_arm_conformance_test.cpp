@@ -72,6 +72,10 @@ class CanopenArmWorld final : public RobotArmWorld {
     far_ends_[4]->drive().power_off();
     return initialised_;
   }
+  bool stick_joint() override {
+    far_ends_[0]->drive().cut_motor(true);
+    return initialised_;
+  }
   bool trip_drives() override {
     far_ends_[4]->drive().trip(0x2310, false, far_ends_[4]->said());
     return initialised_;
@@ -127,6 +131,8 @@ void columns_of_a_drive(void**) {
       "increments_per_unit",
       "homing_method",
       "set_point_timeout",
+      "maps_speed",
+      "tells_speed",
   };
   const auto fields = descriptor_of<CanopenArm::Configuration>->fields;
   for (const FieldDescriptor& wanted : descriptor_of<CanopenServoDrive::Configuration>->fields) {

@@ -46,6 +46,10 @@ class CanopenWorld final : public ServoDriveWorld {
     far_end_.drive().power_off();
     return initialised_;
   }
+  bool stick_axis() override {
+    far_end_.drive().cut_motor(true);
+    return initialised_;
+  }
   bool trip_drive() override {
     far_end_.drive().trip(0x2310, false, far_end_.said());
     return initialised_;

@@ -31,6 +31,7 @@ class RealDriveWorld final : public ServoDriveWorld {
   void send() override { axis_.send(); }
   bool shares_its_cycle() const override { return false; }
   bool lose_drive() override { return ready_ && far_end_.ask("off") == "ok"; }
+  bool stick_axis() override { return ready_ && far_end_.ask("cut motor") == "ok"; }
   bool trip_drive() override { return ready_ && far_end_.ask("trip 0x2310") == "ok"; }
   bool lose_home() override { return ready_ && far_end_.ask("lose home") == "ok"; }
 

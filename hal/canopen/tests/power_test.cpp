@@ -191,8 +191,8 @@ void cyclic_set_points_go_no_faster_than_they_may(void**) {
 
 void a_set_point_is_offered_once_and_the_newest_counts(void**) {
   SetPointHandshake handshake(milliseconds(100));
-  handshake.command(1);
-  handshake.command(2);
+  handshake.command(1, 5);
+  handshake.command(2, 5);
   assert_false(handshake.is_reached(0x0400));
   // The target goes a cycle ahead of the bit that makes it count.
   assert_int_equal(handshake.advance(0x0400, at(0)), 0x0020);
@@ -200,7 +200,7 @@ void a_set_point_is_offered_once_and_the_newest_counts(void**) {
   assert_int_equal(handshake.advance(0x0400, at(0)), 0x0030);
   assert_int_equal(handshake.target(), 2);
   assert_false(handshake.is_reached(0x0400));  // of the one before
-  handshake.command(3);
+  handshake.command(3, 5);
   assert_int_equal(handshake.advance(0x0000, at(1)), 0x0030);
   assert_int_equal(handshake.target(), 2);
   assert_int_equal(handshake.advance(0x1000, at(2)), 0x0020);

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "hal/interfaces/robot_arm/arm_supervision.hpp"
 #include "hal/interfaces/robot_arm/kinematic_chain.hpp"
 #include "robot_arm_interface.hpp"
 #include "types/joint_positions.hpp"
@@ -22,6 +23,23 @@ class RobotArm : public RobotArmInterface {
   /// keeps to its own limits whatever it is commanded; what is not finite puts it in fault. Without effect
   /// while is_inhibited(), and not remembered.
   virtual void command(const JointPositions& set_points) noexcept = 0;
+
+ protected:
+  /// In initialise(), by every driver.
+  /// `configuration`: the driver's.
+  void begin_supervision(const auto& configuration) noexcept {
+    supervision_.begin(*chain, {configuration.following_time, configuration.silence});
+  }
+  /// At the end of receive(), by every driver: an arm that does not follow what its drives are asked to
+  /// (feedback.following_error), or does not say where it is, is in fault.
+  void supervise(Time now) noexcept {
+    const bool may_move = !is_inhibited() && fault().is_ok();
+    if (const Status found = supervision_.look(state(), feedback.following_error, may_move, now); !found)
+      set_fault(found);
+  }
+
+ private:
+  ArmSupervision supervision_;
 };
 
 }  // namespace flexrf

@@ -1,6 +1,7 @@
 // ServoDrive: a drive with one axis that follows positions or velocities, and finds its home.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -59,6 +60,22 @@ class ServoDrive : public ServoDriveInterface {
   /// Comes to rest with the configured acceleration and holds, enabled, until the next command; what was
   /// commanded is given up. A homing has failed then.
   virtual void halt() noexcept = 0;
+
+ protected:
+  /// At the end of receive(), by every driver: an axis that does not follow its set-points is in fault.
+  /// `configuration`: the driver's.
+  void supervise(const auto& configuration) noexcept {
+    const auto now = state();
+    if (!now || !now->enabled || is_inhibited() || !fault().is_ok() || configuration.following_time == 0)
+      return;
+    const double most = configuration.following_time * configuration.fastest;
+    if (std::abs(now->following_error) <= most) return;
+    set_fault(Status::error(
+        StatusCode::device_fault,
+        "its axis is %.4g behind, more than it moves in `following_time` (%g s): does it stick, or does its "
+        "encoder?",
+        std::abs(now->following_error), configuration.following_time));
+  }
 };
 
 }  // namespace flexrf

@@ -7,6 +7,9 @@ inline constexpr const char* out_of_range = "a position outside of `lowest` to `
 inline constexpr const char* end_of_range =
     "it goes no farther than the end of its range, `lowest` or `highest`";
 inline constexpr const char* too_fast = "a velocity above `fastest` is not taken";
+inline constexpr const char* own_speed =
+    "the speed of a target is not told (`tells_speed = false`): it goes as fast as its maker's tool has set "
+    "it";
 inline constexpr const char* another_mode =
     "a command of another mode than the configured `mode` is without effect";
 inline constexpr const char* no_homing =

@@ -22,6 +22,7 @@ class MockArm final : public MockArmDriver {
     noise_.seed(environment().seed);
     delay_.clear();
     tell(Time{});
+    begin_supervision(configuration);
     return {};
   }
 
@@ -43,6 +44,7 @@ class MockArm final : public MockArmDriver {
     follow(tick);
     last_cycle_ = tick.now;
     tell(tick.now);
+    supervise(tick.now);
   }
 
   bool make_safe() noexcept override {
@@ -74,6 +76,12 @@ class MockArm final : public MockArmDriver {
   }
   void tell(Time now) noexcept {
     std::optional<JointState> measured = state_;
+    if (state_ && commanded_ && !is_inhibited()) {
+      feedback.following_error_map() =
+          within_limits(*chain, commanded_->position_map()) - state_->position_map();
+    } else {
+      feedback.following_error_map().setZero();
+    }
     if (measured) {
       for (std::size_t i = 0; i < chain->joint_count; ++i)
         measured->position[i] += noise_.around_zero(configuration.angle_noise);

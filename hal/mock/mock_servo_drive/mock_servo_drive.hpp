@@ -88,6 +88,7 @@ class MockServoDrive final : public MockServoDriveDriver {
     state_->velocity = elapsed > 0 ? (state_->position - before) / elapsed : 0;
     measure();
     tell();
+    supervise(configuration);
   }
   void send(const Tick& /*tick*/) noexcept override {
     if (state_) state_->enabled = !is_inhibited() && fault().is_ok();
@@ -104,12 +105,17 @@ class MockServoDrive final : public MockServoDriveDriver {
   /// Nothing: the drive is not heard.
   void set_state(const std::optional<ServoState>& state) noexcept {
     state_ = state;
-    if (state) homing_ = state->homing;
+    if (state) {
+      homing_ = state->homing;
+      set_point_ = state->position;
+    }
     measure();
     tell();
   }
   /// Position and velocity are told so much later. What a command changes is told at once.
   void set_delay(Duration delay) noexcept { delay_.set(delay); }
+  /// Its axis stays where it is, whatever is commanded.
+  void set_sticks(bool on) noexcept { sticks_ = on; }
   void trip() noexcept { fail(Status::error(StatusCode::device_fault, "the mock's drive tripped")); }
   /// A homing under way finds nothing.
   void fail_homing() noexcept { end_homing("the mock's drive found no home"); }
@@ -161,17 +167,20 @@ class MockServoDrive final : public MockServoDriveDriver {
   }
 
   void move(double elapsed) noexcept {
+    const bool cyclic = configuration.mode == ServoMode::cyclic_position;
+    if (!cyclic || !commanded_) set_point_ = state_->position;
     if (homing_ == ServoHoming::running) {
-      if (go_to(0, configuration.homing_speed * elapsed)) homing_ = ServoHoming::homed;
+      const bool reached = go_to(0, configuration.homing_speed * elapsed);
+      if (reached && !sticks_) homing_ = ServoHoming::homed;
       return;
     }
     if (!commanded_) return;
     if (takes_positions()) {
-      const bool cyclic = configuration.mode == ServoMode::cyclic_position;
       const bool reached = go_to(*commanded_, (cyclic ? configuration.fastest : speed_) * elapsed);
-      state_->target_reached = reached && !cyclic;
+      state_->target_reached = reached && !sticks_ && !cyclic;
       return;
     }
+    if (sticks_) return;
     const double wanted = state_->position + *commanded_ * elapsed;
     if (configuration.endless) {
       const double modulo = configuration.modulo;
@@ -183,11 +192,12 @@ class MockServoDrive final : public MockServoDriveDriver {
     if (state_->position != wanted) restrain(servo_restraints::end_of_range, *commanded_, 0);
     state_->target_reached = configuration.mode == ServoMode::profile_velocity && state_->position == wanted;
   }
-  // True: it is there.
+  // True: the set-point is there, and with it the axis.
   bool go_to(double wanted, double most) noexcept {
-    const double distance = wanted - state_->position;
+    const double distance = wanted - set_point_;
     const bool reached = std::abs(distance) <= most;
-    state_->position = reached ? wanted : state_->position + std::copysign(most, distance);
+    set_point_ = reached ? wanted : set_point_ + std::copysign(most, distance);
+    if (!sticks_) state_->position = set_point_;
     return reached;
   }
   void measure() noexcept {
@@ -202,7 +212,7 @@ class MockServoDrive final : public MockServoDriveDriver {
     feedback.target_reached = state_ && state_->target_reached;
     if (!state_) return;
     const bool cyclic = configuration.mode == ServoMode::cyclic_position;
-    state_->following_error = cyclic && commanded_ ? *commanded_ - measured_.position : 0;
+    state_->following_error = cyclic && commanded_ ? set_point_ - measured_.position : 0;
     state_->homing = homing_;
     if (homing_ == ServoHoming::running || !commanded_) state_->target_reached = false;
     feedback.position = measured_.position;
@@ -214,7 +224,9 @@ class MockServoDrive final : public MockServoDriveDriver {
   std::optional<ServoState> state_;  // where it is
   Measured measured_;
   std::optional<double> commanded_;
+  double set_point_ = 0;  // where the axis is to be by now, on its way to what is commanded
   double speed_ = 1;
+  bool sticks_ = false;
   std::uint64_t commands_ = 0;
   std::uint64_t homings_ = 0;
   std::uint64_t halts_ = 0;

@@ -22,6 +22,7 @@ Status SimulatedArm::initialise() {
   commanded_.reset();
   started_ = Time{};
   sensors_lost_ = false;
+  begin_supervision(configuration);
   return {};
 }
 
@@ -34,6 +35,7 @@ void SimulatedArm::receive(const Tick& tick) noexcept {
   }
   model_.advance(tick.now);
   sense();
+  supervise(tick.now);
 }
 
 void SimulatedArm::command(const JointPositions& set_points) noexcept {
@@ -68,6 +70,9 @@ void SimulatedArm::inject(Fault fault) noexcept {
       break;
     case Fault::sensors_lost:
       sensors_lost_ = true;
+      break;
+    case Fault::joint_sticks:
+      model_.stick(0);
       break;
   }
 }

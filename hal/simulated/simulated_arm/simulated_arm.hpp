@@ -14,6 +14,7 @@ class SimulatedArm final : public SimulatedArmDriver {
   enum class Fault : std::uint8_t {
     drives_trip,   ///< the arm brakes, holds and reports a device fault
     sensors_lost,  ///< state() is empty from now on
+    joint_sticks,  ///< the first joint stays where it is
   };
 
   Status initialise() override;

@@ -39,6 +39,7 @@ constexpr ObjectAddress communication_of(ObjectAddress mapping) {
 DriveObjects::DriveObjects() {
   add(canopen::objects::device_type, 4, false, false, 0x00020192);
   add(canopen::objects::error_register, 1, false, false);
+  add(canopen::objects::sync, 4, true, false, canopen::sync_identifier);
   add(canopen::objects::guard_time, 2, true, false);
   add(canopen::objects::life_time_factor, 1, true, false);
   add(canopen::objects::consumer_heartbeat, 4, true, false);
@@ -90,7 +91,13 @@ DriveObjects::DriveObjects() {
 
 std::uint32_t DriveObjects::read(ObjectAddress address, std::span<std::uint8_t> value, std::size_t& size) {
   const Object* object = find(address);
-  if (object == nullptr) return sdo_abort::no_object;
+  if (object == nullptr) {
+    const std::uint8_t highest = address.subindex == 0 ? highest_subindex(address.index) : std::uint8_t{0};
+    if (highest == 0) return code_of_missing(address);
+    value[0] = highest;
+    size = 1;
+    return 0;
+  }
   canopen::write_number(value.data(), object->size, object->value);
   size = object->size;
   return 0;
@@ -98,7 +105,10 @@ std::uint32_t DriveObjects::read(ObjectAddress address, std::span<std::uint8_t> 
 
 std::uint32_t DriveObjects::write(ObjectAddress address, std::span<const std::uint8_t> value) {
   Object* object = find(address);
-  if (object == nullptr) return sdo_abort::no_object;
+  if (object == nullptr) {
+    const bool is_count = address.subindex == 0 && highest_subindex(address.index) > 0;
+    return is_count ? sdo_abort::read_only : code_of_missing(address);
+  }
   if (address == refused_ && refusal_ != 0) return refusal_;
   if (!object->writable) return sdo_abort::read_only;
   if (value.size() > object->size) return sdo_abort::too_long;
@@ -112,6 +122,19 @@ std::uint32_t DriveObjects::write(ObjectAddress address, std::span<const std::ui
   }
   object->value = number;
   return 0;
+}
+
+std::uint8_t DriveObjects::highest_subindex(std::uint16_t index) const {
+  std::uint8_t highest = 0;
+  for (const Object& object : std::span(objects_).first(count_)) {
+    if (object.address.index == index) highest = std::max(highest, object.address.subindex);
+  }
+  return highest;
+}
+
+std::uint32_t DriveObjects::code_of_missing(ObjectAddress address) const {
+  const bool is_there = find({address.index, 0}) != nullptr || highest_subindex(address.index) > 0;
+  return is_there ? sdo_abort::no_subindex : sdo_abort::no_object;
 }
 
 void DriveObjects::lack(ObjectAddress address) {

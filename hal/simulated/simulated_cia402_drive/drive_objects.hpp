@@ -61,6 +61,9 @@ class DriveObjects final : public canopen::ObjectDictionary {
  private:
   /// count_ when there is none.
   std::size_t place_of(canopen::ObjectAddress address) const;
+  /// Of a record, which tells it in its subindex 0; 0: there is no such record.
+  std::uint8_t highest_subindex(std::uint16_t index) const;
+  std::uint32_t code_of_missing(canopen::ObjectAddress address) const;
   Object* find(canopen::ObjectAddress address);
   const Object* find(canopen::ObjectAddress address) const;
   void add(canopen::ObjectAddress address, std::uint8_t size, bool writable, bool mappable,

@@ -56,6 +56,7 @@ void SimulatedCia402Drive::take_mode() {
   if (ignores_mode_) return;
   const std::int64_t mode = objects_.get_signed(axis::mode);
   if (mode == objects_.get_signed(axis::mode_display)) return;
+  if (mode > 0 && (objects_.get(axis::supported_modes) >> (mode - 1) & 1) == 0) return;
   objects_.set(axis::mode_display, mode);
   mode_bits_ = 0;
   targets_fresh_ = false;
@@ -63,7 +64,7 @@ void SimulatedCia402Drive::take_mode() {
 }
 
 // Transitions that the controlword asks for.
-void SimulatedCia402Drive::command(Time now) {
+void SimulatedCia402Drive::command(Time now, Outbox& outbox) {
   const auto word = static_cast<std::uint16_t>(objects_.get(axis::controlword));
   const auto risen = static_cast<std::uint16_t>(word & ~last_command_);
   last_command_ = word;
@@ -75,7 +76,10 @@ void SimulatedCia402Drive::command(Time now) {
   const bool quick_stop = (word & 0x86) == 0x02;
   switch (state_) {
     case DriveState::switch_on_disabled:
-      if (shutdown) enter(DriveState::ready_to_switch_on, now);
+      if (shutdown) {
+        if (!master_lost_) end(Error::heartbeat, outbox);
+        enter(DriveState::ready_to_switch_on, now);
+      }
       break;
     case DriveState::ready_to_switch_on:
       if (disable_voltage || quick_stop) enter(DriveState::switch_on_disabled, now);
@@ -92,7 +96,8 @@ void SimulatedCia402Drive::command(Time now) {
       if (disable_voltage) enter(DriveState::switch_on_disabled, now);
       if (quick_stop) enter(DriveState::quick_stop_active, now);
       if ((risen & control_bit::new_set_point) != 0) {
-        profile_target_ = static_cast<double>(objects_.get_signed(axis::target_position));
+        const auto told = static_cast<double>(objects_.get_signed(axis::target_position));
+        profile_target_ = (word & control_bit::relative) != 0 ? profile_target_ + told : told;
         profile_speed_ = static_cast<double>(objects_.get(axis::profile_velocity));
         if (objects_.get_signed(axis::mode) == static_cast<int>(Mode::profile_position)) ++set_points_;
         mode_bits_ = status_bit::set_point_acknowledged;
@@ -109,6 +114,7 @@ void SimulatedCia402Drive::command(Time now) {
     case DriveState::fault:
       if ((risen & 0x80) != 0 && !cause_persists_) {
         objects_.set(axis::error_code, 0);
+        end(Error::fault, outbox);
         enter(DriveState::switch_on_disabled, now);
       }
       break;
@@ -206,6 +212,7 @@ void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
     case Mode::homing:
       find_home((word & control_bit::start_homing) != 0, acceleration, time);
       break;
+    case Mode::interpolated_position:  // it has none, see object 6502
     case Mode::none:
       break;
   }

@@ -14,6 +14,12 @@ namespace axis = canopen::cia402::objects;
 
 constexpr std::uint8_t last_synchronous = 240;
 
+bool writes_target(const Message& request) {
+  const auto index = static_cast<std::uint16_t>(canopen::read_number(request.data.data() + 1, 2));
+  const bool is_write = (request.data[0] & 0xE0) == 0x20;
+  return is_write && (index == axis::target_position.index || index == axis::target_velocity.index);
+}
+
 }  // namespace
 
 SimulatedCia402Drive::SimulatedCia402Drive(const Options& options)
@@ -44,6 +50,9 @@ void SimulatedCia402Drive::boot(Time now, bool all) {
   master_.begin({});
   master_lost_ = toggle_ = false;
   pending_ = {};
+  sent_ = {};
+  errors_ &= all ? 0 : static_cast<std::uint8_t>(Error::fault);
+  show_errors();
   if (all) {
     was_homed_ = false;
     state_ = DriveState::not_ready;
@@ -74,16 +83,17 @@ void SimulatedCia402Drive::receive(const Message& message, Time now, Outbox& out
   if (nmt_ == NmtState::stopped) return;
   if (const auto answer = server_.receive(message)) {
     outbox.push(*answer);
-    if (nmt_ != NmtState::operational) command(now);
+    if (writes_target(message)) targets_fresh_ = true;
+    command(now, outbox);
     return;
   }
   if (nmt_ != NmtState::operational) return;
-  if (message.identifier == canopen::sync_identifier) {
+  if (message.identifier == (objects_.get(canopen::objects::sync) & 0x7FF)) {
     synchronise(now, outbox);
-    command(now);
+    command(now, outbox);
   } else {
     take_pdo(message, now, outbox);
-    command(now);
+    command(now, outbox);
   }
 }
 
@@ -103,13 +113,15 @@ void SimulatedCia402Drive::advance(Time now, Outbox& outbox) {
     if (!silent_) outbox.push(canopen::heartbeat_message(nmt_, options_.node));
   }
   supervise(now, outbox);
-  command(now);
+  command(now, outbox);
   move(now, outbox);
+  if (nmt_ == NmtState::operational) send_by_events(now, outbox);
 }
 
 void SimulatedCia402Drive::obey(NmtCommand command, Time now) {
   switch (command) {
     case NmtCommand::start:
+      if (nmt_ != NmtState::operational) sent_ = {};
       nmt_ = NmtState::operational;
       break;
     case NmtCommand::stop:
@@ -168,12 +180,46 @@ void SimulatedCia402Drive::synchronise(Time now, Outbox& outbox) {
   }
   ++synchronised_;
   publish();
+  send_at_sync(now, outbox);
+}
+
+Message SimulatedCia402Drive::pdo_now(const canopen::PdoPlan& plan) const {
+  std::uint64_t values[canopen::PdoPlan::most_entries] = {};
+  for (std::size_t i = 0; i < plan.count; ++i) values[i] = objects_.get(plan.entries[i].object);
+  return canopen::pack(plan, values);
+}
+
+// Types 1 to 240: with each so many SYNCs; 0: with the SYNC behind a change.
+void SimulatedCia402Drive::send_at_sync(Time now, Outbox& outbox) {
   for (std::uint16_t number = 1; number <= DriveObjects::pdos; ++number) {
     const auto plan = objects_.pdo(PdoDirection::sent_by_node, number);
     if (!plan || plan->transmission > last_synchronous) continue;
-    std::uint64_t values[canopen::PdoPlan::most_entries] = {};
-    for (std::size_t i = 0; i < plan->count; ++i) values[i] = objects_.get(plan->entries[i].object);
-    outbox.push(canopen::pack(*plan, values));
+    Sent& sent = sent_[number - 1U];
+    const Message message = pdo_now(*plan);
+    ++sent.syncs;
+    const bool is_due = plan->transmission == 0 ? sent.last != message : sent.syncs >= plan->transmission;
+    if (!is_due) continue;
+    sent = {.last = message, .at = now};
+    outbox.push(message);
+  }
+}
+
+// Types 254 and 255: when something in it changes, and each event time; no two within the inhibit time.
+void SimulatedCia402Drive::send_by_events(Time now, Outbox& outbox) {
+  constexpr std::uint8_t first_by_events = 254;
+  for (std::uint16_t number = 1; number <= DriveObjects::pdos; ++number) {
+    const auto plan = objects_.pdo(PdoDirection::sent_by_node, number);
+    if (!plan || plan->transmission < first_by_events) continue;
+    Sent& sent = sent_[number - 1U];
+    const Message message = pdo_now(*plan);
+    const std::chrono::microseconds inhibited{100 * objects_.get(plan->communication(3))};
+    const std::chrono::milliseconds event_time{objects_.get(plan->communication(5))};
+    const Duration since = now - sent.at;
+    if (sent.last && since < inhibited) continue;
+    const bool is_time = event_time.count() > 0 && since >= event_time;
+    if (sent.last == message && !is_time) continue;
+    sent = {.last = message, .at = now};
+    outbox.push(message);
   }
 }
 
@@ -181,12 +227,13 @@ void SimulatedCia402Drive::apply(const canopen::PdoPlan& plan, const Message& me
                                  Outbox& outbox) {
   std::uint64_t values[canopen::PdoPlan::most_entries] = {};
   if (!canopen::unpack(plan, message, values)) {
-    emit(0x8210, outbox);
+    raise(Error::short_pdo, 0x8210, outbox);
     return;
   }
+  end(Error::short_pdo, outbox);
   for (std::size_t i = 0; i < plan.count; ++i) {
     objects_.set(plan.entries[i].object, static_cast<std::int64_t>(values[i]));
-    if (options_.acts_on_each_object) command(now);
+    if (options_.acts_on_each_object) command(now, outbox);
   }
   targets_fresh_ = true;
   // It goes to a cyclic position within the period that it was told, as drives do that interpolate.
@@ -207,11 +254,13 @@ bool SimulatedCia402Drive::is_cyclic_position() const {
 void SimulatedCia402Drive::supervise(Time now, Outbox& outbox) {
   if (master_lost_ || !master_.is_lost(now)) return;
   master_lost_ = true;
-  emit(0x8130, outbox);
+  raise(Error::heartbeat, 0x8130, outbox);
   if (state_ != DriveState::operation_enabled) return;
   switch (objects_.get_signed(axis::abort_connection)) {
     case 1:
       objects_.set(axis::error_code, 0x8130);
+      errors_ |= static_cast<std::uint8_t>(Error::fault);
+      show_errors();
       enter(DriveState::fault_reaction, now);
       break;
     case 2:
@@ -226,16 +275,40 @@ void SimulatedCia402Drive::supervise(Time now, Outbox& outbox) {
   }
 }
 
+void SimulatedCia402Drive::raise(Error error, std::uint16_t code, Outbox& outbox) {
+  errors_ |= static_cast<std::uint8_t>(error);
+  show_errors();
+  emit(code, outbox);
+}
+
+// When the last of them has gone it says that too.
+void SimulatedCia402Drive::end(Error error, Outbox& outbox) {
+  const auto rest = static_cast<std::uint8_t>(errors_ & ~static_cast<std::uint8_t>(error));
+  if (rest == errors_) return;
+  errors_ = rest;
+  show_errors();
+  if (errors_ == 0) emit(0x0000, outbox);
+}
+
+// Object 1001: bit 0 with any error, bit 4 with one of the communication.
+void SimulatedCia402Drive::show_errors() {
+  const bool is_of_communication = (errors_ & ~static_cast<std::uint8_t>(Error::fault)) != 0;
+  objects_.set(canopen::objects::error_register,
+               (errors_ != 0 ? 0x01 : 0) | (is_of_communication ? 0x10 : 0));
+}
+
 void SimulatedCia402Drive::emit(std::uint16_t error_code, Outbox& outbox) {
-  if (booted_)
-    outbox.push(canopen::emergency_message({.code = error_code, .error_register = 1}, options_.node));
+  if (!booted_) return;
+  const auto error_register = static_cast<std::uint8_t>(objects_.get(canopen::objects::error_register));
+  outbox.push(
+      canopen::emergency_message({.code = error_code, .error_register = error_register}, options_.node));
 }
 
 void SimulatedCia402Drive::trip(std::uint16_t error_code, bool persists, Outbox& outbox) {
   cause_persists_ = persists;
   objects_.set(axis::error_code, error_code);
   state_ = DriveState::fault_reaction;
-  emit(error_code, outbox);
+  raise(Error::fault, error_code, outbox);
 }
 
 }  // namespace flexrf

@@ -78,6 +78,16 @@ class SimulatedCia402Drive {
   double set_point_speed() const { return profile_speed_; }
 
  private:
+  /// What is wrong in it, as its error register and its emergencies tell.
+  enum class Error : std::uint8_t { fault = 1, heartbeat = 2, short_pdo = 4 };
+
+  /// Of a PDO that it sends.
+  struct Sent {
+    std::optional<canopen::Message> last{};
+    Time at{};
+    unsigned syncs = 0;  // since it was sent
+  };
+
   void boot(Time now, bool all);
   void obey(canopen::NmtCommand command, Time now);
   void answer_guard(const canopen::Message& question, Time now, canopen::Outbox& outbox);
@@ -85,11 +95,17 @@ class SimulatedCia402Drive {
   void synchronise(Time now, canopen::Outbox& outbox);
   void apply(const canopen::PdoPlan& plan, const canopen::Message& message, Time now,
              canopen::Outbox& outbox);
+  canopen::Message pdo_now(const canopen::PdoPlan& plan) const;
+  void send_at_sync(Time now, canopen::Outbox& outbox);
+  void send_by_events(Time now, canopen::Outbox& outbox);
   bool is_cyclic_position() const;
   void supervise(Time now, canopen::Outbox& outbox);
+  void raise(Error error, std::uint16_t code, canopen::Outbox& outbox);
+  void end(Error error, canopen::Outbox& outbox);
+  void show_errors();
   void emit(std::uint16_t error_code, canopen::Outbox& outbox);
 
-  void command(Time now);
+  void command(Time now, canopen::Outbox& outbox);
   void enter(canopen::cia402::DriveState state, Time now);
   void move(Time now, canopen::Outbox& outbox);
   void take_mode();
@@ -111,6 +127,8 @@ class SimulatedCia402Drive {
   canopen::HeartbeatConsumer master_;
   bool master_lost_ = false;
   bool toggle_ = false;  // of its next answer to guarding
+  std::uint8_t errors_ = 0;
+  std::array<Sent, DriveObjects::pdos> sent_{};
   bool was_homed_ = false;
   std::array<std::optional<canopen::Message>, 2> pending_;  // synchronous RPDOs wait for SYNC
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "hal/interfaces/robot_arm/kinematics.hpp"
 #include "tests/conformance.hpp"
@@ -152,6 +153,45 @@ Verdict says_nothing_when_its_sensors_are_lost(RobotArmWorld& world) {
   return verdict(!world.arm().state());
 }
 
+/// Half a second may pass, or less where the driver has a limit of its own; then nobody knows where it is,
+/// and that is no reason to go on.
+Verdict silence_in_operation_is_a_fault(RobotArmWorld& world) {
+  const JointVector goal = beside(world, 0.02);
+  command_for(world, goal, 0.1);
+  if (!world.lose_sensors()) return Verdict::skipped;
+  idle_for(world, 0.7);
+  return verdict(!world.arm().fault().is_ok() && world.arm().fault().cause()[0] != '\0');
+}
+
+/// Without the permission to move nobody needs to know.
+Verdict silence_while_inhibited_is_none(RobotArmWorld& world) {
+  idle_for(world, 0.05);
+  world.arm().set_inhibited(true);
+  idle_for(world, 0.05);
+  if (!world.lose_sensors()) return Verdict::skipped;
+  idle_for(world, 1.0);
+  return verdict(world.arm().fault().is_ok());
+}
+
+Verdict a_joint_that_sticks_is_a_fault(RobotArmWorld& world) {
+  idle_for(world, 0.05);
+  if (!world.stick_joint()) return Verdict::skipped;
+  // As fast as it may, so that what it is behind is what it does not move.
+  const JointVector start = beside(world, 0);
+  const KinematicChain& chain = world.arm().kinematic_chain();
+  const ChainJoint& joint = chain.joints[0];
+  const double direction = joint.upper - start[0] > start[0] - joint.lower ? 1 : -1;
+  for (double time = 0; time < 0.8 && world.arm().fault().is_ok(); time += cycle_seconds) {
+    JointVector goal = start;
+    goal[0] += direction * std::min(joint.velocity * time,
+                                    0.9 * (direction > 0 ? joint.upper - start[0] : start[0] - joint.lower));
+    command_for(world, goal, cycle_seconds);
+  }
+  const Status& fault = world.arm().fault();
+  return verdict(fault.code() == StatusCode::device_fault &&
+                 std::string_view{fault.cause()}.find("behind") != std::string_view::npos);
+}
+
 Verdict reports_tripped_drives(RobotArmWorld& world) {
   idle_for(world, 0.05);
   if (!world.trip_drives()) return Verdict::skipped;
@@ -181,6 +221,10 @@ int run_robot_arm_conformance(const char* driver, MakeRobotArmWorld make) {
       {"can be made safe", judged<can_be_made_safe>, nullptr, nullptr, nullptr},
       {"is silent without sensors", judged<says_nothing_when_its_sensors_are_lost>, nullptr, nullptr,
        nullptr},
+      {"is in fault when it is silent in operation", judged<silence_in_operation_is_a_fault>, nullptr,
+       nullptr, nullptr},
+      {"may be silent while inhibited", judged<silence_while_inhibited_is_none>, nullptr, nullptr, nullptr},
+      {"is in fault when a joint sticks", judged<a_joint_that_sticks_is_a_fault>, nullptr, nullptr, nullptr},
       {"reports tripped drives", judged<reports_tripped_drives>, nullptr, nullptr, nullptr},
   };
   return cmocka_run_group_tests_name(driver, tests, nullptr, nullptr);

@@ -22,6 +22,8 @@ class RobotArmWorld {
   virtual double noise() const { return 0; }
   /// The far end no longer tells its positions. False: cannot be made to happen with this driver.
   virtual bool lose_sensors() { return false; }
+  /// A joint stays where it is, whatever is commanded. False: cannot be made to happen with this driver.
+  virtual bool stick_joint() { return false; }
   /// The far end's drives trip. False: cannot be made to happen with this driver.
   virtual bool trip_drives() { return false; }
 };

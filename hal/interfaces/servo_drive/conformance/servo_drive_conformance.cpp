@@ -1,6 +1,7 @@
 #include "hal/interfaces/servo_drive/conformance/servo_drive_conformance.hpp"
 
 #include <limits>
+#include <string_view>
 
 #include "hal/interfaces/servo_drive/conformance/servo_drive_cases.hpp"
 #include "tests/conformance.hpp"
@@ -128,6 +129,16 @@ Verdict says_nothing_when_it_is_not_heard(ServoDriveWorld& world) {
   return verdict(!world.drive().state());
 }
 
+Verdict an_axis_that_sticks_is_a_fault(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  if (!world.stick_axis()) return Verdict::skipped;
+  command_for(world, 9, 1);
+  const Status& fault = world.drive().fault();
+  return verdict(fault.code() == StatusCode::device_fault &&
+                 std::string_view{fault.cause()}.find("behind") != std::string_view::npos &&
+                 !state_of(world).enabled);
+}
+
 Verdict reports_a_tripped_drive(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (!world.trip_drive()) return Verdict::skipped;
@@ -156,6 +167,7 @@ int run_servo_drive_conformance(const char* driver, MakeServoDriveWorld make) {
       test("never follows what is infinite", judged<nonsense_is_a_fault_and_never_followed<1>>),
       test("can be made safe", judged<can_be_made_safe>),
       test("is silent when it is not heard", judged<says_nothing_when_it_is_not_heard>),
+      test("is in fault when its axis sticks", judged<an_axis_that_sticks_is_a_fault>),
       test("reports a tripped drive", judged<reports_a_tripped_drive>),
       test("goes to targets", judged<goes_to_targets_and_says_when_it_is_there, profile_position>),
       test("goes as fast as it was told", judged<goes_as_fast_as_it_was_told, profile_position>),

@@ -24,6 +24,8 @@ class ServoDriveWorld {
   virtual bool shares_its_cycle() const { return true; }
   /// The far end is no longer heard. False: cannot be made to happen with this driver.
   virtual bool lose_drive() { return false; }
+  /// The axis stays where it is, whatever is commanded. False: cannot be made to happen with this driver.
+  virtual bool stick_axis() { return false; }
   /// The drive trips. False: cannot be made to happen with this driver.
   virtual bool trip_drive() { return false; }
   /// The drive no longer finds its home. False: cannot be made to happen with this driver.

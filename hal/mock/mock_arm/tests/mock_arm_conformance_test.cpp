@@ -17,6 +17,10 @@ class MockWorld final : public RobotArmWorld {
     bench_.driver().set_state(std::nullopt);
     return initialised_;
   }
+  bool stick_joint() override {
+    bench_.driver().set_follows(false);
+    return initialised_;
+  }
   bool trip_drives() override {
     bench_.driver().trip_drives();
     return initialised_;

@@ -26,6 +26,10 @@ class MockDrivesWorld final : public RobotArmWorld {
     bench_.driver().drive(2).set_state(std::nullopt);
     return initialised_;
   }
+  bool stick_joint() override {
+    bench_.driver().drive(0).set_sticks(true);
+    return initialised_;
+  }
   bool trip_drives() override {
     bench_.driver().drive(2).trip();
     return initialised_;

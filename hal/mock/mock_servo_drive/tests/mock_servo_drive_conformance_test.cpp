@@ -27,6 +27,10 @@ class MockWorld final : public ServoDriveWorld {
     bench_.driver().set_state(std::nullopt);
     return initialised_;
   }
+  bool stick_axis() override {
+    bench_.driver().set_sticks(true);
+    return initialised_;
+  }
   bool trip_drive() override {
     bench_.driver().trip();
     return initialised_;

@@ -18,6 +18,10 @@ class SimulatedWorld final : public RobotArmWorld {
     bench_.driver().inject(SimulatedArm::Fault::sensors_lost);
     return initialised_;
   }
+  bool stick_joint() override {
+    bench_.driver().inject(SimulatedArm::Fault::joint_sticks);
+    return initialised_;
+  }
   bool trip_drives() override {
     bench_.driver().inject(SimulatedArm::Fault::drives_trip);
     return initialised_;

@@ -65,7 +65,7 @@ void profile_positions_are_handed_over_one_by_one(void**) {
   one.run(100);
   assert_true(one.actual() == 1000);
   for (const std::int32_t target : {5000, 2000, 2000}) {
-    one.handshake.command(target);
+    one.handshake.command(target, fastest);
     assert_false(one.handshake.is_reached(one.status));
     int cycles = 0;
     while (!one.handshake.is_reached(one.status) && cycles++ < 1000) one.step();
@@ -77,7 +77,7 @@ void profile_positions_are_handed_over_one_by_one(void**) {
 void a_halt_interrupts_a_profile_and_lets_it_go_on(void**) {
   Axis one(Mode::profile_position);
   assert_true(one.enable());
-  one.handshake.command(20000);
+  one.handshake.command(20000, fastest);
   one.run(500);
   one.halts = true;
   one.run(500);
@@ -99,7 +99,7 @@ void a_blocked_axis_presses_and_is_not_where_it_was_sent(void**) {
   assert_true(one.enable());
   one.bench.drive.objects().set(canopen::cia402::objects::most_torque, 300);
   one.bench.drive.block(400, std::nullopt);
-  one.handshake.command(-2000);
+  one.handshake.command(-2000, fastest);
   one.run(2000);
   assert_true(one.actual() == 400 && one.bench.drive.motion().is_at_rest());
   assert_false(one.handshake.is_reached(one.status));
@@ -107,7 +107,7 @@ void a_blocked_axis_presses_and_is_not_where_it_was_sent(void**) {
   one.bench.drive.block(std::nullopt, 5000);  // what it pressed against is gone: it goes on
   one.run(2000);
   assert_true(one.actual() == -2000 && one.handshake.is_reached(one.status) && torque_of(one) == 0);
-  one.handshake.command(9000);
+  one.handshake.command(9000, fastest);
   one.run(2000);
   assert_true(one.actual() == 5000 && torque_of(one) == 300);
 }
@@ -116,7 +116,7 @@ void an_axis_without_its_motor_stays_and_has_no_torque(void**) {
   Axis one(Mode::profile_position);
   assert_true(one.enable());
   one.bench.drive.cut_motor(true);
-  one.handshake.command(9000);
+  one.handshake.command(9000, fastest);
   one.run(2000);
   assert_true(one.actual() == 1000 && torque_of(one) == 0);
   assert_false(one.handshake.is_reached(one.status));

@@ -109,6 +109,8 @@ void a_node_that_stops_answering_while_configuring_is_tried_again(void**) {
   outbox.clear();
   node.receive(canopen::heartbeat_message(canopen::NmtState::boot_up, drive_node), now, outbox);
   assert_true(node.state() == NodeState::configuring);
+  assert_true(outbox.front() == (canopen::Message{0x000, 2, {0x80, 0x05}}));
+  outbox.pop();
   assert_true(outbox.front() == (canopen::Message{0x605, 8, {0x40, 0x00, 0x10}}));
   outbox.clear();
   now += milliseconds(501);

@@ -38,6 +38,10 @@ class SimulatedDrivesWorld final : public RobotArmWorld {
     if (initialised_) arm_.driver().drive(2).far_end().drive().power_off();
     return initialised_;
   }
+  bool stick_joint() override {
+    if (initialised_) arm_.driver().drive(0).far_end().drive().cut_motor(true);
+    return initialised_;
+  }
   bool trip_drives() override {
     if (initialised_) {
       DriveOnCan& far_end = arm_.driver().drive(2).far_end();

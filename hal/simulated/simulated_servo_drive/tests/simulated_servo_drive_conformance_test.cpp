@@ -41,6 +41,10 @@ class SimulatedWorld final : public ServoDriveWorld {
     if (initialised_) drive_.driver().far_end().drive().power_off();
     return initialised_;
   }
+  bool stick_axis() override {
+    if (initialised_) drive_.driver().far_end().drive().cut_motor(true);
+    return initialised_;
+  }
   bool trip_drive() override {
     if (initialised_) {
       DriveOnCan& far_end = drive_.driver().far_end();
