@@ -127,7 +127,7 @@ int run(const Command& command) {
   Diagnostics diagnostics;
   Model model = read(*command.target, command.paths, diagnostics);
   check(model, diagnostics);
-  // Also where nothing is to be written: only the emitter reads what a URDF says.
+  // Also where nothing is to be written: only the emitter places each thread's readers.
   std::vector<GeneratedFile> files;
   if (!diagnostics.failed()) files = emit(model, *command.target, diagnostics);
   diagnostics.print(std::cerr);

@@ -1,7 +1,7 @@
 // Devices and units of a generated application: storage, initial values, connections, records.
 #include "config-gen/emit/application_parts.hpp"
 #include "config-gen/emit/component.hpp"
-#include "config-gen/urdf/urdf_chain.hpp"
+#include "config-gen/urdf/urdf_reader.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -55,8 +55,7 @@ OutputsText emit_outputs(const ApplicationNames& names, const std::vector<Output
   return text;
 }
 
-std::string emit_resources(const Model& model, const Device& device, const std::string& prefix,
-                           Diagnostics& diagnostics, Text& out) {
+std::string emit_resources(const Model& model, const Device& device, const std::string& prefix, Text& out) {
   std::string list;
   for (const DeviceResource& resource : device.resources) {
     const std::string constant =
@@ -66,14 +65,8 @@ std::string emit_resources(const Model& model, const Device& device, const std::
       list += (list.empty() ? "&" : ", &") + constant;
       continue;
     }
-    const UrdfResult urdf = read_urdf(resource.file);
-    for (const UrdfError& error : urdf.errors) {
-      diagnostics.error({intern(error.file), static_cast<std::uint32_t>(error.line),
-                         static_cast<std::uint32_t>(error.column)},
-                        error.message, error.hint);
-    }
-    if (!urdf.chain) continue;
-    out << "constexpr KinematicChain " << constant << " = " << emit_kinematic_chain(*urdf.chain) << ";\n";
+    if (!resource.chain) continue;
+    out << "constexpr KinematicChain " << constant << " = " << emit_kinematic_chain(*resource.chain) << ";\n";
     list += (list.empty() ? "&" : ", &") + constant;
   }
   emit_array("constexpr const void*", prefix + "_resources", list, out);
@@ -174,7 +167,7 @@ std::string instead_of(const Device& device) {
 
 }  // namespace
 
-void emit_devices(const Model& model, const ApplicationNames& names, Diagnostics& diagnostics, Text& out,
+void emit_devices(const Model& model, const ApplicationNames& names, Text& out,
                   std::vector<std::string>& sizes) {
   if (model.devices.empty()) return;
   out << "\n// ---- Devices: room for the largest of their drivers\n\nconstinit Device* constructed_devices["
@@ -194,7 +187,7 @@ void emit_devices(const Model& model, const ApplicationNames& names, Diagnostics
     sizes.push_back("sizeof(" + prefix + ")");
     const OutputsText outputs =
         emit_outputs(names, interface.outputs, device.outputs, Writer::Kind::device_output, i, prefix, out);
-    const std::string resources = emit_resources(model, device, prefix, diagnostics, out);
+    const std::string resources = emit_resources(model, device, prefix, out);
     const std::string drivers = emit_drivers(model, device, prefix, out);
     records << "    {.name = \"" << device.name
             << "\",\n     .summary = " << string_literal(interface.summary) << ",\n     .interface = \""

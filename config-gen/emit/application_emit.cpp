@@ -100,7 +100,7 @@ std::string application_source(const Model& model, Diagnostics& diagnostics) {
   emit_slots(model, names, out, sizes);
   emit_readers(model, names, out);
   emit_queues(model, names, out, sizes);
-  emit_devices(model, names, diagnostics, out, sizes);
+  emit_devices(model, names, out, sizes);
   emit_units(model, names, out, sizes);
   out << "\n// ---- Tables\n";
   emit_slot_records(model, names, out);

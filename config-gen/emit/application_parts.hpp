@@ -20,7 +20,7 @@ void emit_slots(const Model& model, const ApplicationNames& names, Text& out,
 void emit_readers(const Model& model, const ApplicationNames& names, Text& out);
 void emit_queues(const Model& model, const ApplicationNames& names, Text& out,
                  std::vector<std::string>& sizes);
-void emit_devices(const Model& model, const ApplicationNames& names, Diagnostics& diagnostics, Text& out,
+void emit_devices(const Model& model, const ApplicationNames& names, Text& out,
                   std::vector<std::string>& sizes);
 void emit_units(const Model& model, const ApplicationNames& names, Text& out,
                 std::vector<std::string>& sizes);

@@ -292,6 +292,17 @@ Json unit_json(const Model& model, const Unit& unit) {
   return json;
 }
 
+// Of an arm, from base to tool.
+Json joints_json(const UrdfChain& chain) {
+  Json list = Json::array();
+  for (const UrdfJoint& joint : chain.joints) {
+    Json one = {{"name", joint.name}, {"unit", joint.kind == UrdfJoint::Kind::prismatic ? "m" : "rad"}};
+    if (joint.kind != UrdfJoint::Kind::continuous) one["range"] = {joint.lower, joint.upper};
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
 Json device_json(const Model& model, const Device& device) {
   const Interface& interface = model.interfaces[device.interface];
   Json json = {{"name", device.name}, {"interface", interface.class_name}};
@@ -316,6 +327,8 @@ Json device_json(const Model& model, const Device& device) {
   const std::string robot = "robots/" + device.name + ".urdf";
   for (const PanelFile& file : model.panel.files)
     if (file.path == robot) json["robot"] = robot;
+  for (const DeviceResource& resource : device.resources)
+    if (resource.chain) json["joints"] = joints_json(*resource.chain);
   return json;
 }
 

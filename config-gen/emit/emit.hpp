@@ -11,7 +11,8 @@ namespace flexrf::config_gen {
 std::string type_header_text(const Model& model, const Type& type);
 std::string type_source_text(const Model& model, const Type& type);
 
-// The application's memory and tables (application.cpp). A broken URDF is an error in `diagnostics`.
+// The application's memory and tables (application.cpp). A thread whose readers cannot be placed is an error
+// in `diagnostics`.
 std::string application_source(const Model& model, Diagnostics& diagnostics);
 
 // Everything that a panel, a recording or a configuration file needs to know, as JSON; carries its own hash.

@@ -18,6 +18,7 @@
 #include "config-gen/model/object_list.hpp"
 #include "config-gen/model/position.hpp"
 #include "config-gen/model/register_map.hpp"
+#include "config-gen/model/urdf_chain.hpp"
 
 namespace flexrf::config_gen {
 
@@ -386,7 +387,9 @@ struct DeviceResource {
   Index resource = 0;  // into the interface's resources
   std::filesystem::path file;
   Position position;
-  std::optional<RegisterMap> registers;  // of a register map without errors
+  std::optional<RegisterMap> registers;         // of a register map without errors
+  std::optional<UrdfChain> chain;               // of a URDF without errors
+  std::vector<std::filesystem::path> packages;  // of a URDF: where package://NAME/ is looked for
 };
 
 struct DriverChoice {

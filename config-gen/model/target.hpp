@@ -36,7 +36,7 @@ Model read(const Target& target, const SearchPaths& paths, Diagnostics& diagnost
 void check(Model& model, Diagnostics& diagnostics);
 
 // Makes all files of the target (config-gen/emit), in a fixed order. Is called only without errors so far and
-// may add some (a broken URDF). main() writes those whose contents changed, and the depfile; with
+// may add some (of how threads read). main() writes those whose contents changed, and the depfile; with
 // --check-only nothing.
 //   types: every Type whose `file` lies in target.file; unit, interface, driver: the one whose `file` is
 //   target.file.

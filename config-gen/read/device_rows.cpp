@@ -6,6 +6,7 @@
 #include "config-gen/read/assembly.hpp"
 #include "config-gen/read/eds_check.hpp"
 #include "config-gen/read/register_map.hpp"
+#include "config-gen/read/robot_row.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -115,22 +116,38 @@ void read_instead(Assembly& assembly, Row& row, Device& device) {
 
 void read_resources(Assembly& assembly, Row& row, Device& device) {
   const Interface& interface = assembly.model.interfaces[device.interface];
+  const std::filesystem::path folder = assembly.model.application->file.parent_path();
   for (std::size_t i = 0; i < interface.resources.size(); ++i) {
     const Resource& resource = interface.resources[i];
-    const auto name = row.required_text(
-        resource.key, interface.class_name + " needs its " + quote(resource.name) + ": add " + resource.key +
-                          " = \"FILE\", relative to the application's folder");
-    if (!name) continue;
-    const std::filesystem::path file =
-        (assembly.model.application->file.parent_path() / *name).lexically_normal();
-    if (!std::filesystem::is_regular_file(file))
-      assembly.diagnostics.error(row.position(resource.key), "there is no file " + quote(*name),
+    const bool is_robot = resource.reader == Resource::Reader::urdf;
+    if (!row.has(resource.key)) {
+      row.missing(resource.key, interface.class_name + " needs its " + quote(resource.name) + ": add " +
+                                    resource.key + " = \"FILE\", relative to the application's folder");
+      continue;
+    }
+    RobotRow robot;
+    if (is_robot) {
+      robot = read_robot_row(row, resource.key, row.node().key, assembly.diagnostics);
+    } else {
+      robot.file = row.text(resource.key);
+      robot.urdf.position = row.position(resource.key);
+    }
+    if (!robot.file) continue;
+    const std::filesystem::path file = (folder / *robot.file).lexically_normal();
+    device.resources.push_back({i, file, robot.urdf.position, std::nullopt, std::nullopt, {}});
+    DeviceResource& read = device.resources.back();
+    for (const std::string& package : robot.packages)
+      read.packages.push_back((folder / package).lexically_normal());
+    if (!std::filesystem::is_regular_file(file)) {
+      assembly.diagnostics.error(robot.urdf.position, "there is no file " + quote(*robot.file),
                                  "it is looked for at " + file.generic_string());
+      continue;
+    }
+    assembly.model.files.push_back(file);
+    if (is_robot)
+      read.chain = read_urdf(file, robot.urdf, assembly.diagnostics);
     else
-      assembly.model.files.push_back(file);
-    device.resources.push_back({i, file, row.position(resource.key), std::nullopt});
-    if (resource.reader == Resource::Reader::register_map && std::filesystem::is_regular_file(file))
-      device.resources.back().registers = read_register_map(file, assembly.diagnostics);
+      read.registers = read_register_map(file, assembly.diagnostics);
   }
 }
 

@@ -17,28 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void remove_comments(std::string& xml) {
-  for (std::size_t begin = xml.find("<!--"); begin != std::string::npos; begin = xml.find("<!--", begin)) {
-    const std::size_t end = xml.find("-->", begin);
-    xml.erase(begin, end == std::string::npos ? end : end + 3 - begin);
-  }
-}
-
-// What <mesh filename="..."/> elements name, each once.
-std::vector<std::string> meshes_in(std::string xml) {
-  remove_comments(xml);
-  std::vector<std::string> meshes;
-  for (std::size_t at = xml.find("<mesh"); at != std::string::npos; at = xml.find("<mesh", at + 1)) {
-    const std::string element = xml.substr(at, xml.find('>', at) - at);
-    const std::size_t key = element.find("filename");
-    const std::size_t open = element.find_first_of("\"'", key);
-    if (key == std::string::npos || open == std::string::npos) continue;
-    const std::string name = element.substr(open + 1, element.find(element[open], open + 1) - open - 1);
-    if (std::find(meshes.begin(), meshes.end(), name) == meshes.end()) meshes.push_back(name);
-  }
-  return meshes;
-}
-
 const char* content_type_of(const fs::path& file) {
   constexpr std::array<std::pair<const char*, const char*>, 6> types{{{".stl", "model/stl"},
                                                                       {".dae", "model/vnd.collada+xml"},
@@ -54,29 +32,79 @@ const char* content_type_of(const fs::path& file) {
   return "application/octet-stream";
 }
 
-void add_mesh(Assembly& assembly, const fs::path& urdf, const std::string& mesh, const Position& position) {
-  const std::string named = "the mesh " + quote(mesh) + " that " + quote(urdf.filename().string()) + " names";
-  const fs::path relative = fs::path(mesh).lexically_normal();
-  if (mesh.find("://") != std::string::npos || relative.is_absolute() || relative.empty() ||
-      *relative.begin() == "..") {
-    assembly.diagnostics.error(position, named + " is not beside it: no panel can show it",
-                               "write a path relative to the URDF's folder, as \"meshes/base.stl\"");
-    return;
+// Where a mesh lies, and the address by which the page asks for it, relative to the page's robots.
+struct MeshPlace {
+  fs::path file;  // empty: it was found nowhere
+  fs::path address;
+};
+
+constexpr std::string_view package_scheme = "package://";
+
+// package://NAME/PATH: PATH in a folder NAME that one of the row's folders holds, or is; else one beside or
+// around the URDF, as packages lie when they are downloaded.
+MeshPlace place_in_package(const DeviceResource& robot, const std::string& mesh) {
+  const fs::path within = fs::path(mesh.substr(package_scheme.size())).lexically_normal();
+  MeshPlace place{{}, "packages" / within};
+  if (within.empty() || within.is_absolute() || *within.begin() == "..") return place;
+  std::vector<fs::path> folders = robot.packages;
+  for (const fs::path& folder : robot.packages)
+    if (folder.filename() == *within.begin()) folders.push_back(folder.parent_path());
+  for (fs::path around = robot.file.parent_path();; around = around.parent_path()) {
+    folders.push_back(around);
+    if (around == around.parent_path()) break;
   }
-  const fs::path file = (urdf.parent_path() / relative).lexically_normal();
-  const std::string path = "robots/" + relative.generic_string();
-  if (!fs::is_regular_file(file)) {
-    assembly.diagnostics.error(position, named + " does not exist",
-                               "it is looked for at " + file.generic_string());
-    return;
+  for (const fs::path& folder : folders) {
+    if (!fs::is_regular_file(folder / within)) continue;
+    place.file = (folder / within).lexically_normal();
+    return place;
   }
-  for (const PanelFile& known : assembly.model.panel.files) {
-    if (known.path != path || known.file == file) continue;
-    assembly.diagnostics.error(position, named + " is another one than " + known.file.generic_string(),
-                               "two robots cannot share a mesh's path: rename one");
-    return;
+  return place;
+}
+
+MeshPlace place_of(const DeviceResource& robot, const std::string& mesh) {
+  if (mesh.starts_with(package_scheme)) return place_in_package(robot, mesh);
+  MeshPlace place{{}, fs::path(mesh).lexically_normal()};
+  const fs::path file = (robot.file.parent_path() / place.address).lexically_normal();
+  if (mesh.find("://") == std::string::npos && place.address.is_relative() && fs::is_regular_file(file))
+    place.file = file;
+  return place;
+}
+
+// A robot can be led without its meshes, so one that is not there is no error.
+void add_meshes(Assembly& assembly, const DeviceResource& robot) {
+  std::vector<const UrdfMesh*> missing;
+  for (const UrdfMesh& mesh : robot.chain->meshes) {
+    const MeshPlace place = place_of(robot, mesh.name);
+    const fs::path path = ("robots" / place.address).lexically_normal();
+    if (place.file.empty() || *path.begin() == "..") {
+      missing.push_back(&mesh);
+      continue;
+    }
+    const std::string named = "the mesh " + quote(mesh.name);
+    const auto clashes = [&](const PanelFile& known) {
+      return known.path == path.generic_string() && known.file != place.file;
+    };
+    const auto& files = assembly.model.panel.files;
+    if (const auto known = std::find_if(files.begin(), files.end(), clashes); known != files.end()) {
+      assembly.diagnostics.error(mesh.position,
+                                 named + " is another one than " + known->file.generic_string(),
+                                 "two robots cannot share a mesh's path: rename one");
+      continue;
+    }
+    add_panel_file(assembly.model, {path.generic_string(), content_type_of(place.file), place.file});
   }
-  add_panel_file(assembly.model, {path, content_type_of(file), file});
+  if (missing.empty()) return;
+  const std::string first = quote(missing.front()->name);
+  const std::string more = missing.size() == 1 ? "" : " and " + std::to_string(missing.size() - 1) + " more";
+  assembly.diagnostics.warning(
+      missing.front()->position,
+      "the mesh " + first + more + (missing.size() == 1 ? " is" : " are") +
+          " not found: the panel shows the robot without",
+      missing.front()->name.starts_with(package_scheme)
+          ? "say where packages lie: packages = [\"FOLDER\"] in the device's urdf = { file = ..., packages = "
+            "... }, "
+            "relative to the application's folder"
+          : "a path relative to the URDF's folder, as \"meshes/base.stl\", or package://NAME/PATH");
 }
 
 }  // namespace
@@ -88,20 +116,19 @@ void add_panel_file(Model& model, PanelFile file) {
   model.panel.files.push_back(std::move(file));
 }
 
-std::optional<fs::path> robot_of(const Model& model, Index device) {
+const DeviceResource* robot_of(const Model& model, Index device) {
   const Interface& interface = model.interfaces[model.devices[device].interface];
   for (const DeviceResource& resource : model.devices[device].resources)
-    if (interface.resources[resource.resource].reader == Resource::Reader::urdf) return resource.file;
-  return std::nullopt;
+    if (interface.resources[resource.resource].reader == Resource::Reader::urdf) return &resource;
+  return nullptr;
 }
 
 void add_robot_files(Assembly& assembly, Index device) {
-  const std::optional<fs::path> urdf = robot_of(assembly.model, device);
-  if (!urdf || !fs::is_regular_file(*urdf)) return;
-  const Device& row = assembly.model.devices[device];
-  add_panel_file(assembly.model, {"robots/" + row.name + ".urdf", "application/xml", *urdf});
-  for (const std::string& mesh : meshes_in(contents_of(*urdf)))
-    add_mesh(assembly, *urdf, mesh, row.resources.front().position);
+  const DeviceResource* robot = robot_of(assembly.model, device);
+  if (robot == nullptr || !robot->chain) return;
+  add_panel_file(assembly.model,
+                 {"robots/" + assembly.model.devices[device].name + ".urdf", "application/xml", robot->file});
+  add_meshes(assembly, *robot);
 }
 
 bool is_address(const std::string& text) {

@@ -1,7 +1,6 @@
 // Files that the application carries for the panel: custom widgets, robots and their meshes.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,11 +11,11 @@ namespace flexrf::config_gen {
 // Once each; the run then depends on it.
 void add_panel_file(Model& model, PanelFile file);
 
-// The URDF of the device, if its row names one.
-std::optional<std::filesystem::path> robot_of(const Model& model, Index device);
+// The URDF of the device, if its row names one; else nullptr.
+const DeviceResource* robot_of(const Model& model, Index device);
 
-// robots/DEVICE.urdf, and beside it the meshes that it names by a path relative to itself. One that is
-// missing or lies elsewhere is reported.
+// robots/DEVICE.urdf, the meshes that it names by a path relative to itself, and robots/packages/NAME/PATH
+// for those that it names as package://NAME/PATH. For meshes that are not found there is a warning.
 void add_robot_files(Assembly& assembly, Index device);
 
 // A numeric IPv4 or IPv6 address.

@@ -86,6 +86,10 @@ std::optional<std::size_t> parse_size(std::string_view text) {
 }
 
 std::string judge_unit(std::string_view unit, bool multiples) {
+  if (const std::size_t other = unit.find('|'); other != std::string_view::npos) {
+    const std::string advice = judge_unit(unit.substr(0, other), multiples);
+    return advice.empty() ? judge_unit(unit.substr(other + 1), multiples) : advice;
+  }
   std::size_t start = 0;
   while (true) {
     const std::size_t end = std::min(unit.find_first_of("*/", start), unit.size());

@@ -44,6 +44,32 @@ void the_keyboard_example(void**) {
   assert_false(has(model.slots, "robot.feedback"));
 }
 
+// As it lies in its package, with what the row adds.
+void a_downloaded_robot(void**) {
+  const Result& result = cell("downloaded");
+  assert_string_equal(result.messages.c_str(), "");
+  const DeviceResource& robot = named(result.model.devices, "arm").resources[0];
+  assert_true(robot.chain.has_value());
+  const std::vector<UrdfJoint>& joints = robot.chain->joints;
+  assert_int_equal(joints.size(), 2);
+  assert_true(joints[0].kind == UrdfJoint::Kind::continuous);
+  assert_true(joints[0].acceleration == 4.0 && joints[0].jerk == 40.0 && joints[0].home == 0.5);
+  assert_true(joints[1].kind == UrdfJoint::Kind::prismatic);
+  assert_true(joints[1].lower == 0.0 && joints[1].upper == 0.4 && joints[1].velocity == 1.0);
+  assert_true(robot.chain->tool.position[0] == 0.1);
+  std::string files;
+  for (const PanelFile& file : result.model.panel.files)
+    files += file.path + " from " + file.file.generic_string() + "\n";
+  assert_string_equal(
+      files.c_str(),
+      "robots/arm.urdf from cells/downloaded/ros/arm_description/urdf/arm.urdf\n"
+      "robots/packages/arm_description/meshes/visual/base.stl from "
+      "cells/downloaded/ros/arm_description/meshes/visual/base.stl\n"
+      "meshes/visual/column.stl from cells/downloaded/ros/arm_description/meshes/visual/column.stl\n"
+      "robots/packages/hand_description/meshes/hand.stl from "
+      "cells/downloaded/models/hand_description/meshes/hand.stl\n");
+}
+
 void values_override_defaults(void**) {
   const Model& model = cell("keyboard").model;
   const Unit& jog = named(model.units, "jog");
@@ -188,6 +214,7 @@ void a_large_application_reads_the_same_twice(void**) {
 int main() {
   using namespace flexrf::config_gen::tests;
   const CMUnitTest tests[] = {cmocka_unit_test(the_keyboard_example),
+                              cmocka_unit_test(a_downloaded_robot),
                               cmocka_unit_test(values_override_defaults),
                               cmocka_unit_test(layouts_are_those_of_the_compiler),
                               cmocka_unit_test(readers_are_threads_and_holds),

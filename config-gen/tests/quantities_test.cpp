@@ -27,6 +27,9 @@ void sizes(void**) {
 void units_of_measure(void**) {
   for (const char* good : {"1", "m", "rad/s", "m/s^2", "N*m", "kg*m^2", "1/s", "rad/s^3", "K", "Ohm", "px"})
     assert_string_equal(judge_unit(good, false).c_str(), "");
+  assert_string_equal(judge_unit("rad/s|m/s", false).c_str(), "");
+  assert_string_equal(judge_unit("rad|deg", false).c_str(), "write \"rad\"");
+  assert_string_equal(judge_unit("|m", false).c_str(), "write \"1\"");
   assert_string_equal(judge_unit("deg", false).c_str(), "write \"rad\"");
   assert_string_equal(judge_unit("Nm", false).c_str(), "write \"N*m\"");
   assert_string_equal(judge_unit("%", false).c_str(), "write \"1\"");

@@ -1,7 +1,7 @@
 #include <array>
 #include <charconv>
 
-#include "config-gen/urdf/urdf_chain.hpp"
+#include "config-gen/urdf/urdf_reader.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -31,6 +31,18 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
+const char* kind(UrdfJoint::Kind kind) {
+  switch (kind) {
+    case UrdfJoint::Kind::revolute:
+      return "flexrf::JointKind::revolute";
+    case UrdfJoint::Kind::continuous:
+      return "flexrf::JointKind::continuous";
+    case UrdfJoint::Kind::prismatic:
+      break;
+  }
+  return "flexrf::JointKind::prismatic";
+}
+
 std::string transform(const UrdfTransform& value) {
   return "{.position = " + list(value.position) + ", .rotation = " + list(value.rotation) + "}";
 }
@@ -41,9 +53,10 @@ std::string emit_kinematic_chain(const UrdfChain& chain) {
   std::string text = "flexrf::KinematicChain{\n    .name = " + quoted(chain.name) +
                      ",\n    .joint_count = " + std::to_string(chain.joints.size()) + ",\n    .joints = {{\n";
   for (const UrdfJoint& joint : chain.joints) {
-    text += "        {.name = " + quoted(joint.name) + ",\n         .origin = " + transform(joint.origin) +
-            ",\n         .axis = " + list(joint.axis) + ",\n         .lower = " + literal(joint.lower) +
-            ", .upper = " + literal(joint.upper) + ", .velocity = " + literal(joint.velocity) +
+    text += "        {.name = " + quoted(joint.name) + ",\n         .kind = " + kind(joint.kind) +
+            ",\n         .origin = " + transform(joint.origin) + ",\n         .axis = " + list(joint.axis) +
+            ",\n         .lower = " + literal(joint.lower) + ", .upper = " + literal(joint.upper) +
+            ", .velocity = " + literal(joint.velocity) +
             ",\n         .acceleration = " + literal(joint.acceleration) +
             ", .jerk = " + literal(joint.jerk) + ", .home = " + literal(joint.home) + "},\n";
   }

@@ -1,370 +1,279 @@
+#include "config-gen/urdf/urdf_reader.hpp"
+
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <map>
-#include <pugixml.hpp>
-#include <set>
-#include <sstream>
+#include <utility>
 
-#include "config-gen/urdf/urdf_chain.hpp"
+#include "config-gen/model/words.hpp"
+#include "config-gen/urdf/urdf_document.hpp"
+#include "config-gen/urdf/urdf_path.hpp"
+#include "config-gen/urdf/urdf_transform.hpp"
 
 namespace flexrf::config_gen {
 namespace {
 
-UrdfTransform compose(const UrdfTransform& a, const UrdfTransform& b) {
-  UrdfTransform result;
-  for (std::size_t row = 0; row < 3; ++row) {
-    result.position[row] = a.position[row];
-    for (std::size_t k = 0; k < 3; ++k) result.position[row] += a.rotation[3 * k + row] * b.position[k];
-    for (std::size_t column = 0; column < 3; ++column) {
-      double sum = 0;
-      for (std::size_t k = 0; k < 3; ++k) sum += a.rotation[3 * k + row] * b.rotation[3 * column + k];
-      result.rotation[3 * column + row] = sum;
-    }
-  }
-  return result;
+// Of a joint of which nothing is said: gentle for any arm.
+constexpr double seconds_to_velocity = 1;
+constexpr double seconds_to_acceleration = 0.2;
+
+std::string shown(double value) {
+  std::array<char, 32> buffer{};
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 4).ptr;
+  return {buffer.data(), end};
 }
 
-// URDF's fixed-axis roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll).
-std::array<double, 9> rotation_of(const std::array<double, 3>& rpy) {
-  const double cr = std::cos(rpy[0]), sr = std::sin(rpy[0]);
-  const double cp = std::cos(rpy[1]), sp = std::sin(rpy[1]);
-  const double cy = std::cos(rpy[2]), sy = std::sin(rpy[2]);
-  std::array<double, 9> rotation = {cy * cp,
-                                    sy * cp,
-                                    -sp,
-                                    cy * sp * sr - sy * cr,
-                                    sy * sp * sr + cy * cr,
-                                    cp * sr,
-                                    cy * sp * cr + sy * sr,
-                                    sy * sp * cr - cy * sr,
-                                    cp * cr};
-  // A quarter turn is meant exactly: the rounding of its cosine would only clutter the constants.
-  for (double& entry : rotation) {
-    const double whole = std::round(entry);
-    if (std::abs(entry - whole) < 1e-12) entry = whole + 0.0;
-  }
-  return rotation;
+// As a key of TOML.
+std::string key_of(const std::string& name) {
+  const bool bare = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-');
+  });
+  return "joint." + (bare ? name : '"' + name + '"');
 }
-
-bool parse_number(std::string_view text, double& value) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return false;
-  const auto last = text.find_last_not_of(" \t\r\n");
-  text = text.substr(first, last - first + 1);
-  if (text.front() == '+') text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && std::abs(value) <= urdf_greatest_number;
-}
-
-bool parse_triple(const std::string& text, std::array<double, 3>& values) {
-  std::istringstream words(text);
-  std::string word;
-  std::size_t count = 0;
-  while (words >> word) {
-    if (count == 3 || !parse_number(word, values[count])) return false;
-    ++count;
-  }
-  return count == 3;
-}
-
-const std::string greatest_text = "1e6";
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+  Reader(std::string_view text, const std::string& file, const UrdfRow& row, Diagnostics& diagnostics)
+      : document_(text, file, diagnostics), row_(row), diagnostics_(diagnostics) {}
 
-  UrdfResult read() {
-    pugi::xml_document document;
-    const pugi::xml_parse_result parsed = document.load_buffer(text_.data(), text_.size());
-    if (!parsed) {
-      fail_at(static_cast<std::size_t>(parsed.offset),
-              std::string("not well-formed XML: ") + parsed.description());
-      return finish();
+  std::optional<UrdfChain> read() {
+    if (!document_.read()) return std::nullopt;
+    chain_.name = document_.name();
+    chain_.meshes = document_.meshes();
+    const auto path = find_path(document_, row_, diagnostics_);
+    if (!path) return std::nullopt;
+    UrdfTransform pending = path->start;  // fixed joints since the last movable one
+    for (const DocumentJoint* joint : path->joints) {
+      pending = compose(pending, joint->origin);
+      if (!joint->moves()) continue;
+      chain_.joints.push_back(read_joint(*joint));
+      chain_.joints.back().origin = std::exchange(pending, {});
     }
-    const pugi::xml_node robot = document.document_element();
-    if (std::string_view(robot.name()) != "robot") {
-      fail(robot, "the outermost element is <" + std::string(robot.name()) + ">, not <robot>");
-      return finish();
-    }
-    chain_.name = robot.attribute("name").value();
-    if (chain_.name.empty()) fail(robot, "<robot> has no name");
-    read_links(robot);
-    read_joints(robot);
-    if (errors_.empty()) follow_chain(robot);
-    return finish();
+    chain_.tool = pending;
+    check_count();
+    check_rows();
+    if (document_.failed() || failed_) return std::nullopt;
+    tell_defaults();
+    return std::move(chain_);
   }
 
  private:
-  struct Joint {
-    pugi::xml_node node;
-    std::string parent;
-    std::string child;
-    bool movable = false;
-    UrdfJoint value;
-  };
-
-  void fail_at(std::size_t offset, std::string message, std::string hint = {}) {
-    const std::string_view before = text_.substr(0, std::min(offset, text_.size()));
-    const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
-    const auto newline = before.rfind('\n');
-    const std::size_t column =
-        newline == std::string_view::npos ? before.size() + 1 : before.size() - newline;
-    errors_.push_back({file_, line, column, std::move(message), std::move(hint)});
-  }
-
-  void fail(const pugi::xml_node& node, std::string message, std::string hint = {}) {
-    const std::ptrdiff_t offset = node.offset_debug();  // of the name, behind the '<'
-    fail_at(offset > 0 ? static_cast<std::size_t>(offset) - 1 : 0, std::move(message), std::move(hint));
-  }
-
-  void read_links(const pugi::xml_node& robot) {
-    for (const pugi::xml_node& link : robot.children("link")) {
-      const std::string name = link.attribute("name").value();
-      if (name.empty()) {
-        fail(link, "a link has no name");
-      } else if (!links_.emplace(name, link).second) {
-        fail(link, "link '" + name + "' is there twice");
-      }
+  UrdfJoint read_joint(const DocumentJoint& from) {
+    UrdfJoint joint;
+    joint.name = from.name;
+    if (from.type == "prismatic") joint.kind = UrdfJoint::Kind::prismatic;
+    if (from.type == "continuous") joint.kind = UrdfJoint::Kind::continuous;
+    if (from.type == "floating" || from.type == "planar") {
+      error(from, "is " + from.type + ", and no joint of an arm is",
+            "where it carries the whole robot: " + in_row("base = \"" + from.child + "\""));
     }
-    if (links_.empty()) fail(robot, "the robot has no links");
+    if (const pugi::xml_node mimic = from.node.child("mimic")) {
+      document_.error(mimic,
+                      "joint '" + from.name + "' follows '" + mimic.attribute("joint").value() +
+                          "': <mimic> is not supported within an arm",
+                      "let the arm end before it: " + in_row("tool = \"" + from.parent + "\""));
+    }
+    read_axis(from, joint);
+    read_range(from, joint);
+    read_velocity(from, joint);
+    read_motion(from, joint);
+    read_home(from, joint);
+    return joint;
   }
 
-  void read_joints(const pugi::xml_node& robot) {
-    std::set<std::string> names;
-    for (const pugi::xml_node& node : robot.children("joint")) {
-      Joint joint;
-      joint.node = node;
-      joint.value.name = node.attribute("name").value();
-      const std::string& name = joint.value.name;
-      if (name.empty()) {
-        fail(node, "a joint has no name");
-        continue;
-      }
-      if (!names.insert(name).second) fail(node, "joint '" + name + "' is there twice");
-      joint.parent = read_end(node, name, "parent");
-      joint.child = read_end(node, name, "child");
-      read_origin(joint);
-      read_type(joint);
-      if (joint.movable) {
-        read_axis(joint);
-        read_limits(joint);
-      }
-      joints_.push_back(joint);
-    }
-  }
-
-  std::string read_end(const pugi::xml_node& node, const std::string& name, const char* end) {
-    const pugi::xml_node element = node.child(end);
-    const std::string link = element.attribute("link").value();
-    if (link.empty()) {
-      fail(element ? element : node, "joint '" + name + "' has no " + end + " link");
-    } else if (!links_.contains(link)) {
-      fail(element, "joint '" + name + "': there is no link '" + link + "'");
-    }
-    return link;
-  }
-
-  void read_origin(Joint& joint) {
-    const pugi::xml_node origin = joint.node.child("origin");
-    std::array<double, 3> rpy{};
-    for (const auto& [attribute, values] :
-         {std::pair{"xyz", &joint.value.origin.position}, std::pair{"rpy", &rpy}}) {
-      const pugi::xml_attribute found = origin.attribute(attribute);
-      if (found && !parse_triple(found.value(), *values)) {
-        fail(origin, "joint '" + joint.value.name + "': " + attribute + "=\"" + found.value() +
-                         "\" is not three numbers up to " + greatest_text);
-      }
-    }
-    joint.value.origin.rotation = rotation_of(rpy);
-  }
-
-  void read_type(Joint& joint) {
-    const std::string type = joint.node.attribute("type").value();
-    const std::string start = "joint '" + joint.value.name + "' ";
-    joint.movable = type == "revolute";
-    if (type.empty()) {
-      fail(joint.node, start + "has no type", "revolute or fixed");
-    } else if (type == "continuous") {
-      fail(joint.node, start + "is continuous, and an arm's joint needs limits",
-           "make it revolute and give it <limit lower upper velocity>");
-    } else if (type == "prismatic" || type == "floating" || type == "planar") {
-      fail(joint.node, start + "is " + type + ": only revolute and fixed joints are supported");
-    } else if (type != "revolute" && type != "fixed") {
-      fail(joint.node, start + "has the unknown type '" + type + "'", "revolute or fixed");
-    }
-    if (const pugi::xml_node mimic = joint.node.child("mimic")) {
-      fail(mimic, start + "follows another one: <mimic> is not supported");
-    }
-  }
-
-  void read_axis(Joint& joint) {
-    const pugi::xml_node axis = joint.node.child("axis");
+  void read_axis(const DocumentJoint& from, UrdfJoint& joint) {
+    const pugi::xml_node axis = from.node.child("axis");
     if (!axis) return;  // URDF's default, x
-    std::array<double, 3>& value = joint.value.axis;
-    if (!parse_triple(axis.attribute("xyz").value(), value)) {
-      fail(axis,
-           "joint '" + joint.value.name + "': the axis's xyz is not three numbers up to " + greatest_text);
+    if (!parse_triple(axis.attribute("xyz").value(), joint.axis)) {
+      document_.error(axis, "joint '" + from.name + "': the axis's xyz is not three numbers up to 1e6",
+                      "a direction, as xyz=\"0 0 1\"");
       return;
     }
-    const double length = std::hypot(value[0], value[1], value[2]);
+    const double length = std::hypot(joint.axis[0], joint.axis[1], joint.axis[2]);
     if (!(length > 1e-6)) {
-      fail(axis, "joint '" + joint.value.name + "': the axis has no length");
+      document_.error(axis, "joint '" + from.name + "': the axis has no length",
+                      "a direction, as xyz=\"0 0 1\"");
       return;
     }
-    for (double& entry : value) entry /= length;
+    for (double& entry : joint.axis) entry /= length;
   }
 
-  // False, with an error, when the attribute is missing or no number.
-  bool read_number(const pugi::xml_node& node, const std::string& joint, const char* attribute,
-                   double& value) {
+  void read_range(const DocumentJoint& from, UrdfJoint& joint) {
+    const UrdfJointRow row = own(joint);
+    if (joint.kind == UrdfJoint::Kind::continuous && row.lower && row.upper)
+      joint.kind = UrdfJoint::Kind::revolute;  // which is what ends make of it
+    if (joint.kind == UrdfJoint::Kind::continuous) {
+      joint.lower = -urdf_greatest_number;
+      joint.upper = urdf_greatest_number;
+      if (!row.lower && !row.upper) return;
+      failed_ = true;
+      diagnostics_.error(row.position, "joint '" + from.name + "' turns without end, and gets one end only",
+                         "give both 'lower' and 'upper', in rad, or none");
+      return;
+    }
+    const std::string hint = "URDF: <limit lower=\"...\" upper=\"...\" velocity=\"...\">, in " +
+                             std::string(unit(joint)) + " and " + per_second(joint) + "; or " +
+                             in_row(key_of(from.name) + " = { lower = -1.0, upper = 1.0, velocity = 1.0 }");
+    const pugi::xml_node limit = from.node.child("limit");
+    if (!limit && !(row.lower && row.upper)) return error(from, "has no <limit>", hint);
+    // URDF: each is 0 where it is not given.
+    const auto lower = row.lower ? row.lower : number(from, limit, "lower", 0);
+    const auto upper = row.upper ? row.upper : number(from, limit, "upper", 0);
+    if (!lower || !upper) return;
+    joint.lower = *lower;
+    joint.upper = *upper;
+    if (joint.lower < joint.upper) return;
+    document_.error(limit ? limit : from.node,
+                    "joint '" + from.name + "': lower (" + shown(joint.lower) + ") is not below upper (" +
+                        shown(joint.upper) + ")",
+                    hint);
+  }
+
+  void read_velocity(const DocumentJoint& from, UrdfJoint& joint) {
+    const auto velocity = positive(from, "limit", "velocity", own(joint).velocity);
+    joint.velocity = velocity.value_or(0);
+    const pugi::xml_node limit = from.node.child("limit");
+    const bool has_range = joint.kind == UrdfJoint::Kind::continuous || joint.lower < joint.upper;
+    if (velocity || limit.attribute("velocity") || !has_range) return;
+    document_.error(limit ? limit : from.node, "joint '" + from.name + "' has no velocity",
+                    "URDF: <limit velocity=\"...\">, in " + per_second(joint) + "; or " +
+                        in_row(key_of(from.name) + " = { velocity = 1.0 }"));
+  }
+
+  void read_motion(const DocumentJoint& from, UrdfJoint& joint) {
+    const UrdfJointRow row = own(joint);
+    const auto acceleration = positive(from, "flexrf", "acceleration", row.acceleration);
+    const auto jerk = positive(from, "flexrf", "jerk", row.jerk);
+    joint.acceleration = acceleration.value_or(joint.velocity / seconds_to_velocity);
+    joint.jerk = jerk.value_or(joint.acceleration / seconds_to_acceleration);
+    if (!acceleration || !jerk) defaulted_.push_back(chain_.joints.size());
+  }
+
+  void read_home(const DocumentJoint& from, UrdfJoint& joint) {
+    const pugi::xml_node extra = from.node.child("flexrf");
+    auto home = own(joint).home;
+    if (!home && extra.attribute("home")) home = number(from, extra, "home", 0);
+    const bool within = home && *home >= joint.lower && *home <= joint.upper;
+    joint.home = within ? *home : std::max(joint.lower, std::min(joint.upper, 0.0));
+    if (!home && joint.home != 0) joint.home = (joint.lower + joint.upper) / 2;
+    if (!home || within || !(joint.lower < joint.upper)) return;
+    document_.error(
+        extra.attribute("home") ? extra : from.node,
+        "joint '" + from.name + "': home (" + shown(*home) + ") is outside the limits",
+        "it must be from " + shown(joint.lower) + " to " + shown(joint.upper) + " " + unit(joint));
+  }
+
+  // `otherwise` where it is not given; nothing, with an error, where it is no number.
+  std::optional<double> number(const DocumentJoint& from, const pugi::xml_node& node, const char* attribute,
+                               std::optional<double> otherwise) {
     const pugi::xml_attribute found = node.attribute(attribute);
-    const std::string start = "joint '" + joint + "': <" + node.name() + "> ";
-    if (!found) {
-      fail(node, start + "has no " + attribute);
-      return false;
-    }
-    if (!parse_number(found.value(), value)) {
-      fail(node, start + attribute + "=\"" + found.value() + "\" is not a number up to " + greatest_text);
-      return false;
-    }
-    return true;
+    if (!found) return otherwise;
+    double value = 0;
+    if (parse_number(found.value(), value)) return value;
+    document_.error(node,
+                    "joint '" + from.name + "': <" + node.name() + "> " + attribute + "=\"" + found.value() +
+                        "\" is not a number up to 1e6",
+                    std::string("write a decimal number, as ") + attribute + "=\"1.57\"");
+    return std::nullopt;
   }
 
-  void read_positive(const pugi::xml_node& node, const std::string& joint, const char* attribute,
-                     double& value) {
-    if (read_number(node, joint, attribute, value) && !(value > 0)) {
-      fail(node, "joint '" + joint + "': " + attribute + " must be above 0");
-    }
+  // Above 0, of the row or of the file's element; nothing where neither has it.
+  std::optional<double> positive(const DocumentJoint& from, const char* element, const char* attribute,
+                                 const std::optional<double>& row) {
+    if (row) return row;
+    const pugi::xml_node node = from.node.child(element);
+    const auto value = number(from, node, attribute, std::nullopt);
+    if (!value || *value > 0) return value;
+    document_.error(node, "joint '" + from.name + "': " + attribute + " must be above 0",
+                    "write what the arm can here, or in the application: " +
+                        in_row(key_of(from.name) + " = { " + attribute + " = 1.0 }"));
+    return std::nullopt;
   }
 
-  void read_limits(Joint& joint) {
-    UrdfJoint& value = joint.value;
-    bool range_known = false;
-    const pugi::xml_node limit = joint.node.child("limit");
-    if (!limit) {
-      fail(joint.node, "joint '" + value.name + "' has no <limit>",
-           "<limit lower upper velocity>, in rad and rad/s");
-    } else {
-      const bool lower = read_number(limit, value.name, "lower", value.lower);
-      const bool upper = read_number(limit, value.name, "upper", value.upper);
-      range_known = lower && upper && value.lower < value.upper;
-      if (lower && upper && !range_known) {
-        fail(limit, "joint '" + value.name + "': lower is not below upper");
-      }
-      read_positive(limit, value.name, "velocity", value.velocity);
-    }
-    const pugi::xml_node extra = joint.node.child("flexrf");
-    if (!extra) {
-      fail(joint.node, "joint '" + value.name + "' has no <flexrf>",
-           "<flexrf acceleration jerk home>, in rad/s^2, rad/s^3 and rad: URDF has no place for them");
+  void check_count() {
+    const std::size_t count = chain_.joints.size();
+    if (count > 0 && count <= urdf_max_joints) return;
+    if (count == 0) {
+      document_.error(document_.robot(), "the chain from base to tool has no joint that moves",
+                      "say where the arm ends: " + in_row("tool = \"LINK\""));
       return;
     }
-    read_positive(extra, value.name, "acceleration", value.acceleration);
-    read_positive(extra, value.name, "jerk", value.jerk);
-    if (extra.attribute("home") && !read_number(extra, value.name, "home", value.home)) return;
-    if (range_known && (value.home < value.lower || value.home > value.upper)) {
-      fail(extra, "joint '" + value.name + "': home is outside the limits",
-           extra.attribute("home") ? "" : "without home=\"...\" it is 0");
+    document_.error(document_.robot(),
+                    "the chain from base to tool has " + std::to_string(count) +
+                        " joints that move, at most " + std::to_string(urdf_max_joints) + " are supported",
+                    "name a shorter part of it: " + in_row("base = \"LINK\" or tool = \"LINK\""));
+  }
+
+  // Rows for joints that the chain does not have.
+  void check_rows() {
+    std::vector<std::string> known;
+    for (const UrdfJoint& joint : chain_.joints) known.push_back(joint.name);
+    for (const auto& [name, row] : row_.joints) {
+      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+      failed_ = true;
+      diagnostics_.error(row.position, "the arm has no joint " + quote(name),
+                         suggest(name, known, "joints", "remove it"));
     }
   }
 
-  void follow_chain(const pugi::xml_node& robot) {
-    std::map<std::string, const Joint*> from_parent;
-    std::map<std::string, const Joint*> to_child;
-    for (const Joint& joint : joints_) {
-      if (!from_parent.emplace(joint.parent, &joint).second) {
-        fail(joint.node,
-             "link '" + joint.parent + "' carries more than one joint: '" +
-                 from_parent[joint.parent]->value.name + "' and '" + joint.value.name + "'",
-             "an arm is one serial chain, from the base to the tool");
-      }
-      if (!to_child.emplace(joint.child, &joint).second) {
-        fail(joint.node, "link '" + joint.child + "' hangs on more than one joint: '" +
-                             to_child[joint.child]->value.name + "' and '" + joint.value.name + "'");
-      }
-    }
-    if (!errors_.empty()) return;
-
-    std::vector<std::string> roots;
-    for (const pugi::xml_node& link : robot.children("link")) {
-      const std::string name = link.attribute("name").value();
-      if (!to_child.contains(name)) roots.push_back(name);
-    }
-    if (roots.empty()) {
-      fail(robot, "the joints form a loop: no link is the base");
-      return;
-    }
-    if (roots.size() > 1) {
-      fail(links_.at(roots[1]),
-           "links '" + roots[0] + "' and '" + roots[1] + "' are both without a joint that carries them",
-           "an arm has one base");
-      return;
-    }
-    UrdfTransform pending;  // fixed joints since the last movable one
-    std::size_t followed = 0;
-    for (auto next = from_parent.find(roots[0]); next != from_parent.end();
-         next = from_parent.find(next->second->child)) {
-      ++followed;
-      const Joint& joint = *next->second;
-      pending = compose(pending, joint.value.origin);
-      if (!joint.movable) continue;
-      chain_.joints.push_back(joint.value);
-      chain_.joints.back().origin = pending;
-      pending = {};
-    }
-    chain_.tool = pending;
-    if (followed != joints_.size()) fail(robot, "some joints form a loop beside the chain");
-    if (chain_.joints.empty()) fail(robot, "the chain has no joint that moves");
-    if (chain_.joints.size() > urdf_max_joints) {
-      fail(robot, "the chain has " + std::to_string(chain_.joints.size()) + " joints that move, at most " +
-                      std::to_string(urdf_max_joints) + " are supported");
-    }
+  void tell_defaults() {
+    if (defaulted_.empty()) return;
+    std::vector<std::string> names;
+    for (const std::size_t index : defaulted_) names.push_back(chain_.joints[index].name);
+    const UrdfJoint& first = chain_.joints[defaulted_.front()];
+    diagnostics_.warning(
+        row_.position,
+        "nothing says how quickly joint" + std::string(names.size() > 1 ? "s " : " ") + listed(names) +
+            " may change speed: taken is what comes to full velocity in 1 s, and to full acceleration in 0.2 "
+            "s",
+        "write what the arm can, of each joint, in " + row_.name + ": " + key_of(first.name) +
+            " = { acceleration = " + shown(first.acceleration) + ", jerk = " + shown(first.jerk) + " }");
   }
 
-  UrdfResult finish() {
-    UrdfResult result;
-    std::stable_sort(errors_.begin(), errors_.end(), [](const UrdfError& a, const UrdfError& b) {
-      return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-    });
-    result.errors = std::move(errors_);
-    if (result.errors.empty()) result.chain = std::move(chain_);
-    return result;
+  UrdfJointRow own(const UrdfJoint& joint) const {
+    const auto found = row_.joints.find(joint.name);
+    return found == row_.joints.end() ? UrdfJointRow{} : found->second;
   }
 
-  std::string_view text_;
-  std::string file_;
-  std::map<std::string, pugi::xml_node> links_;
-  std::vector<Joint> joints_;
+  void error(const DocumentJoint& joint, const std::string& what, std::string hint) {
+    document_.error(joint.node, "joint '" + joint.name + "' " + what, std::move(hint));
+  }
+
+  static const char* unit(const UrdfJoint& joint) {
+    return joint.kind == UrdfJoint::Kind::prismatic ? "m" : "rad";
+  }
+  static std::string per_second(const UrdfJoint& joint) { return std::string(unit(joint)) + "/s"; }
+  std::string in_row(const std::string& text) const { return "write " + text + " in " + row_.name; }
+
+  UrdfDocument document_;
+  const UrdfRow& row_;
+  Diagnostics& diagnostics_;
   UrdfChain chain_;
-  std::vector<UrdfError> errors_;
+  std::vector<std::size_t> defaulted_;  // joints without acceleration or jerk
+  bool failed_ = false;                 // by what the row says
 };
 
 }  // namespace
 
-UrdfResult parse_urdf(std::string_view text, const std::string& file_name) {
-  return Reader(text, file_name).read();
+std::optional<UrdfChain> parse_urdf(std::string_view text, const std::string& file_name, const UrdfRow& row,
+                                    Diagnostics& diagnostics) {
+  return Reader(text, file_name, row, diagnostics).read();
 }
 
-UrdfResult read_urdf(const std::filesystem::path& file) {
+std::optional<UrdfChain> read_urdf(const std::filesystem::path& file, const UrdfRow& row,
+                                   Diagnostics& diagnostics) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
-    UrdfResult result;
-    result.errors.push_back({file.string(), 0, 0, "the file cannot be read", ""});
-    return result;
+    diagnostics.error({intern(file.generic_string())}, "the file cannot be read", "look at its permissions");
+    return std::nullopt;
   }
   const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  return parse_urdf(text, file.string());
-}
-
-std::string UrdfError::text() const {
-  std::string result = file;
-  if (line > 0) result += ":" + std::to_string(line) + ":" + std::to_string(column);
-  result += ": error: " + message;
-  if (!hint.empty()) result += "\n  hint: " + hint;
-  return result;
+  return parse_urdf(text, file.generic_string(), row, diagnostics);
 }
 
 }  // namespace flexrf::config_gen

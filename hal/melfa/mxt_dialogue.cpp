@@ -38,6 +38,18 @@ Status MxtDialogue::begin(const DialoguePlan& plan, const KinematicChain& chain,
   }
   for (std::size_t i = 0; i < chain.joint_count; ++i) {
     const ChainJoint& joint = chain.joints[i];
+    if (joint.kind == JointKind::prismatic) {
+      return Status::error(StatusCode::invalid_argument,
+                           "joint %.*s slides: linear joints of this controller are not supported",
+                           static_cast<int>(joint.name.size()), joint.name.data());
+    }
+    if (joint.kind == JointKind::continuous) {
+      return Status::error(
+          StatusCode::invalid_argument,
+          "joint %.*s turns without end, and no joint of this controller does: give it lower and "
+          "upper in the device's row, by urdf.joint",
+          static_cast<int>(joint.name.size()), joint.name.data());
+    }
     if (joint.velocity > 0 && joint.acceleration > 0) continue;
     return Status::error(StatusCode::invalid_argument,
                          "joint %.*s has no velocity or acceleration in the URDF: the controller does not "

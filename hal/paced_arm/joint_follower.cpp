@@ -6,7 +6,7 @@
 namespace flexrf {
 namespace {
 
-constexpr double same_place = 1e-12;  // rad
+constexpr double same_place = 1e-12;  // rad or m
 
 // The greatest velocity from which the joint comes to rest within `distance` when each cycle is slower by
 // `change` than the one before, and the last ones by what is left.

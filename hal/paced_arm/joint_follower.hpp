@@ -8,7 +8,7 @@
 
 namespace flexrf {
 
-/// In rad, from the base to the tool; 0 beyond the last joint.
+/// In rad, or m where a joint slides; from the base to the tool; 0 beyond the last joint.
 using JointAngles = std::array<double, max_joints>;
 
 /// For controllers that follow what they are told as it is. Each joint keeps to its range, its velocity and
@@ -42,7 +42,7 @@ class JointFollower {
   double cycle_ = 0.007;
   bool brakes_ = false;
   JointAngles set_point_{};
-  JointAngles velocity_{};  // of the last cycle, rad/s
+  JointAngles velocity_{};  // of the last cycle, per s
   JointAngles wanted_{};
   JointAngles wanted_before_{};  // in the last cycle
 };

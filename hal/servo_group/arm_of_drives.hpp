@@ -75,6 +75,13 @@ class ArmOfDrives : public Base {
 
   Status initialise_drive(std::size_t i) {
     const ChainJoint& joint = this->chain->joints[i];
+    if (joint.kind == JointKind::continuous) {
+      return Status::error(
+          StatusCode::invalid_argument,
+          "joint %.*s turns without end, and a drive that is led by positions counts only so "
+          "far: give it lower and upper in the device's row, by urdf.joint",
+          static_cast<int>(joint.name.size()), joint.name.data());
+    }
     Drive& drive = drives_[i];
     members_[i] = &drive;
     std::snprintf(names_[i].data(), names_[i].size(), "%s.%.*s", this->name(),

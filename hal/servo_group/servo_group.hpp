@@ -26,7 +26,7 @@ class ServoGroup {
 
   /// Nothing until each drive tells where it is, and knows it.
   std::optional<JointState> state() const noexcept;
-  /// Set-point less position, of each joint; rad.
+  /// Set-point less position, of each joint; rad, or m where it slides.
   void following_error(std::array<double, max_joints>& error) const noexcept;
   /// All drives are enabled and know where they are: commands are followed.
   bool is_ready() const noexcept { return ready_; }

@@ -9,7 +9,7 @@ namespace flexrf {
 namespace {
 
 // The arm has arrived when its joints are this near to their set-points: above the sensors' noise.
-constexpr double arrived = 1e-3;  // rad
+constexpr double arrived = 1e-3;  // rad or m
 // A later cycle delays the motion, rather than have the arm jump to catch up.
 constexpr double longest_advance = 0.02;  // s
 // Keys that turn the target are jog's.

@@ -16,7 +16,7 @@ class ArmMotion {
   /// Before anything else. The chain outlives this.
   void use(const KinematicChain& chain) noexcept;
 
-  /// At rest at these joint angles (rad, finite), whatever was before: set-points begin where the arm is.
+  /// At rest at these joint positions (rad or m, finite), whatever was before: set-points begin where the arm is.
   void seed(const JointVector& actual) noexcept;
   bool is_seeded() const noexcept { return seeded_; }
 
@@ -38,7 +38,7 @@ class ArmMotion {
   /// Moves the set-point on by `elapsed` s.
   void advance(double elapsed) noexcept;
 
-  /// Joint angles to command now, in rad.
+  /// Joint positions to command now, in rad, or m where a joint slides.
   const JointVector& set_point() const noexcept { return set_point_; }
 
  private:

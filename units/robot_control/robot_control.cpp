@@ -9,7 +9,7 @@ namespace flexrf {
 namespace {
 
 // The arm has arrived when its joints are this near to their set-points: above the sensors' noise.
-constexpr double arrived = 1e-3;  // rad
+constexpr double arrived = 1e-3;  // rad or m
 
 /// What is not a number equals nothing, and would be taken for another target in each cycle.
 bool same_number(double a, double b) {

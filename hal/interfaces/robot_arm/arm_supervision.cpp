@@ -23,9 +23,10 @@ Status ArmSupervision::look(const std::optional<JointState>& state, std::span<co
     const std::string_view name = chain_->joints[i].name;
     return Status::error(
         StatusCode::device_fault,
-        "%.*s is %.3f rad behind, more than it moves in `following_time` (%g s): does it stick, or does "
+        "%.*s is %.3f %s behind, more than it moves in `following_time` (%g s): does it stick, or does "
         "its sensor?",
-        static_cast<int>(name.size()), name.data(), std::abs(error[i]), limits_.following_time);
+        static_cast<int>(name.size()), name.data(), std::abs(error[i]),
+        chain_->joints[i].kind == JointKind::prismatic ? "m" : "rad", limits_.following_time);
   }
   return {};
 }

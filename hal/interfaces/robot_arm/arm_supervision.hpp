@@ -27,9 +27,9 @@ class ArmSupervision {
     chain_ = &chain;
     limits_ = limits;
   }
-  /// Once a cycle, after it was received. `error`: of each joint, rad, as the drives that it has are asked to
-  /// follow. `may_move` false: nothing is expected of it. device_fault: it does not follow; unavailable: it
-  /// says nothing.
+  /// Once a cycle, after it was received. `error`: of each joint, rad or m, as the drives that it has are
+  /// asked to follow. `may_move` false: nothing is expected of it. device_fault: it does not follow;
+  /// unavailable: it says nothing.
   Status look(const std::optional<JointState>& state, std::span<const double> error, bool may_move,
               Time now) noexcept;
 

@@ -8,7 +8,7 @@ namespace flexrf {
 namespace {
 
 // Shorter motions are no motion: far below any encoder's step.
-constexpr double shortest_motion = 1e-9;  // rad
+constexpr double shortest_motion = 1e-9;  // rad or m
 
 bool usable(double limit) {
   return std::isfinite(limit) && limit > 0;

@@ -6,9 +6,9 @@
 namespace flexrf {
 
 struct JointSample {
-  JointVector position = JointVector::Zero();      // rad
-  JointVector velocity = JointVector::Zero();      // rad/s
-  JointVector acceleration = JointVector::Zero();  // rad/s^2
+  JointVector position = JointVector::Zero();      // rad or m
+  JointVector velocity = JointVector::Zero();      // per s
+  JointVector acceleration = JointVector::Zero();  // per s^2
 };
 
 // A motion of all joints from rest to rest along the straight line between two postures.
@@ -21,9 +21,9 @@ struct JointSample {
 // way asks for infinite joint rates. Allocates nothing.
 class JointTrajectory {
  public:
-  // Plans from `start` to `target` (rad). `speed` in (0, 1] scales the chain's limits of velocity,
-  // acceleration and jerk. False, and at rest at `start`, when a number is not finite or a limit is not above
-  // 0.
+  // Plans from `start` to `target` (rad, or m where a joint slides). `speed` in (0, 1] scales the chain's
+  // limits of velocity, acceleration and jerk. False, and at rest at `start`, when a number is not finite or
+  // a limit is not above 0.
   [[nodiscard]] bool plan(const KinematicChain& chain, const JointVector& start, const JointVector& target,
                           double speed = 1.0);
 

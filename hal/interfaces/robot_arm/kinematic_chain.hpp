@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 namespace flexrf {
@@ -16,21 +17,30 @@ struct ChainTransform {
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};  // column by column, as Eigen stores it
 };
 
-// A revolute joint.
-struct ChainJoint {
-  std::string_view name;
-  ChainTransform origin;                // this joint's frame at zero angle, in the frame of the joint before
-  std::array<double, 3> axis{0, 0, 1};  // unit vector in this joint's frame
-  double lower = 0;                     // rad
-  double upper = 0;                     // rad, above `lower`
-  double velocity = 0;                  // rad/s, largest magnitude
-  double acceleration = 0;              // rad/s^2, largest magnitude
-  double jerk = 0;                      // rad/s^3, largest magnitude
-  double home = 0;                      // rad, the posture the arm rests in; away from singularities
+// URDF's names.
+enum class JointKind : std::uint8_t {
+  revolute,    // turns between its ends: positions in rad
+  continuous,  // turns without end: in rad; lower and upper are farther than any motion
+  prismatic,   // slides along its axis: in m
 };
 
-// A serial chain of revolute joints from the arm's base to its tool: plain data that config-gen writes as a
-// constant from a URDF.
+// Wherever a joint's position or rate stands, its unit of measure is that of the joint: rad, or m where it
+// slides.
+struct ChainJoint {
+  std::string_view name;
+  JointKind kind = JointKind::revolute;
+  ChainTransform origin;                // this joint's frame at position 0, in the frame of the joint before
+  std::array<double, 3> axis{0, 0, 1};  // unit vector in this joint's frame
+  double lower = 0;                     // rad or m
+  double upper = 0;                     // rad or m, above `lower`
+  double velocity = 0;                  // per s, largest magnitude
+  double acceleration = 0;              // per s^2, largest magnitude
+  double jerk = 0;                      // per s^3, largest magnitude
+  double home = 0;                      // rad or m, the posture the arm rests in; away from singularities
+};
+
+// A serial chain of joints from the arm's base to its tool: plain data that config-gen writes as a constant
+// from a URDF.
 struct KinematicChain {
   std::string_view name;
   std::size_t joint_count = 0;  // at most max_joints

@@ -18,7 +18,7 @@ constexpr double largest_singular_damping = 0.04;
 // One step follows the linearised arm only so far.
 constexpr double longest_position_step = 0.25;    // m
 constexpr double longest_orientation_step = 0.6;  // rad
-constexpr double longest_joint_step = 0.5;        // rad
+constexpr double longest_joint_step = 0.5;        // rad or m
 constexpr double all_but_reached = 0.01;          // m
 // Beyond this the damping leaves no motion worth the name: a local minimum.
 constexpr double hopeless_damping = 1e6;
@@ -45,8 +45,11 @@ ChainFrames frames_of(const KinematicChain& chain, const JointVector& joints) {
     frame = frame * to_isometry(joint.origin);
     frames.position[i] = frame.translation();
     frames.axis[i] = frame.linear() * axis;
-    frame.linear() =
-        frame.linear() * Eigen::AngleAxisd(joints[static_cast<Eigen::Index>(i)], axis).toRotationMatrix();
+    const double position = joints[static_cast<Eigen::Index>(i)];
+    if (joint.kind == JointKind::prismatic)
+      frame.translation() += frames.axis[i] * position;
+    else
+      frame.linear() = frame.linear() * Eigen::AngleAxisd(position, axis).toRotationMatrix();
   }
   frames.tool = frame * to_isometry(chain.tool);
   return frames;
@@ -56,6 +59,10 @@ JacobianMatrix jacobian_of(const KinematicChain& chain, const ChainFrames& frame
   JacobianMatrix jacobian = JacobianMatrix::Zero();
   for (std::size_t i = 0; i < chain.joint_count; ++i) {
     const auto column = static_cast<Eigen::Index>(i);
+    if (chain.joints[i].kind == JointKind::prismatic) {
+      jacobian.block<3, 1>(0, column) = frames.axis[i];
+      continue;
+    }
     const Eigen::Vector3d lever = frames.tool.translation() - frames.position[i];
     jacobian.block<3, 1>(0, column) = frames.axis[i].cross(lever);
     jacobian.block<3, 1>(3, column) = frames.axis[i];
@@ -156,8 +163,8 @@ bool finite_joints(const KinematicChain& chain, const JointVector& joints) {
   return joints.head(static_cast<Eigen::Index>(chain.joint_count)).allFinite();
 }
 
-// A few thousandths of a radian in fixed directions of either sign: out of a posture in which the gradient
-// happens to vanish (a straight wrist, a stretched elbow), and the same in every run.
+// A few hundredths of a radian (or a metre) in fixed directions of either sign: out of a posture in which the
+// gradient happens to vanish (a straight wrist, a stretched elbow), and the same in every run.
 JointVector nudged(const KinematicChain& chain, const JointVector& joints, int attempt) {
   JointVector result = joints;
   for (std::size_t i = 0; i < chain.joint_count; ++i) {

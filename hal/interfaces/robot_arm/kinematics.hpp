@@ -9,11 +9,12 @@
 
 namespace flexrf {
 
-// Angles of all joints in rad (or their rates); entries from the chain's joint_count on are zero.
+// Positions of all joints, in rad, or m where a joint slides (or their rates); entries from the chain's
+// joint_count on are zero.
 using JointVector = Eigen::Matrix<double, static_cast<int>(max_joints), 1>;
 
-// Rows: linear velocity of the tool in m/s per rad/s, then angular velocity in rad/s per rad/s, both in the
-// base frame. Columns from joint_count on are zero.
+// Rows: linear velocity of the tool in m/s, then angular velocity in rad/s, both in the base frame and per
+// rad/s of a joint that turns, per m/s of one that slides. Columns from joint_count on are zero.
 using JacobianMatrix = Eigen::Matrix<double, 6, static_cast<int>(max_joints)>;
 
 // The tool's pose in the base frame. Not finite only when `joints` is not.
@@ -24,7 +25,7 @@ JacobianMatrix geometric_jacobian(const KinematicChain& chain, const JointVector
 // Of the Jacobian: 0 where the tool has lost a direction of motion. Metres and radians are weighed alike.
 double smallest_singular_value(const JacobianMatrix& jacobian);
 
-// `joints` with every angle within its limits; what is not finite becomes the home angle.
+// `joints` with each within its limits; what is not finite becomes the joint's home.
 JointVector within_limits(const KinematicChain& chain, const JointVector& joints);
 
 // The first of finite `joints` that its limits do not let go there; none: all may.

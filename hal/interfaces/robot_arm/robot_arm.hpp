@@ -19,9 +19,9 @@ class RobotArm : public RobotArmInterface {
   /// What the sensors said last, as of this cycle; nothing while they say nothing.
   virtual std::optional<JointState> state() const noexcept = 0;
 
-  /// Where the joints shall be (rad), sent at the end of the cycle and held until the next command. An arm
-  /// keeps to its own limits whatever it is commanded; what is not finite puts it in fault. Without effect
-  /// while is_inhibited(), and not remembered.
+  /// Where the joints shall be (rad, or m where one slides), sent at the end of the cycle and held until the
+  /// next command. An arm keeps to its own limits whatever it is commanded; what is not finite puts it in
+  /// fault. Without effect while is_inhibited(), and not remembered.
   virtual void command(const JointPositions& set_points) noexcept = 0;
 
  protected:

@@ -32,7 +32,7 @@ class MockArm final : public MockArmDriver {
     if (is_inhibited()) return;
     if (!set_points.position_map().allFinite()) {
       fail(Status::error(StatusCode::invalid_argument,
-                         "a joint was commanded to an angle that is not a number"));
+                         "a joint was commanded to a position that is not a number"));
       return;
     }
     restrain(restraint_of(*chain, set_points.position));

@@ -9,7 +9,7 @@ namespace {
 constexpr Duration step_time = std::chrono::milliseconds(1);
 constexpr double step_seconds = 1e-3;
 constexpr Duration longest_gap = std::chrono::seconds(1);
-// Slower than this a servo stands still: 1e-9 rad/s is a turn in 200 years.
+// Slower than this a servo stands still: 1e-9 rad/s is a turn in 200 years. In m/s of one that slides.
 constexpr double rest_velocity = 1e-9;
 
 }  // namespace
@@ -22,9 +22,9 @@ void ArmModel::reset(const KinematicChain& chain, double lag) {
   command_ = position_;
 }
 
-void ArmModel::follow(const JointVector& angles) {
+void ArmModel::follow(const JointVector& positions) {
   holding_ = false;
-  command_ = within_limits(*chain_, angles);
+  command_ = within_limits(*chain_, positions);
 }
 
 void ArmModel::hold() {

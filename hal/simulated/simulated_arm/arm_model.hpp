@@ -13,8 +13,8 @@ class ArmModel {
   /// At rest in the chain's home posture. `lag` in s, above 0.
   void reset(const KinematicChain& chain, double lag);
 
-  /// Follow these angles (rad, finite) from now on, as far as the limits allow.
-  void follow(const JointVector& angles);
+  /// Follow these positions (rad or m, finite) from now on, as far as the limits allow.
+  void follow(const JointVector& positions);
   /// Come to rest as fast as the limits allow, and stay.
   void hold();
   /// This joint (from 0) does not move until another one, or none (-1), is named.
@@ -28,7 +28,7 @@ class ArmModel {
   /// As of the time advanced to.
   JointVector position() const { return position_ + velocity_ * seconds(now_ - stepped_until_); }
   const JointVector& velocity() const { return velocity_; }
-  /// The angles that the joints follow.
+  /// The positions that the joints follow.
   const JointVector& followed() const { return command_; }
 
  private:

@@ -43,7 +43,7 @@ void SimulatedArm::command(const JointPositions& set_points) noexcept {
   for (std::size_t i = 0; i < max_joints; ++i) {
     if (std::isfinite(set_points.position[i])) continue;
     fail(Status::error(StatusCode::invalid_argument,
-                       "joint %zu was commanded to an angle that is not a number", i + 1));
+                       "joint %zu was commanded to a position that is not a number", i + 1));
     commanded_.reset();
     return;
   }

@@ -18,8 +18,10 @@ export interface ItemInfo {
   readonly summary: string;
   readonly scalar: Scalar;
   readonly shape: readonly number[];
-  /** Unit of measure, SI; empty where none applies, "1" for dimensionless. */
+  /** Unit of measure, SI; empty where none applies, "1" for dimensionless; "rad|m" where elements have different ones. */
   readonly unit: string;
+  /** Of each element, where they have different ones. */
+  readonly units?: readonly string[];
   readonly range?: readonly [number, number];
   /** Names of an enumeration's values, in order. */
   readonly values?: readonly string[];
@@ -62,6 +64,15 @@ export interface Hold {
   readonly over: Promise<string>;
 }
 
+/** One joint of an arm. */
+export interface Joint {
+  readonly name: string;
+  /** Turns (rad) or slides (m). */
+  readonly unit: 'rad' | 'm';
+  /** undefined: it turns without end. */
+  readonly range?: readonly [number, number];
+}
+
 /** What a widget is given. The same for built-in and custom ones. */
 export interface WidgetHost {
   /**
@@ -83,6 +94,8 @@ export interface WidgetHost {
   readonly stale: boolean;
   /** A file that the application brought along (its URDF, its meshes). */
   file(path: string): Promise<Response>;
+  /** Of an arm, from base to tool: in the order in which slots carry their positions. */
+  joints(device: string): readonly Joint[];
 }
 
 /** Where the application's table placed a widget, and what it gave it: the row [widget.NAME]. */

@@ -167,6 +167,16 @@ bool it_goes_on_after_it_was_made_safe() {
   return cell->is_ready_in_time() && cell->arm().fault().is_ok();
 }
 
+// Its set-points are positions, and a drive counts only so far.
+bool a_joint_without_end_is_refused() {
+  static KinematicChain endless = six_axis;
+  endless.joints[5].kind = JointKind::continuous;
+  const auto bench = std::make_unique<DeviceBench<MockDriveArm>>(&endless);
+  const Status status = bench->driver().initialise();
+  return !status.is_ok() && std::strstr(status.cause(), "joint axis_6 turns without end") != nullptr &&
+         std::strstr(status.cause(), "give it lower and upper") != nullptr;
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -185,6 +195,7 @@ int main() {
       {"joints keep to their limits", judged<joints_keep_to_their_limits>, nullptr, nullptr, nullptr},
       {"one that is no number moves no joint", judged<one_that_is_no_number_moves_no_joint>, nullptr, nullptr,
        nullptr},
+      {"a joint without end is refused", judged<a_joint_without_end_is_refused>, nullptr, nullptr, nullptr},
       {"it goes on after it was made safe", judged<it_goes_on_after_it_was_made_safe>, nullptr, nullptr,
        nullptr},
   };

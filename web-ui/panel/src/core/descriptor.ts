@@ -1,5 +1,5 @@
 // What the page knows of the application before any value arrives: components, slots, and every item that can be shown.
-import type { ItemInfo, Placement, Role, Value } from '../contract';
+import type { ItemInfo, Joint, Placement, Role, Value } from '../contract';
 import type {
   BlockJson, DescriptorJson, DeviceJson, OverrideJson, ParameterJson, QueueJson, SlotJson, ThreadJson, UnitJson,
 } from './descriptor_json';
@@ -66,6 +66,8 @@ export interface Model {
   readonly placements: readonly Placement[];
   /** By key; also elements and members of items: "jog.gains[2]", "slot:pose.position[0]". */
   item(key: string): Item | undefined;
+  /** Of an arm, from base to tool; none of another device. */
+  joints(device: string): readonly Joint[];
   /** What the tables placed there ("overview"), in their order; items that are hidden are left out. */
   placed(place: string): { readonly items: readonly Item[]; readonly placements: readonly Placement[] };
 }
@@ -89,6 +91,8 @@ interface Origin {
   readonly component?: string;
   readonly source?: Source;
   readonly role?: Role;
+  /** Of the arm that it is told of. */
+  readonly joints?: readonly Joint[];
 }
 
 /** Beside a field: what its declaration says, and what the application's table changes of that. */
@@ -110,13 +114,14 @@ function makeItem(types: Types, key: string, field: Field, path: string, origin:
     ? membersOf(types, key, type.fields, path, { ...origin, ...(role && { role }) })
     : undefined;
   const widget = change?.widget ?? parameter?.widget;
+  const measured = measuredIn(field, origin.joints ?? []);
   return {
     key,
     label: change?.label ?? parameter?.label ?? labelOf(field.name),
     summary: field.summary,
     scalar: field.scalar,
     shape: field.shape,
-    unit: field.unit,
+    ...measured,
     kind: origin.kind,
     hidden: change?.hidden ?? false,
     menu: change?.menu ?? parameter?.menu ?? '',
@@ -133,6 +138,15 @@ function makeItem(types: Types, key: string, field: Field, path: string, origin:
     ...(writable && { path }),
     ...(origin.source && { source: origin.source }),
   };
+}
+
+/** A unit "rad|m" is of joints that turn or slide: one for all of them where all are alike. */
+function measuredIn(field: Field, joints: readonly Joint[]): Pick<ItemInfo, 'unit' | 'units'> {
+  const [turning = '', sliding] = field.unit.split('|');
+  if (sliding === undefined || joints.length === 0) return { unit: field.unit };
+  const units = joints.map((joint) => (joint.unit === 'm' ? sliding : turning));
+  const [first = field.unit] = units;
+  return units.every((unit) => unit === first) ? { unit: first } : { unit: field.unit, units };
 }
 
 /** `origin` is that of the structure; each member's source goes one step further. */
@@ -175,8 +189,10 @@ function makeElement(types: Types, parent: Item, index: number): Item | undefine
     ...(parent.role && { role: parent.role }),
     ...(source && { source }),
   });
+  const { units, ...alike } = rest;
   return {
-    ...rest, key, shape,
+    ...alike, key, shape,
+    unit: units?.[index] ?? parent.unit,
     label: `${parent.label} ${index + 1}`,
     ...(chosen !== undefined && { default: chosen }),
     ...(members && { members }),
@@ -198,6 +214,25 @@ export function makeModel(json: DescriptorJson): Model {
     item.members?.forEach((member) => addAll(member as Item));
   };
 
+  const armOf = new Map<string, readonly Joint[]>(); // by slot, and by component
+  for (const device of json.devices) {
+    if (!device.joints) continue;
+    armOf.set(`component:${device.name}`, device.joints);
+    for (const slot of [...Object.values(device.outputs ?? {}).flat(), device.feedback_slot])
+      if (typeof slot === 'string') armOf.set(slot, device.joints);
+  }
+  for (const unit of json.units) {
+    const arms = Object.values(unit.devices ?? {}).flatMap((name) => {
+      const joints = armOf.get(`component:${name}`);
+      return joints ? [joints] : [];
+    });
+    const [joints] = arms;
+    if (joints === undefined || arms.length > 1) continue; // of several arms: whose it is, nobody knows
+    armOf.set(`component:${unit.name}`, joints);
+    const outputs = Object.values(unit.outputs ?? {}).flat();
+    for (const slot of [...outputs, unit.feedback_slot, unit.values_slot]) if (typeof slot === 'string') armOf.set(slot, joints);
+  }
+
   json.slots.forEach((slotJson, index) => {
     const type = types.get(slotJson.type);
     const slot = {
@@ -205,7 +240,8 @@ export function makeModel(json: DescriptorJson): Model {
     } as { -readonly [K in keyof Slot]: Slot[K] };
     const key = `slot:${slotJson.name}`;
     const source: Source = { slot, fields: [], steps: [] };
-    const members = membersOf(types, key, type?.fields ?? [], '', { kind: 'slot', source });
+    const joints = armOf.get(slotJson.name);
+    const members = membersOf(types, key, type?.fields ?? [], '', { kind: 'slot', source, ...(joints && { joints }) });
     slot.item = {
       key, label: slotJson.name, summary: slotJson.summary || (type?.summary ?? ''), scalar: 'structure', shape: [],
       unit: '', kind: 'slot', members, typeName: slotJson.type, hidden: false, menu: '', place: '',
@@ -222,6 +258,7 @@ export function makeModel(json: DescriptorJson): Model {
                  before: readonly (BlockJson | undefined)[] = []): Item[] => {
     if (!declared) return [];
     const slot = slotName === undefined ? undefined : slotsByName.get(slotName);
+    const joints = armOf.get(`component:${component}`);
     const prefix = kind === 'runtime' ? component : `${component}.${kind}`;
     const made: Item[] = [];
     for (const field of types.get(declared.type)?.fields ?? []) {
@@ -232,7 +269,7 @@ export function makeModel(json: DescriptorJson): Model {
       const initial = values?.[field.name]; // the application's own default goes before the type's
       const merged = parameter && initial !== undefined ? { ...parameter, default: initial } : parameter;
       const item = makeItem(types, `${prefix}.${field.name}`, field, field.name,
-        { kind, component, ...(slot && { source: { slot, fields: [field], steps: [] } }) },
+        { kind, component, ...(slot && { source: { slot, fields: [field], steps: [] } }), ...(joints && { joints }) },
         { parameter: merged, change });
       made.push(item);
       addAll(item);
@@ -300,6 +337,7 @@ export function makeModel(json: DescriptorJson): Model {
     json, hash: json.hash, application: json.application, types, components, slots, slotsByName,
     queues: json.queues, threads: json.threads, menus, placements,
     item: find,
+    joints: (device) => components.get(device)?.device?.joints ?? [],
     placed: (place) => ({
       items: [...items.values()].filter((item) => item.place === place && !item.hidden),
       placements: placements.filter((placement) => placement.place === place),

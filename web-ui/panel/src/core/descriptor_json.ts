@@ -138,6 +138,16 @@ export interface DeviceJson {
   readonly overrides?: readonly OverrideJson[];
   /** Its URDF among the application's files: "robots/arm.urdf". */
   readonly robot?: string;
+  /** Of an arm, from base to tool. */
+  readonly joints?: readonly JointJson[];
+}
+
+export interface JointJson {
+  readonly name: string;
+  /** Turns (rad) or slides (m). */
+  readonly unit: 'rad' | 'm';
+  /** undefined: it turns without end. */
+  readonly range?: readonly [number, number];
 }
 
 export interface SlotJson {

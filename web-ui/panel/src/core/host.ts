@@ -1,5 +1,5 @@
 // What every widget is given: the core behind the contract of widgets.
-import type { Hold, Outcome, Reading, Value, WidgetHost } from '../contract';
+import type { Hold, Joint, Outcome, Reading, Value, WidgetHost } from '../contract';
 import { sameValue } from '../widgets/same_value';
 import type { ConfigurationValues } from './configuration';
 import type { Item } from './descriptor';
@@ -11,6 +11,7 @@ import type { Subscriptions } from './subscriptions';
 
 export interface HostParts {
   readonly item: (key: string) => Item | undefined;
+  readonly joints: (device: string) => readonly Joint[];
   readonly store: Store;
   readonly subscriptions: Subscriptions;
   readonly configuration: ConfigurationValues;
@@ -130,6 +131,10 @@ export class Host implements WidgetHost {
     const outcome = outcomeOf(await this.parts.request<Applied>('set', { component: last.component, values: last.before }));
     if (outcome.ok) this.history.drop(last);
     return outcome;
+  }
+
+  joints(device: string): readonly Joint[] {
+    return this.parts.joints(device);
   }
 
   async file(path: string): Promise<Response> {

@@ -75,6 +75,7 @@ export class PanelCore implements Core {
     this.#holds = new Holds(this.connection);
     this.host = new Host({
       item: (key) => this.#model?.item(key),
+      joints: (device) => this.#model?.joints(device) ?? [],
       store: this.#store,
       subscriptions: this.#subscriptions,
       configuration: this.#configuration,

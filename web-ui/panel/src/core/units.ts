@@ -53,6 +53,8 @@ export class DisplayUnits {
   }
 
   of(unit: string): DisplayUnit {
+    const [turning, sliding] = unit.split('|'); // of joints that differ
+    if (sliding !== undefined) return { text: `${turning} or ${sliding}`, factor: 1 };
     return (this.#si ? undefined : workshop[unit]) ?? { text: plain[unit] ?? unit, factor: 1 };
   }
   toDisplay(value: number, unit: string): number { return value * this.of(unit).factor; }

@@ -3,12 +3,11 @@
 // [widget.NAME] kind = "robot", device = the arm, slots.joints = a slot with a field `position`, rad or m from the base to
 // the tool (JointState, RobotArmFeedback).
 import { css, html, nothing, type CSSResultGroup } from 'lit';
-import type { ItemInfo, Value } from '../contract';
+import type { ItemInfo, Joint, Value } from '../contract';
 import { displayUnits, formatNumber } from '../core/units';
 import { LiveText } from '../widgets/live_text';
 import { widgetStyles } from '../widgets/styles';
 import { WidgetBase } from '../widgets/widget_base';
-import { jointChain, type ChainJoint } from './joint_chain';
 import type { RobotScene } from './scene';
 
 /** A table that is read needs no 60 values a second. */
@@ -100,7 +99,7 @@ export class RobotWidget extends WidgetBase {
     `,
   ];
 
-  private joints: readonly ChainJoint[] = [];
+  private joints: readonly Joint[] = [];
   private positions: readonly number[] = [];
   private cells: LiveText[] = [];
   private scene: RobotScene | undefined;
@@ -207,8 +206,8 @@ export class RobotWidget extends WidgetBase {
             <tr>
               <th scope="row">${joint.name}</th>
               <td class="number"></td>
-              <td>${joint.limits ? quantity(joint.limits[0], joint.unit) : 'no limit'}</td>
-              <td>${joint.limits ? quantity(joint.limits[1], joint.unit) : 'no limit'}</td>
+              <td>${joint.range ? quantity(joint.range[0], joint.unit) : 'no limit'}</td>
+              <td>${joint.range ? quantity(joint.range[1], joint.unit) : 'no limit'}</td>
             </tr>
           `)}
         </tbody>
@@ -244,10 +243,10 @@ export class RobotWidget extends WidgetBase {
     let text = '';
     try {
       if (device === undefined) throw new Error('the table names no device; add device = "..." to the widget');
+      this.joints = this.host.joints(device);
       const response = await this.host.file(`robots/${device}.urdf`);
       if (!response.ok) throw new Error(`the robot's file robots/${device}.urdf cannot be had (${response.status})`);
       text = await response.text();
-      this.joints = jointChain(text);
     } catch (error) {
       this.fail(generation, error);
       return;

@@ -6,7 +6,7 @@ import {
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
 
-/** Where the files of robots lie; a URDF names its meshes relative to it. */
+/** Where the files of robots lie: a URDF names its meshes relative to it, or as package://NAME/PATH. */
 const folder = '/application/robots/';
 
 /** Sharper than this costs more than it shows. */
@@ -70,6 +70,7 @@ export class RobotScene {
     })(manager.itemEnd);
     const loader = new URDFLoader(manager);
     loader.workingPath = folder;
+    loader.packages = `${folder}packages`;
     this.robot = loader.parse(urdf);
     this.scene.add(this.robot);
     this.resetView();

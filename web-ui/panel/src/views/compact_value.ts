@@ -21,6 +21,12 @@ function textOf(item: ItemInfo, value: Value, units: DisplayUnits): string {
     });
     return texts.join(' · ');
   }
+  if (item.units && Array.isArray(value)) {
+    return value.slice(0, item.units.length).map((element, i) => {
+      const own = units.of(item.units?.[i] ?? item.unit);
+      return `${numbersText(element, own.factor, false)} ${own.text}`;
+    }).join(' ');
+  }
   const unit = units.of(item.unit);
   const text = numbersText(value, unit.factor, item.scalar !== 'f32' && item.scalar !== 'f64');
   return unit.text === '' ? text : `${text} ${unit.text}`;

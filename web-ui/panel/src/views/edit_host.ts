@@ -1,6 +1,6 @@
 // What widgets of configuration parameters are given as their host: they show the configuration in force, or the draft
 // while it is being edited, and what they set goes into the draft. All else is the page's own host.
-import type { Hold, ItemInfo, Outcome, Reading, Value, WidgetHost } from '../contract';
+import type { Hold, ItemInfo, Joint, Outcome, Reading, Value, WidgetHost } from '../contract';
 import type { EditFlow } from './edit_flow';
 import { sameValue } from '../widgets/same_value';
 import { partOf, partsOf, rootOf, withPart } from './value_path';
@@ -104,6 +104,10 @@ export class EditHost implements WidgetHost {
 
   get stale(): boolean {
     return this.base.stale;
+  }
+
+  joints(device: string): readonly Joint[] {
+    return this.base.joints(device);
   }
 
   file(path: string): Promise<Response> {

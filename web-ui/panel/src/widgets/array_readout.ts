@@ -3,6 +3,7 @@ import { css, html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { ItemInfo, Value } from '../contract';
 import { BoxedText } from './live_text';
+import { Quantity } from './quantity';
 import { scalarText } from './value_text';
 import { widgetStyles } from './styles';
 import { WidgetBase, dash } from './widget_base';
@@ -74,6 +75,14 @@ export const arrayStyles = css`
 export class ArrayReadout extends WidgetBase {
   static override styles = [widgetStyles, arrayStyles];
   private cells: BoxedText[] = [];
+  /** One for each element, where they have different units. */
+  private each: Quantity[] = [];
+
+  protected override prepare(): void {
+    super.prepare();
+    const { item } = this;
+    this.each = item?.units?.map((unit) => new Quantity({ scalar: item.scalar, unit })) ?? [];
+  }
 
   protected override render(): TemplateResult {
     const item = this.item;
@@ -88,9 +97,14 @@ export class ArrayReadout extends WidgetBase {
     return html`<span class="cells">
       ${Array.from(
         { length: columns },
-        (_, i) => html`<span class="cell"><span class="index">${elementName(item, i)}</span><span class="value boxed"></span></span>`,
-      )}${this.unitMark()}
+        (_, i) => html`<span class="cell"><span class="index">${elementName(item, i)}</span><span class="value boxed"></span>${this.unitOf(i)}</span>`,
+      )}${this.each.length === 0 ? this.unitMark() : nothing}
     </span>`;
+  }
+
+  private unitOf(element: number): TemplateResult | typeof nothing {
+    const quantity = this.each[element];
+    return quantity ? html` <span class="unit">${quantity.unit}</span>` : nothing;
   }
 
   private table(rows: number, columns: number): TemplateResult {
@@ -124,7 +138,7 @@ export class ArrayReadout extends WidgetBase {
     if (Array.isArray(value)) this.quantity.seeAll(value);
     this.cells.forEach((cell, i) => {
       const element = elementAt(value, Math.floor(i / columns), i % columns, matrix);
-      cell.text = element === undefined || element === null ? dash : scalarText(item, this.quantity, element);
+      cell.text = element === undefined || element === null ? dash : scalarText(item, this.each[i] ?? this.quantity, element);
     });
   }
 }

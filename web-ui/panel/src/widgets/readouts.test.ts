@@ -120,6 +120,12 @@ describe('vector and matrix', () => {
     expect([...shown.root.querySelectorAll('.cell')].map((cell) => cell.textContent)).toEqual(['090.0', '1−180.0']);
   });
 
+  it('shows each element in its own unit, where they differ', async () => {
+    const shown = await show(makeItem({ shape: [3], unit: 'rad|m', units: ['rad', 'm'] }));
+    shown.host.publish('jog.step', [Math.PI / 2, 0.25, 0]);
+    expect([...shown.root.querySelectorAll('.cell')].map((cell) => cell.textContent.trim())).toEqual(['090.00 °', '1250.0 mm', '20.000']);
+  });
+
   it('names the axes of a position', async () => {
     const shown = await show(makeItem({ key: 'slot:pose.position', shape: [3] }));
     expect([...shown.root.querySelectorAll('.index')].map((one) => one.textContent)).toEqual(['x', 'y', 'z']);

@@ -47,6 +47,26 @@ describe('makeModel', () => {
     expect(model.slotsByName.get('camera')?.image).toBe(true);
     expect(model.item('slot:nothing')).toBeUndefined();
   });
+  it('measures each joint of an arm by what it is: in what its device and the unit that leads it tell', () => {
+    const field = { name: 'position', scalar: 'f64', shape: [3], offset: 0, size: 24, unit: 'rad|m', summary: '' };
+    const turning = { name: 'turn', unit: 'rad' as const };
+    const of = (...joints: readonly { readonly name: string; readonly unit: 'rad' | 'm' }[]) => makeModel({
+      ...cell,
+      types: cell.types.map((type) => ({ ...type, ...(type.fields && { fields: [...type.fields, field] }) })),
+      devices: cell.devices.map((device) => ({ ...device, ...(joints.length > 0 && { joints }) })),
+    });
+    const mixed = of(turning, { name: 'slide', unit: 'm' });
+    for (const key of ['axis[0].feedback.position', 'slot:ticks.position', 'slot:place[0].position']) {
+      expect(mixed.item(key)).toMatchObject({ unit: 'rad|m', units: ['rad', 'm'] });
+      expect(mixed.item(`${key}[1]`)).toMatchObject({ unit: 'm' });
+      expect(mixed.item(`${key}[1]`)?.units).toBeUndefined();
+      expect(of(turning, turning).item(key)).toMatchObject({ unit: 'rad' });
+      expect(of().item(key)).toMatchObject({ unit: 'rad|m' });
+    }
+    expect(mixed.item('slot:goal.position')?.units).toBeUndefined();
+    expect(mixed.joints('motor').map((joint) => joint.name)).toEqual(['turn', 'slide']);
+    expect(mixed.joints('axis[0]')).toEqual([]);
+  });
   it('lists a device\'s parameter once in its menu, whatever drivers the table permits', () => {
     const [face] = cell.interfaces;
     const declared = { type: 'MotorConfiguration', parameters: [{ name: 'gear', role: 'engineer' as const, menu: 'Motors' }] };

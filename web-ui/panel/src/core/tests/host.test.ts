@@ -27,7 +27,7 @@ beforeEach(() => {
   store.reset(model);
   subscriptions = new Subscriptions({ request, onSlotGone: () => undefined, onProblem: () => undefined });
   host = new Host({
-    item: (key) => model.item(key), store, subscriptions,
+    item: (key) => model.item(key), joints: (device) => model.joints(device), store, subscriptions,
     configuration: new ConfigurationValues(fetchValues),
     holds: new Holds({ request: request as never, send: () => true, nextId: () => 1, listen: () => () => undefined }),
     request: request as never,

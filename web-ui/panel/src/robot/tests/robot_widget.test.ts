@@ -9,6 +9,13 @@ const urdf = `<robot name="r"><link name="base"/><link name="a"/><link name="b"/
   <joint name="turn" type="revolute"><parent link="base"/><child link="a"/><limit lower="-1" upper="1"/></joint>
   <joint name="slide" type="prismatic"><parent link="a"/><child link="b"/><limit lower="0" upper="0.5"/></joint></robot>`;
 
+// What the generator made of it.
+const chain = [
+  { name: 'turn', unit: 'rad', range: [-1, 1] },
+  { name: 'slide', unit: 'm', range: [0, 0.5] },
+  { name: 'roll', unit: 'rad' },
+] as const;
+
 // A slot with a field `position`, as JointState has it.
 const joints = {
   ...cell,
@@ -16,10 +23,11 @@ const joints = {
     ...cell.types,
     {
       name: 'Joints', summary: 'Joints.', hash: '9', size: 64,
-      fields: [{ name: 'position', scalar: 'f64', shape: [8], offset: 0, size: 64, unit: 'rad', summary: 'Angles.' }],
+      fields: [{ name: 'position', scalar: 'f64', shape: [8], offset: 0, size: 64, unit: 'rad|m', summary: 'Positions.' }],
     },
   ],
   slots: [...cell.slots, { ...cell.slots[0]!, name: 'joints', type: 'Joints' }],
+  devices: cell.devices.map((device) => (device.name === 'motor' ? { ...device, joints: chain } : device)),
 };
 const key = 'slot:joints.position';
 
@@ -48,19 +56,16 @@ it('shows the joints as a table where there is no 3D', { timeout: 30_000 }, asyn
   await vi.waitFor(() => expect(text()).toContain('No 3D view'), { timeout: 20_000 });
   await vi.waitFor(() => expect(text()).toContain('turn 28.65 °'));
   const rows = [...widget.shadowRoot!.querySelectorAll('tbody tr')].map((row) => row.textContent!.replace(/\s+/g, ' ').trim());
-  expect(rows).toEqual(['turn 28.65 ° −57.30 ° 57.30 °', 'slide 250.0 mm 0 mm 500.0 mm']);
+  expect(rows).toEqual(['turn 28.65 ° −57.30 ° 57.30 °', 'slide 250.0 mm 0 mm 500.0 mm', 'roll 0 ° no limit no limit']);
   expect(widget.shadowRoot!.querySelector('details')!.open).toBe(true);
   expect(widget.shadowRoot!.querySelector<HTMLElement>('.stage')!.hidden).toBe(true);
 });
 
 it('says which file is missing', async () => {
   place({});
+  fake.value(key, reading([0.5, 0.25, 0, 0, 0, 0, 0, 0]));
   await vi.waitFor(() => expect(text()).toContain('robots/motor.urdf cannot be had (404)'));
-});
-
-it('says what is wrong with the file', async () => {
-  place({ 'robots/motor.urdf': '<sdf/>' });
-  await vi.waitFor(() => expect(text()).toContain('begins with <sdf>'));
+  await vi.waitFor(() => expect(text()).toContain('slide 250.0 mm'));
 });
 
 it('says what the row lacks', async () => {

@@ -54,6 +54,7 @@ export class FakeCore {
     hold: async () => ({ release: () => undefined, over: new Promise(() => undefined) }),
     reset: async () => ({ ok: true }),
     item: (key) => this.model.item(key),
+    joints: (device) => this.model.joints(device),
     locked: () => this.denied,
     watchAccess: (callback) => {
       this.access.add(callback);

@@ -51,6 +51,7 @@ export class FakeHost implements WidgetHost {
   readonly reset = vi.fn<(key: string) => Promise<Outcome>>(async () => ({ ok: true }));
   readonly hold = vi.fn<(key: string) => Promise<Hold>>(async () => makeHold());
   readonly file = vi.fn(async () => new Response());
+  readonly joints = () => [];
 
   watch(key: string, callback: (reading: Reading) => void, options: { rate?: number; width?: number } = {}): () => void {
     const watch = { key, callback, options };
