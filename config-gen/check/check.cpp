@@ -4,7 +4,9 @@
 
 namespace flexrf::config_gen {
 
-void check(Model& model, Diagnostics& diagnostics) {
+namespace {
+
+void check_all(Model& model, Diagnostics& diagnostics) {
   check_class_names(model, diagnostics);
   if (!model.application) return;
   check_inputs(model, diagnostics);
@@ -16,6 +18,17 @@ void check(Model& model, Diagnostics& diagnostics) {
   check_schedule(model, diagnostics);
   check_cycles(model, diagnostics);
   check_memory(model, diagnostics);
+}
+
+}  // namespace
+
+void check(Model& model, Diagnostics& diagnostics) {
+  if (diagnostics.gave_up()) return;  // the model is not complete
+  try {
+    check_all(model, diagnostics);
+  } catch (const GivenUp&) {
+    // They are in `diagnostics`.
+  }
 }
 
 std::string describe(const Model& model, const Writer& writer) {

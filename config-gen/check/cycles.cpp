@@ -65,8 +65,10 @@ class Search {
   void report(Index start) {
     auto first = std::find_if(way_.begin(), way_.end(), [&](const Edge& step) { return step.to == start; });
     std::string path;
-    for (auto step = first; step != way_.end(); ++step)
+    constexpr std::ptrdiff_t most_shown = 12;
+    for (auto step = first; step != way_.end() && step - first < most_shown; ++step)
       path += quote(model_.threads[step->to].name) + " -(" + step->through + ")-> ";
+    if (way_.end() - first > most_shown) path += "... -> ";
     path += quote(model_.threads[start].name);
     const Thread& thread = model_.threads[start];
     const InInstance instance(diagnostics_, model_, thread.name);

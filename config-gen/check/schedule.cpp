@@ -18,9 +18,14 @@ struct Member {
 };
 
 std::string load_text(const Model& model, const std::vector<Member>& members, const Member& late) {
+  constexpr std::size_t most_shown = 8;
   std::vector<std::string> loads;
   for (const Member& member : members) {
     if (member.thread != late.thread && member.task.priority < late.task.priority) continue;
+    if (loads.size() == most_shown) {
+      loads.emplace_back("...");
+      break;
+    }
     loads.push_back(quote(model.threads[member.thread].name) + " " + duration_text(member.task.demand) +
                     " each " + duration_text(member.task.interval) + " at priority " +
                     std::to_string(member.task.priority));

@@ -22,7 +22,7 @@ void check_output_connections(const Model& model, const std::string& owner, cons
                               const std::vector<OutputPort>& ports,
                               const std::vector<OutputConnection>& outputs, Diagnostics& diagnostics) {
   for (std::size_t port = 0; port < outputs.size() && port < ports.size(); ++port) {
-    if (outputs[port].position) continue;
+    if (outputs[port].position || ports[port].optional) continue;
     const InInstance instance(diagnostics, model, owner);
     diagnostics.warning(row, "output " + quote(ports[port].name) + " of " + quote(owner) + " goes nowhere",
                         "add out." + ports[port].name + " = \"" + ports[port].name +

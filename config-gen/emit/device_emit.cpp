@@ -43,7 +43,8 @@ std::string interface_base_header(const Model& model, const Interface& interface
       << include_lines(system, own) << "\nnamespace flexrf {\n\n";
   if (!runtime.empty()) define_struct(model, runtime.plain, out), out << "\n";
   if (!feedback.empty()) define_struct(model, feedback.plain, out), out << "\n";
-  out << "/// " << interface.summary << "\nclass " << base_of(interface) << " : public Device {\n public:\n";
+  out << "/// " << comment_text(interface.summary) << "\nclass " << base_of(interface)
+      << " : public Device {\n public:\n";
   if (!runtime.empty()) {
     out << "  using Runtime = " << runtime.plain.name << ";\n\n"
         << "  /// May refuse a set of runtime parameters as a whole; its cause goes to who asked. Between "
@@ -56,11 +57,11 @@ std::string interface_base_header(const Model& model, const Interface& interface
   Text members;
   for (const OutputPort& port : interface.outputs) {
     members << "  " << (port.queue ? "QueueOutput<" : "Output<") << model.types[port.type].name << "> "
-            << port.name << ";  ///< " << port.summary << "\n";
+            << port.name << ";  ///< " << comment_text(port.summary) << "\n";
   }
   for (const Resource& resource : interface.resources) {
     members << "  const " << resource_type(resource.reader) << "* " << resource.name << " = nullptr;  ///< "
-            << resource.summary << "\n";
+            << comment_text(resource.summary) << "\n";
   }
   if (!runtime.empty()) members << "  Runtime runtime;\n";
   if (!feedback.empty()) members << "  Feedback feedback;\n";
@@ -119,8 +120,8 @@ std::string driver_base_header(const Model& model, const Driver& driver) {
   out << generated_note(driver.file) << "#pragma once\n\n"
       << include_lines(system, own) << "\nnamespace flexrf {\n\n";
   if (!configuration.empty()) define_struct(model, configuration.plain, out), out << "\n";
-  out << "/// " << driver.summary << "\nclass " << driver.base_class << " : public " << interface.class_name
-      << " {\n public:\n";
+  out << "/// " << comment_text(driver.summary) << "\nclass " << driver.base_class << " : public "
+      << interface.class_name << " {\n public:\n";
   if (!configuration.empty()) out << "  using Configuration = " << configuration.plain.name << ";\n\n";
   if (driver.bus_interface) out << "  void connect(const DeviceBinding& binding) noexcept final;\n";
   out << "  const ComponentType& component_type() const noexcept final;\n"

@@ -118,7 +118,8 @@ void define_accessors(const Field& field, Text& out) {
 }
 
 std::string comment_of(const Field& field) {
-  return field.summary + (field.unit.empty() || field.unit == "1" ? "" : " [" + field.unit + "]");
+  return comment_text(field.summary +
+                      (field.unit.empty() || field.unit == "1" ? "" : " [" + field.unit + "]"));
 }
 
 std::string field_signature(const Model& model, const PlainField& plain) {
@@ -252,7 +253,7 @@ std::string include_lines(const std::set<std::string>& system, const std::set<st
 }
 
 void define_struct(const Model& model, const PlainStruct& plain, Text& out) {
-  out << "/// " << plain.summary << "\nstruct " << plain.name << " {\n";
+  out << "/// " << comment_text(plain.summary) << "\nstruct " << plain.name << " {\n";
   for (const PlainField& entry : plain.fields) {
     const std::string value =
         entry.initial == nullptr ? "{}" : cpp_value(model, *entry.field, *entry.initial);

@@ -35,8 +35,11 @@ class Text {
 };
 
 std::string string_literal(std::string_view text);  // "…" in C++, whatever the text holds
-std::string double_literal(double value);           // shortest that reads back the same; 1.0, not 1
-std::string float_literal(double value);            // of a float: 1.0F
+// For the rest of a line after "//": without line breaks, and no backslash at its end that would take in the
+// next.
+std::string comment_text(std::string_view text);
+std::string double_literal(double value);  // shortest that reads back the same; 1.0, not 1
+std::string float_literal(double value);   // of a float: 1.0F
 std::string integer_literal(std::int64_t value, Scalar scalar);
 std::string duration_literal(Nanoseconds value);  // Duration{7'000'000}
 std::string bool_literal(bool value);

@@ -7,9 +7,9 @@ namespace flexrf::config_gen {
 namespace {
 
 void define_enumeration(const Type& type, Text& out) {
-  out << "/// " << type.summary << "\nenum class " << type.name << " : std::uint8_t {\n";
+  out << "/// " << comment_text(type.summary) << "\nenum class " << type.name << " : std::uint8_t {\n";
   for (const EnumerationValue& value : type.values)
-    out << "  " << value.name << ",  ///< " << value.summary << "\n";
+    out << "  " << value.name << ",  ///< " << comment_text(value.summary) << "\n";
   const std::string descriptor = descriptor_name(type.name);
   out << "};\n/// As in the table; \"?\" for a number that is none of the values.\nconst char* name_of("
       << type.name << " value) noexcept;\n\nextern const TypeDescriptor " << descriptor << ";\ntemplate <>\n"

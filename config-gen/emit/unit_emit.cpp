@@ -45,14 +45,16 @@ void define_input_counters(const UnitType& unit, Text& out) {
 void declare_members(const Model& model, const UnitType& unit, const Blocks& blocks, Text& out) {
   Text members;
   for (const InputPort& port : unit.inputs) {
-    members << "  " << input_type(model, port) << " " << port.name << ";  ///< " << port.summary << "\n";
+    members << "  " << input_type(model, port) << " " << port.name << ";  ///< " << comment_text(port.summary)
+            << "\n";
   }
   for (const OutputPort& port : unit.outputs) {
-    members << "  " << output_type(model, port) << " " << port.name << ";  ///< " << port.summary << "\n";
+    members << "  " << output_type(model, port) << " " << port.name << ";  ///< "
+            << comment_text(port.summary) << "\n";
   }
   for (const DevicePort& port : unit.devices) {
     members << "  " << model.interfaces[port.interface].class_name << "* " << port.name
-            << " = nullptr;  ///< " << port.summary << "\n";
+            << " = nullptr;  ///< " << comment_text(port.summary) << "\n";
   }
   if (unit.cell_access) members << "  CellAccess cell;\n";
   if (!blocks.configuration.empty()) members << "  Configuration configuration;\n";
@@ -81,7 +83,8 @@ std::string unit_base_header(const Model& model, const UnitType& unit) {
   for (const BlockText* block : {&blocks.configuration, &blocks.runtime, &blocks.feedback}) {
     if (!block->empty()) define_struct(model, block->plain, out), out << "\n";
   }
-  out << "/// " << unit.summary << "\nclass " << unit.base_class << " : public Unit {\n public:\n";
+  out << "/// " << comment_text(unit.summary) << "\nclass " << unit.base_class
+      << " : public Unit {\n public:\n";
   if (!blocks.configuration.empty())
     out << "  using Configuration = " << blocks.configuration.plain.name << ";\n";
   if (!blocks.runtime.empty()) out << "  using Runtime = " << blocks.runtime.plain.name << ";\n";

@@ -1,15 +1,14 @@
 #include "config-gen/model/diagnostics.hpp"
 
 #include <algorithm>
-#include <map>
 #include <ostream>
-#include <set>
-#include <tuple>
+
+#include "config-gen/model/limits.hpp"
 
 namespace flexrf::config_gen {
 namespace {
 
-// "tracks[3]" and "tracks[4]" are alike: what is wrong with all instances is said once.
+// "tracks[3]" and "tracks[4]" are alike.
 std::string without_numbers(const std::string& text) {
   std::string plain;
   bool inside = false;
@@ -43,12 +42,34 @@ void Diagnostics::warning(const Position& position, std::string text, std::strin
   add(Severity::warning, position, std::move(text), std::move(hint));
 }
 
+void Diagnostics::give_up(const Position& position, std::string text, std::string hint) {
+  add(Severity::error, position, std::move(text), std::move(hint));
+  gave_up_ = true;
+  throw GivenUp{};
+}
+
 void Diagnostics::add(Severity severity, const Position& position, std::string text, std::string hint) {
+  Count& count = counts_[static_cast<std::size_t>(severity)];
+  if (count.different >= max_errors || count.all >= max_errors_alike) {
+    // Warnings change nothing, and the tables may be good.
+    if (severity == Severity::error) {
+      gave_up_ = true;
+      throw GivenUp{};
+    }
+    ++count.left_out;
+    return;
+  }
+  ++count.all;
   Diagnostic diagnostic{severity, position, std::move(text), std::move(hint), {}, {}};
   if (!instances_.empty()) {
     diagnostic.instance = instances_.back().name;
     diagnostic.instantiated = instances_.back().position;
   }
+  const auto [alike, is_new] =
+      alike_.try_emplace(Key{position, severity, without_numbers(diagnostic.text)}, Alike{all_.size(), {}});
+  alike->second.messages.insert(diagnostic.instance + '\n' + diagnostic.text);
+  if (!is_new) return;
+  ++count.different;
   all_.push_back(std::move(diagnostic));
 }
 
@@ -66,18 +87,10 @@ bool Diagnostics::failed() const {
 }
 
 std::vector<Diagnostic> Diagnostics::sorted() const {
-  std::vector<Diagnostic> kept;
-  std::map<std::tuple<Position, Severity, std::string>, std::pair<std::size_t, std::set<std::string>>> seen;
-  for (const Diagnostic& diagnostic : all_) {
-    const auto [place, is_new] =
-        seen.try_emplace({diagnostic.position, diagnostic.severity, without_numbers(diagnostic.text)},
-                         kept.size(), std::set<std::string>{});
-    place->second.second.insert(diagnostic.instance + '\n' + diagnostic.text);
-    if (is_new) kept.push_back(diagnostic);
-  }
-  for (const auto& [key, place] : seen) {
-    const std::size_t more = place.second.size() - 1;
-    if (more > 0) kept[place.first].text += " (and " + std::to_string(more) + " more like it)";
+  std::vector<Diagnostic> kept = all_;
+  for (const auto& [key, alike] : alike_) {
+    const std::size_t more = alike.messages.size() - 1;
+    if (more > 0) kept[alike.first].text += " (and " + std::to_string(more) + " more like it)";
   }
   std::stable_sort(kept.begin(), kept.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::tie(a.position, a.severity) < std::tie(b.position, b.severity);
@@ -86,7 +99,14 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
 }
 
 void Diagnostics::print(std::ostream& out) const {
-  for (const Diagnostic& diagnostic : sorted()) {
+  std::vector<Diagnostic> shown = sorted();
+  const std::size_t found = shown.size() + counts_[static_cast<std::size_t>(Severity::warning)].left_out;
+  if (shown.size() > max_messages_shown) {
+    std::stable_partition(shown.begin(), shown.end(),
+                          [](const Diagnostic& one) { return one.severity == Severity::error; });
+    shown.resize(max_messages_shown);
+  }
+  for (const Diagnostic& diagnostic : shown) {
     const std::string place = to_string(diagnostic.position);
     out << place << (diagnostic.severity == Severity::error ? ": error: " : ": warning: ") << diagnostic.text
         << '\n';
@@ -95,6 +115,8 @@ void Diagnostics::print(std::ostream& out) const {
       out << to_string(diagnostic.instantiated) << ": note: in group instance '" << diagnostic.instance
           << "', which this row makes\n";
   }
+  if (found > shown.size()) out << "config-gen: " << found - shown.size() << " more messages are not shown\n";
+  if (gave_up_) out << "config-gen: what follows was not looked at: mend these first\n";
 }
 
 }  // namespace flexrf::config_gen

@@ -108,10 +108,25 @@ Extent finish(Extent extent, bool empty) {
   return extent;
 }
 
+std::size_t single_fields(const Model& model, const Field& field) {
+  if (field.type.kind == FieldType::Kind::scalar) return 1;
+  const Type& type = model.types[field.type.declared];
+  return type.kind == Type::Kind::record ? type.single_fields * field.elements() : 1;
+}
+
+std::size_t single_values(const Model& model, const Field& field) {
+  const std::size_t each =
+      field.type.kind == FieldType::Kind::scalar ? 1 : model.types[field.type.declared].single_values;
+  return each * field.elements();
+}
+
 void lay_out(const Model& model, Type& type) {
   Extent extent;
   if (type.kind == Type::Kind::record) {
+    type.single_fields = type.single_values = 0;
     for (Field& field : type.fields) {
+      type.single_fields += single_fields(model, field);
+      type.single_values += single_values(model, field);
       lay_out(model, field);
       append(field, extent, &field == &type.fields.front());
     }

@@ -24,6 +24,11 @@ struct Extent {
 void append(Field& field, Extent& extent, bool first);
 Extent finish(Extent extent, bool empty);
 
+// What one field of a struct takes of the limits of its type: as Type::single_fields and single_values.
+std::size_t single_fields(const Model& model, const Field& field);
+std::size_t single_values(const Model& model, const Field& field);
+
+// Each of its fields is within the limits.
 void lay_out(const Model& model, Type& type);
 void lay_out(const Model& model, ParameterBlock& block);
 

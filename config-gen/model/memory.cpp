@@ -1,6 +1,7 @@
 #include "config-gen/model/memory.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "config-gen/model/layout.hpp"
@@ -63,7 +64,10 @@ std::vector<MemoryItem> memory_map(const Model& model) {
 
 std::size_t total(const std::vector<MemoryItem>& items) {
   return std::accumulate(items.begin(), items.end(), std::size_t{0},
-                         [](std::size_t sum, const MemoryItem& item) { return sum + item.bytes; });
+                         [](std::size_t sum, const MemoryItem& item) {
+                           constexpr std::size_t most = std::numeric_limits<std::size_t>::max() / 2;
+                           return std::min(most, sum + std::min(most, item.bytes));
+                         });
 }
 
 }  // namespace flexrf::config_gen

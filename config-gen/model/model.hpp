@@ -72,6 +72,8 @@ struct Type {
   bool image = false;
   std::vector<Field> fields;             // record
   std::vector<EnumerationValue> values;  // enumeration; at most 256, stored as u8
+  std::size_t single_fields = 1;         // scalars and arrays of them, of each element of a record
+  std::size_t single_values = 1;         // scalars
   std::size_t size = 0;
   std::size_t alignment = 1;
 };
@@ -144,6 +146,7 @@ struct OutputPort {
   Index type = 0;
   Position type_position;
   std::size_t loans = 1;
+  bool optional = false;  // no warning when it goes nowhere
   std::string summary;
 };
 

@@ -100,6 +100,10 @@ std::string snake_case(std::string_view camel) {
 }
 
 std::string nearest(std::string_view word, std::span<const std::string> known) {
+  constexpr std::size_t most_looked_at = 1000;  // an application of more names shall not take longer
+  constexpr std::size_t longest = 64;           // no name is longer that somebody mistypes
+  if (word.size() > longest) return "";
+  known = known.first(std::min(known.size(), most_looked_at));
   const std::size_t limit = std::max<std::size_t>(1, std::min<std::size_t>(3, word.size() / 2));
   std::size_t best = limit + 1;
   std::string found;
@@ -132,8 +136,27 @@ std::string suggest(std::string_view word, const std::vector<std::string>& known
   return cut ? text + ", ..." : text;
 }
 
+std::string printable(std::string_view text) {
+  constexpr std::size_t most_letters = 120;
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (result.size() >= most_letters && (byte & 0xC0) != 0x80) return result + "...";
+    if (c == '\n') {
+      result += "\\n";
+    } else if (byte < 0x20 || byte == 0x7F) {
+      std::array<char, 8> escape{};
+      std::snprintf(escape.data(), escape.size(), "\\x%02X", byte);
+      result += escape.data();
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
 std::string quote(std::string_view word) {
-  return "'" + std::string(word) + "'";
+  return "'" + printable(word) + "'";
 }
 
 std::string listed(const std::vector<std::string>& words) {

@@ -23,7 +23,10 @@ std::string nearest(std::string_view word, std::span<const std::string> known);
 std::string suggest(std::string_view word, const std::vector<std::string>& known, std::string_view kinds,
                     std::string_view otherwise);
 
-std::string quote(std::string_view word);                   // 'word'
+// On one line, and not too long to read: control characters as escapes, what comes after 120 letters as
+// "...".
+std::string printable(std::string_view text);
+std::string quote(std::string_view word);                   // 'word', printable
 std::string listed(const std::vector<std::string>& words);  // 'a', 'b' and 'c'
 std::string join(const std::vector<std::string>& words, std::string_view separator);
 

@@ -43,6 +43,7 @@ struct Assembly {
   std::vector<DeviceRow> device_rows;
   std::vector<Thread> io_threads;
 
+  std::size_t values = 0;        // of the parameters of all units so far
   std::set<std::string> copied;  // queues with share = "copies"
 
   // Rows too broken to become anything, and the slots they name: nothing that depends on them is judged.
@@ -82,6 +83,9 @@ std::vector<ParameterOverride> read_overrides(Assembly& assembly, const Node* ta
 // The values of `block` that a narrowed range would leave out.
 void check_narrowed(Assembly& assembly, const std::vector<ParameterOverride>& changes,
                     const ParameterBlock& block, const std::vector<Literal>& values);
+
+// The key `stack` of a thread's row; what is less than any thread needs is reported.
+std::optional<std::size_t> read_stack(Row& row, Diagnostics& diagnostics);
 
 // Marks every slot that a broken row names.
 void mark_broken(Assembly& assembly, const FlatRow& row);

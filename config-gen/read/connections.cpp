@@ -277,7 +277,7 @@ void read_slot_row(Assembly& assembly, const FlatRow& flat) {
   const auto observe = row.boolean("observe");
   const auto wall = row.boolean("wall");
   const auto history = row.integer("history", 1, 1 << 20);
-  const auto summary = row.text("summary");
+  const auto summary = row.sentence("summary");
   row.finish();
   const std::string name = flat.scope->slot_name(flat.node->key);
   std::vector<Index> found;
@@ -336,7 +336,7 @@ void read_order(Assembly& assembly, Row& row, Queue& queue) {
     return;
   }
   assembly.diagnostics.error(score->position, "unknown field " + quote(score->text) + " of " + type.name,
-                             suggest(score->text, known, "fields", ""));
+                             suggest(score->text, known, "fields", "it has none: remove 'order'"));
 }
 
 void read_queue_row(Assembly& assembly, const FlatRow& flat) {
@@ -352,7 +352,7 @@ void read_queue_row(Assembly& assembly, const FlatRow& flat) {
   const auto share = row.word("share", {"jobs", "copies"});
   queue.jobs = share == std::size_t{0};
   queue.wall = row.boolean("wall").value_or(false);
-  queue.summary = row.text("summary").value_or("");
+  queue.summary = row.sentence("summary").value_or("");
   if (found != assembly.queues.end())
     read_order(assembly, row, queue);
   else

@@ -1,14 +1,14 @@
 #include "config-gen/read/csv.hpp"
 
 #include <charconv>
-#include <fstream>
-#include <iterator>
 
 #include "config-gen/model/words.hpp"
+#include "config-gen/read/source_text.hpp"
 
 namespace flexrf::config_gen {
 namespace {
 
+constexpr std::size_t most_columns = 256;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 bool blank(char c) {
@@ -36,7 +36,7 @@ class Scanner {
         while (at_ < text_.size() && peek() != '\n') step();
       }
       if (at_ == text_.size()) break;
-      if (peek() == '\n' || peek() == '\r') {
+      if (peek() == '\n') {
         step();
         continue;
       }
@@ -58,9 +58,7 @@ class Scanner {
     ++at_;
   }
 
-  bool ends_cell() const {
-    return at_ == text_.size() || peek() == separator_ || peek() == '\n' || peek() == '\r';
-  }
+  bool ends_cell() const { return at_ == text_.size() || peek() == separator_ || peek() == '\n'; }
 
   char find_separator() const {
     bool quoted = false, comment = false, fresh = true;
@@ -176,7 +174,9 @@ std::optional<double> CsvTable::number(const CsvCell& cell, Diagnostics& diagnos
 std::optional<CsvTable> parse_csv(std::string_view text, const std::filesystem::path& file,
                                   Diagnostics& diagnostics) {
   const std::string_view name = intern(file.generic_string());
-  Scanner scanner(text, name, diagnostics);
+  if (!check_utf8(text, name, diagnostics)) return std::nullopt;
+  const std::string plain = with_plain_line_ends(text);
+  Scanner scanner(plain, name, diagnostics);
   CsvTable table;
   auto header = scanner.next();
   if (!header) {
@@ -184,6 +184,13 @@ std::optional<CsvTable> parse_csv(std::string_view text, const std::filesystem::
     return std::nullopt;
   }
   table.header = std::move(*header);
+  if (table.header.size() > most_columns) {
+    diagnostics.error({name, 1, 1},
+                      "the first line of this list has " + std::to_string(table.header.size()) + " columns",
+                      "it names the columns, at most " + std::to_string(most_columns) +
+                          ": look for a cell whose quotes are never closed");
+    return std::nullopt;
+  }
   for (std::size_t i = 0; i < table.header.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (table.header[i].text == table.header[k].text)
@@ -204,14 +211,8 @@ std::optional<CsvTable> parse_csv(std::string_view text, const std::filesystem::
 }
 
 std::optional<CsvTable> read_csv(const std::filesystem::path& file, Diagnostics& diagnostics) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    diagnostics.error({intern(file.generic_string()), 0, 0}, "cannot read this file",
-                      "check that it exists and may be read");
-    return std::nullopt;
-  }
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  return parse_csv(text, file, diagnostics);
+  const auto text = read_source(file, diagnostics);
+  return text ? parse_csv(*text, file, diagnostics) : std::nullopt;
 }
 
 }  // namespace flexrf::config_gen

@@ -1,6 +1,7 @@
 // What follows from the connections: who reads with how many buffers, who rings whom, what lives where.
 #include <algorithm>
 
+#include "config-gen/model/limits.hpp"
 #include "config-gen/read/assembly.hpp"
 
 namespace flexrf::config_gen {
@@ -194,8 +195,10 @@ void derive(Assembly& assembly) {
     add_readers(model, slot);
   }
   add_doorbells(model);
+  // More than the longest duration is as good as endless, and sums of it do not overflow.
   for (Thread& thread : model.threads)
-    for (const Index unit : thread.units) thread.demand += model.units[unit].budget.value_or(0);
+    for (const Index unit : thread.units)
+      thread.demand = std::min(max_duration, thread.demand + model.units[unit].budget.value_or(0));
 }
 
 }  // namespace flexrf::config_gen

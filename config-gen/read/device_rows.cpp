@@ -39,7 +39,7 @@ void read_io_thread(Assembly& assembly, Row& row, Index device) {
           io.position("min_interval"), io.name() + " has both 'period' and 'min_interval'",
           "keep 'period' for a polled device, 'min_interval' for one that wakes its thread");
     thread.demand = io.positive_duration("budget").value_or(0);
-    thread.stack = io.size("stack").value_or(thread.stack);
+    thread.stack = read_stack(io, assembly.diagnostics).value_or(thread.stack);
     io.finish();
   } else if (value->kind != Node::Kind::boolean) {
     row.wrong_kind(*value, "io_thread", "true or a table",

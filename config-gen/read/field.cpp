@@ -81,6 +81,27 @@ void read_unit_of_measure(Row& row, Field& field, Diagnostics& diagnostics) {
   field.unit = *unit;
 }
 
+// Before anything is computed from its size.
+bool check_size(Library& library, const Row& row, Field& field) {
+  lay_out(library.model(), field);
+  const Position place = row.position(row.has("shape") ? "shape" : "type");
+  if (field.size > max_type_size) {
+    library.diagnostics().error(
+        place, row.name() + " takes " + size_text(field.size) + ", more than " + size_text(max_type_size),
+        "make its shape smaller");
+    return false;
+  }
+  if (single_fields(library.model(), field) > max_type_fields) {
+    library.diagnostics().error(
+        place,
+        row.name() + " has " + std::to_string(single_fields(library.model(), field)) +
+            " single fields, those of each element counted, more than " + std::to_string(max_type_fields),
+        "make its shape smaller, or a type whose fields are arrays of numbers: such an array is one field");
+    return false;
+  }
+  return true;
+}
+
 void read_range(Library& library, Row& row, Parameter& parameter, bool numeric) {
   const Node* range = row.any("range");
   if (range == nullptr) return;
@@ -99,13 +120,7 @@ void read_range(Library& library, Row& row, Parameter& parameter, bool numeric) 
   const std::string what = "the range of " + row.name();
   auto low = read_literal(library.model(), bound, range->children[0], what, diagnostics);
   auto high = read_literal(library.model(), bound, range->children[1], what, diagnostics);
-  if (!low || !high) return;
-  if (number_of(*low) > number_of(*high)) {
-    diagnostics.error(range->position,
-                      what + " is empty: " + literal_text(*low) + " is above " + literal_text(*high),
-                      "write the lower bound first");
-    return;
-  }
+  if (!low || !high || !check_range(*low, *high, range->position, what, diagnostics)) return;
   low->position = high->position = range->position;
   parameter.low = std::move(low);
   parameter.high = std::move(high);
@@ -147,18 +162,28 @@ Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kin
                                              ? std::vector<std::string>{"button", "hold"}
                                              : std::vector<std::string>{};
   std::string word;
-  const auto field = read_field(library, row, words, &word);
-  if (field) parameter.field = *field;
+  auto field = read_field(library, row, words, &word);
   if (word == "button") parameter.input = Parameter::Input::button;
   if (word == "hold") parameter.input = Parameter::Input::hold;
 
-  parameter.widget = row.text("widget").value_or("");
-  parameter.label = row.text("label").value_or("");
-  if (field) parameter.initial = zero_literal(library.model(), parameter.field, node.key_position);
-  if (field && kind == Parameter::Kind::feedback && has_image(library.model(), field->type))
+  if (field && kind == Parameter::Kind::feedback && has_image(library.model(), field->type)) {
     library.diagnostics().error(row.position("type"), "an image cannot be in feedback: " + row.name(),
                                 "feedback is copied after each step: publish the image as an [output.NAME], "
                                 "which is read where it lies");
+    field.reset();
+  }
+  if (field && single_values(library.model(), *field) > max_parameter_values) {
+    library.diagnostics().error(
+        row.position(row.has("shape") ? "shape" : "type"),
+        row.name() + " has " + std::to_string(single_values(library.model(), *field)) +
+            " values, more than " + std::to_string(max_parameter_values),
+        "make its shape smaller: what is large goes through a slot, or is read from a file");
+    field.reset();
+  }
+  if (field) parameter.field = *field;
+  parameter.widget = row.text("widget").value_or("");
+  parameter.label = row.text("label").value_or("");
+  if (field) parameter.initial = zero_literal(library.model(), parameter.field, node.key_position);
   if (kind != Parameter::Kind::feedback) {
     const FieldType& type = parameter.field.type;
     const bool numeric = field && parameter.input == Parameter::Input::value &&
@@ -253,7 +278,7 @@ std::optional<Field> read_field(Library& library, Row& row, const std::vector<st
   } else if (!known) {
     for (const char* key : {"shape", "capacity", "unit"}) row.also(key);
   }
-  if (!known) return std::nullopt;
+  if (!known || !check_size(library, row, field)) return std::nullopt;
   return field;
 }
 

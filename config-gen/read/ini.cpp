@@ -1,10 +1,10 @@
 #include "config-gen/read/ini.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <map>
 
 #include "config-gen/model/words.hpp"
+#include "config-gen/read/source_text.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -104,19 +104,18 @@ class IniReader {
     std::string_view name = whole.substr(1, end == std::string_view::npos ? end : end - 1);
     while (!name.empty() && is_blank(name.front())) name.remove_prefix(1);
     while (!name.empty() && is_blank(name.back())) name.remove_suffix(1);
-    const auto known = std::find_if(sections_.begin(), sections_.end(), [&](const IniSection& section) {
-      return equal_without_case(section.name, name);
-    });
-    leave_out_ = known != sections_.end();
+    const auto [known, is_new] = known_.try_emplace(in_small_letters(name), start);
+    leave_out_ = !is_new;
     if (leave_out_)
       diagnostics_.warning(start, "the section " + quote(name) + " is there twice",
-                           "the first counts, at " + to_string(known->position));
+                           "the first counts, at " + to_string(known->second));
     else
       sections_.push_back({std::string(name), start, {}});
   }
 
   Diagnostics& diagnostics_;
   std::vector<IniSection> sections_;
+  std::map<std::string, Position> known_;  // by its name in small letters
   bool leave_out_ = false;
   std::size_t stray_ = 0;
   Position first_stray_;
@@ -162,14 +161,8 @@ std::optional<std::vector<IniSection>> parse_ini(std::string_view text, const st
 }
 
 std::optional<std::vector<IniSection>> read_ini(const std::filesystem::path& file, Diagnostics& diagnostics) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    diagnostics.error({intern(file.generic_string()), 0, 0}, "cannot read this file",
-                      "check that it exists and may be read");
-    return std::nullopt;
-  }
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  return parse_ini(text, file, diagnostics);
+  const auto text = read_source(file, diagnostics);
+  return text ? parse_ini(with_plain_line_ends(*text), file, diagnostics) : std::nullopt;
 }
 
 }  // namespace flexrf::config_gen

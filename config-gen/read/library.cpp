@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
@@ -121,8 +122,16 @@ std::optional<Index> Library::get(Entries& entries, const std::string& name, con
     return std::nullopt;
   }
   if (entry.read) return entry.index;
+  const std::size_t deeper = what == "type" ? 1 : 0;
+  if (depth_ + deeper > max_nesting) {
+    diagnostics_.error(place, name + " would be nested deeper than " + std::to_string(max_nesting) + " types",
+                       "a type of types of types: put the fields into fewer types");
+    return std::nullopt;
+  }
   entry.reading = true;
+  depth_ += deeper;
   if (const auto root = parse(entry.file)) entry.index = read(*this, *root, entry.file);
+  depth_ -= deeper;
   entry.reading = false;
   entry.read = true;
   return entry.index;

@@ -61,6 +61,7 @@ class Library {
   Entries types_;
   Entries units_;
   Entries interfaces_;
+  std::size_t depth_ = 0;  // types that are being read, each because of the one before
   struct DriverEntry {
     std::filesystem::path file;
     std::string interface;

@@ -102,7 +102,7 @@ std::optional<Literal> read_record(const Context& context, const Type& type, con
     if (found) continue;
     context.diagnostics.error(
         child.key_position, "unknown field " + quote(child.key) + " of " + type.name + " in " + context.what,
-        suggest(child.key, known, "fields", ""));
+        suggest(child.key, known, "fields", "it has none: remove this"));
     good = false;
   }
   Literal literal;
@@ -131,11 +131,11 @@ std::optional<Literal> read_element(const Context& context, const Field& field, 
   if (value.kind != Node::Kind::text)
     return context.fail(value,
                         "must be the name of a value of " + type.name + ", not " + kind_text(value.kind),
-                        suggest("", names, "values", ""));
+                        suggest("", names, "values", "the type has none"));
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == value.text) return Literal{static_cast<std::int64_t>(i), {}, value.position};
   return context.fail(value, "is " + quote(value.text) + ", which is no value of " + type.name,
-                      suggest(value.text, names, "values", ""));
+                      suggest(value.text, names, "values", "the type has none"));
 }
 
 std::string shape_text(const std::vector<std::size_t>& shape) {
@@ -206,11 +206,8 @@ std::optional<Literal> read_parameter_value(const Model& model, const Parameter&
                                             const std::string& what, Diagnostics& diagnostics) {
   auto literal = read_literal(model, parameter.field, value, what, diagnostics);
   if (!literal || !parameter.low || !parameter.high) return literal;
-  const auto inside = [&](const Literal& one) {
-    return number_of(one) >= number_of(*parameter.low) && number_of(one) <= number_of(*parameter.high);
-  };
   const auto judge = [&](const Literal& one) {
-    if (inside(one)) return true;
+    if (!is_below(one, *parameter.low) && !is_below(*parameter.high, one)) return true;
     diagnostics.error(one.position,
                       what + " is " + literal_text(one) + ", outside of its range " + range_text(parameter),
                       "choose a value inside, or change the range at " + to_string(parameter.low->position));
@@ -222,6 +219,24 @@ std::optional<Literal> read_parameter_value(const Model& model, const Parameter&
   return literal;
 }
 
+bool check_range(const Literal& low, const Literal& high, const Position& position, const std::string& what,
+                 Diagnostics& diagnostics) {
+  constexpr std::int64_t most = (std::int64_t{1} << 53) - 1;
+  for (const Literal* bound : {&low, &high}) {
+    const auto* integer = std::get_if<std::int64_t>(&bound->value);
+    if (integer == nullptr || (*integer >= -most && *integer <= most)) continue;
+    diagnostics.error(bound->position,
+                      what + " has the bound " + literal_text(*bound) + ", which is too far from 0",
+                      "bounds are exact from -" + std::to_string(most) + " to " + std::to_string(most) +
+                          ": choose one inside, or leave out the range");
+    return false;
+  }
+  if (!is_below(high, low)) return true;
+  diagnostics.error(position, what + " is empty: " + literal_text(low) + " is above " + literal_text(high),
+                    "write the lower bound first");
+  return false;
+}
+
 double number_of(const Literal& literal) {
   if (const auto* real = std::get_if<double>(&literal.value)) return *real;
   if (const auto* integer = std::get_if<std::int64_t>(&literal.value)) return static_cast<double>(*integer);
@@ -229,10 +244,17 @@ double number_of(const Literal& literal) {
   return 0;
 }
 
+bool is_below(const Literal& one, const Literal& other) {
+  const auto* integer = std::get_if<std::int64_t>(&one.value);
+  const auto* bound = std::get_if<std::int64_t>(&other.value);
+  if (integer != nullptr && bound != nullptr) return *integer < *bound;
+  return number_of(one) < number_of(other);
+}
+
 std::string literal_text(const Literal& literal) {
   if (const auto* integer = std::get_if<std::int64_t>(&literal.value)) return std::to_string(*integer);
   if (const auto* boolean = std::get_if<bool>(&literal.value)) return *boolean ? "true" : "false";
-  if (const auto* text = std::get_if<std::string>(&literal.value)) return "\"" + *text + "\"";
+  if (const auto* text = std::get_if<std::string>(&literal.value)) return "\"" + printable(*text) + "\"";
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.10g", number_of(literal));
   return text.data();

@@ -23,7 +23,14 @@ Literal zero_literal(const Model& model, const Field& field, const Position& pos
 std::optional<Literal> read_parameter_value(const Model& model, const Parameter& parameter, const Node& value,
                                             const std::string& what, Diagnostics& diagnostics);
 
+// Whether a range has numbers inside, and bounds that the runtime, which keeps them as f64, can compare any
+// 64-bit value with. What is wrong is reported with `what` ("the range of 'step'").
+bool check_range(const Literal& low, const Literal& high, const Position& position, const std::string& what,
+                 Diagnostics& diagnostics);
+
 double number_of(const Literal& literal);  // of a bool, an integer or a real
+// Of two of one type: exact for 64-bit integers, too.
+bool is_below(const Literal& one, const Literal& other);
 std::string literal_text(const Literal& literal);
 // "[0.001, 0.1] m"
 std::string range_text(const Parameter& parameter);

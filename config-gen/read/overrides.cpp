@@ -38,14 +38,9 @@ void read_override_range(Assembly& assembly, Row& row, const Parameter& paramete
   const std::string what = "a bound of the range of " + row.name();
   auto low = read_parameter_value(assembly.model, bound, range->children[0], what, assembly.diagnostics);
   auto high = read_parameter_value(assembly.model, bound, range->children[1], what, assembly.diagnostics);
-  if (!low || !high) return;
-  if (number_of(*low) > number_of(*high)) {
-    assembly.diagnostics.error(range->position,
-                               "the range of " + row.name() + " is empty: " + literal_text(*low) +
-                                   " is above " + literal_text(*high),
-                               "write the lower bound first");
+  if (!low || !high ||
+      !check_range(*low, *high, range->position, "the range of " + row.name(), assembly.diagnostics))
     return;
-  }
   low->position = high->position = range->position;
   change.low = std::move(low);
   change.high = std::move(high);
@@ -102,8 +97,7 @@ void check_narrowed(Assembly& assembly, const std::vector<ParameterOverride>& ch
       const Parameter& parameter = block.parameters[i];
       if (parameter.field.name != change.parameter || parameter.kind != change.kind) continue;
       const auto judge = [&](const Literal& value) {
-        if (number_of(value) >= number_of(*change.low) && number_of(value) <= number_of(*change.high))
-          return true;
+        if (!is_below(value, *change.low) && !is_below(*change.high, value)) return true;
         assembly.diagnostics.error(change.low->position,
                                    "the range of " + quote("parameter." + change.parameter) +
                                        " leaves out the value " + literal_text(value) +

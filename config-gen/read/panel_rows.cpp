@@ -197,10 +197,10 @@ void Reader::read_parameters(Row& row, PanelWidget& widget) {
       std::vector<std::string> known;
       for (const std::string& parameter : names_.parameters)
         if (parameter.starts_with(owner + ".")) known.push_back(parameter);
-      assembly_.diagnostics.error(child->position, "unknown parameter " + quote(child->text),
-                                  known.empty()
-                                      ? suggest(child->text, names_.parameters, "parameters", "there is none")
-                                      : suggest(child->text, known, "parameters", ""));
+      assembly_.diagnostics.error(
+          child->position, "unknown parameter " + quote(child->text),
+          known.empty() ? suggest(child->text, names_.parameters, "parameters", "there is none")
+                        : suggest(child->text, known, "parameters", "this application has none: remove it"));
     }
   }
 }
@@ -261,7 +261,7 @@ void Reader::read_widget(const Node& node) {
   widget.name = node.key;
   widget.position = node.key_position;
   widget.label = row.text("label").value_or("");
-  widget.summary = row.text("summary").value_or("");
+  widget.summary = row.sentence("summary").value_or("");
   if (const auto place = row.text("place")) {
     widget.place = *place;
     check_place(*place, row.position("place"));

@@ -64,18 +64,7 @@ void read_application(Library& library, const std::filesystem::path& file) {
   for (Queue& queue : model.queues) queue.partial = assembly.broken_places.contains(queue.declared);
 }
 
-}  // namespace
-
-Model read(const Target& target, const SearchPaths& paths, Diagnostics& diagnostics) {
-  Model model;
-  SearchPaths all = paths;
-  if (target.kind == Target::Kind::types) {
-    all.types.push_back(target.file);
-  } else if (target.kind == Target::Kind::application) {
-    all.types.push_back(target.file.parent_path() / "types");
-    all.units.push_back(target.file.parent_path() / "units");
-  }
-  Library library(model, std::move(all), diagnostics);
+void read_target(Library& library, const Target& target) {
   switch (target.kind) {
     case Target::Kind::types:
       library.read_types(target.file);
@@ -92,6 +81,25 @@ Model read(const Target& target, const SearchPaths& paths, Diagnostics& diagnost
     case Target::Kind::application:
       read_application(library, target.file);
       break;
+  }
+}
+
+}  // namespace
+
+Model read(const Target& target, const SearchPaths& paths, Diagnostics& diagnostics) {
+  Model model;
+  SearchPaths all = paths;
+  if (target.kind == Target::Kind::types) {
+    all.types.push_back(target.file);
+  } else if (target.kind == Target::Kind::application) {
+    all.types.push_back(target.file.parent_path() / "types");
+    all.units.push_back(target.file.parent_path() / "units");
+  }
+  try {
+    Library library(model, std::move(all), diagnostics);
+    read_target(library, target);
+  } catch (const GivenUp&) {
+    // They are in `diagnostics`.
   }
   return model;
 }

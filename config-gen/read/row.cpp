@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/quantities.hpp"
 
@@ -9,13 +10,13 @@ namespace flexrf::config_gen {
 namespace {
 
 std::string shown(const Node& node) {
-  return node.kind == Node::Kind::text ? "\"" + node.text + "\"" : kind_text(node.kind);
+  return node.kind == Node::Kind::text ? "\"" + printable(node.text) + "\"" : kind_text(node.kind);
 }
 
 }  // namespace
 
-Row::Row(const Node& table, std::string name, Diagnostics& diagnostics)
-    : table_(table), name_(std::move(name)), diagnostics_(diagnostics) {}
+Row::Row(const Node& table, std::string_view name, Diagnostics& diagnostics)
+    : table_(table), name_(printable(name)), diagnostics_(diagnostics) {}
 
 const Node* Row::find(std::string_view key) {
   also(key);
@@ -66,7 +67,13 @@ std::optional<std::int64_t> Row::duration(std::string_view key) {
   const Node* value = find(key);
   if (value == nullptr) return std::nullopt;
   if (value->kind == Node::Kind::text)
-    if (const auto duration = parse_duration(value->text)) return duration;
+    if (const auto duration = parse_duration(value->text)) {
+      if (*duration <= max_duration) return duration;
+      diagnostics_.error(value->position,
+                         quote(key) + " of " + name_ + " is " + shown(*value) + ", longer than a year",
+                         "a duration is at most \"8760 h\"");
+      return std::nullopt;
+    }
   diagnostics_.error(
       value->position, quote(key) + " of " + name_ + " must be a duration, not " + shown(*value),
       "write a number and its unit in double quotes, as \"7 ms\", \"300 us\", \"1.5 s\" or \"250 ns\"");
@@ -85,7 +92,12 @@ std::optional<std::size_t> Row::size(std::string_view key) {
   const Node* value = find(key);
   if (value == nullptr) return std::nullopt;
   if (value->kind == Node::Kind::text)
-    if (const auto size = parse_size(value->text); size && *size > 0) return size;
+    if (const auto size = parse_size(value->text); size && *size > 0) {
+      if (*size <= max_size) return size;
+      diagnostics_.error(value->position, quote(key) + " of " + name_ + " is " + shown(*value),
+                         "a size is at most \"1024 GiB\"");
+      return std::nullopt;
+    }
   diagnostics_.error(value->position, quote(key) + " of " + name_ + " must be a size, not " + shown(*value),
                      "write a number and its unit in double quotes, as \"8 MiB\", \"64 KiB\" or \"512 B\"");
   return std::nullopt;
@@ -124,10 +136,26 @@ std::optional<std::string> Row::required_text(std::string_view key, std::string_
   return text(key);
 }
 
+std::optional<std::string> Row::sentence(std::string_view key) {
+  const auto value = text(key);
+  if (!value) return std::nullopt;
+  std::string line;
+  for (const char c : *value) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte > 0x20 && byte != 0x7F)
+      line += c;
+    else if (!line.empty() && line.back() != ' ')
+      line += ' ';
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line;
+}
+
 std::string Row::summary() {
-  const auto value =
-      required_text("summary", "add summary = \"One sentence.\": the panel and the reference show it");
-  if (value && value->find_first_not_of(" \t\n") == std::string::npos)
+  if (!has("summary"))
+    missing("summary", "add summary = \"One sentence.\": the panel and the reference show it");
+  const auto value = sentence("summary");
+  if (value && value->empty())
     diagnostics_.error(position("summary"), "the summary of " + name_ + " is empty",
                        "write one sentence: the panel and the reference show it");
   return value.value_or("");

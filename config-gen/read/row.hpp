@@ -15,7 +15,7 @@ namespace flexrf::config_gen {
 class Row {
  public:
   // `name` is how messages call it: "[unit.jog]", "this file".
-  Row(const Node& table, std::string name, Diagnostics& diagnostics);
+  Row(const Node& table, std::string_view name, Diagnostics& diagnostics);
 
   // Each gives nothing when the key is missing, or is of another kind, which is reported.
   std::optional<std::string> text(std::string_view key);
@@ -32,7 +32,9 @@ class Row {
 
   // The same, and an error when the key is missing, with this hint.
   std::optional<std::string> required_text(std::string_view key, std::string_view hint);
-  std::string summary();  // required everywhere
+  // A text on one line: line breaks and other control characters are blanks.
+  std::optional<std::string> sentence(std::string_view key);
+  std::string summary();  // a sentence, required everywhere
 
   // Allowed here and read elsewhere.
   void also(std::string_view key);

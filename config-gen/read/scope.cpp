@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/arguments.hpp"
 
@@ -60,9 +61,17 @@ class Flattener {
     for (const Found& row : found) {
       if (row.group)
         instantiate(scope, *row.node);
+      else if (result_.rows.size() == max_rows)
+        too_many(row.node->key_position, std::to_string(max_rows) + " rows");
       else
         result_.rows.push_back({row.kind, row.node, &scope});
     }
+  }
+
+  // Each instance is a copy of its table.
+  [[noreturn]] void too_many(const Position& position, const std::string& most) {
+    diagnostics_.give_up(position, "with this row the application has more than " + most,
+                         "instances of groups count with all their rows: lower a 'count'");
   }
 
   // Units, devices and groups have pages and values under their names, so these differ; as do slots and
@@ -118,7 +127,7 @@ class Flattener {
     row.table("with");
     row.table("in");
     row.table("out");
-    row.text("summary");
+    row.sentence("summary");
     row.finish();
     if (!table) return;
     if (std::find(open_.begin(), open_.end(), *table) != open_.end()) {
@@ -129,6 +138,12 @@ class Flattener {
                          "a group may contain other groups, but never itself");
       return;
     }
+    if (open_.size() == max_nesting) {
+      diagnostics_.error(row.position("table"),
+                         "groups are nested deeper than " + std::to_string(max_nesting),
+                         "a group of groups of groups: let the application name some of them itself");
+      return;
+    }
     const Node* group = load(*table, row.position("table"));
     if (group == nullptr) {
       mark_broken(outer, row_node);
@@ -136,7 +151,12 @@ class Flattener {
     }
     open_.push_back(*table);
     const std::size_t instances = static_cast<std::size_t>(count.value_or(1));
-    for (std::size_t i = 0; i < instances; ++i) make(outer, row_node, *table, *group, i, row.has("count"));
+    for (std::size_t i = 0; i < instances; ++i) {
+      if (library_.model().groups.size() == max_instances)
+        too_many(row_node.key_position, std::to_string(max_instances) + " instances of groups");
+      else
+        make(outer, row_node, *table, *group, i, row.has("count"));
+    }
     open_.pop_back();
   }
 

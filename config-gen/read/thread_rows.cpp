@@ -1,6 +1,7 @@
 // [thread.N] rows of applications and groups, and the IO threads of devices.
 #include <algorithm>
 
+#include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
 
@@ -69,6 +70,22 @@ void read_times(Assembly& assembly, Row& row, TimedTrigger& trigger) {
         "a release by the timeout comes no sooner than any other: lengthen it, or shorten min_interval");
 }
 
+// Each source fires by one bit of its own.
+void add_source(Assembly& assembly, const Node& name, const SourceReference& source, SlotsTrigger& trigger,
+                const Row& row) {
+  const bool known = std::any_of(
+      trigger.sources.begin(), trigger.sources.end(),
+      [&](const SourceReference& one) { return one.queue == source.queue && one.index == source.index; });
+  if (!known) {
+    trigger.sources.push_back(source);
+    return;
+  }
+  const std::string& full =
+      source.queue ? assembly.model.queues[source.index].declared : assembly.model.slots[source.index].name;
+  assembly.diagnostics.error(name.position, quote(full) + " is twice in 'slots' of " + row.name(),
+                             "remove one; the name of an array means all its members");
+}
+
 Trigger read_slots_trigger(Assembly& assembly, Row& row, const Scope& scope) {
   SlotsTrigger trigger;
   if (const Node* names = row.list_of_texts("slots")) {
@@ -77,7 +94,7 @@ Trigger read_slots_trigger(Assembly& assembly, Row& row, const Scope& scope) {
                                  "name at least one slot or queue");
     for (const Node& name : names->children)
       for (const SourceReference& source : find_sources(assembly, scope, name))
-        trigger.sources.push_back(source);
+        add_source(assembly, name, source, trigger, row);
   }
   read_times(assembly, row, trigger);
   return trigger;
@@ -265,8 +282,8 @@ void read_thread_row(Assembly& assembly, const FlatRow& flat) {
   thread.above_interrupts = row.boolean("above_interrupts").value_or(false);
   thread.deadline = row.positive_duration("deadline");
   thread.hang_timeout = row.positive_duration("hang_timeout");
-  thread.stack = row.size("stack").value_or(thread.stack);
-  thread.summary = row.text("summary").value_or("");
+  thread.stack = read_stack(row, assembly.diagnostics).value_or(thread.stack);
+  thread.summary = row.sentence("summary").value_or("");
   read_overrun(assembly, row, thread.overrun);
   const auto trigger = read_trigger(assembly, row, *flat.scope);
   thread.partial = !trigger;
@@ -276,16 +293,36 @@ void read_thread_row(Assembly& assembly, const FlatRow& flat) {
   assembly.model.threads.push_back(std::move(thread));
 }
 
+void check_number(Assembly& assembly, const Position& position) {
+  if (assembly.model.threads.size() < max_threads) return;
+  assembly.diagnostics.give_up(
+      position, "with this row the application has more than " + std::to_string(max_threads) + " threads",
+      "those of instances of groups and of devices count: let one thread step several units");
+}
+
 }  // namespace
+
+std::optional<std::size_t> read_stack(Row& row, Diagnostics& diagnostics) {
+  const auto stack = row.size("stack");
+  if (!stack || (*stack >= min_stack && *stack <= max_stack)) return stack;
+  diagnostics.error(
+      row.position("stack"), "'stack' of " + row.name() + " is " + size_text(*stack),
+      "a thread's stack has from " + size_text(min_stack) + " to 1 GiB" + "; without the key it has 256 KiB");
+  return std::nullopt;
+}
 
 void read_threads(Assembly& assembly) {
   Model& model = assembly.model;
   for (const FlatRow& row : assembly.flat.rows) {
     const InScope in_scope(assembly.diagnostics, *row.scope);
-    if (row.kind == FlatRow::Kind::thread) read_thread_row(assembly, row);
+    if (row.kind == FlatRow::Kind::thread) {
+      check_number(assembly, row.node->key_position);
+      read_thread_row(assembly, row);
+    }
   }
   const std::size_t declared = model.threads.size();
   for (Thread& thread : assembly.io_threads) {
+    check_number(assembly, thread.position);
     for (std::size_t i = 0; i < declared; ++i)
       if (model.threads[i].name == thread.name)
         assembly.diagnostics.error(

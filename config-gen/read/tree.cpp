@@ -3,8 +3,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+
+#include "config-gen/read/source_text.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -112,6 +112,7 @@ std::string kind_text(Node::Kind kind) {
 std::optional<Node> parse_text(std::string_view toml, const std::filesystem::path& file,
                                Diagnostics& diagnostics) {
   const std::string_view name = intern(file.generic_string());
+  if (!check_utf8(toml, name, diagnostics) || !check_nesting(toml, name, diagnostics)) return std::nullopt;
   try {
     const toml::table table = toml::parse(toml, name);
     Node root = convert(table, name);
@@ -125,17 +126,8 @@ std::optional<Node> parse_text(std::string_view toml, const std::filesystem::pat
 }
 
 std::optional<Node> parse_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
-  std::ifstream stream(file, std::ios::binary);
-  std::stringstream contents;
-  if (!stream || !(contents << stream.rdbuf())) {
-    // An empty file has nothing to copy, which is no failure.
-    if (stream.is_open() && std::filesystem::is_regular_file(file) && std::filesystem::file_size(file) == 0)
-      return parse_text("", file, diagnostics);
-    diagnostics.error({intern(file.generic_string()), 0, 0}, "cannot read this file",
-                      "check that it exists and may be read");
-    return std::nullopt;
-  }
-  return parse_text(contents.str(), file, diagnostics);
+  const auto text = read_source(file, diagnostics);
+  return text ? parse_text(*text, file, diagnostics) : std::nullopt;
 }
 
 }  // namespace flexrf::config_gen

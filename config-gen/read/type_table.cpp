@@ -1,5 +1,6 @@
 // Type tables: records and enumerations.
 #include "config-gen/model/layout.hpp"
+#include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/library.hpp"
 #include "config-gen/read/members.hpp"
@@ -70,6 +71,15 @@ std::optional<Index> read_type_table(Library& library, const Node& root, const s
 
   Model& model = library.model();
   lay_out(model, type);
+  if (type.size > max_type_size || type.single_fields > max_type_fields) {
+    diagnostics.error(root.position,
+                      type.name + " takes " + size_text(type.size) + " in " +
+                          std::to_string(type.single_fields) + " single fields",
+                      "a type has at most " + size_text(max_type_size) + " and " +
+                          std::to_string(max_type_fields) +
+                          " single fields, those of each element of a record counted");
+    return std::nullopt;
+  }
   model.types.push_back(std::move(type));
   return model.types.size() - 1;
 }

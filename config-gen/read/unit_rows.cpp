@@ -1,4 +1,7 @@
 // [unit.N] rows of applications and groups.
+#include <numeric>
+
+#include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
 
@@ -26,6 +29,29 @@ void add_population(Assembly& assembly, Row& row, Unit unit, std::size_t capacit
     assembly.diagnostics.error(row.position("capacity"),
                                row.name() + " cannot be a population: " + quote(type.name) + " owns a device",
                                "a device has one owner: write one row per unit, or a group with a count");
+}
+
+std::size_t values_in(const Literal& value) {
+  if (value.elements.empty()) return 1;
+  return std::accumulate(value.elements.begin(), value.elements.end(), std::size_t{0},
+                         [](std::size_t sum, const Literal& part) { return sum + values_in(part); });
+}
+
+// Before each member gets its own copy of what the row says.
+void check_room(Assembly& assembly, const Unit& unit, std::size_t count) {
+  if (assembly.model.units.size() + count > max_units)
+    assembly.diagnostics.give_up(
+        unit.position, "with this row the application has more than " + std::to_string(max_units) + " units",
+        "members of populations count: lower a 'capacity' or a 'count'");
+  std::size_t values = 0;
+  for (const auto* block : {&unit.configuration, &unit.runtime})
+    for (const Literal& value : *block) values += values_in(value);
+  assembly.values += values * count;
+  if (assembly.values > max_application_values)
+    assembly.diagnostics.give_up(unit.position,
+                                 "with this row the application's parameters have more than " +
+                                     std::to_string(max_application_values) + " values",
+                                 "lower a 'capacity' or a 'count', or make an array of a parameter smaller");
 }
 
 }  // namespace
@@ -68,6 +94,8 @@ void read_unit_row(Assembly& assembly, const FlatRow& flat) {
   const auto active = row.integer("active", 0, 4096);
   row.finish();
 
+  const std::size_t count = row.has("capacity") ? static_cast<std::size_t>(capacity.value_or(1)) : 1;
+  check_room(assembly, unit, count);
   assembly.unit_rows.push_back({&flat, model.units.size(), 1, false});
   if (active && !row.has("capacity"))
     assembly.diagnostics.error(
@@ -79,8 +107,7 @@ void read_unit_row(Assembly& assembly, const FlatRow& flat) {
                                    " active members of " + std::to_string(*capacity),
                                "'active' is at most 'capacity'");
   if (row.has("capacity")) {
-    const std::size_t members = static_cast<std::size_t>(capacity.value_or(1));
-    add_population(assembly, row, std::move(unit), members,
+    add_population(assembly, row, std::move(unit), count,
                    static_cast<std::size_t>(active.value_or(capacity.value_or(1))));
     return;
   }

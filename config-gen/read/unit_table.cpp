@@ -88,6 +88,7 @@ std::vector<OutputPort> read_outputs(Library& library, const Node& table, bool w
         diagnostics.error(row.position("loans"), "'loans' of " + row.name() + " is for slots, not for queues",
                           "remove it");
     }
+    output.optional = row.boolean("optional").value_or(false);
     row.finish();
     if (!port.type) continue;
     output.queue = port.queue;

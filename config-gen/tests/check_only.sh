@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# --check-only says what a build would say, a broken URDF included, and writes nothing: check_only.sh CONFIG_GEN
+# --check-only says what a build would say, a broken URDF included, and writes nothing; and it has nothing to say of the
+# applications that come along: check_only.sh CONFIG_GEN REPOSITORY
 set -u -o pipefail
 generator=$1
+repository=$2
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -23,3 +25,27 @@ check cells/shared
 check catalogue/urdf-is-broken
 [[ $status == 1 && $output == *"six-axis.urdf:4:3: error: joint 'shoulder' has no <limit>"* ]] || fail "a broken URDF passes: $status"
 [[ ! $(ls -A) ]] || fail "it wrote $(ls -A)"
+
+check_application() {  # check_application TABLE DRIVERS...: sets status and output
+  local table=$1
+  shift
+  output=$("$generator" --application "$table" --check-only --types "$repository/runtime/types" --units "$repository/units" \
+    --interfaces "$repository/hal/interfaces" --drivers "$repository"/hal/{linux,mock,simulated} "$@" 2>&1)
+  status=$?
+}
+
+checked=0
+for table in "$repository"/apps/*/*.toml "$repository/cmake/tool/templates/app/new_app.toml"; do
+  check_application "$table" "$(dirname "$table")/drivers"
+  [[ $status == 0 && ! $output ]] || fail "$table is not without a word: $status"
+  checked=$((checked + 1))
+done
+((checked >= 4)) || fail "only $checked applications were found"
+
+check_application "$work/nowhere.toml"
+[[ $status == 1 && $output == *"nowhere.toml:1:1: error: cannot read this file: No such file or directory"*": hint: "* ]] ||
+  fail "a table that is not there has no place: $status"
+mkdir folder.toml
+check_application "$work/folder.toml"
+[[ $status == 1 && $output == *"folder.toml:1:1: error: cannot read this file: Is a directory"*": hint: "* ]] ||
+  fail "a folder has no place: $status"

@@ -61,6 +61,16 @@ void places(void**) {
   assert_int_equal(last.column, 8);
 }
 
+void line_ends_of_carriage_returns(void**) {
+  const Parsed parsed = parse("name,address\r# a comment\rdoor,1\r\r\"two\rlines\",2");
+  assert_false(parsed.diagnostics.failed());
+  assert_int_equal(parsed.table->header.size(), 2);
+  assert_int_equal(parsed.table->rows.size(), 2);
+  assert_string_equal(parsed.table->rows[0][0].text.c_str(), "door");
+  assert_string_equal(parsed.table->rows[1][0].text.c_str(), "two\nlines");
+  assert_int_equal(parsed.table->rows[1][1].position.line, 6);
+}
+
 void mistakes(void**) {
   assert_string_equal(
       parse("").messages.c_str(),
@@ -102,8 +112,12 @@ void values(void**) {
 
 int main() {
   using namespace flexrf::config_gen;
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(both_separators), cmocka_unit_test(quotes),   cmocka_unit_test(comments_and_line_ends),
-      cmocka_unit_test(places),          cmocka_unit_test(mistakes), cmocka_unit_test(values)};
+  const CMUnitTest tests[] = {cmocka_unit_test(both_separators),
+                              cmocka_unit_test(quotes),
+                              cmocka_unit_test(comments_and_line_ends),
+                              cmocka_unit_test(places),
+                              cmocka_unit_test(line_ends_of_carriage_returns),
+                              cmocka_unit_test(mistakes),
+                              cmocka_unit_test(values)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -12,6 +12,7 @@
 #include "runtime/blackboard/slot.hpp"
 #include "runtime/executive/trigger.hpp"
 #include "runtime/parameters/parameter_store.hpp"
+#include "runtime/realtime/thread_setup.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf {
@@ -63,10 +64,16 @@ void sizes_are_as_config_gen_believes(void**) {
   static_assert(is_as_believed<921'600, 8>());
 }
 
+// What the system adds for the registers of its CPU differs from machine to machine, so there is room.
+void the_least_stack_is_enough(void**) {
+  assert_true(config_gen::min_stack >= minimal_stack_size());
+}
+
 }  // namespace
 }  // namespace flexrf
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(flexrf::sizes_are_as_config_gen_believes)};
+  const CMUnitTest tests[] = {cmocka_unit_test(flexrf::sizes_are_as_config_gen_believes),
+                              cmocka_unit_test(flexrf::the_least_stack_is_enough)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,0 +1,196 @@
+#include "config-gen/read/source_text.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "config-gen/model/limits.hpp"
+#include "config-gen/model/words.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+// The place of a byte; characters of several bytes count once.
+Position place_of(std::string_view text, std::size_t byte, std::string_view file) {
+  Position place{file, 1, 1};
+  for (const char c : text.substr(0, byte)) {
+    if (c == '\n') {
+      ++place.line;
+      place.column = 1;
+    } else if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) {
+      ++place.column;
+    }
+  }
+  return place;
+}
+
+// Bytes of the character at the front; 0 when it is none of UTF-8 (RFC 3629: no surrogates, nothing longer
+// than needed).
+std::size_t character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  if ((first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F) ||
+      (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F))
+    return 0;
+  return length;
+}
+
+bool is_utf16(std::string_view text) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;
+  // Without its mark: every other byte of Latin letters is zero.
+  return text.size() >= 4 && ((text[0] == '\0') != (text[1] == '\0')) &&
+         (text[0] == '\0') == (text[2] == '\0') && (text[1] == '\0') == (text[3] == '\0');
+}
+
+std::string advice_for(std::string_view file) {
+  return "save it as UTF-8 in the editor, or: iconv -f WINDOWS-1252 -t UTF-8 " + std::string(file) + " > NEW";
+}
+
+// A byte above 0x7F as Latin-1 means it, in UTF-8.
+std::string latin(unsigned char byte) {
+  return {static_cast<char>(0xC0 | (byte >> 6)), static_cast<char>(0x80 | (byte & 0x3F))};
+}
+
+// Follows TOML's texts, comments and brackets, and nothing else of it: what is wrong in there is the parser's
+// to tell.
+class NestingCheck {
+ public:
+  NestingCheck(std::string_view toml, std::string_view file) : toml_(toml), file_(file) {}
+
+  // The place where it becomes too deep.
+  std::optional<Position> run() {
+    while (at_ < toml_.size()) {
+      const char c = toml_[at_];
+      if (c == '"' || c == '\'') {
+        skip_text(c);
+        continue;
+      }
+      if (c == '#') {
+        at_ = std::min(toml_.find('\n', at_), toml_.size());
+        continue;
+      }
+      if (c == '[' || c == '{') {
+        ++open_;
+        dots_ = 0;
+      } else if (c == ']' || c == '}') {
+        if (open_ > 0) --open_;
+        dots_ = 0;
+      } else if (c == '.') {
+        ++dots_;
+      } else if (c == '\n' || c == ',' || c == '=') {
+        dots_ = 0;
+      }
+      if (open_ > max_nesting || dots_ >= max_nesting) return place_of(toml_, at_, file_);
+      ++at_;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void skip_text(char quote) {
+    const std::string three(3, quote);
+    const bool several_lines = toml_.substr(at_).starts_with(three);
+    at_ += several_lines ? 3 : 1;
+    while (at_ < toml_.size()) {
+      if (quote == '"' && toml_[at_] == '\\') {
+        at_ += 2;
+      } else if (several_lines ? toml_.substr(at_).starts_with(three) : toml_[at_] == quote) {
+        at_ += several_lines ? 3 : 1;
+        return;
+      } else if (!several_lines && toml_[at_] == '\n') {
+        return;  // never closed
+      } else {
+        ++at_;
+      }
+    }
+  }
+
+  std::string_view toml_;
+  std::string_view file_;
+  std::size_t at_ = 0;
+  std::size_t open_ = 0;
+  std::size_t dots_ = 0;
+};
+
+}  // namespace
+
+std::optional<std::string> read_source(const std::filesystem::path& file, Diagnostics& diagnostics) {
+  const Position place{intern(file.generic_string()), 1, 1};
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::string text;
+  if (stream) {
+    text.resize(max_file_size + 1);
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+  }
+  if (!stream.is_open() || stream.bad()) {
+    diagnostics.error(place, std::string("cannot read this file: ") + std::strerror(errno != 0 ? errno : EIO),
+                      "check that it exists, is a file and may be read");
+    return std::nullopt;
+  }
+  if (text.size() > max_file_size) {
+    diagnostics.error(place, "this file is larger than " + size_text(max_file_size),
+                      "name the table, list or data sheet that is meant");
+    return std::nullopt;
+  }
+  return text;
+}
+
+bool check_utf8(std::string_view text, std::string_view file, Diagnostics& diagnostics) {
+  if (is_utf16(text)) {
+    diagnostics.error(
+        {file, 1, 1}, "this file is in UTF-16, as some editors and spreadsheets write it",
+        "save it as UTF-8 in the editor, or: iconv -f UTF-16 -t UTF-8 " + std::string(file) + " > NEW");
+    return false;
+  }
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character(text.substr(at));
+    if (length > 0) {
+      at += length;
+      continue;
+    }
+    const auto byte = static_cast<unsigned char>(text[at]);
+    std::array<char, 8> number{};
+    std::snprintf(number.data(), number.size(), "0x%02X", byte);
+    diagnostics.error(place_of(text, at, file),
+                      std::string("this file is not in UTF-8: the byte ") + number.data() +
+                          " begins no character" +
+                          (byte >= 0xA0 ? "; in Latin-1 it is " + quote(latin(byte)) : ""),
+                      advice_for(file));
+    return false;
+  }
+  return true;
+}
+
+std::string with_plain_line_ends(std::string_view text) {
+  std::string plain;
+  plain.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\r')
+      plain += text[i];
+    else if (i + 1 == text.size() || text[i + 1] != '\n')
+      plain += '\n';
+  }
+  return plain;
+}
+
+bool check_nesting(std::string_view toml, std::string_view file, Diagnostics& diagnostics) {
+  const auto place = NestingCheck(toml, file).run();
+  if (!place) return true;
+  diagnostics.error(
+      *place, "tables, lists and dotted names are nested deeper than " + std::to_string(max_nesting),
+      "no table needs that: look for brackets that are never closed, or for a name that was repeated");
+  return false;
+}
+
+}  // namespace flexrf::config_gen

@@ -1,0 +1,27 @@
+// Files as text, before anything is made of them.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "config-gen/model/diagnostics.hpp"
+
+namespace flexrf::config_gen {
+
+// The file's bytes; nothing when it cannot be read or is too large, which is then in `diagnostics`.
+std::optional<std::string> read_source(const std::filesystem::path& file, Diagnostics& diagnostics);
+
+// Whether these are characters in UTF-8. What else they are is reported, with the place of the first byte
+// that is wrong. A byte order mark of UTF-8 is allowed.
+bool check_utf8(std::string_view text, std::string_view file, Diagnostics& diagnostics);
+
+// Every end of line as "\n": files come with "\r\n", and out of some spreadsheets with "\r" alone.
+std::string with_plain_line_ends(std::string_view text);
+
+// Whether tables, lists and dotted names in this TOML are nested no deeper than a parser can follow; else it
+// is reported.
+bool check_nesting(std::string_view toml, std::string_view file, Diagnostics& diagnostics);
+
+}  // namespace flexrf::config_gen
