@@ -21,6 +21,8 @@ export interface ItemInfo {
   /** Unit of measure, SI; empty where none applies, "1" for dimensionless. */
   readonly unit: string;
   readonly range?: readonly [number, number];
+  /** By what a button or key changes it, SI; without one steps follow the value. */
+  readonly step?: number;
   /** Names of an enumeration's values, in order. */
   readonly values?: readonly string[];
   /** Members of a structure. */
