@@ -212,10 +212,20 @@ describe('a fault', () => {
     await viewer.page.getByText(/What to do: /).waitFor();
     await screenshot(viewer.page, 'fault');
     expect(await violations(viewer.page)).toEqual([]);
-    await viewer.page.getByRole('link', { name: 'fragile' }).first().click();
+    // Told in every view, and in the browser's tab.
+    const strip = viewer.page.getByRole('link', { name: /1 fault, since \d\d:\d\d:\d\d: fragile: it was dropped/ });
+    for (const view of ['devices', 'blackboard', 'search', 'threads', 'log']) {
+      await viewer.go(view);
+      await strip.waitFor();
+    }
+    await expect.poll(() => viewer.page.title(), { timeout: within }).toBe('✕ 1 fault · panel_cell – FlexRF panel');
+    await strip.click();
+    await viewer.page.getByRole('heading', { name: 'fragile' }).waitFor();
     await viewer.page.getByRole('button', { name: 'Initialise' }).click();
     const rest = running.rest();
     await expect.poll(async () => (await rest.do('components/fragile')).body.life, { timeout: within }).toBe('running');
+    await viewer.page.getByText('No faults').waitFor();
+    await expect.poll(() => viewer.page.title(), { timeout: within }).toBe('panel_cell – FlexRF panel');
     await viewer.close();
     expect(await running.stop()).toBe(2); // a fault that was survived is told
   });

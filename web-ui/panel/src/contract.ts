@@ -23,6 +23,8 @@ export interface ItemInfo {
   /** Of each element, where they have different ones. */
   readonly units?: readonly string[];
   readonly range?: readonly [number, number];
+  /** By what a button or key changes it, SI; without one steps follow the value. */
+  readonly step?: number;
   /** Names of an enumeration's values, in order. */
   readonly values?: readonly string[];
   /** Members of a structure. */

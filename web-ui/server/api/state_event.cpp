@@ -36,9 +36,34 @@ std::uint64_t StateEvent::signature() const noexcept {
   for (const DeviceState& device : application.device_states)
     in_fault += device.life.load(std::memory_order_relaxed) == Life::fault ? 1U : 0U;
   digest.add(in_fault);
+  for (const ThreadState& thread : application.thread_states)
+    digest.add(static_cast<std::uint64_t>(thread.longest_standstill.load(std::memory_order_relaxed)));
+  digest.add(static_cast<std::uint64_t>(control.longest_standstill().count()));
   digest.add(access_->revision());
   digest.add(edits_->revision());
   return digest.value();
+}
+
+std::size_t StateEvent::fault_places(const Application& application) noexcept {
+  return application.units.size() + application.devices.size() + application.threads.size() + 1;
+}
+
+/// A standstill that was longer than those before is a new one.
+void StateEvent::note_faults(Time now) noexcept {
+  const Application& application = executive_->cell().application();
+  std::size_t place = 0;
+  const auto note = [this, now, &place](std::int64_t extent) {
+    Fault& fault = faults_[place++];
+    if (extent != fault.extent) fault = {extent, now};
+  };
+  const auto is_fault = [](const auto& state) -> std::int64_t {
+    return state.life.load(std::memory_order_acquire) == Life::fault ? 1 : 0;
+  };
+  for (std::size_t i = 0; i < application.units.size(); ++i) note(is_fault(application.unit_states[i]));
+  for (std::size_t i = 0; i < application.devices.size(); ++i) note(is_fault(application.device_states[i]));
+  for (std::size_t i = 0; i < application.threads.size(); ++i)
+    note(application.thread_states[i].longest_standstill.load(std::memory_order_relaxed));
+  note(executive_->control().longest_standstill().count());
 }
 
 void StateEvent::update(Time now) {
@@ -49,6 +74,7 @@ void StateEvent::update(Time now) {
   // none.
   next_ = Time{now.time_since_epoch() / interval * interval} + interval + beside_values;
   ++version_;
+  note_faults(now);
   holder_ = access_->holder();
   wanted_by_ = access_->wanted_by();
   editor_ = edits_->owner();
@@ -80,25 +106,26 @@ void StateEvent::write_session(JsonWriter& json, SessionIndex session, SessionIn
 void StateEvent::write_faults(JsonWriter& json) const {
   const Application& application = executive_->cell().application();
   json.key("faults").begin_array();
-  const auto write = [&json](const char* kind, const char* name, const std::string& cause) {
-    json.begin_object().member("component", name).member("kind", kind).member("cause", cause).end_object();
+  std::size_t place = 0;
+  // As note_faults() saw them: each has the time since when it is there.
+  const auto write = [this, &json, &place](const char* kind, const char* name, const auto& cause) {
+    const Fault& fault = faults_[place++];
+    if (fault.extent == 0) return;
+    json.begin_object().member("component", name).member("kind", kind).member("cause", cause(fault.extent));
+    json.member("since_ns", fault.since.time_since_epoch().count()).end_object();
   };
   const auto write_component = [&write](const char* kind, const char* name, const auto& state) {
-    if (state.life.load(std::memory_order_acquire) == Life::fault)
-      write(kind, name, state.fault.read().cause());
+    write(kind, name, [&state](std::int64_t) { return std::string{state.fault.read().cause()}; });
   };
   for (std::size_t i = 0; i < application.units.size(); ++i)
     write_component("unit", application.units[i].name, application.unit_states[i]);
   for (std::size_t i = 0; i < application.devices.size(); ++i)
     write_component("device", application.devices[i].name, application.device_states[i]);
-  const auto write_standstill = [&write](const char* kind, const char* name, Duration longest) {
-    if (longest.count() > 0) write(kind, name, "stood still for " + duration_text(longest));
+  const auto standstill = [](std::int64_t longest) {
+    return "stood still for " + duration_text(Duration{longest});
   };
-  for (std::size_t i = 0; i < application.threads.size(); ++i) {
-    const Duration longest{application.thread_states[i].longest_standstill.load(std::memory_order_relaxed)};
-    write_standstill("thread", application.threads[i].name, longest);
-  }
-  write_standstill("process", application.name, executive_->control().longest_standstill());
+  for (const ThreadRecord& thread : application.threads) write("thread", thread.name, standstill);
+  write("process", application.name, standstill);
   json.end_array();
 }
 

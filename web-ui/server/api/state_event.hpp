@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "runtime/executive/executive.hpp"
 #include "web-ui/server/access.hpp"
@@ -22,7 +23,11 @@ class StateEvent {
 
   StateEvent(Executive& executive, const Directory& directory, const AccessControl& access,
              const EditOperations& edits)
-      : executive_(&executive), directory_(&directory), access_(&access), edits_(&edits) {
+      : executive_(&executive),
+        directory_(&directory),
+        access_(&access),
+        edits_(&edits),
+        faults_(fault_places(executive.cell().application())) {
     for (std::string& text : texts_) text.reserve(usual_size);
   }
 
@@ -41,6 +46,14 @@ class StateEvent {
   /// Bytes of a text in which much is told.
   static constexpr std::size_t usual_size = 4U << 10;
 
+  /// What can be in fault: each unit, device and thread, in this order, and the process.
+  struct Fault {
+    std::int64_t extent = 0;  ///< 0: none; of a standstill, ns
+    Time since{};
+  };
+
+  static std::size_t fault_places(const Application& application) noexcept;
+  void note_faults(Time now) noexcept;
   std::uint64_t signature() const noexcept;
   void write(std::string& text, SessionIndex you, Time now) const;
   void write_session(JsonWriter& json, SessionIndex session, SessionIndex you) const;
@@ -59,6 +72,7 @@ class StateEvent {
   SessionIndex editor_ = no_session;
   // For the holder, for who asks for control, for everybody else.
   std::array<std::string, 3> texts_;
+  std::vector<Fault> faults_;
 };
 
 }  // namespace flexrf::panel

@@ -20,7 +20,8 @@ export function hasControl(situation: Situation): boolean {
   return situation.state?.control.holder?.you === true;
 }
 
-export function deniedLink(situation: Situation): string {
+/** Why nothing reaches the application: whatever needs it is dead. */
+export function deniedLink(situation: Pick<Situation, 'link'>): string {
   if (situation.link.phase !== 'open') return 'link lost';
   return situation.link.stale ? 'values are old' : '';
 }
@@ -30,6 +31,7 @@ export function deniedAction(situation: Situation, role: Role): string {
   const link = deniedLink(situation);
   if (link) return link;
   if (!situation.session || !includes(situation.session.role, role)) return `needs ${role}`;
+  if (situation.state?.mode === 'safe' || situation.state?.mode === 'ended') return 'the application ends';
   if (hasControl(situation)) return '';
   const holder = situation.state?.control.holder;
   return holder ? `${holder.user || holder.name} has control` : 'take control first';
@@ -45,10 +47,16 @@ export function deniedControl(situation: Situation): string {
   return wanted && !wanted.you ? `${wanted.user || wanted.name} asks for it already` : '';
 }
 
-/** Why the item cannot be changed now; empty when it can. */
+/** Why nothing can be held now: what is held moves something, and ends with Stop motion. */
+function deniedMotion({ state }: Situation): string {
+  if (state?.motion.stopped) return 'motion is stopped';
+  return state?.motion.may_move ? '' : 'motion is inhibited: give Start motion';
+}
+
+/** Why a control of this item is dead now, whatever kind of control it is; empty when it acts. */
 export function locked(situation: Situation, item: ItemInfo | undefined): string {
   if (!item) return 'unknown';
   if (item.role === undefined) return 'read only';
   if (item.kind === 'configuration') return 'changed by Edit';
-  return deniedAction(situation, item.role);
+  return deniedAction(situation, item.role) || (item.scalar === 'hold' ? deniedMotion(situation) : '');
 }

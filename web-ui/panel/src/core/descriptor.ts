@@ -107,6 +107,7 @@ function makeItem(types: Types, key: string, field: Field, path: string, origin:
   const writable = origin.kind === 'runtime' || origin.kind === 'configuration';
   const role = writable ? (parameter?.role ?? origin.role ?? 'engineer') : undefined;
   const range = narrowed(parameter?.range, change?.range);
+  const step = change?.step ?? parameter?.step;
   const flat = parameter?.default;
   const initial = Array.isArray(flat) && field.shape.length === 2 ? rowsOf(flat, field.shape) : flat;
   const type = field.typeName === undefined ? undefined : types.get(field.typeName);
@@ -127,6 +128,7 @@ function makeItem(types: Types, key: string, field: Field, path: string, origin:
     menu: change?.menu ?? parameter?.menu ?? '',
     place: change?.place ?? '',
     ...(range && { range }),
+    ...(step !== undefined && { step }),
     ...(type?.values && { values: type.values }),
     ...(members && { members }),
     ...(field.typeName !== undefined && { typeName: field.typeName }),

@@ -32,6 +32,7 @@ export interface ParameterJson {
   readonly role?: Role;
   readonly default?: Value;
   readonly range?: readonly [number, number];
+  readonly step?: number;
   readonly persist?: boolean;
   readonly widget?: string;
   readonly label?: string;
@@ -92,6 +93,7 @@ export interface OverrideJson {
   readonly label?: string;
   readonly hidden?: boolean;
   readonly range?: readonly [number | null, number | null];
+  readonly step?: number;
   readonly widget?: string;
   readonly menu?: string;
   readonly place?: string;

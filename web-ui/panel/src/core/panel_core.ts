@@ -14,6 +14,7 @@ import { Registry, type BuiltInWidgets } from './registry';
 import { Store } from './store';
 import { Subscriptions } from './subscriptions';
 import { displayUnits } from './units';
+import { nameOf } from '../shell/words';
 
 const linesKept = 2000;
 
@@ -36,6 +37,8 @@ export class PanelCore implements Core {
   readonly registry: Registry;
   state: ApplicationState | undefined;
   session: SessionInfo | undefined;
+  /** Why this session did not get control when it asked last; empty once it asks anew, or somebody else has it. */
+  controlRefused = '';
   /** When `state` arrived, ms of performance.now(): its countdowns run from there. */
   stateAt = 0;
   #model: Model | undefined;
@@ -200,6 +203,7 @@ export class PanelCore implements Core {
     switch (event.event) {
       case 'state': {
         const edited = this.state?.edit != null && event.edit === null;
+        this.#noteRefusal(this.state?.control, event.control);
         this.state = event;
         this.stateAt = performance.now();
         if (edited) this.#configuration.refresh();
@@ -221,9 +225,20 @@ export class PanelCore implements Core {
         break;
       }
       case 'ended':
+        if (this.state) this.state = { ...this.state, mode: 'ended' };
         this.options.onEnded?.(event.text);
+        this.#changed();
         break;
     }
+  }
+
+  /** A question that is over, and control still somebody else's. */
+  #noteRefusal(before: ApplicationState['control'] | undefined, now: ApplicationState['control']): void {
+    if (now.wanted_by?.you || now.holder?.name !== before?.holder?.name) this.controlRefused = '';
+    if (!before?.wanted_by?.you || now.wanted_by?.you || !now.holder || now.holder.you) return;
+    const other = now.wanted_by;
+    this.controlRefused = other ? `${nameOf(other)} asks instead` : `${nameOf(now.holder)} keeps control`;
+    this.options.onNotice(`You did not get control: ${this.controlRefused}.`, 'warning');
   }
 
   /** Holds end at once; who watches is told in the next animation frame, or soon in a hidden page. */
@@ -237,7 +252,7 @@ export class PanelCore implements Core {
     const tell = (): void => {
       this.#telling = false;
       this.#stateWatchers.forEach((watcher) => watcher());
-      const access = JSON.stringify([this.link.phase, this.link.stale, this.session?.role, this.state?.control, this.state?.motion]);
+      const access = JSON.stringify([this.link.phase, this.link.stale, this.session?.role, this.state?.control, this.state?.motion, this.state?.mode]);
       if (access === this.#access) return;
       this.#access = access;
       this.#accessWatchers.forEach((watcher) => watcher());

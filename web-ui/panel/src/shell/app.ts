@@ -13,6 +13,7 @@ import { Preferences } from './preferences';
 import { addressOfRoute, parseRoute, type Route } from './router';
 import './stop_motion';
 import { shellStyles } from './styles';
+import { titleOf } from './words';
 
 type DialogName = 'login' | 'settings';
 
@@ -30,7 +31,8 @@ export class Panel extends LitElement {
       :host {
         display: grid;
         height: 100dvh;
-        grid-template: 'header stop' auto 'banner banner' auto 'nav nav' auto 'main main' minmax(0, 1fr) / minmax(0, 1fr) auto;
+        /* Warnings come below the views: what a finger is on must not move when one comes or goes. */
+        grid-template: 'header stop' auto 'nav nav' auto 'main main' minmax(0, 1fr) 'banner banner' auto / minmax(0, 1fr) auto;
         background: var(--flexrf-page);
       }
       flexrf-header {
@@ -91,7 +93,7 @@ export class Panel extends LitElement {
       }
       @media (max-width: 760px) {
         :host {
-          grid-template: 'header' auto 'banner' auto 'nav' auto 'main' minmax(0, 1fr) 'stop' auto / minmax(0, 1fr);
+          grid-template: 'header' auto 'nav' auto 'main' minmax(0, 1fr) 'banner' auto 'stop' auto / minmax(0, 1fr);
         }
       }
     `,
@@ -109,7 +111,6 @@ export class Panel extends LitElement {
   readonly core = new PanelCore({
     onModel: (model) => {
       this.generation = model.hash;
-      document.title = `${model.application} – FlexRF panel`;
     },
     onNotice: (text, severity) => this.notices?.add(text, severity),
     onEnded: (text) => { this.ended = text; },
@@ -122,9 +123,15 @@ export class Panel extends LitElement {
       this.#turnPage();
       this.route = this.#fromAddress();
     };
+    // Also while the focus is on what no dialog covers: Stop motion, the header.
+    const onKey = (event: KeyboardEvent): void => {
+      if (event.key === 'Escape' && this.dialog !== 'none') this.#close();
+    };
     window.addEventListener('hashchange', onHash);
+    window.addEventListener('keydown', onKey);
     this.#ends = [
       () => window.removeEventListener('hashchange', onHash),
+      () => window.removeEventListener('keydown', onKey),
       this.core.watchState(() => this.#onState()),
     ];
     this.core.start();
@@ -140,10 +147,6 @@ export class Panel extends LitElement {
     return html`
       <flexrf-header role="banner" .core=${this.core} @login=${() => void this.#open('login')} @settings=${() => void this.#open('settings')}></flexrf-header>
       <flexrf-stop-motion .core=${this.core} role="region" aria-label="Stop motion"></flexrf-stop-motion>
-      <div class="banner" role="region" aria-label="Warnings">
-        ${this.#banner()}
-        <flexrf-consent .core=${this.core}></flexrf-consent>
-      </div>
       <nav aria-label="Views" ?inert=${covered}>${this.#entries().map(([route, label]) => html`
         <a href=${addressOfRoute(route)} aria-current=${this.#isCurrent(route) ? 'page' : nothing}>${label}</a>`)}
       </nav>
@@ -155,6 +158,10 @@ export class Panel extends LitElement {
         <flexrf-notices></flexrf-notices>
         ${this.dialog === 'login' ? html`<flexrf-login .core=${this.core} @close=${() => this.#close()}></flexrf-login>` : nothing}
         ${this.dialog === 'settings' ? html`<flexrf-settings .preferences=${this.#preferences} @close=${() => this.#close()}></flexrf-settings>` : nothing}
+      </div>
+      <div class="banner" role="region" aria-label="Warnings">
+        ${this.#banner()}
+        <flexrf-consent .core=${this.core}></flexrf-consent>
       </div>
     `;
   }
@@ -179,6 +186,7 @@ export class Panel extends LitElement {
 
   #onState(): void {
     const { link } = this.core;
+    if (this.generation) document.title = titleOf(this.core.application, this.core);
     if (link.phase === 'open') {
       this.ended = '';
       this.#asked = false;

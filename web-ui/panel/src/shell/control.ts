@@ -35,13 +35,14 @@ export class Control extends ShellPart {
     const asked = control?.wanted_by?.you === true;
     const denied = deniedControl(this.core.situation);
     const holder = control?.holder;
+    const note = mine ? '' : asked ? 'The holder has 10 s to refuse.' : denied || this.core.controlRefused;
     return html`
       <span class=${mine ? 'mine' : ''}>${mine ? '✓ You have control' : holder ? `${nameOf(holder)} has control` : 'Nobody has control'}</span>
       ${mine
         ? html`<button ?disabled=${this.busy || deniedLink(this.core.situation) !== ''} @click=${() => this.#ask('release_control')}>Release</button>`
         : html`<button ?disabled=${this.busy || asked || denied !== ''} aria-describedby="why"
             @click=${() => this.#ask('take_control')}>${asked ? 'Asked…' : holder ? 'Ask for control' : 'Take control'}</button>`}
-      ${!mine && (denied || asked) ? html`<small id="why">${asked ? 'The holder has 10 s to refuse.' : denied}</small>` : nothing}
+      ${note ? html`<small id="why">${note}</small>` : nothing}
     `;
   }
 
@@ -88,14 +89,15 @@ export class Consent extends ShellPart {
   protected override render(): unknown {
     const control = this.core.state?.control;
     if (!control?.wanted_by || !control.holder?.you) return nothing;
+    const dead = deniedLink(this.core.situation) !== '';
     const left = Math.max(0, (control.answer_within_ms ?? 0) - (performance.now() - this.core.stateAt));
     return html`
       <div role="group" aria-label="Request for control">
         <span role="alert"><strong>⚠ ${nameOf(control.wanted_by)} asks for control.</strong>
           Handing over ends what you hold and stops manual motion.</span>
-        <span>Handed over in ${Math.ceil(left / 1000)} s.</span>
-        <button class="first" @click=${() => this.#answer(false)}>Keep control</button>
-        <button @click=${() => this.#answer(true)}>Hand over</button>
+        <span>${dead ? 'No connection: no answer reaches the application.' : `Handed over in ${Math.ceil(left / 1000)} s.`}</span>
+        <button class="first" ?disabled=${dead} @click=${() => this.#answer(false)}>Keep control</button>
+        <button ?disabled=${dead} @click=${() => this.#answer(true)}>Hand over</button>
       </div>
     `;
   }

@@ -4,7 +4,7 @@ import { LitElement, css, html } from 'lit';
 import { customElement, property } from 'lit/decorators.js';
 import { shellStyles } from './styles';
 
-/** Says `close` (an Event) when the person wants to be rid of it. */
+/** Says `close` (an Event) when the person wants to be rid of it by its button; Escape is the shell's. */
 @customElement('flexrf-dialog')
 export class Dialog extends LitElement {
   static override styles = [
@@ -46,11 +46,9 @@ export class Dialog extends LitElement {
   override connectedCallback(): void {
     super.connectedCallback();
     this.#before = deepActive();
-    this.addEventListener('keydown', this.#onKey);
   }
   override disconnectedCallback(): void {
     super.disconnectedCallback();
-    this.removeEventListener('keydown', this.#onKey);
     if (this.#before instanceof HTMLElement && this.#before.isConnected) this.#before.focus();
   }
 
@@ -70,10 +68,6 @@ export class Dialog extends LitElement {
       </section>
     `;
   }
-
-  #onKey = (event: KeyboardEvent): void => {
-    if (event.key === 'Escape') this.#close();
-  };
 
   #close(): void {
     this.dispatchEvent(new Event('close'));

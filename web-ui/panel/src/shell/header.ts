@@ -1,13 +1,15 @@
 // What is always seen: which application, what it does, whether it may move, how old the page's data is, who has control.
 import { css, html, nothing } from 'lit';
 import { customElement, query } from 'lit/decorators.js';
+import { deniedLink } from '../core/access';
 import { textOf } from '../core/host';
 import type { LinkStatus } from '../core/core';
 import './control';
+import './faults';
 import { logOut } from './log_out';
 import { ShellPart } from './part';
 import { shellStyles } from './styles';
-import { modeText, motionOf, motionText } from './words';
+import { modeOf, modeText, motionOf, motionText } from './words';
 
 const clockPeriod = 250;
 
@@ -42,6 +44,8 @@ export class Header extends ShellPart {
         flex-wrap: wrap;
         align-items: center;
         gap: 4px 8px;
+        /* A button that comes or goes moves nothing below. */
+        min-height: var(--target);
       }
       .link {
         font-size: 0.85em;
@@ -52,6 +56,9 @@ export class Header extends ShellPart {
       .session {
         margin-inline-start: auto;
         flex-wrap: nowrap;
+      }
+      flexrf-faults {
+        flex: 1 0 100%;
       }
       .stale :is(span, flexrf-control) {
         color: var(--flexrf-stale);
@@ -69,11 +76,19 @@ export class Header extends ShellPart {
           gap: 2px 12px;
           padding: 2px 8px;
         }
-        .session {
-          flex: 1 1 100%;
+        /* Their own host's size for fingers would be the larger one. */
+        flexrf-control {
+          --target: inherit;
         }
-        .link {
-          flex: 1;
+        h1 {
+          order: -2;
+          flex: 1 1 5rem;
+          min-width: 0;
+          overflow: hidden;
+          text-overflow: ellipsis;
+        }
+        .session {
+          order: -1;
         }
       }
     `,
@@ -97,14 +112,17 @@ export class Header extends ShellPart {
 
   protected override render(): unknown {
     const { core } = this;
-    const { state, session } = core;
+    const { session } = core;
     const stale = core.link.stale ? 'stale' : '';
-    const motion = motionOf(state);
-    const abnormal = motion === 'stopped' ? 'alarm' : motion === 'inhibited' ? 'warning' : '';
+    // Who is not logged in has no link either, and gets one by it.
+    const unlinked = deniedLink(core.situation) !== '' && core.link.detail !== 'login';
+    const mode = modeOf(core);
+    const motion = motionOf(core);
+    const abnormal = motion === 'stopped' ? 'alarm' : motion === 'enabled' || motion === 'unknown' ? '' : 'warning';
     return html`
       <h1>${core.application || 'FlexRF'}</h1>
       <div class=${stale}>
-        <span class=${state && state.mode !== 'running' && state.mode !== 'starting' ? 'warning' : ''}>${state ? modeText(state.mode) : '–'}</span>
+        <span class=${['running', 'starting', 'unknown'].includes(mode) ? '' : 'warning'}>${modeText(mode)}</span>
         <span class=${abnormal}>${abnormal === 'alarm' ? '■ ' : abnormal ? '⚠ ' : ''}${motionText[motion]}</span>
         ${motion === 'stopped' ? this.#action('clear_stop_motion', 'Clear stop') : nothing}
         ${motion === 'inhibited' ? this.#action('start_motion', 'Start motion') : nothing}
@@ -114,12 +132,13 @@ export class Header extends ShellPart {
         <span class="link"></span>
         <small>${session ? `${session.user || session.name}: ${session.role}` : ''}</small>
         ${session?.user
-          ? html`<button @click=${() => logOut(core)}>Log out</button>`
+          ? html`<button ?disabled=${unlinked} @click=${() => logOut(core)}>Log out</button>`
           : session?.role === 'admin'
             ? nothing // by the address that the application printed
-            : html`<button @click=${() => this.dispatchEvent(new Event('login'))}>Log in</button>`}
+            : html`<button ?disabled=${unlinked} @click=${() => this.dispatchEvent(new Event('login'))}>Log in</button>`}
         <button aria-label="Settings" title="Settings" @click=${() => this.dispatchEvent(new Event('settings'))}>⚙</button>
       </div>
+      <flexrf-faults .core=${core}></flexrf-faults>
     `;
   }
 

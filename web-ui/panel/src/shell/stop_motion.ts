@@ -54,10 +54,11 @@ export class StopMotion extends ShellPart {
 
   protected override render(): unknown {
     const dead = this.core.link.phase !== 'open' || this.core.link.stale;
-    const stopped = !dead && motionOf(this.core.state) === 'stopped';
+    const stopped = motionOf(this.core) === 'stopped';
     return html`
       <button aria-disabled=${dead} aria-pressed=${stopped} aria-describedby="what"
         @pointerdown=${(event: PointerEvent) => event.button === 0 && this.#stop()}
+        @keydown=${(event: KeyboardEvent) => this.#onKey(event)}
         @click=${(event: MouseEvent) => event.detail === 0 && this.#stop()}>
         ■ ${stopped ? 'Motion is stopped' : 'Stop motion'}
       </button>
@@ -65,6 +66,13 @@ export class StopMotion extends ShellPart {
         ? 'No connection: use the emergency stop at the machine.'
         : 'Neither an emergency stop nor an enabling device.'}</small>
     `;
+  }
+
+  /** When the key goes down: a browser's click by the space bar comes when it is let go, and not after Escape. */
+  #onKey(event: KeyboardEvent): void {
+    if (event.key !== ' ' && event.key !== 'Enter') return;
+    event.preventDefault();
+    if (!event.repeat) this.#stop();
   }
 
   /** By the open socket; when that has no answer at once, by a request beside it. Stopping twice is stopping. */

@@ -1,24 +1,43 @@
 // What the application's states are called, and what one does about them.
+import type { LinkStatus } from '../core/core';
 import type { ApplicationState, ControlSession, Fault, Mode } from '../core/protocol';
+import { addressOfRoute } from './router';
 
 const modes: { readonly [mode in Mode]: string } = {
   starting: 'Starting', running: 'Running', finishing: 'Finishing', stopping: 'Stopping', safe: 'Made safe', ended: 'Ended',
 };
 
-export function modeText(mode: Mode): string {
-  return modes[mode];
+export function modeText(mode: Mode | 'unknown'): string {
+  return mode === 'unknown' ? 'Not known' : modes[mode];
 }
 
-export type MotionState = 'stopped' | 'inhibited' | 'enabled' | 'unknown';
+/** What the page knows of the application now. */
+export interface Known {
+  readonly state: ApplicationState | undefined;
+  readonly link: Pick<LinkStatus, 'phase' | 'stale'>;
+}
 
-export function motionOf(state: ApplicationState | undefined): MotionState {
-  if (!state) return 'unknown';
-  if (state.motion.stopped) return 'stopped';
-  return state.motion.may_move ? 'enabled' : 'inhibited';
+/** What it does; once nothing is heard of it, only that it ended is still so. */
+export function modeOf({ state, link }: Known): Mode | 'unknown' {
+  if (state?.mode === 'ended') return 'ended';
+  return !state || link.phase !== 'open' || link.stale ? 'unknown' : state.mode;
+}
+
+export type MotionState = 'stopped' | 'inhibited' | 'enabled' | 'ending' | 'ended' | 'unknown';
+
+/** Whether it may move: the last word of an application that is silent since says nothing of that. */
+export function motionOf(known: Known): MotionState {
+  const mode = modeOf(known);
+  if (mode === 'unknown' || !known.state) return 'unknown';
+  if (mode === 'safe' || mode === 'ended') return 'ended';
+  if (mode === 'stopping') return 'ending';
+  if (known.state.motion.stopped) return 'stopped';
+  return known.state.motion.may_move ? 'enabled' : 'inhibited';
 }
 
 export const motionText: { readonly [state in MotionState]: string } = {
-  stopped: 'Motion stopped', inhibited: 'Motion inhibited', enabled: 'Motion enabled', unknown: 'Motion unknown',
+  stopped: 'Motion stopped', inhibited: 'Motion inhibited', enabled: 'Motion enabled', ending: 'Motion is coming to rest',
+  ended: 'Motion ended', unknown: 'Motion not known',
 };
 
 /** "anna at 192.168.0.7". */
@@ -27,8 +46,31 @@ export function nameOf(session: ControlSession): string {
   return session.local ? `${name} at the machine` : `${name} at ${session.address}`;
 }
 
+/** The page that tells most of what is in fault. */
+export function addressOfFault(fault: Fault): string {
+  if (fault.kind === 'process') return addressOfRoute({ view: 'threads', path: [] });
+  return addressOfRoute({ view: `${fault.kind}s`, path: [fault.component] });
+}
+
+/** The fault that was seen last; undefined: there is none. */
+export function newestFault(faults: readonly Fault[]): Fault | undefined {
+  return faults.reduce<Fault | undefined>((newest, fault) => (newest && newest.since_ns >= fault.since_ns ? newest : fault), undefined);
+}
+
+export function faultCount(count: number): string {
+  return count === 1 ? '1 fault' : `${count} faults`;
+}
+
+/** The browser's tab is all that is seen of a page that lies behind others. */
+export function titleOf(application: string, { state, link }: Known): string {
+  const name = `${application} – FlexRF panel`;
+  if (state?.mode === 'ended') return `Ended · ${name}`;
+  if (link.phase !== 'open' || link.stale) return `⚠ No connection · ${name}`;
+  return state && state.faults.length > 0 ? `✕ ${faultCount(state.faults.length)} · ${name}` : name;
+}
+
 /** What to do about a fault, when it does not say so itself. */
-export function remedyOf(fault: Fault): string {
+export function remedyOf(fault: Omit<Fault, 'since_ns'>): string {
   if (fault.kind === 'thread' || fault.kind === 'process')
     return 'Find out what kept it from its work: a debugger, another program of high priority, a machine without real time. Then clear the stop and give Start.';
   return fault.remedy ?? `Remove the cause, then initialise ${fault.component} on its page. What it moves waits for the next Start motion.`;

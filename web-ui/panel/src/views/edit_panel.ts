@@ -103,7 +103,8 @@ export class EditPanel extends ViewBase {
 
   private editing(draft: Draft, applying: boolean): unknown {
     const { flow } = this.session;
-    const cannot = applying ? 'The changes are being applied.' : flow.cannotApply;
+    const { unlinked } = this.session;
+    const cannot = applying ? 'The changes are being applied.' : unlinked || flow.cannotApply;
     const count = flow.changes.reduce((sum, change) => sum + Object.keys(change.values).length, 0);
     const here = draft.configuration[this.component] !== undefined;
     return html`
@@ -125,13 +126,21 @@ export class EditPanel extends ViewBase {
               aria-disabled=${cannot === '' ? nothing : 'true'}
               aria-busy=${applying ? 'true' : nothing}
               aria-describedby="cannot"
-              @click=${() => flow.apply()}
+              @click=${() => cannot === '' && flow.apply()}
             >
               Apply
             </button>
             <small id="cannot">${cannot}</small>
           </div>
-          <div><button aria-disabled=${applying ? 'true' : nothing} @click=${() => flow.discard()}>Discard</button></div>
+          <div>
+            <button
+              aria-disabled=${applying || unlinked ? 'true' : nothing}
+              title=${unlinked || nothing}
+              @click=${() => unlinked === '' && flow.discard()}
+            >
+              Discard
+            </button>
+          </div>
         </div>
       </div>
     `;

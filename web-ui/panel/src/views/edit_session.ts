@@ -1,4 +1,5 @@
 // The one edit of this page: outlives views, so that a person may look elsewhere while values are being edited.
+import { deniedLink } from '../core/access';
 import type { Core } from '../core/core';
 import type { Item } from '../core/descriptor';
 import { nameOf } from '../shell/words';
@@ -97,6 +98,11 @@ export class EditSession {
       return `${nameOf(edit.holder)} edits ${edit.components.join(', ')}.`;
     }
     return this.core.deniedAction('engineer');
+  }
+
+  /** Why what is being edited can neither be applied nor given up; empty when it can. */
+  get unlinked(): string {
+    return deniedLink(this.core);
   }
 
   private async begin(components: readonly string[]): Promise<BeginAnswer> {

@@ -32,7 +32,10 @@ export class GroupReset extends ViewBase {
 
   override connectedCallback(): void {
     super.connectedCallback();
-    this.until(this.core.host.watchAccess(() => this.requestUpdate()));
+    this.until(this.core.host.watchAccess(() => {
+      if (this.question.open && this.denied() !== '') this.question.answer(false);
+      this.requestUpdate();
+    }));
     this.until(() => {
       this.unwatch.forEach((end) => end());
       this.unwatch = [];
@@ -60,11 +63,15 @@ export class GroupReset extends ViewBase {
     return this.items.filter((item) => isModified(item, this.values.get(item.key)));
   }
 
+  private denied(): string {
+    return this.modified().map((item) => this.core.host.locked(item.key)).find((reason) => reason !== '') ?? '';
+  }
+
   protected override render(): unknown {
     const modified = this.modified();
     const component = modified[0]?.component;
     if (component === undefined) return nothing;
-    const denied = modified.map((item) => this.core.host.locked(item.key)).find((reason) => reason !== '') ?? '';
+    const denied = this.denied();
     return html`<button
         ?disabled=${denied !== '' || this.question.open}
         title=${denied || nothing}

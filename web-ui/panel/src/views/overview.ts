@@ -2,12 +2,10 @@
 import { css, html, nothing } from 'lit';
 import { customElement } from 'lit/decorators.js';
 import type { Item, Model } from '../core/descriptor';
-import type { Fault } from '../core/protocol';
-import { addressOfRoute } from '../shell/router';
-import { modeText, motionOf, motionText, remedyOf } from '../shell/words';
+import { addressOfFault, faultCount, modeOf, modeText, motionOf, motionText, remedyOf } from '../shell/words';
 import './item_widget';
 import './placement_widget';
-import { ViewBase, addressOf } from './view_base';
+import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
 const place = 'overview';
@@ -94,18 +92,13 @@ export class Overview extends ViewBase {
     if (faults.length === 0) return nothing;
     return html`
       <section class="wide box abnormal-box ${this.age}" role="alert">
-        <h3 class="alarm">✕ ${faults.length === 1 ? 'A fault' : `${faults.length} faults`}</h3>
+        <h3 class="alarm">✕ ${faultCount(faults.length)}</h3>
         <ul>${faults.map((fault) => html`<li>
-          <a href=${this.address(fault)}>${fault.component}</a>
+          <a href=${addressOfFault(fault)}>${fault.component}</a>
           <p>${fault.cause}</p>
           <p class="muted">What to do: ${remedyOf(fault)}</p>
         </li>`)}</ul>
       </section>`;
-  }
-
-  private address(fault: Fault): string {
-    if (fault.kind === 'process') return addressOfRoute({ view: 'threads', path: [] });
-    return addressOf(`${fault.kind}s`, fault.component);
   }
 
   private stateCard(): unknown {
@@ -115,8 +108,8 @@ export class Overview extends ViewBase {
         <h3>State</h3>
         ${state
           ? html`<dl class=${this.age}>
-              <dt>Application</dt><dd>${modeText(state.mode)}${state.cause && state.cause !== 'none' ? `: ${state.cause}` : ''}</dd>
-              <dt>Motion</dt><dd>${motionText[motionOf(state)]}</dd>
+              <dt>Application</dt><dd>${modeText(modeOf(this.core))}${state.cause && state.cause !== 'none' ? `: ${state.cause}` : ''}</dd>
+              <dt>Motion</dt><dd>${motionText[motionOf(this.core)]}</dd>
               <dt>Faults</dt><dd>${state.faults.length === 0 ? 'none' : html`<strong class="alarm">✕ ${state.faults.length}</strong>`}</dd>
               ${state.edit ? html`<dt>Being edited</dt><dd>${state.edit.components.join(', ')}</dd>` : nothing}
               <dt>Connections</dt><dd>${state.server.connections} of ${state.server.places}</dd>

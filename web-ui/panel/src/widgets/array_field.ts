@@ -102,13 +102,12 @@ export class ArrayField extends EditorBase {
     const edit = this.cells[i]!;
     if (event.key === 'Enter') return this.commitCell(i);
     if (event.key === 'Escape') return edit.cancel();
-    const step = stepOfKey(event, this.quantity.fine, this.quantity.coarse);
+    const from = edit.shown;
+    const { fine, coarse } = this.quantity.steps(typeof from === 'number' ? from : 0);
+    const step = stepOfKey(event, fine, coarse);
     if (step === undefined) return;
     event.preventDefault();
-    const from = edit.shown;
-    if (typeof from !== 'number' || edit.touched) return;
-    const { quantity } = this;
-    edit.put(quantity.toSi(quantity.clamped(quantity.rounded(quantity.toShown(from) + step))));
+    if (typeof from === 'number' && !edit.touched) edit.put(this.quantity.stepped(from, step));
   }
 
   private leave(i: number): void {

@@ -1,7 +1,7 @@
 // Which built-in widget shows an item: the one that its table names if it fits, or else the one that suits its type.
 import type { ItemInfo, Placement, WidgetElement, WidgetHost } from '../contract';
 import { tagOf } from '../core/registry';
-import { isNumeric } from './quantity';
+import { isNumeric, isWide } from './quantity';
 
 /** What a widget can show or change, for the sentence that says why it does not fit. */
 interface Fit {
@@ -71,7 +71,7 @@ export function defaultKind(item: ItemInfo): string {
   if (item.scalar === 'enumeration') return editable(item) ? 'select' : 'enumeration';
   if (item.scalar === 'text') return editable(item) ? 'text_field' : 'text';
   if (!editable(item)) return 'number';
-  return ranged(item) ? 'slider' : 'number_field';
+  return ranged(item) && !isWide(item) ? 'slider' : 'number_field';
 }
 
 /** An element of a vector, as far as the choice of its widget goes. */

@@ -197,7 +197,7 @@ describe('number field', () => {
     expect(field.getAttribute('aria-busy')).toBe('true');
     expect(widget.hasAttribute('pending')).toBe(true);
     await answer({ ok: false, detail: 'not now' });
-    expect(field.value).toBe('0.00');
+    expect(field.value).toBe('0.000');
     expect(field.getAttribute('aria-busy')).toBe('false');
   });
 
@@ -210,6 +210,39 @@ describe('number field', () => {
     expect(host.set).toHaveBeenCalledTimes(1);
     await answer({ ok: true });
     expect(host.set).toHaveBeenLastCalledWith('jog.step', 0.03);
+  });
+
+  it('has steps that follow its value, and no smaller ones on the way', async () => {
+    const range = [-1e6, 1e6] as const;
+    const { host, field, root, widget } = await make({ range, default: -1000, unit: '1' });
+    const label = (sign: string) => root.querySelector(`[data-step="${sign}"]`)!.getAttribute('aria-label');
+    const step = async (sign: string): Promise<void> => {
+      root.querySelector<HTMLButtonElement>(`[data-step="${sign}"]`)!.click();
+      await settled(widget);
+    };
+    expect(root.querySelector('#slider')).toBeNull();
+    host.publish('jog.step', -1000);
+    await settled(widget);
+    expect([label('+'), label('++')]).toEqual(['Increase Step by 10', 'Increase Step by 100']);
+    await step('+');
+    expect(host.set).toHaveBeenLastCalledWith('jog.step', -990);
+    host.publish('jog.step', -990);
+    await settled(widget);
+    expect(label('+')).toBe('Increase Step by 10'); // it was stepped to
+    host.publish('jog.step', 0.65);
+    await settled(widget);
+    expect(field.value).toBe('0.6500');
+    expect(label('+')).toBe('Increase Step by 0.001');
+    await step('+');
+    expect(host.set).toHaveBeenLastCalledWith('jog.step', 0.651);
+  });
+
+  it('refuses what is a number in JavaScript only', async () => {
+    const { host, field, text } = await make({ scalar: 'u32', unit: '' });
+    type(field, '0x10');
+    key(field, 'keydown', 'Enter');
+    expect(text('#refusal')).toBe('“0x10” is not a number');
+    expect(host.set).not.toHaveBeenCalled();
   });
 
   it('has a role, a name and a description', async () => {

@@ -5,6 +5,7 @@ import type { Value } from '../contract';
 import { EditorBase } from './editor_base';
 import { Keypad, keypadStyles } from './keypad';
 import { setAttribute } from './live_text';
+import type { Steps } from './quantity';
 import { widgetStyles } from './styles';
 import { dash } from './widget_base';
 
@@ -49,9 +50,33 @@ export class NumberField extends EditorBase {
     return this.controlFrame(html`${this.stepsAround(html``)}<span class="steps typed">${this.field()}${this.unitMark()}</span>${this.keypad.render()}`);
   }
 
+  private sizes: Steps | undefined;
+  private steppedTo: number | undefined;
+
+  /** By the value in force; while steps follow one another they do not become smaller on the way. */
+  protected get steps(): Steps {
+    return (this.sizes ??= this.quantity.steps(0));
+  }
+
+  /** Another value than the one that was stepped to begins anew. */
+  private follow(value: number): void {
+    const before = this.steps;
+    const next = this.quantity.steps(value);
+    const stepped = this.steppedTo !== undefined && Math.abs(this.quantity.toShown(value - this.steppedTo)) <= 0.5 * before.fine;
+    if (!stepped) this.steppedTo = undefined;
+    else if (next.fine < before.fine) return;
+    this.sizes = next;
+    if (next.fine !== before.fine || next.coarse !== before.coarse) this.requestUpdate();
+  }
+
+  protected override prepare(): void {
+    super.prepare();
+    this.sizes = this.steppedTo = undefined; // units are others
+  }
+
   /** −− − [middle] + ++ */
   protected stepsAround(middle: TemplateResult): TemplateResult {
-    const { fine, coarse } = this.quantity;
+    const { fine, coarse } = this.steps;
     return html`<span class="steps">
       ${this.stepButton(-coarse, '−−')}${this.stepButton(-fine, '−')}${middle}${this.stepButton(fine, '+')}${this.stepButton(coarse, '++')}
     </span>`;
@@ -99,7 +124,7 @@ export class NumberField extends EditorBase {
       if (this.question.open) this.question.answer(false);
       else this.edit.cancel();
     } else {
-      const step = stepOfKey(event, this.quantity.fine, this.quantity.coarse);
+      const step = stepOfKey(event, this.steps.fine, this.steps.coarse);
       if (step === undefined) return;
       event.preventDefault();
       this.step(step);
@@ -128,19 +153,20 @@ export class NumberField extends EditorBase {
     const typed = this.edit.touched ? this.quantity.parse(this.find<HTMLInputElement>('#field').value) : undefined;
     const from = typed && 'value' in typed ? typed.value : this.edit.shown;
     if (typeof from !== 'number' || this.locked !== '') return;
-    const { quantity } = this;
-    this.commit(quantity.toSi(quantity.clamped(quantity.rounded(quantity.toShown(from) + step))));
+    this.steppedTo = this.quantity.stepped(from, step);
+    this.commit(this.steppedTo);
   }
 
   protected override write(value: Value | null): void {
     const field = this.find<HTMLInputElement>('#field');
     const number = typeof value === 'number' ? value : undefined;
+    if (number !== undefined) this.follow(number);
     if (!this.isTyping()) {
-      const text = number === undefined ? '' : this.quantity.plain(number);
+      const text = number === undefined ? '' : this.quantity.entry(number);
       if (field.value !== text) field.value = text;
     }
     field.placeholder = number === undefined ? dash : '';
-    setAttribute(field, 'aria-valuetext', number === undefined ? 'no value' : `${this.quantity.text(number)} ${this.quantity.unit}`.trim());
+    setAttribute(field, 'aria-valuetext', number === undefined ? 'no value' : `${this.quantity.entryText(number)} ${this.quantity.unit}`.trim());
     setAttribute(field, 'aria-valuenow', number === undefined ? '0' : String(this.quantity.toShown(number)));
     const range = this.quantity.range;
     if (range) {

@@ -98,7 +98,7 @@ export class Slider extends NumberField {
   }
 
   private onSliderKey(event: KeyboardEvent): void {
-    const { fine, coarse } = this.quantity;
+    const { fine, coarse } = this.steps;
     const sideways = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
     const step = sideways !== 0 ? sideways * (event.shiftKey ? coarse : fine) : stepOfKey(event, fine, coarse);
     if (step === undefined || event.ctrlKey || event.altKey || event.metaKey) return;
@@ -123,6 +123,6 @@ export class Slider extends NumberField {
       const position = String(this.quantity.clamped(this.quantity.toShown(value)));
       if (slider.value !== position) slider.value = position;
     }
-    setAttribute(slider, 'aria-valuetext', `${this.quantity.text(value)} ${this.quantity.unit}`.trim());
+    setAttribute(slider, 'aria-valuetext', `${this.quantity.entryText(value)} ${this.quantity.unit}`.trim());
   }
 }

@@ -70,14 +70,23 @@ void a_fault_is_told_with_its_cause() {
   PlayedLink& link = rig.connect(a_viewer);
   CHECK(rig.event(link, "state").at("faults").empty());
   link.texts.clear();
+  const std::int64_t before = MonotonicClock::now().time_since_epoch().count();
   fails = true;
-  CHECK(rig.wait_until([&] {
+  json fault;
+  const auto told = [&] {
     for (const json& text : link.texts)
-      if (text.value("event", "") == "state" && !text.at("faults").empty())
-        return text.at("faults").at(0).at("component") == "producer" &&
-               text.at("faults").at(0).at("cause") == "the gripper lost its part";
-    return false;
-  }));
+      if (text.value("event", "") == "state" && !text.at("faults").empty()) fault = text.at("faults").at(0);
+    return !fault.is_null();
+  };
+  CHECK(rig.wait_until(told));
+  CHECK(fault.at("component") == "producer" && fault.at("cause") == "the gripper lost its part");
+  const auto since = fault.at("since_ns").get<std::int64_t>();
+  CHECK(since > before && since <= MonotonicClock::now().time_since_epoch().count());
+  // And stays so for as long as it is the same one.
+  fault = {};
+  link.texts.clear();
+  CHECK(rig.wait_until(told));
+  CHECK_EQUAL(fault.at("since_ns").get<std::int64_t>(), since);
 }
 
 void frames_hold_what_is_new() {

@@ -42,6 +42,19 @@ describe('locked', () => {
     expect(of('jog.step', situation('operator', other))).toBe('anna has control');
     expect(of('jog.step', situation('operator', null))).toBe('take control first');
   });
+  it('says what a hold lacks to move anything', () => {
+    const moving = (motion: { stopped: boolean; may_move: boolean }, more: object = {}): Situation => {
+      const where = situation('operator');
+      return { ...where, state: { ...where.state!, motion, ...more } };
+    };
+    expect(of('jog.forward', situation('operator'))).toBe('');
+    expect(of('jog.forward', moving({ stopped: true, may_move: false }))).toBe('motion is stopped');
+    expect(of('jog.forward', moving({ stopped: false, may_move: false }))).toBe('motion is inhibited: give Start motion');
+    expect(of('jog.forward', situation('operator', null))).toBe('take control first');
+    // A value can be set all the same.
+    expect(of('jog.step', moving({ stopped: true, may_move: false }))).toBe('');
+    expect(of('jog.step', moving({ stopped: true, may_move: false }, { mode: 'safe' }))).toBe('the application ends');
+  });
   it('tells what is never changed here', () => {
     expect(of('jog.feedback.presses', situation('admin'))).toBe('read only');
     expect(of('jog.configuration.lag', situation('admin'))).toBe('changed by Edit');

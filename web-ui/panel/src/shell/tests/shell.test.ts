@@ -2,13 +2,15 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { FakeSocket } from '../../core/tests/fake_socket';
 import { sample } from '../../core/tests/sample';
 import { PanelCore } from '../../core/panel_core';
+import type { ApplicationState } from '../../core/protocol';
 import type { Control, Consent } from '../control';
 import '../control';
-import { linkText } from '../header';
+import { clockText, type Faults } from '../faults';
+import { linkText, type Header } from '../header';
 import { addressOfRoute, parseRoute } from '../router';
 import '../stop_motion';
 import type { StopMotion } from '../stop_motion';
-import { remedyOf } from '../words';
+import { addressOfFault, motionOf, newestFault, remedyOf, titleOf } from '../words';
 
 describe('router', () => {
   it.each([
@@ -28,6 +30,41 @@ describe('words', () => {
     expect(linkText({ ...link, stale: true, silence: 1400 })).toBe('⚠ Silent for 1.4 s');
     expect(linkText({ ...link, phase: 'waiting' })).toBe('✕ No connection');
   });
+  it('say whether it may move only as long as that is known', () => {
+    const link = { phase: 'open', stale: false } as const;
+    const of = (mode: ApplicationState['mode'], motion = { stopped: false, may_move: true }, more: Partial<typeof link> | object = {}) =>
+      motionOf({ link: { ...link, ...more }, state: { mode, motion } as ApplicationState });
+    expect(of('running')).toBe('enabled');
+    expect(of('running', { stopped: false, may_move: false })).toBe('inhibited');
+    expect(of('finishing', { stopped: true, may_move: false })).toBe('stopped');
+    expect([of('stopping'), of('safe'), of('ended')]).toEqual(['ending', 'ended', 'ended']);
+    expect(of('running', undefined, { stale: true })).toBe('unknown');
+    expect(of('running', undefined, { phase: 'waiting' })).toBe('unknown');
+    expect(of('ended', undefined, { phase: 'waiting' })).toBe('ended');
+  });
+  it('name the newest fault, and where more is told of it', () => {
+    const fault = (component: string, kind: 'unit' | 'device' | 'thread' | 'process', since_ns: number) => ({ component, kind, cause: 'x', since_ns });
+    const [old, young] = [fault('arm', 'device', 5), fault('axis[0].drive', 'unit', 7)];
+    expect(newestFault([])).toBeUndefined();
+    expect(newestFault([old, young])).toBe(young);
+    expect(newestFault([young, old])).toBe(young);
+    expect([old, young, fault('motion', 'thread', 1), fault('cell', 'process', 1)].map(addressOfFault)).toEqual([
+      '#/devices/arm', '#/units/axis%5B0%5D.drive', '#/threads/motion', '#/threads']);
+  });
+  it('tell the tab what is wrong', () => {
+    const link = { phase: 'open', stale: false } as const;
+    const state = { mode: 'running', faults: [] } as unknown as ApplicationState;
+    const two = { ...state, faults: [{}, {}] } as unknown as ApplicationState;
+    expect(titleOf('cell', { link, state })).toBe('cell – FlexRF panel');
+    expect(titleOf('cell', { link, state: two })).toBe('✕ 2 faults · cell – FlexRF panel');
+    expect(titleOf('cell', { link: { ...link, stale: true }, state: two })).toBe('⚠ No connection · cell – FlexRF panel');
+    expect(titleOf('cell', { link: { ...link, phase: 'waiting' }, state: { ...state, mode: 'ended' } })).toBe('Ended · cell – FlexRF panel');
+  });
+  it('tell the time of day, and the day where it was another', () => {
+    const now = new Date(2026, 10, 23, 15, 0, 0);
+    expect(clockText(new Date(2026, 10, 23, 4, 5, 6), now)).toBe('04:05:06');
+    expect(clockText(new Date(2026, 10, 22, 23, 59, 6), now)).toBe('2026-11-22 23:59:06');
+  });
   it('give a remedy, the fault\'s own where it has one', () => {
     expect(remedyOf({ component: 'robot', kind: 'unit', cause: 'x', remedy: 'Press reset.' })).toBe('Press reset.');
     // Initialised it runs already; what is missing is Start motion.
@@ -44,9 +81,11 @@ describe('parts of the shell', () => {
   let core: PanelCore;
   const fetched = vi.fn();
 
-  function say(control: object, motion = { stopped: false, may_move: true }): void {
+  const noticed: string[] = [];
+
+  function say(control: object, motion = { stopped: false, may_move: true }, faults: object[] = [], mode = 'running'): void {
     socket.say({
-      event: 'state', mode: 'running', cause: '', motion, faults: [], control, edit: null,
+      event: 'state', mode, cause: '', motion, faults, control, edit: null,
       server: { connections: 1, places: 8, loop_delay_us: { p99: 1, max: 2 } },
     });
   }
@@ -68,7 +107,8 @@ describe('parts of the shell', () => {
     fetched.mockReset().mockImplementation(() => Promise.resolve(new Response(JSON.stringify(sample))));
     vi.stubGlobal('fetch', fetched);
     socket = new FakeSocket();
-    core = new PanelCore({ makeSocket: () => socket, onModel: () => undefined, onNotice: () => undefined });
+    core = new PanelCore({ makeSocket: () => socket, onModel: () => undefined, onNotice: (text) => noticed.push(text) });
+    noticed.length = 0;
     core.start();
     socket.hello();
     await settle();
@@ -106,6 +146,18 @@ describe('parts of the shell', () => {
     await settle();
     expect(fetched).toHaveBeenCalledWith('/api/v1/stop-motion', expect.anything());
   });
+  it('Stop motion is given when a key goes down, once for each press, and whatever key comes then', async () => {
+    const stop = button(await shown<StopMotion>('flexrf-stop-motion'), /Stop motion/);
+    for (const key of [' ', 'Enter']) {
+      const down = new KeyboardEvent('keydown', { key, cancelable: true });
+      stop.dispatchEvent(down);
+      expect(down.defaultPrevented).toBe(true); // no click follows
+      stop.dispatchEvent(new KeyboardEvent('keydown', { key, repeat: true }));
+    }
+    expect(socket.of('stop_motion')).toHaveLength(2);
+    stop.dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape' }));
+    expect(socket.of('stop_motion')).toHaveLength(2);
+  });
   it('Stop motion says that it is no emergency stop', async () => {
     const part = await shown<StopMotion>('flexrf-stop-motion');
     expect(part.shadowRoot?.textContent).toContain('Neither an emergency stop nor an enabling device');
@@ -141,6 +193,74 @@ describe('parts of the shell', () => {
     expect(part.shadowRoot?.textContent).toContain('Handed over in 4 s');
     button(part, /Keep/).click();
     expect(socket.of('answer_control')).toMatchObject([{ grant: false }]);
+  });
+  it('the question is dead while nothing reaches the application, and says so', async () => {
+    const part = await shown<Consent>('flexrf-consent');
+    say({ holder: you, wanted_by: other, answer_within_ms: 9900 });
+    await settle();
+    expect(button(part, /Keep/).disabled).toBe(false);
+    await vi.advanceTimersByTimeAsync(1500); // not a word for so long
+    expect(core.link.stale).toBe(true);
+    expect([button(part, /Keep/).disabled, button(part, /Hand over/).disabled]).toEqual([true, true]);
+    expect(part.shadowRoot?.textContent).toContain('no answer reaches the application');
+    button(part, /Keep/).click();
+    expect(socket.of('answer_control')).toHaveLength(0);
+    say({ holder: you, wanted_by: other, answer_within_ms: 7000 });
+    await settle();
+    expect(button(part, /Keep/).disabled).toBe(false);
+  });
+  it('who asked and did not get it is told', async () => {
+    const part = await shown<Control>('flexrf-control');
+    say({ holder: other, wanted_by: you, answer_within_ms: 9000 });
+    await settle();
+    say({ holder: other, wanted_by: null });
+    await settle();
+    expect(noticed).toEqual(['You did not get control: anna at 10.0.0.2 keeps control.']);
+    expect(part.shadowRoot?.querySelector('#why')?.textContent).toBe('anna at 10.0.0.2 keeps control');
+    say({ holder: other, wanted_by: you, answer_within_ms: 9000 });
+    say({ holder: you, wanted_by: null });
+    await settle();
+    expect(noticed).toHaveLength(1);
+    expect(part.shadowRoot?.querySelector('#why')).toBeNull();
+  });
+  const arm = { component: 'arm', kind: 'device', cause: 'no answer on the bus', since_ns: 3e9 };
+  const jog = { component: 'jog', kind: 'unit', cause: 'lost its way', since_ns: 5e9 };
+  it('no faults are told in the place where faults would be', async () => {
+    const part = await shown<Faults>('flexrf-faults');
+    expect(part.shadowRoot?.querySelector('span')?.textContent).toBe('No faults');
+    expect(part.shadowRoot?.querySelector('a')).toBeNull();
+  });
+  it('faults are told in every view: how many, the newest, since when, and where more is said', async () => {
+    vi.setSystemTime(new Date(2026, 10, 23, 14, 32, 7));
+    vi.spyOn(core.connection, 'serverNow').mockReturnValue(8e9);
+    const part = await shown<Faults>('flexrf-faults');
+    say({ holder: null, wanted_by: null }, undefined, [jog, arm]);
+    await settle();
+    const link = part.shadowRoot!.querySelector('a')!;
+    expect(link.textContent?.replace(/\s+/g, ' ')).toBe('✕ 2 faults, newest since 14:32:04: jog: lost its way');
+    expect(link.getAttribute('href')).toBe('#/units/jog');
+    say({ holder: null, wanted_by: null }, undefined, [arm]);
+    await settle();
+    expect(part.shadowRoot!.querySelector('a')!.textContent).toContain('1 fault');
+    await vi.advanceTimersByTimeAsync(1500);
+    expect(part.shadowRoot!.querySelector('a')!.className).toBe('old');
+  });
+  it('the header says what is so, not what was', async () => {
+    const part = await shown<Header>('flexrf-header');
+    const text = () => part.shadowRoot!.textContent!;
+    say({ holder: null, wanted_by: null });
+    await settle();
+    expect(text()).toContain('Motion enabled');
+    say({ holder: null, wanted_by: null }, undefined, [], 'stopping');
+    await settle();
+    expect(text()).toContain('Motion is coming to rest');
+    socket.say({ event: 'ended', text: 'signal' });
+    await settle();
+    expect(text()).toContain('Motion ended');
+    socket.lose();
+    await settle();
+    expect(text()).toContain('Motion ended');
+    expect(text()).not.toContain('Motion enabled');
   });
   it('nobody else is asked', async () => {
     const part = await shown<Consent>('flexrf-consent');

@@ -1,6 +1,6 @@
 // A core without a server: the test says what is subscribed, in force and answered.
 import type { ItemInfo, Placement, Reading, Value, WidgetElement, WidgetHost } from '../../contract';
-import type { Core, PanelHost } from '../../core/core';
+import type { Core, LinkStatus, PanelHost } from '../../core/core';
 import { makeModel } from '../../core/descriptor';
 import type { DescriptorJson } from '../../core/descriptor_json';
 import type { ApplicationState } from '../../core/protocol';
@@ -34,6 +34,7 @@ export class FakeCore {
   readonly model;
   state: ApplicationState | undefined = quiet;
   denied = '';
+  link: LinkStatus = { phase: 'open', stale: false, roundTrip: 1, silence: 0, detail: '' };
   answer: (op: string, fields: object) => object = () => ({ ok: true });
   private readonly states = new Set<() => void>();
   private readonly access = new Set<() => void>();

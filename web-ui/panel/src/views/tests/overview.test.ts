@@ -23,7 +23,7 @@ describe('the overview without a word from the application', () => {
   afterEach(() => view.remove());
   it('shows faults and state in grey', async () => {
     const fake = new FakeCore(sample);
-    fake.says({ faults: [{ component: 'jog', kind: 'unit', cause: 'too hot' }] });
+    fake.says({ faults: [{ component: 'jog', kind: 'unit', since_ns: 1, cause: 'too hot' }] });
     view = document.createElement('flexrf-overview') as Overview;
     Object.assign(view, { core: fake.core, host: fake.host, path: [] });
     document.body.append(view);
