@@ -114,8 +114,7 @@ SaveState ValueSaver::state() const {
 }
 
 std::uint64_t ValueSaver::revision() const noexcept {
-  // Neither ever falls.
-  return attempts_.load(std::memory_order_acquire) + cell_->settings_revision();
+  return 2 * attempts_.load(std::memory_order_acquire) + (is_unsaved() ? 1 : 0);
 }
 
 bool ValueSaver::is_unsaved() const noexcept {

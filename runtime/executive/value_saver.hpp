@@ -49,7 +49,7 @@ class ValueSaver {
   Result<std::uint64_t> request();
   /// Any thread that is not real-time.
   SaveState state() const;
-  /// Rises whenever state() may say something new. Any thread.
+  /// Another number whenever state() says something new. Any thread.
   std::uint64_t revision() const noexcept;
 
   /// The end: saves a last time, unless that is done on command only; ends the thread. Waits for it, but no
