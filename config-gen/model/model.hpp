@@ -524,6 +524,13 @@ struct GroupInstance {  // kept for the diagram and the panel; everything in it 
   Position position;
 };
 
+// When the configuration file is written while the application runs.
+struct SavePolicy {
+  bool on_change = true;
+  Nanoseconds quiet = 2'000'000'000;
+  Nanoseconds interval = 10'000'000'000;
+};
+
 struct Application {
   std::string name;  // the table's name
   std::filesystem::path file;
@@ -535,6 +542,7 @@ struct Application {
   Nanoseconds stop_timeout = 2'000'000'000;
   Nanoseconds finish_timeout = 10'000'000'000;
   Nanoseconds standstill_limit = 1'000'000'000;
+  SavePolicy save;
 };
 
 // ---- The whole

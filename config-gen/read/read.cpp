@@ -7,6 +7,20 @@
 namespace flexrf::config_gen {
 namespace {
 
+void read_save(Row& application, SavePolicy& save, Diagnostics& diagnostics) {
+  const Node* const table = application.table("save");
+  if (table == nullptr) return;
+  Row row(*table, "'save' of " + application.name(), diagnostics);
+  save.on_change = row.word("on", {"change", "command"}).value_or(0) == 0;
+  for (const char* const key : {"quiet", "interval"})
+    if (!save.on_change && row.has(key))
+      diagnostics.error(row.position(key), row.name() + " has " + quote(key) + ", but saves on command only",
+                        "remove it, or write on = \"change\"");
+  save.quiet = row.positive_duration("quiet").value_or(save.quiet);
+  save.interval = row.positive_duration("interval").value_or(save.interval);
+  row.finish();
+}
+
 void read_application(Library& library, const std::filesystem::path& file) {
   Diagnostics& diagnostics = library.diagnostics();
   Model& model = library.model();
@@ -34,6 +48,7 @@ void read_application(Library& library, const std::filesystem::path& file) {
   application.finish_timeout = row.positive_duration("finish_timeout").value_or(application.finish_timeout);
   application.standstill_limit =
       row.positive_duration("standstill_limit").value_or(application.standstill_limit);
+  read_save(row, application.save, diagnostics);
   for (const char* section :
        {"device", "unit", "slot", "queue", "thread", "group", "renamed", "panel", "widget"})
     row.also(section);

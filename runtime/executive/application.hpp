@@ -167,6 +167,13 @@ struct NarrowedRange {
   double maximum;
 };
 
+/// When the configuration file is written while the application runs; beside that, whenever somebody asks.
+struct SavePolicy {
+  bool on_change = true;                     ///< by itself, and at the end; false: only when somebody asks
+  Duration quiet = std::chrono::seconds{2};  ///< without a further change before it is written
+  Duration interval = std::chrono::seconds{10};  ///< at least between two writings; no change waits longer
+};
+
 struct Application {
   const char* name;
   const char* summary;
@@ -177,6 +184,7 @@ struct Application {
   Duration stop_timeout;
   Duration finish_timeout;
   Duration standstill_limit{};  ///< of a thread or the process, see Standstill; 0: not judged
+  SavePolicy save;
   std::span<const SlotRecord> slots;
   std::span<const QueueRecord> queues;
   std::span<const DeviceRecord> devices;

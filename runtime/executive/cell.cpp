@@ -5,6 +5,7 @@
 #include <string>
 
 #include "runtime/core/digest.hpp"
+#include "runtime/parameters/value_access.hpp"
 
 namespace flexrf {
 namespace {
@@ -39,7 +40,10 @@ Cell::Cell(const Application& application, const Options& options)
       requests_(std::make_unique<RequestQueue[]>(application.threads.size())),
       scratch_(std::make_unique<ParameterScratch[]>(application.threads.size())),
       configurations_(
-          std::make_unique<std::vector<std::byte>[]>(application.units.size() + application.devices.size())) {
+          std::make_unique<std::vector<std::byte>[]>(application.units.size() + application.devices.size())),
+      configuration_settings_(
+          std::make_unique<ConfigurationSettings[]>(application.units.size() + application.devices.size())) {
+  for (ComponentIndex i = 0; i < component_count(); ++i) parameters_[i].set_revision(settings_revision_);
   for (std::size_t i = 0; i < application.threads.size(); ++i)
     requests_[i].set_bell(application.threads[i].bell);
 }
@@ -281,6 +285,44 @@ std::size_t Cell::copy_configuration(ComponentIndex index, void* to, std::size_t
   const std::vector<std::byte>& values = configurations_[index];
   std::memcpy(to, values.data(), std::min(size, values.size()));
   return values.size();
+}
+
+// ---- what is kept in the configuration file
+
+void Cell::restore_settings(ComponentIndex index, const ComponentSettings& settings) {
+  const ParameterBlock& block = component_type(index).configuration;
+  const auto* values = static_cast<const std::byte*>(component(index).parameter_memory().configuration);
+  if (block.type != nullptr && values != nullptr) {
+    const std::lock_guard lock(configuration_mutex_);
+    configuration_settings_[index].values.assign(values, values + block.type->size);
+    configuration_settings_[index].marks = settings.configuration_marks;
+  }
+  parameters_[index].restore(settings.runtime_marks);
+}
+
+void Cell::note_configuration_set(ComponentIndex index, const FieldPlace& place) {
+  const ParameterBlock& block = component_type(index).configuration;
+  const auto* values = static_cast<const std::byte*>(component(index).parameter_memory().configuration);
+  const std::size_t size =
+      place.field->scalar == Scalar::text ? place.count : place.count * element_size(*place.field);
+  const std::lock_guard lock(configuration_mutex_);
+  ConfigurationSettings& settings = configuration_settings_[index];
+  settings.values.assign(values, values + block.type->size);
+  if (settings.marks.size() != block.type->size) settings.marks = SetMarks(block.type->size);
+  settings.marks.mark(place.offset, size);
+  settings_revision_.fetch_add(1, std::memory_order_acq_rel);
+}
+
+void Cell::copy_settings(ComponentIndex index, ComponentSettings& settings) const {
+  {
+    const std::lock_guard lock(configuration_mutex_);
+    settings.configuration = configuration_settings_[index].values;
+    settings.configuration_marks = configuration_settings_[index].marks;
+  }
+  // Nothing was set before the file was read, and what it gives is marked in the full size.
+  if (settings.configuration_marks.size() != settings.configuration.size())
+    settings.configuration_marks = SetMarks(settings.configuration.size());
+  parameters_[index].settings().read(settings.runtime, settings.runtime_marks);
 }
 
 Component& Cell::component(ComponentIndex component) const noexcept {

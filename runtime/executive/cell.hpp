@@ -18,6 +18,17 @@
 
 namespace flexrf {
 
+class ValueSaver;
+struct FieldPlace;
+
+/// What of one component's values belongs into the configuration file: copies, and what somebody has set.
+struct ComponentSettings {
+  std::vector<std::byte> configuration;  ///< empty: it has none
+  std::vector<std::byte> runtime;
+  SetMarks configuration_marks;
+  SetMarks runtime_marks;
+};
+
 /// The payload is the generated application's; the cell constructs and destroys what lives there. Built and
 /// torn down by the main thread; between the two, each part belongs to the thread that the design names.
 class Cell {
@@ -78,6 +89,25 @@ class Cell {
   /// start: the main thread.
   void note_configuration(ComponentIndex component);
   RuntimeParameters& parameters(ComponentIndex component) noexcept { return parameters_[component]; }
+
+  // ---- for who keeps the configuration file
+
+  /// The values in the component's memory are those of the file, which gives the marked ones. Main thread,
+  /// before the start.
+  void restore_settings(ComponentIndex component, const ComponentSettings& settings);
+  /// Somebody has set this place of the configuration, whose value lies in the component's memory. Lifecycle
+  /// thread.
+  void note_configuration_set(ComponentIndex component, const FieldPlace& place);
+  /// What is set, and the values with it. Any non-real-time thread.
+  void copy_settings(ComponentIndex component, ComponentSettings& settings) const;
+  /// Rises whenever what copy_settings() gives of any component becomes another. Any thread.
+  std::uint64_t settings_revision() const noexcept {
+    return settings_revision_.load(std::memory_order_acquire);
+  }
+  /// Who saves them; null: nobody. Set before anything runs.
+  ValueSaver* saver() const noexcept { return saver_; }
+  void set_saver(ValueSaver& saver) noexcept { saver_ = &saver; }
+
   ParameterScratch& scratch(std::uint16_t thread) noexcept { return scratch_[thread]; }
 
   /// Sends a request to the thread that owns its component; busy or refused is answered at once. Any thread.
@@ -134,6 +164,14 @@ class Cell {
   mutable std::mutex configuration_mutex_;
   std::unique_ptr<std::vector<std::byte>[]> configurations_;  // one per component, as it was initialised
   std::atomic<std::uint64_t> configuration_revision_{0};
+  // Of the configuration: what of it is set, and the values then. One per component.
+  struct ConfigurationSettings {
+    std::vector<std::byte> values;
+    SetMarks marks;
+  };
+  std::unique_ptr<ConfigurationSettings[]> configuration_settings_;
+  std::atomic<std::uint64_t> settings_revision_{0};
+  ValueSaver* saver_ = nullptr;
 };
 
 }  // namespace flexrf

@@ -12,6 +12,14 @@ std::uint64_t CellAccess::send(ParameterRequest& request, Time now) noexcept {
   return request.correlation;
 }
 
+Result<std::uint64_t> CellAccess::save_values() {
+  return cell_->saver()->request();
+}
+
+SaveState CellAccess::save_state() const {
+  return cell_->saver()->state();
+}
+
 void CellAccess::stop_motion() noexcept {
   cell_->control().stop_motion();
 }

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 
+#include "runtime/core/status.hpp"
 #include "runtime/core/time.hpp"
+#include "runtime/executive/value_saver.hpp"
 #include "runtime/parameters/request.hpp"
 
 namespace flexrf {
@@ -36,6 +38,10 @@ class CellAccess {
   std::uint64_t send(ParameterRequest& request, Time now) noexcept;
   /// The next answer that has come, also to what the unit asked before it was restarted.
   bool take_answer(ParameterAnswer& answer) noexcept { return post_->answers.pop(answer); }
+
+  /// *Save now*, as ValueSaver::request(): the number under which save_state() tells that it is done.
+  Result<std::uint64_t> save_values();
+  SaveState save_state() const;
 
   /// The latch that anybody may set; there is no way from here to clear it, nor to Start.
   void stop_motion() noexcept;

@@ -57,7 +57,7 @@ extern "C" void end_virtual_time(int signal) {
 
 /// Bytes. All that is mapped is locked, code and libraries too: an application within its budget needs more.
 std::size_t memory_to_lock(const Application& application, bool observed) noexcept {
-  // The lifecycle thread's stack, and what the executive and the report allocate.
+  // The stacks of lifecycle, output and saver, and what the executive and the report allocate.
   constexpr std::size_t mapped_later = 4U << 20;
   // An observer's stacks, and the heaps that the allocator gives its threads.
   constexpr std::size_t mapped_by_observer = 12U << 20;
@@ -87,6 +87,7 @@ Executive::Executive(const Application& application, Options options)
       cell_(application, options_),
       lifecycle_(cell_, !options_.virtual_time.has_value()),
       began_(MonotonicClock::now()),
+      saver_(cell_),
       output_(cell_, options_.status_view && !options_.virtual_time) {}
 
 /// After a run that got stuck: whoever hung may have let go since, else this waits.
@@ -97,7 +98,7 @@ Executive::~Executive() {
 Status Executive::prepare() {
   if (const Status status = check_triggers(cell_.application()); !status) return status;
   if (const Status status = cell_.construct(); !status) return status;
-  if (const Status status = load_values(); !status) return status;
+  if (const Status status = saver_.load(); !status) return status;
   for (DeviceState& state : cell_.application().device_states) {
     state.demands = state.device->guards_motion();
     state.guards.store(state.demands);
@@ -131,26 +132,6 @@ Status Executive::prepare() {
   return {};
 }
 
-Status Executive::load_values() {
-  if (options_.configuration_file.empty()) return {};
-  const std::vector<ConfigurationComponent> components = configuration_components(cell_);
-  const ConfigurationReport report =
-      load_configuration(options_.configuration_file, configuration_identity(cell_), components);
-  for (const std::string& problem : report.problems) std::fprintf(stderr, "%s\n", problem.c_str());
-  for (const std::string& notice : report.notices) std::fprintf(stderr, "%s\n", notice.c_str());
-  if (report.source != ConfigurationSource::refused) return {};
-  return Status::error(StatusCode::invalid_argument, "--config %s: refused; nothing was started",
-                       options_.configuration_file.c_str());
-}
-
-void Executive::save_values() {
-  if (options_.configuration_file.empty()) return;
-  const std::vector<ConfigurationComponent> components = configuration_components(cell_);
-  const Status status =
-      save_configuration(options_.configuration_file, configuration_identity(cell_), components);
-  if (!status) log_error(cell_.application().name, "the values were not saved: {}", status.cause());
-}
-
 ReconfigureResult Executive::reconfigure(std::vector<ConfigurationChange> changes) {
   std::promise<ReconfigureResult> result;
   reconfigure(std::move(changes), [&result](const ReconfigureResult& outcome) { result.set_value(outcome); });
@@ -165,7 +146,9 @@ void Executive::reconfigure(std::vector<ConfigurationChange> changes, Reconfigur
                    {}});
     }
     Reconfiguration host(cell_, lifecycle_);
-    done(flexrf::reconfigure(host, changes));
+    const ReconfigureResult result = flexrf::reconfigure(host, changes);
+    if (result.outcome == ReconfigureOutcome::done) note_set(cell_, changes);
+    done(result);
   };
   if (!lifecycle_.post([job] { job(false); })) job(true);
 }
@@ -203,8 +186,7 @@ RunSummary Executive::run() {
   } else {
     run_on_the_wall_clock(summary);
   }
-  // With a thread that hangs nobody may look at the values.
-  if (!summary.stuck) save_values();
+  summary.save_failure = saver_.finish();
   output_.catch_up();
   summary.cause = cell_.control().cause();
   summary.wall_time = MonotonicClock::now() - began_;
@@ -212,6 +194,8 @@ RunSummary Executive::run() {
     summary.exit_code = 3;
   } else if (summary.had_fault) {
     summary.exit_code = 2;
+  } else if (!summary.save_failure) {
+    summary.exit_code = 1;
   } else if (summary.cause == EndCause::signal) {
     summary.exit_code = 128 + summary.signal;
   }
@@ -322,9 +306,11 @@ Status Executive::start_threads(RunSummary& summary) {
                 describe_response_time(estimate->task, estimate->result, text, sizeof(text)));
   }
   const CpuSet rest = machine->rest(claimed);
-  // The supervising, lifecycle, observing, writing and library threads stay away from the real-time ones.
+  // The supervising, lifecycle, observing, saving, writing and library threads stay away from the real-time
+  // ones.
   if (options_.realtime) sched_setaffinity(0, sizeof(cpu_set_t), &rest.mask());
   if (const Status status = output_.start(); !status) return status;
+  if (const Status status = saver_.start(); !status) return status;
   if (observer_ != nullptr) {
     if (const Status status = start_observer(); !status) return status;
   }

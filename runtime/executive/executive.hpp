@@ -18,6 +18,7 @@
 #include "runtime/executive/run_summary.hpp"
 #include "runtime/executive/supervision.hpp"
 #include "runtime/executive/thread_loop.hpp"
+#include "runtime/executive/value_saver.hpp"
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/thread_setup.hpp"
 
@@ -43,6 +44,8 @@ class Executive {
   Status say_last(std::vector<std::string> texts);
   /// say_last() waited in vain: the process can only be left by _exit().
   bool is_still_saying() const noexcept { return output_.is_ending(); }
+  /// The file system of the configuration file does not answer: likewise.
+  bool is_still_saving() const noexcept { return saver_.is_saving(); }
 
   /// Changes configuration parameters of the running application, as one transaction; waits for the outcome.
   /// Another thread than run()'s, not real-time, while the application runs.
@@ -65,6 +68,8 @@ class Executive {
   std::vector<ComponentIndex> moving() const { return moving_components(cell_); }
   /// The controlled stop of the whole application.
   void request_end() noexcept;
+  /// *Save now*, and how it stands with the configuration file.
+  ValueSaver& saver() noexcept { return saver_; }
 
   /// Whom run() starts with the application's threads. Its maker stops it, after run(). Before run().
   void set_observer(Observer& observer) noexcept { observer_ = &observer; }
@@ -84,8 +89,6 @@ class Executive {
   void live();  // the lifecycle thread
   void join_threads() noexcept;
   void begin_running() noexcept;
-  Status load_values();
-  void save_values();
 
   Options options_;
   Cell cell_;
@@ -97,6 +100,7 @@ class Executive {
   std::atomic<bool> lives_{false};
   LogLimit useless_signal_;
   Time began_{};
+  ValueSaver saver_;
   OutputThread output_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runtime/parameters/value_access.hpp"
+
 namespace flexrf {
 
 Component* Reconfiguration::component(std::uint16_t index) {
@@ -77,26 +79,34 @@ void Reconfiguration::fault(std::uint16_t owner, const Status& cause) {
   cell_->control().note_fault();
 }
 
+void note_set(Cell& cell, std::span<const ConfigurationChange> changes) {
+  for (const ConfigurationChange& change : changes) {
+    const ParameterBlock& block = cell.component_type(change.component).configuration;
+    if (const Result<FieldPlace> place = find_field(*block.type, change.parameter); place)
+      cell.note_configuration_set(change.component, *place);
+  }
+}
+
 std::vector<ConfigurationComponent> configuration_components(Cell& cell) {
   const Application& application = cell.application();
   std::vector<ConfigurationComponent> components;
+  const auto add = [&](ComponentIndex index, ConfigurationComponent component) {
+    component.name = cell.component_name(index);
+    component.type = &cell.component_type(index);
+    components.push_back(component);
+  };
   for (std::size_t i = 0; i < application.units.size(); ++i) {
-    const ParameterMemory memory = application.unit_states[i].unit->parameter_memory();
-    components.push_back({ConfigurationComponent::Kind::unit,
-                          application.units[i].name,
-                          "",
-                          {},
-                          &application.unit_states[i].unit->type_in_force(),
-                          memory.configuration,
-                          memory.runtime});
+    ConfigurationComponent unit;
+    unit.kind = ConfigurationComponent::Kind::unit;
+    add(static_cast<ComponentIndex>(i), unit);
   }
   for (std::size_t i = 0; i < application.devices.size(); ++i) {
     const auto index = static_cast<std::uint16_t>(i);
-    const ParameterMemory memory = application.device_states[i].device->parameter_memory();
-    components.push_back({ConfigurationComponent::Kind::device, application.devices[i].name,
-                          cell.driver(index).name, cell.other_drivers(index),
-                          &application.device_states[i].device->type_in_force(), memory.configuration,
-                          memory.runtime});
+    ConfigurationComponent device;
+    device.kind = ConfigurationComponent::Kind::device;
+    device.driver = cell.driver(index).name;
+    device.other_drivers = cell.other_drivers(index);
+    add(cell.component_of_device(index), device);
   }
   return components;
 }

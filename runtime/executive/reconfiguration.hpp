@@ -33,7 +33,11 @@ class Reconfiguration final : public ReconfigureHost {
   Lifecycle* lifecycle_;
 };
 
-/// All components of the cell, as the configuration file sees them.
+/// What these changes gave counts as set from now on, and belongs into the configuration file. After they are
+/// done, on the lifecycle thread.
+void note_set(Cell& cell, std::span<const ConfigurationChange> changes);
+
+/// All components of the cell, as the configuration file sees them, without their values. Any thread.
 std::vector<ConfigurationComponent> configuration_components(Cell& cell);
 ConfigurationIdentity configuration_identity(const Cell& cell);
 

@@ -164,6 +164,11 @@ std::string faults_text(const ReportData& data) {
   return table.is_empty() ? text : text + table.text("  ");
 }
 
+std::string values_text(const ReportData& data) {
+  const Status& failure = data.summary.save_failure;
+  return failure ? std::string{} : "\nValues not saved: " + std::string{failure.cause()} + "\n";
+}
+
 std::string memory_text(const ReportData& data) {
   std::string text = "\nMemory: " + size_text(data.application->memory_budget) +
                      " budget of the application's own (slots, queues, stacks, units, devices)\n";
@@ -206,8 +211,8 @@ std::string guard_text(const ReportData& data) {
 std::string report_text(const Cell& cell, const RunSummary& summary) {
   const ReportData data = collect_report(cell, summary);
   return heading(data) + threads_text(data) + units_text(data) + devices_text(data) + slots_text(data) +
-         queues_text(data) + faults_text(data) + memory_text(data) + guard_text(data) + "\n" + data.ending +
-         "\n";
+         queues_text(data) + faults_text(data) + values_text(data) + memory_text(data) + guard_text(data) +
+         "\n" + data.ending + "\n";
 }
 
 }  // namespace flexrf

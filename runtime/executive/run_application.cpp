@@ -13,6 +13,7 @@
 
 #include "base/standard_descriptors.hpp"
 #include "runtime/executive/executive.hpp"
+#include "runtime/executive/file_options.hpp"
 #include "runtime/executive/report.hpp"
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/instance_lock.hpp"
@@ -105,6 +106,7 @@ int run_application(const Application& application, int argument_count, char** a
                       options->panel.c_str()));
   }
   options->observed = make != nullptr && options->panel != "off" && !options->virtual_time;
+  if (const Status status = check_file_options(*options); !status) return refuse(application, status);
   InstanceLock lock;
   Executive executive(application, *options);
   if (const Status status = executive.prepare(); !status) return refuse(application, status);
@@ -128,13 +130,17 @@ int run_application(const Application& application, int argument_count, char** a
     complain(application, status);
     if (summary.exit_code == 0) summary.exit_code = exit_usage;
   };
-  if (!options->report_file.empty())
-    note_failure(write_file(options->report_file, report_json(executive.cell(), summary)));
+  if (!options->report_file.empty()) {
+    const Status status = write_file(options->report_file, report_json(executive.cell(), summary));
+    note_failure(status);
+    // Whoever ended it by a signal is told as well.
+    if (!status && summary.exit_code > 128) summary.exit_code = exit_usage;
+  }
   std::vector<std::string> texts{report_text(executive.cell(), summary)};
   if (summary.digest) texts.push_back(digest_line(*summary.digest));
   note_failure(executive.say_last(std::move(texts)));
   // A thread that hangs can be neither joined nor destroyed under; the process can only be left.
-  if (summary.stuck || executive.is_still_saying()) _exit(summary.exit_code);
+  if (summary.stuck || executive.is_still_saying() || executive.is_still_saving()) _exit(summary.exit_code);
   return summary.exit_code;
 }
 

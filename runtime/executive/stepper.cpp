@@ -10,6 +10,11 @@
 namespace flexrf {
 namespace {
 
+/// Its first fault stays.
+void blame(Component& component, const Status& cause) noexcept {
+  if (component.fault().is_ok()) component.set_fault(cause);
+}
+
 /// Counters with one writer: a load and a store, no read-modify-write.
 template <class Counter, class Value>
 void add(Counter& counter, Value value) noexcept {
@@ -124,6 +129,8 @@ void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t uni
       parameters.has_any() ? parameters.apply(request, now, base) : ParameterAnswer::accepted(request, 0);
   if (answer.kind == AnswerKind::accepted) {
     member.unit->reset();
+    const Status own = parameters.take_own_changes(now);
+    if (!own) blame(*member.unit, own);
     member.active.store(true, std::memory_order_release);
     cell_->set_writer_state(unit, WriterState::running);
   }
@@ -292,7 +299,8 @@ bool Stepper::step(std::size_t place, Time now) noexcept {
   if (record.feedback_slot != nullptr) {
     publish_feedback(record.feedback_slot, record.type->feedback, unit.parameter_memory().feedback, now);
   }
-  parameters.after_step(now);
+  if (const Status own = parameters.after_step(now); !own) [[unlikely]]
+    blame(unit, own);
   add(state.steps, std::uint64_t{1});
   note_restraint(record.name, unit, state.restraint, now);
   if (!unit.fault().is_ok()) [[unlikely]] {
@@ -322,12 +330,14 @@ void Stepper::send(Time now) noexcept {
     note_stepped(application_->devices[index].name);
     state.device->send(tick_);
     note_restraint(application_->devices[index].name, *state.device, state.restraint, now);
+    if (const Status own = cell_->parameters(cell_->component_of_device(index)).after_step(now); !own)
+        [[unlikely]]
+      blame(*state.device, own);
     check_device(index);
     if (SlotControl* slot = application_->devices[index].feedback_slot; slot != nullptr) {
       publish_feedback(slot, cell_->driver(index).type->feedback, state.device->parameter_memory().feedback,
                        now);
     }
-    cell_->parameters(cell_->component_of_device(index)).after_step(now);
   }
   note_stepped(nullptr);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 
 #include "runtime/core/digest.hpp"
 
@@ -59,6 +60,9 @@ Status upgrade_format(pugi::xml_node root, unsigned target, std::span<const Form
 bool ConfigurationDocument::parse(std::string path, std::string text) {
   path_ = std::move(path);
   text_ = std::move(text);
+  line_starts_ = {0};
+  for (std::size_t i = 0; i < text_.size(); ++i)
+    if (text_[i] == '\n') line_starts_.push_back(i + 1);
   const pugi::xml_parse_result result = document_.load_buffer(
       text_.data(), text_.size(), pugi::parse_default | pugi::parse_ws_pcdata_single, pugi::encoding_utf8);
   if (!result) {
@@ -92,13 +96,11 @@ std::string ConfigurationDocument::position_of(pugi::xml_node node) const {
 }
 
 std::string ConfigurationDocument::position_at(std::ptrdiff_t offset) const {
-  const std::ptrdiff_t end = std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
-  const auto line = 1 + std::count(text_.begin(), text_.begin() + end, '\n');
-  const std::size_t line_start =
-      end == 0 ? std::string::npos : text_.rfind('\n', static_cast<std::size_t>(end) - 1);
-  const std::size_t column =
-      static_cast<std::size_t>(end) - (line_start == std::string::npos ? 0 : line_start + 1);
-  return path_ + ":" + std::to_string(line) + ":" + std::to_string(column + 1) + ": ";
+  const auto at = static_cast<std::size_t>(
+      std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text_.size())));
+  const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), at);
+  const std::size_t column = 1 + at - *std::prev(after);
+  return path_ + ":" + std::to_string(after - line_starts_.begin()) + ":" + std::to_string(column) + ": ";
 }
 
 std::string text_with_checksum(pugi::xml_document& document) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "runtime/core/status.hpp"
 
@@ -42,6 +43,7 @@ class ConfigurationDocument {
 
   std::string path_;
   std::string text_;
+  std::vector<std::size_t> line_starts_;  // offsets, ascending
   std::string damage_;
   Checksum checksum_ = Checksum::wrong;
   pugi::xml_document document_;

@@ -1,5 +1,5 @@
-// The configuration file: XML that holds the values of configuration parameters and persistent runtime
-// parameters, and nothing else.
+// The configuration file: XML that holds those values of configuration parameters and persistent runtime
+// parameters that somebody has set, and nothing else: all others follow the application's tables.
 //
 //   <flexrf application="keyboard" format="1" descriptor="0123456789abcdef" checksum="...">
 //     <unit name="jog">
@@ -9,9 +9,9 @@
 //     </unit>
 //     <device name="arm" driver="simulated"> <configuration> ...
 //
-// Made for an engineer to edit: then checksum="edited" (or no checksum) says so. What is left out keeps the
-// value of the application's tables. An array's elements are separated by blanks, a matrix's rows by ";"; a
-// structure's members are elements of their own, with index="0" ... when there are several.
+// Made for an engineer to edit: then checksum="edited" (or no checksum) says so. An array's elements are
+// separated by blanks, a matrix's rows by ";"; a structure's members are elements of their own, with
+// index="0" ... when there are several.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +22,7 @@
 #include "runtime/core/status.hpp"
 #include "runtime/parameters/parameter_descriptor.hpp"
 #include "runtime/parameters/rename.hpp"
+#include "runtime/parameters/set_marks.hpp"
 
 namespace flexrf {
 
@@ -36,6 +37,10 @@ struct ConfigurationComponent {
   const ComponentType* type = nullptr;
   void* configuration = nullptr;  ///< null where it has none
   void* runtime = nullptr;
+  /// What of these somebody has set: loading marks what the file gives, saving writes what is marked. Null:
+  /// nothing is, and nobody asks. Of the size of the struct.
+  SetMarks* configuration_marks = nullptr;
+  SetMarks* runtime_marks = nullptr;
 };
 
 struct ConfigurationIdentity {
@@ -57,16 +62,17 @@ struct ConfigurationReport {
   std::vector<std::string> notices;   ///< what a person should know, and what was left out
 };
 
-/// Reads the file into the components' values: all of it, or nothing. Damage (syntax, checksum, truncation)
-/// or loss falls back to FILE.previous; a wrong name or value refuses the file. A file written for another
-/// descriptor is taken as far as it fits, under the names that `renames` give; the rest is noticed. Not
-/// real-time.
+/// Reads the file into the components' values: all of it, or nothing, in a time that grows with its size. The
+/// first 50 problems and the first 50 notices are spelled out, the rest is counted. Damage (syntax, checksum,
+/// truncation) or loss falls back to FILE.previous; a wrong name or value refuses the file. A file written
+/// for another descriptor is taken as far as it fits, under the names that `renames` give; the rest is
+/// noticed. Not real-time.
 ConfigurationReport load_configuration(const std::string& path, const ConfigurationIdentity& identity,
                                        std::span<const ConfigurationComponent> components);
 
 /// Writes the file atomically. The former one becomes FILE.previous, or FILE.damaged when it is no good, so
-/// that neither a good copy nor somebody's edits are lost. Writes nothing when nothing changed. Not
-/// real-time.
+/// that neither a good copy nor somebody's edits are lost. Writes nothing when nothing changed, nor a file
+/// that would hold nothing where there is none. Not real-time.
 Status save_configuration(const std::string& path, const ConfigurationIdentity& identity,
                           std::span<const ConfigurationComponent> components);
 

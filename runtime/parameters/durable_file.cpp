@@ -41,8 +41,10 @@ Status failure(const char* act, const std::string& path) {
                        std::error_code(error, std::generic_category()).message().c_str());
 }
 
+/// A file that nobody else has: what lies there is of a process that was killed while it wrote.
 Status write_all(const std::string& path, std::string_view contents, mode_t mode) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode));
+  ::unlink(path.c_str());
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
   if (!file.is_open()) return failure("create", path);
   if (::fchmod(file.number(), mode) != 0) return failure("set the permissions of", path);
   while (!contents.empty()) {
@@ -57,9 +59,34 @@ Status write_all(const std::string& path, std::string_view contents, mode_t mode
 
 }  // namespace
 
+const char* name_of_file_kind(mode_t mode) noexcept {
+  return S_ISREG(mode)    ? "a file"
+         : S_ISDIR(mode)  ? "a folder"
+         : S_ISFIFO(mode) ? "a pipe"
+         : S_ISSOCK(mode) ? "a socket"
+                          : "a device";
+}
+
+std::string folder_of(const std::string& path) {
+  const std::string parent = std::filesystem::path(path).parent_path().string();
+  return parent.empty() ? "." : parent;
+}
+
+std::string resolved_path(const std::string& path) {
+  std::error_code ignored;
+  const std::filesystem::path resolved = std::filesystem::canonical(path, ignored);
+  return ignored ? path : resolved.string();
+}
+
 Result<std::string> read_file(const std::string& path) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // A pipe that nobody writes to would keep open() waiting.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   if (!file.is_open()) return failure("read", path);
+  struct stat found {};
+  if (::fstat(file.number(), &found) != 0) return failure("read", path);
+  if (!S_ISREG(found.st_mode))
+    return Status::error(StatusCode::invalid_argument, "cannot read '%s': it is %s, not a file", path.c_str(),
+                         name_of_file_kind(found.st_mode));
   std::string contents;
   char part[65536];
   while (true) {
@@ -74,9 +101,7 @@ Result<std::string> read_file(const std::string& path) {
 }
 
 Status replace_file(const std::string& path, std::string_view contents, mode_t fresh_mode) {
-  std::error_code ignored;
-  const std::filesystem::path resolved = std::filesystem::canonical(path, ignored);
-  const std::string target = ignored ? path : resolved.string();
+  const std::string target = resolved_path(path);
   struct stat former {};
   const mode_t mode = ::stat(target.c_str(), &former) == 0 ? former.st_mode & mode_t{0777} : fresh_mode;
   const std::string fresh = target + ".new";
@@ -90,8 +115,7 @@ Status replace_file(const std::string& path, std::string_view contents, mode_t f
     return status;
   }
   // Only the directory's own fsync makes the new name outlive a power failure.
-  const std::filesystem::path parent = std::filesystem::path(target).parent_path();
-  const std::string folder = parent.empty() ? "." : parent.string();
+  const std::string folder = folder_of(target);
   const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!directory.is_open() || ::fsync(directory.number()) != 0) return failure("write", folder);
   return {};

@@ -10,8 +10,15 @@
 
 namespace flexrf {
 
-/// The whole file. not_found when there is none; other codes say why it cannot be read. At most 16 MiB.
-/// Blocks.
+/// "a file", "a folder", "a pipe", "a socket", "a device": what st_mode says.
+const char* name_of_file_kind(mode_t mode) noexcept;
+/// Of a path to a file; "." where it names none.
+std::string folder_of(const std::string& path);
+/// Where a symbolic link leads; the path itself while nothing is there.
+std::string resolved_path(const std::string& path);
+
+/// The whole file, which is a regular one. not_found when there is none; other codes say why it cannot be
+/// read. At most 16 MiB. Blocks.
 Result<std::string> read_file(const std::string& path);
 
 /// Replaces the file: writes PATH.new, fsync, rename, fsync of the directory. On failure the old file is as

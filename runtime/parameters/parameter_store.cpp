@@ -18,6 +18,29 @@ Status invalid(const char* reason) noexcept {
   return Status::error(StatusCode::invalid_argument, "%s", reason);
 }
 
+bool is_saved(const ParameterDescriptor& parameter) noexcept {
+  return parameter.persist && !is_momentary(*parameter.field);
+}
+
+/// Each value below the field that differs, as a whole. `before` (null: zeros) and `now` are the structs that
+/// the field lies in, `offset` bytes within the outermost one. True when something was not marked before.
+bool mark_differing(const FieldDescriptor& field, const std::byte* before, const std::byte* now,
+                    std::size_t offset, SetMarks& marks) noexcept {
+  const std::size_t at = offset + field.offset;
+  if (field.scalar != Scalar::structure) {
+    const std::size_t size = field_size(field);
+    const bool same = before == nullptr ? std::all_of(now + at, now + at + size,
+                                                      [](std::byte b) { return b == std::byte{0}; })
+                                        : std::memcmp(before + at, now + at, size) == 0;
+    return !same && marks.mark(at, size);
+  }
+  bool any = false;
+  for (std::uint32_t element = 0; element < field.count; ++element)
+    for (const FieldDescriptor& member : field.type->fields)
+      any |= mark_differing(member, before, now, at + element * element_size(field), marks);
+  return any;
+}
+
 }  // namespace
 
 Status RuntimeParameters::connect(Component& component, SlotControl* slot, const void* defaults,
@@ -52,15 +75,33 @@ Status RuntimeParameters::connect(Component& component, SlotControl* slot, const
     }
   }
   values_ = static_cast<std::byte*>(component.parameter_memory().runtime);
+  // One that is constructed anew keeps what was set before.
+  if (record_.size() != block_->type->size) {
+    former_.assign(values_, values_ + block_->type->size);
+    marks_ = SetMarks(block_->type->size);
+    record_.reserve(block_->type->size);
+    record_.publish(values_, marks_);
+  }
   return {};
+}
+
+void RuntimeParameters::restore(const SetMarks& marks) noexcept {
+  if (values_ == nullptr || marks.size() != former_.size()) return;
+  std::copy_n(values_, former_.size(), former_.begin());
+  std::copy(marks.flags().begin(), marks.flags().end(), marks_.flags().begin());
+  record_.publish(values_, marks_);
 }
 
 Status RuntimeParameters::adopt(const void* values, Time now) noexcept {
   if (values_ == nullptr) return {};
   propose(values);
   std::uint16_t parameter = no_parameter;
-  if (const Status status = check_block(*block_, proposed_, parameter); !status) return status;
-  if (const Status status = accept_proposed(); !status) return status;
+  Status status = check_block(*block_, proposed_, parameter);
+  if (status) status = accept_proposed();
+  if (!status) {
+    put_settings_back();
+    return status;
+  }
   end_leases();
   pressed_ = false;
   commit_settings(now);
@@ -131,6 +172,7 @@ RuntimeParameters::Verdict RuntimeParameters::apply_values(const ParameterReques
       for (const ParameterDescriptor& parameter : block_->parameters) reset(*parameter.field);
   }
   if (const Status status = accept_proposed(); !status) return {status};
+  mark_changes(request);
   commit_settings(now);
   return {};
 }
@@ -146,6 +188,10 @@ RuntimeParameters::Verdict RuntimeParameters::apply_member(const ParameterReques
   if (const Status status = accept_proposed(); !status) return {status};
   end_leases();
   pressed_ = false;
+  marks_changed_ |= marks_.clear(0, marks_.size());
+  // Somebody chose the other member's values for this one.
+  if (request.kind == RequestKind::clone) mark_differences(defaults_);
+  mark_changes(request);
   commit_settings(now);
   return {};
 }
@@ -213,9 +259,90 @@ Status RuntimeParameters::accept_proposed() noexcept {
 }
 
 void RuntimeParameters::commit_settings(Time now) noexcept {
+  const bool is_to_save = marks_changed_ || saved_values_differ();
   std::memcpy(values_, proposed_, block_->type->size);
   publish(now);
   settings_ = sequence_;
+  if (!is_to_save) return;
+  marks_changed_ = false;
+  record_.publish(values_, marks_);
+  if (revision_ != nullptr) revision_->fetch_add(1, std::memory_order_acq_rel);
+}
+
+// ---- what is kept in the configuration file
+
+/// `set` marks what it names, `reset` gives it back to the tables.
+void RuntimeParameters::mark_changes(const ParameterRequest& request) noexcept {
+  const auto apply_to = [&](const ParameterDescriptor& parameter, std::size_t offset, std::size_t size) {
+    if (!is_saved(parameter)) return;
+    marks_changed_ |=
+        request.kind == RequestKind::reset ? marks_.clear(offset, size) : marks_.mark(offset, size);
+  };
+  for (std::uint16_t i = 0; i < request.change_count; ++i) {
+    const ParameterChange& change = request.changes[i];
+    const ParameterDescriptor& parameter = block_->parameters[change.parameter];
+    const FieldDescriptor& field = *parameter.field;
+    if (request.kind == RequestKind::reset)
+      apply_to(parameter, field.offset, field_size(field));
+    else
+      apply_to(parameter, field.offset + change.offset, change.size);
+  }
+  if (request.kind == RequestKind::reset && request.change_count == 0)
+    marks_changed_ |= marks_.clear(0, marks_.size());
+}
+
+void RuntimeParameters::mark_differences(const std::byte* before) noexcept {
+  for (const ParameterDescriptor& parameter : block_->parameters)
+    if (is_saved(parameter)) marks_changed_ |= mark_differing(*parameter.field, before, proposed_, 0, marks_);
+}
+
+bool RuntimeParameters::saved_values_differ() const noexcept {
+  return std::any_of(block_->parameters.begin(), block_->parameters.end(), [this](const auto& parameter) {
+    const std::size_t offset = parameter.field->offset;
+    const std::size_t size = field_size(*parameter.field);
+    return is_saved(parameter) && marks_.any(offset, size) &&
+           std::memcmp(former_.data() + offset, proposed_ + offset, size) != 0;
+  });
+}
+
+// ---- what the component changes by itself
+
+Status RuntimeParameters::judge_own_changes(Time now) noexcept {
+  const bool any =
+      std::any_of(block_->parameters.begin(), block_->parameters.end(), [this](const auto& parameter) {
+        const FieldDescriptor& field = *parameter.field;
+        return !is_momentary(field) &&
+               std::memcmp(values_ + field.offset, former_.data() + field.offset, field_size(field)) != 0;
+      });
+  if (!any) {  // a press or a hold, or the bytes between the fields
+    std::copy_n(values_, former_.size(), former_.begin());
+    return {};
+  }
+  std::memcpy(proposed_, values_, former_.size());
+  if (const Status status = check_own_changes(); !status) {
+    put_settings_back();
+    return Status::error(status.code(),
+                         "it changed its own values, and they are refused: %s; they are as before",
+                         status.cause());
+  }
+  mark_differences(former_.data());
+  commit_settings(now);
+  return {};
+}
+
+Status RuntimeParameters::check_own_changes() noexcept {
+  std::uint16_t parameter = no_parameter;
+  if (const Status status = check_block(*block_, proposed_, parameter); !status) return status;
+  return accept_proposed();
+}
+
+/// Presses and holds are what persons do, not settings.
+void RuntimeParameters::put_settings_back() noexcept {
+  for (const ParameterDescriptor& parameter : block_->parameters) {
+    const FieldDescriptor& field = *parameter.field;
+    if (!is_momentary(field))
+      std::memcpy(values_ + field.offset, former_.data() + field.offset, field_size(field));
+  }
 }
 
 const ParameterDescriptor* RuntimeParameters::parameter_of(const ParameterChange& change,
@@ -356,6 +483,7 @@ void RuntimeParameters::clear_presses(Time now) noexcept {
 }
 
 void RuntimeParameters::publish(Time now) noexcept {
+  std::copy_n(values_, former_.size(), former_.begin());
   if (slot_ == nullptr) {
     sequence_ = next_sequence(sequence_);
     return;

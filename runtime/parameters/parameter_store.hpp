@@ -1,15 +1,21 @@
 // The runtime parameters of one component, as its owning thread keeps them: applies requests between two
-// steps, counts presses, ends leases, publishes the values in force.
+// steps, counts presses, ends leases, checks what the component changes by itself, publishes the values in
+// force, and remembers which of them somebody has set.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <vector>
 
 #include "runtime/blackboard/slot.hpp"
 #include "runtime/core/status.hpp"
 #include "runtime/core/time.hpp"
 #include "runtime/parameters/parameter_descriptor.hpp"
 #include "runtime/parameters/request.hpp"
+#include "runtime/parameters/set_marks.hpp"
+#include "runtime/parameters/settings_record.hpp"
 #include "runtime/unit/component.hpp"
 
 namespace flexrf {
@@ -26,19 +32,25 @@ struct ParameterScratch {
   alignas(cache_line) std::byte bytes[max_runtime_size];
 };
 
-/// No function allocates or waits; each is bounded by the size of the struct. All: the owning thread (before
-/// the start: the one that prepares).
+/// No function but the first connect() allocates, none waits; each is bounded by the size of the struct. All,
+/// but what says otherwise: the owning thread (before the start: the one that prepares).
 class RuntimeParameters {
  public:
+  /// Rises whenever what belongs into the configuration file changes. Before connect(); null: nobody asks.
+  void set_revision(std::atomic<std::uint64_t>& revision) noexcept { revision_ = &revision; }
   /// `slot` (may be null): where values in force are published. `defaults` (null: zero): the values of the
   /// tables. Refuses a component whose parameters exceed max_runtime_size or max_holds. To be called again
   /// for a component that was constructed anew. Does not touch the component's values.
   Status connect(Component& component, SlotControl* slot, const void* defaults,
                  ParameterScratch& scratch) noexcept;
   bool has_any() const noexcept { return values_ != nullptr; }
+  /// Before the start: the values in the component's memory are those of the configuration file, which gives
+  /// the marked ones.
+  void restore(const SetMarks& marks) noexcept;
 
   /// Takes a whole set of values (at start: the tables' or the saved ones; after a restart: the former).
-  /// Checked as a request is; buttons and holds become zero. Publishes.
+  /// Checked as a request is; buttons and holds become zero. Publishes. After an error the last good values
+  /// are in the component's memory.
   Status adopt(const void* values, Time now) noexcept;
 
   /// Between two steps. All changes or none: ranges, then the component's accept, then the values are in
@@ -50,9 +62,19 @@ class RuntimeParameters {
   void before_step(Time now) noexcept {
     if (live_leases_ != 0) end_overdue_leases(now);
   }
-  /// After each step: it has seen the presses.
-  void after_step(Time now) noexcept {
+  /// After each step: it has seen the presses. What it changed of its own settings is checked as a request
+  /// is, and counts as set; an error when it is refused: the component goes into fault, and all its settings
+  /// are as before the step.
+  [[nodiscard]] Status after_step(Time now) noexcept {
+    Status status = take_own_changes(now);
     if (pressed_) clear_presses(now);
+    return status;
+  }
+  /// The same of its settings, after other code of the component that may have changed them.
+  [[nodiscard]] Status take_own_changes(Time now) noexcept {
+    if (values_ == nullptr || std::memcmp(values_, former_.data(), former_.size()) == 0) [[likely]]
+      return {};
+    return judge_own_changes(now);
   }
   /// Stop motion, fault, stop: every hold becomes false; none of these leases revives.
   void end_all_leases(Time now) noexcept;
@@ -61,6 +83,8 @@ class RuntimeParameters {
   const void* values() const noexcept { return values_; }
   /// Of the values in force, as in the slot.
   std::uint64_t sequence() const noexcept { return sequence_; }
+  /// What belongs into the configuration file. Any thread that is not real-time.
+  const SettingsRecord& settings() const noexcept { return record_; }
 
  private:
   struct Lease {
@@ -89,6 +113,12 @@ class RuntimeParameters {
   void propose(const void* base) noexcept;
   Status accept_proposed() noexcept;
   void commit_settings(Time now) noexcept;
+  Status judge_own_changes(Time now) noexcept;
+  Status check_own_changes() noexcept;
+  void put_settings_back() noexcept;
+  void mark_changes(const ParameterRequest& request) noexcept;
+  void mark_differences(const std::byte* before) noexcept;
+  bool saved_values_differ() const noexcept;
   const ParameterDescriptor* parameter_of(const ParameterChange& change, const ParameterRequest& request,
                                           Verdict& verdict) const noexcept;
   Lease* lease_of(std::uint32_t offset) noexcept;
@@ -110,6 +140,11 @@ class RuntimeParameters {
   std::uint32_t lease_count_ = 0;
   std::uint32_t live_leases_ = 0;
   bool pressed_ = false;
+  std::vector<std::byte> former_;  // the values as they were published last: the last good ones
+  SetMarks marks_;
+  bool marks_changed_ = false;  // since the record was published
+  SettingsRecord record_;
+  std::atomic<std::uint64_t>* revision_ = nullptr;
   Lease leases_[max_holds]{};
 };
 

@@ -71,8 +71,18 @@ Status find_lock_directory(LockScope scope, char (&path)[lock_directory_size]) n
 }
 
 Status InstanceLock::acquire(const char* cell, const char* directory) noexcept {
+  char path[sizeof(path_)];
+  char what[128];
+  std::snprintf(what, sizeof(what), "cell %s is run", cell);
+  const int length = std::snprintf(path, sizeof(path), "%s/flexrf-%s.lock", directory, cell);
+  if (length < 0 || static_cast<std::size_t>(length) >= sizeof(path))
+    return Status::error(StatusCode::invalid_argument, "the lock file's path is too long: %.100s...", path);
+  return acquire_file(path, what);
+}
+
+Status InstanceLock::acquire_file(const char* path, const char* what) noexcept {
   if (is_held()) return Status::error(StatusCode::busy, "this process holds %s already", path_);
-  const int length = std::snprintf(path_, sizeof(path_), "%s/flexrf-%s.lock", directory, cell);
+  const int length = std::snprintf(path_, sizeof(path_), "%s", path);
   if (length < 0 || static_cast<std::size_t>(length) >= sizeof(path_))
     return Status::error(StatusCode::invalid_argument, "the lock file's path is too long: %.100s...", path_);
   // Another user's file may be read and locked, but not opened for writing.
@@ -90,7 +100,7 @@ Status InstanceLock::acquire(const char* cell, const char* directory) noexcept {
     if (cause != EWOULDBLOCK)
       return Status::error(StatusCode::unavailable, "cannot lock %s: %s", path_, strerrordesc_np(cause));
     if (char* const end = std::strchr(holder, '\n')) *end = '\0';
-    return Status::error(StatusCode::busy, "cell %s is run already by %s; lock file %s", cell,
+    return Status::error(StatusCode::busy, "%s already by %s; lock file %s", what,
                          size > 0 ? holder : "a process that has not said its name", path_);
   }
   if (is_writable) {

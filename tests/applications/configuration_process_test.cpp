@@ -1,5 +1,6 @@
 // --config FILE over several starts: written, restored, damaged, wrong.
 #include <algorithm>
+#include <cstdio>
 
 #include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
@@ -38,27 +39,41 @@ std::string line_of(const Folder& folder, const std::string& word) {
   return std::to_string(1 + std::count(text.begin(), end, '\n'));
 }
 
-void values_are_written_at_the_end_and_restored_at_the_next_start() {
+/// What a person has set: the values that the tables have, so that each has a place in the file.
+void begin_with_a_file(const Folder& folder) {
+  write_file(folder / "cell.xml",
+             "<flexrf checksum=\"edited\">\n  <unit name=\"jog\">\n    <runtime>\n"
+             "      <step unit=\"m\">0.01</step>\n      <turn unit=\"rad\">0.05</turn>\n"
+             "    </runtime>\n  </unit>\n</flexrf>\n");
+  CHECK_EQUAL(start(folder).exit_code, 0);
+  std::remove((folder / "cell.xml.previous").c_str());
+}
+
+void values_are_restored_at_the_next_start_and_nothing_else_is_written() {
   const Folder folder;
   const Ending first = start(folder);
   CHECK_EQUAL(first.exit_code, 0);
   CHECK_CONTAINS(first.errors, "cell.xml: there is no such file yet");
-  CHECK_CONTAINS(contents_of(folder / "cell.xml"), "<step unit=\"m\">0.01</step>");
+  CHECK_EQUAL(contents_of(folder / "cell.xml"), std::string{});
+  begin_with_a_file(folder);
   edit(folder, ">0.01</step>", ">0.02</step>");
   CHECK_EQUAL(start(folder).exit_code, 0);
   CHECK_EQUAL(step_in_force(folder), 0.02);
   // Twice two centimetres.
   const double way = Report(folder / "report").last("tool_pose").at("position").at(1);
   CHECK(way > -0.041 && way < -0.039);
-  CHECK_CONTAINS(contents_of(folder / "cell.xml"), "<step unit=\"m\">0.02</step>");
-  // What was edited has its checksum again.
   const std::string text = contents_of(folder / "cell.xml");
+  CHECK_CONTAINS(text, "<step unit=\"m\">0.02</step>");
+  // What was edited has its checksum again.
   CHECK_EQUAL(text.find("\"edited\"", text.find("<flexrf ")), std::string::npos);
+  // What nobody set is not in it, so that the tables' values take effect.
+  CHECK_EQUAL(text.find("<device"), std::string::npos);
+  CHECK_EQUAL(text.find("<configuration>"), std::string::npos);
 }
 
 void a_damaged_file_is_cited_and_the_previous_one_used() {
   const Folder folder;
-  CHECK_EQUAL(start(folder).exit_code, 0);
+  begin_with_a_file(folder);
   edit(folder, ">0.01</step>", ">0.02</step>");
   CHECK_EQUAL(start(folder).exit_code, 0);
   edit(folder, ">0.02</step>", ">0.03</step>");
@@ -77,7 +92,7 @@ void a_damaged_file_is_cited_and_the_previous_one_used() {
 
 void a_changed_value_without_its_checksum_is_damage() {
   const Folder folder;
-  CHECK_EQUAL(start(folder).exit_code, 0);
+  begin_with_a_file(folder);
   std::string text = contents_of(folder / "cell.xml");
   text.replace(text.find(">0.01</step>"), 12, ">0.05</step>");
   write_file(folder / "cell.xml", text);
@@ -90,7 +105,7 @@ void a_changed_value_without_its_checksum_is_damage() {
 
 void a_value_out_of_range_is_refused_with_its_place() {
   const Folder folder;
-  CHECK_EQUAL(start(folder).exit_code, 0);
+  begin_with_a_file(folder);
   edit(folder, ">0.01</step>", ">0.5</step>");
   edit(folder, "<turn unit=\"rad\">0.05</turn>", "<tern unit=\"rad\">0.05</tern>");
   const std::string before = contents_of(folder / "cell.xml");
@@ -113,7 +128,7 @@ void a_value_out_of_range_is_refused_with_its_place() {
 int main() {
   using namespace flexrf::whole;
   const CMUnitTest tests[] = {
-      CONTAINED_TEST(values_are_written_at_the_end_and_restored_at_the_next_start),
+      CONTAINED_TEST(values_are_restored_at_the_next_start_and_nothing_else_is_written),
       CONTAINED_TEST(a_damaged_file_is_cited_and_the_previous_one_used),
       CONTAINED_TEST(a_changed_value_without_its_checksum_is_damage),
       CONTAINED_TEST(a_value_out_of_range_is_refused_with_its_place),

@@ -141,6 +141,40 @@ void with_it_and_permission_they_change() {
   play.perform_all();
 }
 
+void what_they_set_is_saved_when_they_ask() {
+  const Safe safe;
+  Options options = simulated();
+  options.configuration_file = "cell.xml";
+  Play play(options);
+  play.call(0);
+  play.ask(0, "authenticate", {{"token", secret}});
+  play.is_refused(0, "save_values", json::object(), -32002, "remote.remote");
+  play.set_remote(true);
+  play.ask(0, "set", {{"component", "mixer"}, {"values", {{"gain", 2.5}}}});
+  play.ask(0, "state", json::object(), [](const json& result) {
+    CHECK(result.at("values") == json({{"file", true}, {"unsaved", true}, {"failure", ""}}));
+  });
+  play.ask(0, "save_values", json::object(),
+           [](const json& result) { CHECK(result.at("saved_at_ms").get<std::int64_t>() > 0); });
+  play.do_once([&] { CHECK_CONTAINS(contents_of(safe.folder / "cell.xml"), ">2.5</gain>"); });
+  play.ask(0, "state", json::object(),
+           [](const json& result) { CHECK(result.at("values").at("unsaved") == false); });
+  play.do_once([&] { CHECK(::mkdir((safe.folder / "cell.xml.new").c_str(), 0700) == 0); });
+  play.ask(0, "set", {{"component", "mixer"}, {"values", {{"gain", 3}}}});
+  play.is_refused(0, "save_values", json::object(), -32005, "cannot create");
+  play.do_once([&] { CHECK(::rmdir((safe.folder / "cell.xml.new").c_str()) == 0); });
+  play.perform_all();
+  CHECK_CONTAINS(contents_of(safe.folder / "cell.xml"), ">3</gain>");
+}
+
+void without_a_file_they_cannot_save() {
+  const Safe safe;
+  Play play;
+  play.let_in(0);
+  play.is_refused(0, "save_values", json::object(), -32005, "--config FILE");
+  play.perform_all();
+}
+
 void a_wrong_token_ends_the_connection() {
   const Safe safe;
   Play play;
@@ -410,6 +444,8 @@ int main() {
       TEST_APART(what_is_no_request_is_told_so),
       TEST_APART(without_a_token_scripts_look),
       TEST_APART(with_it_and_permission_they_change),
+      TEST_APART(what_they_set_is_saved_when_they_ask),
+      TEST_APART(without_a_file_they_cannot_save),
       TEST_APART(a_wrong_token_ends_the_connection),
       TEST_APART(initialised_anew_it_knows_nobody),
       TEST_APART(subscribers_get_the_newest_at_their_rate),

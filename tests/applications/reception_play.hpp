@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "hal/mock/mock_stream_socket/mock_stream_socket.hpp"
@@ -46,7 +47,7 @@ class Play {
  public:
   using Act = std::function<bool()>;
 
-  Play() : executive_(application::application, simulated()) {
+  explicit Play(Options options = simulated()) : executive_(application::application, std::move(options)) {
     const Status status = executive_.prepare();
     if (!status) throw fixture::CheckFailed{status.cause()};
     requester_ = cell().add_requester(answers_);

@@ -14,6 +14,7 @@ using remote::RpcProblem;
 Status RemoteControl::initialise() {
   clients_.clear();
   waiting_.clear();
+  saves_.clear();
   view_.emplace(cell.cell());
   token_.forget();
   const std::string file(configuration.token_file_view());
@@ -27,6 +28,7 @@ void RemoteControl::stop() {
   token_.forget();
   clients_.clear();
   waiting_.clear();
+  saves_.clear();
 }
 
 Status RemoteControl::look_at_the_door() {
@@ -74,6 +76,7 @@ void RemoteControl::step(const Tick& tick) {
   now_ = tick.now;
   meet_clients();
   take_answers();
+  take_saves();
   for (Client& client : clients_) {
     send_unread(client);
     serve(client);
@@ -150,6 +153,34 @@ void RemoteControl::take_answers() {
                 {RpcError::no_answer,
                  std::string{cell.cell().component_name(waiting.component)} + " did not answer within 1 s",
                  "its thread may hang; whether it happened is not known, read the values"});
+    }
+    return true;
+  });
+}
+
+RpcProblem RemoteControl::not_saved(const Status& status) {
+  return {RpcError::refused, std::string{"the values are not saved: "} + status.cause(),
+          "they are in force all the same"};
+}
+
+void RemoteControl::take_saves() {
+  if (saves_.empty()) return;
+  const SaveState state = cell.save_state();
+  std::erase_if(saves_, [&](const Save& save) {
+    const bool is_done = state.answered >= save.number;
+    if (!is_done && now_ < save.overdue_at) return false;
+    Client* const client = find(save.session);
+    if (client == nullptr) return true;
+    if (!is_done) {
+      say_error(*client, save.id,
+                {RpcError::no_answer, "the disk of the configuration file did not answer within 10 s",
+                 "the method state says when the values are saved"});
+    } else if (!state.failure) {
+      say_error(*client, save.id, not_saved(state.failure));
+    } else if (!save.id.empty()) {
+      say(*client, save.id, remote::result_line(save.id, [&](JsonWriter& json) {
+        json.begin_object().member("saved_at_ms", state.saved_at).end_object();
+      }));
     }
     return true;
   });

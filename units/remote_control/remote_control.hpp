@@ -23,6 +23,7 @@ class RemoteControl final : public RemoteControlUnit {
   static constexpr std::size_t most_waiting = 8;         ///< requests of one script without an answer
   static constexpr std::size_t most_subscriptions = 32;  ///< of one script
   static constexpr Duration answer_timeout = std::chrono::seconds{1};
+  static constexpr Duration saving_timeout = std::chrono::seconds{10};  ///< of the disk
   static constexpr Duration reading_timeout = std::chrono::seconds{5};  ///< of answers
   static constexpr double slowest_rate = 0.01;                          ///< values in a second, of one slot
   static constexpr double fastest_rate = 60;
@@ -62,6 +63,12 @@ class RemoteControl final : public RemoteControlUnit {
     std::uint64_t correlation;
     Time overdue_at;
   };
+  struct Save {
+    SocketSession session;
+    std::string id;
+    std::uint64_t number;
+    Time overdue_at;
+  };
   enum class Need : std::uint8_t { nothing, to_look, to_change };
   struct Method {
     const char* name;
@@ -77,6 +84,8 @@ class RemoteControl final : public RemoteControlUnit {
   Problem perform(Client& client, const remote::RpcCall& call);
   Problem may(const Client& client, Need need) const;
   void take_answers();
+  void take_saves();
+  static remote::RpcProblem not_saved(const Status& status);
   void answer(const Waiting& waiting, const ParameterAnswer& given);
   Client* find(SocketSession session) noexcept;
   void count();
@@ -93,6 +102,7 @@ class RemoteControl final : public RemoteControlUnit {
   Problem state(Client& client, const remote::RpcCall& call, Fields& params);
   Problem set(Client& client, const remote::RpcCall& call, Fields& params);
   Problem press(Client& client, const remote::RpcCall& call, Fields& params);
+  Problem save_values(Client& client, const remote::RpcCall& call, Fields& params);
   Problem change(Client& client, const remote::RpcCall& call, Fields& params, bool is_press);
   Problem subscribe(Client& client, const remote::RpcCall& call, Fields& params);
   Problem unsubscribe(Client& client, const remote::RpcCall& call, Fields& params);
@@ -105,6 +115,7 @@ class RemoteControl final : public RemoteControlUnit {
   std::optional<remote::RemoteView> view_;
   std::vector<Client> clients_;
   std::vector<Waiting> waiting_;
+  std::vector<Save> saves_;
   std::size_t buffer_ = 0;  // bytes that the door keeps for a script
   bool exposed_ = false;    // other machines reach the door
   Time now_{};

@@ -21,6 +21,7 @@ const RemoteControl::Method RemoteControl::methods[] = {
     {"stop_motion", Need::to_look, &RemoteControl::stop_motion},
     {"set", Need::to_change, &RemoteControl::set},
     {"press", Need::to_change, &RemoteControl::press},
+    {"save_values", Need::to_change, &RemoteControl::save_values},
 };
 
 RemoteControl::Problem RemoteControl::perform(Client& client, const RpcCall& call) {
@@ -36,7 +37,7 @@ RemoteControl::Problem RemoteControl::perform(Client& client, const RpcCall& cal
                     "there is no method '" + std::string{remote::shown(call.method)} + "'",
                     remote::nearest_hint(nearest.best(),
                                          "there are authenticate, list, read, state, subscribe, unsubscribe, "
-                                         "stop_motion, set, press")};
+                                         "stop_motion, set, press, save_values")};
 }
 
 /// Who may not change anything is told so first, and learns no more.
@@ -97,7 +98,10 @@ RemoteControl::Problem RemoteControl::state(Client& client, const RpcCall& call,
         json.begin_object().member("application", cell.cell().application().name);
         json.member("mode", name_of(control.mode())).key("motion").begin_object();
         json.member("stopped", control.motion_stopped()).member("may_move", control.may_move()).end_object();
-        json.member("remote", runtime.remote).end_object();
+        json.member("remote", runtime.remote);
+        const SaveState values = cell.save_state();
+        json.key("values").begin_object().member("file", values.has_file).member("unsaved", values.unsaved);
+        json.member("failure", values.failure.cause()).end_object().end_object();
       }));
   return std::nullopt;
 }
@@ -147,6 +151,16 @@ RemoteControl::Problem RemoteControl::change(Client& client, const RpcCall& call
   request.component = index;
   const std::uint64_t correlation = cell.send(request, now_);
   waiting_.push_back({client.session, call.id, index, !is_press, correlation, now_ + answer_timeout});
+  return std::nullopt;
+}
+
+/// The runtime writes in a thread of its own; take_saves() answers.
+RemoteControl::Problem RemoteControl::save_values(Client& client, const RpcCall& call, Fields& /*params*/) {
+  if (saves_.size() >= most_waiting)
+    return RpcProblem{RpcError::busy, "the values are being saved already", "try again when that is done"};
+  const Result<std::uint64_t> number = cell.save_values();
+  if (!number) return not_saved(number.status());
+  saves_.push_back({client.session, call.id, *number, now_ + saving_timeout});
   return std::nullopt;
 }
 

@@ -429,6 +429,7 @@ void TestApplication::fill_application() {
   application_.populations = made_->population_records;
   application_.threads = made_->thread_records;
   application_.renames = renames;
+  application_.save = save;
   application_.unit_states = unit_states_;
   application_.device_states = device_states_;
   application_.thread_states = thread_states_;

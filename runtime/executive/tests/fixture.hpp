@@ -136,6 +136,7 @@ class TestApplication {
   Duration stop_timeout = patience;
   Duration finish_timeout = patience;
   std::span<const Rename> renames;
+  SavePolicy save;
 
   /// Makes the records at the first call.
   const Application& application();

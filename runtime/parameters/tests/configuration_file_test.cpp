@@ -26,10 +26,23 @@ struct World {
   std::vector<ConfigurationComponent> components;
   ConfigurationIdentity identity{"cell", 0x1234, {}};
   ConfigurationReport report;
+  SetMarks marks[4];  // of the unit's configuration and runtime parameters, of the device's
   std::string folder;
   std::string file;
 };
 World* world;
+
+/// As if somebody had set every value.
+void mark_all() {
+  for (SetMarks* marks : {&world->marks[0], &world->marks[2]}) {
+    *marks = SetMarks(sizeof(sample::Configuration));
+    marks->mark(0, marks->size());
+  }
+  for (SetMarks* marks : {&world->marks[1], &world->marks[3]}) {
+    *marks = SetMarks(sizeof(sample::Runtime));
+    marks->mark(0, marks->size());
+  }
+}
 
 // With the padding between the fields, so that memory can be compared.
 void reset_values() {
@@ -52,10 +65,13 @@ int begin(void**) {
                                {},
                                &sample::component_type,
                                &world->unit.configuration,
-                               &world->unit.runtime});
+                               &world->unit.runtime,
+                               &world->marks[0],
+                               &world->marks[1]});
   world->components.push_back({ConfigurationComponent::Kind::device, "arm", "simulated", other_drivers,
-                               &sample::component_type, &world->device.configuration,
-                               &world->device.runtime});
+                               &sample::component_type, &world->device.configuration, &world->device.runtime,
+                               &world->marks[2], &world->marks[3]});
+  mark_all();
   return 0;
 }
 
@@ -127,11 +143,111 @@ void without_a_file_the_tables_hold(void**) {
   assert_int_equal(world->report.notices.size(), 1);
   expect_notice(
       0,
-      "config.xml: there is no such file yet: the values of the tables hold, and the end of the run "
-      "writes it");
+      "config.xml: there is no such file yet: the values of the tables hold; it is written when somebody has "
+      "set one");
+  mark_all();
   assert_true(save());
   assert_int_equal(load(), ConfigurationSource::file);
   assert_int_equal(world->report.notices.size(), 0);
+}
+
+/// The offset of a field in the sample's runtime parameters or configuration.
+#define OFFSET(Struct, field) offsetof(sample::Struct, field), sizeof(sample::Struct::field)
+
+void nothing_is_written_where_nothing_is_set(void**) {
+  for (SetMarks& marks : world->marks) marks.clear(0, marks.size());
+  world->unit.runtime.step = 0.02;
+  assert_true(save());
+  assert_false(exists(""));
+}
+
+void the_file_holds_what_was_set_and_nothing_else(void**) {
+  for (SetMarks& marks : world->marks) marks.clear(0, marks.size());
+  world->marks[1].mark(OFFSET(Runtime, step));  // the value of the tables, but somebody chose it
+  world->marks[1].mark(offsetof(sample::Runtime, gains) + sizeof(float), sizeof(float));
+  world->marks[1].mark(offsetof(sample::Runtime, limits) + offsetof(sample::Limits, high), sizeof(float));
+  world->marks[0].mark(offsetof(sample::Configuration, limits) + sizeof(sample::Limits), sizeof(double));
+  assert_true(save());
+  static std::string text;
+  text = contents();
+  text = text.substr(text.find("  <unit"));
+  assert_string_equal(text.c_str(),
+                      "  <unit name=\"jog\">\n"
+                      "    <configuration>\n"
+                      "      <limits index=\"1\">\n"
+                      "        <low unit=\"m\">2</low>\n"
+                      "      </limits>\n"
+                      "    </configuration>\n"
+                      "    <runtime>\n"
+                      "      <step unit=\"m\">0.01</step>\n"
+                      "      <gains>1 2 3</gains>\n"
+                      "      <limits>\n"
+                      "        <high unit=\"m\">1</high>\n"
+                      "      </limits>\n"
+                      "    </runtime>\n"
+                      "  </unit>\n"
+                      "</flexrf>\n");
+  // The tables' values change: what was set stays, the rest follows.
+  reset_values();
+  world->unit.runtime.step = 0.05;
+  world->unit.runtime.small = 11;
+  world->unit.runtime.limits.low = -2;
+  assert_int_equal(load(), ConfigurationSource::file);
+  assert_true(world->unit.runtime.step == 0.01);
+  assert_int_equal(world->unit.runtime.small, 11);
+  assert_true(world->unit.runtime.limits.low == -2);
+  // What the file gives counts as set, and is kept by the next save.
+  assert_true(world->marks[1].any(OFFSET(Runtime, step)));
+  assert_false(world->marks[1].any(OFFSET(Runtime, small)));
+  static std::string again;
+  assert_true(save());
+  again = contents();
+  assert_string_equal(again.substr(again.find("  <unit")).c_str(), text.c_str());
+}
+
+/// Far more than the time of a test, were the place of each line or the name of each component sought anew.
+void a_large_file_is_read_in_linear_time(void**) {
+  static std::vector<sample::SampleComponent> units(2000);
+  static std::vector<std::string> names(units.size());
+  world->components.clear();
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    names[i] = "a_unit_with_a_long_name_" + std::to_string(i);
+    world->components.push_back({ConfigurationComponent::Kind::unit,
+                                 names[i].c_str(),
+                                 "",
+                                 {},
+                                 &sample::component_type,
+                                 &units[i].configuration,
+                                 &units[i].runtime});
+  }
+  static std::string text;
+  text = "<flexrf>\n";
+  for (const std::string& name : names)
+    text += "  <unit name=\"" + name + "\"><runtime><small>9</small></runtime></unit>\n";
+  write(text + "</flexrf>\n");
+  assert_int_equal(load(), ConfigurationSource::file);
+  assert_int_equal(units.back().runtime.small, 9);
+
+  constexpr int strangers = 250'000;
+  for (int i = 0; i < strangers; ++i)
+    text += "  <unit name=\"a_unit_with_a_long_name_x" + std::to_string(i) + "\"/>\n";
+  write(text + "</flexrf>\n");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  assert_int_equal(world->report.problems.size(), 51);
+  expect_problem(0,
+                 "config.xml:2002:3: error: there is no unit 'a_unit_with_a_long_name_x0'; did you mean "
+                 "'a_unit_with_a_long_name_0'?");
+  expect_problem(50, "config.xml: and 249950 further errors");
+}
+
+void what_a_killed_process_left_does_not_disturb(void**) {
+  assert_true(save());
+  assert_int_equal(mkfifo((world->file + ".new").c_str(), 0600), 0);
+  world->unit.runtime.step = 0.02;
+  assert_true(save());
+  assert_int_equal(load(), ConfigurationSource::file);
+  assert_true(world->unit.runtime.step == 0.02);
+  assert_false(exists(".new"));
 }
 
 void a_lost_file_falls_back_to_the_previous(void**) {
@@ -447,7 +563,12 @@ void values_of_another_driver_are_neither_read_nor_lost(void**) {
 void a_file_that_cannot_be_read_is_not_taken_for_absent(void**) {
   assert_int_equal(mkdir(world->file.c_str(), 0700), 0);
   assert_int_equal(load(), ConfigurationSource::refused);
-  expect_problem(0, "config.xml: error: cannot read 'config.xml': Is a directory");
+  expect_problem(0, "config.xml: error: cannot read 'config.xml': it is a folder, not a file");
+  assert_int_equal(rmdir(world->file.c_str()), 0);
+  // Nobody writes to it: this would wait for ever.
+  assert_int_equal(mkfifo(world->file.c_str(), 0600), 0);
+  assert_int_equal(load(), ConfigurationSource::refused);
+  expect_problem(0, "config.xml: error: cannot read 'config.xml': it is a pipe, not a file");
 }
 
 void older_formats_are_brought_up_step_by_step(void**) {
@@ -473,6 +594,10 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(without_a_file_the_tables_hold, begin, end),
       cmocka_unit_test_setup_teardown(what_is_saved_is_loaded, begin, end),
+      cmocka_unit_test_setup_teardown(what_a_killed_process_left_does_not_disturb, begin, end),
+      cmocka_unit_test_setup_teardown(a_large_file_is_read_in_linear_time, begin, end),
+      cmocka_unit_test_setup_teardown(the_file_holds_what_was_set_and_nothing_else, begin, end),
+      cmocka_unit_test_setup_teardown(nothing_is_written_where_nothing_is_set, begin, end),
       cmocka_unit_test_setup_teardown(the_file_is_for_people_to_read, begin, end),
       cmocka_unit_test_setup_teardown(saving_keeps_the_former_file_and_its_permissions, begin, end),
       cmocka_unit_test_setup_teardown(a_failed_save_leaves_the_file, begin, end),

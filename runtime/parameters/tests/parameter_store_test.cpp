@@ -1,8 +1,12 @@
 #include "runtime/parameters/parameter_store.hpp"
 
+#include <atomic>
+#include <cstddef>
 #include <cstring>
 #include <limits>
+#include <vector>
 
+#include "runtime/parameters/scalar_types.hpp"
 #include "runtime/parameters/tests/parameter_bench.hpp"
 #include "tests/cmocka.hpp"
 
@@ -98,7 +102,7 @@ void what_was_seen_too_long_ago_is_stale(void**) {
   ParameterRequest press = request_of(RequestKind::press);
   press.add_presses(sample::go);
   assert_int_equal(cell.parameters.apply(press, start_time).kind, AnswerKind::accepted);
-  cell.parameters.after_step(start_time);
+  assert_true(cell.parameters.after_step(start_time).is_ok());
   assert_int_equal(cell.parameters.sequence(), 4);
   request.expected = 2;
   assert_int_equal(cell.parameters.apply(request, start_time).kind, AnswerKind::accepted);
@@ -131,11 +135,11 @@ void presses_are_counted_until_the_step_has_seen_them(void**) {
   assert_int_equal(cell.parameters.apply(press, start_time).kind, AnswerKind::accepted);
   assert_int_equal(cell.component.runtime.go, 4);
   assert_int_equal(cell.seen().go, 4);
-  cell.parameters.after_step(start_time);
+  assert_true(cell.parameters.after_step(start_time).is_ok());
   assert_int_equal(cell.component.runtime.go, 0);
   assert_int_equal(cell.seen().go, 0);
   const std::uint64_t sequence = cell.parameters.sequence();
-  cell.parameters.after_step(start_time);
+  assert_true(cell.parameters.after_step(start_time).is_ok());
   assert_int_equal(cell.parameters.sequence(), sequence);
 
   press = request_of(RequestKind::press);
@@ -222,6 +226,133 @@ void saved_values_are_checked_before_they_are_taken(void**) {
   assert_false(cell.component.runtime.jog[0]);
 }
 
+bool is_set(const Cell& cell, std::size_t offset, std::size_t size) {
+  static std::vector<std::byte> values;
+  static SetMarks marks;
+  cell.parameters.settings().read(values, marks);
+  return marks.any(offset, size);
+}
+#define IS_SET(cell, field) is_set(cell, offsetof(sample::Runtime, field), sizeof(sample::Runtime::field))
+
+/// As whoever saves sees it.
+double step_to_save(const Cell& cell) {
+  static std::vector<std::byte> values;
+  static SetMarks marks;
+  cell.parameters.settings().read(values, marks);
+  return load<double>(values.data() + offsetof(sample::Runtime, step));
+}
+
+void what_somebody_set_is_remembered(void**) {
+  Cell& cell = begin();
+  static std::atomic<std::uint64_t> revision;
+  revision = 0;
+  cell.parameters.set_revision(revision);
+  assert_false(IS_SET(cell, step));
+  // Also where it is the value of the tables.
+  assert_int_equal(cell.parameters.apply(set_to(sample::step, 0.01), start_time).kind, AnswerKind::accepted);
+  assert_true(IS_SET(cell, step));
+  assert_false(IS_SET(cell, gains));
+  assert_int_equal(revision.load(), 1);
+  // The same again changes nothing.
+  assert_int_equal(cell.parameters.apply(set_to(sample::step, 0.01), start_time).kind, AnswerKind::accepted);
+  assert_int_equal(revision.load(), 1);
+  assert_int_equal(cell.parameters.apply(set_to(sample::step, 0.02), start_time).kind, AnswerKind::accepted);
+  assert_int_equal(revision.load(), 2);
+  assert_true(step_to_save(cell) == 0.02);
+  // One that is refused neither.
+  assert_int_equal(cell.parameters.apply(set_to(sample::limits, sample::Limits{2, 1}), start_time).kind,
+                   AnswerKind::refused);
+  assert_false(IS_SET(cell, limits));
+  // What is not kept, a press, a hold.
+  assert_int_equal(cell.parameters.apply(set_to(sample::scratch, 3.0), start_time).kind,
+                   AnswerKind::accepted);
+  ParameterRequest press = request_of(RequestKind::press);
+  press.add_presses(sample::go);
+  assert_int_equal(cell.parameters.apply(press, start_time).kind, AnswerKind::accepted);
+  assert_true(cell.parameters.after_step(start_time).is_ok());
+  assert_int_equal(revision.load(), 2);
+  // Back to the tables.
+  ParameterRequest reset = request_of(RequestKind::reset);
+  reset.add_name(sample::step);
+  assert_int_equal(cell.parameters.apply(reset, start_time).kind, AnswerKind::accepted);
+  assert_false(IS_SET(cell, step));
+  assert_int_equal(revision.load(), 3);
+  // A member that is cloned: what differs from the tables.
+  static sample::Runtime other;
+  other = sample::default_runtime;
+  other.gains[1] = 7;
+  assert_int_equal(cell.parameters.apply(request_of(RequestKind::clone), start_time, &other).kind,
+                   AnswerKind::accepted);
+  assert_true(IS_SET(cell, gains));
+  assert_false(IS_SET(cell, step));
+  assert_int_equal(cell.parameters.apply(request_of(RequestKind::activate), start_time).kind,
+                   AnswerKind::accepted);
+  assert_false(IS_SET(cell, gains));
+}
+
+void what_a_component_changes_itself_is_shown_and_to_be_saved(void**) {
+  Cell& cell = begin();
+  static std::atomic<std::uint64_t> revision;
+  revision = 0;
+  cell.parameters.set_revision(revision);
+  const std::uint64_t before = cell.seen_sequence();
+  cell.component.runtime.step = 0.05;
+  cell.component.runtime.limits.low = -3;
+  cell.component.runtime.scratch = 8;
+  assert_true(cell.parameters.after_step(start_time).is_ok());
+  assert_true(cell.seen().step == 0.05);
+  assert_int_equal(cell.seen_sequence(), before + 1);
+  assert_true(step_to_save(cell) == 0.05);
+  assert_true(IS_SET(cell, step));
+  assert_true(IS_SET(cell, limits.low));
+  assert_false(IS_SET(cell, limits.high));
+  assert_false(IS_SET(cell, scratch));
+  assert_int_equal(revision.load(), 1);
+  // Who had seen the values before does not know them any more.
+  ParameterRequest request = set_to(sample::step, 0.06);
+  request.expected = before;
+  assert_int_equal(cell.parameters.apply(request, start_time).kind, AnswerKind::stale);
+  // Nothing more happens in the next step.
+  assert_true(cell.parameters.after_step(start_time).is_ok());
+  assert_int_equal(cell.seen_sequence(), before + 1);
+}
+
+void what_a_component_must_not_set_itself_goes_back(void**) {
+  Cell& cell = begin();
+  assert_int_equal(cell.parameters.apply(set_to(sample::step, 0.03), start_time).kind, AnswerKind::accepted);
+  assert_int_equal(cell.parameters.apply(lease_request(RequestKind::hold, 5, 1), start_time).kind,
+                   AnswerKind::accepted);
+  const std::uint64_t before = cell.seen_sequence();
+  cell.component.runtime.step = std::numeric_limits<double>::quiet_NaN();
+  cell.component.runtime.gains[2] = 5;
+  Status status = cell.parameters.after_step(start_time);
+  assert_string_equal(
+      status.cause(),
+      "it changed its own values, and they are refused: step: nan is not a finite number; they "
+      "are as before");
+  assert_true(cell.component.runtime.step == 0.03);
+  assert_true(cell.component.runtime.gains[2] == 3);
+  assert_true(cell.component.runtime.jog[0]);
+  assert_int_equal(cell.seen_sequence(), before);
+  assert_true(step_to_save(cell) == 0.03);
+  assert_false(IS_SET(cell, gains));
+  // Out of its range, no value of its enumeration, refused by the component itself.
+  cell.component.runtime.gains[0] = 11;
+  assert_false(cell.parameters.after_step(start_time).is_ok());
+  cell.component.runtime.mode = 3;
+  assert_false(cell.parameters.after_step(start_time).is_ok());
+  cell.component.runtime.limits.low = 4;
+  status = cell.parameters.after_step(start_time);
+  assert_string_equal(
+      status.cause(),
+      "it changed its own values, and they are refused: low is not below high; they are as before");
+  assert_true(cell.component.runtime.limits.low == -1);
+  // In initialise(), too.
+  cell.component.runtime.step = 7;
+  assert_false(cell.parameters.adopt(&cell.component.runtime, start_time).is_ok());
+  assert_true(cell.component.runtime.step == 0.03);
+}
+
 // A component without runtime parameters, and one with too many.
 class OtherComponent : public Component {
  public:
@@ -242,7 +373,7 @@ void what_has_no_parameters_refuses_all_but_the_population(void**) {
   assert_false(parameters.has_any());
   assert_true(parameters.adopt(nullptr, start_time).is_ok());
   parameters.before_step(start_time);
-  parameters.after_step(start_time);
+  assert_true(parameters.after_step(start_time).is_ok());
   parameters.end_all_leases(start_time);
   assert_int_equal(parameters.apply(set_to(0, 1.0), start_time).kind, AnswerKind::refused);
   assert_int_equal(parameters.apply(request_of(RequestKind::activate), start_time).kind,
@@ -280,6 +411,9 @@ int main() {
       cmocka_unit_test(reset_gives_the_values_of_the_tables),
       cmocka_unit_test(a_member_begins_with_the_tables_or_with_another_members_values),
       cmocka_unit_test(saved_values_are_checked_before_they_are_taken),
+      cmocka_unit_test(what_somebody_set_is_remembered),
+      cmocka_unit_test(what_a_component_changes_itself_is_shown_and_to_be_saved),
+      cmocka_unit_test(what_a_component_must_not_set_itself_goes_back),
       cmocka_unit_test(what_has_no_parameters_refuses_all_but_the_population),
       cmocka_unit_test(too_large_parameters_are_refused_at_the_start),
   };

@@ -58,6 +58,7 @@ struct Api::Parts final : public Ticked, public ControlWatcher, public SessionWa
     EditOperations edits;
     MotionOperations motion;
     LifecycleOperations lifecycle;
+    SaveOperations saving;
     Operations operations;
     StateEvent state;
     TopicBodies topics;
@@ -90,7 +91,8 @@ Api::Parts::Made::Made(Parts& parts, Executive& executive, AccessControl& access
       edits(executive, directory, configuration, values, parts.answers, parts.permission),
       motion(executive, access, parts.answers, parts.permission, parameters, edits),
       lifecycle(executive, directory, parts.answers, parts.permission),
-      operations{directory, parts.answers, parameters, motion, edits, lifecycle},
+      saving(executive, parts.answers, parts.permission),
+      operations{directory, parts.answers, parameters, motion, edits, lifecycle, saving},
       state(executive, directory, access, edits),
       topics(executive),
       frames(executive.cell(), slots, images),
@@ -109,6 +111,7 @@ void Api::Parts::on_tick(Time now) {
   made->parameters.tick(now);
   made->edits.tick(now);
   made->lifecycle.tick();
+  made->saving.tick(now);
   made->pictures.tick(now);
   made->state.update(now);
   made->live.send_all(now, MonotonicClock::now() + sending_time);
@@ -117,7 +120,7 @@ void Api::Parts::on_tick(Time now) {
 Duration Api::Parts::until_next(Time now) const {
   Time next = std::min(made->live.next(now), made->state.next());
   if (made->parameters.is_waiting() || made->edits.is_waiting() || made->lifecycle.is_waiting() ||
-      made->pictures.is_waiting())
+      made->saving.is_waiting() || made->pictures.is_waiting())
     next = std::min(next, now + answer_interval);
   return next > now ? next - now : Duration{};
 }

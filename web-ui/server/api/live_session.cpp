@@ -24,9 +24,10 @@ const char* name_of_role(const SessionInfo& session) noexcept {
 
 Refusal unknown_op(std::string_view op) noexcept {
   NearestName nearest(op);
-  for (const char* known : {"subscribe", "set", "reset", "press", "hold", "refresh", "release", "stop_motion",
-                            "clear_stop_motion", "start_motion", "take_control", "release_control",
-                            "answer_control", "action", "edit_begin", "edit_apply", "edit_discard", "ping"})
+  for (const char* known :
+       {"subscribe", "set", "reset", "press", "hold", "refresh", "release", "stop_motion",
+        "clear_stop_motion", "start_motion", "save_values", "take_control", "release_control",
+        "answer_control", "action", "edit_begin", "edit_apply", "edit_discard", "ping"})
     nearest.offer(known);
   const std::string_view best = nearest.best();
   return Refusal::make(RefusalKind::not_found, "There is no op '%.*s'%s%.*s%s",
@@ -124,6 +125,7 @@ void LiveSession::operate(Client& client, const Caller& caller, std::string_view
   if (op == "subscribe") return parts_.subscriptions.subscribe(caller, client, fields, now);
   if (op == "clear_stop_motion") return operations.motion.clear_stop_motion(caller);
   if (op == "start_motion") return operations.motion.start_motion(caller);
+  if (op == "save_values") return operations.saving.save(caller, now);
   if (op == "take_control") return operations.motion.take_control(caller, now);
   if (op == "release_control") return operations.motion.release_control(caller);
   if (op == "answer_control") {

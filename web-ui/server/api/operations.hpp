@@ -5,6 +5,7 @@
 #include "web-ui/server/api/lifecycle_operations.hpp"
 #include "web-ui/server/api/motion_operations.hpp"
 #include "web-ui/server/api/parameter_operations.hpp"
+#include "web-ui/server/api/save_operations.hpp"
 
 namespace flexrf::panel {
 
@@ -15,6 +16,7 @@ struct Operations {
   MotionOperations& motion;
   EditOperations& edits;
   LifecycleOperations& lifecycle;
+  SaveOperations& saving;
 
   /// start, stop, initialise, activate, retire, clone (of the member `source`).
   void act(const Caller& caller, ComponentIndex component, std::string_view action, std::string_view source,

@@ -267,6 +267,8 @@ void RestHandler::act(const Match& found, const Request& request, const Caller& 
       return operations.motion.clear_stop_motion(caller);
     case Resource::start_motion:
       return operations.motion.start_motion(caller);
+    case Resource::save_values:
+      return operations.saving.save(caller, now);
     case Resource::take_control:
       return operations.motion.take_control(caller, now);
     case Resource::release_control:

@@ -33,6 +33,7 @@ enum class Resource : std::uint8_t {
   stop_motion,
   clear_stop_motion,
   start_motion,
+  save_values,
   take_control,
   release_control,
   answer_control,

@@ -41,6 +41,7 @@ std::uint64_t StateEvent::signature() const noexcept {
   digest.add(static_cast<std::uint64_t>(control.longest_standstill().count()));
   digest.add(access_->revision());
   digest.add(edits_->revision());
+  digest.add(executive_->saver().revision());
   return digest.value();
 }
 
@@ -129,6 +130,19 @@ void StateEvent::write_faults(JsonWriter& json) const {
   json.end_array();
 }
 
+void StateEvent::write_values(JsonWriter& json) const {
+  const SaveState state = executive_->saver().state();
+  json.key("values").begin_object().member("file", state.has_file);
+  json.member("on", state.on_change ? "change" : "command").member("unsaved", state.unsaved);
+  json.key("saved_at_ms");
+  if (state.saved_at == 0) {
+    json.null();
+  } else {
+    json.value(state.saved_at);
+  }
+  json.member("failure", state.failure.cause()).end_object();
+}
+
 void StateEvent::write(std::string& text, SessionIndex you, Time now) const {
   const Control& control = executive_->control();
   text.assign(event_head);
@@ -140,6 +154,7 @@ void StateEvent::write(std::string& text, SessionIndex you, Time now) const {
   json.key("motion").begin_object().member("stopped", control.motion_stopped());
   json.member("may_move", control.may_move()).end_object();
   write_faults(json);
+  write_values(json);
   json.key("control").begin_object().key("holder");
   write_session(json, holder_, you);
   json.key("wanted_by");

@@ -58,6 +58,7 @@ class StateEvent {
   void write(std::string& text, SessionIndex you, Time now) const;
   void write_session(JsonWriter& json, SessionIndex session, SessionIndex you) const;
   void write_faults(JsonWriter& json) const;
+  void write_values(JsonWriter& json) const;
 
   Executive* executive_;
   const Directory* directory_;

@@ -116,8 +116,9 @@ Reply* PlayedReplies::reply_of(Ticket ticket) {
 
 // ---- the rig
 
-Rig::Rig(fixture::TestApplication& application, const ApiTimeouts& timeouts)
-    : running_(application), api_(running_.executive(), access_, replies_, places, timeouts) {
+Rig::Rig(fixture::TestApplication& application, const ApiTimeouts& timeouts, Options options)
+    : running_(application, std::move(options)),
+      api_(running_.executive(), access_, replies_, places, timeouts) {
   Status status = api_.prepare();
   if (status) status = api_.start();
   if (!status) throw CheckFailed{std::string{"the API: "} + status.cause()};

@@ -102,7 +102,8 @@ class Rig {
   /// Which nothing but a hang exceeds: a thread of a loaded machine may be kept from its work for seconds.
   static constexpr ApiTimeouts patient{std::chrono::minutes{1}, std::chrono::minutes{1}};
 
-  explicit Rig(fixture::TestApplication& application, const ApiTimeouts& timeouts = patient);
+  explicit Rig(fixture::TestApplication& application, const ApiTimeouts& timeouts = patient,
+               Options options = fixture::on_the_wall_clock());
   ~Rig();
 
   /// Runs until the application does.

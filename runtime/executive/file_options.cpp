@@ -1,0 +1,71 @@
+#include "runtime/executive/file_options.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "runtime/parameters/durable_file.hpp"
+
+namespace flexrf {
+namespace {
+
+Status refused(const char* option, const std::string& path, const char* why) {
+  return Status::error(StatusCode::invalid_argument, "%s %s: %s", option, path.c_str(), why);
+}
+
+Status wrong_kind(const char* option, const std::string& path, mode_t mode) {
+  return Status::error(StatusCode::invalid_argument, "%s %s: it is %s; name a file", option, path.c_str(),
+                       name_of_file_kind(mode));
+}
+
+Status check_input(const char* option, const std::string& path) {
+  if (path.empty()) return {};
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0) return refused(option, path, strerrordesc_np(errno));
+  if (!S_ISREG(found.st_mode)) return wrong_kind(option, path, found.st_mode);
+  if (access(path.c_str(), R_OK) != 0) return refused(option, path, strerrordesc_np(errno));
+  return {};
+}
+
+Status check_folder(const char* option, const std::string& path) {
+  const std::string folder = folder_of(resolved_path(path));
+  struct stat found {};
+  if (stat(folder.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) return {};
+  return Status::error(StatusCode::invalid_argument, "%s %s: there is no folder '%s'; make it first", option,
+                       path.c_str(), folder.c_str());
+}
+
+/// It need not be there. `kept`: it is read, too, and replaced as a whole.
+Status check_output(const char* option, const std::string& path, bool kept) {
+  if (path.empty()) return {};
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0) {
+    const int cause = errno;
+    if (const Status status = check_folder(option, path); !status) return status;
+    if (cause != ENOENT) return refused(option, path, strerrordesc_np(cause));
+    if (!kept && access(folder_of(path).c_str(), W_OK | X_OK) != 0)
+      return refused(option, path, strerrordesc_np(errno));
+    return {};
+  }
+  // A device, as /dev/null, takes a report.
+  if (!S_ISREG(found.st_mode) && (kept || !S_ISCHR(found.st_mode)))
+    return wrong_kind(option, path, found.st_mode);
+  if (!kept && access(path.c_str(), W_OK) != 0) return refused(option, path, strerrordesc_np(errno));
+  return {};
+}
+
+}  // namespace
+
+Status check_file_options(const Options& options) {
+  Status status = check_input("--keys", options.keys_file);
+  if (status) status = check_input("--panel-users", options.panel_users);
+  if (status) status = check_input("--tls-certificate", options.tls_certificate);
+  if (status) status = check_input("--tls-key", options.tls_key);
+  if (status) status = check_output("--config", options.configuration_file, true);
+  if (status) status = check_output("--report", options.report_file, false);
+  return status;
+}
+
+}  // namespace flexrf

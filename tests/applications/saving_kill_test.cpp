@@ -1,0 +1,102 @@
+// An application that saves all the time is killed at random points: what is found afterwards is the file as
+// it was or as it was to become, and every start takes it.
+#include <sys/stat.h>
+
+#include <chrono>
+#include <csignal>
+#include <ctime>
+#include <random>
+
+#include "places.hpp"
+#include "runtime/executive/tests/checks.hpp"
+#include "tests/applications/process.hpp"
+
+namespace flexrf::whole {
+namespace {
+
+int kills = 30;
+
+std::string text_of(const Folder& folder, const char* file) {
+  return contents_of(folder / file);
+}
+
+/// The number that the unit had learned when the file was written. All of the file has to be there.
+std::uint64_t learned(const std::string& text) {
+  const std::string opening = "<learned>";
+  const std::size_t at = text.find(opening);
+  CHECK(at != std::string::npos);
+  CHECK(text.starts_with("<?xml"));
+  CHECK(text.ends_with("</flexrf>\n"));
+  return std::stoull(text.substr(at + opening.size()));
+}
+
+bool exists(const std::string& path) {
+  struct stat found {};
+  return stat(path.c_str(), &found) == 0;
+}
+
+bool is_half_written(const Folder& folder) {
+  return exists(folder / "cell.xml.new") || exists(folder / "cell.xml.previous.new");
+}
+
+/// What is there for less than a look of wait_until().
+bool wait_busily(const std::function<bool()>& condition) {
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes{2};
+  while (!condition())
+    if (std::chrono::steady_clock::now() > give_up) return false;
+  return true;
+}
+
+void sleep_for(std::chrono::microseconds time) {
+  const timespec pause{0, time.count() * 1000};
+  nanosleep(&pause, nullptr);
+}
+
+void killed_while_saving_it_starts_with_what_was_saved() {
+  constexpr unsigned seed = 11;
+  std::mt19937 random(seed);
+  // Several writings take place in this time.
+  std::uniform_int_distribution<int> microseconds(0, 120'000);
+  const Folder folder;
+  std::uint64_t known = 0;
+  int left_behind = 0;
+  for (int kill = 0; kill < kills; ++kill) {
+    Process process(folder, {place::application, "--config", "cell.xml", "--panel", "off", "--no-realtime"});
+    process.type("l");
+    const std::string before = text_of(folder, "cell.xml");
+    CHECK(wait_until([&] { return text_of(folder, "cell.xml") != before || process.has_ended(); }));
+    sleep_for(std::chrono::microseconds{microseconds(random)});
+    // Half of them where it hurts most.
+    if (kill % 2 == 0) CHECK(wait_busily([&] { return is_half_written(folder); }));
+    process.send(SIGKILL);
+    const Ending ending = process.wait();
+    CHECK_EQUAL(ending.signal, SIGKILL);
+    // The start before took the file as it was, without a word; only the first had none.
+    CHECK_EQUAL(ending.errors.find("error:"), std::string::npos);
+    CHECK_EQUAL(ending.errors.find("previous"), std::string::npos);
+    const std::uint64_t now = learned(text_of(folder, "cell.xml"));
+    CHECK(now > known);
+    known = now;
+    if (exists(folder / "cell.xml.previous")) CHECK(learned(text_of(folder, "cell.xml.previous")) <= now);
+    left_behind += is_half_written(folder) ? 1 : 0;
+  }
+  // Else no kill met a writing, and nothing is shown.
+  CHECK(left_behind > 0);
+  print_message("%d of %d kills left a file half written beside the whole one\n", left_behind, kills);
+  // One that goes on to its end.
+  const Ending last = run(folder, {place::application, "--config", "cell.xml", "--panel", "off",
+                                   "--no-realtime", "--report", "report"});
+  CHECK_EQUAL(last.exit_code, 0);
+  CHECK_EQUAL(Report(folder / "report").last("tuner.values").at("learned"), known);
+}
+
+}  // namespace
+}  // namespace flexrf::whole
+
+/// An argument: how often.
+int main(int argument_count, char** arguments) {
+  using namespace flexrf::whole;
+  if (argument_count > 1) kills = std::stoi(arguments[1]);
+  const CMUnitTest tests[] = {CONTAINED_TEST(killed_while_saving_it_starts_with_what_was_saved)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

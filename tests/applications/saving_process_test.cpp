@@ -1,0 +1,159 @@
+// The configuration file and the other files of the command line, as somebody meets them who runs the built
+// program: what is told at the start, a second run, values that survive, a save that fails.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "places.hpp"
+#include "runtime/executive/tests/checks.hpp"
+#include "tests/applications/process.hpp"
+
+namespace flexrf::whole {
+namespace {
+
+std::vector<std::string> words(std::vector<std::string> more = {}) {
+  std::vector<std::string> all{place::application, "--panel", "off", "--no-realtime"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+std::vector<std::string> words_with_file(std::vector<std::string> more = {}) {
+  more.insert(more.begin(), {"--config", "cell.xml"});
+  return words(more);
+}
+
+bool is_saved(const Folder& folder, const std::string& text) {
+  return wait_until([&] { return contents_of(folder / "cell.xml").find(text) != std::string::npos; });
+}
+
+void values_survive_a_power_cut_and_the_next_start() {
+  const Folder folder;
+  {
+    Process process(folder, words_with_file());
+    process.type("g");
+    CHECK(is_saved(folder, "<gain>3</gain>"));
+    process.send(SIGKILL);
+    CHECK_EQUAL(process.wait().signal, SIGKILL);
+  }
+  const std::string saved = contents_of(folder / "cell.xml");
+  const Ending next = run(folder, words_with_file({"--report", "report"}));
+  CHECK_EQUAL(next.exit_code, 0);
+  CHECK_EQUAL(next.errors.find("previous"), std::string::npos);
+  CHECK_EQUAL(Report(folder / "report").last("tuner.values").at("gain"), 3.0);
+  // No more is kept than what was set.
+  CHECK_EQUAL(contents_of(folder / "cell.xml"), saved);
+}
+
+void where_nothing_is_set_nothing_is_written() {
+  const Folder folder;
+  CHECK_EQUAL(run(folder, words_with_file()).exit_code, 0);
+  CHECK(access((folder / "cell.xml").c_str(), F_OK) != 0);
+}
+
+void a_second_run_with_the_same_file_is_refused() {
+  const Folder folder;
+  CHECK(symlink("cell.xml", (folder / "other.xml").c_str()) == 0);
+  Process process(folder, words_with_file());
+  process.type("g");
+  CHECK(is_saved(folder, "<gain>3</gain>"));
+  process.type("d");
+  // It was replaced more than once.
+  CHECK(is_saved(folder, "<gain>1</gain>"));
+  for (const char* const name : {"cell.xml", "other.xml"}) {
+    const Ending second = run(folder, words({"--config", name, "--report", "second"}));
+    CHECK_EQUAL(second.exit_code, 2);
+    CHECK_CONTAINS(second.errors, std::string{"configuration file "} + name + " is used already by process " +
+                                      std::to_string(process.id()));
+    CHECK(access((folder / "second").c_str(), F_OK) != 0);
+  }
+  process.end_input();
+  CHECK_EQUAL(process.wait().exit_code, 0);
+  CHECK_EQUAL(run(folder, words_with_file()).exit_code, 0);
+}
+
+/// What lies in the way of the file that is written beside the one there is.
+void obstruct(const Folder& folder) {
+  CHECK(mkdir((folder / "cell.xml.new").c_str(), 0700) == 0);
+}
+
+void a_save_that_fails_is_an_error_and_in_the_exit_code() {
+  const Folder folder;
+  obstruct(folder);
+  const Ending ending = run(folder, words_with_file({"--report", "report"}), "g");
+  CHECK_EQUAL(ending.exit_code, 1);
+  CHECK_CONTAINS(ending.errors, "error tuned: the values were not saved: cannot create");
+  CHECK_CONTAINS(ending.output, "Values not saved: cannot create");
+  CHECK_CONTAINS(Report(folder / "report")["run"].at("not_saved").get<std::string>(), "cell.xml.new");
+}
+
+/// A service is always ended by a signal: what failed is not to hide behind that.
+void a_save_that_fails_is_seen_behind_a_signal() {
+  const Folder folder;
+  obstruct(folder);
+  Process process(folder, words_with_file());
+  process.type("g");
+  process.wait_for_error("the values were not saved");
+  process.send(SIGTERM);
+  CHECK_EQUAL(process.wait().exit_code, 1);
+}
+
+void a_report_that_fails_is_seen_behind_a_signal() {
+  const Folder folder;
+  Process process(folder, words_with_file({"--report", "/dev/full"}));
+  process.type("g");
+  CHECK(is_saved(folder, "<gain>3</gain>"));
+  process.send(SIGTERM);
+  const Ending ending = process.wait();
+  CHECK_EQUAL(ending.exit_code, 1);
+  CHECK_CONTAINS(ending.errors, "--report /dev/full: No space left on device");
+}
+
+void check_refused(const Folder& folder, const std::string& option, const std::string& value,
+                   const std::string& why) {
+  std::vector<std::string> given{option, value};
+  if (option == "--tls-key") given.insert(given.end(), {"--tls-certificate", "file"});
+  const Ending ending = run(folder, words(given));
+  CHECK_EQUAL(ending.exit_code, 1);
+  CHECK_CONTAINS(ending.errors, "tuned: " + option + " " + value + ": " + why);
+  CHECK_EQUAL(ending.output, std::string{});
+}
+
+void a_pipe_or_a_folder_is_told_at_the_start() {
+  const Folder folder;
+  CHECK(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK(mkdir((folder / "folder").c_str(), 0700) == 0);
+  write_file(folder / "file", "");
+  for (const char* const option :
+       {"--keys", "--config", "--report", "--panel-users", "--tls-certificate", "--tls-key"}) {
+    check_refused(folder, option, "pipe", "it is a pipe; name a file");
+    check_refused(folder, option, "folder", "it is a folder; name a file");
+  }
+}
+
+void what_is_not_there_is_told_at_the_start() {
+  const Folder folder;
+  for (const char* const option : {"--config", "--report"})
+    check_refused(folder, option, "nowhere/file", "there is no folder 'nowhere'; make it first");
+  for (const char* const option : {"--keys", "--panel-users", "--tls-certificate"})
+    check_refused(folder, option, "nowhere/file", "No such file or directory");
+}
+
+}  // namespace
+}  // namespace flexrf::whole
+
+int main() {
+  using namespace flexrf::whole;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(values_survive_a_power_cut_and_the_next_start),
+      CONTAINED_TEST(where_nothing_is_set_nothing_is_written),
+      CONTAINED_TEST(a_second_run_with_the_same_file_is_refused),
+      CONTAINED_TEST(a_save_that_fails_is_an_error_and_in_the_exit_code),
+      CONTAINED_TEST(a_save_that_fails_is_seen_behind_a_signal),
+      CONTAINED_TEST(a_report_that_fails_is_seen_behind_a_signal),
+      CONTAINED_TEST(a_pipe_or_a_folder_is_told_at_the_start),
+      CONTAINED_TEST(what_is_not_there_is_told_at_the_start),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "tuner_unit.hpp"
+
+namespace flexrf {
+
+class Tuner final : public TunerUnit {
+ public:
+  Status initialise() override;
+  void step(const Tick& tick) override;
+
+ private:
+  void obey(char key);
+
+  bool learns_ = false;
+};
+
+}  // namespace flexrf

@@ -1,0 +1,54 @@
+#include "web-ui/server/api/save_operations.hpp"
+
+#include <algorithm>
+
+namespace flexrf::panel {
+
+void SaveOperations::save(const Caller& caller, Time now) {
+  if (!permission_->may_control(caller, Role::operator_, "save the values")) return;
+  const auto place =
+      std::find_if(waiting_.begin(), waiting_.end(), [](const Waiting& waiting) { return !waiting.used; });
+  if (place == waiting_.end()) {
+    return answers_->refuse(
+        caller,
+        Refusal::make(RefusalKind::busy, "The values are being saved already; wait until that is done."));
+  }
+  const Result<std::uint64_t> number = executive_->saver().request();
+  if (!number) {
+    return answers_->refuse(caller, Refusal::make(RefusalKind::wrong_state, "The values cannot be saved: %s.",
+                                                  number.status().cause())
+                                        .because(number.status().cause()));
+  }
+  *place = {true, caller, *number, now + patience};
+  ++waiting_count_;
+}
+
+void SaveOperations::tick(Time now) {
+  if (waiting_count_ == 0) return;
+  const SaveState state = executive_->saver().state();
+  for (Waiting& waiting : waiting_) {
+    if (!waiting.used || (state.answered < waiting.number && now < waiting.overdue_at)) continue;
+    waiting.used = false;
+    --waiting_count_;
+    if (state.answered >= waiting.number) {
+      answer(waiting.caller, state);
+    } else {
+      answers_->refuse(
+          waiting.caller,
+          Refusal::make(RefusalKind::no_answer,
+                        "The disk of the configuration file does not answer; the state says when "
+                        "the values are saved."));
+    }
+  }
+}
+
+void SaveOperations::answer(const Caller& caller, const SaveState& state) {
+  if (state.failure) {
+    return answers_->done(caller, [&state](JsonWriter& json) { json.member("saved_at_ms", state.saved_at); });
+  }
+  answers_->refuse(
+      caller, Refusal::make(RefusalKind::wrong_state, "The values were not saved: %s.", state.failure.cause())
+                  .because(state.failure.cause()));
+}
+
+}  // namespace flexrf::panel

@@ -1,0 +1,42 @@
+// Save now: what was set goes into the configuration file.
+#pragma once
+
+#include <array>
+
+#include "runtime/executive/executive.hpp"
+#include "web-ui/server/api/answers.hpp"
+
+namespace flexrf::panel {
+
+/// Asks the runtime, which writes in a thread of its own, and answers its caller when it is done. The
+/// server's thread.
+class SaveOperations {
+ public:
+  SaveOperations(Executive& executive, Answers& answers, Permission& permission) noexcept
+      : executive_(&executive), answers_(&answers), permission_(&permission) {}
+
+  void save(const Caller& caller, Time now);
+  void tick(Time now);
+  bool is_waiting() const noexcept { return waiting_count_ != 0; }
+
+ private:
+  static constexpr std::size_t most_waiting = 8;
+  /// A disk may be slow; one that says nothing for so long hangs.
+  static constexpr Duration patience = std::chrono::seconds{10};
+
+  struct Waiting {
+    bool used = false;
+    Caller caller;
+    std::uint64_t number = 0;
+    Time overdue_at{};
+  };
+  void answer(const Caller& caller, const SaveState& state);
+
+  Executive* executive_;
+  Answers* answers_;
+  Permission* permission_;
+  std::array<Waiting, most_waiting> waiting_{};
+  std::size_t waiting_count_ = 0;
+};
+
+}  // namespace flexrf::panel
