@@ -7,8 +7,10 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "runtime/executive/audit.hpp"
 #include "runtime/executive/cell.hpp"
 #include "runtime/executive/component_actions.hpp"
 #include "runtime/executive/lifecycle.hpp"
@@ -42,7 +44,7 @@ class Executive {
   /// error: they are not there as a whole.
   Status say_last(std::vector<std::string> texts);
   /// say_last() waited in vain: the process can only be left by _exit().
-  bool is_still_saying() const noexcept { return output_.is_ending(); }
+  bool is_still_saying() const noexcept { return output_.is_ending() || audit_.is_ending(); }
 
   /// Changes configuration parameters of the running application, as one transaction; waits for the outcome.
   /// Another thread than run()'s, not real-time, while the application runs.
@@ -55,9 +57,10 @@ class Executive {
   using ActionDone = std::function<void(const Status&)>;
   using ReconfigureDone = std::function<void(const ReconfigureResult&)>;
 
-  void act(ComponentAction action, ComponentIndex component, ActionDone done);
+  /// `who` asks, for the audit.
+  void act(ComponentAction action, ComponentIndex component, ActionDone done, std::string_view who = {});
   /// As reconfigure(), without waiting.
-  void reconfigure(std::vector<ConfigurationChange> changes, ReconfigureDone done);
+  void reconfigure(std::vector<ConfigurationChange> changes, ReconfigureDone done, std::string_view who = {});
   /// What a reconfiguration of these would stop and initialise again, in order of stopping: what actuates
   /// first.
   std::vector<ComponentIndex> owners_of(std::span<const ComponentIndex> changed);
@@ -73,6 +76,7 @@ class Executive {
   const Options& options() const noexcept { return options_; }
   Lifecycle& lifecycle() noexcept { return lifecycle_; }
   Control& control() noexcept { return cell_.control(); }
+  Audit& audit() noexcept { return audit_; }
 
  private:
   void run_on_the_wall_clock(RunSummary& summary);
@@ -98,6 +102,7 @@ class Executive {
   LogLimit useless_signal_;
   Time began_{};
   OutputThread output_;
+  Audit audit_;  // says in the log what it writes: ends before the output does
 };
 
 }  // namespace flexrf

@@ -40,6 +40,8 @@ constexpr Route table[] = {
     {Resource::devices, Method::get, "devices", "All devices with drivers and owners", Role::viewer, false,
      "", "Devices", ""},
     {Resource::log, Method::get, "log", "Recent lines of the log", Role::viewer, false, "", "Log", "after"},
+    {Resource::audit, Method::get, "audit", "Who did what: the newest entries", Role::admin, false, "",
+     "Audit", "after"},
     {Resource::stop_motion, Method::post, "stop-motion",
      "Stop motion: a latch; neither an emergency stop nor an enabling device", Role::viewer, false, "", "",
      ""},
@@ -74,7 +76,7 @@ constexpr std::string_view schemas = R"json({
 "Login":{"type":"object","required":["user","password"],"additionalProperties":false,"properties":{"user":{"type":"string"},"password":{"type":"string"}}},
 "LoggedIn":{"type":"object","required":["name","role","local","user"],"properties":{"name":{"type":"string"},"role":{"enum":["viewer","operator","engineer","admin"]},"local":{"type":"boolean"},"user":{"type":"string"}}},
 "Session":{"type":["object","null"],"properties":{"name":{"type":"string"},"user":{"type":"string"},"address":{"type":"string"},"local":{"type":"boolean"},"you":{"type":"boolean"}}},
-"State":{"type":"object","required":["mode","cause","motion","faults","control","edit","server"],"properties":{"mode":{"enum":["starting","running","finishing","stopping","safe","ended"]},"cause":{"type":"string"},"motion":{"type":"object","required":["stopped","may_move"],"properties":{"stopped":{"type":"boolean"},"may_move":{"type":"boolean"}}},"faults":{"type":"array","items":{"type":"object","required":["component","kind","cause"],"properties":{"kind":{"enum":["unit","device","thread","process"]}}}},"control":{"type":"object","properties":{"holder":{"$ref":"#/components/schemas/Session"},"wanted_by":{"$ref":"#/components/schemas/Session"},"answer_within_ms":{"type":"integer"}}},"edit":{"type":["object","null"]},"server":{"type":"object"}}},
+"State":{"type":"object","required":["mode","cause","motion","faults","control","edit","server"],"properties":{"mode":{"enum":["starting","running","finishing","stopping","safe","ended"]},"cause":{"type":"string"},"motion":{"type":"object","required":["stopped","may_move","stopped_by"],"properties":{"stopped":{"type":"boolean"},"may_move":{"type":"boolean"},"stopped_by":{"type":["object","null"],"properties":{"who":{"type":"string"},"at_ms":{"type":"integer"}}}}},"faults":{"type":"array","items":{"type":"object","required":["component","kind","cause"],"properties":{"kind":{"enum":["unit","device","thread","process"]}}}},"control":{"type":"object","properties":{"holder":{"$ref":"#/components/schemas/Session"},"wanted_by":{"$ref":"#/components/schemas/Session"},"answer_within_ms":{"type":"integer"}}},"edit":{"type":["object","null"]},"server":{"type":"object"}}},
 "Component":{"type":"object","required":["name","kind","life","fault","active","member","steps","execution"],"properties":{"name":{"type":"string"},"kind":{"enum":["unit","device"]},"type":{"type":"string"},"driver":{"type":"string"},"life":{"enum":["created","initialised","running","stopped","fault"]},"fault":{"type":"string"},"restraint":{"type":"string"},"restraints":{"type":"integer"},"active":{"type":"boolean"},"member":{"type":["object","null"]},"steps":{"type":"integer"},"execution":{"type":"object"}}},
 "Components":{"type":"array","items":{"$ref":"#/components/schemas/Component"}},
 "Slot":{"type":"object","required":["name","type","published","reason","sequence","sampled_at_ns","value","readers"],"properties":{"name":{"type":"string"},"type":{"type":"string"},"published":{"type":"integer"},"reason":{"type":"string"},"sequence":{"type":"integer"},"sampled_at_ns":{"type":"integer"},"value":{"type":["object","null"]},"readers":{"type":"array"}}},
@@ -82,6 +84,7 @@ constexpr std::string_view schemas = R"json({
 "Queues":{"type":"array","items":{"type":"object","required":["name","capacity","writers","readers"]}},
 "Threads":{"type":"array","items":{"type":"object","required":["name","cycles","overruns","skipped","skipped_time_ns","longest_standstill_ns","allocations","budget_ns","lateness","execution"]}},
 "Devices":{"type":"array","items":{"type":"object","required":["name","interface","driver","kind","life"]}},
+"Audit":{"type":"object","required":["last","entries"],"properties":{"last":{"type":"integer"},"entries":{"type":"array","items":{"type":"object","required":["number","at","who","did"],"properties":{"number":{"type":"integer"},"at":{"type":"string"},"who":{"type":"string"},"did":{"type":"string"},"what":{"type":"string"},"before":{},"after":{},"count":{"type":"integer"}}}}}},
 "Log":{"type":"object","required":["last","lines"],"properties":{"last":{"type":"integer"},"lines":{"type":"array","items":{"type":"object","required":["number","text"]}}}}
 })json";
 
