@@ -7,7 +7,7 @@ import './control';
 import { logOut } from './log_out';
 import { ShellPart } from './part';
 import { shellStyles } from './styles';
-import { modeText, motionOf, motionText } from './words';
+import { modeText, motionOf, motionText, stopText } from './words';
 
 const clockPeriod = 250;
 
@@ -106,7 +106,7 @@ export class Header extends ShellPart {
       <div class=${stale}>
         <span class=${state && state.mode !== 'running' && state.mode !== 'starting' ? 'warning' : ''}>${state ? modeText(state.mode) : '–'}</span>
         <span class=${abnormal}>${abnormal === 'alarm' ? '■ ' : abnormal ? '⚠ ' : ''}${motionText[motion]}</span>
-        ${motion === 'stopped' ? this.#action('clear_stop_motion', 'Clear stop') : nothing}
+        ${motion === 'stopped' ? html`<small>${stopText(state)}</small>${this.#action('clear_stop_motion', 'Clear stop')}` : nothing}
         ${motion === 'inhibited' ? this.#action('start_motion', 'Start motion') : nothing}
       </div>
       <div class=${stale}><flexrf-control .core=${core}></flexrf-control></div>
