@@ -30,6 +30,27 @@ std::string role_name(PanelRole role) {
   return "";
 }
 
+const char* kind_name(Need::Of of) {
+  return of == Need::Of::motion ? "motion" : of == Need::Of::runtime ? "runtime" : "feedback";
+}
+
+std::string needs_name(const BlockText& block, std::size_t parameter) {
+  return block.plain.identifier + "_needs_" + std::to_string(parameter);
+}
+
+void define_needs(const BlockText& block, Text& out) {
+  for (std::size_t i = 0; i < block.parameters.size(); ++i) {
+    const std::vector<Need>& needs = block.parameters[i]->needs;
+    if (needs.empty()) continue;
+    out << "constexpr CommandNeed " << needs_name(block, i) << "[" << needs.size() << "] = {\n";
+    for (const Need& need : needs) {
+      out << "    {CommandNeed::Kind::" << kind_name(need.of) << ", " << string_literal(need.field) << ", "
+          << need.numbers << "ULL, " << string_literal(need.reason) << "},\n";
+    }
+    out << "};\n";
+  }
+}
+
 void define_port(std::string_view name, std::string_view direction, std::string_view type,
                  std::string_view summary, Text& out) {
   out << "    {\"" << name << "\", PortDescriptor::Direction::" << direction << ", \"" << type << "\", "
@@ -59,6 +80,7 @@ BlockText block_text(const Model& model, const std::string& class_name, std::str
 void define_parameters(const BlockText& block, bool exported, Text& out) {
   if (block.empty()) return;
   const std::string& name = block.plain.identifier;
+  define_needs(block, out);
   out << (exported ? "constinit const" : "constexpr") << " ParameterDescriptor " << name << "_parameters["
       << block.parameters.size() << "] = {\n";
   for (std::size_t i = 0; i < block.parameters.size(); ++i) {
@@ -68,7 +90,8 @@ void define_parameters(const BlockText& block, bool exported, Text& out) {
         << bool_literal(persist) << ", Role::" << role_name(parameter.role) << ", "
         << (parameter.low ? bound(*parameter.low) : "0.0") << ", "
         << (parameter.high ? bound(*parameter.high) : "0.0") << ", " << string_literal(parameter.widget)
-        << ", " << string_literal(parameter.label) << ", " << string_literal(parameter.menu) << "},\n";
+        << ", " << string_literal(parameter.label) << ", " << string_literal(parameter.menu) << ", "
+        << (parameter.needs.empty() ? std::string("{}") : needs_name(block, i)) << "},\n";
   }
   out << "};\n";
 }

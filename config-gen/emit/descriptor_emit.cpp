@@ -105,6 +105,20 @@ const char* role_text(PanelRole role) {
   return "admin";
 }
 
+Json need_json(const Need& need) {
+  Json json = {{"of", need.of == Need::Of::motion    ? "motion"
+                      : need.of == Need::Of::runtime ? "runtime"
+                                                     : "feedback"}};
+  if (need.of != Need::Of::motion) {
+    json["field"] = need.field;
+    json["numbers"] = Json::array();
+    for (unsigned number = 0; number < 64; ++number)
+      if ((need.numbers >> number & 1U) != 0) json["numbers"].push_back(number);
+  }
+  json["reason"] = need.reason;
+  return json;
+}
+
 Json parameters_json(const Model& model, const std::vector<const ParameterBlock*>& blocks) {
   Json list = Json::array();
   for (const ParameterBlock* block : blocks) {
@@ -122,6 +136,7 @@ Json parameters_json(const Model& model, const std::vector<const ParameterBlock*
       if (!parameter.widget.empty()) json["widget"] = parameter.widget;
       if (!parameter.label.empty()) json["label"] = parameter.label;
       if (!parameter.menu.empty()) json["menu"] = parameter.menu;
+      for (const Need& need : parameter.needs) json["needs"].push_back(need_json(need));
       list.push_back(std::move(json));
     }
   }

@@ -67,7 +67,10 @@ void parameters(const Model& model, std::string_view title, const std::vector<co
       const bool has_default =
           parameter.kind != Parameter::Kind::feedback && parameter.input == Parameter::Input::value;
       rows << " | " << (has_default ? cell(value_text(model, field, parameter.initial)) : "") << " | "
-           << cell(field.summary) << " |\n";
+           << cell(field.summary);
+      for (const Need& need : parameter.needs)
+        rows << (&need == parameter.needs.data() ? " It " : ", ") << cell(need.reason);
+      rows << (parameter.needs.empty() ? " |\n" : ". |\n");
     }
   }
   if (rows.str().empty()) return;

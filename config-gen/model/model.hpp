@@ -95,6 +95,15 @@ struct Literal {
 
 enum class PanelRole { viewer, op, engineer, admin };  // `op`: operator, which is a keyword
 
+// What must be so for a button or a hold to have an effect.
+struct Need {
+  enum class Of { motion, runtime, feedback };
+  Of of = Of::motion;
+  std::string field;          // empty: motion
+  std::uint64_t numbers = 0;  // bit n: this value of a bool (0, 1) or an enumeration will do
+  std::string reason;         // what the operator reads
+};
+
 struct Parameter {
   enum class Kind { configuration, runtime, feedback };
   enum class Input {
@@ -112,7 +121,8 @@ struct Parameter {
   std::string label;  // empty: made from the name
   std::string menu;
   PanelRole role = PanelRole::op;
-  bool persist = true;  // runtime only
+  bool persist = true;      // runtime only
+  std::vector<Need> needs;  // of a button or a hold: all of them
 };
 
 // One generated struct of plain fields: Configuration, Runtime or Feedback.

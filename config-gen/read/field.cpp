@@ -200,6 +200,7 @@ Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kin
     if (const auto role = row.word("role", {"viewer", "operator", "engineer", "admin"}))
       parameter.role = static_cast<PanelRole>(*role);
   }
+  if (kind == Parameter::Kind::runtime) row.also("needs");  // when the feedback is known, too
   if (kind == Parameter::Kind::runtime) parameter.persist = row.boolean("persist").value_or(true);
   row.finish();
   return parameter;

@@ -2,6 +2,7 @@
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/library.hpp"
 #include "config-gen/read/members.hpp"
+#include "config-gen/read/needs.hpp"
 #include "config-gen/read/object_list.hpp"
 
 namespace flexrf::config_gen {
@@ -97,6 +98,7 @@ std::optional<Index> read_interface_table(Library& library, const Node& root,
   read_parameters(library, root, Parameter::Kind::configuration, interface.configuration);
   read_parameters(library, root, Parameter::Kind::runtime, interface.runtime);
   read_parameters(library, root, Parameter::Kind::feedback, interface.feedback);
+  read_needs(library, root, interface.runtime, interface.feedback);
   if (const Node* outputs = root.find("output");
       outputs != nullptr && interface.outputs.size() != outputs->children.size())
     return std::nullopt;

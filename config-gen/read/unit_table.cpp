@@ -2,6 +2,7 @@
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/library.hpp"
 #include "config-gen/read/members.hpp"
+#include "config-gen/read/needs.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -155,6 +156,7 @@ std::optional<Index> read_unit_table(Library& library, const Node& root, const s
   read_parameters(library, root, Parameter::Kind::configuration, unit.configuration);
   read_parameters(library, root, Parameter::Kind::runtime, unit.runtime);
   read_parameters(library, root, Parameter::Kind::feedback, unit.feedback);
+  read_needs(library, root, unit.runtime, unit.feedback);
   if (!complete) return std::nullopt;  // connections to ports that are not there would be reported as unknown
 
   Model& model = library.model();

@@ -104,7 +104,10 @@ void write_element(JsonWriter& json, const FieldDescriptor& field, const std::by
   }
 }
 
-void write_field(JsonWriter& json, const FieldDescriptor& field, const std::byte* bytes) {
+}  // namespace
+
+void write_field(JsonWriter& json, const FieldDescriptor& field, const void* value) {
+  const auto* bytes = static_cast<const std::byte*>(value);
   if (field.dimensions == 0 || field.scalar == Scalar::text) return write_element(json, field, bytes);
   const std::size_t size = size_of_element(field);
   const std::size_t rows = field.shape[0];
@@ -121,8 +124,6 @@ void write_field(JsonWriter& json, const FieldDescriptor& field, const std::byte
   }
   json.end_array();
 }
-
-}  // namespace
 
 void write_value(JsonWriter& json, const TypeDescriptor& type, const void* value) {
   const auto* bytes = static_cast<const std::byte*>(value);

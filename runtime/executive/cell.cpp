@@ -35,6 +35,7 @@ Cell::Cell(const Application& application, const Options& options)
       options_(&options),
       bells_(bells_of(application)),
       control_(bells_),
+      audit_(std::make_unique<AuditIntake>()),
       parameters_(
           std::make_unique<RuntimeParameters[]>(application.units.size() + application.devices.size())),
       requests_(std::make_unique<RequestQueue[]>(application.threads.size())),
@@ -46,6 +47,7 @@ Cell::Cell(const Application& application, const Options& options)
   for (ComponentIndex i = 0; i < component_count(); ++i) parameters_[i].set_revision(settings_revision_);
   for (std::size_t i = 0; i < application.threads.size(); ++i)
     requests_[i].set_bell(application.threads[i].bell);
+  for (ComponentIndex i = 0; i < component_count(); ++i) parameters_[i].set_audit(*audit_, i);
 }
 
 Cell::~Cell() {
@@ -139,6 +141,22 @@ const NarrowedType* Cell::narrowed_type(ComponentIndex component) const noexcept
     if (narrowed.component() == component) return &narrowed;
   }
   return nullptr;
+}
+
+void Cell::stop_motion(std::string_view who) noexcept {
+  control_.stop_motion();
+  audit_->note(who, "stopped motion", {}, AuditRecord::Kind::stop);
+}
+
+void Cell::clear_stop_motion(std::string_view who) noexcept {
+  control_.clear_stop_motion();
+  audit_->note(who, "cleared the stop", {}, AuditRecord::Kind::clear);
+}
+
+Status Cell::start_motion(std::string_view who) noexcept {
+  const Status status = control_.start_motion();
+  if (status) audit_->note(who, "gave Start");
+  return status;
 }
 
 const ComponentType& Cell::component_type(ComponentIndex component) const noexcept {

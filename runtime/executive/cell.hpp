@@ -6,6 +6,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <string_view>
 #include <vector>
 
 #include "runtime/executive/application.hpp"
@@ -13,6 +14,7 @@
 #include "runtime/executive/control.hpp"
 #include "runtime/executive/narrowed_type.hpp"
 #include "runtime/executive/options.hpp"
+#include "runtime/parameters/audit_intake.hpp"
 #include "runtime/parameters/parameter_store.hpp"
 #include "runtime/parameters/request.hpp"
 
@@ -51,6 +53,12 @@ class Cell {
 
   const Application& application() const noexcept { return *application_; }
   const Options& options() const noexcept { return *options_; }
+  /// Where everything that a person does is told, whichever way he came in. Any thread.
+  AuditIntake& audit() noexcept { return *audit_; }
+  /// Stop motion, for this person or part ("emergency stop"). Any thread.
+  void stop_motion(std::string_view who) noexcept;
+  void clear_stop_motion(std::string_view who) noexcept;
+  Status start_motion(std::string_view who) noexcept;
   Control& control() noexcept { return control_; }
   const Control& control() const noexcept { return control_; }
   Heartbeat& heartbeat() noexcept { return heartbeat_; }
@@ -152,6 +160,7 @@ class Cell {
   std::vector<Doorbell*> bells_;
   std::vector<std::vector<const char*>> other_drivers_;  // per device
   Control control_;
+  std::unique_ptr<AuditIntake> audit_;
   Heartbeat heartbeat_;
   std::unique_ptr<RuntimeParameters[]> parameters_;  // one per component
   std::unique_ptr<RequestQueue[]> requests_;         // one per thread

@@ -20,8 +20,12 @@ SaveState CellAccess::save_state() const {
   return cell_->saver()->state();
 }
 
-void CellAccess::stop_motion() noexcept {
-  cell_->control().stop_motion();
+void CellAccess::note(std::string_view who, const char* did, std::string_view what) noexcept {
+  cell_->audit().note(who, did, what);
+}
+
+void CellAccess::stop_motion(std::string_view who) noexcept {
+  cell_->stop_motion(who);
 }
 
 }  // namespace flexrf

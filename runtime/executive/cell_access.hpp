@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "runtime/core/status.hpp"
 #include "runtime/core/time.hpp"
@@ -36,6 +37,8 @@ class CellAccess {
   /// Sends it, in the unit's name, and gives the number that comes back as the answer's correlation; a number
   /// is never used twice while the application runs. Roles are the caller's to judge.
   std::uint64_t send(ParameterRequest& request, Time now) noexcept;
+  /// What a person did who came in by this unit, for the audit: AuditIntake::note().
+  void note(std::string_view who, const char* did, std::string_view what = {}) noexcept;
   /// The next answer that has come, also to what the unit asked before it was restarted.
   bool take_answer(ParameterAnswer& answer) noexcept { return post_->answers.pop(answer); }
 
@@ -44,7 +47,7 @@ class CellAccess {
   SaveState save_state() const;
 
   /// The latch that anybody may set; there is no way from here to clear it, nor to Start.
-  void stop_motion() noexcept;
+  void stop_motion(std::string_view who) noexcept;
 
   // ---- for the cell
 

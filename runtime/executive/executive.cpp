@@ -66,6 +66,61 @@ std::size_t memory_to_lock(const Application& application, bool observed) noexce
                  : application.memory_budget;
 }
 
+const char* did_of(ComponentAction action) noexcept {
+  return action == ComponentAction::start  ? "started"
+         : action == ComponentAction::stop ? "stopped"
+                                           : "initialised";
+}
+const char* tried_of(ComponentAction action) noexcept {
+  return action == ComponentAction::start  ? "tried to start a component"
+         : action == ComponentAction::stop ? "tried to stop a component"
+                                           : "tried to initialise a component";
+}
+
+/// Configuration values as they are before they are changed.
+class ConfigurationBefore {
+ public:
+  ConfigurationBefore(Cell& cell, const std::vector<ConfigurationChange>& changes) : cell_(&cell) {
+    for (const ConfigurationChange& change : changes) {
+      if (change.component < cell.component_count() &&
+          std::none_of(values_.begin(), values_.end(),
+                       [&](const Values& one) { return one.component == change.component; }))
+        values_.push_back({change.component, copy(change.component)});
+    }
+  }
+  void note(std::string_view who, const ReconfigureResult& result) const {
+    if (result.outcome != ReconfigureOutcome::done) {
+      std::string what = name_of(result.outcome);
+      if (!result.causes.empty()) what += ": " + result.causes.front();
+      return cell_->audit().note(who, "tried to change the configuration", what);
+    }
+    for (const Values& one : values_) {
+      if (one.bytes.empty()) continue;
+      const std::vector<std::byte> after = copy(one.component);
+      cell_->audit().note_differences(who, one.component, ParameterKind::configuration,
+                                      cell_->component_type(one.component).configuration, one.bytes.data(),
+                                      after.data(), MonotonicClock::now());
+    }
+  }
+
+ private:
+  struct Values {
+    ComponentIndex component;
+    std::vector<std::byte> bytes;
+  };
+  // On the lifecycle thread, which alone writes them.
+  std::vector<std::byte> copy(ComponentIndex component) const {
+    const ParameterBlock& block = cell_->component_type(component).configuration;
+    const auto* const values =
+        static_cast<const std::byte*>(cell_->component(component).parameter_memory().configuration);
+    if (block.type == nullptr || values == nullptr) return {};
+    return {values, values + block.type->size};
+  }
+
+  Cell* cell_;
+  std::vector<Values> values_;
+};
+
 const char* name_of_role(CpuRole role) noexcept {
   switch (role) {
     case CpuRole::any:
@@ -88,7 +143,8 @@ Executive::Executive(const Application& application, Options options)
       lifecycle_(cell_, !options_.virtual_time.has_value()),
       began_(MonotonicClock::now()),
       saver_(cell_),
-      output_(cell_, options_.status_view && !options_.virtual_time) {}
+      output_(cell_, options_.status_view && !options_.virtual_time),
+      audit_(cell_, options_) {}
 
 /// After a run that got stuck: whoever hung may have let go since, else this waits.
 Executive::~Executive() {
@@ -99,6 +155,7 @@ Status Executive::prepare() {
   if (const Status status = check_triggers(cell_.application()); !status) return status;
   if (const Status status = cell_.construct(); !status) return status;
   if (const Status status = saver_.load(); !status) return status;
+  if (const Status status = audit_.prepare(); !status) return status;
   for (DeviceState& state : cell_.application().device_states) {
     state.demands = state.device->guards_motion();
     state.guards.store(state.demands);
@@ -138,28 +195,34 @@ ReconfigureResult Executive::reconfigure(std::vector<ConfigurationChange> change
   return result.get_future().get();
 }
 
-void Executive::reconfigure(std::vector<ConfigurationChange> changes, ReconfigureDone done) {
-  const auto job = [this, changes = std::move(changes), done = std::move(done)](bool ended) {
+void Executive::reconfigure(std::vector<ConfigurationChange> changes, ReconfigureDone done,
+                            std::string_view who) {
+  const auto job = [this, changes = std::move(changes), done = std::move(done),
+                    who = std::string{who}](bool ended) {
     if (const Mode mode = cell_.control().mode(); ended || mode != Mode::running) {
       return done({ReconfigureOutcome::refused,
                    {std::string{"the application is "} + name_of(mode) + ", not running"},
                    {}});
     }
     Reconfiguration host(cell_, lifecycle_);
+    const ConfigurationBefore before(cell_, changes);
     const ReconfigureResult result = flexrf::reconfigure(host, changes);
     if (result.outcome == ReconfigureOutcome::done) note_set(cell_, changes);
+    before.note(who, result);
     done(result);
   };
   if (!lifecycle_.post([job] { job(false); })) job(true);
 }
 
-void Executive::act(ComponentAction action, ComponentIndex component, ActionDone done) {
-  const auto job = [this, action, component, done = std::move(done)](bool ended) {
+void Executive::act(ComponentAction action, ComponentIndex component, ActionDone done, std::string_view who) {
+  const auto job = [this, action, component, done = std::move(done), who = std::string{who}](bool ended) {
     if (ended) return done(Status::error(StatusCode::not_permitted, "the application has ended"));
     const Status status = ComponentActions(cell_, lifecycle_).run(action, component);
     if (status) {
+      cell_.audit().note(who, did_of(action), cell_.component_name(component));
       log_info(cell_.component_name(component), "{}: done", StaticText{name_of(action)});
     } else {
+      cell_.audit().note(who, tried_of(action), status.cause());
       log_warning(cell_.application().name, "{}: {}", StaticText{name_of(action)}, status.cause());
     }
     done(status);
@@ -207,10 +270,19 @@ Status Executive::say_last(std::vector<std::string> texts) {
   const sigset_t ending = signals::ending_set();
   const timespec interval{0, supervision_interval.count()};
   const Time begun = MonotonicClock::now();
-  output_.begin_end(std::move(texts));
-  while (output_.is_ending()) {
+  audit_.begin_end();
+  bool output_ends = false;
+  while (audit_.is_ending() || !output_ends || output_.is_ending()) {
+    // What the audit says in the log comes before the end of it.
+    if (!audit_.is_ending() && !output_ends) {
+      output_.begin_end(std::move(texts));
+      output_ends = true;
+      continue;
+    }
     const bool asked = sigtimedwait(&ending, nullptr, &interval) > 0;
     if (asked || (!unhurried && MonotonicClock::now() - begun > patience_with_readers)) {
+      if (audit_.is_ending())
+        return Status::error(StatusCode::unavailable, "the disk does not take the rest of the audit");
       return Status::error(StatusCode::unavailable,
                            "nobody reads standard output or error; what is left to be said is not written");
     }
@@ -311,6 +383,7 @@ Status Executive::start_threads(RunSummary& summary) {
   if (options_.realtime) sched_setaffinity(0, sizeof(cpu_set_t), &rest.mask());
   if (const Status status = output_.start(); !status) return status;
   if (const Status status = saver_.start(); !status) return status;
+  if (const Status status = audit_.start(); !status) return status;
   if (observer_ != nullptr) {
     if (const Status status = start_observer(); !status) return status;
   }

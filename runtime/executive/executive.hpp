@@ -7,8 +7,10 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "runtime/executive/audit.hpp"
 #include "runtime/executive/cell.hpp"
 #include "runtime/executive/component_actions.hpp"
 #include "runtime/executive/lifecycle.hpp"
@@ -43,7 +45,7 @@ class Executive {
   /// error: they are not there as a whole.
   Status say_last(std::vector<std::string> texts);
   /// say_last() waited in vain: the process can only be left by _exit().
-  bool is_still_saying() const noexcept { return output_.is_ending(); }
+  bool is_still_saying() const noexcept { return output_.is_ending() || audit_.is_ending(); }
   /// The file system of the configuration file does not answer: likewise.
   bool is_still_saving() const noexcept { return saver_.is_saving(); }
 
@@ -58,9 +60,10 @@ class Executive {
   using ActionDone = std::function<void(const Status&)>;
   using ReconfigureDone = std::function<void(const ReconfigureResult&)>;
 
-  void act(ComponentAction action, ComponentIndex component, ActionDone done);
+  /// `who` asks, for the audit.
+  void act(ComponentAction action, ComponentIndex component, ActionDone done, std::string_view who = {});
   /// As reconfigure(), without waiting.
-  void reconfigure(std::vector<ConfigurationChange> changes, ReconfigureDone done);
+  void reconfigure(std::vector<ConfigurationChange> changes, ReconfigureDone done, std::string_view who = {});
   /// What a reconfiguration of these would stop and initialise again, in order of stopping: what actuates
   /// first.
   std::vector<ComponentIndex> owners_of(std::span<const ComponentIndex> changed);
@@ -78,6 +81,7 @@ class Executive {
   const Options& options() const noexcept { return options_; }
   Lifecycle& lifecycle() noexcept { return lifecycle_; }
   Control& control() noexcept { return cell_.control(); }
+  Audit& audit() noexcept { return audit_; }
 
  private:
   void run_on_the_wall_clock(RunSummary& summary);
@@ -102,6 +106,7 @@ class Executive {
   Time began_{};
   ValueSaver saver_;
   OutputThread output_;
+  Audit audit_;  // says in the log what it writes: ends before the output does
 };
 
 }  // namespace flexrf

@@ -24,6 +24,7 @@ constexpr std::array flags{
     Flag{"--digest", nullptr, "last line of the output: digest of everything that was published"},
     Flag{"--config", "FILE", "configuration file (XML): read at the start, written when values are saved"},
     Flag{"--report", "FILE", "write the final report as JSON too"},
+    Flag{"--audit", "FILE|off", "who did what (default: FILE.audit beside --config FILE)"},
     Flag{"--panel", "ADDRESS:PORT|off", "where the panel listens (default 127.0.0.1:8080)"},
     Flag{"--panel-users", "FILE", "who may log in to the panel (`./flexrf password` writes it)"},
     Flag{"--panel-host", "NAME", "another name of this machine in the panel's address"},
@@ -152,6 +153,8 @@ Status take(const Application& application, std::string_view name, std::string_v
     options.configuration_file = value;
   } else if (name == "--report") {
     options.report_file = value;
+  } else if (name == "--audit") {
+    options.audit_file = value;
   } else if (name == "--panel") {
     if (value != "off" && value.find(':') == std::string_view::npos) {
       return Status::error(StatusCode::invalid_argument, "--panel %.*s: give ADDRESS:PORT or off",

@@ -23,6 +23,8 @@ struct Options {
   std::string keys_file;                 ///< key presses for the keyboard's `script` driver
   std::string configuration_file;        ///< empty: none
   std::string report_file;               ///< empty: none
+  /// Who did what. Empty: beside the configuration file, and without one nowhere; "off": nowhere.
+  std::string audit_file;
   std::string panel = "127.0.0.1:8080";  ///< address:port, or "off"
   bool panel_given = false;              ///< the command line says where
   std::string panel_users;               ///< file of who may log in; empty: none

@@ -1,6 +1,7 @@
 #include "runtime/executive/standstill.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "runtime/log/log.hpp"
 
@@ -36,7 +37,11 @@ bool Standstill::judge(Duration missed) noexcept {
     state_->longest_standstill.store(missed.count(), std::memory_order_relaxed);
   }
   control.note_fault();
-  if (actuates_) control.stop_motion();
+  if (actuates_) {
+    char who[longest_who];
+    std::snprintf(who, sizeof(who), "FlexRF: %s stood still", name_);
+    cell_->stop_motion(who);
+  }
   log_error(name_, "{} stood still for {:.2} s (standstill_limit {:.2} s){}",
             StaticText{state_ == nullptr ? "the process" : "this thread"}, seconds(missed), seconds(limit),
             StaticText{actuates_ ? "; motion is stopped: clear the stop and give Start" : ""});

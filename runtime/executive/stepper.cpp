@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <exception>
 
 #include "runtime/log/log.hpp"
@@ -85,11 +86,17 @@ void Stepper::apply(const ParameterRequest& request, Time now) noexcept {
   }
   if (request.kind == RequestKind::hold && !may_move_) {
     cell_->answer(request.requester,
-                  ParameterAnswer::refused(request, cell_->parameters(request.component).sequence(),
-                                           no_parameter, "motion is inhibited; give Start first"));
+                  ParameterAnswer::unmet(request, cell_->parameters(request.component).sequence(),
+                                         no_parameter, "motion is inhibited; give Start first"));
     return;
   }
-  cell_->answer(request.requester, cell_->parameters(request.component).apply(request, now));
+  RuntimeParameters& parameters = cell_->parameters(request.component);
+  if (const char* const reason = parameters.unmet_need(request, may_move_); reason != nullptr) {
+    cell_->answer(request.requester, ParameterAnswer::unmet(request, parameters.sequence(),
+                                                            request.changes[0].parameter, reason));
+    return;
+  }
+  cell_->answer(request.requester, parameters.apply(request, now));
 }
 
 void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t unit, Time now) noexcept {
@@ -109,6 +116,7 @@ void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t uni
     member.active.store(false, std::memory_order_release);
     member.idle.store(true, std::memory_order_relaxed);
     cell_->set_writer_state(unit, WriterState::retired);
+    cell_->audit().note(request.who, "retired", application_->units[unit].name);
     cell_->answer(request.requester, ParameterAnswer::accepted(request, parameters.sequence()));
     return;
   }
@@ -133,6 +141,8 @@ void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t uni
     if (!own) blame(*member.unit, own);
     member.active.store(true, std::memory_order_release);
     cell_->set_writer_state(unit, WriterState::running);
+    cell_->audit().note(request.who, request.kind == RequestKind::clone ? "cloned into" : "activated",
+                        application_->units[unit].name);
   }
   cell_->answer(request.requester, answer);
 }
@@ -201,6 +211,9 @@ void Stepper::follow_demands(Time now) noexcept {
     if (!demands || control.safe_state_latched() || mode >= Mode::safe || (!owned && mode < Mode::running))
       continue;
     control.latch_safe_state();
+    char who[longest_who];
+    std::snprintf(who, sizeof(who), "emergency stop (%s)", application_->devices[index].name);
+    cell_->stop_motion(who);
     log_warning(application_->devices[index].name,
                 "emergency stop: every actuator is made safe; release it, clear the stop and give Start");
   }

@@ -13,6 +13,15 @@ enum class ParameterKind : std::uint8_t { configuration, runtime, feedback };
 /// Least role that may change a parameter or press an action. Ascending rights.
 enum class Role : std::uint8_t { viewer, operator_, engineer, admin };
 
+/// What must be so for a button or a hold to have an effect, as its table says (`needs`).
+struct CommandNeed {
+  enum class Kind : std::uint8_t { motion, runtime, feedback };
+  Kind kind;
+  const char* field;      ///< its path; of motion: ""
+  std::uint64_t numbers;  ///< bit n: a boolean (0, 1) or an enumeration of this number will do
+  const char* reason;     ///< "state must be ready or held": what the operator reads
+};
+
 /// One declared parameter: a field of its block's struct, with what the panel and the checks need beside.
 struct ParameterDescriptor {
   const FieldDescriptor* field;
@@ -21,9 +30,10 @@ struct ParameterDescriptor {
   Role role;
   double minimum;  ///< for every element; valid when has_range
   double maximum;
-  const char* widget;  ///< "" chooses by kind and type
-  const char* label;   ///< "" makes one from the name
-  const char* menu;    ///< "" for none
+  const char* widget;                       ///< "" chooses by kind and type
+  const char* label;                        ///< "" makes one from the name
+  const char* menu;                         ///< "" for none
+  std::span<const CommandNeed> needs = {};  ///< all of them; of buttons and holds
 };
 
 /// All parameters of one kind of a component type. They are the fields of one plain struct.

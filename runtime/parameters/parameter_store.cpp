@@ -71,7 +71,7 @@ Status RuntimeParameters::connect(Component& component, SlotControl* slot, const
       if (lease_count_ == max_holds)
         return Status::error(StatusCode::invalid_argument, "%s: more than %zu holds", component.name(),
                              max_holds);
-      leases_[lease_count_++] = {parameter.field->offset + element, 0, false, newest, 0, 0, {}};
+      leases_[lease_count_++] = {parameter.field->offset + element, 0, false, false, newest, 0, 0, {}};
     }
   }
   values_ = static_cast<std::byte*>(component.parameter_memory().runtime);
@@ -102,7 +102,7 @@ Status RuntimeParameters::adopt(const void* values, Time now) noexcept {
     put_settings_back();
     return status;
   }
-  end_leases();
+  end_leases("the unit began anew", now);
   pressed_ = false;
   commit_settings(now);
   return {};
@@ -173,7 +173,7 @@ RuntimeParameters::Verdict RuntimeParameters::apply_values(const ParameterReques
   }
   if (const Status status = accept_proposed(); !status) return {status};
   mark_changes(request);
-  commit_settings(now);
+  commit_settings(request, now);
   return {};
 }
 
@@ -186,13 +186,13 @@ RuntimeParameters::Verdict RuntimeParameters::apply_member(const ParameterReques
   verdict.status = check_block(*block_, proposed_, verdict.parameter);
   if (!verdict.status) return verdict;
   if (const Status status = accept_proposed(); !status) return {status};
-  end_leases();
+  end_leases("the member began anew", now);
   pressed_ = false;
   marks_changed_ |= marks_.clear(0, marks_.size());
   // Somebody chose the other member's values for this one.
   if (request.kind == RequestKind::clone) mark_differences(defaults_);
   mark_changes(request);
-  commit_settings(now);
+  commit_settings(request, now);
   return {};
 }
 
@@ -212,6 +212,16 @@ RuntimeParameters::Verdict RuntimeParameters::apply_presses(const ParameterReque
     store(at, before + std::min(more, std::numeric_limits<std::uint32_t>::max() - before));
   }
   if (const Status status = accept_proposed(); !status) return {status};
+  if (audit_ != nullptr && request.who[0] != '\0') {
+    for (std::uint16_t i = 0; i < request.change_count; ++i) {
+      const ParameterChange& change = request.changes[i];
+      AuditRecord record = record_of(AuditRecord::Kind::press, request,
+                                     block_->parameters[change.parameter].field->offset + change.offset, now);
+      record.size = sizeof(std::uint32_t);
+      record.number = load<std::uint32_t>(request.values + change.position);
+      audit_->put(record);
+    }
+  }
   std::memcpy(values_, proposed_, block_->type->size);
   pressed_ = true;
   publish(now);
@@ -256,6 +266,48 @@ void RuntimeParameters::propose(const void* base) noexcept {
 
 Status RuntimeParameters::accept_proposed() noexcept {
   return component_->accept_runtime(proposed_);
+}
+
+void RuntimeParameters::commit_settings(const ParameterRequest& request, Time now) noexcept {
+  if (audit_ != nullptr)
+    audit_->note_differences(request.who, index_, ParameterKind::runtime, *block_, values_, proposed_, now);
+  commit_settings(now);
+}
+
+AuditRecord RuntimeParameters::record_of(AuditRecord::Kind kind, const ParameterRequest& request,
+                                         std::uint32_t offset, Time now) const noexcept {
+  AuditRecord record;
+  record.kind = kind;
+  record.component = index_;
+  record.offset = offset;
+  record.at = now;
+  std::memcpy(record.who, request.who, sizeof(record.who));
+  return record;
+}
+
+const char* RuntimeParameters::unmet_need(const ParameterRequest& request, bool may_move) const noexcept {
+  if (values_ == nullptr || (request.kind != RequestKind::press && request.kind != RequestKind::hold))
+    return nullptr;
+  const std::byte* const feedback = static_cast<const std::byte*>(component_->parameter_memory().feedback);
+  for (std::uint16_t i = 0; i < request.change_count; ++i) {
+    // Who names no parameter is refused by apply(), with words of its own.
+    if (request.changes[i].parameter >= block_->parameters.size()) continue;
+    for (const CommandNeed& need : block_->parameters[request.changes[i].parameter].needs) {
+      if (need.kind == CommandNeed::Kind::motion) {
+        if (!may_move) return need.reason;
+        continue;
+      }
+      const bool is_feedback = need.kind == CommandNeed::Kind::feedback;
+      const TypeDescriptor* const type =
+          is_feedback ? component_->type_in_force().feedback.type : block_->type;
+      const std::byte* const values = is_feedback ? feedback : values_;
+      if (type == nullptr || values == nullptr) return need.reason;
+      const Result<FieldPlace> place = find_field(*type, need.field);
+      const unsigned number = place ? load<std::uint8_t>(values + place->offset) : 64U;
+      if (number >= 64 || (need.numbers >> number & 1U) == 0) return need.reason;
+    }
+  }
+  return nullptr;
 }
 
 void RuntimeParameters::commit_settings(Time now) noexcept {
@@ -395,7 +447,7 @@ RuntimeParameters::Verdict RuntimeParameters::apply_hold(const ParameterRequest&
   switch (request.kind) {
     case RequestKind::release:
       if (is_live) {
-        end_lease(*lease);
+        end_lease(*lease, "released", now);
         publish(now);
       }
       return {};
@@ -422,13 +474,22 @@ RuntimeParameters::Verdict RuntimeParameters::start_lease(const ParameterRequest
   std::memcpy(proposed_, values_, block_->type->size);
   store<std::uint8_t>(proposed_ + lease.offset, 1);
   if (const Status status = accept_proposed(); !status) return {status, parameter};
-  if (!lease.live) ++live_leases_;
+  // A new press of the one who held it already.
+  if (lease.live) end_lease(lease, "pressed anew", now);
+  ++live_leases_;
   lease.live = true;
+  lease.audited = request.who[0] != '\0';
   lease.requester = request.requester;
   lease.number = request.lease;
   lease.sequence = request.lease_sequence;
   lease.deadline = issued_at + lease_time;
   store<std::uint8_t>(values_ + lease.offset, 1);
+  if (audit_ != nullptr && lease.audited) {
+    AuditRecord record = record_of(AuditRecord::Kind::hold_begin, request, lease.offset, now);
+    record.size = 1;
+    record.number = lease.number;
+    audit_->put(record);
+  }
   publish(now);
   return {};
 }
@@ -449,7 +510,7 @@ void RuntimeParameters::end_overdue_leases(Time now) noexcept {
   bool any = false;
   for (std::uint32_t i = 0; i < lease_count_; ++i) {
     if (!leases_[i].live || now < leases_[i].deadline) continue;
-    end_lease(leases_[i]);
+    end_lease(leases_[i], "nobody asked for it any more", now);
     any = true;
   }
   if (any) publish(now);
@@ -457,16 +518,29 @@ void RuntimeParameters::end_overdue_leases(Time now) noexcept {
 
 void RuntimeParameters::end_all_leases(Time now) noexcept {
   if (live_leases_ == 0) return;
-  end_leases();
+  end_leases("motion was stopped, or the unit", now);
   publish(now);
 }
 
-void RuntimeParameters::end_leases() noexcept {
+void RuntimeParameters::end_leases(const char* why, Time now) noexcept {
   for (std::uint32_t i = 0; i < lease_count_; ++i)
-    if (leases_[i].live) end_lease(leases_[i]);
+    if (leases_[i].live) end_lease(leases_[i], why, now);
 }
 
-void RuntimeParameters::end_lease(Lease& lease) noexcept {
+void RuntimeParameters::end_lease(Lease& lease, const char* why, Time now) noexcept {
+  if (audit_ != nullptr && lease.audited) {
+    AuditRecord record;
+    record.kind = AuditRecord::Kind::hold_end;
+    record.component = index_;
+    record.offset = lease.offset;
+    record.size = 1;
+    record.number = lease.number;
+    record.at = now;
+    record.did = why;
+    // Whoever writes it down knows whose lease it is.
+    record.who[0] = '?';
+    audit_->put(record);
+  }
   lease.live = false;
   --live_leases_;
   store<std::uint8_t>(values_ + lease.offset, 0);

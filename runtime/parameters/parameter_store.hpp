@@ -47,6 +47,11 @@ class RuntimeParameters {
   /// Before the start: the values in the component's memory are those of the configuration file, which gives
   /// the marked ones.
   void restore(const SetMarks& marks) noexcept;
+  /// Where what persons change is told. Before the start; without it nowhere.
+  void set_audit(AuditIntake& audit, std::uint16_t component) noexcept {
+    audit_ = &audit;
+    index_ = component;
+  }
 
   /// Takes a whole set of values (at start: the tables' or the saved ones; after a restart: the former).
   /// Checked as a request is; buttons and holds become zero. Publishes. After an error the last good values
@@ -57,6 +62,10 @@ class RuntimeParameters {
   /// force and published. activate and clone start from `base` (clone: the other member's values(); null: the
   /// tables'); retire ends all leases. Making a member active or not and reset() are the executive's.
   ParameterAnswer apply(const ParameterRequest& request, Time now, const void* base = nullptr) noexcept;
+
+  /// What a press or a hold needs and has not (CommandNeed); null: it has all, or is neither. `may_move`:
+  /// motion is permitted. The text lives for ever.
+  const char* unmet_need(const ParameterRequest& request, bool may_move) const noexcept;
 
   /// Before each step: ends the leases whose time is over.
   void before_step(Time now) noexcept {
@@ -91,6 +100,7 @@ class RuntimeParameters {
     std::uint32_t offset;  // of the hold's bool in the struct
     std::uint16_t requester;
     bool live;
+    bool audited;
     std::uint64_t newest;    // greatest lease number seen: neither it nor any below starts again
     std::uint64_t number;    // of the live lease
     std::uint64_t sequence;  // of its last request
@@ -112,6 +122,7 @@ class RuntimeParameters {
   Verdict propose_changes(const ParameterRequest& request) noexcept;
   void propose(const void* base) noexcept;
   Status accept_proposed() noexcept;
+  void commit_settings(const ParameterRequest& request, Time now) noexcept;
   void commit_settings(Time now) noexcept;
   Status judge_own_changes(Time now) noexcept;
   Status check_own_changes() noexcept;
@@ -124,11 +135,15 @@ class RuntimeParameters {
   Lease* lease_of(std::uint32_t offset) noexcept;
 
   void end_overdue_leases(Time now) noexcept;
-  void end_lease(Lease& lease) noexcept;
-  void end_leases() noexcept;
+  void end_lease(Lease& lease, const char* why, Time now) noexcept;
+  void end_leases(const char* why, Time now) noexcept;
+  AuditRecord record_of(AuditRecord::Kind kind, const ParameterRequest& request, std::uint32_t offset,
+                        Time now) const noexcept;
   void clear_presses(Time now) noexcept;
   void publish(Time now) noexcept;
 
+  AuditIntake* audit_ = nullptr;
+  std::uint16_t index_ = 0;
   Component* component_ = nullptr;
   const ParameterBlock* block_ = nullptr;
   std::byte* values_ = nullptr;

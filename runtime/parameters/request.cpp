@@ -1,5 +1,6 @@
 #include "runtime/parameters/request.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 
@@ -34,6 +35,12 @@ bool ParameterRequest::add_name(std::uint16_t parameter, std::uint32_t offset) n
   return add(parameter, offset, nullptr, 0);
 }
 
+void ParameterRequest::set_who(std::string_view person) noexcept {
+  const std::size_t size = std::min(person.size(), sizeof(who) - 1);
+  std::memcpy(who, person.data(), size);
+  who[size] = '\0';
+}
+
 std::uint64_t new_lease_number() noexcept {
   static std::atomic<std::uint64_t> given{0};
   return given.fetch_add(1, std::memory_order_relaxed) + 1;
@@ -45,6 +52,8 @@ const char* name_of(AnswerKind kind) noexcept {
       return "accepted";
     case AnswerKind::refused:
       return "refused";
+    case AnswerKind::unmet:
+      return "unmet";
     case AnswerKind::busy:
       return "busy";
     case AnswerKind::stale:
@@ -62,6 +71,13 @@ ParameterAnswer ParameterAnswer::refused(const ParameterRequest& request, std::u
   ParameterAnswer answer = answer_to(request, AnswerKind::refused, sequence);
   answer.parameter = parameter;
   std::snprintf(answer.reason, sizeof(answer.reason), "%s", reason);
+  return answer;
+}
+
+ParameterAnswer ParameterAnswer::unmet(const ParameterRequest& request, std::uint64_t sequence,
+                                       std::uint16_t parameter, const char* reason) noexcept {
+  ParameterAnswer answer = refused(request, sequence, parameter, reason);
+  answer.kind = AnswerKind::unmet;
   return answer;
 }
 

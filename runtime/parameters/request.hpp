@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "runtime/blackboard/doorbell.hpp"
 #include "runtime/core/status.hpp"
 #include "runtime/core/time.hpp"
+#include "runtime/parameters/audit_intake.hpp"
 #include "runtime/parameters/intake.hpp"
 
 namespace flexrf {
@@ -54,6 +56,8 @@ struct ParameterRequest {
   Time issued_at{};
   std::uint64_t lease = 0;           ///< hold, refresh, release: from new_lease_number()
   std::uint64_t lease_sequence = 0;  ///< hold, refresh: greater than in every former request of this lease
+  /// The person, for the audit. Empty: none, as when a unit asks; then nothing is written down.
+  char who[longest_who] = {};
 
   /// Adds a change; false (and nothing is added) when it does not fit. `offset`: bytes into the parameter.
   bool add(std::uint16_t parameter, std::uint32_t offset, const void* value, std::size_t size) noexcept;
@@ -61,6 +65,8 @@ struct ParameterRequest {
   bool add_presses(std::uint16_t parameter, std::uint32_t presses = 1) noexcept;
   /// hold, refresh, release, reset: names a parameter without a value.
   bool add_name(std::uint16_t parameter, std::uint32_t offset = 0) noexcept;
+
+  void set_who(std::string_view person) noexcept;
 
   std::uint16_t change_count = 0;
   std::uint16_t value_bytes = 0;
@@ -74,6 +80,7 @@ std::uint64_t new_lease_number() noexcept;
 enum class AnswerKind : std::uint8_t {
   accepted,  ///< `sequence` is now in force
   refused,   ///< nothing happened; `parameter` (or no_parameter) and `reason` say why
+  unmet,     ///< nothing happened: what the command needs is not there now, says `reason`
   busy,      ///< nothing happened: the queue was full; try again
   stale,     ///< nothing happened: settings changed since `expected`; `sequence` is in force
 };
@@ -90,6 +97,8 @@ struct ParameterAnswer {
   static ParameterAnswer accepted(const ParameterRequest& request, std::uint64_t sequence) noexcept;
   static ParameterAnswer refused(const ParameterRequest& request, std::uint64_t sequence,
                                  std::uint16_t parameter, const char* reason) noexcept;
+  static ParameterAnswer unmet(const ParameterRequest& request, std::uint64_t sequence,
+                               std::uint16_t parameter, const char* reason) noexcept;
   static ParameterAnswer busy(const ParameterRequest& request) noexcept;
   static ParameterAnswer stale(const ParameterRequest& request, std::uint64_t sequence) noexcept;
 };

@@ -23,7 +23,7 @@ std::int64_t demand(const Task& task, std::int64_t window) noexcept {
 /// bound.
 bool has_bound(std::span<const Task> tasks, const Task& task) noexcept {
   // Rounding may call a load of exactly one too much or too little: the whole busy period is then finite but
-  // for one that never ends, which `limit` below catches.
+  // for one that never ends, which `most_releases` below catches.
   double load = 0;
   for (const Task& other : tasks)
     if (&other == &task || disturbs(other, task))
@@ -32,7 +32,7 @@ bool has_bound(std::span<const Task> tasks, const Task& task) noexcept {
 }
 
 /// Releases of one busy period after which it is taken to have no end.
-constexpr std::int64_t limit = 100'000;
+constexpr std::int64_t most_releases = 100'000;
 
 Duration response_of(std::span<const Task> tasks, const Task& task) noexcept {
   if (!has_bound(tasks, task)) return Duration::max();
@@ -40,7 +40,7 @@ Duration response_of(std::span<const Task> tasks, const Task& task) noexcept {
   std::int64_t longest = 0;
   std::int64_t window = 0;
   // The release number `release` of a busy period that begins with everybody's latest possible release.
-  for (std::int64_t release = 0; release < limit; ++release) {
+  for (std::int64_t release = 0; release < most_releases; ++release) {
     const std::int64_t own = (release + 1) * task.execution.count();
     std::int64_t next = std::max(window, own);
     do {

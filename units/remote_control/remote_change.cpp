@@ -121,6 +121,12 @@ RpcProblem problem_of(const ParameterAnswer& answer, const ChangedComponent& com
         name + ": somebody changed its settings since; their sequence is " + std::to_string(answer.sequence),
         "read them again"};
   }
+  if (answer.kind == AnswerKind::unmet && answer.parameter != no_parameter) {
+    return {RpcError::refused,
+            name + "." + component.type.runtime.parameters[answer.parameter].field->name +
+                " has no effect now: " + answer.reason,
+            "nothing was changed; try again when that is so"};
+  }
   if (answer.parameter == no_parameter)
     return {RpcError::refused, name + " refuses: " + answer.reason, "nothing was changed"};
   return {RpcError::refused,

@@ -103,6 +103,10 @@ void RemoteControl::meet_clients() {
   }
 }
 
+std::string RemoteControl::who(const Client& client) {
+  return "remote control (connection " + std::to_string(client.session) + ")";
+}
+
 RemoteControl::Client* RemoteControl::find(SocketSession session) noexcept {
   const auto found = std::find_if(clients_.begin(), clients_.end(),
                                   [&](const Client& client) { return client.session == session; });

@@ -88,6 +88,8 @@ class RemoteControl final : public RemoteControlUnit {
   static remote::RpcProblem not_saved(const Status& status);
   void answer(const Waiting& waiting, const ParameterAnswer& given);
   Client* find(SocketSession session) noexcept;
+  /// As the audit names it.
+  static std::string who(const Client& client);
   void count();
 
   void say(Client& client, std::string_view id, std::string line);

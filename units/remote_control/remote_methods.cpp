@@ -61,11 +61,13 @@ RemoteControl::Problem RemoteControl::authenticate(Client& client, const RpcCall
   if (!params.status()) return remote::wrong_params(params, R"(write {"token": "..."})");
   if (!token_.is(token)) {
     ++feedback.wrong_tokens;
+    cell.note(who(client), "gave a wrong token");
     return RpcProblem{RpcError::token_missing,
                       token_.is_there() ? "this is not the token" : "there is no token to be given",
                       "the connection ends here; token_file of " + std::string{name()} + " has it"};
   }
   client.authenticated = true;
+  cell.note(who(client), "gave the token");
   if (!call.id.empty()) {
     say(client, call.id, remote::result_line(call.id, [](JsonWriter& json) {
           json.begin_object().member("role", "operator").end_object();
@@ -107,7 +109,7 @@ RemoteControl::Problem RemoteControl::state(Client& client, const RpcCall& call,
 }
 
 RemoteControl::Problem RemoteControl::stop_motion(Client& client, const RpcCall& call, Fields& /*params*/) {
-  cell.stop_motion();
+  cell.stop_motion(who(client));
   if (!call.id.empty()) {
     say(client, call.id,
         remote::result_line(call.id, [](JsonWriter& json) { json.begin_object().end_object(); }));
@@ -149,6 +151,7 @@ RemoteControl::Problem RemoteControl::change(Client& client, const RpcCall& call
                       "try again when one is answered"};
   }
   request.component = index;
+  request.set_who(who(client));
   const std::uint64_t correlation = cell.send(request, now_);
   waiting_.push_back({client.session, call.id, index, !is_press, correlation, now_ + answer_timeout});
   return std::nullopt;

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <string_view>
 
 #include "runtime/core/time.hpp"
+#include "runtime/parameters/audit_intake.hpp"
 #include "runtime/parameters/parameter_descriptor.hpp"
 #include "web-ui/server/exchange.hpp"
 
@@ -19,6 +21,24 @@ struct SessionInfo {
   Role role = Role::viewer;
   bool local = false;  ///< from an address that the application's table calls local
 };
+
+/// A person as the audit names him: "ann (192.168.0.7)"; without a log-in his session, "panel-3 (127.0.0.1)".
+class Who {
+ public:
+  Who(std::string_view name, std::string_view address) noexcept {
+    std::snprintf(text_, sizeof(text_), "%.*s (%.*s)", static_cast<int>(name.size()), name.data(),
+                  static_cast<int>(address.size()), address.data());
+  }
+  operator std::string_view() const noexcept { return text_; }
+
+ private:
+  char text_[longest_who];
+};
+/// `session` null: it has ended.
+inline Who who_of(const SessionInfo* session) noexcept {
+  if (session == nullptr) return {"somebody", "gone"};
+  return {session->user.empty() ? session->name : session->user, session->address};
+}
 
 /// What handlers ask of access control. All functions: the server's thread; none blocks.
 class AccessControl {

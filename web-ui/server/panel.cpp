@@ -146,6 +146,7 @@ void Panel::make_access() {
   settings.needs_login = !users_.list.empty();
   settings.secure = is_secure_;
   settings.port = address_.port;
+  settings.audit = &executive_.cell().audit();
   settings.sessions.idle = record_.session_timeout;
   // Each connection may be another's, and others come back to theirs.
   settings.sessions.places = std::size_t{2} * record_.connections;

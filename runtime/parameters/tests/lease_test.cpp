@@ -175,6 +175,37 @@ void a_component_constructed_anew_has_no_live_lease(void**) {
   assert_false(cell.component.runtime.jog[0]);
 }
 
+/// Who asks is refused with the reason; who has all that it needs is not.
+void a_command_that_can_do_nothing_says_what_it_needs(void**) {
+  static constexpr CommandNeed needs[] = {
+      {CommandNeed::Kind::motion, "", 0, "needs motion"},
+      {CommandNeed::Kind::runtime, "enabled", 2U, "needs enabled to be on"},
+      {CommandNeed::Kind::runtime, "mode", 0b110U, "needs mode to be manual or automatic"},
+  };
+  static sample::SampleComponent component;
+  static ComponentType type = component.component_type();
+  static ParameterDescriptor parameters[std::size(sample::runtime_parameters)];
+  std::copy(std::begin(sample::runtime_parameters), std::end(sample::runtime_parameters), parameters);
+  parameters[sample::go].needs = needs;
+  type.runtime.parameters = parameters;
+  component.set_type_in_force(type);
+  static ParameterScratch scratch;
+  static RuntimeParameters runtime;
+  assert_true(runtime.connect(component, nullptr, &sample::default_runtime, scratch).is_ok());
+  ParameterRequest press = request_of(RequestKind::press);
+  press.add_presses(sample::go);
+  component.runtime.enabled = false;
+  component.runtime.mode = 0;
+  assert_string_equal(runtime.unmet_need(press, false), "needs motion");
+  assert_string_equal(runtime.unmet_need(press, true), "needs enabled to be on");
+  component.runtime.enabled = true;
+  assert_string_equal(runtime.unmet_need(press, true), "needs mode to be manual or automatic");
+  component.runtime.mode = 2;
+  assert_null(runtime.unmet_need(press, true));
+  // A value needs nothing, whatever its button does.
+  assert_null(runtime.unmet_need(set_to(sample::step, 0.02), false));
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -190,6 +221,7 @@ int main() {
       cmocka_unit_test(a_release_is_never_stale),
       cmocka_unit_test(stop_ends_all_leases_but_no_presses),
       cmocka_unit_test(a_component_constructed_anew_has_no_live_lease),
+      cmocka_unit_test(a_command_that_can_do_nothing_says_what_it_needs),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -37,6 +37,9 @@ export interface ItemInfo {
   readonly widget?: string;
   /** What a person is asked before it is changed or pressed. */
   readonly confirm?: string;
+  /** What a button or a hold needs to have an effect: all of it. Without `key` it is the permission to move; else this
+   *  item, a bool (0, 1) or an enumeration, has one of these numbers. */
+  readonly needs?: readonly { readonly reason: string; readonly key?: string; readonly numbers?: readonly number[] }[];
   readonly component?: string;
   /** The parameter's path in requests ("step"). */
   readonly path?: string;

@@ -162,8 +162,11 @@ void AccessEndpoints::finish(PasswordCheck::Outcome outcome, Time now) {
   Attempt& attempt = *checked_;
   checked_ = nullptr;
   // Said even if nobody waits for the answer any more.
-  if (outcome != PasswordCheck::Outcome::failed && !is_right(attempt, outcome))
+  if (outcome != PasswordCheck::Outcome::failed && !is_right(attempt, outcome)) {
     log_failed_login(attempt.shown_user, text_view(attempt.address_text));
+    access_.note(Who("somebody", text_view(attempt.address_text)), "did not get in",
+                 text_view(attempt.shown_user));
+  }
   if (Reply* const reply = replies_.reply_of(attempt.ticket)) {
     answer(attempt, outcome, now, *reply);
     replies_.complete(attempt.ticket);
@@ -205,7 +208,21 @@ void AccessEndpoints::forget(Attempt& attempt) noexcept {
 }
 
 void AccessEndpoints::use(Users users) {
+  constexpr std::string_view who = "./flexrf password";
+  for (const User& after : users.list) {
+    const User* const before = users_.find(after.name);
+    if (before == nullptr) {
+      access_.note(who, "set a password for the new user", after.name);
+      continue;
+    }
+    if (before->password_hash != after.password_hash)
+      access_.note(who, "set another password for", after.name);
+    if (before->role != after.role)
+      access_.note(who, "gave another role",
+                   after.name + ": " + name_of(before->role) + " -> " + name_of(after.role));
+  }
   for (const User& before : users_.list) {
+    if (users.find(before.name) == nullptr) access_.note(who, "removed the user", before.name);
     const User* const after = users.find(before.name);
     if (after != nullptr && *after == before) continue;
     access_.end_sessions_of(before.name);

@@ -106,6 +106,8 @@ void Entrance::use_token(const Approach& approach, std::string_view token, Sessi
     return;
   }
   log_failed_token(approach.remote_address);
+  access_.note(Who("somebody", approach.remote_address),
+               "did not get in: the address's token is wrong or was used");
   answer_problem(
       reply, 403,
       "This address was used already, or the application was started anew since it was printed. Without it "

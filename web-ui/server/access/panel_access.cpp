@@ -51,16 +51,28 @@ SessionIndex PanelAccess::log_in(const SessionHandle& former, std::string_view u
                                  std::string_view address, Time now, std::string& set_cookie) {
   // The former one first: its place may be the only one that can be had.
   if (former.serial != 0 && sessions_.serial(former.index) == former.serial) end(former.index);
-  return begin(user, role, address, now, set_cookie);
+  const SessionIndex session = begin(user, role, address, now, set_cookie);
+  note(session, user.empty() ? "came in by the address that was printed" : "logged in");
+  return session;
+}
+
+/// Whoever only looks has neither come nor gone.
+void PanelAccess::note(SessionIndex session, const char* did) noexcept {
+  const SessionInfo* const known = sessions_.info(session);
+  if (known != nullptr && (!known->user.empty() || known->role > Role::viewer)) note(who_of(known), did);
 }
 
 void PanelAccess::log_out(SessionIndex session, std::string& set_cookie) {
+  note(session, "logged out");
   end(session);
   write_forget_cookie(set_cookie, cookie_name_, settings_.secure);
 }
 
 void PanelAccess::end_sessions_of(std::string_view user) {
-  for (SessionIndex one = sessions_.of_user(user); one != no_session; one = sessions_.of_user(user)) end(one);
+  for (SessionIndex one = sessions_.of_user(user); one != no_session; one = sessions_.of_user(user)) {
+    note(one, "was logged out: the file of passwords has changed");
+    end(one);
+  }
 }
 
 void PanelAccess::end(SessionIndex session) {
@@ -72,8 +84,10 @@ void PanelAccess::end(SessionIndex session) {
 }
 
 void PanelAccess::update(Time now) {
-  for (SessionIndex over = sessions_.expired(now); over != no_session; over = sessions_.expired(now))
+  for (SessionIndex over = sessions_.expired(now); over != no_session; over = sessions_.expired(now)) {
+    note(over, "was logged out: the time of the session was over");
     end(over);
+  }
   // Who asked and left must not get it: nobody would hold it then.
   for (const SessionIndex concerned : {control_.wanted_by(), control_.holder()}) {
     if (concerned != no_session && !sessions_.is_present(concerned, absence, now))

@@ -22,6 +22,7 @@ struct AccessSettings {
   std::uint16_t port = 8080;   ///< part of the cookie's name, for cookies do not tell ports apart
   std::vector<Address> local;  ///< what the application's table calls local, beside loopback
   SessionLimits sessions;
+  AuditIntake* audit = nullptr;  ///< who comes and goes is told there; null: nowhere
 };
 
 /// One session and no other that gets its place later.
@@ -71,6 +72,10 @@ class PanelAccess final : public AccessControl {
 
   /// Of the address to be printed; null when people log in. Never for a log that visitors can read.
   OneTimeToken* one_time_token() noexcept { return token_ ? &*token_ : nullptr; }
+  /// What somebody did who is no session (yet), for the audit.
+  void note(std::string_view who, const char* did, std::string_view what = {}) noexcept {
+    if (settings_.audit != nullptr) settings_.audit->note(who, did, what);
+  }
   SessionHandle handle(SessionIndex session) const noexcept { return {session, sessions_.serial(session)}; }
   /// At the machine: loopback, or an address that the application's table calls local.
   bool is_local(std::string_view address) const noexcept { return sessions_.is_local(address); }
@@ -95,6 +100,7 @@ class PanelAccess final : public AccessControl {
   SessionIndex begin(std::string_view user, Role role, std::string_view address, Time now,
                      std::string& set_cookie);
   void end(SessionIndex session);
+  void note(SessionIndex session, const char* did) noexcept;
 
   AccessSettings settings_;
   std::string cookie_name_;

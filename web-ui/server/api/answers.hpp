@@ -73,6 +73,8 @@ class Permission {
   /// The role, and the control token.
   bool may_control(const Caller& caller, Role role, std::string_view act);
   bool has_role(const Caller& caller, Role role, std::string_view act);
+  /// As the audit names whoever asked.
+  Who who(const Caller& caller) const noexcept { return who_of(access_->session(caller.session)); }
 
  private:
   AccessControl* access_;

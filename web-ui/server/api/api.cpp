@@ -125,7 +125,15 @@ Duration Api::Parts::until_next(Time now) const {
   return next > now ? next - now : Duration{};
 }
 
-void Api::Parts::on_control_changed(SessionIndex from, SessionIndex /*to*/) {
+void Api::Parts::on_control_changed(SessionIndex from, SessionIndex to) {
+  AuditIntake& audit = executive.cell().audit();
+  if (to == no_session) {
+    audit.note(who_of(access.session(from)), "has control no longer");
+  } else if (from == no_session) {
+    audit.note(who_of(access.session(to)), "took control");
+  } else {
+    audit.note(who_of(access.session(to)), "took control from", who_of(access.session(from)));
+  }
   if (from == no_session) return;
   made->parameters.end_holds_of_session(from, MonotonicClock::now());
   made->edits.on_control_lost(from);

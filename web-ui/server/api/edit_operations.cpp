@@ -142,10 +142,12 @@ void EditOperations::run(const Caller& caller, const WantedChanges& wanted) {
   applying_ = true;
   applier_ = caller;
   executive_->reconfigure(
-      wanted.changes, [results = results_, configuration = configuration_](const ReconfigureResult& result) {
+      wanted.changes,
+      [results = results_, configuration = configuration_](const ReconfigureResult& result) {
         configuration->refresh();
         results->push(result);
-      });
+      },
+      permission_->who(caller));
 }
 
 void EditOperations::answer(const Caller& caller, const ReconfigureResult& result) {

@@ -16,9 +16,12 @@ void LifecycleOperations::act(const Caller& caller, ComponentIndex component, Co
   *place = {true, caller, component};
   ++waiting_count_;
   const auto index = static_cast<std::size_t>(place - waiting_.begin());
-  executive_->act(action, component, [outcomes = outcomes_, index](const Status& status) {
-    outcomes->push({index, status});
-  });
+  executive_->act(
+      action, component,
+      [outcomes = outcomes_, index](const Status& status) {
+        outcomes->push({index, status});
+      },
+      permission_->who(caller));
 }
 
 void LifecycleOperations::tick() {

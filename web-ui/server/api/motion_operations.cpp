@@ -4,14 +4,14 @@ namespace flexrf::panel {
 
 void MotionOperations::stop_motion(const Caller& caller) {
   if (!permission_->has_role(caller, Role::viewer, "stop motion")) return;
-  executive_->control().stop_motion();
+  executive_->cell().stop_motion(permission_->who(caller));
   parameters_->forget_holds();
   answers_->done(caller);
 }
 
 void MotionOperations::clear_stop_motion(const Caller& caller) {
   if (!permission_->may_control(caller, Role::operator_, "clear Stop motion")) return;
-  executive_->control().clear_stop_motion();
+  executive_->cell().clear_stop_motion(permission_->who(caller));
   answers_->done(caller);
 }
 
@@ -22,7 +22,7 @@ void MotionOperations::start_motion(const Caller& caller) {
         caller, Refusal::make(RefusalKind::wrong_state,
                               "The configuration is being edited; apply or discard the edit before Start."));
   }
-  if (const Status status = executive_->control().start_motion(); !status)
+  if (const Status status = executive_->cell().start_motion(permission_->who(caller)); !status)
     return answers_->refuse(caller, Refusal::make(RefusalKind::wrong_state, "No Start: %s.", status.cause()));
   answers_->done(caller);
 }
@@ -31,6 +31,8 @@ void MotionOperations::take_control(const Caller& caller, Time now) {
   switch (access_->take(caller.session, now)) {
     case AccessControl::Taking::taken:
     case AccessControl::Taking::asked:
+      if (access_->holder() != caller.session)
+        executive_->cell().audit().note(permission_->who(caller), "asked for control");
       return answers_->done(caller, [this, &caller](JsonWriter& json) {
         json.member("taken", access_->holder() == caller.session);
       });
@@ -58,7 +60,10 @@ void MotionOperations::release_control(const Caller& caller) {
 }
 
 void MotionOperations::answer_control(const Caller& caller, bool grant, Time now) {
-  if (access_->answer(caller.session, grant, now)) return answers_->done(caller);
+  if (access_->answer(caller.session, grant, now)) {
+    if (!grant) executive_->cell().audit().note(permission_->who(caller), "kept control");
+    return answers_->done(caller);
+  }
   answers_->refuse(caller,
                    Refusal::make(RefusalKind::wrong_state,
                                  "There is nothing to answer: you do not hold control, or nobody asks."));

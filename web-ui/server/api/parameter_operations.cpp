@@ -44,6 +44,7 @@ void ParameterOperations::set(const Caller& caller, ComponentIndex component, Js
         caller, Refusal::make(RefusalKind::bad_request, "There is no value; write {\"PATH\": value, ...}."));
   }
   request.component = component;
+  request.set_who(permission_->who(caller));
   send(request, {caller, component, Purpose::values, 0, {}}, now);
 }
 
@@ -70,6 +71,7 @@ void ParameterOperations::reset(const Caller& caller, ComponentIndex component,
   if (!permission_->may_control(caller, refusal ? Role::operator_ : role, "reset parameters")) return;
   if (refusal) return answers_->refuse(caller, *refusal);
   request.component = component;
+  request.set_who(permission_->who(caller));
   send(request, {caller, component, Purpose::values, 0, {}}, now);
 }
 
@@ -88,6 +90,7 @@ void ParameterOperations::press(const Caller& caller, ComponentIndex component, 
   ParameterRequest request;
   request.kind = RequestKind::press;
   request.component = component;
+  request.set_who(permission_->who(caller));
   const auto presses = static_cast<std::uint32_t>(count);
   request.add(named.changes[0].parameter, named.changes[0].offset, &presses, sizeof(presses));
   send(request, {caller, component, Purpose::plain, 0, {}}, now);
@@ -102,6 +105,7 @@ void ParameterOperations::hold(const Caller& caller, ComponentIndex component, s
   if (!permission_->may_control(caller, refusal ? Role::operator_ : role, "hold")) return;
   if (refusal) return answers_->refuse(caller, *refusal);
   request.component = component;
+  request.set_who(permission_->who(caller));
   request.lease = new_lease_number();
   request.lease_sequence = 1;
   const Lease lease{
@@ -137,6 +141,7 @@ void ParameterOperations::change_member(const Caller& caller, ComponentIndex com
   ParameterRequest request;
   request.kind = kind;
   request.component = component;
+  request.set_who(permission_->who(caller));
   request.source = source;
   send(request, {caller, component, Purpose::plain, 0, {}}, now);
 }

@@ -102,6 +102,7 @@ Refusal refusal_of(const ParameterAnswer& answer, const ComponentEntry& componen
           "%s: somebody changed its settings since you read them (now %llu); read them again.",
           component.name, static_cast<unsigned long long>(answer.sequence));
     case AnswerKind::accepted:
+    case AnswerKind::unmet:
     case AnswerKind::refused:
       break;
   }
@@ -110,6 +111,12 @@ Refusal refusal_of(const ParameterAnswer& answer, const ComponentEntry& componen
         .because(answer.reason);
   }
   const char* const parameter = component.type->runtime.parameters[answer.parameter].field->name;
+  if (answer.kind == AnswerKind::unmet) {
+    return Refusal::make(RefusalKind::wrong_state, "%s.%s has no effect now: %s.", component.name, parameter,
+                         answer.reason)
+        .about(parameter)
+        .because(answer.reason);
+  }
   return Refusal::make(RefusalKind::refused, "%s.%s is refused: %s.", component.name, parameter,
                        answer.reason)
       .about(parameter)

@@ -129,6 +129,10 @@ void RestHandler::read(const Match& found, const Request& request, Reply& reply,
       json.member("last", last).end_object();
       return finish_json(request, reply, json);
     }
+    case Resource::audit:
+      if (parts_.permission.has_role(caller, Role::admin, "read who did what"))
+        write_audit(request, reply, caller);
+      return;
     case Resource::slot:
     case Resource::slot_image: {
       const auto slot = directory.slot(name);
@@ -184,6 +188,27 @@ void RestHandler::finish_fixed(const Request& request, Reply& reply, std::string
     reply.fixed = text;
   }
   parts_.operations.answers.answered();
+}
+
+void RestHandler::write_audit(const Request& request, Reply& reply, const Caller& caller) {
+  std::uint64_t after = 0;
+  if (!query_integer(request.query, "after", 0, after)) {
+    return parts_.operations.answers.refuse(
+        caller, Refusal::make(RefusalKind::bad_request, "'after' is the number of an entry."));
+  }
+  JsonWriter json(std::move(reply.text));
+  json.begin_object().key("entries").begin_array();
+  std::string entry;
+  const std::uint64_t last =
+      parts_.executive.audit().visit(after, [&](std::uint64_t number, std::string_view text) {
+        // Who can write into the file may have written anything.
+        if (!parts_.reader.object(text)) return;
+        entry.assign("{\"number\":").append(std::to_string(number));
+        entry.append(text == "{}" ? "" : ",").append(text.substr(1));
+        json.raw(entry);
+      });
+  json.end_array().member("last", last).end_object();
+  finish_json(request, reply, json);
 }
 
 void RestHandler::write_component(const Request& request, Reply& reply, std::string_view name,

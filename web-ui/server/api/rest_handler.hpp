@@ -44,6 +44,7 @@ class RestHandler final : public RequestHandler {
   void act_on_component(const Match& match, Fields& fields, const Caller& caller, Time now);
   void put_parameters(const Match& match, const Request& request, JsonObject values, const Caller& caller,
                       Time now);
+  void write_audit(const Request& request, Reply& reply, const Caller& caller);
   void write_component(const Request& request, Reply& reply, std::string_view name, const Caller& caller);
   void write_slot(JsonWriter& json, std::uint16_t slot);
   void ask_picture(std::uint16_t slot, const Request& request, const Caller& caller, Time now);

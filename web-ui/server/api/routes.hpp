@@ -30,6 +30,7 @@ enum class Resource : std::uint8_t {
   threads,
   devices,
   log,
+  audit,
   stop_motion,
   clear_stop_motion,
   start_motion,

@@ -42,6 +42,7 @@ std::uint64_t StateEvent::signature() const noexcept {
   digest.add(access_->revision());
   digest.add(edits_->revision());
   digest.add(executive_->saver().revision());
+  digest.add(executive_->audit().revision());
   return digest.value();
 }
 
@@ -152,7 +153,16 @@ void StateEvent::write(std::string& text, SessionIndex you, Time now) const {
   json.begin_object();
   json.member("mode", word_of(control.mode())).member("cause", name_of(control.cause()));
   json.key("motion").begin_object().member("stopped", control.motion_stopped());
-  json.member("may_move", control.may_move()).end_object();
+  json.member("may_move", control.may_move()).key("stopped_by");
+  if (const auto stop = executive_->audit().stopped_by(); stop && control.motion_stopped()) {
+    json.begin_object()
+        .member("who", static_cast<const char*>(stop->who))
+        .member("at_ms", stop->at)
+        .end_object();
+  } else {
+    json.null();
+  }
+  json.end_object();
   write_faults(json);
   write_values(json);
   json.key("control").begin_object().key("holder");

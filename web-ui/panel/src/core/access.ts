@@ -58,5 +58,8 @@ export function locked(situation: Situation, item: ItemInfo | undefined): string
   if (!item) return 'unknown';
   if (item.role === undefined) return 'read only';
   if (item.kind === 'configuration') return 'changed by Edit';
-  return deniedAction(situation, item.role) || (item.scalar === 'hold' ? deniedMotion(situation) : '');
+  const denied = deniedAction(situation, item.role);
+  if (denied || situation.state?.motion.may_move) return denied;
+  const reason = item.needs?.find((need) => need.key === undefined)?.reason;
+  return reason ?? (item.scalar === 'hold' ? deniedMotion(situation) : '');
 }

@@ -137,6 +137,7 @@ function makeItem(types: Types, key: string, field: Field, path: string, origin:
     ...(widget && { widget }),
     ...(change?.confirm && { confirm: change.confirm }),
     ...(origin.component !== undefined && { component: origin.component }),
+    ...(parameter?.needs && { needs: needsOf(parameter.needs, origin.component ?? '') }),
     ...(writable && { path }),
     ...(origin.source && { source: origin.source }),
   };
@@ -149,6 +150,14 @@ function measuredIn(field: Field, joints: readonly Joint[]): Pick<ItemInfo, 'uni
   const units = joints.map((joint) => (joint.unit === 'm' ? sliding : turning));
   const [first = field.unit] = units;
   return units.every((unit) => unit === first) ? { unit: first } : { unit: field.unit, units };
+}
+
+function needsOf(needs: NonNullable<ParameterJson['needs']>, component: string): NonNullable<ItemInfo['needs']> {
+  return needs.map(({ of, field, numbers, reason }) => ({
+    reason,
+    ...(field !== undefined && { key: of === 'runtime' ? `${component}.${field}` : `${component}.feedback.${field}` }),
+    ...(numbers && { numbers }),
+  }));
 }
 
 /** `origin` is that of the structure; each member's source goes one step further. */

@@ -37,6 +37,12 @@ export interface ParameterJson {
   readonly widget?: string;
   readonly label?: string;
   readonly menu?: string;
+  readonly needs?: readonly {
+    readonly of: 'motion' | 'runtime' | 'feedback';
+    readonly field?: string;
+    readonly numbers?: readonly number[];
+    readonly reason: string;
+  }[];
 }
 
 export interface BlockJson {

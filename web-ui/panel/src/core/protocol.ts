@@ -60,7 +60,12 @@ export interface ControlSession {
 export interface ApplicationState {
   readonly mode: Mode;
   readonly cause: string;
-  readonly motion: { readonly stopped: boolean; readonly may_move: boolean };
+  readonly motion: {
+    readonly stopped: boolean;
+    readonly may_move: boolean;
+    /** Who stopped; at_ms since 1970. */
+    readonly stopped_by?: { readonly who: string; readonly at_ms: number } | null;
+  };
   readonly faults: readonly Fault[];
   readonly control: {
     readonly holder: ControlSession | null;

@@ -2,6 +2,7 @@
 // one grid, so that nothing ever lies over Stop motion.
 import { LitElement, css, html, nothing } from 'lit';
 import { customElement, query, state } from 'lit/decorators.js';
+import { includes } from '../core/access';
 import { PanelCore } from '../core/panel_core';
 import { views } from '../views';
 import './control';
@@ -175,7 +176,9 @@ export class Panel extends LitElement {
   }
 
   #entries(): (readonly [Route, string])[] {
-    const entries: (readonly [Route, string])[] = views.filter((view) => view.label !== '').map((view) => [{ view: view.name, path: [] }, view.label]);
+    const entries: (readonly [Route, string])[] = views
+      .filter((view) => view.label !== '' && (!view.role || (this.core.session && includes(this.core.session.role, view.role))))
+      .map((view) => [{ view: view.name, path: [] }, view.label]);
     if (this.generation) for (const menu of this.core.model.menus.keys()) entries.push([{ view: 'menu', path: [menu] }, menu]);
     return entries;
   }

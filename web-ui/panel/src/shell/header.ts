@@ -9,7 +9,7 @@ import './faults';
 import { logOut } from './log_out';
 import { ShellPart } from './part';
 import { shellStyles } from './styles';
-import { modeOf, modeText, motionOf, motionText } from './words';
+import { modeOf, modeText, motionOf, motionText, stopText } from './words';
 
 const clockPeriod = 250;
 
@@ -124,7 +124,7 @@ export class Header extends ShellPart {
       <div class=${stale}>
         <span class=${['running', 'starting', 'unknown'].includes(mode) ? '' : 'warning'}>${modeText(mode)}</span>
         <span class=${abnormal}>${abnormal === 'alarm' ? '■ ' : abnormal ? '⚠ ' : ''}${motionText[motion]}</span>
-        ${motion === 'stopped' ? this.#action('clear_stop_motion', 'Clear stop') : nothing}
+        ${motion === 'stopped' ? html`<small>${stopText(core.state)}</small>${this.#action('clear_stop_motion', 'Clear stop')}` : nothing}
         ${motion === 'inhibited' ? this.#action('start_motion', 'Start motion') : nothing}
       </div>
       <div class=${stale}><flexrf-control .core=${core}></flexrf-control></div>

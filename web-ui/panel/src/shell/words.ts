@@ -40,6 +40,17 @@ export const motionText: { readonly [state in MotionState]: string } = {
   ended: 'Motion ended', unknown: 'Motion not known',
 };
 
+/** "by anna (192.168.0.7) at 15:40:28", with the day when it was another one; empty: nobody said who. */
+export function stopText(state: ApplicationState | undefined, now = new Date()): string {
+  const by = state?.motion.stopped ? state.motion.stopped_by : undefined;
+  if (!by) return '';
+  const time = new Date(by.at_ms);
+  const two = (number: number): string => String(number).padStart(2, '0');
+  const clock = `${two(time.getHours())}:${two(time.getMinutes())}:${two(time.getSeconds())}`;
+  const day = time.toDateString() === now.toDateString() ? '' : `${time.getFullYear()}-${two(time.getMonth() + 1)}-${two(time.getDate())} `;
+  return `by ${by.who} at ${day}${clock}`;
+}
+
 /** "anna at 192.168.0.7". */
 export function nameOf(session: ControlSession): string {
   const name = session.user || session.name;

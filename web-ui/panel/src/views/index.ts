@@ -9,5 +9,6 @@ export const views: readonly ViewInfo[] = [
   { name: 'search', label: 'Search', tag: 'flexrf-search', load: () => import('./search') },
   { name: 'threads', label: 'Threads', tag: 'flexrf-threads', load: () => import('./threads') },
   { name: 'log', label: 'Log', tag: 'flexrf-log', load: () => import('./log') },
+  { name: 'audit', label: 'Audit', role: 'admin', tag: 'flexrf-audit', load: () => import('./audit') },
   { name: 'menu', label: '', tag: 'flexrf-menu', load: () => import('./menu') },
 ];

@@ -1,5 +1,5 @@
 // The contract between the shell and a view: one page of the panel behind one name in the address.
-import type { WidgetHost } from '../contract';
+import type { Role, WidgetHost } from '../contract';
 import type { Core } from '../core/core';
 
 /**
@@ -20,6 +20,8 @@ export interface ViewInfo {
   readonly name: string;
   /** Entry of the navigation; empty for a view that is reached by links only. */
   readonly label: string;
+  /** Least role that finds it in the navigation; without it everybody does. The server judges what it may read. */
+  readonly role?: Role;
   /** The custom element's name, defined by the module that `load` imports. */
   readonly tag: string;
   /** A dynamic import, so that the first view stays small. */

@@ -1,7 +1,9 @@
 // What every widget shares that acts: a lock with its reason, and what was refused.
 import { html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
+import type { ItemInfo } from '../contract';
 import { LiveText } from './live_text';
+import { Needs } from './needs';
 import { Question } from './question';
 import { WidgetBase } from './widget_base';
 
@@ -13,7 +15,30 @@ export abstract class ControlBase extends WidgetBase {
     () => this.requestUpdate(),
   );
   private refusal: LiveText | undefined;
+  private needs: Needs | undefined;
   private said = '';
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.needs = new Needs(this.host, this.commands(), () => this.takeAccess());
+    this.until(() => this.needs?.end());
+    this.takeAccess();
+  }
+
+  /** What it can press or hold. */
+  protected commands(): readonly ItemInfo[] {
+    return this.item ? [this.item] : [];
+  }
+
+  /** Why this command cannot be given now; empty when it can. */
+  protected lockOf(item: ItemInfo): string {
+    return this.host.locked(item.key) || (this.needs?.unmet(item) ?? '');
+  }
+
+  /** The reason, where it is what the table says the command needs: that is to be read, not only to be asked for. */
+  private get unmet(): string {
+    return this.commands().some((item) => item.needs?.some((need) => need.reason === this.locked)) ? this.locked : '';
+  }
 
   protected override takeAccess(): void {
     super.takeAccess();
@@ -31,7 +56,7 @@ export abstract class ControlBase extends WidgetBase {
 
   protected lockReason(): string {
     if (this.host.stale) return 'no word from the application: values are old';
-    return this.item ? this.host.locked(this.item.key) : 'nothing to change';
+    return this.item ? this.lockOf(this.item) : 'nothing to change';
   }
 
   /** Whatever a person has begun is void. */
@@ -58,7 +83,7 @@ export abstract class ControlBase extends WidgetBase {
           >${content}</span
         >${this.question.render(this.label)}<span id="lock" class="hidden">${this.locked}</span>`,
       control,
-      html`<span id="refusal" class="refusal" role="status"></span>`,
+      html`${this.unmet === '' ? nothing : html`<span class="note need">${this.unmet}</span>`}<span id="refusal" class="refusal" role="status"></span>`,
     );
   }
 
@@ -73,6 +98,7 @@ export abstract class ControlBase extends WidgetBase {
       >${this.question.render(this.label)}
       <div class="notes">
         ${this.note === '' ? nothing : html`<span class="note">${this.note}</span>`}
+        ${this.unmet === '' ? nothing : html`<span class="note need">${this.unmet}</span>`}
         <span id="refusal" class="refusal" role="status"></span>
       </div>
       <span id="summary" class="hidden">${this.description()}</span><span id="lock" class="hidden">${this.locked}</span>

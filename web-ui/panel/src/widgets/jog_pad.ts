@@ -97,7 +97,11 @@ export class JogPad extends ControlBase {
     if (this.host.stale) return super.lockReason();
     if (this.buttons.length === 0) return 'none of its parameters is a hold';
     // Buttons differ only where their roles do; the pad's reason is the first's.
-    return this.host.locked(this.buttons[0]!.item.key);
+    return this.lockOf(this.buttons[0]!.item);
+  }
+
+  protected override commands(): readonly ItemInfo[] {
+    return this.buttons.map((button) => button.item);
   }
 
   protected override onLocked(): void {
@@ -149,7 +153,7 @@ export class JogPad extends ControlBase {
       if (button.cell) [element.style.gridRow, element.style.gridColumn] = [String(button.cell[0]), String(button.cell[1])];
       // One direction at a time: a second finger begins nothing.
       const mayBegin = (): boolean =>
-        this.locked === '' && this.held() === undefined && this.host.locked(button.item.key) === '';
+        this.locked === '' && this.held() === undefined && this.lockOf(button.item) === '';
       this.detach.push(button.driver.attach(element, mayBegin));
     });
   }

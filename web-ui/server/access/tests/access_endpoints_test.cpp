@@ -34,6 +34,19 @@ struct Connections final : LaterReplies {
   std::array<int, 8> completed{};
 };
 
+AuditIntake audit;
+
+/// What was told since the last time, a line each.
+std::string told() {
+  std::string all;
+  AuditRecord record;
+  while (audit.take(record)) {
+    all +=
+        std::string{record.who} + " " + record.did + (record.what[0] == '\0' ? "" : " ") + record.what + "\n";
+  }
+  return all;
+}
+
 struct World {
   explicit World(bool needs_login, const Users& known, const std::string& file = "")
       : users(known),
@@ -43,6 +56,7 @@ struct World {
   static AccessSettings settings(bool needs_login) {
     AccessSettings made;
     made.needs_login = needs_login;
+    made.audit = &audit;
     return made;
   }
   Users users;
@@ -201,6 +215,23 @@ void logging_out_ends_the_session(void**) {
   assert_int_equal(world->access.session_count(), 0);
 }
 
+/// By name and address; never with a password, nor with what it became.
+void who_comes_and_goes_is_in_the_audit(void**) {
+  audit.open();
+  told();
+  assert_int_equal(log_in("ann", "the wrong one", "10.0.0.5"), 403);
+  assert_string_equal(told().c_str(), "somebody (10.0.0.5) did not get in 'ann'\n");
+  now += std::chrono::minutes{1};
+  assert_int_equal(log_in("ann", "the right one"), 200);
+  assert_string_equal(told().c_str(), "ann (127.0.0.1) logged in\n");
+  static Reply answer;
+  static Request out;
+  out = request(Method::post, "/api/v1/logout");
+  out.session = 0;
+  world->endpoints.handle(out, answer, {});
+  assert_string_equal(told().c_str(), "ann (127.0.0.1) logged out\n");
+}
+
 void who_is_at_the_machine_comes_first(void**) {
   assert_int_equal(ask_to_log_in(1, "ann", "wrong", "10.0.0.1"), Handled::later);
   assert_int_equal(ask_to_log_in(2, "ann", "wrong", "10.0.0.2"), Handled::later);
@@ -344,6 +375,23 @@ void who_is_removed_or_changed_loses_his_sessions(void**) {
   assert_int_equal(log_in("bob", "the right one"), 403);
 }
 
+void a_password_that_was_set_is_in_the_audit_but_not_which(void**) {
+  audit.open();
+  told();
+  static Users changed;
+  changed = users;
+  changed.list[0].password_hash = *hash_password("quite another one");
+  changed.list[1].role = Role::admin;
+  changed.list.push_back({"eve", Role::viewer, users.list[0].password_hash});
+  assert_true(write_users(file, changed).is_ok());
+  let_the_file_be_read();
+  const std::string text = told();
+  assert_non_null(strstr(text.c_str(), "./flexrf password set another password for ann\n"));
+  assert_non_null(strstr(text.c_str(), "./flexrf password gave another role bob: viewer -> admin\n"));
+  assert_non_null(strstr(text.c_str(), "./flexrf password set a password for the new user eve\n"));
+  assert_null(strstr(text.c_str(), "argon2"));
+}
+
 void who_is_removed_while_his_password_is_checked_does_not_get_in(void**) {
   static Users changed;
   assert_int_equal(ask_to_log_in(0, "ann", "the right one"), Handled::later);
@@ -378,6 +426,9 @@ int main(int argument_count, char** arguments) {
       cmocka_unit_test_setup_teardown(a_client_that_is_gone_gets_no_session, begin, end),
       cmocka_unit_test_setup_teardown(a_thousand_wrong_passwords_lock_nobody_out, begin, end),
       cmocka_unit_test_setup_teardown(who_fails_is_told_without_the_password, begin, end),
+      cmocka_unit_test_setup_teardown(who_comes_and_goes_is_in_the_audit, begin, end),
+      cmocka_unit_test_setup_teardown(a_password_that_was_set_is_in_the_audit_but_not_which, begin_with_file,
+                                      end_with_file),
       cmocka_unit_test_setup_teardown(who_is_removed_or_changed_loses_his_sessions, begin_with_file,
                                       end_with_file),
       cmocka_unit_test_setup_teardown(who_is_removed_while_his_password_is_checked_does_not_get_in,

@@ -130,6 +130,54 @@ void a_generated_client_can_log_in_and_change_what_it_has_read() {
   CHECK(!match(Method::post, "login").known_path);
 }
 
+void an_admin_reads_who_did_what() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  CHECK_EQUAL(rig.get("audit", an_engineer).status, 403U);
+  rig.access().give(an_operator);
+  CHECK_EQUAL(
+      rig.request(Method::put, "components/producer/parameters", an_operator, R"({"gain": 4.5})").status,
+      200U);
+  CHECK_EQUAL(
+      rig.request(Method::post, "components/producer/actions/press", an_operator, R"({"parameter": "kick"})")
+          .status,
+      200U);
+  const auto finds = [&](const char* did, const char* what, const char* who) {
+    return rig.wait_until([&] {
+      const json entries = rig.get("audit", an_admin).body.at("entries");
+      return std::any_of(entries.begin(), entries.end(), [&](const json& entry) {
+        return entry.at("did") == did && entry.value("what", "") == what && entry.at("who") == who;
+      });
+    });
+  };
+  CHECK(finds("took control", "", "olga (127.0.0.1)"));
+  CHECK(finds("changed", "producer.gain", "olga (127.0.0.1)"));
+  CHECK(finds("pressed", "producer.kick", "olga (127.0.0.1)"));
+  const json all = rig.get("audit", an_admin).body;
+  const std::uint64_t last = all.at("last").get<std::uint64_t>();
+  CHECK_EQUAL(all.at("entries").back().at("number").get<std::uint64_t>(), last);
+  const json rest =
+      rig.request(Method::get, "audit", an_admin, "", "", "", "after=" + std::to_string(last - 1)).body;
+  CHECK_EQUAL(rest.at("entries").size(), 1U);
+  CHECK_EQUAL(rig.request(Method::get, "audit", an_admin, "", "", "", "after=x").status, 400U);
+}
+
+void the_state_says_who_stopped() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  CHECK(rig.get("state").body.at("motion").at("stopped_by").is_null());
+  CHECK_EQUAL(rig.request(Method::post, "stop-motion", an_engineer).status, 200U);
+  CHECK(rig.wait_until([&] { return !rig.get("state").body.at("motion").at("stopped_by").is_null(); }));
+  const json stop = rig.get("state").body.at("motion").at("stopped_by");
+  CHECK_EQUAL(stop.at("who").get<std::string>(), "eric (127.0.0.1)");
+  CHECK(stop.at("at_ms").get<std::int64_t>() > 1'600'000'000'000);
+  rig.access().give(an_operator);
+  CHECK_EQUAL(rig.request(Method::post, "clear-stop-motion", an_operator).status, 200U);
+  CHECK(rig.wait_until([&] { return rig.get("state").body.at("motion").at("stopped_by").is_null(); }));
+}
+
 }  // namespace
 }  // namespace flexrf::panel
 
@@ -142,6 +190,8 @@ int main() {
       CONTAINED_TEST(control_is_taken_asked_for_and_given),
       CONTAINED_TEST(the_document_describes_every_route),
       CONTAINED_TEST(a_generated_client_can_log_in_and_change_what_it_has_read),
+      CONTAINED_TEST(an_admin_reads_who_did_what),
+      CONTAINED_TEST(the_state_says_who_stopped),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -12,7 +12,8 @@ PlayedAccess::PlayedAccess() : ended_(session_count) {
   sessions_ = {{"panel-1", "", "127.0.0.1", Role::viewer, true},
                {"panel-2", "olga", "127.0.0.1", Role::operator_, true},
                {"panel-3", "eric", "127.0.0.1", Role::engineer, true},
-               {"panel-4", "erna", "127.0.0.1", Role::engineer, true}};
+               {"panel-4", "erna", "127.0.0.1", Role::engineer, true},
+               {"panel-5", "adam", "192.168.0.7", Role::admin, false}};
 }
 
 const SessionInfo* PlayedAccess::session(SessionIndex index) const {

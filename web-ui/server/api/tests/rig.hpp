@@ -15,7 +15,7 @@ namespace flexrf::panel {
 using nlohmann::json;
 
 /// Sessions that there are from the beginning, by role; none holds control.
-enum : SessionIndex { a_viewer, an_operator, an_engineer, another_engineer, session_count };
+enum : SessionIndex { a_viewer, an_operator, an_engineer, another_engineer, an_admin, session_count };
 
 class PlayedAccess final : public AccessControl {
  public:

@@ -10,7 +10,7 @@ import { linkText, type Header } from '../header';
 import { addressOfRoute, parseRoute } from '../router';
 import '../stop_motion';
 import type { StopMotion } from '../stop_motion';
-import { addressOfFault, motionOf, newestFault, remedyOf, titleOf } from '../words';
+import { addressOfFault, motionOf, newestFault, remedyOf, stopText, titleOf } from '../words';
 
 describe('router', () => {
   it.each([
@@ -71,6 +71,16 @@ describe('words', () => {
     expect(remedyOf({ component: 'robot', kind: 'unit', cause: 'x' })).toMatch(/initialise robot on its page\. .*Start motion\.$/);
     expect(remedyOf({ component: 'robot', kind: 'unit', cause: 'x' })).not.toContain('start it');
   });
+});
+
+it('says who stopped, and when', () => {
+  const at = new Date(2026, 10, 23, 15, 4, 5);
+  const state = (motion: object): Parameters<typeof stopText>[0] => ({ motion }) as Parameters<typeof stopText>[0];
+  const stopped = state({ stopped: true, may_move: false, stopped_by: { who: 'anna (10.0.0.2)', at_ms: at.getTime() } });
+  expect(stopText(stopped, at)).toBe('by anna (10.0.0.2) at 15:04:05');
+  expect(stopText(stopped, new Date(2026, 10, 24))).toBe('by anna (10.0.0.2) at 2026-11-23 15:04:05');
+  expect(stopText(state({ stopped: true, may_move: false, stopped_by: null }), at)).toBe('');
+  expect(stopText(state({ stopped: false, may_move: true, stopped_by: { who: 'anna', at_ms: 1 } }), at)).toBe('');
 });
 
 const other = { name: 'panel-2', user: 'anna', address: '10.0.0.2', local: false, you: false };

@@ -1,0 +1,188 @@
+#include "config-gen/read/needs.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config-gen/model/words.hpp"
+
+namespace flexrf::config_gen {
+namespace {
+
+// Numbers of values are kept as bits.
+constexpr std::size_t most_values = 64;
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+std::vector<std::string> parts_of(std::string_view list) {
+  std::vector<std::string> parts;
+  while (true) {
+    const std::size_t bar = list.find('|');
+    parts.emplace_back(without_blanks(list.substr(0, bar)));
+    if (bar == std::string_view::npos) return parts;
+    list.remove_prefix(bar + 1);
+  }
+}
+
+// As the panel writes names.
+std::string spoken(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+Need motion() {
+  return {Need::Of::motion, "", 0, "needs motion to be permitted; give Start"};
+}
+
+class NeedReader {
+ public:
+  NeedReader(Library& library, const ParameterBlock& runtime, const ParameterBlock& feedback)
+      : library_(library), runtime_(runtime), feedback_(feedback) {}
+
+  std::optional<Need> read(const Node& node) {
+    std::string_view text = without_blanks(node.text);
+    if (text == "motion") return motion();
+    const bool negated = text.starts_with("not ");
+    if (negated) text = without_blanks(text.substr(4));
+    const std::size_t equals = text.find('=');
+    const std::string name{without_blanks(text.substr(0, equals))};
+    Need need;
+    const Parameter* const parameter = find(name, need.of);
+    if (parameter == nullptr) return refuse_name(node, name);
+    need.field = name;
+    const FieldType& type = parameter->field.type;
+    const bool is_single = parameter->field.shape.empty() && parameter->input == Parameter::Input::value;
+    if (is_single && type.kind == FieldType::Kind::scalar && type.scalar == Scalar::boolean) {
+      if (equals != std::string_view::npos) {
+        library_.diagnostics().error(node.position, quote(name) + " is a bool and has no values to name",
+                                     "write \"" + name + "\" or \"not " + name + "\"");
+        return std::nullopt;
+      }
+      need.numbers = negated ? 1U : 2U;
+      need.reason = "needs " + spoken(name) + " to be " + (negated ? "off" : "on");
+      return need;
+    }
+    if (is_single && type.kind == FieldType::Kind::declared) {
+      const Type& declared = library_.model().types[type.declared];
+      if (declared.kind == Type::Kind::enumeration)
+        return read_values(node, declared, name, negated,
+                           equals == std::string_view::npos ? "" : text.substr(equals + 1), need);
+    }
+    library_.diagnostics().error(node.position,
+                                 quote(name) + " is neither a bool nor an enumeration: nothing can need it",
+                                 "let the unit tell in a bool of its feedback what it needs");
+    return std::nullopt;
+  }
+
+ private:
+  const Parameter* find(const std::string& name, Need::Of& of) const {
+    for (const auto& [block, kind] :
+         {std::pair{&feedback_, Need::Of::feedback}, std::pair{&runtime_, Need::Of::runtime}}) {
+      for (const Parameter& parameter : block->parameters) {
+        of = kind;
+        if (parameter.field.name == name) return &parameter;
+      }
+    }
+    return nullptr;
+  }
+
+  std::nullopt_t refuse_name(const Node& node, const std::string& name) {
+    std::vector<std::string> known{"motion"};
+    for (const ParameterBlock* block : {&feedback_, &runtime_})
+      for (const Parameter& parameter : block->parameters) known.push_back(parameter.field.name);
+    library_.diagnostics().error(
+        node.position, quote(name) + " is neither \"motion\" nor a name in [feedback] or [runtime] here",
+        suggest(name, known, "names", ""));
+    return std::nullopt;
+  }
+
+  std::optional<Need> read_values(const Node& node, const Type& type, const std::string& name, bool negated,
+                                  std::string_view list, Need need) {
+    Diagnostics& diagnostics = library_.diagnostics();
+    std::vector<std::string> known;
+    for (const EnumerationValue& value : type.values) known.push_back(value.name);
+    if (known.size() > most_values) {
+      diagnostics.error(node.position, quote(name) + " has more than 64 values: nothing can need it",
+                        "let the unit tell in a bool of its feedback what it needs");
+      return std::nullopt;
+    }
+    if (without_blanks(list).empty()) {
+      diagnostics.error(node.position, "which values of " + quote(name) + " will do is not said",
+                        "write \"" + name + " = " + (known.empty() ? "VALUE" : known.front()) + "\"");
+      return std::nullopt;
+    }
+    std::string spoken_list;
+    const std::vector<std::string> wanted = parts_of(list);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const auto found = std::find(known.begin(), known.end(), wanted[i]);
+      if (found == known.end()) {
+        diagnostics.error(node.position, quote(name) + " has no value " + quote(wanted[i]),
+                          suggest(wanted[i], known, "values", ""));
+        return std::nullopt;
+      }
+      need.numbers |= std::uint64_t{1} << (found - known.begin());
+      if (i > 0) spoken_list += i + 1 == wanted.size() ? " or " : ", ";
+      spoken_list += spoken(wanted[i]);
+    }
+    if (negated) {
+      const std::uint64_t all =
+          known.size() == most_values ? ~std::uint64_t{0} : (std::uint64_t{1} << known.size()) - 1;
+      need.numbers = all & ~need.numbers;
+    }
+    need.reason = "needs " + spoken(name) + (negated ? " not to be " : " to be ") + spoken_list;
+    return need;
+  }
+
+  Library& library_;
+  const ParameterBlock& runtime_;
+  const ParameterBlock& feedback_;
+};
+
+}  // namespace
+
+void read_needs(Library& library, const Node& root, ParameterBlock& runtime, const ParameterBlock& feedback) {
+  const Node* const section = root.find("runtime");
+  if (section == nullptr || section->kind != Node::Kind::table) return;
+  // No hold begins without the permission to move.
+  for (Parameter& parameter : runtime.parameters)
+    if (parameter.input == Parameter::Input::hold) parameter.needs.push_back(motion());
+  NeedReader reader(library, runtime, feedback);
+  for (const Node& row : section->children) {
+    const Node* const needs = row.kind == Node::Kind::table ? row.find("needs") : nullptr;
+    if (needs == nullptr) continue;
+    const auto parameter = std::find_if(runtime.parameters.begin(), runtime.parameters.end(),
+                                        [&](const Parameter& one) { return one.field.name == row.key; });
+    if (parameter == runtime.parameters.end()) continue;  // reported before
+    if (parameter->input == Parameter::Input::value) {
+      library.diagnostics().error(
+          needs->position, "[runtime." + row.key + "] is set, and needs nothing",
+          "only a button or a hold has 'needs'; let accept() of the unit refuse values");
+      continue;
+    }
+    std::vector<const Node*> texts;
+    if (needs->kind == Node::Kind::array) {
+      for (const Node& one : needs->children) texts.push_back(&one);
+    } else {
+      texts.push_back(needs);
+    }
+    for (const Node* one : texts) {
+      if (one->kind != Node::Kind::text) {
+        library.diagnostics().error(one->position,
+                                    "'needs' is a text or a list of texts, not " + kind_text(one->kind),
+                                    "write needs = \"motion\", or needs = [\"motion\", \"state = ready\"]");
+        continue;
+      }
+      auto need = reader.read(*one);
+      if (need && !(need->of == Need::Of::motion && parameter->input == Parameter::Input::hold))
+        parameter->needs.push_back(std::move(*need));
+    }
+  }
+}
+
+}  // namespace flexrf::config_gen
