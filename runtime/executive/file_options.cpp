@@ -56,6 +56,19 @@ Status check_output(const char* option, const std::string& path, bool kept) {
   return {};
 }
 
+/// A report in the place of something else would be its end.
+Status check_apart(const std::string& report, const char* option, const std::string& path) {
+  if (report.empty() || path.empty()) return {};
+  struct stat one {};
+  struct stat other {};
+  const bool are_there = stat(report.c_str(), &one) == 0 && stat(path.c_str(), &other) == 0;
+  const bool is_same = are_there ? one.st_dev == other.st_dev && one.st_ino == other.st_ino
+                                 : resolved_path(report) == resolved_path(path);
+  if (!is_same) return {};
+  return Status::error(StatusCode::invalid_argument, "--report %s: this is the file of %s; name another",
+                       report.c_str(), option);
+}
+
 }  // namespace
 
 Status check_file_options(const Options& options) {
@@ -65,6 +78,11 @@ Status check_file_options(const Options& options) {
   if (status) status = check_input("--tls-key", options.tls_key);
   if (status) status = check_output("--config", options.configuration_file, true);
   if (status) status = check_output("--report", options.report_file, false);
+  if (status) status = check_apart(options.report_file, "--config", options.configuration_file);
+  if (status) status = check_apart(options.report_file, "--keys", options.keys_file);
+  if (status) status = check_apart(options.report_file, "--panel-users", options.panel_users);
+  if (status) status = check_apart(options.report_file, "--tls-certificate", options.tls_certificate);
+  if (status) status = check_apart(options.report_file, "--tls-key", options.tls_key);
   return status;
 }
 

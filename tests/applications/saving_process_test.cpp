@@ -1,10 +1,12 @@
 // The configuration file and the other files of the command line, as somebody meets them who runs the built
 // program: what is told at the start, a second run, values that survive, a save that fails.
-#include <fcntl.h>
+#include <sys/ptrace.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 
 #include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
@@ -140,6 +142,49 @@ void what_is_not_there_is_told_at_the_start() {
     check_refused(folder, option, "nowhere/file", "No such file or directory");
 }
 
+void a_report_is_not_written_over_another_file() {
+  const Folder folder;
+  write_file(folder / "cell.xml", "<flexrf checksum=\"edited\"/>\n");
+  CHECK(symlink("cell.xml", (folder / "report").c_str()) == 0);
+  for (const char* const name : {"cell.xml", "report"}) {
+    const Ending ending = run(folder, words_with_file({"--report", name}));
+    CHECK_EQUAL(ending.exit_code, 1);
+    CHECK_CONTAINS(ending.errors, std::string{"--report "} + name + ": this is the file of --config");
+  }
+  CHECK_CONTAINS(contents_of(folder / "cell.xml"), "edited");
+}
+
+/// Of the process's threads.
+pid_t thread_named(pid_t process, const std::string& name) {
+  const std::string tasks = "/proc/" + std::to_string(process) + "/task";
+  for (const auto& entry : std::filesystem::directory_iterator(tasks)) {
+    if (contents_of(entry.path() / "comm") == name + "\n") return std::stoi(entry.path().filename());
+  }
+  return 0;
+}
+
+/// As on a disk that does not answer: units, supervision and log go on, and the end does not wait for ever.
+void a_writing_that_hangs_holds_nobody_up() {
+  const Folder folder;
+  Process process(folder, words_with_file({"--report", "report"}));
+  process.type("g");
+  CHECK(is_saved(folder, "<gain>3</gain>"));
+  const pid_t saver = thread_named(process.id(), "saver");
+  CHECK(saver > 0);
+  CHECK(ptrace(PTRACE_SEIZE, saver, nullptr, nullptr) == 0);
+  CHECK(ptrace(PTRACE_INTERRUPT, saver, nullptr, nullptr) == 0);
+  CHECK(waitpid(saver, nullptr, __WALL) == saver);
+  process.type("dn");
+  process.wait_for_error("it changed its own values, and they are refused: gain: nan");
+  process.send(SIGTERM);
+  process.wait_for_error("the values were not saved: 'cell.xml': its file system does not answer");
+  // It is this process's until the end of it was seen.
+  CHECK(waitpid(saver, nullptr, __WALL) == saver);
+  CHECK_EQUAL(process.wait().exit_code, 2);  // for the fault
+  CHECK_EQUAL(Report(folder / "report").last("tuner.values").at("gain"), 1.0);
+  CHECK_CONTAINS(contents_of(folder / "cell.xml"), "<gain>3</gain>");
+}
+
 }  // namespace
 }  // namespace flexrf::whole
 
@@ -154,6 +199,8 @@ int main() {
       CONTAINED_TEST(a_report_that_fails_is_seen_behind_a_signal),
       CONTAINED_TEST(a_pipe_or_a_folder_is_told_at_the_start),
       CONTAINED_TEST(what_is_not_there_is_told_at_the_start),
+      CONTAINED_TEST(a_report_is_not_written_over_another_file),
+      CONTAINED_TEST(a_writing_that_hangs_holds_nobody_up),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

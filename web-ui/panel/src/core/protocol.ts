@@ -57,6 +57,20 @@ export interface ControlSession {
   readonly you: boolean;
 }
 
+/** Of the values that were set, and the configuration file. */
+export interface SavedValues {
+  /** The application has one. */
+  readonly file: boolean;
+  /** Written by itself after changes, or only on command. */
+  readonly on: 'change' | 'command';
+  /** Something was set that the file does not hold yet. */
+  readonly unsaved: boolean;
+  /** When it was last found to hold everything, since 1970; null: not since the start. */
+  readonly saved_at_ms: number | null;
+  /** Why the last attempt failed; empty: it did not. */
+  readonly failure: string;
+}
+
 export interface ApplicationState {
   readonly mode: Mode;
   readonly cause: string;
@@ -67,6 +81,7 @@ export interface ApplicationState {
     readonly stopped_by?: { readonly who: string; readonly at_ms: number } | null;
   };
   readonly faults: readonly Fault[];
+  readonly values: SavedValues;
   readonly control: {
     readonly holder: ControlSession | null;
     readonly wanted_by: ControlSession | null;

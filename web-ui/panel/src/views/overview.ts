@@ -5,6 +5,7 @@ import type { Item, Model } from '../core/descriptor';
 import { addressOfFault, faultCount, modeOf, modeText, motionOf, motionText, remedyOf } from '../shell/words';
 import './item_widget';
 import './placement_widget';
+import './values_saver';
 import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
@@ -78,6 +79,8 @@ export class Overview extends ViewBase {
       <div class="cards">
         ${this.faults()}
         ${this.stateCard()}
+        <section><h3>Configuration file</h3>
+          <flexrf-values-saver .core=${this.core} .host=${this.host}></flexrf-values-saver></section>
         ${placed.placements.map((placement) => html`
           <section><h3>${placement.label}</h3>
             <flexrf-placement .core=${this.core} .placement=${placement}></flexrf-placement></section>`)}
