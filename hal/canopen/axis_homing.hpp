@@ -43,6 +43,8 @@ class AxisHoming {
   /// Still in its own mode, on its way to rest.
   bool is_resting() const noexcept { return phase_ == Phase::resting; }
   Homing state() const noexcept;
+  /// The drive has found it, and may still be on its way back into its own mode.
+  bool knows_home() const noexcept { return homed_; }
   /// Which mode the drive is to be in.
   Mode mode() const noexcept;
   /// Once for each cycle in which operation is enabled and is_running(): the bits to add to the controlword.

@@ -26,6 +26,8 @@ class CyclicSetPoint {
   /// The set-point of this cycle, `elapsed` after the one before: as near to what is wanted as may be.
   double next(Duration elapsed) noexcept;
   double set_point() const noexcept { return set_point_; }
+  /// Where it is on its way to.
+  double wanted() const noexcept { return wanted_; }
   /// What is wanted is farther away than the axis may go in the cycle.
   bool is_limited() const noexcept { return set_point_ != wanted_; }
 

@@ -16,6 +16,11 @@ std::uint64_t to_object(double increments) {
   return static_cast<std::uint64_t>(std::llround(std::clamp(increments, -largest_object, largest_object)));
 }
 
+// As a counter of 32 bits holds it that runs over.
+std::int32_t wrapped(std::int64_t increments) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(increments));
+}
+
 }  // namespace
 
 Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept {
@@ -84,14 +89,14 @@ bool ServoAxis::take_process_data(const Message& message, Time now) noexcept {
 
 /// The drive's counter runs over after 2^32 increments; an endless axis goes on.
 double ServoAxis::position_of(std::int32_t increments) noexcept {
-  if (!plan_.endless) return increments / plan_.increments_per_unit;
-  if (!counted_) way_ = increments / plan_.increments_per_unit;
-  const auto step = static_cast<std::int32_t>(static_cast<std::uint32_t>(increments) -
-                                              static_cast<std::uint32_t>(counted_.value_or(increments)));
+  const std::int32_t before = counted_.value_or(increments);
+  const bool goes_on = plan_.endless && counted_;
+  count_ = goes_on ? count_ + wrapped(std::int64_t{increments} - before) : increments;
   counted_ = increments;
-  way_ += step / plan_.increments_per_unit;
-  if (plan_.modulo > 0) way_ -= plan_.modulo * std::floor(way_ / plan_.modulo);
-  return way_;
+  way_ = static_cast<double>(count_) / plan_.increments_per_unit;
+  if (plan_.modulo == 0) return way_;
+  const double told = way_ - plan_.modulo * std::floor(way_ / plan_.modulo);
+  return told < plan_.modulo ? told : 0;  // a hair below 0 is rounded up to it
 }
 
 void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) noexcept {
@@ -122,7 +127,10 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   state_->enabled = is_enabled();
   // Where it stops by itself, it stops in the mode that it moves in.
   if (power_.is_enabled() || power_.is_off()) mode_said_ = homing_.mode();
-  target_object_ = to_object(target_for(elapsed));
+  const double target = target_for(elapsed);
+  target_object_ = plan_.endless && !is_led_in(Mode::cyclic_velocity, Mode::profile_velocity)
+                       ? static_cast<std::uint32_t>(wrapped(std::llround(target)))
+                       : to_object(target);
   heard_now_ = false;
   say(word, outbox);
 }
@@ -198,16 +206,19 @@ bool ServoAxis::mode_is_taken(bool wanted, Time now) noexcept {
 
 // Nothing is wanted but to stay where it is.
 void ServoAxis::seed() noexcept {
-  cyclic_.seed(state_->position);
-  handshake_.reset(static_cast<std::int32_t>(std::llround(state_->position * plan_.increments_per_unit)));
+  cyclic_.seed(way_);
+  handshake_.reset(wrapped(count_));
   velocity_ = 0;
   was_commanded_ = halts_ = false;
 }
 
 std::uint16_t ServoAxis::mode_bits(bool at_rest, Time now) noexcept {
   if (homing_.is_running()) {
+    const bool knew_home = homing_.knows_home();
     const std::uint16_t bits = homing_.advance(
         {.statusword = statusword_, .is_new = heard_now_, .shown = mode_shown_, .at_rest = at_rest}, now);
+    // From here on it counts anew, while it is still on its way back into its mode and seeded.
+    if (homing_.knows_home() && !knew_home) counted_.reset();
     if (!homing_.trouble().is_ok()) fail(homing_.trouble());
     if (!homing_.is_resting()) return bits;
   }
@@ -238,8 +249,8 @@ double ServoAxis::target_for(Duration elapsed) noexcept {
     default:
       break;
   }
-  const double set_point = power_.is_enabled() ? cyclic_.next(elapsed) : state_->position;
-  state_->following_error = set_point - state_->position;
+  const double set_point = power_.is_enabled() ? cyclic_.next(elapsed) : way_;
+  state_->following_error = set_point - way_;
   return set_point * plan_.increments_per_unit;
 }
 
@@ -264,7 +275,9 @@ bool ServoAxis::has_reached(std::uint16_t statusword) const noexcept {
   if (!power_.is_enabled() || !was_commanded_ || halts_) return false;
   if (plan_.mode == Mode::profile_position) {
     // What the drive says may be about another target: it is there only if it is there.
-    const double off = state_->position - handshake_.target() / plan_.increments_per_unit;
+    const std::int64_t beside = count_ - handshake_.target();
+    const double off =
+        static_cast<double>(plan_.endless ? wrapped(beside) : beside) / plan_.increments_per_unit;
     return handshake_.is_reached(statusword) && std::abs(off) <= plan_.fastest * seconds(plan_.period);
   }
   if (plan_.mode != Mode::profile_velocity || would_leave()) return false;

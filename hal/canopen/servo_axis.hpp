@@ -25,10 +25,10 @@ struct AxisPlan {
   double increments_per_unit = 1000;               ///< negative: it turns the other way; not 0
   double lowest = -1000;                           ///< position, unit
   double highest = 1000;                           ///< position, unit
-  bool endless = false;                ///< it has no end: neither of them counts; led by velocities
-  double modulo = 0;                   ///< of an endless one, unit: told from 0 up to this; 0: counted on
-  double fastest = 1;                  ///< unit/s, above 0
-  double acceleration = 10;            ///< unit/s^2, above 0: of profiles, and of a halt
+  bool endless = false;      ///< it has no end: neither of them counts; its drive's counter runs over
+  double modulo = 0;         ///< of an endless one, unit: told from 0 up to this; 0: counted on
+  double fastest = 1;        ///< unit/s, above 0
+  double acceleration = 10;  ///< unit/s^2, above 0: of profiles, and of a halt
   double quick_stop_deceleration = 0;  ///< unit/s^2; 0: as the drive has it
   /// The drive's units of velocity for one increment/s, and of acceleration for one increment/s^2; above 0.
   double velocity_factor = 1;
@@ -94,14 +94,14 @@ class ServoAxis {
   // What follows is without effect in other modes, while the axis is not enabled, and while it homes, and is
   // not remembered. What is not finite is a fault.
 
-  /// In modes cyclic_position and interpolated_position: unit, kept within lowest and highest. Held until the
-  /// next one.
+  /// In modes cyclic_position and interpolated_position: unit, kept within lowest and highest; with a modulo
+  /// by the shorter way from the one before. Held until the next one.
   void command_position(double position) noexcept;
   /// In modes cyclic_velocity and profile_velocity: unit/s, kept within fastest; zero once the axis is beyond
   /// its range and would go on.
   void command_velocity(double velocity) noexcept;
   /// In mode profile_position: unit, kept within lowest and highest, and unit/s, above 0, kept within
-  /// fastest. Gives up the target before.
+  /// fastest; with a modulo by the shorter way from where it is. Gives up the target before.
   void move_to(double position, double speed) noexcept;
   /// In every mode, unless the plan's method is 0.
   void home() noexcept;
@@ -161,6 +161,8 @@ class ServoAxis {
   bool may_be_commanded() const noexcept;
   bool would_leave() const noexcept;
   bool is_number(double value, const char* what) noexcept;
+  double by_the_shorter_way(double position, double from) const noexcept;
+  double in_reach(double way) noexcept;
   double position_of(std::int32_t increments) noexcept;
   double within(double value, double lowest, double highest, const char* reason) noexcept;
   void seed() noexcept;
@@ -206,9 +208,9 @@ class ServoAxis {
   double velocity_ = 0;              // commanded
   double most_torque_ = 1;           // of its rated torque
   std::uint64_t target_object_ = 0;  // as it was sent
-  std::optional<std::int32_t>
-      counted_;  // of an endless axis: what the drive said last, and how far it has come, unit
-  double way_ = 0;
+  std::optional<std::int32_t> counted_;  // of an endless axis: what the drive said last
+  std::int64_t count_ = 0;               // increments, beyond what the drive's counter holds
+  double way_ = 0;                       // the same, unit: the position but for its modulo
   Restraint restraint_;
 };
 

@@ -1,6 +1,7 @@
 // What a unit commands an axis.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hal/canopen/servo_axis.hpp"
 #include "hal/interfaces/servo_drive/servo_restraints.hpp"
@@ -9,7 +10,9 @@ namespace flexrf::canopen::cia402 {
 void ServoAxis::command_position(double position) noexcept {
   if (!takes(Mode::cyclic_position, Mode::interpolated_position) || !may_be_commanded()) return;
   if (!is_number(position, "position")) return;
-  cyclic_.command(within(position, plan_.lowest, plan_.highest, servo_restraints::out_of_range));
+  cyclic_.command(plan_.endless
+                      ? by_the_shorter_way(position, cyclic_.wanted())
+                      : within(position, plan_.lowest, plan_.highest, servo_restraints::out_of_range));
 }
 
 void ServoAxis::command_velocity(double velocity) noexcept {
@@ -37,8 +40,11 @@ void ServoAxis::move_to(double position, double speed) noexcept {
     kept_speed = within(speed, 0, plan_.fastest, servo_restraints::too_fast);
     if (!plan_.tells_speed) restraint_ = {.reason = servo_restraints::own_speed, .asked = speed};
   }
-  const double kept = within(position, plan_.lowest, plan_.highest, servo_restraints::out_of_range);
-  handshake_.command(static_cast<std::int32_t>(std::llround(kept * plan_.increments_per_unit)), kept_speed);
+  const double kept = plan_.endless
+                          ? in_reach(by_the_shorter_way(position, way_))
+                          : within(position, plan_.lowest, plan_.highest, servo_restraints::out_of_range);
+  const auto target = static_cast<std::uint32_t>(std::llround(kept * plan_.increments_per_unit));
+  handshake_.command(static_cast<std::int32_t>(target), kept_speed);
   was_commanded_ = true;
   state_->target_reached = false;
 }
@@ -57,7 +63,9 @@ void ServoAxis::halt() noexcept {
   if (!power_.is_enabled() || !state_) return;
   homing_.halt();
   if (homing_.is_running()) return;
-  cyclic_.halt(plan_.acceleration, plan_.lowest, plan_.highest);
+  constexpr double no_end = std::numeric_limits<double>::infinity();
+  cyclic_.halt(plan_.acceleration, plan_.endless ? -no_end : plan_.lowest,
+               plan_.endless ? no_end : plan_.highest);
   handshake_.reset(handshake_.target());
   was_commanded_ = false;
   halts_ = true;
@@ -78,6 +86,18 @@ double ServoAxis::within(double value, double lowest, double highest, const char
   const double kept = std::clamp(value, lowest, highest);
   if (kept != value) restraint_ = {reason, value, kept};
   return kept;
+}
+
+// Of all that are the same to a modulo.
+double ServoAxis::by_the_shorter_way(double position, double from) const noexcept {
+  return plan_.modulo > 0 ? from + std::remainder(position - from, plan_.modulo) : position;
+}
+
+// The drive's counter has run over half, and it would go there the other way round.
+double ServoAxis::in_reach(double way) noexcept {
+  constexpr double half_of_counter = std::numeric_limits<std::int32_t>::max();
+  const double farthest = half_of_counter / std::abs(plan_.increments_per_unit);
+  return within(way, way_ - farthest, way_ + farthest, servo_restraints::too_far);
 }
 
 bool ServoAxis::is_number(double value, const char* what) noexcept {

@@ -40,12 +40,11 @@ Status ServoAxis::check(const AxisPlan& plan) const noexcept {
   if (plan.limits_torque && plan.mode != Mode::profile_position) {
     return wrong("its torque can be limited in mode profile position alone");
   }
-  const bool is_led_by_velocity = plan.mode == Mode::cyclic_velocity || plan.mode == Mode::profile_velocity;
-  if (plan.endless && !is_led_by_velocity) {
-    return wrong("it is endless, and is not led by velocities (mode cyclic_velocity or profile_velocity)");
-  }
   if (!(plan.modulo >= 0) || !std::isfinite(plan.modulo) || (plan.modulo > 0 && !plan.endless)) {
     return wrong("its modulo is below 0, or it is not endless");
+  }
+  if (!(plan.modulo * std::abs(plan.increments_per_unit) <= largest_increments)) {
+    return wrong("its modulo has more increments than the drive can count");
   }
   if (!plan.endless && !(plan.lowest < plan.highest))
     return wrong("its lowest position is not below its highest");

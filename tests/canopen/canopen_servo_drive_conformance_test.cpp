@@ -14,6 +14,8 @@ class CanopenWorld final : public ServoDriveWorld {
   explicit CanopenWorld(const ServoDriveSetup& setup) {
     auto& configuration = drive_.configuration();
     configuration.mode = setup.mode;
+    configuration.endless = setup.endless;
+    configuration.modulo = setup.modulo;
     configuration.acceleration = 100;
     configuration.homing_method = setup.needs_home ? 33 : 0;
     configuration.homing_speed = 2;

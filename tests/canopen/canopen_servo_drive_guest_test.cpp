@@ -13,6 +13,8 @@ class RealDriveWorld final : public ServoDriveWorld {
   explicit RealDriveWorld(const ServoDriveSetup& setup) {
     auto& configuration = axis_.configuration();
     configuration.mode = setup.mode;
+    configuration.endless = setup.endless;
+    configuration.modulo = setup.modulo;
     configuration.acceleration = 100;
     configuration.homing_method = setup.needs_home ? 33 : 0;
     configuration.homing_speed = 2;

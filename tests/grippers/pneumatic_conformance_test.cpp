@@ -72,6 +72,41 @@ bool follows_mere_wires() {
   return true;
 }
 
+// Something is in the way of the switch for closed, until it is taken away.
+bool finds_an_object_on_mere_wires() {
+  DeviceBench<SimulatedGpioChip> chip(nullptr);
+  chip.configuration().set_wires("VALVE_OPEN>REED_OPEN VALVE_CLOSE>REED_CLOSED");
+  chip.configuration().wire_delay = 0.1;
+  chip.configuration().set_blocked("REED_CLOSED");
+  if (!chip.driver().initialise()) return false;
+  DeviceBench<PneumaticGripper> gripper(nullptr, {}, &chip.driver());
+  gripper.configuration().travel_timeout = 0.3;
+  if (!gripper.driver().initialise()) return false;
+  const auto run_for = [&](int milliseconds) {
+    for (int i = 0; i < milliseconds; ++i) {
+      chip.receive(std::chrono::milliseconds(1));
+      gripper.receive(std::chrono::milliseconds(1));
+      gripper.send();
+      chip.send();
+    }
+    return gripper.driver().state().value_or(GripperState{}).object;
+  };
+  run_for(10);
+  gripper.driver().open();
+  if (run_for(500) == GripperObject::gripped) return false;
+  for (int grips = 1; grips <= 2; ++grips) {
+    gripper.driver().close();
+    if (run_for(500) != GripperObject::gripped || !gripper.driver().trouble().is_ok()) return false;
+    gripper.driver().open();
+    if (run_for(500) == GripperObject::gripped) return false;
+  }
+  gripper.driver().close();
+  if (run_for(500) != GripperObject::gripped) return false;
+  chip.driver().line("REED_CLOSED").block(false);
+  if (run_for(500) != GripperObject::lost) return false;
+  return gripper.feedback().grips == 3 && gripper.feedback().losses == 1;
+}
+
 // The write that switches a valve off fails for a while.
 bool keeps_one_valve_off_while_the_other_does_not_go_off(bool closes) {
   DeviceBench<MockGpioChip> chip(nullptr);
@@ -118,6 +153,9 @@ bool tells_a_line_it_cannot_have() {
 void wires_of_a_simulated_chip_are_enough(void**) {
   assert_true(follows_mere_wires());
 }
+void an_object_is_found_on_mere_wires(void**) {
+  assert_true(finds_an_object_on_mere_wires());
+}
 void the_valves_are_never_on_together_also_when_a_write_fails(void**) {
   assert_true(keeps_one_valve_off_while_the_other_does_not_go_off(true));
   assert_true(keeps_one_valve_off_while_the_other_does_not_go_off(false));
@@ -131,6 +169,7 @@ void a_line_it_cannot_have_is_told(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(wires_of_a_simulated_chip_are_enough),
+      cmocka_unit_test(an_object_is_found_on_mere_wires),
       cmocka_unit_test(the_valves_are_never_on_together_also_when_a_write_fails),
       cmocka_unit_test(a_line_it_cannot_have_is_told),
   };

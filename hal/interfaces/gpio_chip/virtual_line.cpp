@@ -45,8 +45,9 @@ void VirtualLine::receive(Time now) noexcept {
     high_.store((taken_ & 1U) != 0, std::memory_order_release);
     wired_ = false;
   }
-  if (source_ != nullptr && source_->is_high() != wired_) {
-    wired_ = !wired_;
+  const bool follows = source_ != nullptr && source_->is_high() && (wired_ || !blocked_);
+  if (follows != wired_) {
+    wired_ = follows;
     schedule(now + wire_delay_, wired_);
   }
   take_scheduled(now);

@@ -21,6 +21,9 @@ class VirtualLine final : public GpioLine {
   void configure(const GpioLineSettings& settings, const std::atomic<bool>& chip_present) noexcept;
   /// An input follows this output (physical levels), `delay` later.
   void wire(const VirtualLine& source, Duration delay) noexcept;
+  /// While it is on, an input that is low stays so, whatever its wire says: what would close the contact does
+  /// not come that far.
+  void block(bool on) noexcept { blocked_ = on; }
   /// Whenever drive() changes the level, the contact opens and closes a few times within `duration`.
   void bounce(Duration duration, std::uint64_t seed) noexcept;
 
@@ -63,6 +66,7 @@ class VirtualLine final : public GpioLine {
   const VirtualLine* source_ = nullptr;
   Duration wire_delay_{};
   bool wired_ = false;
+  bool blocked_ = false;
   Duration bounce_{};
   std::uint64_t random_ = 1;
   bool present_ = false;

@@ -41,13 +41,15 @@ class ServoDrive : public ServoDriveInterface {
   virtual std::optional<ServoState> state() const noexcept = 0;
 
   /// In mode cyclic_position: where the axis shall be, sent at the end of the cycle and held until the next
-  /// command. Kept to the range and the velocity of the configuration.
+  /// command. Kept to the range and the velocity of the configuration; an endless axis has no range, and with
+  /// a modulo goes the shorter way from the command before.
   virtual void command_position(double position) noexcept = 0;
   /// In mode cyclic_velocity or profile_velocity: how fast it shall be, kept to the velocity of the
   /// configuration; zero once the axis is beyond its range and would go on, unless it is endless.
   virtual void command_velocity(double velocity) noexcept = 0;
   /// In mode profile_position: where it shall go, once for each target and not in each cycle; kept to the
-  /// range. It gives up the target before. `speed`: above 0, kept to the velocity of the configuration.
+  /// range; an endless axis has none, and with a modulo goes the shorter way from where it is. It gives up
+  /// the target before. `speed`: above 0, kept to the velocity of the configuration.
   virtual void move_to(double position, double speed = full_speed) noexcept = 0;
 
   /// Begins to find its home with the configured method, whatever the mode; homing is `running` from this

@@ -4,6 +4,8 @@
 namespace flexrf::servo_restraints {
 
 inline constexpr const char* out_of_range = "a position outside of `lowest` to `highest` is not gone to";
+inline constexpr const char* too_far =
+    "a way of more than half of what the drive's counter holds is not gone at once";
 inline constexpr const char* end_of_range =
     "it goes no farther than the end of its range, `lowest` or `highest`";
 inline constexpr const char* too_fast = "a velocity above `fastest` is not taken";

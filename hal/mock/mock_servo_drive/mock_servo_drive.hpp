@@ -19,6 +19,7 @@ class MockServoDrive final : public MockServoDriveDriver {
  public:
   Status initialise() override {
     state_ = ServoState{};
+    set_point_ = way_ = 0;
     commanded_.reset();
     homing_ = ServoHoming::not_homed;
     homing_problem_ = {};
@@ -107,7 +108,7 @@ class MockServoDrive final : public MockServoDriveDriver {
     state_ = state;
     if (state) {
       homing_ = state->homing;
-      set_point_ = state->position;
+      set_point_ = way_ = state->position;
     }
     measure();
     tell();
@@ -150,8 +151,13 @@ class MockServoDrive final : public MockServoDriveDriver {
   }
   void take_position(double position) noexcept {
     if (!is_number(position)) return;
-    const double kept = std::clamp(position, configuration.lowest, configuration.highest);
-    if (kept != position) restrain(servo_restraints::out_of_range, position, kept);
+    double kept = std::clamp(position, configuration.lowest, configuration.highest);
+    if (configuration.endless) {
+      const bool cyclic = configuration.mode == ServoMode::cyclic_position;
+      kept = by_the_shorter_way(position, cyclic ? commanded_.value_or(way_) : way_);
+    } else if (kept != position) {
+      restrain(servo_restraints::out_of_range, position, kept);
+    }
     take(kept);
     state_->target_reached = false;
   }
@@ -168,7 +174,7 @@ class MockServoDrive final : public MockServoDriveDriver {
 
   void move(double elapsed) noexcept {
     const bool cyclic = configuration.mode == ServoMode::cyclic_position;
-    if (!cyclic || !commanded_) set_point_ = state_->position;
+    if (!cyclic || !commanded_) set_point_ = way_;
     if (homing_ == ServoHoming::running) {
       const bool reached = go_to(0, configuration.homing_speed * elapsed);
       if (reached && !sticks_) homing_ = ServoHoming::homed;
@@ -181,24 +187,28 @@ class MockServoDrive final : public MockServoDriveDriver {
       return;
     }
     if (sticks_) return;
-    const double wanted = state_->position + *commanded_ * elapsed;
-    if (configuration.endless) {
-      const double modulo = configuration.modulo;
-      state_->position = modulo > 0 ? wanted - modulo * std::floor(wanted / modulo) : wanted;
-      state_->target_reached = configuration.mode == ServoMode::profile_velocity;
-      return;
-    }
-    state_->position = std::clamp(wanted, configuration.lowest, configuration.highest);
-    if (state_->position != wanted) restrain(servo_restraints::end_of_range, *commanded_, 0);
-    state_->target_reached = configuration.mode == ServoMode::profile_velocity && state_->position == wanted;
+    const double wanted = way_ + *commanded_ * elapsed;
+    const bool endless = configuration.endless;
+    go_on_to(endless ? wanted : std::clamp(wanted, configuration.lowest, configuration.highest));
+    if (way_ != wanted) restrain(servo_restraints::end_of_range, *commanded_, 0);
+    state_->target_reached = configuration.mode == ServoMode::profile_velocity && way_ == wanted;
   }
   // True: the set-point is there, and with it the axis.
   bool go_to(double wanted, double most) noexcept {
     const double distance = wanted - set_point_;
     const bool reached = std::abs(distance) <= most;
     set_point_ = reached ? wanted : set_point_ + std::copysign(most, distance);
-    if (!sticks_) state_->position = set_point_;
+    if (!sticks_) go_on_to(set_point_);
     return reached;
+  }
+  void go_on_to(double way) noexcept {
+    way_ = way;
+    const double modulo = configuration.endless ? configuration.modulo : 0;
+    state_->position = modulo > 0 ? way - modulo * std::floor(way / modulo) : way;
+  }
+  double by_the_shorter_way(double position, double from) const noexcept {
+    const double modulo = configuration.modulo;
+    return modulo > 0 ? from + std::remainder(position - from, modulo) : position;
   }
   void measure() noexcept {
     if (!state_) return;
@@ -212,7 +222,8 @@ class MockServoDrive final : public MockServoDriveDriver {
     feedback.target_reached = state_ && state_->target_reached;
     if (!state_) return;
     const bool cyclic = configuration.mode == ServoMode::cyclic_position;
-    state_->following_error = cyclic && commanded_ ? set_point_ - measured_.position : 0;
+    const double behind = by_the_shorter_way(set_point_ - measured_.position, 0);
+    state_->following_error = cyclic && commanded_ ? behind : 0;
     state_->homing = homing_;
     if (homing_ == ServoHoming::running || !commanded_) state_->target_reached = false;
     feedback.position = measured_.position;
@@ -224,6 +235,7 @@ class MockServoDrive final : public MockServoDriveDriver {
   std::optional<ServoState> state_;  // where it is
   Measured measured_;
   std::optional<double> commanded_;
+  double way_ = 0;        // its position but for its modulo
   double set_point_ = 0;  // where the axis is to be by now, on its way to what is commanded
   double speed_ = 1;
   bool sticks_ = false;

@@ -96,8 +96,9 @@ void SimulatedCia402Drive::command(Time now, Outbox& outbox) {
       if (disable_voltage) enter(DriveState::switch_on_disabled, now);
       if (quick_stop) enter(DriveState::quick_stop_active, now);
       if ((risen & control_bit::new_set_point) != 0) {
-        const auto told = static_cast<double>(objects_.get_signed(axis::target_position));
-        profile_target_ = (word & control_bit::relative) != 0 ? profile_target_ + told : told;
+        const std::int64_t told = objects_.get_signed(axis::target_position);
+        const bool is_relative = (word & control_bit::relative) != 0;
+        profile_target_ = is_relative ? profile_target_ + static_cast<double>(told) : place_of(told);
         profile_speed_ = static_cast<double>(objects_.get(axis::profile_velocity));
         if (objects_.get_signed(axis::mode) == static_cast<int>(Mode::profile_position)) ++set_points_;
         mode_bits_ = status_bit::set_point_acknowledged;
@@ -179,7 +180,7 @@ void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
   }
   switch (mode) {
     case Mode::cyclic_position: {
-      const auto target = static_cast<double>(objects_.get_signed(axis::target_position));
+      const double target = place_of(objects_.get_signed(axis::target_position));
       mode_bits_ = status_bit::follows;
       if (cyclic_speed_ > options_.fastest) mode_bits_ |= status_bit::internal_limit;
       motion_.follow(target, std::min(cyclic_speed_, options_.fastest), time);

@@ -239,12 +239,18 @@ void SimulatedCia402Drive::apply(const canopen::PdoPlan& plan, const Message& me
   // It goes to a cyclic position within the period that it was told, as drives do that interpolate.
   const double period = static_cast<double>(objects_.get(axis::period_value)) *
                         std::pow(10.0, static_cast<double>(objects_.get_signed(axis::period_exponent)));
-  const double distance =
-      std::abs(static_cast<double>(objects_.get_signed(axis::target_position)) - motion_.position());
+  const double distance = std::abs(place_of(objects_.get_signed(axis::target_position)) - motion_.position());
   cyclic_speed_ = distance / std::max(period, 1e-6);
   if (state_ == DriveState::operation_enabled && is_cyclic_position()) {
     longest_jump_ = std::max(longest_jump_, distance);
   }
+}
+
+// Its counter of 32 bits runs over, and a target is where it is nearer.
+double SimulatedCia402Drive::place_of(std::int64_t target) const {
+  const std::int64_t here = std::llround(motion_.position());
+  return static_cast<double>(here + static_cast<std::int32_t>(static_cast<std::uint32_t>(target) -
+                                                              static_cast<std::uint32_t>(here)));
 }
 
 bool SimulatedCia402Drive::is_cyclic_position() const {

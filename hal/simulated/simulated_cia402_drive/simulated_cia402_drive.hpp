@@ -99,6 +99,7 @@ class SimulatedCia402Drive {
   void send_at_sync(Time now, canopen::Outbox& outbox);
   void send_by_events(Time now, canopen::Outbox& outbox);
   bool is_cyclic_position() const;
+  double place_of(std::int64_t target) const;
   void supervise(Time now, canopen::Outbox& outbox);
   void raise(Error error, std::uint16_t code, canopen::Outbox& outbox);
   void end(Error error, canopen::Outbox& outbox);

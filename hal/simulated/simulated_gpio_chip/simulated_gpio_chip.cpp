@@ -43,6 +43,15 @@ Status SimulatedGpioChip::initialise() {
     return Status{};
   });
   if (!driven) return driven;
+  while (blocked_count_ > 0) blocked_[--blocked_count_]->block(false);
+  const Status blocked = each_word(text_view(configuration.blocked), [&](std::string_view word) {
+    VirtualLine* const input = chip_.line(word);
+    if (input == nullptr || blocked_count_ == blocked_.size()) return unusable(word);
+    blocked_[blocked_count_++] = input;
+    input->block(true);
+    return Status{};
+  });
+  if (!blocked) return blocked;
   return each_word(text_view(configuration.wires), [&](std::string_view word) {
     const std::size_t arrow = word.find('>');
     if (arrow == std::string_view::npos || arrow == 0 || arrow + 1 == word.size()) {

@@ -1,6 +1,9 @@
 // SimulatedGpioChip: a chip with contacts that bounce and with wires from its outputs to its inputs.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "hal/interfaces/gpio_chip/virtual_chip.hpp"
 #include "simulated_gpio_chip_driver.hpp"
 
@@ -21,6 +24,8 @@ class SimulatedGpioChip final : public SimulatedGpioChipDriver {
 
  private:
   VirtualChip chip_;
+  std::array<VirtualLine*, VirtualChip::capacity> blocked_{};
+  std::size_t blocked_count_ = 0;  // since it was initialised
 };
 
 }  // namespace flexrf

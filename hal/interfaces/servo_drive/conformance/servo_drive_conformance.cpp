@@ -2,8 +2,10 @@
 
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "hal/interfaces/servo_drive/conformance/servo_drive_cases.hpp"
+#include "hal/interfaces/servo_drive/servo_restraints.hpp"
 #include "tests/conformance.hpp"
 
 namespace flexrf {
@@ -15,11 +17,19 @@ using enum ServoMode;
 MakeServoDriveWorld make_world = nullptr;
 
 // Each case runs in here, so that a failing assertion jumps over no destructor.
-template <Verdict (*Run)(ServoDriveWorld&), ServoMode Mode = cyclic_position, bool NeedsHome = false>
+enum class Range { limited, endless, modulo };
+constexpr double whole_turn = 6;
+
+template <Verdict (*Run)(ServoDriveWorld&), ServoMode Mode = cyclic_position, bool NeedsHome = false,
+          Range Of = Range::limited>
 void judged(void**) {
   Verdict result = Verdict::failed;
   {
-    const std::unique_ptr<ServoDriveWorld> world = make_world({.mode = Mode, .needs_home = NeedsHome});
+    const std::unique_ptr<ServoDriveWorld> world =
+        make_world({.mode = Mode,
+                    .needs_home = NeedsHome,
+                    .endless = Of != Range::limited,
+                    .modulo = Of == Range::modulo ? whole_turn : 0});
     result = Run(*world);
     if (result == Verdict::failed) {
       print_message("fault: %s; homing: %s\n", world->drive().fault().cause(),
@@ -129,6 +139,73 @@ Verdict says_nothing_when_it_is_not_heard(ServoDriveWorld& world) {
   return verdict(!world.drive().state());
 }
 
+// What it does with its next command, as the operator reads it; null: all of it.
+template <class Command>
+const char* reason_after(ServoDriveWorld& world, Command command) {
+  idle_for(world, cycle_seconds / 2);
+  static_cast<void>(world.drive().take_restraint());
+  do_once(world, command);
+  return world.drive().take_restraint().reason;
+}
+
+Verdict says_what_it_holds_back(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  using namespace servo_restraints;
+  return verdict(reason_after(world, [](ServoDrive& drive) { drive.command_position(2); }) == nullptr &&
+                 reason_after(world, [](ServoDrive& drive) { drive.command_position(11); }) == out_of_range &&
+                 reason_after(world, [](ServoDrive& drive) { drive.command_velocity(1); }) == another_mode &&
+                 reason_after(world, [](ServoDrive& drive) { drive.move_to(2); }) == another_mode &&
+                 reason_after(world, [](ServoDrive& drive) { drive.home(); }) == no_homing);
+}
+
+Verdict says_that_it_goes_no_faster(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  using namespace servo_restraints;
+  return verdict(reason_after(world, [](ServoDrive& drive) { drive.move_to(2, 3); }) == nullptr &&
+                 reason_after(world, [](ServoDrive& drive) { drive.move_to(3, 21); }) == too_fast &&
+                 reason_after(world, [](ServoDrive& drive) { drive.move_to(-11); }) == out_of_range &&
+                 reason_after(world, [](ServoDrive& drive) { drive.command_position(1); }) == another_mode);
+}
+
+// Where it is commanded to in the mode that it is in.
+void send_to(ServoDriveWorld& world, double position, bool cyclic) {
+  if (cyclic) {
+    command_for(world, position, 3);
+  } else {
+    do_once(world, [position](ServoDrive& drive) { drive.move_to(position, 10); });
+    static_cast<void>(is_reached_in_time(world));
+  }
+}
+
+template <bool Cyclic>
+Verdict an_endless_axis_goes_anywhere(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  static_cast<void>(world.drive().take_restraint());
+  for (const double far : {25.0, -25.0}) {
+    send_to(world, far, Cyclic);
+    if (!is_at(world, far)) return Verdict::failed;
+  }
+  return verdict(world.drive().take_restraint().reason == nullptr && world.drive().fault().is_ok());
+}
+
+// From 1 to 5 it is nearer through 0, which is 6 as well; and 13 is 1.
+template <bool Cyclic>
+Verdict a_modulo_axis_goes_the_shorter_way(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  for (const auto& [asked, told] : {std::pair{5.0, 5.0}, std::pair{13.0, 1.0}, std::pair{-1.0, 5.0}}) {
+    if (!Cyclic) do_once(world, [to = asked](ServoDrive& drive) { drive.move_to(to, 10); });
+    for (int cycles = 0; cycles < 150; ++cycles) {
+      if (Cyclic) command_for(world, asked, cycle_seconds / 2);
+      if (!Cyclic) idle_for(world, cycle_seconds / 2);
+      const double position = state_of(world).position;
+      const bool is_on_the_shorter_way = position < 1 + tolerance || position > 5 - tolerance;
+      if (position < 0 || position >= whole_turn || !is_on_the_shorter_way) return Verdict::failed;
+    }
+    if (!is_at(world, told)) return Verdict::failed;
+  }
+  return verdict(world.drive().fault().is_ok());
+}
+
 Verdict an_axis_that_sticks_is_a_fault(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (!world.stick_axis()) return Verdict::skipped;
@@ -167,6 +244,16 @@ int run_servo_drive_conformance(const char* driver, MakeServoDriveWorld make) {
       test("never follows what is infinite", judged<nonsense_is_a_fault_and_never_followed<1>>),
       test("can be made safe", judged<can_be_made_safe>),
       test("is silent when it is not heard", judged<says_nothing_when_it_is_not_heard>),
+      test("says what it holds back", judged<says_what_it_holds_back>),
+      test("says that it goes no faster", judged<says_that_it_goes_no_faster, profile_position>),
+      test("endless, goes anywhere",
+           judged<an_endless_axis_goes_anywhere<true>, cyclic_position, false, Range::endless>),
+      test("endless, goes to targets anywhere",
+           judged<an_endless_axis_goes_anywhere<false>, profile_position, false, Range::endless>),
+      test("modulo, goes the shorter way",
+           judged<a_modulo_axis_goes_the_shorter_way<true>, cyclic_position, false, Range::modulo>),
+      test("modulo, goes to targets the shorter way",
+           judged<a_modulo_axis_goes_the_shorter_way<false>, profile_position, false, Range::modulo>),
       test("is in fault when its axis sticks", judged<an_axis_that_sticks_is_a_fault>),
       test("reports a tripped drive", judged<reports_a_tripped_drive>),
       test("goes to targets", judged<goes_to_targets_and_says_when_it_is_there, profile_position>),

@@ -36,6 +36,8 @@ class ServoDriveWorld {
 struct ServoDriveSetup {
   ServoMode mode = ServoMode::cyclic_position;
   bool needs_home = false;  ///< by a method that has its home at 0
+  bool endless = false;     ///< then it has no range
+  double modulo = 0;
 };
 using MakeServoDriveWorld = std::unique_ptr<ServoDriveWorld> (*)(const ServoDriveSetup& setup);
 

@@ -11,6 +11,8 @@ class MockWorld final : public ServoDriveWorld {
   explicit MockWorld(const ServoDriveSetup& setup) {
     auto& configuration = bench_.configuration();
     configuration.mode = setup.mode;
+    configuration.endless = setup.endless;
+    configuration.modulo = setup.modulo;
     configuration.acceleration = 100;
     configuration.homing_method = setup.needs_home ? 33 : 0;
     configuration.homing_speed = 2;

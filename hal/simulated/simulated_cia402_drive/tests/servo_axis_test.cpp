@@ -196,6 +196,62 @@ void an_endless_axis_has_no_end(void**) {
   assert_true(counting.axis.state()->position > 100);
 }
 
+/// The drive's counter runs over in the midst of the way, whichever way it counts.
+void an_endless_axis_goes_on_when_the_counter_runs_over(void**) {
+  for (const double increments : {1000.0, -1000.0}) {
+    for (const Mode mode : {Mode::cyclic_position, Mode::profile_position}) {
+      for (const double modulo : {0.0, 7.0}) {
+        AxisPlan with = plan();
+        with.mode = mode;
+        with.endless = true;
+        with.modulo = modulo;
+        with.increments_per_unit = increments;
+        Cell cell(with, {.node = node, .first_position = 2147480000});
+        assert_true(cell.run_until_enabled());
+        const double first = cell.axis.state()->position;
+        const double before = cell.drive.motion().position();
+        // Six times 2 units, in increments more than there are to the end of the counter.
+        for (int turn = 1; turn <= 6; ++turn) {
+          const double goal = first + (increments > 0 ? 2 : -2) * turn;
+          if (mode == Mode::cyclic_position) cell.position = goal;
+          if (mode == Mode::profile_position) cell.axis.move_to(goal, 20);
+          cell.run(1000);
+        }
+        assert_true(cell.axis.fault().is_ok());
+        assert_true(std::abs(cell.drive.motion().position() - before - 12'000) < 2);
+        if (mode == Mode::profile_position) assert_true(cell.axis.state()->target_reached);
+        const double gone = cell.axis.state()->position - (first + (increments > 0 ? 12 : -12));
+        assert_true(std::abs(modulo > 0 ? std::remainder(gone, modulo) : gone) < 0.002);
+      }
+    }
+  }
+}
+
+/// A home that it finds begins its count anew, however often the counter ran over before.
+void an_endless_axis_that_was_homed_counts_from_its_home(void**) {
+  AxisPlan with = plan();
+  with.endless = true;
+  with.modulo = 7;
+  with.increments_per_unit = 1000;
+  with.homing_method = 35;
+  Cell cell(with, {.node = node, .first_position = 2147480000});
+  assert_true(cell.run_until_enabled());
+  cell.position = cell.axis.state()->position + 3;
+  cell.run(1000);
+  cell.position = *cell.position + 3;
+  cell.run(1000);
+  assert_true(cell.drive.motion().position() > 2147483648.0);
+  cell.position.reset();
+  cell.axis.home();
+  cell.run(2000);
+  assert_true(cell.axis.homing() == canopen::cia402::Homing::homed);
+  assert_true(cell.is_at(0));
+  cell.position = 3;
+  cell.run(1000);
+  assert_true(cell.is_at(3) && std::abs(cell.drive.motion().position() - 3000) < 2);
+  assert_true(cell.axis.fault().is_ok());
+}
+
 void a_drive_fault_is_told_with_what_the_drive_says(void**) {
   Cell cell;
   assert_true(cell.run_until_enabled());
@@ -363,6 +419,8 @@ void plans_that_make_no_sense_are_refused(void**) {
   assert_true(refused([](AxisPlan& with) { with.velocity_factor = -1; }, "the factor of its velocity"));
   assert_true(refused([](AxisPlan& with) { with.homing_speed = 0; }, "a speed of its homing"));
   assert_true(refused([](AxisPlan& with) { with.highest = 3e6; }, "more increments"));
+  const auto whole_turn = [](AxisPlan& with) { with.endless = true, with.modulo = 3e6; };
+  assert_true(refused(whole_turn, "its modulo has more increments"));
   assert_true(refused([](AxisPlan& with) { with.node = 0; }, "numbers from 1 to 127"));
 }
 
@@ -381,6 +439,8 @@ int main() {
       cmocka_unit_test(a_set_point_counts_only_with_its_target_and_its_speed),
       cmocka_unit_test(what_is_held_back_is_said),
       cmocka_unit_test(an_endless_axis_has_no_end),
+      cmocka_unit_test(an_endless_axis_goes_on_when_the_counter_runs_over),
+      cmocka_unit_test(an_endless_axis_that_was_homed_counts_from_its_home),
       cmocka_unit_test(a_drive_fault_is_told_with_what_the_drive_says),
       cmocka_unit_test(a_node_that_resets_in_motion_is_a_fault_and_comes_back_off),
       cmocka_unit_test(a_cable_out_in_motion_stops_the_drive_and_is_told),

@@ -12,6 +12,8 @@ class SimulatedWorld final : public ServoDriveWorld {
   explicit SimulatedWorld(const ServoDriveSetup& setup) {
     auto& configuration = drive_.configuration();
     configuration.mode = setup.mode;
+    configuration.endless = setup.endless;
+    configuration.modulo = setup.modulo;
     configuration.lowest = -10;
     configuration.highest = 10;
     configuration.fastest = 20;
