@@ -11,7 +11,7 @@
 namespace flexrf::config_gen {
 namespace {
 
-// io_thread = true, or { priority, role, period, min_interval, budget, stack }.
+// io_thread = true, or { priority, role, period, min_interval, budget, stack, hang_timeout }.
 void read_io_thread(Assembly& assembly, Row& row, Index device) {
   const Node* value = row.any("io_thread");
   if (value == nullptr || (value->kind == Node::Kind::boolean && !value->boolean)) return;
@@ -40,6 +40,7 @@ void read_io_thread(Assembly& assembly, Row& row, Index device) {
           "keep 'period' for a polled device, 'min_interval' for one that wakes its thread");
     thread.demand = io.positive_duration("budget").value_or(0);
     thread.stack = read_stack(io, assembly.diagnostics).value_or(thread.stack);
+    thread.hang_timeout = io.positive_duration("hang_timeout");
     io.finish();
   } else if (value->kind != Node::Kind::boolean) {
     row.wrong_kind(*value, "io_thread", "true or a table",

@@ -33,6 +33,7 @@ struct DeviceEnvironment {
   bool virtual_time = false;
   const char* keys_file = nullptr;  ///< --keys FILE, else null
   Heartbeat* heartbeat = nullptr;   ///< of the application; null: nobody judges, as in virtual time
+  Duration longest_step{};  ///< a step that keeps its thread for longer hangs; 0: nobody judges, likewise
 };
 
 /// Lives in one thread. receive, send, make_safe and everything a unit calls: that thread, never blocking,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "runtime/core/digest.hpp"
+#include "runtime/executive/supervision.hpp"
 #include "runtime/parameters/value_access.hpp"
 
 namespace flexrf {
@@ -166,6 +167,13 @@ const ComponentType& Cell::component_type(ComponentIndex component) const noexce
                            : *driver(static_cast<std::uint16_t>(component - units)).type;
 }
 
+/// Shorter than what is taken for a standstill or a hang.
+Duration Cell::longest_step_of(const ThreadRecord& thread) const noexcept {
+  const Duration hangs = Supervision::hang_timeout(thread);
+  const Duration stands = standstill_limit();
+  return thread.hang_timeout.count() > 0 || stands <= Duration{} ? hangs : std::min(hangs, stands);
+}
+
 Status Cell::construct_device(std::uint16_t index) {
   const DeviceRecord& record = application_->devices[index];
   DeviceState& state = application_->device_states[index];
@@ -175,6 +183,8 @@ Status Cell::construct_device(std::uint16_t index) {
   state.environment = {seed_of(options_->seed, record.name), options_->virtual_time.has_value(),
                        options_->keys_file.empty() ? nullptr : options_->keys_file.c_str(),
                        options_->virtual_time ? nullptr : &heartbeat_};
+  if (!options_->virtual_time && record.thread != no_index)
+    state.environment.longest_step = longest_step_of(application_->threads[record.thread]);
   state.device->set_name(record.name);
   state.device->set_type_in_force(component_type(component_of_device(index)));
   state.device->set_environment(&state.environment);

@@ -151,6 +151,7 @@ class Cell {
   Status choose_drivers();
   void narrow_ranges();
   const NarrowedType* narrowed_type(ComponentIndex component) const noexcept;
+  Duration longest_step_of(const ThreadRecord& thread) const noexcept;
   Status construct_device(std::uint16_t device);
   Status construct_unit(std::uint16_t unit);
   Status give_access(std::uint16_t unit, CellAccess& access);

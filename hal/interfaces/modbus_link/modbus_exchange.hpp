@@ -54,7 +54,10 @@ struct ModbusExchange {
     std::vector<bool> written;    ///< per write: sent is what the station has
     std::vector<Time> write_due;  ///< per write: not before, or again
     std::vector<Time> read_due;   ///< per read
-    std::uint64_t stale = 0;      ///< of who listens first: commands up to this are not for it
+    std::size_t next_write = 0;   ///< where a turn that ran out of time goes on; reads_first: with the reads
+    std::size_t next_read = 0;
+    bool reads_first = false;
+    std::uint64_t stale = 0;  ///< of who listens first: commands up to this are not for it
     Time retry_at{};
     std::uint32_t failures = 0;  ///< in a row
   };

@@ -1,8 +1,10 @@
 #include "hal/interfaces/modbus_link/modbus_master.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "hal/interfaces/modbus_link/modbus_exchange.hpp"
 #include "runtime/log/log.hpp"
@@ -12,6 +14,9 @@ namespace {
 
 // What a station refuses is asked again no sooner, however short its period.
 constexpr Duration refused_pause = std::chrono::milliseconds(100);
+
+// Of what a step may take: the rest is for all else that it does, and for a machine with other things to do.
+constexpr double part_of_step = 0.9;
 
 void publish(ModbusExchange& exchange, Time now) noexcept {
   exchange.image_output.publish(exchange.link.image, now);
@@ -32,6 +37,7 @@ Result<ModbusExchange*> ModbusMaster::attach(const ModbusStationSetup& setup) {
     ModbusExchange& exchange = *owned_[i];
     exchange.setup = setup;
     if (const Status status = plan_requests(*setup.map, exchange.plan); !status) return status;
+    if (const Status status = check_waits(exchange); !status) return status;
     exchange.link = {};
     exchange.link.written.assign(exchange.plan.writes.size(), false);
     exchange.link.write_due.assign(exchange.plan.writes.size(), Time{});
@@ -49,20 +55,48 @@ Result<ModbusExchange*> ModbusMaster::attach(const ModbusStationSetup& setup) {
                        max_stations);
 }
 
+Status ModbusMaster::check_waits(const ModbusExchange& exchange) const noexcept {
+  if (transport_ == nullptr || longest_turn_ <= Duration{}) return {};
+  for (const bool writes : {false, true}) {
+    for (const ModbusBlock& block : writes ? exchange.plan.writes : exchange.plan.reads) {
+      const Duration wait = transport_->longest_wait(block, writes);
+      if (wait <= longest_turn_) continue;
+      return Status::error(
+          StatusCode::invalid_argument,
+          "%s %s %d to %d of unit %d may take %.3g s, its response_timeout and its time on the line, and a "
+          "step of "
+          "the thread of `%s` %.3g s: give it io_thread = { hang_timeout = \"%lld ms\" } or more",
+          writes ? "writing" : "reading", name_of(block.area), int{block.address},
+          block.address + block.count - 1, int{exchange.setup.unit_id}, seconds(wait), name_,
+          seconds(longest_turn_), static_cast<long long>(std::ceil(seconds(wait) / part_of_step * 1e3)));
+    }
+  }
+  return {};
+}
+
 void ModbusMaster::detach(ModbusExchange& exchange) noexcept {
   exchange.state.store(ModbusExchange::State::leaving, std::memory_order_release);
 }
 
-void ModbusMaster::start(const char* name, ModbusTransport& transport, Duration shortest,
-                         Duration longest) noexcept {
+Status ModbusMaster::start(const char* name, ModbusTransport& transport, Pauses pauses,
+                           Duration longest_step) noexcept {
   name_ = name;
   transport_ = &transport;
-  shortest_ = shortest;
-  longest_ = std::max(shortest, longest);
+  shortest_ = pauses.shortest;
+  longest_ = std::max(pauses.shortest, pauses.longest);
+  longest_turn_ = std::chrono::duration_cast<Duration>(part_of_step * longest_step);
   open_at_ = Time{};
   open_failures_ = 0;
   last_error_ = {};
   note_lost();
+  for (const auto& entry : exchanges_) {
+    const ModbusExchange* exchange = entry.load(std::memory_order_acquire);
+    if (exchange == nullptr ||
+        exchange->state.load(std::memory_order_acquire) != ModbusExchange::State::active)
+      continue;
+    if (Status status = check_waits(*exchange); !status) return status;
+  }
+  return {};
 }
 
 void ModbusMaster::stop() noexcept {
@@ -77,6 +111,7 @@ Duration ModbusMaster::pause_after(std::uint32_t failures) const noexcept {
 bool ModbusMaster::open() noexcept {
   if (transport_->is_open()) return true;
   if (transport_->now() < open_at_) return false;
+  turn_is_new_ = false;
   const Status status = transport_->open();
   if (!status) {
     // Said once, not at every attempt.
@@ -106,7 +141,20 @@ void ModbusMaster::note_lost() noexcept {
   }
 }
 
+/// The first request of a turn always: each of them alone fits, as was checked.
+bool ModbusMaster::has_time_for(const ModbusBlock& block, bool writes) noexcept {
+  const bool first = std::exchange(turn_is_new_, false);
+  const Duration gone = transport_->now() - turn_began_;
+  out_of_time_ =
+      longest_turn_ > Duration{} && !first && gone + transport_->longest_wait(block, writes) > longest_turn_;
+  return !out_of_time_;
+}
+
 void ModbusMaster::serve() noexcept {
+  turn_began_ = transport_->now();
+  turn_is_new_ = true;
+  // After that one goes on in a ring, so that nobody is kept from a turn by those who answer.
+  const bool goes_round = std::exchange(out_of_time_, false);
   const bool is_open = open();
   // Who answered last comes first: those who did not may take a whole response timeout, and end the turn.
   for (const bool failing : {false, true}) {
@@ -118,11 +166,11 @@ void ModbusMaster::serve() noexcept {
       if (state == ModbusExchange::State::leaving)
         exchange->state.store(ModbusExchange::State::free, std::memory_order_release);
       if (state != ModbusExchange::State::active || !is_open) continue;
-      if ((exchange->link.failures > 0) != failing) continue;
+      if (failing != (exchange->link.failures > 0 && !goes_round)) continue;
       const bool goes_on = serve_station(*exchange);
       if (exchange->link.touched) publish(*exchange, transport_->now());
       if (goes_on) continue;
-      first_ = (i + 1) % max_stations;
+      first_ = (i + (out_of_time_ ? 0 : 1)) % max_stations;
       return;
     }
   }
@@ -130,7 +178,9 @@ void ModbusMaster::serve() noexcept {
 
 bool ModbusMaster::serve_station(ModbusExchange& exchange) noexcept {
   if (transport_->now() < exchange.link.retry_at) return true;
-  return write_what_is_due(exchange) && read_what_is_due(exchange);
+  // Where time ran out in the reads the last time: what is written in every turn must not keep them for ever.
+  if (!std::exchange(exchange.link.reads_first, false) && !write_what_is_due(exchange)) return false;
+  return read_what_is_due(exchange);
 }
 
 bool ModbusMaster::write_what_is_due(ModbusExchange& exchange) noexcept {
@@ -140,11 +190,17 @@ bool ModbusMaster::write_what_is_due(ModbusExchange& exchange) noexcept {
   if (command.sequence == 0) return true;
   if (exchange.setup.listens_first && (!side.image.online || command.sequence <= side.stale)) return true;
   bool all_written = true;
-  for (std::size_t i = 0; i < exchange.plan.writes.size(); ++i) {
+  const std::size_t count = exchange.plan.writes.size();
+  const std::size_t first = std::exchange(side.next_write, 0);
+  for (std::size_t i = 0; i < count; ++i) {
     const ModbusBlock& block = exchange.plan.writes[i];
     const std::uint16_t* words = &command.words[block.offset];
     const std::size_t bytes = block.count * sizeof(std::uint16_t);
     const bool changed = std::memcmp(words, &side.sent[block.offset], bytes) != 0;
+    if (i < first) {  // had its turn before time ran out
+      all_written = all_written && side.written[i] && !changed;
+      continue;
+    }
     const Time now = transport_->now();
     const bool waited = now >= side.write_due[i];
     const bool again = exchange.setup.refresh_period > Duration{} && waited;
@@ -152,6 +208,10 @@ bool ModbusMaster::write_what_is_due(ModbusExchange& exchange) noexcept {
     if (!changed && !side.written[i] && !waited) {  // refused a moment ago
       all_written = false;
       continue;
+    }
+    if (!has_time_for(block, true)) {
+      side.next_write = i;
+      return false;
     }
     side.written[i] = false;
     std::memcpy(&side.sent[block.offset], words, bytes);
@@ -171,10 +231,16 @@ bool ModbusMaster::write_what_is_due(ModbusExchange& exchange) noexcept {
 
 bool ModbusMaster::read_what_is_due(ModbusExchange& exchange) noexcept {
   ModbusExchange::LinkSide& side = exchange.link;
-  for (std::size_t i = 0; i < exchange.plan.reads.size(); ++i) {
+  const std::size_t count = exchange.plan.reads.size();
+  for (std::size_t i = std::exchange(side.next_read, 0); i < count; ++i) {
     const ModbusBlock& block = exchange.plan.reads[i];
     const Time now = transport_->now();
     if (now < side.read_due[i]) continue;
+    if (!has_time_for(block, false)) {
+      side.next_read = i;
+      side.reads_first = true;
+      return false;
+    }
     std::array<std::uint16_t, 2000> words{};
     const ModbusReply reply = transport_->read(exchange.setup.unit_id, block, words.data());
     if (!judge(exchange, block, "reading", reply, now)) return false;

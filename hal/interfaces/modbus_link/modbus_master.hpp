@@ -27,13 +27,19 @@ class ModbusMaster {
   /// Lifecycle thread. The link may be in the middle of a request of this station, and ends it.
   static void detach(ModbusExchange& exchange) noexcept;
 
-  /// Lifecycle thread. `name` is the link's, for messages; all outlive the last serve().
-  void start(const char* name, ModbusTransport& transport, Duration shortest, Duration longest) noexcept;
+  struct Pauses {
+    Duration shortest{};  ///< after a failure
+    Duration longest{};   ///< after many
+  };
+  /// Lifecycle thread. `name` is the link's, for messages; all outlive the last serve(). `longest_step`: of
+  /// the link's thread; 0: nobody judges. Error, as of attach(): a station's request may take longer.
+  Status start(const char* name, ModbusTransport& transport, Pauses pauses, Duration longest_step) noexcept;
   void stop() noexcept;
 
   /// The link's thread: everything that is due, one request after the other; of stations whose last request
   /// failed after that of the others. A request that fails ends it, so that one call waits for at most one of
-  /// them; the next begins behind that station.
+  /// them; the next begins behind that station. So does the lack of time for the next request, in what a step
+  /// of its thread may take; then the next begins with that request.
   void serve() noexcept;
   /// Every station has its safe values, as of its last answer; but for those that know that themselves.
   bool is_safe() const noexcept;
@@ -45,7 +51,9 @@ class ModbusMaster {
   const char* last_error() const noexcept { return last_error_.cause(); }
 
  private:
+  Status check_waits(const ModbusExchange& exchange) const noexcept;
   bool open() noexcept;
+  bool has_time_for(const ModbusBlock& block, bool writes) noexcept;
   bool serve_station(ModbusExchange& exchange) noexcept;
   bool write_what_is_due(ModbusExchange& exchange) noexcept;
   bool read_what_is_due(ModbusExchange& exchange) noexcept;
@@ -63,7 +71,11 @@ class ModbusMaster {
   ModbusTransport* transport_ = nullptr;
   Duration shortest_{};
   Duration longest_{};
-  std::size_t first_ = 0;  // whose turn is first
+  Duration longest_turn_{};  // 0: as long as it takes
+  std::size_t first_ = 0;    // whose turn is first
+  Time turn_began_{};
+  bool turn_is_new_ = false;  // nothing that waits was done in it
+  bool out_of_time_ = false;
   Time open_at_{};
   std::uint32_t open_failures_ = 0;
   std::uint64_t connections_ = 0;

@@ -31,10 +31,12 @@ class ModbusTransport {
   virtual Status open() noexcept = 0;
   virtual void close() noexcept = 0;
   virtual bool is_open() const noexcept = 0;
-  /// `words`: block.count of them, a bit in each for bits. May wait as long as the response timeout.
+  /// `words`: block.count of them, a bit in each for bits. May wait for as long as longest_wait() says.
   virtual ModbusReply read(std::uint8_t unit_id, const ModbusBlock& block, std::uint16_t* words) noexcept = 0;
   virtual ModbusReply write(std::uint8_t unit_id, const ModbusBlock& block,
                             const std::uint16_t* words) noexcept = 0;
+  /// How long a request of it may keep the link's thread; 0 where none does. Any thread.
+  virtual Duration longest_wait(const ModbusBlock& block, bool writes) const noexcept = 0;
   /// After a timeout or a bad reply: whatever still comes must not be taken for the next answer. May close.
   virtual void resynchronise() noexcept = 0;
   /// The clock by which answers are stamped: it moves while a request waits.

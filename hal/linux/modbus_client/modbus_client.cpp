@@ -17,7 +17,6 @@ namespace flexrf {
 namespace {
 
 constexpr Duration shortest_silence = std::chrono::microseconds(1750);  // also above 19200 bit/s
-constexpr std::int64_t bits_per_character = 11;
 
 const char* advice_to_open(int error) {
   switch (error) {
@@ -44,6 +43,22 @@ const char* advice_to_open(int error) {
 bool is_pseudo_terminal(int line) noexcept {
   struct stat status {};
   return fstat(line, &status) == 0 && major(status.st_rdev) >= 136 && major(status.st_rdev) <= 143;
+}
+
+void limit_answers(_modbus* context, Duration timeout) noexcept {
+  const auto microseconds = static_cast<std::uint32_t>(timeout.count() / 1000);
+  modbus_set_response_timeout(context, microseconds / 1000000, microseconds % 1000000);
+}
+
+/// Bytes of request and answer together, unit id and CRC included (Modbus Application Protocol V1.1b3, 6.1 to
+/// 6.6, 6.11, 6.12; Modbus over serial line V1.02, 2.5.1).
+std::int64_t bytes_of(const ModbusBlock& block, bool writes) noexcept {
+  const bool registers =
+      block.area == ModbusArea::holding_register || block.area == ModbusArea::input_register;
+  const std::int64_t data = registers ? 2 * block.count : (block.count + 7) / 8;
+  constexpr std::int64_t address_and_count = 8;
+  if (!writes) return address_and_count + 5 + data;
+  return block.count == 1 ? 2 * address_and_count : address_and_count + 9 + data;
 }
 
 /// Two masters on one line garble each other. The lock keeps out who asks for it, as every link does, root's
@@ -74,8 +89,7 @@ Status ModbusClient::use(_modbus* context, Duration response_timeout) {
                          modbus_strerror(errno));
   }
   response_timeout_ = response_timeout;
-  const auto microseconds = static_cast<std::uint32_t>(response_timeout.count() / 1000);
-  modbus_set_response_timeout(context_, microseconds / 1000000, microseconds % 1000000);
+  limit_answers(context_, response_timeout);  // also how long a connection may take
   // The whole answer has to come within it: a peer that sends a byte now and then would hold the thread.
   modbus_set_byte_timeout(context_, 0, 0);
   modbus_set_error_recovery(context_, MODBUS_ERROR_RECOVERY_NONE);
@@ -91,6 +105,7 @@ Status ModbusClient::use_tcp(const char* address, std::uint16_t port, Duration r
   }
   std::snprintf(where_.data(), where_.size(), "%s, port %u", address, unsigned{port});
   serial_ = false;
+  character_ = {};
   return use(modbus_new_tcp(address, port), response_timeout);
 }
 
@@ -98,8 +113,10 @@ Status ModbusClient::use_rtu(const SerialLine& line, Duration response_timeout) 
   release();
   std::snprintf(where_.data(), where_.size(), "serial line %s", line.device);
   serial_ = true;
-  const Duration characters{bits_per_character * 3'500'000'000 / std::max<std::int64_t>(line.baud, 1)};
-  silence_ = line.baud > 19200 ? shortest_silence : std::max(shortest_silence, characters);
+  // A start bit, eight of data, and what follows them.
+  const std::int64_t bits = 9 + (line.parity == 'N' ? 0 : 1) + line.stop_bits;
+  character_ = Duration{bits * 1'000'000'000 / std::max<std::int64_t>(line.baud, 1)};
+  silence_ = line.baud > 19200 ? shortest_silence : std::max(shortest_silence, character_ * 7 / 2);
   return use(modbus_new_rtu(line.device, static_cast<int>(line.baud), line.parity, 8, line.stop_bits),
              response_timeout);
 }
@@ -129,9 +146,17 @@ void ModbusClient::close() noexcept {
   open_ = false;
 }
 
-void ModbusClient::prepare(std::uint8_t unit_id) noexcept {
+Duration ModbusClient::longest_wait(const ModbusBlock& block, bool writes) const noexcept {
+  return response_timeout_ + (serial_ ? silence_ + bytes_of(block, writes) * character_ : Duration{});
+}
+
+void ModbusClient::prepare(std::uint8_t unit_id, const ModbusBlock& block, bool writes) noexcept {
   modbus_set_slave(context_, unit_id);
+  waits_ = response_timeout_;
   if (!serial_) return;
+  // What is written to the line goes out while the answer is waited for already.
+  waits_ += bytes_of(block, writes) * character_;
+  limit_answers(context_, waits_);
   const Duration rest = silence_ - (now() - quiet_since_);
   if (rest > Duration{}) {
     const timespec pause{0, static_cast<long>(rest.count())};
@@ -142,7 +167,7 @@ void ModbusClient::prepare(std::uint8_t unit_id) noexcept {
 
 ModbusReply ModbusClient::read(std::uint8_t unit_id, const ModbusBlock& block,
                                std::uint16_t* words) noexcept {
-  prepare(unit_id);
+  prepare(unit_id, block, false);
   if (block.area == ModbusArea::holding_register)
     return outcome(modbus_read_registers(context_, block.address, block.count, words));
   if (block.area == ModbusArea::input_register)
@@ -159,7 +184,7 @@ ModbusReply ModbusClient::read(std::uint8_t unit_id, const ModbusBlock& block,
 /// A single one has a request of its own, which the simplest stations know alone.
 ModbusReply ModbusClient::write(std::uint8_t unit_id, const ModbusBlock& block,
                                 const std::uint16_t* words) noexcept {
-  prepare(unit_id);
+  prepare(unit_id, block, true);
   if (block.area == ModbusArea::holding_register) {
     return outcome(block.count == 1 ? modbus_write_register(context_, block.address, words[0])
                                     : modbus_write_registers(context_, block.address, block.count, words));
@@ -191,7 +216,7 @@ ModbusReply ModbusClient::outcome(int result) noexcept {
     reply.outcome = ModbusOutcome::timeout;
     std::snprintf(cause_.data(), cause_.size(),
                   "no whole answer within %.3g s; is the station on, and its unit id right?",
-                  seconds(response_timeout_));
+                  seconds(waits_));
   } else if (error > MODBUS_ENOBASE) {
     reply.outcome = ModbusOutcome::bad_reply;
     std::snprintf(cause_.data(), cause_.size(), "the answer is damaged or another's: %s%s",

@@ -29,9 +29,10 @@ Status ModbusRtuLink::initialise() {
       {device.c_str(), configuration.baud, letter_of(configuration.parity), configuration.stop_bits},
       duration_of(configuration.response_timeout));
   if (!status) return status;
-  master().start(name(), client_, duration_of(configuration.reconnect_shortest),
-                 duration_of(configuration.reconnect_longest));
-  return {};
+  return master().start(
+      name(), client_,
+      {duration_of(configuration.reconnect_shortest), duration_of(configuration.reconnect_longest)},
+      environment().longest_step);
 }
 
 Result<ModbusExchange*> ModbusRtuLink::attach(const ModbusStationSetup& setup) {

@@ -16,9 +16,10 @@ Status ModbusTcpLink::initialise() {
   const Status status =
       client_.use_tcp(address.c_str(), configuration.port, duration_of(configuration.response_timeout));
   if (!status) return status;
-  master().start(name(), client_, duration_of(configuration.reconnect_shortest),
-                 duration_of(configuration.reconnect_longest));
-  return {};
+  return master().start(
+      name(), client_,
+      {duration_of(configuration.reconnect_shortest), duration_of(configuration.reconnect_longest)},
+      environment().longest_step);
 }
 
 Result<ModbusExchange*> ModbusTcpLink::attach(const ModbusStationSetup& setup) {

@@ -14,9 +14,10 @@ Status SimulatedModbusLink::initialise() {
   cut_ = false;
   registers_.set_fault(ModbusWireFault::none);
   registers_.configure(duration_of(configuration.delay), duration_of(configuration.response_timeout));
-  master().start(name(), registers_, duration_of(configuration.reconnect_shortest),
-                 duration_of(configuration.reconnect_longest));
-  return {};
+  return master().start(
+      name(), registers_,
+      {duration_of(configuration.reconnect_shortest), duration_of(configuration.reconnect_longest)},
+      environment().longest_step);
 }
 
 Result<ModbusExchange*> SimulatedModbusLink::attach(const ModbusStationSetup& setup) {

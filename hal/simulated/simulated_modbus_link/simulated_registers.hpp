@@ -49,6 +49,8 @@ class SimulatedRegisters final : public ModbusTransport {
   ModbusReply read(std::uint8_t unit_id, const ModbusBlock& block, std::uint16_t* words) noexcept override;
   ModbusReply write(std::uint8_t unit_id, const ModbusBlock& block,
                     const std::uint16_t* words) noexcept override;
+  /// It waits in its own time.
+  Duration longest_wait(const ModbusBlock& /*block*/, bool /*writes*/) const noexcept override { return {}; }
   void resynchronise() noexcept override {}
   Time now() const noexcept override { return now_; }
 

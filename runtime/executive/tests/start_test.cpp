@@ -53,6 +53,25 @@ void a_right_lost_before_the_start_is_named() {
   CHECK_CONTAINS(ending.report, "not held");  // CAP_IPC_LOCK or, where no memory is locked, CAP_SYS_NICE
 }
 
+/// Of the thread that it lives in, before it is initialised.
+Duration longest_step_told(Options options) {
+  Cell cell;
+  for (const std::uint16_t thread : {Cell::producing, Cell::consuming})
+    cell.thread(thread).deadline = std::chrono::milliseconds{1};
+  Executive executive(cell.application(), std::move(options));
+  CHECK(executive.prepare());
+  return cell.application().device_states[Cell::actuator].environment.longest_step;
+}
+
+void a_driver_is_told_how_long_a_step_may_take() {
+  Options options = on_the_wall_clock();
+  options.standstill_limit = std::chrono::seconds{1};
+  CHECK(longest_step_told(options) == std::chrono::milliseconds{500});
+  options.standstill_limit = std::chrono::milliseconds{300};
+  CHECK(longest_step_told(options) == std::chrono::milliseconds{300});
+  CHECK(longest_step_told(in_virtual_time(std::chrono::seconds{1})) == Duration{});
+}
+
 void a_thread_that_waits_for_too_much_is_refused() {
   Cell cell;
   cell.thread(Cell::consuming).trigger = TriggerPlan::on_slots(std::vector<std::uint16_t>(33, Cell::values));
@@ -79,6 +98,7 @@ int main() {
   using namespace flexrf::fixture;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_right_lost_before_the_start_is_named),
+      CONTAINED_TEST(a_driver_is_told_how_long_a_step_may_take),
       CONTAINED_TEST(a_thread_that_waits_for_too_much_is_refused),
       CONTAINED_TEST(keys_that_nobody_reads_are_refused),
   };

@@ -35,6 +35,10 @@ class ScriptedLine final : public ModbusTransport {
   int failures() const { return failures_; }
   int resynchronisations() const { return resynchronisations_; }
   void pass(Duration time) { now_ += time; }
+  void set_times(Duration answer, Duration wait) {
+    answer_time_ = answer;
+    wait_ = wait;
+  }
 
   Status open() noexcept override {
     open_ = true;
@@ -56,12 +60,15 @@ class ScriptedLine final : public ModbusTransport {
     if (asked.outcome == ModbusOutcome::answered) asked.written = words[0];
     return answer(asked);
   }
+  Duration longest_wait(const ModbusBlock& /*block*/, bool /*writes*/) const noexcept override {
+    return wait_;
+  }
   void resynchronise() noexcept override { ++resynchronisations_; }
   Time now() const noexcept override { return now_; }
 
  private:
   ModbusReply answer(const Station& asked) noexcept {
-    now_ += asked.outcome == ModbusOutcome::timeout ? response_timeout : answer_time;
+    now_ += asked.outcome == ModbusOutcome::timeout ? wait_ : answer_time_;
     if (asked.outcome != ModbusOutcome::answered) ++failures_;
     return {asked.outcome, "as the script has it"};
   }
@@ -69,25 +76,31 @@ class ScriptedLine final : public ModbusTransport {
   std::array<Station, 256> stations_{};
   int failures_ = 0;
   int resynchronisations_ = 0;
+  Duration answer_time_ = answer_time;
+  Duration wait_ = response_timeout;
   Time now_{std::chrono::seconds(1)};
   bool open_ = false;
 };
 
 /// `count` stations, unit 1 the first; each is read in every cycle.
 struct Line {
-  explicit Line(std::size_t count) {
-    master.start("line", line, shortest_pause, longest_pause);
+  explicit Line(std::size_t count, const ModbusRegisterMap& stations = map, Duration longest_step = {}) {
+    CHECK(master.start("line", line, {shortest_pause, longest_pause}, longest_step));
     for (std::size_t unit = 1; unit <= count; ++unit) {
-      ModbusStationSetup setup;
-      setup.name = "station";
-      setup.map = &map;
-      setup.unit_id = static_cast<std::uint8_t>(unit);
-      const Result<ModbusExchange*> exchange = master.attach(setup);
+      const Result<ModbusExchange*> exchange = master.attach(setup_of(unit, stations));
       CHECK(exchange);
       exchanges.push_back(*exchange);
     }
   }
   ~Line() { master.stop(); }
+
+  static ModbusStationSetup setup_of(std::size_t unit, const ModbusRegisterMap& stations) {
+    ModbusStationSetup setup;
+    setup.name = "station";
+    setup.map = &stations;
+    setup.unit_id = static_cast<std::uint8_t>(unit);
+    return setup;
+  }
 
   void make(std::size_t first, std::size_t last, ModbusOutcome outcome) {
     for (std::size_t unit = first; unit <= last; ++unit) line.station(unit).outcome = outcome;
@@ -193,6 +206,65 @@ void who_is_not_reached_behind_a_gateway_is_not_online() {
   CHECK(world.image(1).online);
 }
 
+constexpr ModbusRegister scattered[] = {
+    {"a", 0, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::read,
+     ModbusPollGroup::fast, 1, "", 0},
+    {"b", 10, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::read,
+     ModbusPollGroup::fast, 1, "", 0},
+    {"c", 20, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::read,
+     ModbusPollGroup::fast, 1, "", 0},
+    {"speed", 30, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::write,
+     ModbusPollGroup::fast, 1, "", 0},
+};
+constexpr ModbusRegisterMap scattered_map{scattered};
+
+// A slow line with more to do than a step may take: each turn ends in time, and nothing has to wait for ever,
+// also not behind what is written anew in each turn, or for who answers while another does not.
+void turns_end_in_time_and_go_on_where_they_ended() {
+  constexpr Duration longest_step = std::chrono::milliseconds(500);
+  constexpr std::size_t count = 3;
+  Line world(count, scattered_map, longest_step);
+  world.line.set_times(std::chrono::milliseconds(120), std::chrono::milliseconds(200));
+  world.make(2, 2, ModbusOutcome::timeout);
+  for (std::uint64_t turn = 1; turn <= 60; ++turn) {
+    for (std::size_t unit = 1; unit <= count; ++unit)
+      world.command(unit, static_cast<std::uint16_t>(turn), turn, false);
+    const Time began = world.line.now();
+    world.master.serve();
+    CHECK(world.line.now() - began <= longest_step);
+    world.line.pass(cycle);
+  }
+  for (const std::size_t unit : {std::size_t{1}, count}) {
+    CHECK(world.line.station(unit).reads >= 30);
+    CHECK(world.line.station(unit).writes >= 10);
+    CHECK(world.image(unit).online);
+    for (std::size_t block = 0; block < 3; ++block)
+      CHECK(world.line.now() - Time{Duration{world.image(unit).sampled_at[block]}} < std::chrono::seconds(3));
+  }
+  CHECK(world.line.station(2).reads + world.line.station(2).writes >= 5);
+}
+
+void what_a_step_cannot_wait_for_is_refused_with_the_least_that_can() {
+  Line world(0, map, std::chrono::milliseconds(500));
+  world.line.set_times(answer_time, std::chrono::milliseconds(460));
+  const Result<ModbusExchange*> refused = world.master.attach(Line::setup_of(7, map));
+  CHECK(!refused);
+  CHECK_EQUAL(std::string(refused.status().cause()),
+              std::string("reading holding_register 0 to 0 of unit 7 may take 0.46 s, its response_timeout "
+                          "and its time on the "
+                          "line, and a step of the thread of `line` 0.45 s: give it io_thread = { "
+                          "hang_timeout = \"512 ms\" } or "
+                          "more"));
+  world.line.set_times(answer_time, std::chrono::milliseconds(450));
+  CHECK(world.master.attach(Line::setup_of(7, map)));
+  // Reconfigured, with its station on it.
+  world.line.set_times(answer_time, std::chrono::milliseconds(460));
+  CHECK(!world.master.start("line", world.line, {shortest_pause, longest_pause},
+                            std::chrono::milliseconds(500)));
+  CHECK(world.master.start("line", world.line, {shortest_pause, longest_pause},
+                           std::chrono::milliseconds(512)));
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -204,6 +276,8 @@ int main() {
       CONTAINED_TEST(every_silent_station_is_asked_again_and_found),
       CONTAINED_TEST(stations_that_fail_now_and_then_do_not_starve_the_last_one),
       CONTAINED_TEST(who_is_not_reached_behind_a_gateway_is_not_online),
+      CONTAINED_TEST(turns_end_in_time_and_go_on_where_they_ended),
+      CONTAINED_TEST(what_a_step_cannot_wait_for_is_refused_with_the_least_that_can),
   };
   return cmocka_run_group_tests_name("Modbus master", tests, nullptr, nullptr);
 }
