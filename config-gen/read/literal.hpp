@@ -6,6 +6,7 @@
 
 #include "config-gen/model/diagnostics.hpp"
 #include "config-gen/model/model.hpp"
+#include "config-gen/read/row.hpp"
 #include "config-gen/read/tree.hpp"
 
 namespace flexrf::config_gen {
@@ -22,6 +23,10 @@ Literal zero_literal(const Model& model, const Field& field, const Position& pos
 // As read_literal, and inside the parameter's range.
 std::optional<Literal> read_parameter_value(const Model& model, const Parameter& parameter, const Node& value,
                                             const std::string& what, Diagnostics& diagnostics);
+
+// `step` of a row that says how the panel changes this parameter: a number above 0, in its unit.
+std::optional<Literal> read_step(const Model& model, Row& row, const Parameter& parameter,
+                                 Diagnostics& diagnostics);
 
 double number_of(const Literal& literal);  // of a bool, an integer or a real
 std::string literal_text(const Literal& literal);

@@ -84,11 +84,18 @@ export function rowsOf(flat: readonly Value[], shape: readonly number[]): Value[
     Array.from({ length: columns }, (_unused, column) => flat[column * rows + row] ?? 0));
 }
 
+/** "axis/s^2" with { axis: "m" } → "m/s^2". */
+export function unitWith(unit: string, chosen: { readonly [symbol: string]: string } | undefined): string {
+  return chosen ? unit.replace(/[^*/^]+/g, (symbol) => chosen[symbol] ?? symbol) : unit;
+}
+
 interface Origin {
   readonly kind: ItemInfo['kind'];
   readonly component?: string;
   readonly source?: Source;
   readonly role?: Role;
+  /** Of the device's row. */
+  readonly units?: { readonly [symbol: string]: string } | undefined;
 }
 
 /** Beside a field: what its declaration says, and what the application's table changes of that. */
@@ -117,7 +124,7 @@ function makeItem(types: Types, key: string, field: Field, path: string, origin:
     summary: field.summary,
     scalar: field.scalar,
     shape: field.shape,
-    unit: field.unit,
+    unit: unitWith(field.unit, origin.units),
     kind: origin.kind,
     hidden: change?.hidden ?? false,
     menu: change?.menu ?? parameter?.menu ?? '',
@@ -200,6 +207,8 @@ export function makeModel(json: DescriptorJson): Model {
     item.members?.forEach((member) => addAll(member as Item));
   };
 
+  const unitsOfSlots = new Map(json.devices.flatMap((device) =>
+    [device.values_slot, device.feedback_slot].map((slot) => [slot, device.units] as const)));
   json.slots.forEach((slotJson, index) => {
     const type = types.get(slotJson.type);
     const slot = {
@@ -207,7 +216,7 @@ export function makeModel(json: DescriptorJson): Model {
     } as { -readonly [K in keyof Slot]: Slot[K] };
     const key = `slot:${slotJson.name}`;
     const source: Source = { slot, fields: [], steps: [] };
-    const members = membersOf(types, key, type?.fields ?? [], '', { kind: 'slot', source });
+    const members = membersOf(types, key, type?.fields ?? [], '', { kind: 'slot', source, units: unitsOfSlots.get(slotJson.name) });
     slot.item = {
       key, label: slotJson.name, summary: slotJson.summary || (type?.summary ?? ''), scalar: 'structure', shape: [],
       unit: '', kind: 'slot', members, typeName: slotJson.type, hidden: false, menu: '', place: '',
@@ -221,7 +230,8 @@ export function makeModel(json: DescriptorJson): Model {
   const block = (component: string, kind: Origin['kind'], declared: BlockJson | undefined, slotName: string | undefined,
                  overrides: readonly OverrideJson[] | undefined,
                  values: { readonly [name: string]: Value } | undefined,
-                 before: readonly (BlockJson | undefined)[] = []): Item[] => {
+                 before: readonly (BlockJson | undefined)[] = [],
+                 units?: { readonly [symbol: string]: string }): Item[] => {
     if (!declared) return [];
     const slot = slotName === undefined ? undefined : slotsByName.get(slotName);
     const prefix = kind === 'runtime' ? component : `${component}.${kind}`;
@@ -234,7 +244,7 @@ export function makeModel(json: DescriptorJson): Model {
       const initial = values?.[field.name]; // the application's own default goes before the type's
       const merged = parameter && initial !== undefined ? { ...parameter, default: initial } : parameter;
       const item = makeItem(types, `${prefix}.${field.name}`, field, field.name,
-        { kind, component, ...(slot && { source: { slot, fields: [field], steps: [] } }) },
+        { kind, component, units, ...(slot && { source: { slot, fields: [field], steps: [] } }) },
         { parameter: merged, change });
       made.push(item);
       addAll(item);
@@ -265,7 +275,7 @@ export function makeModel(json: DescriptorJson): Model {
       const driver = json.drivers.find((one) => one.name === choice.type);
       const items = [face, driver].flatMap((declared) =>
         block(device.name, 'configuration', declared?.configuration, undefined, device.overrides, choice.configuration,
-          declared === face ? [face?.runtime] : [face?.runtime, face?.configuration, face?.feedback]));
+          declared === face ? [face?.runtime] : [face?.runtime, face?.configuration, face?.feedback], device.units));
       return [choice.driver, items] as const;
     }));
     components.set(device.name, {
@@ -273,9 +283,9 @@ export function makeModel(json: DescriptorJson): Model {
       thread: device.thread ?? '', population: '', device,
       configuration: driverConfiguration.get(device.drivers[0]?.driver ?? '') ?? [],
       driverConfiguration,
-      runtime: block(device.name, 'runtime', face?.runtime, device.values_slot, device.overrides, device.runtime),
+      runtime: block(device.name, 'runtime', face?.runtime, device.values_slot, device.overrides, device.runtime, [], device.units),
       feedback: block(device.name, 'feedback', face?.feedback, device.feedback_slot, device.overrides, undefined,
-        [face?.runtime, face?.configuration]),
+        [face?.runtime, face?.configuration], device.units),
     });
   }
 
