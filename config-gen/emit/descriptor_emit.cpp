@@ -132,6 +132,7 @@ Json parameters_json(const Model& model, const std::vector<const ParameterBlock*
         json["range"] = {scalar_json(model, parameter.field, *parameter.low),
                          scalar_json(model, parameter.field, *parameter.high)};
       }
+      if (parameter.step) json["step"] = scalar_json(model, parameter.field, *parameter.step);
       if (parameter.kind == Parameter::Kind::runtime) json["persist"] = parameter.persist;
       if (!parameter.widget.empty()) json["widget"] = parameter.widget;
       if (!parameter.label.empty()) json["label"] = parameter.label;
@@ -256,6 +257,7 @@ Json override_json(const ParameterOverride& change) {
   if (change.label) json["label"] = *change.label;
   if (change.hidden) json["hidden"] = *change.hidden;
   if (change.low && change.high) json["range"] = {bound_json(*change.low), bound_json(*change.high)};
+  if (change.step) json["step"] = bound_json(*change.step);
   if (change.widget) json["widget"] = *change.widget;
   if (change.menu) json["menu"] = *change.menu;
   if (change.place) json["place"] = *change.place;
@@ -321,6 +323,8 @@ Json joints_json(const UrdfChain& chain) {
 Json device_json(const Model& model, const Device& device) {
   const Interface& interface = model.interfaces[device.interface];
   Json json = {{"name", device.name}, {"interface", interface.class_name}};
+  for (std::size_t i = 0; i < interface.units.size() && i < device.units.size(); ++i)
+    json["units"][interface.units[i].name] = device.units[i];
   for (const DriverChoice& choice : device.drivers) {
     const Driver& driver = model.drivers[choice.driver];
     Json one = {{"driver", driver.name}, {"type", driver.stem}};

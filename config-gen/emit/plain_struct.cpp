@@ -119,7 +119,7 @@ void define_accessors(const Field& field, Text& out) {
 
 std::string comment_of(const Field& field) {
   return comment_text(field.summary +
-                      (field.unit.empty() || field.unit == "1" ? "" : " [" + field.unit + "]"));
+                      (field.unit.empty() || field.unit == "1" ? "" : " [" + field.told_unit + "]"));
 }
 
 std::string field_signature(const Model& model, const PlainField& plain) {
@@ -308,7 +308,7 @@ void define_descriptor(const Model& model, const PlainStruct& plain, Text& out) 
       const auto extent = [&](std::size_t i) { return i < field.shape.size() ? field.shape[i] : 0; };
       out << "    {\"" << field.name << "\", Scalar::" << entry.scalar << ", " << field.shape.size() << ", {"
           << extent(0) << ", " << extent(1) << "}, " << (is_text(field) ? field.capacity : field.elements())
-          << ", " << entry.offset << ", " << string_literal(field.unit) << ", "
+          << ", " << entry.offset << ", " << string_literal(field.told_unit) << ", "
           << string_literal(field.summary) << ", "
           << (field.type.kind == FieldType::Kind::declared
                   ? "&" + descriptor_name(model.types[field.type.declared].name)

@@ -59,7 +59,7 @@ void parameters(const Model& model, std::string_view title, const std::vector<co
       const std::string type = parameter.input == Parameter::Input::button ? "button"
                                : parameter.input == Parameter::Input::hold ? "hold"
                                                                            : type_text(model, field);
-      rows << "| `" << field.name << "` | " << type << " | " << cell(field.unit) << " | ";
+      rows << "| `" << field.name << "` | " << type << " | " << cell(field.told_unit) << " | ";
       if (parameter.low && parameter.high) {
         rows << value_text(model, field, *parameter.low) << " to "
              << value_text(model, field, *parameter.high);

@@ -46,6 +46,7 @@ struct Field {
   std::vector<std::size_t> shape;  // none: one value; one or two dimensions, two stored column by column
   std::size_t capacity = 0;        // bytes of a text
   std::string unit;                // unit of measure; empty for what has none to declare
+  std::string told_unit;           // the same for people: "m/s or rad/s" where each device's row chooses
   std::string summary;
 
   std::size_t offset = 0;  // in the enclosing struct
@@ -116,7 +117,8 @@ struct Parameter {
   Field field;                 // name, type, shape, unit, summary; place and size in its block
   std::optional<Literal> low;  // of the range, both or none; bool, int64 or double as the field's type
   std::optional<Literal> high;
-  Literal initial;  // the default; zeros for buttons, holds and feedback
+  Literal initial;              // the default; zeros for buttons, holds and feedback
+  std::optional<Literal> step;  // by what a button of the panel changes it; as the field's element, above 0
   std::string widget;
   std::string label;  // empty: made from the name
   std::string menu;
@@ -194,6 +196,14 @@ struct Resource {
   std::string summary;
 };
 
+// A unit of measure that each device's row chooses: an axis is measured in m or in rad. Its name stands for
+// it in the units of the parameters, as "axis/s".
+struct UnitChoice {
+  std::string name;
+  Position position;
+  std::vector<std::string> units;  // one or more, each a single symbol
+};
+
 struct Interface {
   std::string name;        // the table's name: robot_arm
   std::string class_name;  // RobotArm
@@ -203,6 +213,7 @@ struct Interface {
   bool bus = false;  // carries other devices
   std::vector<Resource> resources;
   std::vector<OutputPort> outputs;  // published by the device's IO thread
+  std::vector<UnitChoice> units;
   ParameterBlock configuration;
   ParameterBlock runtime;
   ParameterBlock feedback;
@@ -421,6 +432,7 @@ struct ParameterOverride {
   std::optional<bool> hidden;
   std::optional<Literal> low;  // both or none; inside the parameter's own range, and enforced
   std::optional<Literal> high;
+  std::optional<Literal> step;
   std::optional<std::string> widget;
   std::optional<std::string> menu;
   std::optional<std::string> place;
@@ -444,6 +456,7 @@ struct Device {
   std::optional<Index> io_thread;
   std::vector<OutputConnection> outputs;  // per output of the interface
   std::vector<DeviceResource> resources;  // in the interface's order
+  std::vector<std::string> units;         // chosen, per UnitChoice of the interface
   std::vector<Literal> configuration;     // per parameter of the interface's block
   std::vector<Literal> runtime;
   std::vector<ParameterOverride> overrides;

@@ -152,6 +152,29 @@ void read_resources(Assembly& assembly, Row& row, Device& device) {
   }
 }
 
+// units.axis = "m": what the interface leaves to each device.
+void read_units(Row& row, const Interface& interface, Device& device, Diagnostics& diagnostics) {
+  const auto hint = [&interface](const UnitChoice& choice) {
+    std::string offers;
+    for (const std::string& unit : choice.units)
+      offers += (offers.empty() ? "" : " or ") + ("units." + choice.name + " = \"" + unit + "\"");
+    return interface.class_name + " is measured in it: add " + offers;
+  };
+  const Node* table = row.table("units");
+  if (table == nullptr) {
+    for (const UnitChoice& choice : interface.units)
+      if (!row.has("units")) row.missing("units." + choice.name, hint(choice));
+    return;
+  }
+  Row units(*table, "'units' of " + row.name(), diagnostics);
+  for (const UnitChoice& choice : interface.units) {
+    if (!units.has(choice.name)) units.missing(choice.name, hint(choice));
+    const auto place = units.word(choice.name, choice.units);
+    device.units.push_back(choice.units[place.value_or(0)]);
+  }
+  units.finish();
+}
+
 // What the vendor says of the device, against what the driver asks of it.
 void check_data_sheets(Assembly& assembly, const Device& device) {
   const Interface& interface = assembly.model.interfaces[device.interface];
@@ -218,6 +241,7 @@ void read_device_row(Assembly& assembly, const FlatRow& flat) {
   read_drivers(assembly, row, device);
   read_instead(assembly, row, device);
   read_resources(assembly, row, device);
+  read_units(row, assembly.model.interfaces[*interface], device, assembly.diagnostics);
   row.text("on");
   row.table("out");
   device.initialise_timeout = row.positive_duration("initialise_timeout").value_or(device.initialise_timeout);

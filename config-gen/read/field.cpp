@@ -63,7 +63,23 @@ void refuse_shape_of_text(Row& row, Field& field, Diagnostics& diagnostics) {
   field.shape.clear();
 }
 
-void read_unit_of_measure(Row& row, Field& field, Diagnostics& diagnostics) {
+// What the unit is, whatever a device's row chooses.
+std::vector<std::string> variants_of(const std::string& unit, const std::vector<UnitChoice>& choices) {
+  std::vector<std::string> variants{unit};
+  for (const UnitChoice& choice : choices) {
+    std::vector<std::string> chosen;
+    for (const std::string& variant : variants)
+      for (const std::string& symbol : choice.units) {
+        std::string text = replace_symbol(variant, choice.name, symbol);
+        if (std::find(chosen.begin(), chosen.end(), text) == chosen.end()) chosen.push_back(std::move(text));
+      }
+    variants = std::move(chosen);
+  }
+  return variants;
+}
+
+void read_unit_of_measure(Row& row, Field& field, const std::vector<UnitChoice>& choices,
+                          Diagnostics& diagnostics) {
   const bool scalar = field.type.kind == FieldType::Kind::scalar;
   const bool floating = scalar && is_floating(field.type.scalar);
   const bool integer = scalar && is_integer(field.type.scalar);
@@ -75,10 +91,21 @@ void read_unit_of_measure(Row& row, Field& field, Diagnostics& diagnostics) {
     diagnostics.error(row.position("unit"), "'unit' of " + row.name() + " is for numbers only", "remove it");
     return;
   }
-  if (const std::string advice = judge_unit(*unit, integer); !advice.empty())
-    diagnostics.error(row.position("unit"),
-                      quote(*unit) + " is not a unit of measure that " + row.name() + " can have", advice);
   field.unit = *unit;
+  for (const std::string& variant : variants_of(*unit, choices)) {
+    if (const std::string advice = judge_unit(variant, integer); !advice.empty()) {
+      diagnostics.error(row.position("unit"),
+                        quote(*unit) + " is not a unit of measure that " + row.name() + " can have", advice);
+      field.told_unit = *unit;
+      return;
+    }
+    field.told_unit += (field.told_unit.empty() ? "" : " or ") + variant;
+  }
+  if (floating && *unit == "1" && names_quantity(field.name))
+    diagnostics.error(row.position("unit"),
+                      row.name() + " is a physical quantity by its name, and 'unit' says that it has none",
+                      "write the SI unit that it is measured in, as unit = \"m/s\"; a part or a multiple of "
+                      "something says so in its name, as velocity_share or velocity_factor");
 }
 
 // Before anything is computed from its size.
@@ -151,8 +178,8 @@ bool has_image(const Model& model, const FieldType& type) {
                                        [&](const Field& field) { return has_image(model, field.type); });
 }
 
-Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kind,
-                         const std::string& section) {
+Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kind, const std::string& section,
+                         const std::vector<UnitChoice>& choices) {
   Row row(node, "[" + section + "." + node.key + "]", library.diagnostics());
   Parameter parameter;
   parameter.kind = kind;
@@ -162,7 +189,7 @@ Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kin
                                              ? std::vector<std::string>{"button", "hold"}
                                              : std::vector<std::string>{};
   std::string word;
-  auto field = read_field(library, row, words, &word);
+  auto field = read_field(library, row, words, &word, choices);
   if (word == "button") parameter.input = Parameter::Input::button;
   if (word == "hold") parameter.input = Parameter::Input::hold;
 
@@ -189,10 +216,12 @@ Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kin
     const bool numeric = field && parameter.input == Parameter::Input::value &&
                          type.kind == FieldType::Kind::scalar &&
                          (is_integer(type.scalar) || is_floating(type.scalar));
-    if (field || !row.has("range")) {
+    if (field) {
       read_range(library, row, parameter, numeric);
+      parameter.step = read_step(library.model(), row, parameter, library.diagnostics());
     } else {
       row.also("range");
+      row.also("step");
     }
     read_default(library, row, parameter, !field);
     parameter.menu = row.text("menu").value_or("");
@@ -231,7 +260,7 @@ void check_limits(const ParameterBlock& block, Diagnostics& diagnostics) {
 }  // namespace
 
 std::optional<Field> read_field(Library& library, Row& row, const std::vector<std::string>& words,
-                                std::string* word) {
+                                std::string* word, const std::vector<UnitChoice>& choices) {
   Diagnostics& diagnostics = library.diagnostics();
   Field field;
   field.name = row.node().key;
@@ -275,7 +304,7 @@ std::optional<Field> read_field(Library& library, Row& row, const std::vector<st
     read_shape(row, field, diagnostics);
     if (is_text) refuse_shape_of_text(row, field, diagnostics);
     read_capacity(row, field, is_text, diagnostics);
-    read_unit_of_measure(row, field, diagnostics);
+    read_unit_of_measure(row, field, choices, diagnostics);
   } else if (!known) {
     for (const char* key : {"shape", "capacity", "unit"}) row.also(key);
   }
@@ -283,12 +312,13 @@ std::optional<Field> read_field(Library& library, Row& row, const std::vector<st
   return field;
 }
 
-void read_parameters(Library& library, const Node& root, Parameter::Kind kind, ParameterBlock& block) {
+void read_parameters(Library& library, const Node& root, Parameter::Kind kind, ParameterBlock& block,
+                     const std::vector<UnitChoice>& choices) {
   const std::string section = kind == Parameter::Kind::configuration ? "configuration"
                               : kind == Parameter::Kind::runtime     ? "runtime"
                                                                      : "feedback";
   for (const Node* node : named_rows(library, root, section, "a parameter"))
-    block.parameters.push_back(read_parameter(library, *node, kind, section));
+    block.parameters.push_back(read_parameter(library, *node, kind, section, choices));
   lay_out(library.model(), block);
   std::vector<const Field*> fields;
   for (const Parameter& parameter : block.parameters) fields.push_back(&parameter.field);

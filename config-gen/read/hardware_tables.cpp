@@ -4,6 +4,7 @@
 #include "config-gen/read/members.hpp"
 #include "config-gen/read/needs.hpp"
 #include "config-gen/read/object_list.hpp"
+#include "config-gen/read/quantities.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -14,6 +15,42 @@ std::string read_class(Row& row, const std::string& stem, Diagnostics& diagnosti
     diagnostics.error(row.position("class"), quote(name) + " is not a name for a class",
                       "write it in CamelCase, as \"" + camel_case(stem) + "\"");
   return name;
+}
+
+// units.NAME = ["m", "rad"]: what each device's row chooses one of.
+std::vector<UnitChoice> read_unit_choices(Row& row, Diagnostics& diagnostics) {
+  std::vector<UnitChoice> choices;
+  const Node* table = row.table("units");
+  if (table == nullptr) return choices;
+  Row names(*table, "'units' of " + row.name(), diagnostics);
+  for (const Node& child : table->children) {
+    UnitChoice choice;
+    choice.name = child.key;
+    choice.position = child.key_position;
+    const Node* list = names.list_of_texts(child.key);
+    if (!is_snake_case(choice.name) || judge_unit(choice.name, true).empty())
+      diagnostics.error(
+          child.key_position, quote(choice.name) + " is not a name for a choice of units",
+          "write a word in small letters that is no unit itself, as units.axis = [\"m\", \"rad\"]");
+    if (list == nullptr) continue;
+    for (const Node& unit : list->children) {
+      std::string advice = judge_unit(unit.text, false);
+      if (advice.empty() && unit.text.find_first_of("*/^") != std::string::npos)
+        advice = "write a single one, as \"m\"; what is made of it stands in the parameters' units";
+      if (advice.empty()) {
+        choice.units.push_back(unit.text);
+        continue;
+      }
+      diagnostics.error(unit.position,
+                        quote(unit.text) + " is not a unit that " + names.name() + " can offer", advice);
+    }
+    if (list->children.empty())
+      diagnostics.error(list->position, quote("units." + choice.name) + " offers nothing to choose",
+                        "name the units that a device's row may choose, as [\"m\", \"rad\"]");
+    if (!choice.units.empty()) choices.push_back(std::move(choice));
+  }
+  names.finish();
+  return choices;
 }
 
 Resource read_resource(const Node& node, Diagnostics& diagnostics) {
@@ -84,6 +121,7 @@ std::optional<Index> read_interface_table(Library& library, const Node& root,
                       "interfaces are found by it: write " + quote(camel_case(interface.name)) +
                           ", or rename folder and file to " + quote(snake_case(interface.class_name)));
   interface.bus = row.boolean("bus").value_or(false);
+  interface.units = read_unit_choices(row, diagnostics);
   for (const char* section : {"resource", "output", "configuration", "runtime", "feedback"})
     row.also(section);
   row.finish();
@@ -95,9 +133,9 @@ std::optional<Index> read_interface_table(Library& library, const Node& root,
   add_members(root, "resource", "a resource", members);
   add_members(root, "output", "an output", members);
   check_members(Heir::interface, members, diagnostics);
-  read_parameters(library, root, Parameter::Kind::configuration, interface.configuration);
-  read_parameters(library, root, Parameter::Kind::runtime, interface.runtime);
-  read_parameters(library, root, Parameter::Kind::feedback, interface.feedback);
+  read_parameters(library, root, Parameter::Kind::configuration, interface.configuration, interface.units);
+  read_parameters(library, root, Parameter::Kind::runtime, interface.runtime, interface.units);
+  read_parameters(library, root, Parameter::Kind::feedback, interface.feedback, interface.units);
   read_needs(library, root, interface.runtime, interface.feedback);
   if (const Node* outputs = root.find("output");
       outputs != nullptr && interface.outputs.size() != outputs->children.size())
@@ -139,7 +177,8 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
   driver.waits = row.boolean("waits").value_or(false);
   const auto interface =
       row.required_text("interface", "add interface = \"RobotArm\", the interface that it implements");
-  const auto index = interface ? library.interface(*interface, row.position("interface")) : std::nullopt;
+  std::optional<Index> index;
+  if (interface) index = library.interface(*interface, row.position("interface"));
   if (const auto bus = row.text("on")) {
     driver.bus_interface = library.interface(*bus, row.position("on"));
     if (driver.bus_interface && !model.interfaces[*driver.bus_interface].bus)
@@ -150,9 +189,14 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
   const auto objects = row.text("objects");
   refuse_sections_of_interface(row, interface.value_or(""), diagnostics);
   row.finish();
-  read_parameters(library, root, Parameter::Kind::configuration, driver.configuration);
+  // A copy: further tables may be read meanwhile, and the interfaces move.
+  std::vector<UnitChoice> choices;
+  if (index) {
+    driver.interface = *index;
+    choices = model.interfaces[*index].units;
+  }
+  read_parameters(library, root, Parameter::Kind::configuration, driver.configuration, choices);
   if (!index) return std::nullopt;
-  driver.interface = *index;
   std::vector<const Field*> fields;
   for (const ParameterBlock* block :
        {&model.interfaces[driver.interface].configuration, &driver.configuration})

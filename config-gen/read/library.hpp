@@ -82,10 +82,12 @@ std::optional<Index> read_interface_table(Library& library, const Node& root,
 std::optional<Index> read_driver_table(Library& library, const Node& root, const std::filesystem::path& file);
 
 // What fields and parameters share: type, shape, capacity, unit of measure, summary. `words` are further
-// words allowed as type ("button"), given back in `word`.
+// words allowed as type ("button"), given back in `word`. `choices` are the units of measure that a device's
+// row chooses.
 std::optional<Field> read_field(Library& library, Row& row, const std::vector<std::string>& words = {},
-                                std::string* word = nullptr);
-void read_parameters(Library& library, const Node& table, Parameter::Kind kind, ParameterBlock& block);
+                                std::string* word = nullptr, const std::vector<UnitChoice>& choices = {});
+void read_parameters(Library& library, const Node& table, Parameter::Kind kind, ParameterBlock& block,
+                     const std::vector<UnitChoice>& choices = {});
 // All of `[output.N]` under `table`.
 std::vector<OutputPort> read_outputs(Library& library, const Node& table, bool with_loans);
 

@@ -237,6 +237,30 @@ bool check_range(const Literal& low, const Literal& high, const Position& positi
   return false;
 }
 
+std::optional<Literal> read_step(const Model& model, Row& row, const Parameter& parameter,
+                                 Diagnostics& diagnostics) {
+  const Node* node = row.any("step");
+  if (node == nullptr) return std::nullopt;
+  const FieldType& type = parameter.field.type;
+  const bool numeric = parameter.kind != Parameter::Kind::feedback &&
+                       parameter.input == Parameter::Input::value && type.kind == FieldType::Kind::scalar &&
+                       (is_integer(type.scalar) || is_floating(type.scalar));
+  if (!numeric) {
+    diagnostics.error(node->position, "'step' of " + row.name() + " is for numbers that can be set",
+                      "remove it");
+    return std::nullopt;
+  }
+  Field element = parameter.field;
+  element.shape.clear();
+  auto step = read_literal(model, element, *node, "the step of " + row.name(), diagnostics);
+  if (step && !(number_of(*step) > 0)) {
+    diagnostics.error(node->position, "the step of " + row.name() + " must be above 0",
+                      "write by how much a button of the panel changes it, in its unit of measure");
+    return std::nullopt;
+  }
+  return step;
+}
+
 double number_of(const Literal& literal) {
   if (const auto* real = std::get_if<double>(&literal.value)) return *real;
   if (const auto* integer = std::get_if<std::int64_t>(&literal.value)) return static_cast<double>(*integer);
@@ -262,7 +286,7 @@ std::string literal_text(const Literal& literal) {
 
 std::string range_text(const Parameter& parameter) {
   std::string text = "[" + literal_text(*parameter.low) + ", " + literal_text(*parameter.high) + "]";
-  if (!parameter.field.unit.empty() && parameter.field.unit != "1") text += " " + parameter.field.unit;
+  if (!parameter.field.unit.empty() && parameter.field.unit != "1") text += " " + parameter.field.told_unit;
   return text;
 }
 

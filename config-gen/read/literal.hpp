@@ -6,6 +6,7 @@
 
 #include "config-gen/model/diagnostics.hpp"
 #include "config-gen/model/model.hpp"
+#include "config-gen/read/row.hpp"
 #include "config-gen/read/tree.hpp"
 
 namespace flexrf::config_gen {
@@ -27,6 +28,10 @@ std::optional<Literal> read_parameter_value(const Model& model, const Parameter&
 // 64-bit value with. What is wrong is reported with `what` ("the range of 'step'").
 bool check_range(const Literal& low, const Literal& high, const Position& position, const std::string& what,
                  Diagnostics& diagnostics);
+
+// `step` of a row that says how the panel changes this parameter: a number above 0, in its unit.
+std::optional<Literal> read_step(const Model& model, Row& row, const Parameter& parameter,
+                                 Diagnostics& diagnostics);
 
 double number_of(const Literal& literal);  // of a bool, an integer or a real
 // Of two of one type: exact for 64-bit integers, too.

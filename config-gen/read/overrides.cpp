@@ -83,6 +83,7 @@ std::vector<ParameterOverride> read_overrides(Assembly& assembly, const Node* ta
     change.place_position = row.position("place");
     change.confirm = row.text("confirm");
     read_override_range(assembly, row, *parameter, change);
+    change.step = read_step(assembly.model, row, *parameter, assembly.diagnostics);
     row.finish();
     changes.push_back(std::move(change));
   }

@@ -54,6 +54,13 @@ constexpr Instead not_si[] = {{"deg", "rad"},   {"degree", "rad"}, {"degrees", "
                               {"psi", "Pa"},    {"ohm", "Ohm"},    {"radian", "rad"},  {"radians", "rad"},
                               {"pixel", "px"},  {"pixels", "px"},  {"byte", "B"},      {"bytes", "B"}};
 
+// "speed" is left out: as often it is a part of the greatest speed, a drive's override, as a velocity.
+constexpr std::string_view quantities[] = {
+    "position", "distance",   "length",       "height",       "depth",   "radius", "diameter", "angle",
+    "velocity", "velocities", "acceleration", "deceleration", "jerk",    "force",  "torque",   "mass",
+    "inertia",  "pressure",   "temperature",  "voltage",      "current", "power",  "energy",   "frequency",
+    "time",     "duration",   "delay",        "timeout",      "period"};
+
 bool is_coherent(std::string_view symbol) {
   return std::find(std::begin(coherent), std::end(coherent), symbol) != std::end(coherent);
 }
@@ -106,6 +113,26 @@ std::string judge_unit(std::string_view unit, bool multiples) {
     if (end == unit.size()) return "";
     start = end + 1;
   }
+}
+
+std::string replace_symbol(std::string_view unit, std::string_view symbol, std::string_view by) {
+  std::string text;
+  for (std::size_t start = 0; start <= unit.size();) {
+    const std::size_t end = std::min(unit.find_first_of("*/^", start), unit.size());
+    const std::string_view factor = unit.substr(start, end - start);
+    text += factor == symbol ? by : factor;
+    if (end < unit.size()) text += unit[end];
+    start = end + 1;
+  }
+  return text;
+}
+
+bool names_quantity(std::string_view name) {
+  const std::string_view word = name.substr(name.rfind('_') + 1);
+  return std::any_of(std::begin(quantities), std::end(quantities), [word](std::string_view quantity) {
+    return word == quantity ||
+           (word.size() == quantity.size() + 1 && word.back() == 's' && word.starts_with(quantity));
+  });
 }
 
 }  // namespace flexrf::config_gen

@@ -40,12 +40,27 @@ void units_of_measure(void**) {
     assert_string_not_equal(judge_unit(bad, true).c_str(), "");
 }
 
+void symbols_are_replaced(void**) {
+  assert_string_equal(replace_symbol("axis/s^2", "axis", "m").c_str(), "m/s^2");
+  assert_string_equal(replace_symbol("1/axis", "axis", "rad").c_str(), "1/rad");
+  assert_string_equal(replace_symbol("N*axis^2", "axis", "m").c_str(), "N*m^2");
+  assert_string_equal(replace_symbol("taxis/s", "axis", "m").c_str(), "taxis/s");
+}
+
+void names_of_quantities(void**) {
+  for (const char* name : {"position", "homing_velocity", "forces", "rest_time"})
+    assert_true(names_quantity(name));
+  for (const char* name : {"velocity_share", "positioned", "speed", "gain", "s", ""})
+    assert_false(names_quantity(name));
+}
+
 }  // namespace
 }  // namespace flexrf::config_gen
 
 int main() {
   using namespace flexrf::config_gen;
   const CMUnitTest tests[] = {cmocka_unit_test(durations), cmocka_unit_test(sizes),
-                              cmocka_unit_test(units_of_measure)};
+                              cmocka_unit_test(units_of_measure), cmocka_unit_test(symbols_are_replaced),
+                              cmocka_unit_test(names_of_quantities)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

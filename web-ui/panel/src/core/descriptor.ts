@@ -86,6 +86,11 @@ export function rowsOf(flat: readonly Value[], shape: readonly number[]): Value[
     Array.from({ length: columns }, (_unused, column) => flat[column * rows + row] ?? 0));
 }
 
+/** "axis/s^2" with { axis: "m" } → "m/s^2". */
+export function unitWith(unit: string, chosen: { readonly [symbol: string]: string } | undefined): string {
+  return chosen ? unit.replace(/[^*/^]+/g, (symbol) => chosen[symbol] ?? symbol) : unit;
+}
+
 interface Origin {
   readonly kind: ItemInfo['kind'];
   readonly component?: string;
@@ -93,6 +98,8 @@ interface Origin {
   readonly role?: Role;
   /** Of the arm that it is told of. */
   readonly joints?: readonly Joint[];
+  /** Of the device's row. */
+  readonly units?: { readonly [symbol: string]: string } | undefined;
 }
 
 /** Beside a field: what its declaration says, and what the application's table changes of that. */
@@ -123,6 +130,7 @@ function makeItem(types: Types, key: string, field: Field, path: string, origin:
     scalar: field.scalar,
     shape: field.shape,
     ...measured,
+    unit: unitWith(measured.unit, origin.units),
     kind: origin.kind,
     hidden: change?.hidden ?? false,
     menu: change?.menu ?? parameter?.menu ?? '',
@@ -244,6 +252,8 @@ export function makeModel(json: DescriptorJson): Model {
     for (const slot of [...outputs, unit.feedback_slot, unit.values_slot]) if (typeof slot === 'string') armOf.set(slot, joints);
   }
 
+  const unitsOfSlots = new Map(json.devices.flatMap((device) =>
+    [device.values_slot, device.feedback_slot].map((slot) => [slot, device.units] as const)));
   json.slots.forEach((slotJson, index) => {
     const type = types.get(slotJson.type);
     const slot = {
@@ -252,7 +262,8 @@ export function makeModel(json: DescriptorJson): Model {
     const key = `slot:${slotJson.name}`;
     const source: Source = { slot, fields: [], steps: [] };
     const joints = armOf.get(slotJson.name);
-    const members = membersOf(types, key, type?.fields ?? [], '', { kind: 'slot', source, ...(joints && { joints }) });
+    const members = membersOf(types, key, type?.fields ?? [], '',
+      { kind: 'slot', source, units: unitsOfSlots.get(slotJson.name), ...(joints && { joints }) });
     slot.item = {
       key, label: slotJson.name, summary: slotJson.summary || (type?.summary ?? ''), scalar: 'structure', shape: [],
       unit: '', kind: 'slot', members, typeName: slotJson.type, hidden: false, menu: '', place: '',
@@ -266,7 +277,8 @@ export function makeModel(json: DescriptorJson): Model {
   const block = (component: string, kind: Origin['kind'], declared: BlockJson | undefined, slotName: string | undefined,
                  overrides: readonly OverrideJson[] | undefined,
                  values: { readonly [name: string]: Value } | undefined,
-                 before: readonly (BlockJson | undefined)[] = []): Item[] => {
+                 before: readonly (BlockJson | undefined)[] = [],
+                 units?: { readonly [symbol: string]: string }): Item[] => {
     if (!declared) return [];
     const slot = slotName === undefined ? undefined : slotsByName.get(slotName);
     const joints = armOf.get(`component:${component}`);
@@ -280,7 +292,7 @@ export function makeModel(json: DescriptorJson): Model {
       const initial = values?.[field.name]; // the application's own default goes before the type's
       const merged = parameter && initial !== undefined ? { ...parameter, default: initial } : parameter;
       const item = makeItem(types, `${prefix}.${field.name}`, field, field.name,
-        { kind, component, ...(slot && { source: { slot, fields: [field], steps: [] } }), ...(joints && { joints }) },
+        { kind, component, units, ...(slot && { source: { slot, fields: [field], steps: [] } }), ...(joints && { joints }) },
         { parameter: merged, change });
       made.push(item);
       addAll(item);
@@ -311,7 +323,7 @@ export function makeModel(json: DescriptorJson): Model {
       const driver = json.drivers.find((one) => one.name === choice.type);
       const items = [face, driver].flatMap((declared) =>
         block(device.name, 'configuration', declared?.configuration, undefined, device.overrides, choice.configuration,
-          declared === face ? [face?.runtime] : [face?.runtime, face?.configuration, face?.feedback]));
+          declared === face ? [face?.runtime] : [face?.runtime, face?.configuration, face?.feedback], device.units));
       return [choice.driver, items] as const;
     }));
     components.set(device.name, {
@@ -319,9 +331,9 @@ export function makeModel(json: DescriptorJson): Model {
       thread: device.thread ?? '', population: '', device,
       configuration: driverConfiguration.get(device.drivers[0]?.driver ?? '') ?? [],
       driverConfiguration,
-      runtime: block(device.name, 'runtime', face?.runtime, device.values_slot, device.overrides, device.runtime),
+      runtime: block(device.name, 'runtime', face?.runtime, device.values_slot, device.overrides, device.runtime, [], device.units),
       feedback: block(device.name, 'feedback', face?.feedback, device.feedback_slot, device.overrides, undefined,
-        [face?.runtime, face?.configuration]),
+        [face?.runtime, face?.configuration], device.units),
     });
   }
 

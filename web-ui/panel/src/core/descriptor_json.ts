@@ -130,6 +130,8 @@ export interface UnitJson {
 
 export interface DeviceJson {
   readonly name: string;
+  /** What its row chose of the units that its interface leaves open: { "axis": "m" } makes a field's "axis/s" an "m/s". */
+  readonly units?: { readonly [symbol: string]: string };
   readonly interface: string;
   readonly drivers: readonly {
     readonly driver: string;

@@ -1,6 +1,6 @@
 // @vitest-environment node
 import { describe, expect, it } from 'vitest';
-import { labelOf, makeModel, rowsOf } from '../descriptor';
+import { labelOf, makeModel, rowsOf, unitWith } from '../descriptor';
 import { cell } from '../../views/tests/cell';
 import { sample } from './sample';
 
@@ -86,4 +86,42 @@ describe('makeModel', () => {
 describe('words', () => {
   it('makes a label of a name', () => expect(labelOf('longest_advance')).toBe('Longest advance'));
   it('makes rows', () => expect(rowsOf([1, 2, 3, 4], [2, 2])).toEqual([[1, 3], [2, 4]]));
+
+  it('takes the units of a device from its row, also on the blackboard', () => {
+    const field = (name: string, offset: number, unit: string) => ({ name, scalar: 'f64', offset, size: 8, unit, summary: '' });
+    const devices = ['m', 'rad'].map((axis) => ({
+      name: `drive_${axis}`, interface: 'Drive', drivers: [{ driver: 'toy', type: 'toy_drive' }], units: { axis }, feedback_slot: `${axis}.feedback`,
+    }));
+    const model = makeModel({
+      ...sample,
+      interfaces: [{
+        name: 'Drive', summary: '', configuration: { type: 'DriveConfiguration', parameters: [{ name: 'fastest', role: 'engineer', default: 1 }] },
+        feedback: { type: 'DriveFeedback', parameters: [{ name: 'position' }] },
+      }],
+      drivers: [],
+      types: [
+        { name: 'DriveConfiguration', summary: '', hash: '1', size: 8, fields: [field('fastest', 0, 'axis/s')] },
+        { name: 'DriveFeedback', summary: '', hash: '2', size: 8, fields: [field('position', 0, 'axis')] },
+      ],
+      units: [], unit_types: [], devices: devices as unknown as typeof sample.devices,
+      slots: devices.map((device) => ({ ...sample.slots[0]!, name: device.feedback_slot, type: 'DriveFeedback' })),
+    });
+    expect(model.item('drive_m.configuration.fastest')?.unit).toBe('m/s');
+    expect(model.item('drive_rad.configuration.fastest')?.unit).toBe('rad/s');
+    expect(model.item('drive_m.feedback.position')?.unit).toBe('m');
+    expect(model.item('slot:rad.feedback.position')?.unit).toBe('rad');
+    expect(unitWith('N*axis^2', { axis: 'm' })).toBe('N*m^2');
+    expect(unitWith('taxis', { axis: 'm' })).toBe('taxis');
+  });
+
+  it('takes the step of the table, or of the application', () => {
+    const unit = sample.units[0]!;
+    const type = sample.unit_types[0]!;
+    const runtime = { ...type.runtime!, parameters: type.runtime!.parameters.map((one) => (one.name === 'step' ? { ...one, step: 0.001 } : one)) };
+    const types = [{ ...type, runtime }];
+    expect(makeModel({ ...sample, unit_types: types }).item('jog.step')?.step).toBe(0.001);
+    const overrides = [{ parameter: 'step', step: 0.002 }];
+    expect(makeModel({ ...sample, unit_types: types, units: [{ ...unit, overrides }] }).item('jog.step')?.step).toBe(0.002);
+    expect(makeModel(sample).item('jog.step')).not.toHaveProperty('step');
+  });
 });
