@@ -44,7 +44,9 @@ std::string panel_source(const Model& model) {
          "panel_record{\n"
       << "    .connections = " << panel.connections
       << ",\n    .local = " << (panel.local.empty() ? "{}" : "local")
+      << ",\n    .loopback_is_local = " << bool_literal(panel.loopback_is_local)
       << ",\n    .session_timeout = " << duration_literal(panel.session_timeout)
+      << ",\n    .session_length = " << duration_literal(panel.session_length)
       << ",\n    .files = " << (panel.files.empty() ? "{}" : "files") << ",\n};\n"
       << "\n}  // namespace flexrf::application\n";
   return out.take();

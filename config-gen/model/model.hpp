@@ -536,7 +536,9 @@ struct PanelFile {
 struct Panel {
   std::size_t connections = 32;
   std::vector<std::string> local;  // addresses
-  Nanoseconds session_timeout = Nanoseconds{12} * 3600 * 1'000'000'000;
+  bool loopback_is_local = true;
+  Nanoseconds session_timeout = Nanoseconds{1} * 3600 * 1'000'000'000;
+  Nanoseconds session_length = Nanoseconds{8} * 3600 * 1'000'000'000;
   std::vector<PanelWidget> widgets;
   std::vector<PanelFile> files;
 };

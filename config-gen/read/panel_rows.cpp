@@ -85,6 +85,8 @@ void Reader::read_settings(const Node& node) {
   if (const auto connections = row.integer("connections", 4, 256))
     panel.connections = static_cast<std::size_t>(*connections);
   panel.session_timeout = row.positive_duration("session_timeout").value_or(panel.session_timeout);
+  panel.session_length = row.positive_duration("session_length").value_or(panel.session_length);
+  panel.loopback_is_local = row.boolean("loopback_is_local").value_or(true);
   if (const Node* local = row.list_of_texts("local"); local != nullptr) {
     for (const Node& address : local->children) {
       if (is_address(address.text)) {

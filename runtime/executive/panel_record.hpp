@@ -19,11 +19,14 @@ struct PanelFile {
 
 struct PanelRecord {
   static constexpr std::uint16_t default_connections = 32;
-  static constexpr Duration default_session_timeout = std::chrono::hours{12};
+  static constexpr Duration default_session_timeout = std::chrono::hours{1};
+  static constexpr Duration default_session_length = std::chrono::hours{8};
 
   std::uint16_t connections = default_connections;  ///< places, 4 to 256
   std::span<const char* const> local;  ///< numeric addresses whose sessions are local, beside loopback ones
+  bool loopback_is_local = true;   ///< false: a tunnel or a proxy ends there, whose visitors are elsewhere
   Duration session_timeout = default_session_timeout;  ///< of a session that nobody uses
+  Duration session_length = default_session_length;    ///< of one that somebody uses
   std::span<const PanelFile> files;
 };
 

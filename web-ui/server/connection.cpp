@@ -21,6 +21,10 @@ std::string numeric_text(const net::ip::address& address) {
 
 }  // namespace
 
+Address remote_address_of(const tcp::endpoint& endpoint) {
+  return Address::parse(numeric_text(endpoint.address())).value_or(Address{});
+}
+
 Connection::Connection(Surroundings& surroundings, std::uint32_t place)
     : surroundings_(surroundings),
       place_(place),
@@ -47,12 +51,15 @@ void Connection::open(Socket socket) {
   remote_address_ = numeric_text(remote.address());
   const std::optional<Address> remote_end = Address::parse(remote_address_);
   loopback_ = remote_end && remote_end->is_loopback();
+  remote_end_ = remote_end.value_or(Address{});
+  silent_since_ = surroundings_.now;
+  turned_away_ = {};
   local_end_ = Address::parse(numeric_text(local.address())).value_or(Address{});
   session_ = no_session;
   input_begin_ = input_end_ = 0;
   keep_alive_ = true;
   lingered_ = 0;
-  ++surroundings_.connections;
+  if (place_ != no_place) ++surroundings_.connections;
   clear_reply(reply_);
   if (error) {
     state_ = State::reading;
@@ -74,6 +81,16 @@ void Connection::open(Socket socket) {
   }));
 }
 
+void Connection::turn_away(Socket socket, std::string_view why) {
+  open(std::move(socket));
+  turned_away_ = why;
+}
+
+bool Connection::is_dispensable(Time then) const noexcept {
+  const bool waits = state_ == State::greeting || (state_ == State::reading && header_end_ == 0);
+  return waits && silent_since_ < then;
+}
+
 void Connection::shut() {
   if (state_ == State::free || state_ == State::shut) return;
   end_live();
@@ -89,6 +106,7 @@ void Connection::release_if_idle() {
   parser_.reset();
   transport_.reset();
   state_ = State::free;
+  if (place_ == no_place) return;
   --surroundings_.connections;
   surroundings_.gate.on_connection_closed(place_);
 }
@@ -133,6 +151,7 @@ void Connection::read_request() {
     parse();
   } else {
     wait_at_most(surroundings_.settings.idle_timeout);
+    silent_since_ = surroundings_.now;
     read_more();
   }
 }

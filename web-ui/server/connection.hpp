@@ -22,6 +22,12 @@
 
 namespace flexrf::panel {
 
+/// Of a connection that has none: it only tells its clients that there is no room.
+inline constexpr std::uint32_t no_place = 0xFFFFFFFF;
+
+/// Numeric; an IPv4 address that is mapped into IPv6 is the IPv4 address.
+Address remote_address_of(const tcp::endpoint& endpoint);
+
 /// Lives as long as the server, and is used again for client after client; all its memory is its own. The
 /// server's thread.
 class Connection final : public LiveLink {
@@ -34,6 +40,14 @@ class Connection final : public LiveLink {
   /// Its buffers take no memory until a client comes. While it is free.
   void unlock_memory() noexcept { unlock(memory_); }
   void open(Socket socket);
+  /// Hears the first request and answers 503 with this reason, which lives for ever.
+  void turn_away(Socket socket, std::string_view why);
+  /// It waits for a request, or for the rest of one's header, and was silent since before `then`.
+  bool is_dispensable(Time then) const noexcept;
+  Time silent_since() const noexcept { return silent_since_; }
+  /// Its end is under way.
+  bool is_leaving() const noexcept { return state_ == State::shut; }
+  const Address& remote_end() const noexcept { return remote_end_; }
   /// Ends what has taken too long.
   void check(Time now);
   /// The server ends: a live client is told, others are cut.
@@ -97,6 +111,7 @@ class Connection final : public LiveLink {
   // ---- connection_requests.cpp
   void handle();
   unsigned fault_of_header(std::string_view& detail) const;
+  void turn_away_request();
   bool admit(const RequestTarget& target);
   void serve(const RequestTarget& target);
 
@@ -127,6 +142,9 @@ class Connection final : public LiveLink {
   // ---- the client
   std::string remote_address_;
   bool loopback_ = false;
+  Address remote_end_;
+  Time silent_since_{};
+  std::string_view turned_away_;  // why; empty: it is not
   Address local_end_;
   SessionIndex session_ = no_session;
 

@@ -6,6 +6,11 @@
 #include "web-ui/server/request_target.hpp"
 
 namespace flexrf::panel {
+namespace {
+
+constexpr unsigned retry_after = 2;  // s
+
+}  // namespace
 
 unsigned Connection::fault_of_header(std::string_view& detail) const {
   const RequestHeader& header = parser_->header();
@@ -38,6 +43,12 @@ void Connection::handle() {
   const RequestHeader& header = parser_->header();
   keep_alive_ = header.version == 11 && parser_->keep_alive();
   clear_reply(reply_);
+  if (!turned_away_.empty()) {
+    turn_away_request();
+    return;
+  }
+  // Where places are scarce, who has its answer gives its own to the next.
+  if (surroundings_.connections * 4 > surroundings_.settings.places * 3) keep_alive_ = false;
   const std::optional<RequestTarget> target = decode_target(header.target, path_);
   std::string_view detail = "the request's target has to be a path";
   const unsigned fault = target ? fault_of_header(detail) : 400;
@@ -53,6 +64,28 @@ void Connection::handle() {
   } else {
     serve(*target);
   }
+}
+
+/// A browser that asks for the page itself asks again by itself; the page's own requests say it to the page.
+void Connection::turn_away_request() {
+  keep_alive_ = false;
+  const RequestHeader& header = parser_->header();
+  const std::string_view path = header.target.substr(0, header.target.find('?'));
+  if (path != "/" || header.method != Method::get) {
+    reply_.retry_after = retry_after;
+    refuse(503, turned_away_);
+    return;
+  }
+  reply_.status = 503;
+  reply_.retry_after = retry_after;
+  reply_.content_type = "text/html; charset=utf-8";
+  reply_.text =
+      "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"2\">"
+      "<title>FlexRF panel: no room</title><h1>No room</h1><p>The panel cannot be shown now: ";
+  reply_.text.append(turned_away_)
+      .append(". This page tries again by itself.</p><p>Motion is not stopped from here: ");
+  reply_.text.append("use the emergency stop at the machine.</p></html>\n");
+  send_reply();
 }
 
 bool Connection::admit(const RequestTarget& target) {

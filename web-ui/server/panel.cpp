@@ -43,6 +43,7 @@ class Panel final : public Observer {
   Status read_options();
   Status listen();
   void make_access();
+  std::vector<Address> local_addresses() const;
   Status make_api();
   void print_address();
   std::string shown_host() const;
@@ -126,6 +127,8 @@ Status Panel::read_options() {
 Status Panel::listen() {
   ServerSettings settings;
   settings.places = record_.connections;
+  settings.local = local_addresses();
+  settings.loopback_is_local = record_.loopback_is_local;
   server_.emplace(settings, std::move(encryption_), ServerParts{routes_, routes_, routes_, routes_});
   Status status = server_->listen(address_);
   // Nobody asked for the default address: another application's panel is no reason not to start.
@@ -141,6 +144,14 @@ Status Panel::listen() {
   return status;
 }
 
+std::vector<Address> Panel::local_addresses() const {
+  std::vector<Address> addresses;
+  for (const char* local : record_.local) {
+    if (const std::optional<Address> address = Address::parse(local)) addresses.push_back(*address);
+  }
+  return addresses;
+}
+
 void Panel::make_access() {
   AccessSettings settings;
   settings.needs_login = !users_.list.empty();
@@ -150,9 +161,8 @@ void Panel::make_access() {
   settings.sessions.idle = record_.session_timeout;
   // Each connection may be another's, and others come back to theirs.
   settings.sessions.places = std::size_t{2} * record_.connections;
-  for (const char* local : record_.local) {
-    if (const std::optional<Address> address = Address::parse(local)) settings.local.push_back(*address);
-  }
+  settings.local = local_addresses();
+  settings.loopback_is_local = record_.loopback_is_local;
   access_.emplace(settings);
   std::vector<std::string> names = HostRules::names_of_machine();
   for (const std::string& name : executive_.options().panel_hosts) names.push_back(name);

@@ -16,7 +16,8 @@ constexpr std::uint32_t beats_per_check = 10;
 constexpr Duration time_to_wind_up = std::chrono::milliseconds{300};
 /// Handlers that run before what is due is looked at again.
 constexpr int handlers_per_turn = 64;
-constexpr unsigned retry_after = 5;  // s
+/// So many at a time are told that there is no room.
+constexpr std::uint32_t porter_count = 4;
 
 void write_date(std::string& text) {
   const std::time_t now = std::time(nullptr);
@@ -47,6 +48,7 @@ Server::Server(const ServerSettings& settings, std::unique_ptr<net::ssl::context
   for (std::uint32_t place = 0; place < settings_.places; ++place) {
     connections_.emplace_back(surroundings_, place);
   }
+  for (std::uint32_t i = 0; i < porter_count; ++i) porters_.emplace_back(surroundings_, no_place);
 }
 
 Status Server::listen(const ListenAddress& address) {
@@ -84,6 +86,7 @@ Status Server::listen(const ListenAddress& address) {
 
 void Server::run() {
   for (Connection& connection : connections_) connection.unlock_memory();
+  for (Connection& porter : porters_) porter.unlock_memory();
   surroundings_.now = MonotonicClock::now();
   accept();
   beat_timer_.expires_at(on_asios_clock(surroundings_.now + beat_interval));
@@ -93,6 +96,13 @@ void Server::run() {
     context_.run_one();
     for (int i = 1; i < handlers_per_turn && context_.poll_one() > 0; ++i) {
     }
+    // When a place may have become free, and now and then, as who has nothing to say is not told of.
+    if (!newcomers_.empty() &&
+        (surroundings_.connections < occupied_ || surroundings_.now >= next_placing_)) {
+      next_placing_ = surroundings_.now + beat_interval;
+      place_newcomers();
+    }
+    occupied_ = surroundings_.connections;
     if (std::exchange(surroundings_.handled, false)) tick();
   }
   wind_up();
@@ -108,7 +118,9 @@ void Server::wind_up() {
   while (!std::ranges::all_of(connections_, is_free) && MonotonicClock::now() < latest) {
     context_.run_one_for(std::chrono::milliseconds{10});
   }
+  newcomers_.clear();
   for (Connection& connection : connections_) connection.shut();
+  for (Connection& porter : porters_) porter.shut();
   beat_timer_.cancel();
   tick_timer_.cancel();
   context_.poll();
@@ -133,9 +145,9 @@ void Server::on_beat() {
 
 void Server::check_connections() {
   write_date(surroundings_.date);
-  close_refused();
   loop_delay_p99_ = loop_delay_.quantile(0.99);
   for (Connection& connection : connections_) connection.check(surroundings_.now);
+  for (Connection& porter : porters_) porter.check(surroundings_.now);
   if (!accepts_) accept();
   surroundings_.handled = true;
 }
@@ -173,47 +185,8 @@ void Server::on_accepted(error_code error) {
   if (error == net::error::operation_aborted) return;
   // Too many open files, for one: tried again at the next check.
   if (error && error != net::error::connection_aborted) return;
-  if (!error) {
-    const auto free = std::ranges::find_if(connections_, &Connection::is_free);
-    if (free == connections_.end()) {
-      refuse(std::move(accepted_));
-    } else {
-      free->open(std::move(accepted_));
-    }
-  }
+  if (!error) welcome(std::move(accepted_));
   accept();
-}
-
-/// What a fresh socket does not take at once is not worth waiting for.
-void Server::refuse(Socket socket) {
-  std::optional<Socket>& place = refused_sockets_[refused_++ % refused_sockets_.size()];
-  place.reset();
-  if (encryption_) return;  // nothing can be said before the handshake
-  Reply reply;
-  reply.retry_after = retry_after;
-  answer_problem(reply, 503, "all of the panel's connections are in use; close a page, or try again later");
-  ReplyHead head;
-  head.date = surroundings_.date;
-  head.keep_alive = false;
-  std::string text;
-  write_reply_head(text, reply, head);
-  text += reply.text;
-  error_code ignored;
-  socket.non_blocking(true, ignored);
-  socket.write_some(net::buffer(text), ignored);
-  socket.shutdown(Socket::shutdown_send, ignored);
-  place.emplace(std::move(socket));
-}
-
-/// Closing with something unread would take the answer away from the client again.
-void Server::close_refused() {
-  std::array<char, 16384> request;
-  for (std::optional<Socket>& place : refused_sockets_) {
-    if (!place) continue;
-    error_code ignored;
-    place->read_some(net::buffer(request), ignored);
-    place.reset();
-  }
 }
 
 Reply* Server::reply_of(Ticket ticket) {

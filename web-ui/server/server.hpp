@@ -1,7 +1,6 @@
 // The panel's server: one thread, one port, a fixed number of connections.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <deque>
@@ -11,6 +10,7 @@
 
 #include "runtime/core/histogram.hpp"
 #include "runtime/core/status.hpp"
+#include "runtime/log/log.hpp"
 #include "web-ui/server/asio.hpp"
 #include "web-ui/server/connection.hpp"
 #include "web-ui/server/exchange.hpp"
@@ -30,7 +30,8 @@ struct ServerParts {
   Ticked& ticked;
 };
 
-/// Takes all its memory before it runs. Functions: the server's thread, but where they say otherwise.
+/// Takes all its memory before it runs, but for the few who wait for a place. Functions: the server's thread,
+/// but where they say otherwise.
 class Server final : public LaterReplies {
  public:
   /// `encryption` null: plain HTTP. Any one thread.
@@ -57,8 +58,23 @@ class Server final : public LaterReplies {
  private:
   void accept();
   void on_accepted(error_code error);
-  void refuse(Socket socket);
-  void close_refused();
+
+  // ---- placing.cpp
+  enum class Bound : std::uint8_t { none, of_address, of_remote };
+  struct Newcomer {
+    Socket socket;
+    Address address;
+    Time until;
+  };
+  bool is_local(const Address& address) const noexcept;
+  Bound bound_of(const Address& address) const noexcept;
+  bool may_have_place_of(const Address& address, Bound bound, const Connection& other) const noexcept;
+  Connection* dispensable(const Address& address, Bound bound) noexcept;
+  bool place(Newcomer& newcomer);
+  void welcome(Socket socket);
+  void place_newcomers();
+  bool turn_away(Socket& socket, Bound bound);
+
   void beat();
   void on_beat();
   void check_connections();
@@ -77,8 +93,11 @@ class Server final : public LaterReplies {
   Socket accepted_;
   Timer beat_timer_;
   Timer tick_timer_;
-  // Clients that were refused, and get to read why before their sockets are closed.
-  std::array<std::optional<Socket>, 8> refused_sockets_;
+  std::deque<Newcomer> newcomers_;  // wait for a place
+  std::deque<Connection> porters_;  // who have none, and tell it to whom there is no room for
+  std::uint32_t occupied_ = 0;      // places, after the last turn
+  Time next_placing_{};
+  LogLimit full_;
   // Of the listener and the timers.
   HandlerMemory handler_memory_;
   Histogram loop_delay_;

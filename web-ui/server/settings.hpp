@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "runtime/core/time.hpp"
+#include "web-ui/server/access/address.hpp"
 
 namespace flexrf::panel {
 
@@ -13,7 +15,11 @@ inline constexpr std::size_t body_limit = 64U << 10;          ///< bytes of a re
 inline constexpr std::size_t live_message_limit = 16U << 10;  ///< bytes of a client's message
 
 struct ServerSettings {
-  std::uint32_t places = 32;  ///< connections at a time
+  /// Connections at a time. A quarter is for who is local; one address that is not has three quarters of the
+  /// rest at most. Who has nothing to say makes room for who comes.
+  std::uint32_t places = 32;
+  std::vector<Address> local;     ///< at the machine, beside loopback
+  bool loopback_is_local = true;  ///< else it is where a tunnel or a proxy ends
   Duration header_timeout = std::chrono::seconds{5};
   Duration body_timeout = std::chrono::seconds{10};
   Duration idle_timeout = std::chrono::seconds{15};   ///< between two requests

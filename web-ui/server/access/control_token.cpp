@@ -12,8 +12,13 @@ ControlToken::Taking ControlToken::take(const Asker& asker, Time now) noexcept {
     return Taking::taken;
   }
   if (holder_.is_local && !asker.is_local) return Taking::refused_local;
+  // Who stands at the machine sees what moves.
+  if (asker.is_local && !holder_.is_local) {
+    give(asker);
+    return Taking::taken;
+  }
   if (asker_.session == asker.session) return Taking::asked;  // asking again neither hastens nor delays it
-  if (asker_.session != no_session && (asker_.is_local || !asker.is_local)) return Taking::refused_asked;
+  if (asker_.session != no_session) return Taking::refused_asked;
   asker_ = asker;
   deadline_ = now + time_to_answer;
   ++revision_;
@@ -41,7 +46,11 @@ bool ControlToken::answer(SessionIndex session, bool grant) noexcept {
   return true;
 }
 
-void ControlToken::update(Time now) noexcept {
+void ControlToken::update(Time now, bool holder_is_there) noexcept {
+  if (asker_.session != no_session && !holder_is_there) {
+    deadline_ = now + time_to_answer;
+    return;
+  }
   if (asker_.session != no_session && now >= deadline_) give(asker_);
 }
 

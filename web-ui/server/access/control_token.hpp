@@ -23,15 +23,16 @@ class ControlToken {
     bool is_local = false;
   };
 
-  /// A free token is taken at once; else its holder is asked, and no answer is consent. One waits at a time;
-  /// a local one takes the place of one that is not.
+  /// A free token is taken at once, and by who is local that of one who is not; else its holder is asked, and
+  /// no answer is consent. One waits at a time.
   Taking take(const Asker& asker, Time now) noexcept;
   /// Given back by its holder, or the question withdrawn by who asked; nothing for anybody else.
   void release(SessionIndex session) noexcept;
   /// The holder's answer; false: it is not the holder, or nobody asks.
   bool answer(SessionIndex session, bool grant) noexcept;
-  /// Gives it to who waited long enough.
-  void update(Time now) noexcept;
+  /// Gives it to who waited long enough. Silence is an answer only of a holder who can see the question:
+  /// while he is not `there` the time does not run, and begins anew when he is back.
+  void update(Time now, bool holder_is_there) noexcept;
 
   SessionIndex holder() const noexcept { return holder_.session; }
   SessionIndex wanted_by() const noexcept { return asker_.session; }

@@ -13,7 +13,7 @@ bool prepare_cryptography() noexcept {
 PanelAccess::PanelAccess(const AccessSettings& settings)
     : settings_(settings),
       cookie_name_("flexrf_session_" + std::to_string(settings.port)),
-      sessions_(settings.sessions, settings.local) {
+      sessions_(settings.sessions, settings.local, settings.loopback_is_local) {
   if (!settings_.needs_login) token_.emplace();
 }
 
@@ -93,7 +93,7 @@ void PanelAccess::update(Time now) {
     if (concerned != no_session && !sessions_.is_present(concerned, absence, now))
       control_.release(concerned);
   }
-  control_.update(now);
+  control_.update(now, sessions_.is_there(control_.holder()));
 }
 
 bool PanelAccess::watch(SessionWatcher& watcher) noexcept {

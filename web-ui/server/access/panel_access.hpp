@@ -21,6 +21,7 @@ struct AccessSettings {
   bool secure = false;         ///< by TLS: the cookie is Secure
   std::uint16_t port = 8080;   ///< part of the cookie's name, for cookies do not tell ports apart
   std::vector<Address> local;  ///< what the application's table calls local, beside loopback
+  bool loopback_is_local = true;
   SessionLimits sessions;
   AuditIntake* audit = nullptr;  ///< who comes and goes is told there; null: nowhere
 };

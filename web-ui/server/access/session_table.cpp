@@ -12,8 +12,12 @@ namespace flexrf::panel {
 
 static_assert(crypto_shorthash_KEYBYTES == 16 && crypto_shorthash_BYTES == 8);
 
-SessionTable::SessionTable(const SessionLimits& limits, std::vector<Address> local)
-    : limits_(limits), local_(std::move(local)), entries_(limits.places), tags_(limits.places) {
+SessionTable::SessionTable(const SessionLimits& limits, std::vector<Address> local, bool loopback_is_local)
+    : limits_(limits),
+      local_(std::move(local)),
+      loopback_is_local_(loopback_is_local),
+      entries_(limits.places),
+      tags_(limits.places) {
   randombytes_buf(key_.data(), key_.size());
 }
 
@@ -54,6 +58,7 @@ SessionIndex SessionTable::begin(std::string_view user, Role role, std::string_v
   if (free == entries_.end()) return no_session;
   free->serial = ++last_serial_;
   free->links = 0;
+  free->had_links = false;
   free->begun = free->used = now;
   randombytes_buf(free->secret.data(), free->secret.size());
   sodium_bin2hex(free->cookie.data(), free->cookie.size(), free->secret.data(), free->secret.size());
@@ -85,8 +90,9 @@ void SessionTable::set_address(Entry& entry, std::string_view address) const noe
 
 bool SessionTable::is_local(std::string_view address) const noexcept {
   const std::optional<Address> parsed = Address::parse(address);
-  return parsed &&
-         (parsed->is_loopback() || std::find(local_.begin(), local_.end(), *parsed) != local_.end());
+  if (!parsed) return false;
+  if (std::find(local_.begin(), local_.end(), *parsed) != local_.end()) return true;
+  return loopback_is_local_ && parsed->is_loopback();
 }
 
 void SessionTable::touch(SessionIndex session, std::string_view address, Time now) noexcept {
@@ -97,7 +103,10 @@ void SessionTable::touch(SessionIndex session, std::string_view address, Time no
 }
 
 void SessionTable::link_opened(SessionIndex session) noexcept {
-  if (Entry* const linked = entry(session)) ++linked->links;
+  Entry* const linked = entry(session);
+  if (linked == nullptr) return;
+  ++linked->links;
+  linked->had_links = true;
 }
 
 void SessionTable::link_closed(SessionIndex session, Time now) noexcept {
@@ -120,6 +129,11 @@ std::string_view SessionTable::cookie(SessionIndex session) const noexcept {
 std::uint32_t SessionTable::serial(SessionIndex session) const noexcept {
   const Entry* const known = entry(session);
   return known == nullptr ? 0 : known->serial;
+}
+
+bool SessionTable::is_there(SessionIndex session) const noexcept {
+  const Entry* const known = entry(session);
+  return known != nullptr && (known->links > 0 || !known->had_links);
 }
 
 bool SessionTable::is_present(SessionIndex session, Duration span, Time now) const noexcept {

@@ -26,8 +26,8 @@ class SessionTable {
   static constexpr std::size_t cookie_bytes = 16;
   static constexpr std::size_t cookie_digits = 2 * cookie_bytes;
 
-  /// `local`: what the application's table calls local, beside loopback.
-  SessionTable(const SessionLimits& limits, std::vector<Address> local);
+  /// `local`: what the application's table calls local; `loopback_is_local`: and this machine itself.
+  SessionTable(const SessionLimits& limits, std::vector<Address> local, bool loopback_is_local = true);
 
   /// The session of a cookie's value. The time it takes tells nothing of other sessions' cookies: they are
   /// looked up by a hash with a secret key, and compared in constant time.
@@ -47,6 +47,8 @@ class SessionTable {
   std::string_view cookie(SessionIndex session) const noexcept;
   /// Differs for every session that ever was: tells one from another that got its place.
   std::uint32_t serial(SessionIndex session) const noexcept;
+  /// Somebody can see what it is asked: it has a live connection, or never had one and is a script.
+  bool is_there(SessionIndex session) const noexcept;
   /// A live connection is open, or it was used within the last `span`.
   bool is_present(SessionIndex session, Duration span, Time now) const noexcept;
   /// One of who logged in by this name; no_session: there is none.
@@ -67,6 +69,7 @@ class SessionTable {
     SessionInfo info;
     std::uint32_t serial = 0;  // 0: free
     std::uint32_t links = 0;
+    bool had_links = false;
     Time begun{};
     Time used{};
     std::array<unsigned char, cookie_bytes> secret{};
@@ -84,6 +87,7 @@ class SessionTable {
 
   SessionLimits limits_;
   std::vector<Address> local_;
+  bool loopback_is_local_;
   std::vector<Entry> entries_;
   std::vector<Tag> tags_;  // of entries_; beside them, because every request looks through all
   std::array<unsigned char, 16> key_{};

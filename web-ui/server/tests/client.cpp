@@ -25,7 +25,7 @@ ssize_t uninterrupted(Call&& call) {
 
 }  // namespace
 
-bool Client::connect(std::uint16_t port) {
+bool Client::connect(std::uint16_t port, const char* from) {
   close();
   input_.clear();
   socket_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -34,6 +34,8 @@ bool Client::connect(std::uint16_t port) {
   setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof(patience));
   sockaddr_in address{};
   address.sin_family = AF_INET;
+  inet_pton(AF_INET, from, &address.sin_addr);
+  if (bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) return false;
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   return ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;

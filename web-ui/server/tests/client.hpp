@@ -16,7 +16,8 @@ class Client {
   Client& operator=(const Client&) = delete;
   ~Client() { close(); }
 
-  bool connect(std::uint16_t port);
+  /// `from`: a numeric address of this machine.
+  bool connect(std::uint16_t port, const char* from = "127.0.0.1");
   void close();
   /// No more will come from here, but all can be read.
   void finish();

@@ -28,6 +28,17 @@ int serve(void** state) {
 int serve_few(void** state) {
   ServerSettings settings = patient();
   settings.places = 2;
+  settings.live_silence = std::chrono::minutes{1};
+  return serve_with(state, settings);
+}
+
+/// 127.0.0.9 is local, and other addresses of this machine are as good as other machines.
+int serve_addresses(void** state) {
+  ServerSettings settings = patient();
+  settings.places = 16;
+  settings.live_silence = std::chrono::minutes{1};
+  settings.loopback_is_local = false;
+  settings.local = {*Address::parse("127.0.0.9")};
   return serve_with(state, settings);
 }
 
@@ -242,28 +253,84 @@ void wrong_requests_are_refused(void** state) {
   assert_true(has(ask(state, "DELETE / HTTP/1.1\r\n" + host + "\r\n"), "Allow: GET, HEAD, PUT, POST\r\n"));
 }
 
+/// Live connections, which make room for nobody.
 void more_clients_than_places_get_503(void** state) {
+  auto& served = *static_cast<Served*>(*state);
+  for (std::size_t i = 0; i < 2; ++i) {
+    assert_int_equal(status_of(client_of(state, i).upgrade()), 101);
+  }
+  for (std::size_t i = 2; i < 6; ++i) {
+    client_of(state, i).send(get("/hello"));
+    served.text = served.clients[i].reply();
+    assert_int_equal(status_of(served.text), 503);
+    assert_true(has(served.text, "Retry-After: 2\r\n"));
+    assert_true(has(served.text, "close a page that is not needed"));
+    assert_true(served.clients[i].ends());
+  }
+  // Who wants the page is shown one that tries again.
+  client_of(state, 6).send(get("/"));
+  served.text = served.clients[6].reply();
+  assert_int_equal(status_of(served.text), 503);
+  assert_true(has(served.text, "Content-Type: text/html"));
+  assert_true(has(served.text, "http-equiv=\"refresh\""));
+  // Those that have a place keep it, and a place that gets free is given again.
+  served.clients[1].send_text("still here");
+  assert_string_equal(served.clients[1].frame().payload.c_str(), "still here");
+  served.clients[0].close();
+  client_of(state, 2).send(get("/hello"));
+  assert_int_equal(status_of(served.clients[2].reply()), 200);
+}
+
+void who_has_nothing_to_say_makes_room(void** state) {
   auto& served = *static_cast<Served*>(*state);
   for (std::size_t i = 0; i < 2; ++i) {
     client_of(state, i).send(get("/hello"));
     assert_int_equal(status_of(served.clients[i].reply()), 200);
   }
-  for (std::size_t i = 2; i < served.clients.size(); ++i) {
-    client_of(state, i).send(get("/hello"));
-    served.text = served.clients[i].reply();
-    assert_int_equal(status_of(served.text), 503);
-    assert_true(has(served.text, "Retry-After: 5\r\n"));
-    assert_true(served.clients[i].ends());
-  }
-  // Those that have a place keep it, and a place that gets free is given again.
-  served.clients[1].send(get("/hello"));
-  assert_int_equal(status_of(served.clients[1].reply()), 200);
-  served.clients[0].close();
-  do {
-    client_of(state, 2).send(get("/hello"));
-  } while (status_of(served.clients[2].reply()) == 503);
-  served.clients[2].send(get("/hello"));
+  client_of(state, 2).send(get("/hello"));
   assert_int_equal(status_of(served.clients[2].reply()), 200);
+  assert_true(served.clients[0].ends());
+}
+
+/// 200 who say nothing, or not all, for as long as they may.
+void half_open_connections_keep_nobody_out(void** state) {
+  auto& served = *static_cast<Served*>(*state);
+  static std::array<Client, 200> silent;
+  for (std::size_t i = 0; i < silent.size(); ++i) {
+    assert_true(silent[i].connect(served.port()));
+    if (i % 2 == 0) silent[i].send("GET / HT");
+  }
+  for (std::size_t i = 0; i < 5; ++i) {
+    client_of(state, i).send(get("/hello"));
+    assert_int_equal(status_of(served.clients[i].reply()), 200);
+  }
+  for (Client& client : silent) client.close();
+}
+
+/// Of 16 places 4 are for who is local, and one other address has 9 at most.
+void places_are_bounded_per_address(void** state) {
+  auto& served = *static_cast<Served*>(*state);
+  for (std::size_t i = 0; i < 9; ++i) {
+    assert_true(served.clients[i].connect(served.port(), "127.0.0.7"));
+    assert_int_equal(status_of(served.clients[i].upgrade()), 101);
+  }
+  assert_true(served.clients[9].connect(served.port(), "127.0.0.7"));
+  served.clients[9].send(get("/hello"));
+  served.text = served.clients[9].reply();
+  assert_int_equal(status_of(served.text), 503);
+  assert_true(
+      has(served.text, "this address has all the connections to the panel that one address may have"));
+  // Others have room, until what is not reserved is full; who is local has more.
+  for (std::size_t i = 10; i < 13; ++i) {
+    assert_true(served.clients[i].connect(served.port(), "127.0.0.8"));
+    assert_int_equal(status_of(served.clients[i].upgrade()), 101);
+  }
+  assert_true(served.clients[13].connect(served.port(), "127.0.0.8"));
+  assert_int_equal(status_of(served.clients[13].upgrade()), 503);
+  for (std::size_t i = 14; i < 18; ++i) {
+    assert_true(served.clients[i].connect(served.port(), "127.0.0.9"));
+    assert_int_equal(status_of(served.clients[i].upgrade()), 101);
+  }
 }
 
 void slow_headers_are_given_up(void** state) {
@@ -323,6 +390,9 @@ int main() {
       cmocka_unit_test_setup_teardown(half_open_clients_get_their_answer, serve, end),
       cmocka_unit_test_setup_teardown(wrong_requests_are_refused, serve, end),
       cmocka_unit_test_setup_teardown(more_clients_than_places_get_503, serve_few, end),
+      cmocka_unit_test_setup_teardown(who_has_nothing_to_say_makes_room, serve_few, end),
+      cmocka_unit_test_setup_teardown(half_open_connections_keep_nobody_out, serve, end),
+      cmocka_unit_test_setup_teardown(places_are_bounded_per_address, serve_addresses, end),
       cmocka_unit_test_setup_teardown(slow_headers_are_given_up, serve_slow_headers, end),
       cmocka_unit_test_setup_teardown(slow_bodies_are_given_up, serve_slow_bodies, end),
       cmocka_unit_test_setup_teardown(silent_clients_are_cut, serve_silent, end),

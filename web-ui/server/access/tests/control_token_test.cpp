@@ -58,9 +58,9 @@ void no_answer_is_consent_after_ten_seconds(void**) {
   assert_int_equal(token->answer_within(start + seconds{3}).count(), Duration{seconds{7}}.count());
   // Asking again changes nothing.
   assert_int_equal(token->take(remote(2), start + seconds{5}), Taking::asked);
-  token->update(start + seconds{10} - milliseconds{1});
+  token->update(start + seconds{10} - milliseconds{1}, true);
   assert_int_equal(token->holder(), 1);
-  token->update(start + seconds{10});
+  token->update(start + seconds{10}, true);
   assert_int_equal(token->holder(), 2);
   assert_int_equal(token->wanted_by(), no_session);
   assert_int_equal(watcher.last_from, 1);
@@ -77,7 +77,7 @@ void the_holder_grants_or_refuses(void**) {
   assert_false(token->answer(no_session, true));
   assert_true(token->answer(1, false));
   assert_int_equal(token->wanted_by(), no_session);
-  token->update(start + seconds{60});
+  token->update(start + seconds{60}, true);
   assert_int_equal(token->holder(), 1);
   assert_int_equal(token->take(remote(2), start), Taking::asked);
   assert_true(token->answer(1, true));
@@ -89,14 +89,30 @@ void one_asks_at_a_time(void**) {
   assert_int_equal(token->take(remote(2), start), Taking::asked);
   assert_int_equal(token->take(remote(3), start), Taking::refused_asked);
   assert_int_equal(token->wanted_by(), 2);
-  // Whoever stands beside the machine goes before who asks from afar.
-  assert_int_equal(token->take(local(4), start + seconds{5}), Taking::asked);
-  assert_int_equal(token->wanted_by(), 4);
-  assert_int_equal(token->take(local(5), start + seconds{5}), Taking::refused_asked);
-  token->update(start + seconds{10});
-  assert_int_equal(token->holder(), 1);
-  token->update(start + seconds{15});
+  // Whoever stands beside the machine does not wait for who is afar, whoever else asked there.
+  assert_int_equal(token->take(local(4), start + seconds{5}), Taking::taken);
   assert_int_equal(token->holder(), 4);
+  assert_int_equal(watcher.last_from, 1);
+  assert_int_equal(token->wanted_by(), no_session);
+  // He asks who stands there, too.
+  assert_int_equal(token->take(local(5), start + seconds{5}), Taking::asked);
+  assert_int_equal(token->take(local(6), start + seconds{5}), Taking::refused_asked);
+  token->update(start + seconds{15}, true);
+  assert_int_equal(token->holder(), 5);
+}
+
+void silence_of_who_cannot_see_the_question_is_no_answer(void**) {
+  assert_int_equal(token->take(remote(1), start), Taking::taken);
+  assert_int_equal(token->take(remote(2), start), Taking::asked);
+  token->update(start + seconds{9}, false);
+  token->update(start + seconds{14}, false);
+  assert_int_equal(token->holder(), 1);
+  // He is back, and has all the time there is.
+  assert_int_equal(token->answer_within(start + seconds{14}).count(), Duration{seconds{10}}.count());
+  token->update(start + seconds{23}, true);
+  assert_int_equal(token->holder(), 1);
+  token->update(start + seconds{24}, true);
+  assert_int_equal(token->holder(), 2);
 }
 
 void a_local_holder_cannot_be_displaced_from_afar(void**) {
@@ -104,7 +120,7 @@ void a_local_holder_cannot_be_displaced_from_afar(void**) {
   assert_int_equal(token->take(remote(2), start), Taking::refused_local);
   assert_int_equal(token->wanted_by(), no_session);
   assert_int_equal(token->take(local(3), start), Taking::asked);
-  token->update(start + seconds{10});
+  token->update(start + seconds{10}, true);
   assert_int_equal(token->holder(), 3);
   // What he gives back is free for all.
   token->release(3);
@@ -129,7 +145,7 @@ void who_asked_and_left_does_not_get_it(void**) {
   assert_int_equal(token->take(remote(1), start), Taking::taken);
   assert_int_equal(token->take(remote(2), start), Taking::asked);
   token->release(2);
-  token->update(start + seconds{60});
+  token->update(start + seconds{60}, true);
   assert_int_equal(token->holder(), 1);
   assert_int_equal(watcher.changes, 1);
 }
@@ -151,7 +167,7 @@ void every_change_shows_in_the_revision(void**) {
   assert_true(has_risen());
   token->release(1);
   assert_true(has_risen());
-  token->update(start + seconds{60});
+  token->update(start + seconds{60}, true);
   assert_false(has_risen());
 }
 
@@ -169,6 +185,7 @@ int main() {
       cmocka_unit_test_setup(what_is_released_goes_to_who_waits, begin),
       cmocka_unit_test_setup(who_asked_and_left_does_not_get_it, begin),
       cmocka_unit_test_setup(every_change_shows_in_the_revision, begin),
+      cmocka_unit_test_setup(silence_of_who_cannot_see_the_question_is_no_answer, begin),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

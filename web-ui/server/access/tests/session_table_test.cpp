@@ -130,6 +130,11 @@ void local_is_what_the_table_says(void**) {
   for (const char* address : {"192.168.0.7", "::ffff:192.168.0.7", "fe80::1%eth1", "127.0.0.1", "::1"})
     assert_true(table->is_local(address));
   for (const char* address : {"192.168.0.8", "fe80::2", "", "x"}) assert_false(table->is_local(address));
+  // A tunnel or a proxy ends at loopback.
+  table.emplace(SessionLimits{}, std::vector<Address>{*Address::parse("192.168.0.7")}, false);
+  assert_true(table->is_local("192.168.0.7"));
+  assert_false(table->is_local("127.0.0.1"));
+  assert_false(table->is_local("::1"));
   const SessionIndex session = viewer();
   assert_false(table->info(session)->local);
   table->touch(session, "192.168.0.7", start);

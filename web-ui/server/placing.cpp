@@ -1,0 +1,156 @@
+// Of Server: which client gets a place, which waits for one, and who has to make room.
+#include <algorithm>
+#include <string>
+
+#include "runtime/log/log.hpp"
+#include "web-ui/server/server.hpp"
+
+namespace flexrf::panel {
+namespace {
+
+/// A client that has just come may be about to ask.
+constexpr Duration least_stay = std::chrono::milliseconds{250};
+/// For a place: requests that are under way are done by then.
+constexpr Duration most_waiting_time = std::chrono::milliseconds{1500};
+constexpr std::size_t most_waiting = 32;
+
+}  // namespace
+
+bool Server::is_local(const Address& address) const noexcept {
+  if (std::find(settings_.local.begin(), settings_.local.end(), address) != settings_.local.end())
+    return true;
+  return settings_.loopback_is_local && address.is_loopback();
+}
+
+/// What keeps this client from a place, even where one is free.
+Server::Bound Server::bound_of(const Address& address) const noexcept {
+  if (is_local(address)) return Bound::none;
+  const Address party = address.neighbourhood();
+  std::uint32_t remote = 0;
+  std::uint32_t same = 0;
+  for (const Connection& connection : connections_) {
+    if (connection.is_free() || is_local(connection.remote_end())) continue;
+    ++remote;
+    if (connection.remote_end().neighbourhood() == party) ++same;
+  }
+  const std::uint32_t reserved = settings_.places / 4;
+  const std::uint32_t most_remote = settings_.places - reserved;
+  if (same >= std::max<std::uint32_t>(1, most_remote * 3 / 4)) return Bound::of_address;
+  return remote >= most_remote ? Bound::of_remote : Bound::none;
+}
+
+bool Server::may_have_place_of(const Address& address, Bound bound, const Connection& other) const noexcept {
+  switch (bound) {
+    case Bound::of_address:
+      return other.remote_end().neighbourhood() == address.neighbourhood();
+    case Bound::of_remote:
+      return !is_local(other.remote_end());
+    case Bound::none:
+      break;
+  }
+  return true;
+}
+
+/// Whoever has said nothing for longest: between two requests, or not yet done with the first. Of those, one
+/// whose address has the most places.
+Connection* Server::dispensable(const Address& address, Bound bound) noexcept {
+  Connection* chosen = nullptr;
+  std::size_t chosen_count = 0;
+  for (Connection& connection : connections_) {
+    if (!connection.is_dispensable(surroundings_.now - least_stay) ||
+        !may_have_place_of(address, bound, connection))
+      continue;
+    const Address party = connection.remote_end().neighbourhood();
+    const auto count = static_cast<std::size_t>(
+        std::count_if(connections_.begin(), connections_.end(), [&](const Connection& other) {
+          return !other.is_free() && other.remote_end().neighbourhood() == party;
+        }));
+    const bool better = chosen == nullptr || count > chosen_count ||
+                        (count == chosen_count && connection.silent_since() < chosen->silent_since());
+    if (better) chosen = &connection, chosen_count = count;
+  }
+  return chosen;
+}
+
+bool Server::place(Newcomer& newcomer) {
+  const Bound bound = bound_of(newcomer.address);
+  if (bound == Bound::none) {
+    const auto free = std::find_if(connections_.begin(), connections_.end(),
+                                   [](const Connection& connection) { return connection.is_free(); });
+    if (free != connections_.end()) {
+      free->open(std::move(newcomer.socket));
+      return true;
+    }
+  }
+  // One that is on its way out already makes room for one.
+  const auto leaving = static_cast<std::size_t>(
+      std::count_if(connections_.begin(), connections_.end(),
+                    [](const Connection& connection) { return connection.is_leaving(); }));
+  if (leaving >= newcomers_.size() && leaving > 0) return false;
+  Connection* const other = dispensable(newcomer.address, bound);
+  if (other == nullptr) return false;
+  other->shut();
+  if (!other->is_free()) return false;
+  other->open(std::move(newcomer.socket));
+  return true;
+}
+
+void Server::welcome(Socket socket) {
+  error_code error;
+  const tcp::endpoint remote = socket.remote_endpoint(error);
+  if (error) return;
+  Newcomer newcomer{std::move(socket), remote_address_of(remote), surroundings_.now + most_waiting_time};
+  if (newcomers_.empty() && place(newcomer)) return;
+  if (newcomers_.size() == most_waiting) {
+    // Of the address that has most of those who wait, so that one that floods sends itself away.
+    const auto crowd = [this](const Newcomer& one) {
+      return std::count_if(newcomers_.begin(), newcomers_.end(), [&](const Newcomer& other) {
+        return other.address.neighbourhood() == one.address.neighbourhood();
+      });
+    };
+    const auto last =
+        std::max_element(newcomers_.begin(), newcomers_.end(),
+                         [&](const Newcomer& a, const Newcomer& b) { return crowd(a) < crowd(b); });
+    turn_away(last->socket, Bound::none);
+    newcomers_.erase(last);
+  }
+  newcomers_.push_back(std::move(newcomer));
+  place_newcomers();
+}
+
+void Server::place_newcomers() {
+  for (auto newcomer = newcomers_.begin(); newcomer != newcomers_.end();) {
+    if (place(*newcomer)) {
+      newcomer = newcomers_.erase(newcomer);
+    } else if (surroundings_.now >= newcomer->until &&
+               (turn_away(newcomer->socket, bound_of(newcomer->address)) ||
+                surroundings_.now >= newcomer->until + most_waiting_time)) {
+      newcomer = newcomers_.erase(newcomer);
+    } else {
+      ++newcomer;
+    }
+  }
+}
+
+/// Who is turned away is heard, and told: he may not begin to speak before (TLS), and closing with something
+/// unread would take the answer away again. False: all who tell it are busy with others.
+bool Server::turn_away(Socket& socket, Bound bound) {
+  const auto older = [](const Connection& a, const Connection& b) {
+    return a.is_free() != b.is_free() ? a.is_free() : a.silent_since() < b.silent_since();
+  };
+  Connection& porter = *std::min_element(porters_.begin(), porters_.end(), older);
+  porter.shut();
+  if (!porter.is_free()) return false;
+  ++refused_;
+  log_warning(full_, "panel", "a browser or script found no place: {} of {} are in use",
+              surroundings_.connections, settings_.places);
+  porter.turn_away(
+      std::move(socket),
+      bound == Bound::of_address
+          ? "this address has all the connections to the panel that one address may have; close a page "
+            "there"
+          : "all of the panel's connections are in use; close a page that is not needed");
+  return true;
+}
+
+}  // namespace flexrf::panel
