@@ -16,7 +16,7 @@ class AxisGripper : public Base {
 
   void receive(const Tick& tick) noexcept override {
     control_.receive(tick);
-    report_.fill(this->feedback, control_.state(), control_.trouble());
+    report_.fill(this->name(), this->feedback, control_.state(), control_.trouble());
   }
 
   void send(const Tick& tick) noexcept override {

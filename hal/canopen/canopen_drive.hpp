@@ -32,7 +32,7 @@ class CanopenDrive : public Base {
     told.velocity = state->velocity;
     told.following_error = state->following_error;
     told.at_internal_limit = state->at_internal_limit;
-    this->supervise(this->configuration);
+    this->supervise(this->configuration, link_.axis().asked_velocity(), tick.now);
   }
 
   void send(const Tick& tick) noexcept override {

@@ -46,7 +46,7 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   was_operational_ = false;
   bring_ups_ = node_.times_operational();
   was_commanded_ = halts_ = false;
-  velocity_ = 0;
+  velocity_ = asked_velocity_ = 0;
   most_torque_ = 1;
   target_object_ = 0;
   counted_.reset();
@@ -245,7 +245,8 @@ double ServoAxis::target_for(Duration elapsed) noexcept {
       return handshake_.target();
     case Mode::cyclic_velocity:
     case Mode::profile_velocity:
-      return to_velocity_object(power_.is_enabled() ? velocity_for(elapsed) : 0);
+      asked_velocity_ = power_.is_enabled() ? velocity_for(elapsed) : 0;
+      return to_velocity_object(asked_velocity_);
     default:
       break;
   }

@@ -139,6 +139,8 @@ class ServoAxis {
   /// is enabled anew. A node that was refused stays so.
   void forget_fault() noexcept { fault_ = {}; }
   const Node& node() const noexcept { return node_; }
+  /// What the drive is told in the modes that are led by velocities, unit/s; else 0.
+  double asked_velocity() const noexcept { return asked_velocity_; }
   /// Why it does less than it was commanded, in this cycle; once.
   Restraint take_restraint() noexcept { return std::exchange(restraint_, Restraint{}); }
 
@@ -206,6 +208,7 @@ class ServoAxis {
   bool halts_ = false;               // until the next command, in profile_position until it is handed over
   int cycles_ = 0;                   // since the velocity was commanded, at most settle_cycles
   double velocity_ = 0;              // commanded
+  double asked_velocity_ = 0;        // of the drive
   double most_torque_ = 1;           // of its rated torque
   std::uint64_t target_object_ = 0;  // as it was sent
   std::optional<std::int32_t> counted_;  // of an endless axis: what the drive said last

@@ -59,7 +59,7 @@ class RobotiqDriver : public Base {
 
   void receive(const Tick& tick) noexcept override {
     end_.receive(control_, tick.now);
-    report_.fill(this->feedback, control_.state(), control_.trouble());
+    report_.fill(this->name(), this->feedback, control_.state(), control_.trouble());
   }
 
   void send(const Tick& /*tick*/) noexcept override {

@@ -4,6 +4,7 @@
 #include "hal/simulated/simulated_gpio_chip/simulated_gpio_chip.hpp"
 #include "tests/cmocka.hpp"
 #include "tests/grippers/pneumatic_world.hpp"
+#include "tests/log_ear.hpp"
 
 namespace {
 
@@ -143,6 +144,29 @@ bool keeps_one_valve_off_while_the_other_does_not_go_off(bool closes) {
   return waited && second.is_high() && !both;
 }
 
+// Who reads the log alone sees that it was away, and that it came back.
+bool says_in_the_log_that_it_was_away() {
+  DeviceBench<MockGpioChip> chip(nullptr);
+  DeviceBench<PneumaticGripper> gripper(nullptr, {}, &chip.driver());
+  if (!gripper.driver().initialise()) return false;
+  const auto run_for = [&](int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      chip.receive(std::chrono::milliseconds(10));
+      gripper.receive(std::chrono::milliseconds(10));
+      gripper.send();
+    }
+  };
+  const LogEar ear;
+  run_for(10);
+  if (ear.has_heard("is away")) return false;
+  chip.driver().unplug();
+  run_for(10);
+  if (!ear.has_heard("the GPIO chip with its valves") || ear.has_heard("well again")) return false;
+  chip.driver().plug_in();
+  run_for(10);
+  return ear.has_heard("well again");
+}
+
 bool tells_a_line_it_cannot_have() {
   DeviceBench<MockGpioChip> chip(nullptr);
   chip.driver().refuse(Status::error(StatusCode::not_found, "no line of this name"));
@@ -160,6 +184,9 @@ void the_valves_are_never_on_together_also_when_a_write_fails(void**) {
   assert_true(keeps_one_valve_off_while_the_other_does_not_go_off(true));
   assert_true(keeps_one_valve_off_while_the_other_does_not_go_off(false));
 }
+void troubles_are_in_the_log(void**) {
+  assert_true(says_in_the_log_that_it_was_away());
+}
 void a_line_it_cannot_have_is_told(void**) {
   assert_true(tells_a_line_it_cannot_have());
 }
@@ -171,6 +198,7 @@ int main() {
       cmocka_unit_test(wires_of_a_simulated_chip_are_enough),
       cmocka_unit_test(an_object_is_found_on_mere_wires),
       cmocka_unit_test(the_valves_are_never_on_together_also_when_a_write_fails),
+      cmocka_unit_test(troubles_are_in_the_log),
       cmocka_unit_test(a_line_it_cannot_have_is_told),
   };
   return cmocka_run_group_tests_name("pneumatic gripper", tests, nullptr, nullptr) +

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "hal/interfaces/force_torque_sensor/wrench_meter.hpp"
+#include "hal/interfaces/trouble_log.hpp"
 
 namespace flexrf {
 
@@ -14,6 +15,7 @@ class MeasuringDriver : public Base {
   void receive(const Tick& tick) noexcept override {
     listen(meter_, tick.now);
     meter_.close(tick.now);
+    log_.look(this->name(), meter_.trouble());
     if (this->runtime.clear_tare > 0) meter_.clear_tare();
     if (this->runtime.tare > 0) meter_.tare();
     meter_.fill(this->feedback);
@@ -37,14 +39,19 @@ class MeasuringDriver : public Base {
     published_ = 0;
     return meter_.begin(this->name(),
                         {set.position, set.orientation, set.force_limit, set.torque_limit, set.tare_samples,
-                         std::chrono::duration_cast<Duration>(std::chrono::duration<double>(set.max_age))});
+                         in_nanoseconds(set.max_age), in_nanoseconds(set.frozen_after)});
   }
 
   /// Takes in what came since the cycle before.
   virtual void listen(WrenchMeter& meter, Time now) noexcept = 0;
 
  private:
+  static Duration in_nanoseconds(double seconds) noexcept {
+    return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+  }
+
   WrenchMeter meter_;
+  TroubleLog log_;
   std::uint64_t published_ = 0;
 };
 

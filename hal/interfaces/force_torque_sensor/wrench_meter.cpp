@@ -70,6 +70,9 @@ void WrenchMeter::take(const RawWrench& raw, Time at, std::uint64_t missed) noex
   ++samples_;
   lost_ += missed;
   heard_ = measured_ = at;
+  const bool is_another = raw.force != before_.force || raw.torque != before_.torque;
+  if (is_another || changed_ == Time{}) changed_ = at;
+  before_ = raw;
   fault_ = away_ = {};
   judge(raw);
   if (taring_ > 0) weigh(raw);
@@ -165,7 +168,15 @@ Wrench WrenchMeter::in_frame(const RawWrench& raw) const noexcept {
 }
 
 Status WrenchMeter::trouble_now(Time now) const noexcept {
-  if (heard_ != Time{} && now - heard_ <= plan_.max_age) return fault_.is_ok() ? overload_ : fault_;
+  if (heard_ != Time{} && now - heard_ <= plan_.max_age) {
+    const bool is_frozen = plan_.frozen_after > Duration{} && measured_ - changed_ >= plan_.frozen_after;
+    if (!fault_.is_ok() || !is_frozen) return fault_.is_ok() ? overload_ : fault_;
+    return Status::error(
+        StatusCode::device_fault,
+        "it measures the same to the last digit for %g s: is the sensor frozen, or its cable "
+        "out behind its electronics?",
+        seconds(measured_ - changed_));
+  }
   if (!away_.is_ok()) return away_;
   if (heard_ == Time{})
     return Status::error(StatusCode::unavailable,

@@ -25,6 +25,7 @@ struct MeterPlan {
   std::array<double, 3> torque_limit{};
   std::uint32_t tare_samples = 1;
   Duration max_age{};
+  Duration frozen_after{};  ///< 0: not judged
 };
 
 /// The thread of the sensor; begin(): the lifecycle thread.
@@ -74,6 +75,8 @@ class WrenchMeter {
 
   Time heard_{};     // a measurement or a fault
   Time measured_{};  // a measurement
+  Time changed_{};   // likewise, another than the one before
+  RawWrench before_;
   Wrench newest_{};
   Status fault_;
   Status away_;

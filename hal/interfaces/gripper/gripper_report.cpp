@@ -42,8 +42,9 @@ Restraint restraint_of(const GripperGoal& goal, const GripperCapabilities& capab
   return {};
 }
 
-void GripperReport::fill(GripperFeedback& feedback, const std::optional<GripperState>& state,
-                         const Status& trouble) noexcept {
+void GripperReport::fill(const char* name, GripperFeedback& feedback,
+                         const std::optional<GripperState>& state, const Status& trouble) noexcept {
+  log_.look(name, trouble);
   const GripperState now = state.value_or(GripperState{});
   feedback.opening_known = now.opening.has_value();
   if (now.opening) feedback.opening = *now.opening;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hal/interfaces/gripper/gripper.hpp"
+#include "hal/interfaces/trouble_log.hpp"
 
 namespace flexrf {
 
@@ -15,11 +16,15 @@ Restraint restraint_of(const GripperGoal& goal, const GripperCapabilities& capab
 /// Error: the widths of the configuration are no range.
 Status check_widths(double closed_width, double open_width) noexcept;
 
-/// Fills the feedback and counts. The thread of the gripper.
+/// Fills the feedback, counts, and says troubles in the log. The thread of the gripper.
 class GripperReport {
  public:
-  void reset() noexcept { *this = GripperReport{}; }
-  void fill(GripperFeedback& feedback, const std::optional<GripperState>& state,
+  void reset() noexcept {
+    heard_ = held_ = lost_ = false;
+    trouble_ = StatusCode::ok;
+  }
+  /// `name`: of the device.
+  void fill(const char* name, GripperFeedback& feedback, const std::optional<GripperState>& state,
             const Status& trouble) noexcept;
 
  private:
@@ -27,6 +32,7 @@ class GripperReport {
   bool held_ = false;
   bool lost_ = false;
   StatusCode trouble_ = StatusCode::ok;
+  TroubleLog log_;
 };
 
 }  // namespace flexrf

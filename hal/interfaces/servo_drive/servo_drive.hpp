@@ -1,10 +1,12 @@
 // ServoDrive: a drive with one axis that follows positions or velocities, and finds its home.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "hal/interfaces/servo_drive/velocity_lag.hpp"
 #include "servo_drive_interface.hpp"
 #include "types/servo_homing.hpp"
 #include "types/servo_mode.hpp"
@@ -64,20 +66,31 @@ class ServoDrive : public ServoDriveInterface {
   virtual void halt() noexcept = 0;
 
  protected:
-  /// At the end of receive(), by every driver: an axis that does not follow its set-points is in fault.
-  /// `configuration`: the driver's.
-  void supervise(const auto& configuration) noexcept {
-    const auto now = state();
-    if (!now || !now->enabled || is_inhibited() || !fault().is_ok() || configuration.following_time == 0)
+  /// At the end of receive(), by every driver: an axis that does not follow its set-points, or does not go as
+  /// fast as it is told, is in fault. `configuration`: the driver's. `asked`: the velocity that the drive is
+  /// told, unit/s; 0 in other modes than those that are led by velocities.
+  void supervise(const auto& configuration, double asked, Time now) noexcept {
+    const auto told = state();
+    if (!told || !told->enabled || is_inhibited() || !fault().is_ok() || configuration.following_time == 0) {
+      lag_.forget();
       return;
+    }
     const double most = configuration.following_time * configuration.fastest;
-    if (std::abs(now->following_error) <= most) return;
+    // A drive that is led by cyclic velocities is told no acceleration, and has its own limits.
+    const double patient = configuration.acceleration / 2;
+    const double slow = lag_.look(asked, patient, told->position, 2 * most,
+                                  configuration.endless ? configuration.modulo : 0, now);
+    const double behind = std::max(std::abs(told->following_error), slow);
+    if (behind <= most) return;
     set_fault(Status::error(
         StatusCode::device_fault,
         "its axis is %.4g behind, more than it moves in `following_time` (%g s): does it stick, or does its "
         "encoder?",
-        std::abs(now->following_error), configuration.following_time));
+        behind, configuration.following_time));
   }
+
+ private:
+  VelocityLag lag_;
 };
 
 }  // namespace flexrf

@@ -62,7 +62,7 @@ void PneumaticGripper::receive(const Tick& tick) noexcept {
   now_ = tick.now;
   for (DigitalLine* line : {&reed_open_, &reed_closed_, &valve_open_, &valve_close_}) line->receive(tick.now);
   control_.receive(reeds(), tick.now);
-  report_.fill(feedback, control_.state(), control_.trouble());
+  report_.fill(name(), feedback, control_.state(), control_.trouble());
 }
 
 void PneumaticGripper::send(const Tick& tick) noexcept {

@@ -44,7 +44,7 @@ void MockGripper::receive(const Tick& tick) noexcept {
   if (!configuration.two_state) known_.opening = measured;
   state_.reset();
   if (is_heard()) state_ = known_;
-  report_.fill(feedback, state_, trouble_);
+  report_.fill(name(), feedback, state_, trouble_);
 }
 
 void MockGripper::move(Duration elapsed) noexcept {

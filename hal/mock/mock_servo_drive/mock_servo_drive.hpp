@@ -89,7 +89,7 @@ class MockServoDrive final : public MockServoDriveDriver {
     state_->velocity = elapsed > 0 ? (state_->position - before) / elapsed : 0;
     measure();
     tell();
-    supervise(configuration);
+    supervise(configuration, asked_velocity(), tick.now);
   }
   void send(const Tick& /*tick*/) noexcept override {
     if (state_) state_->enabled = !is_inhibited() && fault().is_ok();
@@ -135,6 +135,9 @@ class MockServoDrive final : public MockServoDriveDriver {
   bool takes_positions() const noexcept {
     return configuration.mode == ServoMode::cyclic_position ||
            configuration.mode == ServoMode::profile_position;
+  }
+  double asked_velocity() const noexcept {
+    return commanded_ && !takes_positions() && !is_at_its_end_ ? *commanded_ : 0;
   }
   bool may_follow() const noexcept { return state_ && state_->enabled && !is_inhibited() && fault().is_ok(); }
   bool takes(ServoMode one, ServoMode other) noexcept {
@@ -190,7 +193,8 @@ class MockServoDrive final : public MockServoDriveDriver {
     const double wanted = way_ + *commanded_ * elapsed;
     const bool endless = configuration.endless;
     go_on_to(endless ? wanted : std::clamp(wanted, configuration.lowest, configuration.highest));
-    if (way_ != wanted) restrain(servo_restraints::end_of_range, *commanded_, 0);
+    is_at_its_end_ = way_ != wanted;
+    if (is_at_its_end_) restrain(servo_restraints::end_of_range, *commanded_, 0);
     state_->target_reached = configuration.mode == ServoMode::profile_velocity && way_ == wanted;
   }
   // True: the set-point is there, and with it the axis.
@@ -239,6 +243,7 @@ class MockServoDrive final : public MockServoDriveDriver {
   double set_point_ = 0;  // where the axis is to be by now, on its way to what is commanded
   double speed_ = 1;
   bool sticks_ = false;
+  bool is_at_its_end_ = false;
   std::uint64_t commands_ = 0;
   std::uint64_t homings_ = 0;
   std::uint64_t halts_ = 0;

@@ -46,6 +46,24 @@ void why_nothing_comes_is_told_when_the_newest_is_too_old(void**) {
   assert_int_equal(meter.trouble().code(), StatusCode::unavailable);
 }
 
+void a_measurement_that_no_longer_changes_is_not_believed(void**) {
+  for (const bool judged : {true, false}) {
+    WrenchMeter meter;
+    const Duration limit = judged ? milliseconds(100) : milliseconds(0);
+    assert_true(meter.begin("test", {.max_age = milliseconds(50), .frozen_after = limit}).is_ok());
+    for (int ms = 0; ms < 300; ms += 10) {
+      meter.take({{1, 2, 3}, {0, 0, ms < 150 ? ms * 1e-9 : 1}}, origin + milliseconds(ms));
+      meter.close(origin + milliseconds(ms));
+      const bool is_frozen = judged && ms >= 250;
+      assert_int_equal(meter.trouble().code(), is_frozen ? StatusCode::device_fault : StatusCode::ok);
+      assert_true(meter.state().has_value() != is_frozen);
+    }
+    meter.take({{1, 2, 3.1}, {0, 0, 1}}, origin + milliseconds(300));
+    meter.close(origin + milliseconds(300));
+    assert_true(meter.trouble().is_ok() && meter.state().has_value());
+  }
+}
+
 /// Loads differ while it is taken.
 void a_tare_is_a_mean(void**) {
   WrenchMeter meter;
@@ -113,6 +131,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_measurement_that_is_too_old_is_nothing),
       cmocka_unit_test(why_nothing_comes_is_told_when_the_newest_is_too_old),
+      cmocka_unit_test(a_measurement_that_no_longer_changes_is_not_believed),
       cmocka_unit_test(a_tare_is_a_mean),
       cmocka_unit_test(a_tare_that_is_given_up_leaves_the_one_before),
       cmocka_unit_test(what_is_beyond_is_said_with_its_axis),

@@ -216,6 +216,28 @@ Verdict an_axis_that_sticks_is_a_fault(ServoDriveWorld& world) {
                  !state_of(world).enabled);
 }
 
+Verdict a_jam_while_it_turns_is_a_fault(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  drive_for(world, 2, 0.5);
+  if (!world.drive().fault().is_ok()) return Verdict::failed;
+  if (!world.stick_axis()) return Verdict::skipped;
+  drive_for(world, 2, 3.5);
+  const Status& fault = world.drive().fault();
+  return verdict(fault.code() == StatusCode::device_fault &&
+                 std::string_view{fault.cause()}.find("behind") != std::string_view::npos &&
+                 !state_of(world).enabled);
+}
+
+// However long it turns, and however often the other way.
+Verdict an_axis_that_turns_is_not_behind(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  for (const double velocity : {20.0, -20.0, 3.0, 0.0, -20.0}) {
+    drive_for(world, velocity, 3);
+    if (!world.drive().fault().is_ok()) return Verdict::failed;
+  }
+  return Verdict::passed;
+}
+
 Verdict reports_a_tripped_drive(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (!world.trip_drive()) return Verdict::skipped;
@@ -255,6 +277,14 @@ int run_servo_drive_conformance(const char* driver, MakeServoDriveWorld make) {
       test("modulo, goes to targets the shorter way",
            judged<a_modulo_axis_goes_the_shorter_way<false>, profile_position, false, Range::modulo>),
       test("is in fault when its axis sticks", judged<an_axis_that_sticks_is_a_fault>),
+      test("is in fault when it jams, cyclic velocity",
+           judged<a_jam_while_it_turns_is_a_fault, cyclic_velocity>),
+      test("is in fault when it jams, profile velocity",
+           judged<a_jam_while_it_turns_is_a_fault, profile_velocity, false, Range::modulo>),
+      test("is not behind while it turns, cyclic velocity",
+           judged<an_axis_that_turns_is_not_behind, cyclic_velocity, false, Range::endless>),
+      test("is not behind while it turns, profile velocity",
+           judged<an_axis_that_turns_is_not_behind, profile_velocity, false, Range::modulo>),
       test("reports a tripped drive", judged<reports_a_tripped_drive>),
       test("goes to targets", judged<goes_to_targets_and_says_when_it_is_there, profile_position>),
       test("goes as fast as it was told", judged<goes_as_fast_as_it_was_told, profile_position>),

@@ -1,6 +1,7 @@
 #include "hal/interfaces/force_torque_sensor/conformance/sensor_bench.hpp"
 #include "hal/mock/mock_force_torque_sensor/mock_force_torque_sensor.hpp"
 #include "tests/cmocka.hpp"
+#include "tests/log_ear.hpp"
 
 namespace flexrf {
 namespace {
@@ -61,6 +62,38 @@ Noise noise_of(std::uint64_t seed) {
   return noise;
 }
 
+// Who reads the log alone sees it, once when it begins and once when it ends.
+bool says_in_the_log_what_is_wrong(bool is_frozen) {
+  DeviceBench<MockForceTorqueSensor> bench(nullptr);
+  bench.configuration().frozen_after = 0.5;
+  if (!bench.driver().initialise()) return false;
+  const auto run_for = [&](int cycles, bool is_loaded) {
+    for (int i = 0; i < cycles; ++i) {
+      if (is_loaded) bench.driver().set_load({{1.0 * i, 0, 0}, {}});
+      bench.receive(milliseconds(10));
+    }
+  };
+  const LogEar start;
+  run_for(100, true);
+  if (start.has_heard("warning")) return false;
+  const LogEar ear;
+  if (is_frozen) {
+    run_for(100, false);
+    return ear.has_heard("the same to the last digit") && !bench.driver().state();
+  }
+  bench.driver().set_silent(true);
+  run_for(100, true);
+  if (!ear.has_heard("nothing is heard from the sensor") || ear.has_heard("well again")) return false;
+  bench.driver().set_silent(false);
+  run_for(200, true);
+  return ear.has_heard("well again") && !ear.has_heard("the same to the last digit");
+}
+
+void troubles_are_in_the_log(void**) {
+  assert_true(says_in_the_log_what_is_wrong(false));
+  assert_true(says_in_the_log_what_is_wrong(true));
+}
+
 void noise_is_bounded_and_seeded(void**) {
   const Noise one = noise_of(1);
   assert_true(one.least >= -2 && one.least < -1.8 && one.most <= 2 && one.most > 1.8);
@@ -89,7 +122,8 @@ void delays(void**) {
 
 int main() {
   using namespace flexrf;
-  const CMUnitTest tests[] = {cmocka_unit_test(noise_is_bounded_and_seeded), cmocka_unit_test(delays)};
+  const CMUnitTest tests[] = {cmocka_unit_test(troubles_are_in_the_log),
+                              cmocka_unit_test(noise_is_bounded_and_seeded), cmocka_unit_test(delays)};
   return cmocka_run_group_tests(tests, nullptr, nullptr) +
          run_force_torque_conformance("mock force-torque sensor", []() -> std::unique_ptr<ForceTorqueWorld> {
            return std::make_unique<MockWorld>();
