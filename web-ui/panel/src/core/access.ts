@@ -29,6 +29,7 @@ export function deniedLink(situation: Situation): string {
 export function deniedAction(situation: Situation, role: Role): string {
   const link = deniedLink(situation);
   if (link) return link;
+  if (situation.session?.lapsed) return 'log in again';
   if (!situation.session || !includes(situation.session.role, role)) return `needs ${role}`;
   if (hasControl(situation)) return '';
   const holder = situation.state?.control.holder;

@@ -219,6 +219,10 @@ export class PanelCore implements Core {
         this.#logWatchers.forEach((watcher) => watcher(fresh));
         break;
       }
+      case 'session':
+        this.session = event.session;
+        this.#changed();
+        break;
       case 'ended':
         this.options.onEnded?.(event.text);
         break;
