@@ -20,6 +20,8 @@ struct SessionInfo {
   std::string_view address;  ///< numeric, of its newest connection
   Role role = Role::viewer;
   bool local = false;  ///< from an address that the application's table calls local
+  /// Its time is over while its page is open: it sees, may stop motion, and has to log in for more.
+  bool lapsed = false;
 };
 
 /// A person as the audit names him: "ann (192.168.0.7)"; without a log-in his session, "panel-3 (127.0.0.1)".
@@ -61,6 +63,8 @@ class AccessControl {
   virtual void release(SessionIndex session) = 0;
   virtual bool answer(SessionIndex session, bool grant,
                       Time now) = 0;  ///< false: it is not the holder's to answer
+  /// A person did something in this session: its time without use begins anew.
+  virtual void acted(SessionIndex session, Time now) = 0;
   /// Rises with everything above that changed: sessions, holder, who asks.
   virtual std::uint64_t revision() const = 0;
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "web-ui/server/gunzip.hpp"
+#include "web-ui/server/gzip.hpp"
 #include "web-ui/server/http_problem.hpp"
 #include "web-ui/server/request_target.hpp"
 
@@ -28,10 +29,13 @@ std::string tag_of(std::string_view bytes) {
 
 Files::Files(std::span<const PageFile> page, std::span<const PanelFile> application)
     : page_(page), application_(application) {
-  for (const PanelFile& file : application) application_tags_.push_back(tag_of(file.bytes));
+  for (const PanelFile& file : application) {
+    application_tags_.push_back(tag_of(file.bytes));
+    application_compressed_.push_back(gzip(file.bytes));
+  }
 }
 
-bool Files::find(std::string_view path, PageFile& file) const noexcept {
+bool Files::find(std::string_view path, PageFile& file, std::string_view& plain) const noexcept {
   if (path == "/") path = "/index.html";
   for (const PageFile& known : page_) {
     if (known.path != path) continue;
@@ -42,7 +46,14 @@ bool Files::find(std::string_view path, PageFile& file) const noexcept {
   path.remove_prefix(application_folder.size());
   for (std::size_t i = 0; i < application_.size(); ++i) {
     if (application_[i].path != path) continue;
-    file = {path, application_[i].content_type, application_tags_[i], false, false, application_[i].bytes};
+    const bool compressed = !application_compressed_[i].empty();
+    plain = application_[i].bytes;
+    file = {path,
+            application_[i].content_type,
+            application_tags_[i],
+            compressed,
+            false,
+            compressed ? std::string_view{application_compressed_[i]} : application_[i].bytes};
     return true;
   }
   return false;
@@ -50,7 +61,8 @@ bool Files::find(std::string_view path, PageFile& file) const noexcept {
 
 Handled Files::handle(const Request& request, Reply& reply, Ticket) {
   PageFile file{};
-  if (!find(request.path, file)) {
+  std::string_view plain;
+  if (!find(request.path, file, plain)) {
     answer_problem(reply, 404, "there is nothing of this name");
     return Handled::now;
   }
@@ -72,6 +84,8 @@ Handled Files::handle(const Request& request, Reply& reply, Ticket) {
   } else if (!inflate) {
     reply.fixed = file.bytes;
     if (file.compressed) reply.content_encoding = "gzip";
+  } else if (!plain.empty()) {
+    reply.fixed = plain;
   } else if (!gunzip(file.bytes, reply.text)) {
     answer_problem(reply, 500, "the embedded file is broken; build the application anew");
   }

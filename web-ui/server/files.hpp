@@ -28,17 +28,19 @@ std::span<const PageFile> page_files() noexcept;
 /// application. The server's thread.
 class Files final : public RequestHandler {
  public:
-  /// What is named lives for ever.
+  /// What is named lives for ever. Compresses the application's files where that saves something.
   Files(std::span<const PageFile> page, std::span<const PanelFile> application);
 
   Handled handle(const Request& request, Reply& reply, Ticket ticket) override;
 
  private:
-  bool find(std::string_view path, PageFile& file) const noexcept;
+  /// `plain`: the same bytes uncompressed, where they are at hand.
+  bool find(std::string_view path, PageFile& file, std::string_view& plain) const noexcept;
 
   std::span<const PageFile> page_;
   std::span<const PanelFile> application_;
   std::vector<std::string> application_tags_;
+  std::vector<std::string> application_compressed_;  // empty: as they are
 };
 
 }  // namespace flexrf::panel

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "runtime/executive/executive.hpp"
+#include "runtime/log/log.hpp"
+#include "runtime/parameters/durable_file.hpp"
+#include "runtime/realtime/instance_lock.hpp"
 #include "runtime/realtime/thread_setup.hpp"
 #include "web-ui/server/access/access_endpoints.hpp"
 #include "web-ui/server/access/entrance.hpp"
@@ -47,6 +50,8 @@ class Panel final : public Observer {
   Status make_api();
   void print_address();
   std::string shown_host() const;
+  std::string address_with(const OneTimeToken* token) const;
+  void write_address(const OneTimeToken& token);
   void print_certificate_command() const;
 
   Executive& executive_;
@@ -68,6 +73,7 @@ class Panel final : public Observer {
   std::optional<Api> api_;
   RunningThread thread_;
   bool api_runs_ = false;
+  std::string address_file_;  // empty: there is none
 };
 
 Status Panel::prepare() {
@@ -159,6 +165,8 @@ void Panel::make_access() {
   settings.port = address_.port;
   settings.audit = &executive_.cell().audit();
   settings.sessions.idle = record_.session_timeout;
+  settings.sessions.absolute = record_.session_length;
+  settings.token_renewed = [this](const OneTimeToken& token) { write_address(token); };
   // Each connection may be another's, and others come back to theirs.
   settings.sessions.places = std::size_t{2} * record_.connections;
   settings.local = local_addresses();
@@ -190,13 +198,32 @@ void Panel::print_certificate_command() const {
                certificate_command(shown_host()).c_str());
 }
 
-void Panel::print_address() {
+std::string Panel::address_with(const OneTimeToken* token) const {
   const std::string where = ListenAddress{shown_host(), address_.port}.text();
-  std::string address = (is_secure_ ? "https://" : "http://") + where + "/";
+  const std::string address = (is_secure_ ? "https://" : "http://") + where + "/";
+  return token == nullptr ? address : address + "?token=" + std::string{token->text()};
+}
+
+/// For whoever runs the application, and nobody else: a folder of this user's, or root's.
+void Panel::write_address(const OneTimeToken& token) {
+  char folder[lock_directory_size];
+  const LockScope scope = executive_.cell().real_actuator() != nullptr ? LockScope::machine : LockScope::user;
+  if (!find_lock_directory(scope, folder)) return;
+  address_file_ = std::string{folder} + "/flexrf-" + executive_.cell().application().name + ".address";
+  if (const Status status = replace_file(address_file_, address_with(&token) + "\n", 0600); !status) {
+    log_warning("panel", "the next address to come in by is not written down: {}", status.cause());
+    address_file_.clear();
+  }
+}
+
+void Panel::print_address() {
   // Whoever can read this terminal started the application, and may control it.
-  if (const OneTimeToken* token = access_->one_time_token())
-    address += "?token=" + std::string{token->text()};
-  std::fprintf(stderr, "Panel: %s\n", address.c_str());
+  const OneTimeToken* const token = access_->one_time_token();
+  std::fprintf(stderr, "Panel: %s\n", address_with(token).c_str());
+  if (token == nullptr) return;
+  write_address(*token);
+  if (!address_file_.empty())
+    std::fprintf(stderr, "Once that was opened, the next address is in %s\n", address_file_.c_str());
 }
 
 Status Panel::start() {
@@ -216,6 +243,8 @@ void Panel::stop() noexcept {
     thread_.join();
   }
   if (std::exchange(api_runs_, false)) api_->stop();
+  if (!address_file_.empty()) std::remove(address_file_.c_str());
+  address_file_.clear();
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ bool Entrance::admit(const Approach& approach, SessionIndex& session, Reply& rep
   const Time now = clock_();
   session = access_.identify({approach.cookie, approach.remote_address, approach.loopback},
                              own_[approach.place], now, reply.set_cookie);
+  if (is_change(approach) && !approach.upgrade) access_.acted(session, now);
   if (approach.method == Method::get && approach.path == "/" && !approach.upgrade) {
     const std::string_view token = parameter(approach.query, "token");
     if (token.data() != nullptr) {
@@ -86,10 +87,9 @@ bool Entrance::admit(const Approach& approach, SessionIndex& session, Reply& rep
 
 void Entrance::use_token(const Approach& approach, std::string_view token, SessionIndex session, Time now,
                          Reply& reply) {
-  OneTimeToken* const expected = approach.loopback ? access_.one_time_token() : nullptr;
   // The printed address may be opened again by the browser that has its session.
   bool is_admin = access_.has_role(session, Role::admin);
-  if (!is_admin && expected != nullptr && expected->use(token))
+  if (!is_admin && approach.loopback && access_.use_token(token))
     is_admin = access_.log_in(access_.handle(session), "", Role::admin, approach.remote_address, now,
                               reply.set_cookie) != no_session;
   if (is_admin) {
@@ -111,8 +111,8 @@ void Entrance::use_token(const Approach& approach, std::string_view token, Sessi
   answer_problem(
       reply, 403,
       "This address was used already, or the application was started anew since it was printed. Without it "
-      "the page can be seen, at / ; control takes the address of a new start, or passwords "
-      "(`./flexrf password`).");
+      "the page can be seen, at / ; a new address is in the file that the application named when it started, "
+      "or make passwords (`./flexrf password`).");
 }
 
 void Entrance::on_connection_closed(std::uint32_t place) {

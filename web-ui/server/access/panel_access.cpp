@@ -12,7 +12,10 @@ bool prepare_cryptography() noexcept {
 
 PanelAccess::PanelAccess(const AccessSettings& settings)
     : settings_(settings),
-      cookie_name_("flexrf_session_" + std::to_string(settings.port)),
+      // A browser takes a cookie of such a name only by TLS, for this host and all of it (RFC
+      // 6265bis, 4.1.3).
+      cookie_name_((settings.secure ? "__Host-flexrf_session_" : "flexrf_session_") +
+                   std::to_string(settings.port)),
       sessions_(settings.sessions, settings.local, settings.loopback_is_local) {
   if (!settings_.needs_login) token_.emplace();
 }
@@ -42,8 +45,10 @@ SessionIndex PanelAccess::begin(std::string_view user, Role role, std::string_vi
   const SessionIndex session = sessions_.begin(user, role, address, now);
   if (session == no_session) return no_session;
   ++revision_;
-  write_set_cookie(set_cookie, cookie_name_, sessions_.cookie(session), settings_.sessions.absolute,
-                   settings_.secure);
+  // One that nobody logged in to lives as long as its page: its cookie has to.
+  constexpr Duration for_ever = std::chrono::hours{365 * 24};
+  write_set_cookie(set_cookie, cookie_name_, sessions_.cookie(session),
+                   user.empty() ? for_ever : settings_.sessions.absolute, settings_.secure);
   return session;
 }
 
@@ -88,12 +93,25 @@ void PanelAccess::update(Time now) {
     note(over, "was logged out: the time of the session was over");
     end(over);
   }
+  for (SessionIndex over = sessions_.lapsing(now); over != no_session; over = sessions_.lapsing(now)) {
+    note(over, "has to log in again: the time of the session is over");
+    control_.release(over);
+    sessions_.lapse(over);
+    ++revision_;
+  }
   // Who asked and left must not get it: nobody would hold it then.
   for (const SessionIndex concerned : {control_.wanted_by(), control_.holder()}) {
     if (concerned != no_session && !sessions_.is_present(concerned, absence, now))
       control_.release(concerned);
   }
   control_.update(now, sessions_.is_there(control_.holder()));
+}
+
+bool PanelAccess::use_token(std::string_view text) {
+  if (!token_ || !token_->use(text)) return false;
+  token_.emplace();
+  if (settings_.token_renewed) settings_.token_renewed(*token_);
+  return true;
 }
 
 bool PanelAccess::watch(SessionWatcher& watcher) noexcept {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,8 @@ struct AccessSettings {
   bool loopback_is_local = true;
   SessionLimits sessions;
   AuditIntake* audit = nullptr;  ///< who comes and goes is told there; null: nowhere
+  /// Told of each token but the first. The server's thread.
+  std::function<void(const OneTimeToken&)> token_renewed;
 };
 
 /// One session and no other that gets its place later.
@@ -72,7 +75,9 @@ class PanelAccess final : public AccessControl {
   void update(Time now);
 
   /// Of the address to be printed; null when people log in. Never for a log that visitors can read.
-  OneTimeToken* one_time_token() noexcept { return token_ ? &*token_ : nullptr; }
+  const OneTimeToken* one_time_token() const noexcept { return token_ ? &*token_ : nullptr; }
+  /// True once for its text; there is a new one then.
+  bool use_token(std::string_view text);
   /// What somebody did who is no session (yet), for the audit.
   void note(std::string_view who, const char* did, std::string_view what = {}) noexcept {
     if (settings_.audit != nullptr) settings_.audit->note(who, did, what);
@@ -95,6 +100,7 @@ class PanelAccess final : public AccessControl {
   Taking take(SessionIndex session, Time now) override;
   void release(SessionIndex session) override { control_.release(session); }
   bool answer(SessionIndex session, bool grant, Time now) override;
+  void acted(SessionIndex session, Time now) override { sessions_.acted(session, now); }
   std::uint64_t revision() const override { return revision_ + control_.revision(); }
 
  private:

@@ -42,7 +42,11 @@ bool skip_base64(std::string_view& text, std::size_t digits) noexcept {
 }  // namespace
 
 Status check_password(std::string_view password) {
-  if (password.size() < shortest_password)
+  const auto characters =
+      static_cast<std::size_t>(std::count_if(password.begin(), password.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+      }));
+  if (characters < shortest_password)
     return Status::error(StatusCode::invalid_argument, "a password has at least %zu characters",
                          shortest_password);
   if (password.size() > longest_password)

@@ -13,7 +13,7 @@ namespace flexrf::panel {
 /// in processes of its own (flexrf-password, PasswordCheck), never in the application's.
 inline constexpr std::size_t password_memory = std::size_t{64} << 20;
 
-inline constexpr std::size_t shortest_password = 8;   ///< bytes
+inline constexpr std::size_t shortest_password = 12;  ///< characters, of a new one
 inline constexpr std::size_t longest_password = 256;  ///< bytes
 inline constexpr std::size_t longest_hash = 127;      ///< bytes
 

@@ -59,12 +59,12 @@ SessionIndex SessionTable::begin(std::string_view user, Role role, std::string_v
   free->serial = ++last_serial_;
   free->links = 0;
   free->had_links = false;
-  free->begun = free->used = now;
+  free->begun = free->used = free->acted = now;
   randombytes_buf(free->secret.data(), free->secret.size());
   sodium_bin2hex(free->cookie.data(), free->cookie.size(), free->secret.data(), free->secret.size());
   std::snprintf(free->name.data(), free->name.size(), "panel-%u", free->serial);
   set_text(free->user, user);
-  free->info = {free->name.data(), text_view(free->user), {}, role, false};
+  free->info = {free->name.data(), text_view(free->user), {}, role, false, false};
   set_address(*free, address);
   const std::size_t index = static_cast<std::size_t>(free - entries_.begin());
   tags_[index] = tag_of(free->secret.data());
@@ -151,11 +151,35 @@ SessionIndex SessionTable::of_user(std::string_view user) const noexcept {
 SessionIndex SessionTable::expired(Time now) const noexcept {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& known = entries_[i];
-    if (known.serial == 0) continue;
-    const bool is_idle = known.links == 0 && now - known.used > limits_.idle;
-    if (is_idle || now - known.begun > limits_.absolute) return static_cast<SessionIndex>(i);
+    if (known.serial == 0 || known.links > 0) continue;
+    // The cookie of who did not log in is all that he has.
+    const bool logged_in = !known.info.user.empty();
+    if (known.info.lapsed || now - known.used > limits_.idle ||
+        (logged_in && now - known.begun > limits_.absolute))
+      return static_cast<SessionIndex>(i);
   }
   return no_session;
+}
+
+SessionIndex SessionTable::lapsing(Time now) const noexcept {
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& known = entries_[i];
+    if (known.serial == 0 || known.links == 0 || known.info.user.empty() || known.info.lapsed) continue;
+    if (now - known.acted > limits_.idle || now - known.begun > limits_.absolute)
+      return static_cast<SessionIndex>(i);
+  }
+  return no_session;
+}
+
+void SessionTable::lapse(SessionIndex session) noexcept {
+  Entry* const known = entry(session);
+  if (known == nullptr) return;
+  known->info.lapsed = true;
+  known->info.role = Role::viewer;
+}
+
+void SessionTable::acted(SessionIndex session, Time now) noexcept {
+  if (Entry* const known = entry(session)) known->acted = now;
 }
 
 SessionIndex SessionTable::dispensable(SessionIndex kept) const noexcept {

@@ -14,9 +14,9 @@
 namespace flexrf::panel {
 
 struct SessionLimits {
-  std::size_t places = 64;                         ///< at most no_session
-  Duration idle = std::chrono::hours{12};          ///< without a request or an open live connection
-  Duration absolute = std::chrono::hours{7 * 24};  ///< however busy it is
+  std::size_t places = 64;                    ///< at most no_session
+  Duration idle = std::chrono::hours{1};      ///< without an act, or without a page and a request
+  Duration absolute = std::chrono::hours{8};  ///< of one that logged in, however busy it is
 };
 
 /// All memory is taken by the constructor. The server's thread.
@@ -53,8 +53,13 @@ class SessionTable {
   bool is_present(SessionIndex session, Duration span, Time now) const noexcept;
   /// One of who logged in by this name; no_session: there is none.
   SessionIndex of_user(std::string_view user) const noexcept;
-  /// One whose time is over; no_session: none.
+  void acted(SessionIndex session, Time now) noexcept;
+  /// One whose time is over, and that has no page; no_session: none.
   SessionIndex expired(Time now) const noexcept;
+  /// One that logged in, whose time is over while its page is open; no_session: none.
+  SessionIndex lapsing(Time now) const noexcept;
+  /// From now on it is a viewer's, and ends with its last live connection.
+  void lapse(SessionIndex session) noexcept;
   /// Who makes room for a new one: of those without a live connection and other than `kept`, the viewer that
   /// was used longest ago, or else whoever was. no_session: nobody can.
   SessionIndex dispensable(SessionIndex kept) const noexcept;
@@ -72,6 +77,7 @@ class SessionTable {
     bool had_links = false;
     Time begun{};
     Time used{};
+    Time acted{};
     std::array<unsigned char, cookie_bytes> secret{};
     std::array<char, cookie_digits + 1> cookie{};
     std::array<char, 20> name{};

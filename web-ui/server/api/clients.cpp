@@ -36,7 +36,7 @@ Client& Clients::open(LiveLink& link, Time now) {
   client.link = &link;
   client.opening = ++openings_;
   client.session = link.session();
-  client.closing = client.greeted = client.told_of_end = client.pumping = false;
+  client.closing = client.greeted = client.told_of_end = client.told_of_lapse = client.pumping = false;
   client.last_frame = now;
   client.frames = 0;
   client.left_out = 0;

@@ -76,6 +76,7 @@ struct Client {
   bool closing = false;
   bool greeted = false;
   bool told_of_end = false;
+  bool told_of_lapse = false;
   bool pumping = false;
   Time last_frame{};
   std::uint64_t frames = 0;

@@ -22,6 +22,11 @@ const char* name_of_role(const SessionInfo& session) noexcept {
   return names[static_cast<std::size_t>(session.role)];
 }
 
+void write_session(JsonWriter& json, const SessionInfo& info) {
+  json.begin_object().member("name", info.name).member("role", name_of_role(info));
+  json.member("local", info.local).member("user", info.user).member("lapsed", info.lapsed).end_object();
+}
+
 Refusal unknown_op(std::string_view op) noexcept {
   NearestName nearest(op);
   for (const char* known :
@@ -96,6 +101,8 @@ void LiveSession::on_text(LiveLink& link, std::string_view text) {
   caller.place = link.place();
   caller.opening = client.opening;
   caller.id = id;
+  // What the page does by itself is nobody's act.
+  if (op != "ping" && op != "subscribe" && op != "refresh") parts_.access.acted(client.session, now);
   operate(client, caller, op, fields, now);
   if (client.is_open() && client.outbox.is_full())
     return close(client, close_later, "too many answers wait to be read");
@@ -258,6 +265,16 @@ bool LiveSession::write_text(Client& client, Time now, std::string& to) {
     client.outbox.take(to);
     return true;
   }
+  if (const SessionInfo* const info = parts_.access.session(client.session);
+      info != nullptr && info->lapsed && !client.told_of_lapse) {
+    client.told_of_lapse = true;
+    JsonWriter json(std::move(to));
+    json.begin_object().member("event", "session").key("session");
+    write_session(json, *info);
+    json.end_object();
+    to = json.release();
+    return true;
+  }
   if (client.state_seen != parts_.state.version()) {
     to += parts_.state.event_for(client.session);
     client.state_seen = parts_.state.version();
@@ -312,8 +329,8 @@ void LiveSession::write_hello(Client& client, Time now, std::string& to) {
   JsonWriter json(std::move(to));
   json.begin_object().member("event", "hello").member("protocol", 1).member("application", application.name);
   json.member("boot", parts_.boot).member("descriptor", static_cast<const char*>(hash));
-  json.key("session").begin_object().member("name", info.name).member("role", name_of_role(info));
-  json.member("local", info.local).member("user", info.user).end_object();
+  json.key("session");
+  write_session(json, info);
   json.member("server_time_ns", nanoseconds(now)).member("allocations", has_allocation_guard()).end_object();
   to = json.release();
 }

@@ -6,6 +6,7 @@
 #include "runtime/core/digest.hpp"
 #include "runtime/core/value_json.hpp"
 #include "web-ui/server/api/log_lines.hpp"
+#include "web-ui/server/gzip.hpp"
 
 namespace flexrf::panel {
 namespace {
@@ -48,7 +49,12 @@ bool names_tag(std::string_view list, std::string_view tag) noexcept {
 }  // namespace
 
 RestHandler::RestHandler(const RestParts& parts)
-    : parts_(parts), openapi_(openapi_document(parts.executive.cell().application().name)) {}
+    : parts_(parts),
+      openapi_text_(openapi_document(parts.executive.cell().application().name)),
+      openapi_(openapi_text_),
+      descriptor_(parts.executive.cell().application().descriptor_json) {}
+
+RestHandler::Document::Document(std::string_view document) : text(document), compressed(gzip(document)) {}
 
 Handled RestHandler::handle(const Request& request, Reply& reply, Ticket ticket) {
   const Caller caller = Caller::rest(request.session, ticket);
@@ -99,7 +105,7 @@ void RestHandler::read(const Match& found, const Request& request, Reply& reply,
     case Resource::openapi:
       return finish_fixed(request, reply, openapi_, application.descriptor_hash);
     case Resource::descriptor:
-      return finish_fixed(request, reply, application.descriptor_json, application.descriptor_hash);
+      return finish_fixed(request, reply, descriptor_, application.descriptor_hash);
     case Resource::state:
       parts_.state.update(now);
       reply.text.assign("{").append(parts_.state.members_for(caller.session));
@@ -178,14 +184,18 @@ void RestHandler::finish_json(const Request& request, Reply& reply, JsonWriter& 
   finish(request, reply);
 }
 
-void RestHandler::finish_fixed(const Request& request, Reply& reply, std::string_view text,
+void RestHandler::finish_fixed(const Request& request, Reply& reply, const Document& document,
                                std::uint64_t digest) {
-  write_hash_tag(reply.etag, digest);
+  const bool compressed = request.accepts_gzip && !document.compressed.empty();
+  // Each representation has a tag of its own.
+  write_hash_tag(reply.etag, compressed ? ~digest : digest);
+  reply.varies_by_encoding = !document.compressed.empty();
   reply.cache_control = "no-cache";
   if (names_tag(request.if_none_match, reply.etag)) {
     reply.status = 304;
   } else {
-    reply.fixed = text;
+    reply.fixed = compressed ? std::string_view{document.compressed} : document.text;
+    if (compressed) reply.content_encoding = "gzip";
   }
   parts_.operations.answers.answered();
 }

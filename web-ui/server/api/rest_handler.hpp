@@ -38,6 +38,13 @@ class RestHandler final : public RequestHandler {
   Handled handle(const Request& request, Reply& reply, Ticket ticket) override;
 
  private:
+  /// What never changes; compressed where that saves something, else empty.
+  struct Document {
+    explicit Document(std::string_view document);
+    std::string_view text;
+    std::string compressed;
+  };
+
   void serve(const Request& request, Reply& reply, const Caller& caller, Time now);
   void read(const Match& match, const Request& request, Reply& reply, const Caller& caller, Time now);
   void act(const Match& match, const Request& request, const Caller& caller, Time now);
@@ -51,10 +58,12 @@ class RestHandler final : public RequestHandler {
   /// Makes the text the reply: 304 when the client has it.
   void finish(const Request& request, Reply& reply);
   void finish_json(const Request& request, Reply& reply, JsonWriter& json);
-  void finish_fixed(const Request& request, Reply& reply, std::string_view text, std::uint64_t digest);
+  void finish_fixed(const Request& request, Reply& reply, const Document& document, std::uint64_t digest);
 
   RestParts parts_;
-  std::string openapi_;
+  std::string openapi_text_;
+  Document openapi_;
+  Document descriptor_;
 };
 
 }  // namespace flexrf::panel

@@ -77,7 +77,9 @@ void wrong_files_are_named(void**) {
 }
 
 /// A client by TLS; gives what came back.
-std::string ask_encrypted(std::uint16_t port, const std::string& request, int newest_version) {
+/// `ciphers`: of TLS 1.2, null: all.
+std::string ask_encrypted(std::uint16_t port, const std::string& request, int newest_version,
+                          const char* ciphers = nullptr) {
   const int socket_of_ours = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -86,6 +88,7 @@ std::string ask_encrypted(std::uint16_t port, const std::string& request, int ne
   assert_int_equal(connect(socket_of_ours, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
   SSL_CTX* context = SSL_CTX_new(TLS_client_method());
   SSL_CTX_set_max_proto_version(context, newest_version);
+  if (ciphers != nullptr) SSL_CTX_set_cipher_list(context, ciphers);
   SSL* stream = SSL_new(context);
   SSL_set_fd(stream, socket_of_ours);
   std::string text;
@@ -132,6 +135,18 @@ void plain_requests_get_nothing(void** state) {
   assert_int_equal(status_of(served.clients[0].reply()), 0);
 }
 
+void what_encrypts_without_authenticating_is_not_offered(void** state) {
+  auto& served = *static_cast<Served*>(*state);
+  const std::string request = "GET /hello HTTP/1.1\r\nHost: panel.test\r\nConnection: close\r\n\r\n";
+  const auto ask = [&](const char* ciphers) {
+    return ask_encrypted(served.port(), request, TLS1_2_VERSION, ciphers);
+  };
+  assert_int_equal(status_of(ask("ECDHE-ECDSA-AES128-GCM-SHA256")), 200);
+  assert_int_equal(status_of(ask("ECDHE-ECDSA-CHACHA20-POLY1305")), 200);
+  assert_int_equal(
+      status_of(ask("ECDHE-ECDSA-AES128-SHA256:ECDHE-ECDSA-AES256-SHA384:ECDHE-ECDSA-AES128-SHA")), 0);
+}
+
 }  // namespace
 }  // namespace flexrf::panel
 
@@ -141,6 +156,7 @@ int main() {
       cmocka_unit_test(wrong_files_are_named),
       cmocka_unit_test_setup_teardown(requests_travel_encrypted, serve, end),
       cmocka_unit_test_setup_teardown(plain_requests_get_nothing, serve, end),
+      cmocka_unit_test_setup_teardown(what_encrypts_without_authenticating_is_not_offered, serve, end),
   };
   return cmocka_run_group_tests(tests, make_files, remove_files);
 }

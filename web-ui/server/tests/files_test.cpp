@@ -1,8 +1,11 @@
 #include "web-ui/server/files.hpp"
 
+#include <cstdint>
 #include <string>
 
 #include "tests/cmocka.hpp"
+#include "web-ui/server/gunzip.hpp"
+#include "web-ui/server/gzip.hpp"
 
 namespace flexrf::panel {
 namespace {
@@ -19,7 +22,22 @@ constexpr PageFile page[] = {
     {"/assets/page-1a2b.js", "text/javascript; charset=utf-8", "22", true, true, hello},
     {"/assets/broken.js", "text/javascript; charset=utf-8", "33", true, true, hello.substr(0, 25)},
 };
-constexpr PanelFile application[] = {{"arm.urdf", "application/xml", "<robot/>"}};
+/// Such as compresses well, and some bytes that do not.
+std::string make_arm() {
+  std::string text = "<robot>";
+  for (int i = 0; i < 1000; ++i) text += "<link name=\"link_" + std::to_string(i) + "\"/>";
+  return text + "</robot>";
+}
+const std::string large_arm = make_arm();
+const std::string noise = [] {
+  std::string text;
+  for (std::uint32_t i = 0, state = 1; i < 4000; ++i)
+    text += static_cast<char>((state = state * 1664525U + 1013904223U) >> 24U);
+  return text;
+}();
+const PanelFile application[] = {{"arm.urdf", "application/xml", "<robot/>"},
+                                 {"large.urdf", "application/xml", large_arm},
+                                 {"noise.stl", "model/stl", noise}};
 
 Files files(page, application);
 Reply reply;
@@ -88,6 +106,32 @@ void the_applications_files_are_served(void**) {
   assert_int_equal(ask("/arm.urdf").status, 404);
 }
 
+void what_compresses_well_goes_compressed(void**) {
+  ask("/application/large.urdf");
+  is(reply.content_encoding, "gzip");
+  assert_true(reply.varies_by_encoding);
+  assert_true(reply.fixed.size() < large_arm.size() / 4);
+  std::string text;
+  assert_true(gunzip(reply.fixed, text));
+  assert_true(text == large_arm);
+  const std::string tag = reply.etag;
+  ask("/application/large.urdf", false);
+  is(reply.content_encoding, "");
+  assert_true(reply.fixed == large_arm);
+  assert_true(reply.etag != tag);
+  ask("/application/noise.stl");
+  is(reply.content_encoding, "");
+  assert_true(reply.fixed == noise);
+}
+
+/// By another's hand: zlib's CRC and size are checked by browsers.
+void the_checksum_is_that_of_the_format(void**) {
+  const std::string compressed = gzip(std::string(2000, 'a'));
+  assert_true(compressed.starts_with("\x1F\x8B\x08"));
+  const std::string_view trailer = std::string_view{compressed}.substr(compressed.size() - 8);
+  assert_true(trailer == "\x39\x3E\x13\xA8\xD0\x07\x00\x00"sv);
+}
+
 void files_can_only_be_read(void**) {
   assert_int_equal(ask("/", true, {}, Method::head).status, 200);
   assert_int_equal(ask("/", true, {}, Method::post).status, 405);
@@ -106,6 +150,8 @@ int main() {
       cmocka_unit_test(what_is_unchanged_is_not_sent),
       cmocka_unit_test(clients_without_gzip_get_plain_bytes),
       cmocka_unit_test(the_applications_files_are_served),
+      cmocka_unit_test(what_compresses_well_goes_compressed),
+      cmocka_unit_test(the_checksum_is_that_of_the_format),
       cmocka_unit_test(files_can_only_be_read),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -30,6 +30,7 @@ export function deniedLink(situation: Pick<Situation, 'link'>): string {
 export function deniedAction(situation: Situation, role: Role): string {
   const link = deniedLink(situation);
   if (link) return link;
+  if (situation.session?.lapsed) return 'log in again';
   if (!situation.session || !includes(situation.session.role, role)) return `needs ${role}`;
   if (situation.state?.mode === 'safe' || situation.state?.mode === 'ended') return 'the application ends';
   if (hasControl(situation)) return '';

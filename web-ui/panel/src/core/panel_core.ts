@@ -224,6 +224,10 @@ export class PanelCore implements Core {
         this.#logWatchers.forEach((watcher) => watcher(fresh));
         break;
       }
+      case 'session':
+        this.session = event.session;
+        this.#changed();
+        break;
       case 'ended':
         if (this.state) this.state = { ...this.state, mode: 'ended' };
         this.options.onEnded?.(event.text);

@@ -22,6 +22,8 @@ export interface SessionInfo {
   readonly role: Role;
   readonly local: boolean;
   readonly user: string;
+  /** Its time is over: it sees, may stop motion, and has to log in for more. */
+  readonly lapsed?: boolean;
 }
 
 export interface Hello {
@@ -107,6 +109,7 @@ export type ServerEvent =
   | ({ readonly event: 'state' } & ApplicationState)
   | { readonly event: 'topic'; readonly name: string; readonly body: unknown }
   | { readonly event: 'log'; readonly lines: readonly LogLine[] }
+  | { readonly event: 'session'; readonly session: SessionInfo }
   | { readonly event: 'ended'; readonly text: string };
 
 /** Values by parameter path, as requests and answers carry them. */

@@ -190,10 +190,11 @@ export class Panel extends LitElement {
   #onState(): void {
     const { link } = this.core;
     if (this.generation) document.title = titleOf(this.core.application, this.core);
-    if (link.phase === 'open') {
-      this.ended = '';
+    const lapsed = this.core.session?.lapsed === true;
+    if (link.phase === 'open') this.ended = '';
+    if (link.phase === 'open' && !lapsed) {
       this.#asked = false;
-    } else if (link.detail === 'login' && !this.#asked) {
+    } else if ((link.detail === 'login' || lapsed) && !this.#asked) {
       this.#asked = true; // once: who closes the dialog finds the button
       void this.#open('login');
     }

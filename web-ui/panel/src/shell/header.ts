@@ -130,8 +130,8 @@ export class Header extends ShellPart {
       <div class=${stale}><flexrf-control .core=${core}></flexrf-control></div>
       <div class="session">
         <span class="link"></span>
-        <small>${session ? `${session.user || session.name}: ${session.role}` : ''}</small>
-        ${session?.user
+        <small>${session?.lapsed ? `${session.user}: log in again` : session ? `${session.user || session.name}: ${session.role}` : ''}</small>
+        ${session?.user && !session.lapsed
           ? html`<button ?disabled=${unlinked} @click=${() => logOut(core)}>Log out</button>`
           : session?.role === 'admin'
             ? nothing // by the address that the application printed

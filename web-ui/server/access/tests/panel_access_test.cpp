@@ -11,6 +11,7 @@ namespace {
 
 using Taking = AccessControl::Taking;
 using std::chrono::hours;
+using std::chrono::minutes;
 using std::chrono::seconds;
 
 struct Watcher final : ControlWatcher, SessionWatcher {
@@ -38,6 +39,7 @@ Watcher watcher;
 SessionHandle own;
 std::string set_cookie;
 std::string cookies;
+std::string renewed;
 
 int begin_with(bool needs_login) {
   if (!prepare_cryptography()) return -1;
@@ -45,6 +47,7 @@ int begin_with(bool needs_login) {
   settings.needs_login = needs_login;
   settings.port = 8081;
   settings.sessions.places = 4;
+  settings.token_renewed = [](const OneTimeToken& token) { renewed = token.text(); };
   access_control.emplace(settings);
   watcher = {};
   watcher.access = &*access_control;
@@ -215,20 +218,77 @@ void room_is_made_but_never_by_the_holder(void**) {
   assert_int_equal(visit(start + hours{1}), no_session);
 }
 
-void the_one_time_token_is_good_once(void**) {
-  OneTimeToken& token = *access_control->one_time_token();
-  cookies = token.text();
+void the_one_time_token_is_good_once_and_another_follows(void**) {
+  cookies = access_control->one_time_token()->text();
   assert_int_equal(cookies.size(), OneTimeToken::digits);
-  assert_false(token.use(""));
-  assert_false(token.use(cookies.substr(1)));
+  assert_false(access_control->use_token(""));
+  assert_false(access_control->use_token(cookies.substr(1)));
   cookies[0] = cookies[0] == '0' ? '1' : '0';
-  assert_false(token.use(cookies));
-  cookies = token.text();
-  assert_true(token.use(cookies));
-  assert_false(token.use(cookies));
-  assert_int_equal(token.text().size(), 0);
-  assert_false(
-      token.use(std::string_view{"\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 32}));
+  assert_false(access_control->use_token(cookies));
+  cookies = access_control->one_time_token()->text();
+  assert_true(access_control->use_token(cookies));
+  assert_false(access_control->use_token(cookies));
+  assert_false(access_control->use_token(
+      std::string_view{"\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 32}));
+  // Who stands at the machine is told of the next.
+  const std::string next{access_control->one_time_token()->text()};
+  assert_true(next != cookies);
+  assert_string_equal(renewed.c_str(), next.c_str());
+  assert_true(access_control->use_token(next));
+}
+
+void a_session_that_logged_in_lapses_in_place(void**) {
+  const SessionIndex ann = log_in("ann", Role::admin);
+  access_control->link_opened(ann);
+  access_control->take(ann, start);
+  // Whoever acts is there; after an hour without he may have gone.
+  access_control->acted(ann, start + minutes{50});
+  access_control->update(start + minutes{110});
+  assert_false(access_control->session(ann)->lapsed);
+  const std::uint64_t revision = access_control->revision();
+  access_control->update(start + minutes{110} + seconds{1});
+  assert_true(access_control->session(ann)->lapsed);
+  assert_true(access_control->revision() > revision);
+  assert_int_equal(access_control->holder(), no_session);
+  assert_false(access_control->has_role(ann, Role::operator_));
+  assert_true(access_control->has_role(ann, Role::viewer));  // sees, and stops motion
+  assert_int_equal(watcher.ended, 0);
+  access_control->acted(ann, start + minutes{111});
+  assert_int_equal(access_control->take(ann, start + minutes{111}), Taking::refused_role);
+  // It ends with its page.
+  access_control->link_closed(ann, start + minutes{112});
+  access_control->update(start + minutes{112});
+  assert_int_equal(watcher.ended, 1);
+}
+
+void eight_hours_are_enough_for_a_password_but_not_for_a_token(void**) {
+  const SessionIndex ann = log_in("ann", Role::admin);
+  const SessionIndex token = log_in("", Role::admin);
+  access_control->link_opened(ann);
+  access_control->link_opened(token);
+  for (int half_hours = 1; half_hours <= 20; ++half_hours) {
+    access_control->acted(ann, start + half_hours * minutes{30});
+    access_control->update(start + half_hours * minutes{30});
+    assert_int_equal(access_control->session(ann)->lapsed, half_hours > 16);
+  }
+  access_control->update(start + hours{100});
+  assert_true(access_control->has_role(token, Role::admin));
+  // Its page is loaded anew, and closed in the end.
+  access_control->link_closed(token, start + hours{100});
+  access_control->update(start + hours{101});
+  assert_true(access_control->has_role(token, Role::admin));
+  access_control->update(start + hours{101} + seconds{1});
+  assert_null(access_control->session(token));
+}
+
+void by_tls_the_cookie_is_this_hosts_alone(void**) {
+  AccessSettings settings;
+  settings.port = 8443;
+  settings.secure = true;
+  access_control.emplace(settings);
+  visit();
+  assert_int_equal(set_cookie.rfind("__Host-flexrf_session_8443=", 0), 0);
+  assert_non_null(strstr(set_cookie.c_str(), "; Path=/; HttpOnly; SameSite=Strict; Secure"));
 }
 
 void changes_show_in_the_revision(void**) {
@@ -259,7 +319,10 @@ int main() {
       cmocka_unit_test_setup(a_waiting_session_gets_control_in_time, begin),
       cmocka_unit_test_setup(idle_sessions_end, begin),
       cmocka_unit_test_setup(room_is_made_but_never_by_the_holder, begin),
-      cmocka_unit_test_setup(the_one_time_token_is_good_once, begin),
+      cmocka_unit_test_setup(the_one_time_token_is_good_once_and_another_follows, begin),
+      cmocka_unit_test_setup(a_session_that_logged_in_lapses_in_place, begin_with_logins),
+      cmocka_unit_test_setup(eight_hours_are_enough_for_a_password_but_not_for_a_token, begin_with_logins),
+      cmocka_unit_test_setup(by_tls_the_cookie_is_this_hosts_alone, begin),
       cmocka_unit_test_setup(changes_show_in_the_revision, begin),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

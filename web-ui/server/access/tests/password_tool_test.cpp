@@ -89,16 +89,16 @@ void users_are_added_changed_listed_and_removed(void**) {
 }
 
 void what_is_wrong_changes_nothing(void**) {
-  assert_int_equal(run("short\\n", ""), 1);
-  assert_true(has("at least 8 characters"));
+  assert_int_equal(run("eleven char\\n", ""), 1);
+  assert_true(has("at least 12 characters"));
   assert_int_equal(run("", ""), 1);
   assert_true(has("no password came on standard input"));
-  assert_int_equal(run("good enough\\n", "--role boss"), 1);
+  assert_int_equal(run("good enough now\\n", "--role boss"), 1);
   assert_true(has("unknown role 'boss'"));
-  assert_int_equal(run("good enough\\n", "--user 'a b'"), 1);
-  assert_int_equal(run("good enough\\n", "--usr ann"), 1);
+  assert_int_equal(run("good enough now\\n", "--user 'a b'"), 1);
+  assert_int_equal(run("good enough now\\n", "--usr ann"), 1);
   assert_true(has("unexpected '--usr'") && has("Exit code:"));
-  assert_int_equal(run("good enough\\n", "--list"), 1);
+  assert_int_equal(run("good enough now\\n", "--list"), 1);
   assert_false(std::filesystem::exists(file));
 }
 
@@ -106,10 +106,10 @@ void a_damaged_file_is_not_written_over(void**) {
   std::FILE* const damaged = std::fopen(file.c_str(), "w");
   std::fputs("ann:boss:x\n", damaged);
   std::fclose(damaged);
-  assert_int_equal(run("good enough\\n", ""), 1);
+  assert_int_equal(run("good enough now\\n", ""), 1);
   assert_true(has("others may read it: chmod 600"));
   assert_int_equal(chmod(file.c_str(), 0600), 0);
-  assert_int_equal(run("good enough\\n", ""), 1);
+  assert_int_equal(run("good enough now\\n", ""), 1);
   assert_true(has("panel-users:1: unknown role 'boss'"));
   assert_int_equal(std::filesystem::file_size(file), 11);
 }

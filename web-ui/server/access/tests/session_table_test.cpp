@@ -106,11 +106,15 @@ void idle_sessions_expire_linked_ones_do_not(void**) {
   const SessionIndex idle = viewer();
   const SessionIndex linked = viewer();
   table->link_opened(linked);
-  assert_int_equal(table->expired(start + hours{12}), no_session);
-  assert_int_equal(table->expired(start + hours{12} + seconds{1}), idle);
+  assert_int_equal(table->expired(start + hours{1}), no_session);
+  assert_int_equal(table->expired(start + hours{1} + seconds{1}), idle);
   table->end(idle);
   assert_int_equal(table->expired(start + hours{100}), no_session);
-  assert_int_equal(table->expired(start + hours{7 * 24} + seconds{1}), linked);
+  assert_int_equal(table->lapsing(start + hours{100}), no_session);  // it never logged in
+  const SessionIndex ann = table->begin("ann", Role::operator_, "10.0.0.1", start);
+  table->touch(ann, "10.0.0.1", start + hours{8});
+  assert_int_equal(table->expired(start + hours{8}), no_session);
+  assert_int_equal(table->expired(start + hours{8} + seconds{1}), ann);
 }
 
 void presence(void**) {

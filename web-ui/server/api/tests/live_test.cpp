@@ -38,8 +38,10 @@ void a_page_is_greeted_and_told_the_state() {
   CHECK_EQUAL(hello.at("application").get<std::string>(), "test_cell");
   CHECK_EQUAL(hello.at("descriptor").get<std::string>(), "0000000000007e57");
   CHECK_EQUAL(hello.at("boot").get<std::string>().size(), 16U);
-  CHECK(hello.at("session") ==
-        json({{"name", "panel-2"}, {"role", "operator"}, {"local", true}, {"user", "olga"}}));
+  CHECK(
+      hello.at("session") ==
+      json(
+          {{"name", "panel-2"}, {"role", "operator"}, {"local", true}, {"user", "olga"}, {"lapsed", false}}));
   json state = rig.event(link, "state");
   CHECK_EQUAL(state.at("mode").get<std::string>(), "running");
   CHECK(state.at("motion") == json({{"stopped", false}, {"may_move", true}}));
@@ -335,6 +337,27 @@ void the_end_is_told() {
   CHECK(rig.event(link, "ended").contains("text"));
 }
 
+void a_lapsed_session_is_told_to_log_in_and_can_still_stop() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  PlayedLink& link = rig.connect(an_operator);
+  CHECK(rig.event(link, "hello").at("session").at("lapsed") == false);
+  const int acts = rig.access().acts;
+  rig.ask(link, {{"op", "ping"}, {"sent", 1}});
+  CHECK_EQUAL(rig.access().acts, acts);
+  rig.ask(link, {{"op", "take_control"}});
+  CHECK_EQUAL(rig.access().acts, acts + 1);
+  rig.access().lapse(an_operator);
+  const json told = rig.event(link, "session");
+  CHECK(told.at("session").at("lapsed") == true);
+  CHECK_EQUAL(told.at("session").at("role").get<std::string>(), "viewer");
+  CHECK_EQUAL(link.closed, 0);
+  CHECK(rig.ask(link, {{"op", "start_motion"}}).at("ok") == false);
+  CHECK(rig.ask(link, {{"op", "stop_motion"}}).at("ok") == true);
+  CHECK(rig.executive().control().motion_stopped());
+}
+
 }  // namespace
 }  // namespace flexrf::panel
 
@@ -353,6 +376,7 @@ int main() {
       CONTAINED_TEST(who_asks_and_never_reads_is_closed),
       CONTAINED_TEST(two_pages_see_each_others_changes),
       CONTAINED_TEST(the_end_is_told),
+      CONTAINED_TEST(a_lapsed_session_is_told_to_log_in_and_can_still_stop),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

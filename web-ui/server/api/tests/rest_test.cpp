@@ -130,6 +130,27 @@ void a_generated_client_can_log_in_and_change_what_it_has_read() {
   CHECK(!match(Method::post, "login").known_path);
 }
 
+void the_descriptor_comes_compressed_to_who_takes_it() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  const Answer plain = rig.get("openapi.json");
+  Request request;
+  request.path = "/api/v1/openapi.json";
+  request.session = a_viewer;
+  request.accepts_gzip = true;
+  Reply reply;
+  CHECK(rig.api().rest().handle(request, reply, {0, 999'999}) == Handled::now);
+  CHECK_EQUAL(reply.content_encoding, std::string_view{"gzip"});
+  CHECK(reply.varies_by_encoding && plain.reply.varies_by_encoding);
+  CHECK(reply.fixed.size() < plain.reply.fixed.size() / 3);
+  CHECK(reply.etag != plain.reply.etag);
+  request.if_none_match = reply.etag;
+  Reply again;
+  CHECK(rig.api().rest().handle(request, again, {0, 999'999}) == Handled::now);
+  CHECK_EQUAL(again.status, 304U);
+}
+
 void an_admin_reads_who_did_what() {
   ProducerAndConsumer cell;
   Rig rig(cell);
@@ -192,6 +213,7 @@ int main() {
       CONTAINED_TEST(a_generated_client_can_log_in_and_change_what_it_has_read),
       CONTAINED_TEST(an_admin_reads_who_did_what),
       CONTAINED_TEST(the_state_says_who_stopped),
+      CONTAINED_TEST(the_descriptor_comes_compressed_to_who_takes_it),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -33,6 +33,13 @@ void PlayedAccess::give(SessionIndex to) {
   if (watcher != nullptr && from != to) watcher->on_control_changed(from, to);
 }
 
+void PlayedAccess::lapse(SessionIndex index) {
+  sessions_[index].lapsed = true;
+  sessions_[index].role = Role::viewer;
+  if (holder_ == index) give(no_session);
+  ++revision_;
+}
+
 void PlayedAccess::end(SessionIndex index) {
   ended_[index] = true;
   if (holder_ == index) give(no_session);

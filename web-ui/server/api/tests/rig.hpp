@@ -30,9 +30,12 @@ class PlayedAccess final : public AccessControl {
   void release(SessionIndex index) override;
   bool answer(SessionIndex index, bool grant, Time now) override;
   std::uint64_t revision() const override { return revision_; }
+  void acted(SessionIndex, Time) override { ++acts; }
 
   void give(SessionIndex to);
   void end(SessionIndex index);
+  void lapse(SessionIndex index);
+  int acts = 0;
   ControlWatcher* watcher = nullptr;
   SessionWatcher* session_watcher = nullptr;
 

@@ -56,6 +56,19 @@ describe('locked', () => {
     expect(of('jog.step', moving({ stopped: true, may_move: false }))).toBe('');
     expect(of('jog.step', moving({ stopped: true, may_move: false }, { mode: 'safe' }))).toBe('the application ends');
   });
+  it('says that the time of the session is over', () => {
+    const over = situation('viewer', null);
+    expect(of('jog.step', { ...over, session: { ...over.session!, lapsed: true } })).toBe('log in again');
+  });
+  it('says that motion has to be permitted, last of all and where the table says so', () => {
+    const still = situation('operator');
+    const stopped = { ...still, state: { ...still.state!, motion: { stopped: true, may_move: false } } };
+    const hold = { ...model.item('jog.step')!, needs: [{ reason: 'needs motion' }] };
+    expect(locked(stopped, hold)).toBe('needs motion');
+    expect(locked(still, hold)).toBe('');
+    expect(locked({ ...stopped, session: { ...still.session!, role: 'viewer' } }, hold)).toBe('needs operator');
+    expect(locked(stopped, { ...hold, needs: [{ reason: 'needs state to be ready', key: 'jog.feedback.state', numbers: [1] }] })).toBe('');
+  });
   it('tells what is never changed here', () => {
     expect(of('jog.feedback.presses', situation('admin'))).toBe('read only');
     expect(of('jog.configuration.lag', situation('admin'))).toBe('changed by Edit');
