@@ -25,15 +25,29 @@ std::optional<PixelLayout> layout_of(PixelFormat format) {
       return PixelLayout{1, {1, 0, 0}};
     case PixelFormat::yuyv:
       return PixelLayout{2, {1, 0, 0}};
+    case PixelFormat::uyvy:
+      return PixelLayout{2, {0, 1, 0}};
+    case PixelFormat::grey16:
+      return PixelLayout{2, {1.0 / 257, 256.0 / 257, 0}};
     case PixelFormat::rgb24:
       return PixelLayout{3, {0.299, 0.587, 0.114}};
     case PixelFormat::bgr24:
       return PixelLayout{3, {0.114, 0.587, 0.299}};
+    case PixelFormat::bayer_rggb8:
+    case PixelFormat::bayer_grbg8:
+    case PixelFormat::bayer_gbrg8:
+    case PixelFormat::bayer_bggr8:
     case PixelFormat::mjpeg:
     case PixelFormat::none:
       break;
   }
   return std::nullopt;
+}
+
+// Of one colour each: which pixels are looked at would make a difference.
+bool is_mosaic(PixelFormat format) {
+  return format == PixelFormat::bayer_rggb8 || format == PixelFormat::bayer_grbg8 ||
+         format == PixelFormat::bayer_gbrg8 || format == PixelFormat::bayer_bggr8;
 }
 
 // A part of a row or column: at least one pixel of it.
@@ -61,6 +75,10 @@ void PartWatch::step(const Tick& /*tick*/) {
     feedback.set_trouble("the picture is compressed (mjpeg): take those of a jpeg_decoder");
     return;
   }
+  if (is_mosaic(frame->format)) {
+    feedback.set_trouble("the picture is its sensor's mosaic of colours: have the camera give yuyv or grey8");
+    return;
+  }
   const auto layout = layout_of(frame->format);
   const std::uint64_t least_stride = layout ? std::uint64_t{frame->width} * layout->bytes : 0;
   if (!layout || frame->width == 0 || frame->height == 0 || frame->stride < least_stride ||
@@ -78,8 +96,7 @@ void PartWatch::step(const Tick& /*tick*/) {
     for (std::uint32_t i = 0; i < across; ++i) {
       const std::size_t column = columns.first + std::size_t{i} * columns.count / across;
       const std::size_t place = row * frame->stride + column * layout->bytes;
-      for (std::size_t k = 0; k < 3 && layout->weights[k] > 0; ++k)
-        sum += layout->weights[k] * frame->data[place + k];
+      for (std::size_t k = 0; k < layout->bytes; ++k) sum += layout->weights[k] * frame->data[place + k];
     }
   }
   PartSight seen{};

@@ -6,6 +6,9 @@ namespace {
 /// What of a picture's size must be even, because pixels share their colour.
 const char* must_be_even(std::uint32_t width, std::uint32_t height, PixelFormat format) noexcept {
   if (format == PixelFormat::yuyv && width % 2 != 0) return ": in yuyv the width is even";
+  if (format == PixelFormat::uyvy && width % 2 != 0) return ": in uyvy the width is even";
+  if (is_bayer(format) && (width % 2 != 0 || height % 2 != 0))
+    return ": behind a mosaic of colours width and height are even";
   if (format == PixelFormat::nv12 && (width % 2 != 0 || height % 2 != 0))
     return ": in nv12 width and height are even";
   return "";
@@ -15,9 +18,8 @@ const char* must_be_even(std::uint32_t width, std::uint32_t height, PixelFormat 
 
 Status check_picture(std::uint32_t width, std::uint32_t height, PixelFormat format) noexcept {
   if (row_bytes(format, 1) == 0 && format != PixelFormat::mjpeg) {
-    return Status::error(
-        StatusCode::invalid_argument,
-        "a camera gives yuyv, grey8, rgb24, nv12 or mjpeg: set configuration.format to one of them");
+    return Status::error(StatusCode::invalid_argument,
+                         "a camera gives %s: set configuration.format to one of them", camera_formats_text);
   }
   const char* const even = must_be_even(width, height, format);
   if (width == 0 || height == 0 || even[0] != '\0') {

@@ -17,8 +17,14 @@ constexpr std::uint32_t row_bytes(PixelFormat format, std::uint32_t width) noexc
   switch (format) {
     case PixelFormat::grey8:
     case PixelFormat::nv12:
+    case PixelFormat::bayer_rggb8:
+    case PixelFormat::bayer_grbg8:
+    case PixelFormat::bayer_gbrg8:
+    case PixelFormat::bayer_bggr8:
       return width;
     case PixelFormat::yuyv:
+    case PixelFormat::uyvy:
+    case PixelFormat::grey16:
       return width * 2;
     case PixelFormat::rgb24:
       return width * 3;
@@ -29,6 +35,20 @@ constexpr std::uint32_t row_bytes(PixelFormat format, std::uint32_t width) noexc
   }
   return 0;
 }
+
+constexpr bool is_bayer(PixelFormat format) noexcept {
+  return format == PixelFormat::bayer_rggb8 || format == PixelFormat::bayer_grbg8 ||
+         format == PixelFormat::bayer_gbrg8 || format == PixelFormat::bayer_bggr8;
+}
+
+/// All that a camera may be asked for. For messages: "yuyv, uyvy, ...".
+inline constexpr PixelFormat camera_formats[] = {
+    PixelFormat::yuyv,        PixelFormat::uyvy,        PixelFormat::grey8,       PixelFormat::grey16,
+    PixelFormat::rgb24,       PixelFormat::nv12,        PixelFormat::mjpeg,       PixelFormat::bayer_rggb8,
+    PixelFormat::bayer_grbg8, PixelFormat::bayer_gbrg8, PixelFormat::bayer_bggr8,
+};
+inline constexpr const char* camera_formats_text =
+    "yuyv, uyvy, grey8, grey16, rgb24, nv12, mjpeg, bayer_rggb8, bayer_grbg8, bayer_gbrg8 or bayer_bggr8";
 
 /// Rows in the data of a picture: colour may have rows of its own.
 constexpr std::uint32_t data_rows(PixelFormat format, std::uint32_t height) noexcept {

@@ -60,7 +60,7 @@ void V4l2Camera::begin_session() {
     return;
   }
   kept_ = std::move(*session);
-  tell(kept_->controls_trouble());
+  tell(kept_->trouble());
   given_.store(kept_.get(), std::memory_order_release);
   ring();
 }
@@ -70,7 +70,7 @@ void V4l2Camera::heed_wishes() {
   if (header == nullptr || header->sequence == wish_seen_) return;
   wish_seen_ = header->sequence;
   request_.controls = text_view(static_cast<const CameraWishes*>(wishes_reader_.payload())->controls);
-  if (kept_ != nullptr) tell(kept_->device().set_controls(request_.controls));
+  if (kept_ != nullptr) tell(kept_->set_controls(request_.controls));
 }
 
 void V4l2Camera::tell(const Status& trouble) {

@@ -3,9 +3,12 @@
 #include <linux/videodev2.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
+#include <vector>
 
 #include "hal/interfaces/camera/picture_size.hpp"
 #include "runtime/core/text.hpp"
@@ -15,22 +18,58 @@ namespace {
 
 constexpr int most_nodes = 64;  // of /dev/videoN
 constexpr std::size_t most_offered_text = 150;
-constexpr PixelFormat known_formats[] = {PixelFormat::yuyv, PixelFormat::grey8, PixelFormat::rgb24,
-                                         PixelFormat::nv12, PixelFormat::mjpeg};
 
+/// 0: a camera has no such format.
 std::uint32_t pixel_format_of(PixelFormat format) noexcept {
   switch (format) {
+    case PixelFormat::yuyv:
+      return V4L2_PIX_FMT_YUYV;
+    case PixelFormat::uyvy:
+      return V4L2_PIX_FMT_UYVY;
     case PixelFormat::grey8:
       return V4L2_PIX_FMT_GREY;
+    case PixelFormat::grey16:
+      return V4L2_PIX_FMT_Y16;
     case PixelFormat::rgb24:
       return V4L2_PIX_FMT_RGB24;
     case PixelFormat::nv12:
       return V4L2_PIX_FMT_NV12;
     case PixelFormat::mjpeg:
       return V4L2_PIX_FMT_MJPEG;
-    default:
-      return V4L2_PIX_FMT_YUYV;
+    case PixelFormat::bayer_rggb8:
+      return V4L2_PIX_FMT_SRGGB8;
+    case PixelFormat::bayer_grbg8:
+      return V4L2_PIX_FMT_SGRBG8;
+    case PixelFormat::bayer_gbrg8:
+      return V4L2_PIX_FMT_SGBRG8;
+    case PixelFormat::bayer_bggr8:
+      return V4L2_PIX_FMT_SBGGR8;
+    case PixelFormat::none:
+    case PixelFormat::bgr24:
+      break;
   }
+  return 0;
+}
+
+bool is_known(std::uint32_t pixel_format) noexcept {
+  return std::any_of(std::begin(camera_formats), std::end(camera_formats),
+                     [pixel_format](PixelFormat known) { return pixel_format_of(known) == pixel_format; });
+}
+
+/// As v4l2-ctl shows it: "Y10 ", "H264".
+std::string code_of(std::uint32_t pixel_format) {
+  std::string code;
+  for (int byte = 0; byte < 4; ++byte) {
+    const auto letter = static_cast<char>(pixel_format >> (8 * byte) & 0x7F);
+    if (letter > ' ' && letter < 0x7F) code += letter;
+  }
+  return code;
+}
+
+/// Rows of two times in one picture.
+bool is_woven(std::uint32_t field) noexcept {
+  return field == V4L2_FIELD_INTERLACED || field == V4L2_FIELD_INTERLACED_TB ||
+         field == V4L2_FIELD_INTERLACED_BT;
 }
 
 }  // namespace
@@ -88,37 +127,79 @@ Status VideoDevice::open_path(const char* path) {
   if (result == -ENODEV) return video_error(result, path, "say what it is");
   const std::uint32_t able = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? capability.device_caps
                                                                                    : capability.capabilities;
-  constexpr std::uint32_t needed = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
-  if (result < 0 || (able & needed) != needed) {
+  const bool captures = (able & V4L2_CAP_VIDEO_CAPTURE) != 0;
+  const bool captures_planes = (able & V4L2_CAP_VIDEO_CAPTURE_MPLANE) != 0;
+  if (result < 0 || (able & V4L2_CAP_STREAMING) == 0 || (!captures && !captures_planes)) {
     return Status::error(
         StatusCode::invalid_argument,
         "%s gives no pictures; v4l2-ctl --list-devices shows the cameras, whose first file it "
         "mostly is",
         path);
   }
+  buffer_type_ = captures ? V4L2_BUF_TYPE_VIDEO_CAPTURE : V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE;
   std::memcpy(driver_.data(), capability.driver, sizeof(capability.driver));
   return {};
 }
 
-Status VideoDevice::agree(VideoFormat& format) {
+bool VideoDevice::has_planes() const noexcept {
+  return buffer_type_ == V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE;
+}
+
+/// 0, and what the camera makes of it: another format is none; else −errno.
+int VideoDevice::propose(VideoFormat& format, std::uint32_t& field) noexcept {
   v4l2_format asked{};
-  asked.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  asked.fmt.pix.width = format.width;
-  asked.fmt.pix.height = format.height;
-  asked.fmt.pix.pixelformat = pixel_format_of(format.format);
-  asked.fmt.pix.field = V4L2_FIELD_NONE;
+  asked.type = buffer_type_;
+  const std::uint32_t wanted = pixel_format_of(format.format);
+  v4l2_pix_format& plain = asked.fmt.pix;
+  v4l2_pix_format_mplane& planes = asked.fmt.pix_mp;
+  if (has_planes()) {
+    planes.width = format.width;
+    planes.height = format.height;
+    planes.pixelformat = wanted;
+    planes.field = V4L2_FIELD_NONE;
+    planes.num_planes = 1;
+  } else {
+    plain.width = format.width;
+    plain.height = format.height;
+    plain.pixelformat = wanted;
+    plain.field = V4L2_FIELD_NONE;
+  }
   const int result = calls_->control(descriptor_, VIDIOC_S_FMT, &asked);
-  const v4l2_pix_format& given = asked.fmt.pix;
+  if (result < 0) return result;
+  // The two begin alike, but for the numbers behind the field.
+  const std::uint32_t given = has_planes() ? planes.pixelformat : plain.pixelformat;
+  const bool is_one_plane = !has_planes() || planes.num_planes == 1;
+  format.width = has_planes() ? planes.width : plain.width;
+  format.height = has_planes() ? planes.height : plain.height;
+  format.stride = has_planes() ? planes.plane_fmt[0].bytesperline : plain.bytesperline;
+  format.size = has_planes() ? planes.plane_fmt[0].sizeimage : plain.sizeimage;
+  field = has_planes() ? planes.field : plain.field;
+  if (given != wanted || !is_one_plane) format.format = PixelFormat::none;
+  return 0;
+}
+
+Status VideoDevice::agree(VideoFormat& format) {
+  VideoFormat given = format;
+  std::uint32_t field = V4L2_FIELD_NONE;
+  const int result = propose(given, field);
   if (result == -EBUSY || result == -ENODEV) return video_error(result, path(), "take a format");
   if (result < 0 || given.width != format.width || given.height != format.height ||
-      given.pixelformat != pixel_format_of(format.format)) {
+      given.format != format.format) {
     return Status::error(StatusCode::invalid_argument, "the camera %s does not give %ux%u %s; it offers %s",
                          path(), format.width, format.height, name_of(format.format),
                          offers(format.format).c_str());
   }
+  if (field != V4L2_FIELD_NONE && field != V4L2_FIELD_ANY && !is_woven(field)) {
+    return Status::error(
+        StatusCode::invalid_argument,
+        "the camera %s is interlaced, and gives the fields of a picture one after the other; ask "
+        "for one without lines left out (progressive), or of half the height",
+        path());
+  }
+  format.interlaced = is_woven(field);
   const std::uint32_t row = row_bytes(format.format, format.width);
-  format.stride = row == 0 ? 0 : std::max(given.bytesperline, row);
-  format.size = std::max(given.sizeimage, format.stride * data_rows(format.format, format.height));
+  format.stride = row == 0 ? 0 : std::max(given.stride, row);
+  format.size = std::max(given.size, format.stride * data_rows(format.format, format.height));
   // Of compressed pictures the longest that could be, which none is: the buffers may be longer than an item.
   if (format.size > most_picture_bytes && format.format != PixelFormat::mjpeg) {
     return Status::error(
@@ -127,7 +208,7 @@ Status VideoDevice::agree(VideoFormat& format) {
         format.size, most_picture_bytes);
   }
   v4l2_streamparm rate{};
-  rate.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  rate.type = buffer_type_;
   rate.parm.capture.timeperframe = {1000, static_cast<std::uint32_t>(format.frame_rate * 1000)};
   // A camera that has but one rate refuses; what it has is told if it tells.
   if (calls_->control(descriptor_, VIDIOC_S_PARM, &rate) < 0)
@@ -140,21 +221,30 @@ Status VideoDevice::agree(VideoFormat& format) {
 
 /// The sizes differ from format to format: those of the one that was asked for, if it is there.
 std::string VideoDevice::offers(PixelFormat asked) {
-  std::string text;
-  std::string none;
+  std::string text, others;
   PixelFormat sized = PixelFormat::none;
-  for (const PixelFormat format : known_formats) {
-    bool has = false;
-    v4l2_fmtdesc one{};
-    one.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    for (; !has && calls_->control(descriptor_, VIDIOC_ENUM_FMT, &one) == 0; ++one.index)
-      has = one.pixelformat == pixel_format_of(format);
-    none += (none.empty() ? "none of " : ", ") + std::string(name_of(format));
-    if (!has) continue;
+  std::vector<std::uint32_t> found;
+  v4l2_fmtdesc one{};
+  one.type = buffer_type_;
+  for (; calls_->control(descriptor_, VIDIOC_ENUM_FMT, &one) == 0; ++one.index) {
+    found.push_back(one.pixelformat);
+    if (!is_known(one.pixelformat)) others += (others.empty() ? "" : ", ") + code_of(one.pixelformat);
+  }
+  for (const PixelFormat format : camera_formats) {
+    if (std::find(found.begin(), found.end(), pixel_format_of(format)) == found.end()) continue;
     if (text.empty() || format == asked) sized = format;
     text += (text.empty() ? "" : ", ") + std::string(name_of(format));
   }
-  if (text.empty()) return none;
+  if (text.empty() && others.empty()) {
+    text = "none of ";
+    return text += camera_formats_text;
+  }
+  if (text.empty()) {
+    if (others.size() > most_offered_text / 3) others.replace(most_offered_text / 3, others.npos, " ...");
+    text = "only ";
+    return text +=
+           others + ", of which none is taken; its driver or its pipeline (media-ctl) may be set to another";
+  }
   text += sizes_of(pixel_format_of(sized));
   if (text.size() > most_offered_text) text.replace(most_offered_text, text.npos, " ...");
   return text;

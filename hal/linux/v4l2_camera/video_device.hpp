@@ -20,6 +20,7 @@ struct VideoFormat {
   std::uint32_t height = 0;
   PixelFormat format = PixelFormat::none;
   double frame_rate = 0;     ///< 1/s
+  bool interlaced = false;   ///< agreed: every other row is of another time
   std::uint32_t stride = 0;  ///< agreed: bytes from row to row
   std::uint32_t size = 0;    ///< agreed: bytes of a buffer
 };
@@ -36,8 +37,12 @@ class VideoDevice {
   /// `name`: a path, or a name as in /sys/class/video4linux/*/name. Errors: unavailable (it is not there),
   /// busy, not_permitted, invalid_argument (not a camera).
   Status open(const std::string& name);
-  /// Errors: busy; invalid_argument, with what it offers instead.
+  /// Errors: busy; invalid_argument, with what it offers instead, or of fields that come one after the other.
   Status agree(VideoFormat& format);
+  /// Of its buffers, V4L2_BUF_TYPE_...
+  std::uint32_t buffer_type() const noexcept { return buffer_type_; }
+  /// Its buffers are described by planes; those of all our formats have one.
+  bool has_planes() const noexcept;
   /// Finds out what can be set; then it is known to controls().
   void find_controls();
   std::span<const CameraControl> controls() const noexcept { return {controls_.data(), count_}; }
@@ -52,6 +57,7 @@ class VideoDevice {
  private:
   Status open_path(const char* path);
   void close() noexcept;
+  int propose(VideoFormat& format, std::uint32_t& field) noexcept;
   std::string offers(PixelFormat asked);
   std::string sizes_of(std::uint32_t pixel_format);
   void add(const v4l2_query_ext_ctrl& found);
@@ -61,6 +67,7 @@ class VideoDevice {
   std::string path_;
   std::array<char, 17> driver_{};
   int descriptor_ = -1;
+  std::uint32_t buffer_type_ = 0;
   std::array<CameraControl, most_controls> controls_{};
   std::array<std::uint32_t, most_controls> identifiers_{};
   std::size_t count_ = 0;

@@ -17,13 +17,40 @@ namespace {
 constexpr std::uint32_t mapped_buffers = 4;
 constexpr std::uint32_t fewest_buffers = 2;
 
-v4l2_buffer empty_buffer(std::uint32_t memory, std::uint32_t index) noexcept {
+/// A buffer's number and where it lies, as both interfaces of the kernel have them.
+struct VideoBuffer {
   v4l2_buffer buffer{};
-  buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  buffer.memory = memory;
-  buffer.index = index;
-  return buffer;
-}
+  v4l2_plane plane{};  // of a device that describes its buffers by planes
+  bool planes = false;
+
+  VideoBuffer(const VideoDevice& device, std::uint32_t memory, std::uint32_t index) noexcept
+      : planes(device.has_planes()) {
+    buffer.type = device.buffer_type();
+    buffer.memory = memory;
+    buffer.index = index;
+    if (!planes) return;
+    buffer.m.planes = &plane;
+    buffer.length = 1;
+  }
+  VideoBuffer(const VideoBuffer&) = delete;
+  VideoBuffer& operator=(const VideoBuffer&) = delete;
+
+  void set_memory(std::uint8_t* data, std::size_t size) noexcept {
+    const auto address = reinterpret_cast<unsigned long>(data);
+    if (planes) {
+      plane.m.userptr = address;
+      plane.length = static_cast<std::uint32_t>(size);
+    } else {
+      buffer.m.userptr = address;
+      buffer.length = static_cast<std::uint32_t>(size);
+    }
+  }
+  std::uint32_t length() const noexcept { return planes ? plane.length : buffer.length; }
+  std::uint32_t offset() const noexcept { return planes ? plane.m.mem_offset : buffer.m.offset; }
+  std::uint32_t bytes() const noexcept { return planes ? plane.bytesused : buffer.bytesused; }
+  /// Where in it the picture begins; its bytes count from the buffer's beginning.
+  std::uint32_t begin() const noexcept { return planes ? plane.data_offset : 0; }
+};
 
 /// Bytes that a whole picture has at least; the last row may lack its padding.
 std::size_t whole_size(const VideoFormat& format) noexcept {
@@ -43,6 +70,14 @@ Result<std::unique_ptr<VideoSession>> VideoSession::begin(VideoCalls& calls, con
   session->controls_trouble_ = session->device_.set_controls(request.controls);
   if (Status status = session->stream(request); !status) return status;
   return session;
+}
+
+Status VideoSession::with_pictures(const Status& controls) const {
+  if (!controls.is_ok() || !format_.interlaced) return controls;
+  return Status::error(StatusCode::device_fault,
+                       "the camera %s is interlaced: every other row is of another time, and what moves has "
+                       "combed edges; ask for a size or input without (progressive), if it has one",
+                       device_.path());
 }
 
 VideoSession::~VideoSession() {
@@ -70,7 +105,7 @@ Status VideoSession::stream(const VideoRequest& request) {
     }
   }
   if (result < 0) result = use_maps();
-  int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  auto type = static_cast<int>(device_.buffer_type());
   if (result >= 0) result = device_.calls().control(descriptor(), VIDIOC_STREAMON, &type);
   if (result < 0) return video_error(result, device_.path(), "stream");
   streaming_ = true;
@@ -91,12 +126,12 @@ int VideoSession::use_maps() noexcept {
   user_pointers_ = false;
   int result = ask_for(V4L2_MEMORY_MMAP, mapped_buffers);
   for (std::uint32_t index = 0; index < count_ && result >= 0; ++index) {
-    v4l2_buffer buffer = empty_buffer(V4L2_MEMORY_MMAP, index);
-    result = device_.calls().control(descriptor(), VIDIOC_QUERYBUF, &buffer);
+    VideoBuffer place(device_, V4L2_MEMORY_MMAP, index);
+    result = device_.calls().control(descriptor(), VIDIOC_QUERYBUF, &place.buffer);
     if (result < 0) break;
-    void* const memory = device_.calls().map(descriptor(), buffer.length, buffer.m.offset);
+    void* const memory = device_.calls().map(descriptor(), place.length(), place.offset());
     if (memory == nullptr) return -ENOMEM;
-    maps_[index] = {static_cast<const std::uint8_t*>(memory), buffer.length};
+    maps_[index] = {static_cast<const std::uint8_t*>(memory), place.length()};
     result = give(index);
   }
   return result;
@@ -105,7 +140,7 @@ int VideoSession::use_maps() noexcept {
 int VideoSession::ask_for(std::uint32_t memory, std::uint32_t count) noexcept {
   v4l2_requestbuffers buffers{};
   buffers.count = count;
-  buffers.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  buffers.type = device_.buffer_type();
   buffers.memory = memory;
   const int result = device_.calls().control(descriptor(), VIDIOC_REQBUFS, &buffers);
   if (result < 0) return result;
@@ -114,7 +149,7 @@ int VideoSession::ask_for(std::uint32_t memory, std::uint32_t count) noexcept {
 }
 
 void VideoSession::let_go() noexcept {
-  int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  auto type = static_cast<int>(device_.buffer_type());
   VideoCalls& calls = device_.calls();
   // Each may fail with a camera that is gone; closing it does the same then.
   if (streaming_) static_cast<void>(calls.control(descriptor(), VIDIOC_STREAMOFF, &type));
@@ -124,7 +159,7 @@ void VideoSession::let_go() noexcept {
     map = {};
   }
   v4l2_requestbuffers none{};
-  none.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  none.type = device_.buffer_type();
   none.memory = memory();
   if (count_ > 0) static_cast<void>(calls.control(descriptor(), VIDIOC_REQBUFS, &none));
   count_ = 0;
@@ -133,16 +168,19 @@ void VideoSession::let_go() noexcept {
 }
 
 int VideoSession::take(VideoPicture& picture) noexcept {
-  v4l2_buffer buffer = empty_buffer(memory(), 0);
-  const int result = device_.calls().control(descriptor(), VIDIOC_DQBUF, &buffer);
+  VideoBuffer taken(device_, memory(), 0);
+  const v4l2_buffer& buffer = taken.buffer;
+  const int result = device_.calls().control(descriptor(), VIDIOC_DQBUF, &taken.buffer);
   if (result == -EAGAIN) return 0;
   if (result < 0) return result;
   if (buffer.index >= count_) return -EIO;
   queued_[buffer.index] = false;
   picture.index = buffer.index;
   picture.sequence = buffer.sequence;
-  picture.bytes = buffer.bytesused;
-  picture.damage = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 ? "marked as damaged by the kernel" : nullptr;
+  picture.bytes = taken.bytes();
+  picture.damage = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 ? "marked as damaged by the kernel"
+                   : taken.begin() != 0                      ? "it does not begin with its buffer"
+                                                             : nullptr;
   if (picture.damage == nullptr) judge(picture);
   const bool monotonic = (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   const auto since =
@@ -167,12 +205,9 @@ void VideoSession::judge(VideoPicture& picture) const noexcept {
 }
 
 int VideoSession::give(std::uint32_t index) noexcept {
-  v4l2_buffer buffer = empty_buffer(memory(), index);
-  if (user_pointers_) {
-    buffer.m.userptr = reinterpret_cast<unsigned long>(frames_[index]->data.data());
-    buffer.length = static_cast<std::uint32_t>(frames_[index]->data.size());
-  }
-  const int result = device_.calls().control(descriptor(), VIDIOC_QBUF, &buffer);
+  VideoBuffer given(device_, memory(), index);
+  if (user_pointers_) given.set_memory(frames_[index]->data.data(), frames_[index]->data.size());
+  const int result = device_.calls().control(descriptor(), VIDIOC_QBUF, &given.buffer);
   if (result >= 0) queued_[index] = true;
   return result < 0 ? result : 0;
 }

@@ -59,14 +59,17 @@ class VideoSession {
   // ---- who began it, beside the camera's thread
 
   VideoDevice& device() noexcept { return device_; }
-  /// What of the controls could not be set at the beginning.
-  const Status& controls_trouble() const noexcept { return controls_trouble_; }
+  /// What of the controls could not be set at the beginning, or else is to be known of its pictures.
+  Status trouble() const { return with_pictures(controls_trouble_); }
+  /// Sets them; what could not be, or else is to be known of its pictures.
+  Status set_controls(std::string_view text) { return with_pictures(device_.set_controls(text)); }
 
  private:
   explicit VideoSession(VideoCalls& calls) noexcept : device_(calls) {}
   Status stream(const VideoRequest& request);
   int use_frames(std::span<CameraFrame* const> frames) noexcept;
   int use_maps() noexcept;
+  Status with_pictures(const Status& controls) const;
   int ask_for(std::uint32_t memory, std::uint32_t count) noexcept;
   void let_go() noexcept;
   std::uint32_t memory() const noexcept;

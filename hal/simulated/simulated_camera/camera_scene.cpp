@@ -65,6 +65,19 @@ class Pen {
       case PixelFormat::yuyv:
         return paint<4>(data, width / 2, {inside.left / 2, inside.right / 2, inside.top, inside.bottom},
                         {ink.y, ink.u, ink.y, ink.v});
+      case PixelFormat::uyvy:
+        return paint<4>(data, width / 2, {inside.left / 2, inside.right / 2, inside.top, inside.bottom},
+                        {ink.u, ink.y, ink.v, ink.y});
+      case PixelFormat::grey16:
+        return paint<2>(data, width, inside, {0, ink.y});
+      case PixelFormat::bayer_rggb8:
+        return paint_mosaic(data, width, inside, {ink.red, ink.green, ink.green, ink.blue});
+      case PixelFormat::bayer_grbg8:
+        return paint_mosaic(data, width, inside, {ink.green, ink.red, ink.blue, ink.green});
+      case PixelFormat::bayer_gbrg8:
+        return paint_mosaic(data, width, inside, {ink.green, ink.blue, ink.red, ink.green});
+      case PixelFormat::bayer_bggr8:
+        return paint_mosaic(data, width, inside, {ink.blue, ink.green, ink.green, ink.red});
       case PixelFormat::nv12:
         paint<2>(data + width * height, width / 2,
                  {inside.left / 2, inside.right / 2, inside.top / 2, inside.bottom / 2}, {ink.u, ink.v});
@@ -82,6 +95,15 @@ class Pen {
     for (long row = area.top; row < area.bottom; ++row) {
       std::uint8_t* at = plane + (row * columns + area.left) * static_cast<long>(size);
       for (long column = area.left; column < area.right; ++column) at = std::copy_n(cell.data(), size, at);
+    }
+  }
+
+  /// `cell`: of two by two pixels, row by row.
+  static void paint_mosaic(std::uint8_t* data, long width, const Area& area,
+                           const std::array<std::uint8_t, 4>& cell) noexcept {
+    for (long row = area.top; row < area.bottom; ++row) {
+      for (long column = area.left; column < area.right; ++column)
+        data[row * width + column] = cell[static_cast<std::size_t>(row % 2 * 2 + column % 2)];
     }
   }
 

@@ -96,6 +96,8 @@ void in_every_format(void**) {
   assert_true(sees(PixelFormat::rgb24, 3));
   assert_true(sees(PixelFormat::bgr24, 3));
   assert_true(sees(PixelFormat::nv12, 1));
+  assert_true(sees(PixelFormat::uyvy, 2));
+  assert_true(sees(PixelFormat::grey16, 2));
 }
 void dark_parts(void**) {
   assert_true(a_dark_part_can_be_looked_for());
@@ -107,6 +109,8 @@ void damaged_pictures(void**) {
   assert_true(what_it_cannot_judge_it_does_not([](CameraFrame& frame) { frame.format = PixelFormat::none; }));
   assert_true(
       what_it_cannot_judge_it_does_not([](CameraFrame& frame) { frame.format = PixelFormat::mjpeg; }));
+  assert_true(
+      what_it_cannot_judge_it_does_not([](CameraFrame& frame) { frame.format = PixelFormat::bayer_rggb8; }));
   assert_true(what_it_cannot_judge_it_does_not([](CameraFrame& frame) { frame.width = 0; }));
   assert_true(what_it_cannot_judge_it_does_not([](CameraFrame& frame) { frame.stride = width - 1; }));
   assert_true(what_it_cannot_judge_it_does_not([](CameraFrame& frame) { frame.height = 4'000'000; }));

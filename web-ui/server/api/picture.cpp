@@ -3,6 +3,7 @@
 #include <turbojpeg.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 
 #include "runtime/parameters/value_access.hpp"
@@ -46,6 +47,34 @@ void to_rgb(double y, double u, double v, unsigned char* rgb) noexcept {
   rgb[2] = clamped(y + 1.772 * (u - 128));
 }
 
+constexpr std::string_view bayer = "bayer_";  // then the colours of two by two pixels, as "rggb8"
+
+/// Of a block of `by` times `by` pixels behind a mosaic whose cells of two by two begin at even columns and
+/// rows; from the cell in which it begins.
+void mosaic_to_rgb(const std::byte* data, std::size_t columns, std::size_t rows, std::size_t row_bytes,
+                   std::size_t x, std::size_t y, std::size_t by, std::string_view colours,
+                   unsigned char* rgb) noexcept {
+  const std::size_t left = std::min(x * by, columns - 2) / 2 * 2;
+  const std::size_t top = std::min(y * by, rows - 2) / 2 * 2;
+  const std::size_t cells = std::max<std::size_t>(by / 2, 1);
+  std::size_t sums[3] = {};
+  std::size_t counts[3] = {};
+  for (std::size_t place = 0; place < 4; ++place) {
+    const std::size_t channel = colours[place] == 'r' ? 0 : colours[place] == 'g' ? 1 : 2;
+    const std::byte* const from = data + (top + place / 2) * row_bytes + left + place % 2;
+    for (std::size_t cell = 0; cell < cells * cells; ++cell)
+      sums[channel] += std::to_integer<std::size_t>(from[cell / cells * 2 * row_bytes + cell % cells * 2]);
+    counts[channel] += cells * cells;
+  }
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    rgb[channel] = static_cast<unsigned char>(sums[channel] / counts[channel]);
+}
+
+/// As encode() takes them, but for mjpeg.
+constexpr std::string_view plain_formats[] = {"grey8",       "grey16",      "rgb24",      "bgr24",
+                                              "yuyv",        "uyvy",        "nv12",       "bayer_rggb8",
+                                              "bayer_grbg8", "bayer_gbrg8", "bayer_bggr8"};
+
 }  // namespace
 
 PictureLayout PictureLayout::of(const TypeDescriptor& type) noexcept {
@@ -65,19 +94,26 @@ PictureEncoder::~PictureEncoder() {
 bool PictureEncoder::scale(std::string_view format, const std::byte* data, std::size_t size,
                            std::size_t columns, std::size_t rows, std::size_t row_bytes, std::size_t by) {
   const bool is_nv12 = format == "nv12";
-  const bool is_yuyv = format == "yuyv";
-  const std::size_t pixel = format == "grey8" || is_nv12 ? 1 : is_yuyv ? 2 : 3;
+  const bool is_uyvy = format == "uyvy";
+  const bool is_in_pairs = is_uyvy || format == "yuyv";
+  const bool is_mosaic = format.starts_with(bayer);
+  const bool is_grey16 = format == "grey16";
+  const std::size_t pixel = format == "grey8" || is_nv12 || is_mosaic ? 1 : is_in_pairs || is_grey16 ? 2 : 3;
   // Colour is shared by two columns, in nv12 by two rows as well, whose own rows come behind the others.
-  const std::size_t least_row = (is_nv12 || is_yuyv ? (columns + 1) / 2 * 2 : columns) * pixel;
+  const std::size_t least_row = (is_nv12 || is_in_pairs ? (columns + 1) / 2 * 2 : columns) * pixel;
   const std::size_t data_rows = is_nv12 ? rows + (rows + 1) / 2 : rows;
   row_bytes = std::max(row_bytes, least_row);
   if (row_bytes * (data_rows - 1) + least_row > size) {
     cause_ = "the picture is larger than its data";
     return false;
   }
+  if (is_mosaic && (columns < 2 || rows < 2)) {
+    cause_ = "the picture is smaller than a cell of its mosaic";
+    return false;
+  }
   columns_ = columns / by;
   rows_ = rows / by;
-  const std::size_t out = format == "grey8" ? 1 : 3;
+  const std::size_t out = format == "grey8" || is_grey16 ? 1 : 3;
   pixels_.resize(columns_ * rows_ * out);
   unsigned char* to = pixels_.data();
   for (std::size_t y = 0; y < rows_; ++y) {
@@ -85,10 +121,14 @@ bool PictureEncoder::scale(std::string_view format, const std::byte* data, std::
     for (std::size_t x = 0; x < columns_; ++x, to += out) {
       const std::byte* const from = row + x * by * pixel;
       // Colour of the pair or square in which the block begins.
-      if (is_yuyv) {
-        const std::byte* const pair = row + (x * by / 2) * 4;
-        to_rgb(mean(from, 2, row_bytes, by), std::to_integer<int>(pair[1]), std::to_integer<int>(pair[3]),
-               to);
+      if (is_in_pairs) {
+        const std::byte* const pair = row + (x * by / 2) * 4 + (is_uyvy ? 0 : 1);
+        to_rgb(mean(from + (is_uyvy ? 1 : 0), 2, row_bytes, by), std::to_integer<int>(pair[0]),
+               std::to_integer<int>(pair[2]), to);
+      } else if (is_grey16) {
+        *to = mean(from + 1, 2, row_bytes, by);  // the high bytes
+      } else if (is_mosaic) {
+        mosaic_to_rgb(data, columns, rows, row_bytes, x, y, by, format.substr(bayer.size()), to);
       } else if (is_nv12) {
         const std::byte* const square = data + (rows + y * by / 2) * row_bytes + (x * by / 2) * 2;
         to_rgb(mean(from, 1, row_bytes, by), std::to_integer<int>(square[0]), std::to_integer<int>(square[1]),
@@ -126,9 +166,10 @@ std::string_view PictureEncoder::encode(const PictureLayout& layout, const void*
     cause_ = "the picture is empty";
   } else if (format == "mjpeg") {
     return pass_on(layout, image);
-  } else if (format != "grey8" && format != "rgb24" && format != "bgr24" && format != "yuyv" &&
-             format != "nv12") {
-    cause_ = "the picture's format is none of grey8, rgb24, bgr24, yuyv, nv12, mjpeg";
+  } else if (std::find(std::begin(plain_formats), std::end(plain_formats), format) ==
+             std::end(plain_formats)) {
+    cause_ =
+        "the picture's format is none of grey8, grey16, rgb24, bgr24, yuyv, uyvy, nv12, mjpeg, bayer_...8";
   }
   if (cause_[0] != '\0') return {};
   const std::size_t wanted = std::max<std::size_t>(width, 16);

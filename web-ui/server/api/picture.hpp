@@ -34,7 +34,8 @@ class PictureEncoder {
   ~PictureEncoder();
 
   /// One that is a JPEG already (mjpeg) is passed on as it is, and lies where the image does.
-  /// Formats (the enumeration's names): grey8, rgb24, bgr24, yuyv, nv12. Scaled by the least whole number
+  /// Formats (the enumeration's names): grey8, grey16 (its high bytes), rgb24, bgr24, yuyv, uyvy, nv12,
+  /// bayer_rggb8, bayer_grbg8, bayer_gbrg8, bayer_bggr8. Scaled by the least whole number
   /// that makes it at most `width` pixels wide. The JPEG is valid until the next call; empty: cause() says
   /// why there is none.
   std::string_view encode(const PictureLayout& layout, const void* image, std::uint32_t width);

@@ -133,6 +133,16 @@ void pictures_that_do_not_fit_are_refused(void**) {
   assert_int_equal(check_picture(640, 481, PixelFormat::nv12).code(), StatusCode::invalid_argument);
   assert_int_equal(check_picture(639, 480, PixelFormat::nv12).code(), StatusCode::invalid_argument);
   assert_int_equal(check_picture(640, 480, PixelFormat::bgr24).code(), StatusCode::invalid_argument);
+  assert_int_equal(check_picture(1280, 720, PixelFormat::uyvy).code(), StatusCode::ok);
+  assert_int_equal(check_picture(639, 480, PixelFormat::uyvy).code(), StatusCode::invalid_argument);
+  assert_int_equal(check_picture(639, 480, PixelFormat::grey16).code(), StatusCode::ok);
+  assert_int_equal(check_picture(1280, 960, PixelFormat::grey16).code(), StatusCode::out_of_range);
+  assert_int_equal(check_picture(1280, 960, PixelFormat::bayer_bggr8).code(), StatusCode::ok);
+  assert_int_equal(check_picture(640, 481, PixelFormat::bayer_rggb8).code(), StatusCode::invalid_argument);
+  for (const PixelFormat format : camera_formats) {
+    assert_int_equal(check_picture(64, 48, format).code(), StatusCode::ok);
+    assert_non_null(std::strstr(camera_formats_text, name_of(format)));
+  }
 }
 
 using Bytes = std::vector<std::uint8_t>;

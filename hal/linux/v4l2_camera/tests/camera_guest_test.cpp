@@ -111,6 +111,47 @@ void nv12_is_right_however_far_apart_its_rows_are(void**) {
   }
 }
 
+bool it_has_planes(PixelFormat format, bool user_pointers, bool into_slot) {
+  VividWorld world;
+  world.device = Vivid::path_with_planes;
+  world.user_pointers = user_pointers;
+  if (const Status status = world.start({.format = format, .into_slot = into_slot}); !status) {
+    print_message("%s\n", status.cause());
+    return false;
+  }
+  CameraEye eye(world);
+  const auto image = see(eye, 10);
+  const bool is_copied = world.feedback().copied_bytes != 0;
+  return image && is_copied == (into_slot && !user_pointers) && world.feedback().damaged_frames == 0 &&
+         (format != PixelFormat::nv12 || bars_stand_upright(*image));
+}
+
+void a_device_of_planes_gives_pictures_as_any_other(void**) {
+  for (const PixelFormat format : {PixelFormat::nv12, PixelFormat::uyvy, PixelFormat::grey16}) {
+    assert_true(it_has_planes(format, true, true));
+    assert_true(it_has_planes(format, false, true));
+    assert_true(it_has_planes(format, false, false));
+  }
+}
+
+bool television_is_told_to_be_interlaced() {
+  VividWorld world;
+  if (!world.vivid().choose_input(1)) return false;
+  if (const Status status = world.start({.width = 720, .height = 576, .into_slot = true}); !status) {
+    print_message("%s\n", status.cause());
+    return false;
+  }
+  CameraEye eye(world);
+  if (!see(eye, 5)) return false;
+  const std::string told(text_view(world.feedback().trouble));
+  print_message("%s\n", told.c_str());
+  return world.feedback().present && told.find("is interlaced") != std::string::npos;
+}
+
+void an_interlaced_input_is_told(void**) {
+  assert_true(television_is_told_to_be_interlaced());
+}
+
 bool it_is_found_by_its_name() {
   VividWorld world;
   world.device = Vivid::name;
@@ -229,6 +270,8 @@ int main() {
       cmocka_unit_test(without_user_pointers_each_picture_is_copied_once),
       cmocka_unit_test(where_user_pointers_are_refused_each_picture_is_copied_once),
       cmocka_unit_test(nv12_is_right_however_far_apart_its_rows_are),
+      cmocka_unit_test(a_device_of_planes_gives_pictures_as_any_other),
+      cmocka_unit_test(an_interlaced_input_is_told),
       cmocka_unit_test(a_camera_is_found_by_its_name),
       cmocka_unit_test(a_stream_that_the_driver_ends_is_begun_anew),
       cmocka_unit_test(a_stream_that_refuses_a_buffer_is_begun_anew),

@@ -33,6 +33,10 @@ bool Vivid::set(const char* control, std::int32_t value) {
   return false;
 }
 
+bool Vivid::choose_input(int input) {
+  return open() && ioctl(descriptor_, VIDIOC_S_INPUT, &input) == 0;
+}
+
 void Vivid::plug_in() {
   if (descriptor_ >= 0) ::close(descriptor_);
   descriptor_ = -1;
@@ -53,6 +57,7 @@ void Vivid::let_go() {
 }
 
 void Vivid::restore() {
+  choose_input(0);
   set("Percentage of Dropped Buffers", 0);
   set("Brightness", 128);
 }

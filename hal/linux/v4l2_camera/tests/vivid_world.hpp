@@ -28,7 +28,8 @@ class WatchedCalls final : public VideoCalls {
         if (!refuses_always_) refused_ = 0;
         return -EIO;
       }
-      if (request == VIDIOC_S_FMT) {
+      if (request == VIDIOC_S_FMT &&
+          static_cast<v4l2_format*>(argument)->type == V4L2_BUF_TYPE_VIDEO_CAPTURE) {
         v4l2_pix_format& asked = static_cast<v4l2_format*>(argument)->fmt.pix;
         asked.bytesperline = padding == 0 ? 0 : asked.width + padding;
       }
@@ -66,7 +67,7 @@ class WatchedCalls final : public VideoCalls {
     if (request == VIDIOC_DQBUF) static_cast<v4l2_buffer*>(argument)->bytesused = picture_size_;
   }
   void note(const v4l2_buffer& buffer) {
-    if (buffer.memory == V4L2_MEMORY_USERPTR)
+    if (buffer.memory == V4L2_MEMORY_USERPTR && buffer.type == V4L2_BUF_TYPE_VIDEO_CAPTURE)
       queued_.push_back(reinterpret_cast<const std::uint8_t*>(buffer.m.userptr));
   }
 

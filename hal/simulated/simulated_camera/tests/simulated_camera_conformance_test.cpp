@@ -126,8 +126,46 @@ bool nv12_shows_what_yuyv_shows() {
   return part.v > 180 && part.u < 110;
 }
 
+/// Of the part, which is red, and of the belt, which is grey.
+bool other_formats_show_what_rgb_shows() {
+  constexpr std::uint32_t width = 64;
+  constexpr std::uint32_t height = 32;
+  constexpr std::size_t on_part = height / 2 * width + width / 2;
+  constexpr std::size_t on_belt = on_part + 6;
+  std::vector<std::uint8_t> data(std::size_t{width} * height * 3);
+  const auto drawn = [&data](PixelFormat format) -> const std::uint8_t* {
+    CameraScene::draw({data, width, height, format}, 0.5, 0);
+    return data.data();
+  };
+  const std::uint8_t* at = drawn(PixelFormat::rgb24);
+  const int part[] = {at[on_part * 3], at[on_part * 3 + 1], at[on_part * 3 + 2]};
+  const int belt[] = {at[on_belt * 3], at[on_belt * 3 + 1], at[on_belt * 3 + 2]};
+  const auto mosaic_is = [&](PixelFormat format, std::size_t red, std::size_t blue) {
+    at = drawn(format);
+    for (std::size_t place = 0; place < 4; ++place) {
+      const std::size_t channel = place == red ? 0 : place == blue ? 2 : 1;
+      const std::size_t offset = place / 2 * width + place % 2;
+      if (at[on_part + offset] != part[channel] || at[on_belt + offset] != belt[channel]) return false;
+    }
+    return true;
+  };
+  std::vector<std::uint8_t> pairs;
+  at = drawn(PixelFormat::yuyv);
+  pairs.assign(at, at + on_belt * 2 + 4);
+  at = drawn(PixelFormat::uyvy);
+  for (const std::size_t place : {on_part * 2, on_belt * 2})
+    for (const std::size_t byte : {std::size_t{0}, std::size_t{2}})
+      if (at[place + byte + 1] != pairs[place + byte] || at[place + byte] != pairs[place + byte + 1])
+        return false;
+  at = drawn(PixelFormat::grey16);
+  if (at[on_part * 2 + 1] != pairs[on_part * 2] || at[on_part * 2] != 0) return false;
+  return mosaic_is(PixelFormat::bayer_rggb8, 0, 3) && mosaic_is(PixelFormat::bayer_grbg8, 1, 2) &&
+         mosaic_is(PixelFormat::bayer_gbrg8, 2, 1) && mosaic_is(PixelFormat::bayer_bggr8, 3, 0);
+}
+
 void colours(void**) {
   assert_true(nv12_shows_what_yuyv_shows());
+  assert_true(other_formats_show_what_rgb_shows());
 }
 
 /// Its descriptor wakes whoever waits for the next picture.

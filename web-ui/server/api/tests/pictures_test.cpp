@@ -22,8 +22,10 @@ struct Picture {
   std::uint8_t data[columns * rows * 3];
 };
 
-constexpr EnumerationValue formats[] = {{"none", ""}, {"grey8", ""}, {"rgb24", ""}, {"bgr24", ""},
-                                        {"yuyv", ""}, {"nv12", ""},  {"mjpeg", ""}};
+constexpr EnumerationValue formats[] = {
+    {"none", ""},        {"grey8", ""},       {"rgb24", ""},      {"bgr24", ""},  {"yuyv", ""},
+    {"nv12", ""},        {"mjpeg", ""},       {"uyvy", ""},       {"grey16", ""}, {"bayer_rggb8", ""},
+    {"bayer_grbg8", ""}, {"bayer_gbrg8", ""}, {"bayer_bggr8", ""}};
 constexpr TypeDescriptor format_type{"PixelFormat", "", 1, 1, 1, {}, {}, formats, false};
 constexpr FieldDescriptor picture_fields[] = {
     {"width", Scalar::u32, 0, {0, 0}, 1, offsetof(Picture, width), "1", "", nullptr},
@@ -41,7 +43,31 @@ constexpr FieldDescriptor picture_fields[] = {
 constexpr TypeDescriptor picture_type{
     "Picture", "", sizeof(Picture), alignof(Picture), 0x99, picture_fields, {}, {}, true};
 
-enum Format : std::uint8_t { none, grey8, rgb24, bgr24, yuyv, nv12, mjpeg };
+enum Format : std::uint8_t {
+  none,
+  grey8,
+  rgb24,
+  bgr24,
+  yuyv,
+  nv12,
+  mjpeg,
+  uyvy,
+  grey16,
+  rggb,
+  grbg,
+  gbrg,
+  bggr
+};
+constexpr Format shown_formats[] = {grey8, rgb24, bgr24, yuyv, nv12, uyvy, grey16, rggb, grbg, gbrg, bggr};
+
+bool is_grey(Format format) {
+  return format == grey8 || format == grey16;
+}
+
+/// Where in a cell of two by two pixels red lies, of row * 2 + column; green lies beside it.
+std::size_t place_of_red(Format format) {
+  return format == rggb ? 0 : format == grbg ? 1 : format == gbrg ? 2 : 3;
+}
 
 /// Left half red (grey: dark), right half green (grey: bright).
 void draw(Picture& picture, Format format) {
@@ -51,14 +77,25 @@ void draw(Picture& picture, Format format) {
   for (std::size_t y = 0; y < rows; ++y) {
     for (std::size_t x = 0; x < columns; ++x) {
       const bool left = x < columns / 2;
-      const std::size_t bytes = format == grey8 || format == nv12 ? 1 : format == yuyv ? 2 : 3;
+      const bool in_twos = format == yuyv || format == uyvy || format == grey16;
+      const std::size_t bytes = format == grey8 || format == nv12 || format >= rggb ? 1 : in_twos ? 2 : 3;
       std::uint8_t* const pixel = picture.data + (y * columns + x) * bytes;
       if (format == grey8) {
         pixel[0] = left ? 40 : 200;
-      } else if (format == yuyv) {
+      } else if (format == grey16) {
+        pixel[0] = 255;
+        pixel[1] = left ? 40 : 200;
+      } else if (format >= rggb) {
+        const std::size_t place = y % 2 * 2 + x % 2;
+        const std::size_t red = place_of_red(format);
+        const bool is_red = place == red;
+        const bool is_blue = place == 3 - red;
+        pixel[0] = (left ? is_red : !is_red && !is_blue) ? 255 : 0;
+      } else if (format == yuyv || format == uyvy) {
         // BT.601: red is Y 76, U 85, V 255; green Y 150, U 44, V 21.
-        pixel[0] = left ? 76 : 150;
-        pixel[1] = x % 2 == 0 ? (left ? 85 : 44) : (left ? 255 : 21);
+        const std::size_t brightness = format == yuyv ? 0 : 1;
+        pixel[brightness] = left ? 76 : 150;
+        pixel[1 - brightness] = x % 2 == 0 ? (left ? 85 : 44) : (left ? 255 : 21);
       } else if (format == nv12) {
         pixel[0] = left ? 76 : 150;
         std::uint8_t* const square = picture.data + (rows + y / 2) * columns + x / 2 * 2;
@@ -106,15 +143,15 @@ void every_format_keeps_its_colours() {
   CHECK(layout.is_complete());
   const auto picture = std::make_unique<Picture>();
   PictureEncoder encoder;
-  for (const Format format : {grey8, rgb24, bgr24, yuyv, nv12}) {
+  for (const Format format : shown_formats) {
     draw(*picture, format);
     const Decoded decoded = decode(encoder.encode(layout, picture.get(), 640));
     CHECK_EQUAL(decoded.width, 64);
     CHECK_EQUAL(decoded.height, 48);
-    CHECK(is_near(decoded.at(8, 24, 0), format == grey8 ? 40 : 254));
-    CHECK(is_near(decoded.at(8, 24, 1), format == grey8 ? 40 : 0));
-    CHECK(is_near(decoded.at(56, 24, 0), format == grey8 ? 200 : 0));
-    CHECK(is_near(decoded.at(56, 24, 1), format == grey8 ? 200 : 255));
+    CHECK(is_near(decoded.at(8, 24, 0), is_grey(format) ? 40 : 254));
+    CHECK(is_near(decoded.at(8, 24, 1), is_grey(format) ? 40 : 0));
+    CHECK(is_near(decoded.at(56, 24, 0), is_grey(format) ? 200 : 0));
+    CHECK(is_near(decoded.at(56, 24, 1), is_grey(format) ? 200 : 255));
   }
 }
 
@@ -204,12 +241,12 @@ void it_is_no_larger_than_it_is_shown() {
   const PictureLayout layout = PictureLayout::of(picture_type);
   const auto picture = std::make_unique<Picture>();
   PictureEncoder encoder;
-  for (const Format format : {grey8, rgb24, yuyv, nv12}) {
+  for (const Format format : shown_formats) {
     draw(*picture, format);
     const Decoded decoded = decode(encoder.encode(layout, picture.get(), 30));
     CHECK_EQUAL(decoded.width, 21);
     CHECK_EQUAL(decoded.height, 16);
-    CHECK(is_near(decoded.at(18, 8, 1), format == grey8 ? 200 : 255));
+    CHECK(is_near(decoded.at(18, 8, 1), is_grey(format) ? 200 : 255));
   }
 }
 
