@@ -57,6 +57,15 @@ export class JogPad extends ControlBase {
         justify-content: center;
         font-size: 0.85em;
       }
+      /* Always there, and never wider than the buttons. */
+      .line {
+        flex: 1 0 100%;
+        width: 0;
+        min-height: 1.35em;
+        color: var(--muted);
+        font-size: 0.9em;
+        text-align: start;
+      }
       .sign {
         font-size: 1.6rem;
         line-height: 1;
@@ -135,7 +144,8 @@ export class JogPad extends ControlBase {
           <span>${button.item.label}</span>
         </button>`,
       )}
-    </div>`);
+    </div>
+    <span class="line" aria-hidden="true">${this.locked === '' ? 'Acts while held.' : `Dead: ${this.locked}`}</span>`);
   }
 
   private element(i: number): HTMLElement {
