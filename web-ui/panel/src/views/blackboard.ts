@@ -21,8 +21,8 @@ export class Blackboard extends ViewBase {
     ...viewStyles,
     css`
       .value-cell {
-        min-width: 16rem;
-        max-width: 36rem;
+        min-width: 12rem;
+        max-width: clamp(12rem, 32cqw, 36rem);
         overflow: hidden;
         text-overflow: ellipsis;
         white-space: nowrap;

@@ -95,7 +95,7 @@ export abstract class ControlBase extends WidgetBase {
   }
 
   /** As frame(), with what a control needs. A touch on a dead control tells why it is dead. */
-  protected controlFrame(content: TemplateResult, control = ''): TemplateResult {
+  protected controlFrame(content: TemplateResult, control = '', notes: TemplateResult | typeof nothing = nothing): TemplateResult {
     return this.frame(
       html`<span
           class="controls"
@@ -104,6 +104,7 @@ export abstract class ControlBase extends WidgetBase {
           >${content}</span
         ><span id="lock" class="hidden">${this.locked}</span>`,
       control,
+      notes,
     );
   }
 

@@ -57,15 +57,6 @@ export class JogPad extends ControlBase {
         justify-content: center;
         font-size: 0.85em;
       }
-      /* Always there, and never wider than the buttons. */
-      .line {
-        flex: 1 0 100%;
-        width: 0;
-        min-height: 1.35em;
-        color: var(--muted);
-        font-size: 0.9em;
-        text-align: start;
-      }
       .sign {
         font-size: 1.6rem;
         line-height: 1;
@@ -130,6 +121,7 @@ export class JogPad extends ControlBase {
   }
 
   protected override render(): TemplateResult {
+    const line = this.locked === '' ? 'Acts while held.' : `Dead: ${this.locked}`;
     return this.controlFrame(html`<div class="pad">
       ${this.buttons.map(
         (button, i) => html`<button
@@ -144,8 +136,7 @@ export class JogPad extends ControlBase {
           <span>${button.item.label}</span>
         </button>`,
       )}
-    </div>
-    <span class="line" aria-hidden="true">${this.locked === '' ? 'Acts while held.' : `Dead: ${this.locked}`}</span>`);
+    </div>`, '', html`<span class="line" aria-hidden="true">${line}</span>`);
   }
 
   private element(i: number): HTMLElement {
