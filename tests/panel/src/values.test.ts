@@ -183,6 +183,37 @@ describe('what is modified', () => {
   });
 });
 
+describe('what is searched for', () => {
+  it('is found by its name in the tables, and again after a reload', async () => {
+    const { page } = viewer;
+    await viewer.go('search');
+    await page.getByRole('searchbox').fill('mover.ratio');
+    await page.getByText('1 found', { exact: true }).waitFor();
+    await page.reload();
+    await page.getByText('1 found', { exact: true }).waitFor();
+    expect(await page.getByRole('searchbox').inputValue()).toBe('mover.ratio');
+  });
+});
+
+describe('a keypad for fingers', () => {
+  it('comes into sight below the last field of a page', async () => {
+    const phone = await Viewer.open(browser(), operator.running.base, { size: 'phone', touch: true, session: operator.beside.cookie });
+    onTestFinished(() => phone.close());
+    await phone.page.evaluate(() => { document.documentElement.dataset['touch'] = 'large'; });
+    await phone.go('units', 'gadget');
+    const typed = phone.page.getByRole('spinbutton', { name: 'Level of it' }).first();
+    await expect.poll(() => typed.isEnabled(), { timeout: within }).toBe(true);
+    // At the lower edge of what is seen.
+    await typed.evaluate((one) => one.scrollIntoView({ block: 'end' }));
+    await typed.focus();
+    const keypad = phone.page.getByRole('group', { name: 'Keypad' });
+    await keypad.waitFor();
+    const [keys, main] = [(await keypad.boundingBox())!, (await phone.page.locator('main').boundingBox())!];
+    expect(keys.y + keys.height).toBeLessThanOrEqual(main.y + main.height + 1);
+    await screenshot(phone.page, 'keypad');
+  });
+});
+
 describe('two browsers', () => {
   it('see each other\'s change, and who may not change is told why', async () => {
     const other = await Viewer.open(browser(), operator.running.base);
