@@ -177,6 +177,26 @@ describe('the control token', () => {
     await second.page.getByRole('button', { name: 'Ask for control' }).and(second.page.locator(':enabled')).waitFor();
     await first.page.getByText('You have control').waitFor();
     expect(await second.page.getByText('You have control').count()).toBe(0);
+    await second.page.getByText(/You did not get control: anna at .* keeps control\./).waitFor();
+  });
+
+  it('is not asked about while no answer would arrive', async () => {
+    const question = first.page.getByRole('group', { name: 'Request for control' });
+    await first.go('units', 'mover');
+    const before = await first.page.getByRole('heading', { name: 'mover' }).boundingBox();
+    await ask();
+    expect(await question.getByRole('button', { name: 'Keep control' }).isEnabled()).toBe(true);
+    expect(await first.page.getByRole('heading', { name: 'mover' }).boundingBox()).toEqual(before); // it moves nothing
+    first.allow(/WebSocket/);
+    second.allow(/WebSocket/);
+    running.process.kill('SIGSTOP');
+    await expect.poll(() => question.getByRole('button', { name: 'Keep control' }).isDisabled(), { timeout: within }).toBe(true);
+    expect(await question.getByRole('button', { name: 'Hand over' }).isDisabled()).toBe(true);
+    await question.getByText('no answer reaches the application').waitFor();
+    await screenshot(first.page, 'consent-without-link');
+    running.process.kill('SIGCONT');
+    await first.page.getByText(/^Round trip/).waitFor();
+    await second.page.getByText(/^Round trip/).waitFor();
   });
 
   it('goes over after 10 s without an answer, and what was held ends', async () => {

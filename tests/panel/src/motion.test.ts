@@ -3,8 +3,8 @@ import { spawn } from 'node:child_process';
 import { afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
 import type { Browser } from 'playwright-core';
 import {
-  Cable, Viewer, familyOf, freezer, launchProcess, signal, tidyUp, unlessKeptWaiting, useApplication, useBrowser, violations,
-  within, type Application, type Rest,
+  Cable, Viewer, familyOf, freezer, launchProcess, screenshot, signal, tidyUp, unlessKeptWaiting, useApplication, useBrowser,
+  violations, within, type Application, type Rest,
 } from './harness';
 
 interface Feedback {
@@ -117,6 +117,40 @@ describe('a hold', () => {
     });
     await viewer.page.mouse.up();
     await expectStayingAtRest();
+  });
+
+  it('ends when the finger slides off, and stays so when it comes back', async () => {
+    await hold();
+    const box = (await forward().boundingBox())!;
+    await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height + 40, { steps: 4 });
+    await expectStayingAtRest();
+    await viewer.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2, { steps: 4 });
+    await expectStayingAtRest();
+    await viewer.page.mouse.up();
+  });
+
+  it('whose end is told moves nothing under the finger', async () => {
+    const { page } = viewer;
+    const where = () => Promise.all([forward(), page.locator('flexrf-item').getByRole('button', { name: 'Backward' }),
+      page.getByRole('heading', { name: 'Feedback' })].map((one) => one.boundingBox()));
+    await forward().scrollIntoViewIfNeeded();
+    const before = await where();
+    await hold();
+    await page.evaluate(() => window.dispatchEvent(new Event('blur')));
+    await expectAtRest();
+    await page.mouse.up();
+    const said = page.locator('flexrf-item').getByRole('status').filter({ hasText: /./ });
+    await expect.poll(() => where(), { timeout: within }).toEqual(before);
+    await admin.do('control/release', { method: 'POST' });
+    await page.getByText('Dead: take control first').first().waitFor();
+    // A touch on what is dead tells why, over the page.
+    const box = before[0]!;
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+    await said.first().waitFor();
+    expect(await said.first().innerText()).toBe('Locked: take control first');
+    await screenshot(page, 'said');
+    expect(await violations(page)).toEqual([]);
+    expect(await where()).toEqual(before);
   });
 
   it('ends when the window loses the focus', async () => {
@@ -280,6 +314,9 @@ describe('Stop motion', () => {
     await page.getByRole('button', { name: 'Clear stop' }).click();
     await page.getByText('Motion inhibited').first().waitFor();
     await expectAtRest(); // cleared is not started
+    // What cannot act says so before anybody presses it.
+    await page.getByText('Dead: motion is inhibited: give Start motion').first().waitFor();
+    expect(await forward().isDisabled()).toBe(true);
     await page.getByRole('button', { name: 'Start motion' }).click();
     await page.getByText('Motion enabled').first().waitFor();
     await expectMoving();
@@ -293,6 +330,9 @@ describe('Stop motion', () => {
     await page.getByRole('dialog').waitFor();
     await page.getByRole('button', { name: 'Stop motion' }).click();
     await page.getByText('Motion stopped').first().waitFor();
+    // The focus is on Stop motion now: Escape closes the dialog all the same.
+    await page.keyboard.press('Escape');
+    await page.getByRole('dialog').waitFor({ state: 'hidden' });
   });
 
   it('may be given, and neither cleared nor started, by who only looks', async () => {

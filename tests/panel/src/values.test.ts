@@ -150,7 +150,12 @@ describe('what is modified', () => {
   it('is set back together, after a question, and that is taken back', async () => {
     const { page } = viewer;
     await page.getByRole('button', { name: 'Reset 2 modified of gadget' }).click();
-    await page.getByText('Set back to the default: ').waitFor();
+    const question = page.getByText('Set back to the default: ');
+    await question.waitFor();
+    const [asked, button] = [(await question.boundingBox())!, (await page.getByRole('button', { name: 'Reset 2 modified' }).boundingBox())!];
+    expect(asked.y - (button.y + button.height)).toBeLessThan(24); // at its button
+    expect(asked.x + asked.width).toBeLessThanOrEqual(page.viewportSize()!.width);
+    await screenshot(page, 'question');
     await expectRuntime('count', 42);
     await page.getByRole('button', { name: 'Yes' }).click();
     await expectRuntime('level', 5);
@@ -180,6 +185,37 @@ describe('what is modified', () => {
     await page.getByText('1 found', { exact: true }).waitFor();
     await screenshot(page, 'search-favourites');
     expect(await violations(page)).toEqual([]);
+  });
+});
+
+describe('what is searched for', () => {
+  it('is found by its name in the tables, and again after a reload', async () => {
+    const { page } = viewer;
+    await viewer.go('search');
+    await page.getByRole('searchbox').fill('mover.ratio');
+    await page.getByText('1 found', { exact: true }).waitFor();
+    await page.reload();
+    await page.getByText('1 found', { exact: true }).waitFor();
+    expect(await page.getByRole('searchbox').inputValue()).toBe('mover.ratio');
+  });
+});
+
+describe('a keypad for fingers', () => {
+  it('comes into sight below the last field of a page', async () => {
+    const phone = await Viewer.open(browser(), operator.running.base, { size: 'phone', touch: true, session: operator.beside.cookie });
+    onTestFinished(() => phone.close());
+    await phone.page.evaluate(() => { document.documentElement.dataset['touch'] = 'large'; });
+    await phone.go('units', 'gadget');
+    const typed = phone.page.getByRole('spinbutton', { name: 'Level of it' }).first();
+    await expect.poll(() => typed.isEnabled(), { timeout: within }).toBe(true);
+    // At the lower edge of what is seen.
+    await typed.evaluate((one) => one.scrollIntoView({ block: 'end' }));
+    await typed.focus();
+    const keypad = phone.page.getByRole('group', { name: 'Keypad' });
+    await keypad.waitFor();
+    const [keys, main] = [(await keypad.boundingBox())!, (await phone.page.locator('main').boundingBox())!];
+    expect(keys.y + keys.height).toBeLessThanOrEqual(main.y + main.height + 1);
+    await screenshot(phone.page, 'keypad');
   });
 });
 

@@ -158,6 +158,19 @@ describe('dialogs, themes, and what the views show', () => {
     await viewer.page.getByRole('row', { name: /tasks/ }).first().waitFor();
   });
 
+  it('an opened slot within the window, however wide its table is', async () => {
+    await viewer.page.setViewportSize({ width: 1366, height: 768 });
+    await viewer.go('blackboard');
+    const inside = viewer.page.locator('flexrf-blackboard .inside');
+    if (await inside.count() === 0) await viewer.page.getByRole('button', { name: 'sample' }).click();
+    await viewer.page.getByText('Goes up and down').first().waitFor({ state: 'attached' });
+    const widths = await inside.locator('*').evaluateAll((all) => all.map((one) => one.getBoundingClientRect().right));
+    expect(widths.length).toBeGreaterThan(3);
+    expect(Math.max(...widths)).toBeLessThanOrEqual(1366);
+    await screenshot(viewer.page, 'opened-slot');
+    await viewer.page.setViewportSize(sizes.desktop);
+  });
+
   it('NULL with its reason', async () => {
     await viewer.go('blackboard');
     const row = viewer.page.getByRole('row').filter({ has: viewer.page.getByRole('button', { name: 'spots[2]' }) });

@@ -142,6 +142,12 @@ export class Panel extends LitElement {
     this.core.connection.stop();
   }
 
+  /** On a narrow screen the entry of the view that is shown may lie beside what is seen of the navigation. */
+  protected override updated(changed: Map<PropertyKey, unknown>): void {
+    if (!changed.has('route') && !changed.has('generation')) return;
+    this.renderRoot.querySelector('nav a[aria-current]')?.scrollIntoView({ block: 'nearest', inline: 'center' });
+  }
+
   protected override render(): unknown {
     const covered = this.dialog !== 'none';
     return html`

@@ -21,6 +21,11 @@ export class Control extends ShellPart {
       small {
         flex-basis: 100%;
       }
+      @media (max-width: 1100px) {
+        small {
+          flex-basis: auto;
+        }
+      }
       .mine {
         font-weight: 600;
       }

@@ -70,11 +70,11 @@ export class Header extends ShellPart {
           --target: min(var(--flexrf-target-coarse), 44px);
         }
       }
-      @media (max-width: 760px) {
+      /* Name and session in the first line, so that the others are few; no larger than a finger needs. */
+      @media (max-width: 1100px) {
         :host {
           --target: min(var(--flexrf-target-coarse), 44px);
-          gap: 2px 12px;
-          padding: 2px 8px;
+          column-gap: 12px;
         }
         /* Their own host's size for fingers would be the larger one. */
         flexrf-control {
@@ -82,13 +82,25 @@ export class Header extends ShellPart {
         }
         h1 {
           order: -2;
-          flex: 1 1 5rem;
+          flex: 1 1 max(5rem, 100% - 26rem);
           min-width: 0;
           overflow: hidden;
           text-overflow: ellipsis;
         }
         .session {
           order: -1;
+        }
+      }
+      @media (max-width: 760px) {
+        :host {
+          row-gap: 2px;
+          padding: 2px 8px;
+        }
+        .unnamed {
+          display: none;
+        }
+        .link {
+          flex: 1;
         }
       }
     `,
@@ -130,7 +142,7 @@ export class Header extends ShellPart {
       <div class=${stale}><flexrf-control .core=${core}></flexrf-control></div>
       <div class="session">
         <span class="link"></span>
-        <small>${session ? `${session.user || session.name}: ${session.role}` : ''}</small>
+        <small>${session ? html`<span class=${session.user ? '' : 'unnamed'}>${session.user || session.name}: </span>${session.role}` : ''}</small>
         ${session?.user
           ? html`<button ?disabled=${unlinked} @click=${() => logOut(core)}>Log out</button>`
           : session?.role === 'admin'

@@ -51,6 +51,9 @@ export const shellStyles = css`
     border-style: dashed;
     cursor: not-allowed;
   }
+  button:disabled {
+    background: repeating-linear-gradient(135deg, var(--flexrf-track) 0 2px, transparent 2px 7px);
+  }
   small,
   .muted {
     color: var(--flexrf-text-muted);

@@ -21,8 +21,8 @@ export class Blackboard extends ViewBase {
     ...viewStyles,
     css`
       .value-cell {
-        min-width: 16rem;
-        max-width: 36rem;
+        min-width: 12rem;
+        max-width: clamp(12rem, 32cqw, 36rem);
         overflow: hidden;
         text-overflow: ellipsis;
         white-space: nowrap;
@@ -48,7 +48,19 @@ export class Blackboard extends ViewBase {
         }
       }
       .detail td {
-        padding: 0 0 0.8em 1.5em;
+        padding: 0 0 0.8em;
+      }
+      #slots-box {
+        container-type: inline-size;
+      }
+      /* As wide as what is seen of the table, and there wherever it is scrolled to. */
+      .inside {
+        position: sticky;
+        inset-inline-start: 0;
+        box-sizing: border-box;
+        width: 100cqw;
+        max-width: 64rem;
+        padding-inline: 1.5em 8px;
       }
       .filter {
         display: flex;
@@ -130,7 +142,7 @@ export class Blackboard extends ViewBase {
         <span role="status">${shown}</span>
       </div>
       <h3 id="slots-title">Slots</h3>
-      <div class="scroll ${this.age}" tabindex="0" role="region" aria-labelledby="slots-title">
+      <div id="slots-box" class="scroll ${this.age}" tabindex="0" role="region" aria-labelledby="slots-title">
         <table>
           <caption>
             Latest values; open a slot for all its fields

@@ -155,16 +155,19 @@ export class SlotRow {
   private makeDetail(): HTMLTableRowElement {
     const row = document.createElement('tr');
     const cell = document.createElement('td');
+    const inside = document.createElement('div');
     cell.colSpan = slotColumns.length;
     row.className = 'detail';
+    inside.className = 'inside';
+    cell.append(inside);
     row.append(cell);
-    if (this.slot.json.summary !== '') cell.append(paragraph(this.slot.json.summary));
-    if (!this.slot.json.observe) cell.append(paragraph('Not observed: the application\'s table leaves this slot out.'));
-    else void this.fill(cell);
+    if (this.slot.json.summary !== '') inside.append(paragraph(this.slot.json.summary));
+    if (!this.slot.json.observe) inside.append(paragraph('Not observed: the application\'s table leaves this slot out.'));
+    else void this.fill(inside);
     for (const reader of this.slot.json.readers) {
       const line = paragraph(`${reader}: `);
       this.detailCounts.set(reader, new LiveText(line));
-      cell.append(line);
+      inside.append(line);
     }
     return row;
   }

@@ -1,5 +1,5 @@
 // The acts of one unit or device as buttons, each locked one with its reason.
-import { html, nothing } from 'lit';
+import { css, html, nothing } from 'lit';
 import { customElement, property, state } from 'lit/decorators.js';
 import { actionsOf, type ActionOffer, type ComponentRow } from './component_actions';
 import { ViewBase } from './view_base';
@@ -7,7 +7,19 @@ import { viewStyles } from './view_styles';
 
 @customElement('flexrf-component-buttons')
 export class ComponentButtons extends ViewBase {
-  static override styles = viewStyles;
+  static override styles = [
+    ...viewStyles,
+    css`
+      /* Reasons come and go; what is below them stays where it is. */
+      .reasons,
+      .buttons small {
+        min-height: 1.35em;
+      }
+      .reasons {
+        margin: 4px 0;
+      }
+    `,
+  ];
 
   @property({ attribute: false }) row!: ComponentRow;
   /** Active members of its population: what a clone may be made of. */
@@ -26,7 +38,7 @@ export class ComponentButtons extends ViewBase {
     // Said once, not below every button.
     const denied = [...new Set(offers.map((offer) => this.core.deniedAction(offer.role)))].filter((reason) => reason !== '');
     return html`
-      ${denied.map((reason) => html`<p class="muted">Locked: ${reason}</p>`)}
+      <p class="reasons muted">${denied.length === 0 ? nothing : `Locked: ${denied.join('; ')}`}</p>
       <div class="buttons">${offers.map((offer) => this.button(offer))}</div>
     `;
   }

@@ -47,6 +47,10 @@ export class ComponentPage extends ViewBase {
         align-items: baseline;
         gap: var(--gap) 16px;
       }
+      .why-dead {
+        margin: 4px 0;
+        min-height: 1.35em;
+      }
       .presses {
         display: flex;
         flex-wrap: wrap;
@@ -75,6 +79,7 @@ export class ComponentPage extends ViewBase {
     super.connectedCallback();
     this.session = EditSession.of(this.core);
     this.watchAge();
+    this.until(this.core.host.watchAccess(() => this.requestUpdate()));
     this.until(this.session.watch(() => this.requestUpdate()));
     this.until(
       this.core.watchTopic('components', (body) => {
@@ -233,8 +238,18 @@ export class ComponentPage extends ViewBase {
             : nothing}
         </div>
         ${this.widgets(items.filter((item) => !isPressed(item)), 'item')}
-        <div class="presses">${this.widgets(items.filter(isPressed), '')}</div>
+        ${this.presses(items.filter(isPressed))}
       </section>
+    `;
+  }
+
+  /** Buttons, below a line that says why they are dead and is there in any case. */
+  private presses(items: readonly Item[]): unknown {
+    if (items.length === 0) return nothing;
+    const reasons = new Set(items.map((item) => this.core.host.locked(item.key)).filter((reason) => reason !== ''));
+    return html`
+      <p class="why-dead muted">${reasons.size === 0 ? nothing : `Dead: ${[...reasons].join('; ')}`}</p>
+      <div class="presses">${this.widgets(items, '')}</div>
     `;
   }
 

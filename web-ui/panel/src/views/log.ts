@@ -34,6 +34,13 @@ export class Log extends ViewBase {
         gap: 6px;
         min-height: var(--target);
       }
+      /* The whole label is what a finger meets. */
+      input[type='checkbox'] {
+        min-width: 0;
+        min-height: 0;
+        width: 24px;
+        height: 24px;
+      }
       .lines {
         flex: 1 1 20rem;
         overflow: auto;

@@ -9,7 +9,8 @@ import { EditSession } from './edit_session';
 import { Favourites } from './favourites';
 import './group_reset';
 import './item_widget';
-import { isModified, isParameter, matches, searchable, wordsOf, type Group, type Show } from './search_rows';
+import { addressOfRoute } from '../shell/router';
+import { askedBy, isModified, isParameter, matches, pathOf, searchable, wordsOf, type Group, type Show } from './search_rows';
 import './undo';
 import { addressOf, ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
@@ -84,6 +85,13 @@ export class Search extends ViewBase {
     });
   }
 
+  /** The address says what is asked for: a reload, and a way back to here, find the same. */
+  protected override willUpdate(changed: Map<PropertyKey, unknown>): void {
+    if (!changed.has('path')) return;
+    const { wanted, show } = askedBy(this.path);
+    if (wanted !== this.wanted || show !== this.show) this.ask(wanted, show);
+  }
+
   /** Everything there is, with the drivers that the devices have. */
   private collect(): void {
     const { host, model } = this.core;
@@ -113,9 +121,9 @@ export class Search extends ViewBase {
       <h2>Search</h2>
       <div class="tools">
         <input type="search" aria-label="Search in names, labels, meanings and values" placeholder="Name, label, meaning or value"
-          .value=${this.wanted} @input=${(event: Event) => this.ask((event.target as HTMLInputElement).value, this.show)} />
+          .value=${this.wanted} @input=${(event: Event) => this.choose((event.target as HTMLInputElement).value, this.show)} />
         <span role="group" aria-label="Show">${shows.map(([show, label]) => html`<button
-          aria-pressed=${this.show === show} @click=${() => this.ask(this.wanted, show)}>${label}</button> `)}</span>
+          aria-pressed=${this.show === show} @click=${() => this.choose(this.wanted, show)}>${label}</button> `)}</span>
         <flexrf-undo .core=${this.core}></flexrf-undo>
         <span class="muted" role="status">${count === 1 ? '1 found' : `${count} found`}</span>
       </div>
@@ -164,6 +172,11 @@ export class Search extends ViewBase {
   private nothingFound(): string {
     if (this.wanted.trim() !== '') return 'Nothing has all these words in its name, label, meaning or value.';
     return this.show === 'modified' ? 'All parameters have their defaults.' : 'Nothing is marked yet: press the star beside a parameter.';
+  }
+
+  private choose(wanted: string, show: Show): void {
+    this.ask(wanted, show);
+    history.replaceState(history.state, '', addressOfRoute({ view: 'search', path: pathOf(wanted, show) }));
   }
 
   private ask(wanted: string, show: Show): void {

@@ -33,8 +33,20 @@ export function isModified(item: Item, value: Value | null | undefined): boolean
 export function matches(item: Item, words: readonly string[], value: Value | null | undefined, units: DisplayUnits): boolean {
   if (words.length === 0) return true;
   const shown = value == null ? '' : compactText(item, value, units);
-  const text = `${item.key} ${item.label} ${item.summary} ${shown}`.toLowerCase();
+  // As the tables and scripts name it, too: "axis_x.lowest", which kind of parameter it ever is.
+  const plain = item.key.replace(/\.(configuration|feedback)\./, '.');
+  const text = `${item.key} ${plain} ${item.label} ${item.summary} ${shown}`.toLowerCase();
   return words.every((word) => text.includes(word));
+}
+
+/** What is asked for, as the address has it after "#/search": "all", "axis_x.lowest". */
+export function pathOf(wanted: string, show: Show): string[] {
+  return wanted === '' ? (show === 'all' ? [] : [show]) : [show, wanted];
+}
+
+export function askedBy(path: readonly string[]): { readonly wanted: string; readonly show: Show } {
+  const show = (['all', 'modified', 'favourites'] as const).find((one) => one === path[0]);
+  return { show: show ?? 'all', wanted: path.slice(show ? 1 : 0).join('/') };
 }
 
 export function wordsOf(wanted: string): string[] {

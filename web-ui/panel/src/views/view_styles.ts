@@ -84,7 +84,7 @@ export const viewStyles = [
     /* Locked, but still to be reached by the keyboard: a button that acts does not lose the focus by it. */
     [aria-disabled='true'] {
       color: var(--stale);
-      background: transparent;
+      background: var(--dead);
       border-style: dashed;
       cursor: not-allowed;
     }

@@ -129,6 +129,16 @@ export class ArrayField extends EditorBase {
     );
   }
 
+  protected override dismiss(): void {
+    this.cells.forEach((cell) => (cell.refusal = ''));
+    super.dismiss();
+  }
+
+  protected override updated(): void {
+    super.updated();
+    this.keypad.reveal(this.renderRoot);
+  }
+
   protected override onLocked(): void {
     super.onLocked();
     this.cells.forEach((cell) => cell.cancel());

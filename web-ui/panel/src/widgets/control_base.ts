@@ -1,9 +1,13 @@
-// What every widget shares that acts: a lock with its reason, and what was refused.
+// What every widget shares that acts: a lock with its reason, and what was refused. What is said and asked lies over the page.
 import { html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
 import { LiveText } from './live_text';
+import { placeOver } from './place_over';
 import { Question } from './question';
 import { WidgetBase } from './widget_base';
+
+/** How long a dead control says why it is dead when it is touched, ms. */
+const passing = 6000;
 
 export abstract class ControlBase extends WidgetBase {
   /** Why nothing can be changed now; empty when it can. */
@@ -14,6 +18,7 @@ export abstract class ControlBase extends WidgetBase {
   );
   private refusal: LiveText | undefined;
   private said = '';
+  private passing: ReturnType<typeof setTimeout> | undefined;
 
   protected override takeAccess(): void {
     super.takeAccess();
@@ -37,44 +42,82 @@ export abstract class ControlBase extends WidgetBase {
   /** Whatever a person has begun is void. */
   protected onLocked(): void {}
 
-  /** Beside the control, and spoken; empty: nothing. */
+  /** At the control, and spoken; empty: nothing. */
   protected say(text: string): void {
+    clearTimeout(this.passing);
+    if (text === this.said) return;
     this.said = text;
-    if (this.refusal) this.refusal.text = text;
+    this.showSaid();
+  }
+
+  /** The person has read it. */
+  protected dismiss(): void {
+    this.say('');
+  }
+
+  private sayLocked(): void {
+    if (this.locked === '') return;
+    this.say(`Locked: ${this.locked}`);
+    this.passing = setTimeout(() => this.say(''), passing);
+  }
+
+  private showSaid(): void {
+    if (!this.refusal) return;
+    this.refusal.text = this.said;
+    this.toggleAttribute('said', this.said !== '' || this.question.open);
+    if (this.said !== '') placeOver(this.find('#refusal'));
   }
 
   protected override firstUpdated(): void {
-    this.refusal = new LiveText(this.find('#refusal'), this.said);
+    this.refusal = new LiveText(this.find('#refusal'));
+    this.showSaid();
     super.firstUpdated();
   }
 
+  protected override updated(): void {
+    this.toggleAttribute('said', this.said !== '' || this.question.open);
+    const question = this.renderRoot.querySelector<HTMLElement>('.question');
+    if (question) placeOver(question);
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    clearTimeout(this.passing);
+  }
+
+  protected override over(): TemplateResult {
+    return html`${this.question.render(this.label)}<span
+        id="refusal"
+        class="refusal over"
+        role="status"
+        @click=${() => this.dismiss()}
+      ></span>`;
+  }
+
   /** As frame(), with what a control needs. A touch on a dead control tells why it is dead. */
-  protected controlFrame(content: TemplateResult, control = ''): TemplateResult {
+  protected controlFrame(content: TemplateResult, control = '', notes: TemplateResult | typeof nothing = nothing): TemplateResult {
     return this.frame(
       html`<span
           class="controls"
           title=${this.locked === '' ? nothing : this.locked}
-          @click=${() => this.locked !== '' && this.say(`Locked: ${this.locked}`)}
+          @click=${() => this.sayLocked()}
           >${content}</span
-        >${this.question.render(this.label)}<span id="lock" class="hidden">${this.locked}</span>`,
+        ><span id="lock" class="hidden">${this.locked}</span>`,
       control,
-      html`<span id="refusal" class="refusal" role="status"></span>`,
+      notes,
     );
   }
 
-  /** For buttons, which bear the label themselves. */
+  /** For buttons, which bear the label themselves. Why one is dead stands beside it where there is room. */
   protected buttonFrame(content: TemplateResult): TemplateResult {
     return html`<div class="row">
       <span
         class="controls"
         title=${this.locked === '' ? (this.item?.summary ?? nothing) : this.locked}
-        @click=${() => this.locked !== '' && this.say(`Locked: ${this.locked}`)}
+        @click=${() => this.sayLocked()}
         >${content}</span
-      >${this.question.render(this.label)}
-      <div class="notes">
-        ${this.note === '' ? nothing : html`<span class="note">${this.note}</span>`}
-        <span id="refusal" class="refusal" role="status"></span>
-      </div>
+      ><span class="why" aria-hidden="true">${this.locked}</span>${this.over()}
+      <div class="notes">${this.note === '' ? nothing : html`<span class="note">${this.note}</span>`}</div>
       <span id="summary" class="hidden">${this.description()}</span><span id="lock" class="hidden">${this.locked}</span>
     </div>`;
   }

@@ -27,7 +27,13 @@ export abstract class EditorBase extends ControlBase {
   }
 
   protected override updated(): void {
+    super.updated();
     this.presentEdit();
+  }
+
+  protected override dismiss(): void {
+    this.edit.refusal = '';
+    super.dismiss();
   }
 
   protected override onLocked(): void {

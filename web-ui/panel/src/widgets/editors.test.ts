@@ -1,4 +1,4 @@
-import { afterEach, describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
 import type { Outcome } from '../contract';
 import { displayUnits } from '../core/units';
 import { FakeHost, key, makeParameter, pointer, settled, show, type, type Shown } from './tests/fake_host';
@@ -282,6 +282,21 @@ describe('keypad', () => {
     expect(root.querySelector('.keypad')).not.toBeNull();
   });
 
+  it('comes into sight, once, where it would lie below what is seen', async () => {
+    const seen = vi.fn();
+    Element.prototype.scrollIntoView = seen;
+    try {
+      const { widget, press } = await open();
+      expect(seen.mock.contexts.map((one) => (one as Element).className)).toEqual(['keypad']);
+      expect(seen).toHaveBeenCalledWith({ block: 'nearest' });
+      press('1');
+      await settled(widget);
+      expect(seen).toHaveBeenCalledTimes(1);
+    } finally {
+      delete (Element.prototype as { scrollIntoView?: unknown }).scrollIntoView;
+    }
+  });
+
   it('gives up, and goes with the focus', async () => {
     const { host, field, press, root, widget } = await open();
     press('9');
@@ -314,6 +329,31 @@ describe('lock and stale', () => {
     host.lock('');
     await settled(widget);
     expect(find<HTMLInputElement>('#field').disabled).toBe(false);
+  });
+
+  it('tells the reason to a finger only for a while', async () => {
+    vi.useFakeTimers();
+    try {
+      const { host, find, text } = await show(makeParameter());
+      host.lock('needs engineer');
+      find<HTMLElement>('.controls').click();
+      expect(text('#refusal')).toBe('Locked: needs engineer');
+      vi.advanceTimersByTime(6000);
+      expect(text('#refusal')).toBe('');
+    } finally {
+      vi.useRealTimers();
+    }
+  });
+
+  it('puts a refusal away when it is touched, and not back with the next value', async () => {
+    const { host, find, text } = await show(makeParameter());
+    host.publish('jog.step', 1);
+    type(find('#field'), 'abc');
+    key(find('#field'), 'keydown', 'Enter');
+    expect(text('#refusal')).toContain('is not a number');
+    find<HTMLElement>('#refusal').click();
+    host.publish('jog.step', 2);
+    expect(text('#refusal')).toBe('');
   });
 
   it('tells the reason to a finger', async () => {

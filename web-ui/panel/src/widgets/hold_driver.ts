@@ -4,6 +4,9 @@ import type { Hold } from '../contract';
 /** asked: pressed, and no lease yet. held: the lease lives. */
 export type HoldPhase = 'idle' | 'asked' | 'held';
 
+/** A finger that rolls a little at the edge still holds, px. */
+const slack = 8;
+
 export class HoldDriver {
   private current: HoldPhase = 'idle';
   private hold: Hold | undefined;
@@ -42,6 +45,13 @@ export class HoldDriver {
     const lift = (event: PointerEvent): void => {
       if (event.pointerId === this.pointer) this.release();
     };
+    // Who slides off has let go, though the captured pointer is still down.
+    on(element, 'pointermove', (event: PointerEvent) => {
+      if (event.pointerId !== this.pointer) return;
+      const { left, top, right, bottom } = element.getBoundingClientRect();
+      const { clientX: x, clientY: y } = event;
+      if (x < left - slack || x > right + slack || y < top - slack || y > bottom + slack) this.release();
+    });
     on(element, 'lostpointercapture', lift);
     on(window, 'pointerup', lift);
     on(window, 'pointercancel', lift);

@@ -66,6 +66,39 @@ describe('hold button', () => {
     });
   }
 
+  it('ends when the finger slides off, and not while it rolls at the edge', async () => {
+    vi.spyOn(button, 'getBoundingClientRect').mockReturnValue(new DOMRect(100, 100, 72, 72));
+    await press();
+    pointer(button, 'pointermove', { clientX: 177, clientY: 96 });
+    pointer(button, 'pointermove', { clientX: 300, clientY: 300, pointerId: 2 });
+    expect(hold.released).toBe(false);
+    pointer(button, 'pointermove', { clientX: 150, clientY: 190 });
+    expect(hold.released).toBe(true);
+    expect(phase()).toBe('idle');
+    pointer(button, 'pointermove', { clientX: 150, clientY: 150 }); // back on it is not a new press
+    await settled();
+    expect(shown.host.hold).toHaveBeenCalledTimes(1);
+  });
+
+  it('says what was refused over the page, beside nothing that could be moved by it', async () => {
+    shown.host.hold.mockRejectedValueOnce(new Error('motion is stopped'));
+    pointer(button, 'pointerdown');
+    await settled();
+    const said = shown.find<HTMLElement>('#refusal');
+    expect(said.closest('.notes')).toBeNull();
+    expect(said.classList.contains('over')).toBe(true);
+    expect(shown.widget.hasAttribute('said')).toBe(true);
+    said.click();
+    expect(said.textContent).toBe('');
+    expect(shown.widget.hasAttribute('said')).toBe(false);
+  });
+
+  it('has its reason beside it while it is dead', async () => {
+    shown.host.lock('motion is inhibited: give Start motion');
+    await settled(shown.widget);
+    expect(shown.text('.why')).toBe('motion is inhibited: give Start motion');
+  });
+
   it('goes on while another finger is lifted', async () => {
     await press();
     pointer(window, 'pointerup', { pointerId: 2 });
@@ -209,6 +242,14 @@ describe('jog pad', () => {
     await settled(widget);
     expect(left.disabled).toBe(true);
     expect(left.getAttribute('data-phase')).toBe('idle');
+  });
+
+  it('has a line that says why it is dead, and is there in any case', async () => {
+    const { host, text, widget } = await make();
+    expect(text('.line')).toBe('Acts while held.');
+    host.lock('motion is stopped');
+    await settled(widget);
+    expect(text('.line')).toBe('Dead: motion is stopped');
   });
 
   it('says when its row has no hold', async () => {

@@ -121,6 +121,7 @@ export class JogPad extends ControlBase {
   }
 
   protected override render(): TemplateResult {
+    const line = this.locked === '' ? 'Acts while held.' : `Dead: ${this.locked}`;
     return this.controlFrame(html`<div class="pad">
       ${this.buttons.map(
         (button, i) => html`<button
@@ -135,7 +136,7 @@ export class JogPad extends ControlBase {
           <span>${button.item.label}</span>
         </button>`,
       )}
-    </div>`);
+    </div>`, '', html`<span class="line" aria-hidden="true">${line}</span>`);
   }
 
   private element(i: number): HTMLElement {

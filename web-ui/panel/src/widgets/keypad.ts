@@ -25,6 +25,7 @@ export const keypadStyles = css`
 
 export class Keypad {
   private field: HTMLInputElement | undefined;
+  private opened = false;
 
   constructor(private readonly changed: () => void) {}
 
@@ -41,6 +42,7 @@ export class Keypad {
   focus(field: HTMLInputElement): void {
     if (!this.wanted || field === this.field) return;
     this.field = field;
+    this.opened = true;
     field.select(); // the first digit replaces what is there
     this.changed();
   }
@@ -49,6 +51,13 @@ export class Keypad {
     if (!this.field) return;
     this.field = undefined;
     this.changed();
+  }
+
+  /** After drawing: what opened below what is seen of the page comes into sight. */
+  reveal(root: ParentNode): void {
+    if (!this.opened) return;
+    this.opened = false;
+    root.querySelector('.keypad')?.scrollIntoView?.({ block: 'nearest' });
   }
 
   render(): TemplateResult | typeof nothing {

@@ -131,6 +131,11 @@ export class NumberField extends EditorBase {
     }
   }
 
+  protected override updated(): void {
+    super.updated();
+    this.keypad.reveal(this.renderRoot);
+  }
+
   protected override onLocked(): void {
     super.onLocked();
     this.keypad.blur();

@@ -219,7 +219,7 @@ export class Quantity {
     if (this.unit !== '' && plain.endsWith(this.unit)) plain = plain.slice(0, -this.unit.length).trim();
     const shown = decimal.test(plain) ? Number(plain.replace(',', '.')) : Number.NaN;
     if (!Number.isFinite(shown)) return { problem: plain === '' ? 'a number is missing' : `“${text.trim()}” is not a number` };
-    const value = this.toSi(shown);
+    const value = this.toSi(shown) + 0; // a zero with a sign is a zero
     if (this.integer && Math.abs(value * this.factor - shown) > 1e-9 * Math.max(1, Math.abs(shown))) {
       return { problem: 'only whole numbers' };
     }

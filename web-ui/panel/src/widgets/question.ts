@@ -42,7 +42,7 @@ export class Question {
   render(label: string): TemplateResult | typeof nothing {
     if (!this.open) return nothing;
     const confirm = this.confirm();
-    return html`<span class="question" role="group" aria-label="Confirm">
+    return html`<span class="question over" role="group" aria-label="Confirm">
       <span role="alert">${typeof confirm === 'string' ? confirm : `Really: ${label}?`}</span>
       <button type="button" id="yes" @click=${() => this.answer(true)}>Yes</button>
       <button type="button" id="no" @click=${() => this.answer(false)}>No</button>

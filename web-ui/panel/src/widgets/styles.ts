@@ -32,6 +32,8 @@ export const widgetStyles = css`
     --active-text: var(--flexrf-active-text, #ffffff);
     --modified: var(--flexrf-modified, #0b57a4);
     --stale: var(--flexrf-stale, #575d65);
+    /* Hatched: what does not act is not to be taken for what does, in bright light neither. */
+    --dead: repeating-linear-gradient(135deg, var(--track) 0 2px, transparent 2px 7px);
     --target: var(--flexrf-target, 32px);
     --gap: var(--flexrf-gap, 8px);
     --radius: var(--flexrf-radius, 4px);
@@ -100,6 +102,52 @@ export const widgetStyles = css`
   }
   .refusal {
     color: var(--alarm);
+  }
+  /* What is said and asked of a control lies over what is beside it: nothing moves, and no press reaches what is covered. */
+  :host([said]) {
+    content-visibility: visible;
+    position: relative;
+    z-index: 1;
+  }
+  .over {
+    position: absolute;
+    inset-block-start: calc(100% - 4px);
+    inset-inline-start: 4px;
+    width: max-content;
+    max-width: min(26rem, calc(100vw - 24px));
+    box-sizing: border-box;
+    padding: 4px 10px;
+    background: var(--field);
+    border: 2px solid var(--border);
+    border-radius: var(--radius);
+    overflow-wrap: anywhere;
+  }
+  .over.above {
+    inset-block: auto calc(100% - 4px);
+  }
+  .over:empty {
+    display: none;
+  }
+  .refusal.over {
+    font-size: 0.9em;
+    border-color: var(--alarm);
+    cursor: pointer;
+  }
+  .question {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: center;
+    gap: var(--gap);
+  }
+  .why {
+    flex: 1 1 0;
+    min-width: 0;
+    width: 0;
+    overflow: hidden;
+    text-overflow: ellipsis;
+    white-space: nowrap;
+    color: var(--muted);
+    font-size: 0.9em;
   }
   .refusal:not(:empty)::before {
     content: '✕ ';
@@ -181,6 +229,10 @@ export const widgetStyles = css`
     background: transparent;
     border-style: dashed;
     opacity: 1;
+  }
+  button:disabled,
+  button[aria-disabled='true'] {
+    background: var(--dead);
   }
   [aria-busy='true'] {
     border-style: dotted;

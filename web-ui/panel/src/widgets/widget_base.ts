@@ -135,8 +135,14 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
           ${this.note === '' ? nothing : html`<span class="note">${this.note}</span>`} ${notes}
         </div>
         <span id="summary" class="hidden">${this.description()}</span>
+        ${this.over()}
       </div>
     `;
+  }
+
+  /** What lies over the page while there is need of it. */
+  protected over(): TemplateResult | typeof nothing {
+    return nothing;
   }
 
   protected extraLabel(): TemplateResult | typeof nothing {

@@ -11,9 +11,9 @@ let view: Search;
 async function settled(): Promise<void> {
   for (let i = 0; i < 4; ++i) await new Promise((resolve) => setTimeout(resolve, 0));
 }
-async function shown(): Promise<void> {
+async function shown(path: readonly string[] = []): Promise<void> {
   view = document.createElement('flexrf-search') as Search;
-  Object.assign(view, { core: fake.core, host: fake.host, path: [] });
+  Object.assign(view, { core: fake.core, host: fake.host, path });
   document.body.append(view);
   fake.value('jog.step', reading(0.02));
   fake.value('jog.configuration.lag', reading(0.75));
@@ -37,7 +37,10 @@ beforeEach(() => {
   localStorage.clear();
   fake = new FakeCore(sample);
 });
-afterEach(() => view.remove());
+afterEach(() => {
+  view.remove();
+  location.hash = '';
+});
 
 describe('search', () => {
   it('shows all that is declared and not hidden', async () => {
@@ -47,6 +50,32 @@ describe('search', () => {
     expect(found()).toContain('jog.feedback.mode');
     expect(found()).not.toContain('jog.feedback.presses');
     expect(root().querySelector('[role=status]')!.textContent).toBe(`${found().length} found`);
+  });
+
+  it('finds by the name that tables and scripts use, too', async () => {
+    await shown();
+    await type('jog.lag');
+    expect(found()).toEqual(['jog.configuration.lag']);
+    await type('jog.mode');
+    expect(found()).toEqual(['jog.feedback.mode']);
+  });
+
+  it('keeps what is asked for in the address, and begins with that', async () => {
+    await shown();
+    await type('jog.lag 50%/x');
+    expect(location.hash).toBe('#/search/all/jog.lag%2050%25%2Fx');
+    await type('');
+    expect(location.hash).toBe('#/search');
+    await press('Modified');
+    expect(location.hash).toBe('#/search/modified');
+    view.remove();
+    await shown(['modified', 'lag']);
+    expect(root().querySelector('input')!.value).toBe('lag');
+    expect(found()).toEqual(['jog.configuration.lag']);
+    view.path = [];
+    await settled();
+    expect(root().querySelector('input')!.value).toBe('');
+    expect(found()).toContain('jog.feedback.mode');
   });
 
   it('finds by name, label, summary and value, all words at once', async () => {

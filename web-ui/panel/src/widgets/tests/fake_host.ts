@@ -135,8 +135,12 @@ export async function settled(widget?: Element): Promise<void> {
 }
 
 /** What a finger or mouse does; jsdom has no pointer of its own. */
-export function pointer(target: EventTarget, name: string, more: { pointerId?: number; button?: number; isPrimary?: boolean } = {}): void {
-  const event = new MouseEvent(name, { bubbles: true, composed: true, cancelable: true, button: more.button ?? 0 });
+export function pointer(
+  target: EventTarget, name: string,
+  more: { pointerId?: number; button?: number; isPrimary?: boolean; clientX?: number; clientY?: number } = {},
+): void {
+  const { button = 0, clientX = 0, clientY = 0 } = more;
+  const event = new MouseEvent(name, { bubbles: true, composed: true, cancelable: true, button, clientX, clientY });
   Object.defineProperties(event, {
     pointerId: { value: more.pointerId ?? 1 },
     isPrimary: { value: more.isPrimary ?? true },
