@@ -150,7 +150,12 @@ describe('what is modified', () => {
   it('is set back together, after a question, and that is taken back', async () => {
     const { page } = viewer;
     await page.getByRole('button', { name: 'Reset 2 modified of gadget' }).click();
-    await page.getByText('Set back to the default: ').waitFor();
+    const question = page.getByText('Set back to the default: ');
+    await question.waitFor();
+    const [asked, button] = [(await question.boundingBox())!, (await page.getByRole('button', { name: 'Reset 2 modified' }).boundingBox())!];
+    expect(asked.y - (button.y + button.height)).toBeLessThan(24); // at its button
+    expect(asked.x + asked.width).toBeLessThanOrEqual(page.viewportSize()!.width);
+    await screenshot(page, 'question');
     await expectRuntime('count', 42);
     await page.getByRole('button', { name: 'Yes' }).click();
     await expectRuntime('level', 5);

@@ -1,7 +1,7 @@
 // Who may do what now, and why not. The server decides; the page only says it beforehand.
 import type { ItemInfo, Role } from '../contract';
 import type { LinkStatus } from './core';
-import type { ApplicationState, SessionInfo } from './protocol';
+import type { ApplicationState, ControlSession, SessionInfo } from './protocol';
 
 const order: readonly Role[] = ['viewer', 'operator', 'engineer', 'admin'];
 
@@ -13,6 +13,12 @@ export interface Situation {
   readonly link: Pick<LinkStatus, 'phase' | 'stale'>;
   readonly session: SessionInfo | undefined;
   readonly state: ApplicationState | undefined;
+}
+
+/** "anna at 192.168.0.7". */
+export function nameOf(session: ControlSession): string {
+  const name = session.user || session.name;
+  return session.local ? `${name} at the machine` : `${name} at ${session.address}`;
 }
 
 /** Whether this page's session holds the control token. */

@@ -1,6 +1,6 @@
 // What every widget is given: the core behind the contract of widgets.
 import type { Hold, Joint, Outcome, Reading, Value, WidgetHost } from '../contract';
-import { sameValue } from '../widgets/same_value';
+import { sameValue } from './same_value';
 import type { ConfigurationValues } from './configuration';
 import type { Item } from './descriptor';
 import { chosen, History } from './history';

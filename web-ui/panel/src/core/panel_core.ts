@@ -1,6 +1,6 @@
 // The core put together: connection, model, values, access; what shell, views and widgets stand on.
 import type { ItemInfo, Placement, Role, WidgetElement } from '../contract';
-import { deniedAction, hasControl, locked, type Situation } from './access';
+import { deniedAction, hasControl, locked, nameOf, type Situation } from './access';
 import { ConfigurationValues } from './configuration';
 import { Connection, type Socket } from './connection';
 import type { Core, LinkStatus } from './core';
@@ -14,7 +14,6 @@ import { Registry, type BuiltInWidgets } from './registry';
 import { Store } from './store';
 import { Subscriptions } from './subscriptions';
 import { displayUnits } from './units';
-import { nameOf } from '../shell/words';
 
 const linesKept = 2000;
 

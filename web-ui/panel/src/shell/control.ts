@@ -1,11 +1,10 @@
 // The control token: who holds it, taking and giving it back, and the question to its holder.
 import { css, html, nothing } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
-import { deniedControl, deniedLink, hasControl } from '../core/access';
+import { deniedControl, deniedLink, hasControl, nameOf } from '../core/access';
 import { textOf } from '../core/host';
 import { ShellPart } from './part';
 import { shellStyles } from './styles';
-import { nameOf } from './words';
 
 @customElement('flexrf-control')
 export class Control extends ShellPart {
@@ -20,6 +19,11 @@ export class Control extends ShellPart {
       }
       small {
         flex-basis: 100%;
+      }
+      @media (max-width: 1100px) {
+        small {
+          flex-basis: auto;
+        }
       }
       .mine {
         font-weight: 600;

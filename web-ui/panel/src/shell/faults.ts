@@ -5,15 +5,7 @@ import { customElement } from 'lit/decorators.js';
 import type { Fault } from '../core/protocol';
 import { ShellPart } from './part';
 import { shellStyles } from './styles';
-import { addressOfFault, faultCount, newestFault } from './words';
-
-/** "14:32:07" of today, "2026-11-22 14:32:07" of another day; by the clock of whoever looks. */
-export function clockText(at: Date, now: Date): string {
-  const two = (part: number): string => String(part).padStart(2, '0');
-  const time = [at.getHours(), at.getMinutes(), at.getSeconds()].map(two).join(':');
-  const day = (date: Date): string => [date.getFullYear(), two(date.getMonth() + 1), two(date.getDate())].join('-');
-  return day(at) === day(now) ? time : `${day(at)} ${time}`;
-}
+import { addressOfFault, clockText, faultCount, newestFault } from './words';
 
 @customElement('flexrf-faults')
 export class Faults extends ShellPart {

@@ -82,7 +82,7 @@ export class Header extends ShellPart {
         }
         h1 {
           order: -2;
-          flex: 1 1 5rem;
+          flex: 1 1 max(5rem, 100% - 26rem);
           min-width: 0;
           overflow: hidden;
           text-overflow: ellipsis;

@@ -1,6 +1,6 @@
 // What the application's states are called, and what one does about them.
 import type { LinkStatus } from '../core/core';
-import type { ApplicationState, ControlSession, Fault, Mode } from '../core/protocol';
+import type { ApplicationState, Fault, Mode } from '../core/protocol';
 import { addressOfRoute } from './router';
 
 const modes: { readonly [mode in Mode]: string } = {
@@ -40,21 +40,19 @@ export const motionText: { readonly [state in MotionState]: string } = {
   ended: 'Motion ended', unknown: 'Motion not known',
 };
 
+/** "14:32:07" of today, "2026-11-22 14:32:07" of another day; by the clock of whoever looks. */
+export function clockText(at: Date, now: Date): string {
+  const two = (part: number): string => String(part).padStart(2, '0');
+  const time = [at.getHours(), at.getMinutes(), at.getSeconds()].map(two).join(':');
+  const day = (date: Date): string => [date.getFullYear(), two(date.getMonth() + 1), two(date.getDate())].join('-');
+  return day(at) === day(now) ? time : `${day(at)} ${time}`;
+}
+
 /** "by anna (192.168.0.7) at 15:40:28", with the day when it was another one; empty: nobody said who. */
 export function stopText(state: ApplicationState | undefined, now = new Date()): string {
   const by = state?.motion.stopped ? state.motion.stopped_by : undefined;
   if (!by) return '';
-  const time = new Date(by.at_ms);
-  const two = (number: number): string => String(number).padStart(2, '0');
-  const clock = `${two(time.getHours())}:${two(time.getMinutes())}:${two(time.getSeconds())}`;
-  const day = time.toDateString() === now.toDateString() ? '' : `${time.getFullYear()}-${two(time.getMonth() + 1)}-${two(time.getDate())} `;
-  return `by ${by.who} at ${day}${clock}`;
-}
-
-/** "anna at 192.168.0.7". */
-export function nameOf(session: ControlSession): string {
-  const name = session.user || session.name;
-  return session.local ? `${name} at the machine` : `${name} at ${session.address}`;
+  return `by ${by.who} at ${clockText(new Date(by.at_ms), now)}`;
 }
 
 /** The page that tells most of what is in fault. */

@@ -15,6 +15,9 @@ export class ComponentButtons extends ViewBase {
       .buttons small {
         min-height: 1.35em;
       }
+      .reasons {
+        margin: 4px 0;
+      }
     `,
   ];
 

@@ -1,6 +1,6 @@
 // Editing configuration parameters: what the page is at, from Edit to the outcome. Knows no document.
 import type { Value } from '../contract';
-import { sameValue } from '../widgets/same_value';
+import { sameValue } from '../core/same_value';
 
 /** Values of components by name, then by parameter. */
 export type Configuration = { readonly [component: string]: { readonly [parameter: string]: Value } };

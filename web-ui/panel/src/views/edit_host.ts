@@ -2,7 +2,7 @@
 // while it is being edited, and what they set goes into the draft. All else is the page's own host.
 import type { Hold, ItemInfo, Joint, Outcome, Reading, Value, WidgetHost } from '../contract';
 import type { EditFlow } from './edit_flow';
-import { sameValue } from '../widgets/same_value';
+import { sameValue } from '../core/same_value';
 import { partOf, partsOf, rootOf, withPart } from './value_path';
 
 interface Watcher {

@@ -1,8 +1,7 @@
 // The one edit of this page: outlives views, so that a person may look elsewhere while values are being edited.
-import { deniedLink } from '../core/access';
+import { deniedLink, nameOf } from '../core/access';
 import type { Core } from '../core/core';
 import type { Item } from '../core/descriptor';
-import { nameOf } from '../shell/words';
 import { checkValue } from './check_value';
 import type { ComponentRow } from './component_actions';
 import { EditFlow, type ApplyAnswer, type BeginAnswer, type Change, type Configuration, type Editor, type Outcome } from './edit_flow';

@@ -3,6 +3,7 @@ import { css, html, nothing } from 'lit';
 import { customElement, property } from 'lit/decorators.js';
 import type { Value } from '../contract';
 import type { Item } from '../core/descriptor';
+import { placeOver } from '../widgets/place_over';
 import { Question } from '../widgets/question';
 import { isModified, isParameter } from './search_rows';
 import { ViewBase } from './view_base';
@@ -13,8 +14,12 @@ export class GroupReset extends ViewBase {
   static override styles = [
     ...viewStyles,
     css`
+      /* Its question lies over what is below, as those of widgets do. */
       :host {
-        display: inline;
+        display: inline-block;
+        position: relative;
+        z-index: 1;
+        content-visibility: visible;
       }
     `,
   ];
@@ -57,6 +62,11 @@ export class GroupReset extends ViewBase {
         this.count = count;
         this.requestUpdate();
       }, { rate: 2 }));
+  }
+
+  protected override updated(): void {
+    const question = this.renderRoot.querySelector<HTMLElement>('.question');
+    if (question) placeOver(question);
   }
 
   private modified(): Item[] {

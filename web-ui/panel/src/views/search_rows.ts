@@ -2,7 +2,7 @@
 import type { Value } from '../contract';
 import type { Component, Item, Model } from '../core/descriptor';
 import type { DisplayUnits } from '../core/units';
-import { sameValue } from '../widgets/same_value';
+import { sameValue } from '../core/same_value';
 import { compactText } from './compact_value';
 
 export type Show = 'all' | 'modified' | 'favourites';

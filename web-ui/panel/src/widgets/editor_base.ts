@@ -4,7 +4,7 @@ import type { TemplateResult } from 'lit';
 import type { Value } from '../contract';
 import { ControlBase } from './control_base';
 import { Edit } from './edit';
-import { sameValue } from './same_value';
+import { sameValue } from '../core/same_value';
 import { anyText, scalarText } from './value_text';
 
 export abstract class EditorBase extends ControlBase {

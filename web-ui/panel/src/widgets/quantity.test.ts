@@ -2,7 +2,7 @@ import { afterEach, describe, expect, it } from 'vitest';
 import type { ItemInfo } from '../contract';
 import { displayUnits, formatNumber } from '../core/units';
 import { isWide, Quantity } from './quantity';
-import { sameValue } from './same_value';
+import { sameValue } from '../core/same_value';
 import { anyText } from './value_text';
 
 type Measured = Pick<ItemInfo, 'scalar' | 'unit' | 'range' | 'default'>;

@@ -5,12 +5,12 @@ import { PanelCore } from '../../core/panel_core';
 import type { ApplicationState } from '../../core/protocol';
 import type { Control, Consent } from '../control';
 import '../control';
-import { clockText, type Faults } from '../faults';
+import type { Faults } from '../faults';
 import { linkText, type Header } from '../header';
 import { addressOfRoute, parseRoute } from '../router';
 import '../stop_motion';
 import type { StopMotion } from '../stop_motion';
-import { addressOfFault, motionOf, newestFault, remedyOf, stopText, titleOf } from '../words';
+import { addressOfFault, clockText, motionOf, newestFault, remedyOf, stopText, titleOf } from '../words';
 
 describe('router', () => {
   it.each([
