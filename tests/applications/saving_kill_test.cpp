@@ -20,13 +20,17 @@ std::string text_of(const Folder& folder, const char* file) {
   return contents_of(folder / file);
 }
 
+/// As whoever looked at this moment, or as the disk after a loss of power: never a part of it.
+bool is_whole(const std::string& text) {
+  return text.starts_with("<?xml") && text.ends_with("</flexrf>\n");
+}
+
 /// The number that the unit had learned when the file was written. All of the file has to be there.
 std::uint64_t learned(const std::string& text) {
   const std::string opening = "<learned>";
   const std::size_t at = text.find(opening);
   CHECK(at != std::string::npos);
-  CHECK(text.starts_with("<?xml"));
-  CHECK(text.ends_with("</flexrf>\n"));
+  CHECK(is_whole(text));
   return std::stoull(text.substr(at + opening.size()));
 }
 
@@ -66,8 +70,13 @@ void killed_while_saving_it_starts_with_what_was_saved() {
     const std::string before = text_of(folder, "cell.xml");
     CHECK(wait_until([&] { return text_of(folder, "cell.xml") != before || process.has_ended(); }));
     sleep_for(std::chrono::microseconds{microseconds(random)});
-    // Half of them where it hurts most.
-    if (kill % 2 == 0) CHECK(wait_busily([&] { return is_half_written(folder); }));
+    // Half of them where it hurts most, after a close look.
+    if (kill % 2 == 0) {
+      CHECK(wait_busily([&] {
+        CHECK(is_whole(text_of(folder, "cell.xml")));
+        return is_half_written(folder);
+      }));
+    }
     process.send(SIGKILL);
     const Ending ending = process.wait();
     CHECK_EQUAL(ending.signal, SIGKILL);
