@@ -44,7 +44,10 @@ class AxisGripper : public Base {
             .speed = tells_speed_,
             .force = limits_force_,
             .detects_object = true,
-            .halts = true};
+            .halts = true,
+            .fastest = fastest_,
+            .weakest = weakest_,
+            .strongest = strongest_};
   }
   std::optional<GripperState> state() const noexcept override { return control_.state(); }
   const Status& trouble() const noexcept override { return control_.trouble(); }
@@ -78,6 +81,9 @@ class AxisGripper : public Base {
     releasing_ = false;
     limits_force_ = axis.limits_torque;
     tells_speed_ = axis.tells_speed;
+    fastest_ = axis.fastest;
+    weakest_ = plan.weakest;
+    strongest_ = plan.strongest;
     return control_.open(plan, axis, *this->bus);
   }
 
@@ -87,6 +93,9 @@ class AxisGripper : public Base {
   bool releasing_ = false;  // on account of make_safe(), until it may move again
   bool limits_force_ = false;
   bool tells_speed_ = true;
+  double fastest_ = 0;  // m/s
+  double weakest_ = 0;  // N
+  double strongest_ = 0;
 };
 
 }  // namespace flexrf

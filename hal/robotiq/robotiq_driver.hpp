@@ -88,7 +88,11 @@ class RobotiqDriver : public Base {
             .speed = true,
             .force = true,
             .detects_object = true,
-            .halts = true};
+            .halts = true,
+            .slowest = this->configuration.slowest,
+            .fastest = this->configuration.fastest,
+            .weakest = this->configuration.weakest,
+            .strongest = this->configuration.strongest};
   }
   std::optional<GripperState> state() const noexcept override { return control_.state(); }
   const Status& trouble() const noexcept override { return control_.trouble(); }

@@ -1,6 +1,7 @@
 // Gripper: two fingers that open and close.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "gripper_interface.hpp"
@@ -19,6 +20,11 @@ struct GripperCapabilities {
   bool force = false;             ///< likewise
   bool detects_object = false;    ///< else `object` is never gripped, gripped_inside or lost
   bool halts = false;             ///< the fingers can stop anywhere; else they go on to the end
+  // What it can be told, where it can be told one at all.
+  double slowest = 0;  ///< m/s
+  double fastest = std::numeric_limits<double>::infinity();
+  double weakest = 0;  ///< N
+  double strongest = std::numeric_limits<double>::infinity();
 };
 
 struct GripperGoal {

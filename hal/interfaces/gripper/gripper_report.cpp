@@ -39,6 +39,14 @@ Restraint restraint_of(const GripperGoal& goal, const GripperCapabilities& capab
     return {"an opening outside of `closed_width` to `open_width` is not gone to", goal.opening, kept};
   if (goal.speed && !capabilities.speed) return {.reason = "a speed is without effect: it has but one"};
   if (goal.force && !capabilities.force) return {.reason = "a force is without effect: it has but one"};
+  if (goal.speed) {
+    const double kept = std::min(std::max(*goal.speed, capabilities.slowest), capabilities.fastest);
+    if (kept != *goal.speed) return {"a speed that it cannot be told is not taken", *goal.speed, kept};
+  }
+  if (goal.force) {
+    const double kept = std::min(std::max(*goal.force, capabilities.weakest), capabilities.strongest);
+    if (kept != *goal.force) return {"a force that it cannot be told is not taken", *goal.force, kept};
+  }
   return {};
 }
 

@@ -88,6 +88,7 @@ Verdict follows_once_it_is_activated(GripperWorld& world);
 Verdict opens_and_closes(GripperWorld& world);
 Verdict moves_from_the_command_on(GripperWorld& world);
 Verdict goes_in_between_or_refuses(GripperWorld& world);
+Verdict says_what_it_does_not_do(GripperWorld& world);
 Verdict keeps_to_its_reach(GripperWorld& world);
 template <int Which>
 Verdict nonsense_is_a_fault_and_never_followed(GripperWorld& world);

@@ -30,6 +30,7 @@ int run_gripper_conformance(const char* driver, MakeGripperWorld make) {
       test("opens and closes", judged<opens_and_closes>),
       test("moves from the command on", judged<moves_from_the_command_on>),
       test("goes in between, or refuses", judged<goes_in_between_or_refuses>),
+      test("says what it does not do", judged<says_what_it_does_not_do>),
       test("keeps to its reach", judged<keeps_to_its_reach>),
       test("never follows what is no number", judged<nonsense_is_a_fault_and_never_followed<0>>),
       test("never follows an infinite speed", judged<nonsense_is_a_fault_and_never_followed<1>>),

@@ -56,6 +56,25 @@ Verdict goes_in_between_or_refuses(GripperWorld& world) {
   return verdict(world.gripper().fault().code() == StatusCode::invalid_argument && world.fingers() == before);
 }
 
+Verdict says_what_it_does_not_do(GripperWorld& world) {
+  if (!starts_active(world)) return Verdict::failed;
+  const GripperCapabilities can = world.gripper().capabilities();
+  const auto says_so = [&world](const GripperGoal& goal) {
+    act(world, [&goal](Gripper& gripper) { gripper.command(goal); });
+    return world.gripper().take_restraint().reason != nullptr;
+  };
+  static_cast<void>(world.gripper().take_restraint());
+  if (says_so({.opening = opened}) || !says_so({.opening = 2 * opened})) return Verdict::failed;
+  // More than any can, if it has a limit or none at all.
+  const bool has_limits =
+      (!can.speed || std::isfinite(can.fastest)) && (!can.force || std::isfinite(can.strongest));
+  const bool tells = says_so({.opening = opened, .speed = 1e3}) && says_so({.opening = opened, .force = 1e6});
+  const bool is_quiet =
+      !can.speed || !can.force ||
+      !says_so({.opening = opened, .speed = GripperSetting::speed, .force = GripperSetting::force});
+  return verdict((tells || !has_limits) && is_quiet && world.gripper().fault().is_ok());
+}
+
 Verdict keeps_to_its_reach(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, -1) || !fingers_at(world, closed)) return Verdict::failed;
   return verdict(goes_to(world, 1) && fingers_at(world, opened) && world.gripper().fault().is_ok());
