@@ -132,7 +132,7 @@ it('the same application started anew under an open page', async () => {
   await running.end();
   await viewer.page.getByText('The application ended').or(oldValues()).first().waitFor();
   // What may move no longer is said to be so.
-  await viewer.page.locator('flexrf-header').getByText(/^(Motion ended|Motion not known)$/).waitFor();
+  await viewer.page.locator('flexrf-header').getByText(/Motion (ended|not known)$/).waitFor();
   await expect.poll(() => viewer.page.title(), { timeout: within }).toMatch(/^(Ended|⚠ No connection) · panel_cell/);
   running = await Application.start('panel_cell', { listen: `127.0.0.1:${port}` });
   await oldValues().waitFor({ state: 'hidden', timeout: 30_000 });
