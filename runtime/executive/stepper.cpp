@@ -213,7 +213,7 @@ void Stepper::follow_demands(Time now) noexcept {
     control.latch_safe_state();
     char who[longest_who];
     std::snprintf(who, sizeof(who), "emergency stop (%s)", application_->devices[index].name);
-    cell_->stop_motion(who);
+    cell_->audit().note(who, "stopped motion", {}, AuditRecord::Kind::stop);
     log_warning(application_->devices[index].name,
                 "emergency stop: every actuator is made safe; release it, clear the stop and give Start");
   }

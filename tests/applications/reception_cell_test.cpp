@@ -129,6 +129,8 @@ void with_it_and_permission_they_change() {
   play.is_refused(0, "press", {{"component", "mixer"}, {"parameter", "gain"}}, -32005, "no button");
   play.is_refused(0, "press", {{"component", "mixer"}, {"parameter", "move"}}, -32005, "only a person");
   play.is_refused(0, "press", {{"component", "mixer"}, {"parameter", "kick"}, {"count", 101}}, -32602, "100");
+  play.is_refused(0, "press", {{"component", "mixer"}, {"parameter", "fire"}}, -32005,
+                  "mixer.fire has no effect now: needs armed to be on");
   play.is_refused(0, "set", {{"component", "remote"}, {"values", {{"remote", true}}}}, -32003,
                   "not for scripts");
   play.is_refused(0, "set", {{"component", "mixer"}, {"values", {{"gain", 3}}}, {"expected", 1}}, -32006,

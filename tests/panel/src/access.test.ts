@@ -1,4 +1,5 @@
 // Who may do what: passwords, roles, the one control token and its way from one person to another.
+import { readFileSync, statSync } from 'node:fs';
 import { afterEach, beforeAll, beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import {
   Application, Rest, Viewer, outerAddress, screenshot, tidyUp, unlessKeptWaiting, useApplication, useBrowser, violations, within,
@@ -229,10 +230,11 @@ describe('a session at the machine', () => {
     expect(refused.status).toBeGreaterThanOrEqual(400);
     expect(refused.body.detail).toMatch(/machine|local/);
     expect((await local.do('state')).body.control.holder).toMatchObject({ user: 'anna', you: true });
-    // The other way round it can.
+    // The other way round it can, at once.
     await local.do('control/release', { method: 'POST' });
     await far.do('control/take', { method: 'POST' });
-    expect((await local.ask('control/take', { method: 'POST' })).status).toBeLessThan(300);
+    expect((await local.do('control/take', { method: 'POST' })).body).toEqual({ taken: true });
+    expect((await far.do('state')).body.control.holder).toMatchObject({ user: 'anna', you: false });
   });
 });
 
@@ -252,7 +254,7 @@ describe('by TLS', () => {
     expect(running.base).toMatch(/^https:/);
     const viewer = await open(anna, `https://${address}:${running.port}`);
     expect((await viewer.context.cookies()).map((one) => ({ name: one.name, httpOnly: one.httpOnly, sameSite: one.sameSite, secure: one.secure })))
-      .toEqual([{ name: `flexrf_session_${running.port}`, httpOnly: true, sameSite: 'Strict', secure: true }]);
+      .toEqual([{ name: `__Host-flexrf_session_${running.port}`, httpOnly: true, sameSite: 'Strict', secure: true }]);
     // What it does then comes by the encrypted socket.
     await viewer.takeControl();
     await viewer.go('units', 'gadget');
@@ -271,6 +273,13 @@ describe('the address that is printed', () => {
     const again = await running.rest().ask(new URL(running.address).pathname + new URL(running.address).search);
     expect(again.status).toBe(403);
     expect(again.body.detail).toContain('used already');
+    // Whoever runs the application has the next one.
+    const file = /Once that was opened, the next address is in (\S+)/.exec(running.text)?.[1];
+    const next = readFileSync(file!, 'utf8').trim();
+    expect(next).not.toBe(running.address);
+    expect(statSync(file!).mode & 0o777).toBe(0o600);
+    const other = await open(undefined, next);
+    await other.page.getByText(/: admin/).waitFor();
     const second = await open();
     await second.page.getByText(/: viewer/).waitFor();
     await expect.poll(() => second.page.getByRole('button', { name: 'Take control' }).isDisabled(), { timeout: within }).toBe(true);

@@ -31,7 +31,7 @@ export class Application {
   /** The printed address, with its one-time token if it has one. */
   address = '';
 
-  private constructor(readonly process: ChildProcess, private readonly folder: string) {
+  private constructor(readonly process: ChildProcess, readonly folder: string) {
     const listen = (part: Buffer): void => { this.said += part.toString('utf8'); };
     process.stdout!.on('data', listen);
     process.stderr!.on('data', listen);
