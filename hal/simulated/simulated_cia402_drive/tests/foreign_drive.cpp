@@ -193,7 +193,7 @@ std::uint32_t ForeignDrive::write(std::uint16_t index, std::uint8_t subindex, un
 // CiA 301: identifiers and mappings are changed in pre-operational, a mapping while it is out of use.
 std::uint32_t ForeignDrive::refusal_of(std::uint16_t index, std::uint8_t subindex,
                                        std::uint32_t value) const {
-  const bool is_communication = (index & 0xFBFE) == 0x1000 + 0x400 || (index & 0xFFFE) == 0x1800;
+  const bool is_communication = (index & 0xFFFE) == 0x1400 || (index & 0xFFFE) == 0x1800;
   const bool is_mapping = (index & 0xFFFE) == 0x1600 || (index & 0xFFFE) == 0x1A00;
   if ((is_communication || is_mapping) && nmt_ != pre_operational) return 0x08000022;
   if (!is_mapping) return 0;
@@ -209,8 +209,8 @@ std::uint32_t ForeignDrive::refusal_of(std::uint16_t index, std::uint8_t subinde
 void ForeignDrive::unpack(std::uint16_t number, const Message& frame) {
   const auto mapping = static_cast<std::uint16_t>(0x1600 + number);
   unsigned at = 0;
-  for (std::uint8_t entry = 1; entry <= object(mapping); ++entry) {
-    const std::uint32_t word = object(mapping, entry);
+  for (unsigned entry = 1; entry <= object(mapping); ++entry) {
+    const std::uint32_t word = object(mapping, static_cast<std::uint8_t>(entry));
     const unsigned bytes = (word & 0xFF) / 8;
     if (at + bytes > frame.size) return;
     objects_[word >> 8].value = little_endian(&frame.data[at], bytes);
@@ -341,8 +341,8 @@ void ForeignDrive::synchronise(Outbox& says) {
     const auto mapping = static_cast<std::uint16_t>(0x1A00 + pdo);
     Message frame;
     frame.identifier = static_cast<std::uint16_t>(identifier & 0x7FF);
-    for (std::uint8_t entry = 1; entry <= object(mapping); ++entry) {
-      const std::uint32_t word = object(mapping, entry);
+    for (unsigned entry = 1; entry <= object(mapping); ++entry) {
+      const std::uint32_t word = object(mapping, static_cast<std::uint8_t>(entry));
       const std::uint32_t value = object(static_cast<std::uint16_t>(word >> 16), word >> 8 & 0xFF);
       for (unsigned i = 0; i < (word & 0xFF) / 8; ++i)
         frame.data[frame.size++] = static_cast<std::uint8_t>(value >> (8 * i));
