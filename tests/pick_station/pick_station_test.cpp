@@ -111,15 +111,14 @@ void nothing_moves_before_start_and_home() {
           [&] {
             CHECK_EQUAL(station.seen().state, PickState::off);
             CHECK_CONTAINS(station.remedy(), "give Start");
-            station.press("home");
-            station.press("start");
+            station.press_in_vain("home", "needs motion to be permitted; give Start");
           })
       .after(std::chrono::seconds(1), [&] { CHECK_EQUAL(station.seen().state, PickState::off); })
       .clear_and_start()
       .when_in(PickState::not_homed,
                [&] {
                  CHECK_CONTAINS(station.remedy(), "press Home");
-                 station.press("start");
+                 station.press_in_vain("start", "needs state to be ready or held");
                })
       .after(std::chrono::seconds(1),
              [&] {
@@ -143,7 +142,7 @@ void a_change_to_manual_mode_holds_after_the_step() {
                [&] {
                  CHECK_EQUAL(station.message(), "Held before closing the gripper.");
                  CHECK_CONTAINS(station.remedy(), "Step does it");
-                 station.press("start");
+                 station.press_in_vain("start", "needs mode to be automatic");
                })
       .after(std::chrono::seconds(1),
              [&] {

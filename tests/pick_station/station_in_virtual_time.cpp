@@ -72,7 +72,13 @@ void StationInVirtualTime::look() {
   looked_at_ = clock_->now;
   ParameterAnswer answer;
   while (answers_.pop(answer)) {
-    if (answer.kind != AnswerKind::accepted) problem_ = std::string{"refused: "} + answer.reason;
+    const bool in_vain = answer.correlation == in_vain_number;
+    if (in_vain && (answer.kind != AnswerKind::unmet || answer.reason != in_vain_)) {
+      problem_ =
+          "a press was to be refused, as it " + in_vain_ + ": " + name_of(answer.kind) + " " + answer.reason;
+    } else if (!in_vain && answer.kind != AnswerKind::accepted) {
+      problem_ = std::string{"refused: "} + answer.reason;
+    }
   }
   try {
     if (world_) world_(looked_at_);
@@ -143,8 +149,18 @@ const void* StationInVirtualTime::feedback_of(const char* component) {
   return find(component).parameter_memory().feedback;
 }
 
+void StationInVirtualTime::press_in_vain(const char* button, const char* reason) {
+  in_vain_ = reason;
+  send_press(button, in_vain_number);
+}
+
 void StationInVirtualTime::press(const char* button) {
+  send_press(button, 0);
+}
+
+void StationInVirtualTime::send_press(const char* button, std::uint64_t correlation) {
   ParameterRequest request;
+  request.correlation = correlation;
   request.kind = RequestKind::press;
   request.component = pick_;
   request.requester = requester_;

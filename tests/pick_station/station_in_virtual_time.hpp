@@ -39,6 +39,8 @@ class StationInVirtualTime {
   // ---- what a person does and reads
 
   void press(const char* button);
+  /// It could do nothing: the unit's table says so, and who presses is told.
+  void press_in_vain(const char* button, const char* reason);
   template <class Value>
   void set(const char* parameter, const Value& value) {
     change("pick", parameter, &value, sizeof(value));
@@ -75,6 +77,10 @@ class StationInVirtualTime {
   void plug_box(bool in);
 
  private:
+  static constexpr std::uint64_t in_vain_number = 1;
+  void send_press(const char* button, std::uint64_t correlation);
+
+  std::string in_vain_;
   struct Step {
     std::string what;
     std::function<bool()> condition;

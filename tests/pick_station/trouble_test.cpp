@@ -38,7 +38,8 @@ void an_emergency_stop_in_mid_pick_is_recovered_from() {
                [&] {
                  CHECK_EQUAL(station.message(), "Stopped in the middle of something.");
                  CHECK_CONTAINS(station.remedy(), "press Reset");
-                 station.press("start");  // not before a person has looked
+                 // Not before a person has looked.
+                 station.press_in_vain("start", "needs state to be ready or held");
                })
       .after(std::chrono::seconds(1),
              [&] {

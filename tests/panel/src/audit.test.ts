@@ -1,14 +1,19 @@
 // Who did what, and what a command needs: as a person reads it.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { expect, it, onTestFinished } from 'vitest';
-import { Application, Viewer, itemOf, screenshot, useApplication, useBrowser, violations, within, type User } from './harness';
+import { beforeAll, expect, it, onTestFinished } from 'vitest';
+import {
+  Application, Viewer, itemOf, screenshot, useApplication, useBrowser, violations, within, type Rest, type User,
+} from './harness';
 
 const anna: User = { name: 'anna', role: 'engineer', password: 'a long password of anna' };
 const adam: User = { name: 'adam', role: 'admin', password: 'a long password of adam' };
 
 const browser = useBrowser();
 const application = useApplication('panel_cell');
+
+let admin: Rest; // the printed address is good once
+beforeAll(async () => { admin = await application().admin(); });
 
 async function open(address: string, user?: User): Promise<Viewer> {
   const viewer = await Viewer.open(browser(), address);
@@ -34,17 +39,17 @@ it('an admin reads who did what, others do not', async () => {
   expect(await engineer.page.getByRole('link', { name: 'Audit' }).count()).toBe(0);
   await screenshot(engineer.page, 'stopped-by');
 
-  const admin = await open(running.base, adam);
-  await admin.page.getByRole('link', { name: 'Audit' }).click();
-  const row = (text: string | RegExp) => admin.page.getByRole('row').filter({ hasText: text }).first();
+  const reader = await open(running.base, adam);
+  await reader.page.getByRole('link', { name: 'Audit' }).click();
+  const row = (text: string | RegExp) => reader.page.getByRole('row').filter({ hasText: text }).first();
   await row(/anna \(127\.0\.0\.1\)\s*logged in/).waitFor();
   await row('changed gadget.level').waitFor();
   await row('pressed gadget.knock (2 times)').waitFor();
   await row(/anna \(127\.0\.0\.1\)\s*stopped motion/).waitFor();
-  await screenshot(admin.page, 'audit');
-  expect(await violations(admin.page)).toEqual([]);
-  await admin.page.getByLabel('Filter').fill('anna level');
-  await expect.poll(() => admin.page.locator('flexrf-audit tbody tr').count(), { timeout: within }).toBe(1);
+  await screenshot(reader.page, 'audit');
+  expect(await violations(reader.page)).toEqual([]);
+  await reader.page.getByLabel('Filter').fill('anna level');
+  await expect.poll(() => reader.page.locator('flexrf-audit tbody tr').count(), { timeout: within }).toBe(1);
   const file = readFileSync(join(running.folder, 'audit'), 'utf8');
   expect(file).toMatch(/"who":"anna \(127\.0\.0\.1\)","did":"changed","what":"gadget\.level","before":[\d.]+,"after":4\}/);
   expect(file).not.toContain(anna.password);
@@ -52,14 +57,14 @@ it('an admin reads who did what, others do not', async () => {
 
 it('a button that could do nothing is dead and says what it needs, and a script is told the same', async () => {
   const running = application();
-  const admin = await running.admin();
   const viewer = await Viewer.open(browser(), running.base, { session: admin.cookie });
   onTestFinished(() => viewer.close());
   await viewer.takeControl();
   await viewer.go('units', 'gadget');
   const { page } = viewer;
   const ring = page.getByRole('button', { name: 'Ring', exact: true });
-  await page.getByText('needs enabled to be on').waitFor();
+  const need = page.locator('.need').filter({ hasText: 'needs enabled to be on' });
+  await need.waitFor();
   expect(await ring.isDisabled()).toBe(true);
   await ring.scrollIntoViewIfNeeded();
   await screenshot(page, 'needs');
@@ -71,11 +76,11 @@ it('a button that could do nothing is dead and says what it needs, and a script 
   await expect.poll(() => ring.isEnabled(), { timeout: within }).toBe(true);
   await ring.click();
   await admin.do('components/gadget/actions/press', { method: 'POST', body: { parameter: 'ring' } });
-  await page.getByText('needs enabled to be on').waitFor({ state: 'hidden' });
+  await need.waitFor({ state: 'hidden' });
   // A hold needs the permission to move.
   await viewer.go('units', 'mover');
   const run = itemOf(page, 'Run').getByRole('button').first();
-  await page.getByText('needs motion to be permitted; give Start').first().waitFor();
+  await page.locator('.need').filter({ hasText: 'needs motion to be permitted; give Start' }).first().waitFor();
   expect(await run.isDisabled()).toBe(true);
   await admin.do('start-motion', { method: 'POST' });
   await expect.poll(() => run.isEnabled(), { timeout: within }).toBe(true);

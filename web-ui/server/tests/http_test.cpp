@@ -25,6 +25,13 @@ int serve(void** state) {
   return serve_with(state, patient());
 }
 
+/// Who is connected need not say so.
+int serve_patiently(void** state) {
+  ServerSettings settings = patient();
+  settings.live_silence = std::chrono::minutes{1};
+  return serve_with(state, settings);
+}
+
 int serve_few(void** state) {
   ServerSettings settings = patient();
   settings.places = 2;
@@ -292,6 +299,25 @@ void who_has_nothing_to_say_makes_room(void** state) {
   assert_true(served.clients[0].ends());
 }
 
+/// As browsers do: six connections each for the page's files, kept, and one for the page. Of 32 places.
+void eight_browsers_have_room(void** state) {
+  auto& served = *static_cast<Served*>(*state);
+  static std::array<Client, 48> for_files;
+  for (Client& client : for_files) {
+    assert_true(client.connect(served.port()));
+    client.send(get("/hello"));
+  }
+  for (Client& client : for_files) assert_int_equal(status_of(client.reply()), 200);
+  for (std::size_t i = 0; i < 8; ++i) {
+    assert_int_equal(status_of(client_of(state, i).upgrade()), 101);
+  }
+  for (std::size_t i = 0; i < 8; ++i) {
+    served.clients[i].send_text("alive");
+    assert_string_equal(served.clients[i].frame().payload.c_str(), "alive");
+  }
+  for (Client& client : for_files) client.close();
+}
+
 /// 200 who say nothing, or not all, for as long as they may.
 void half_open_connections_keep_nobody_out(void** state) {
   auto& served = *static_cast<Served*>(*state);
@@ -391,6 +417,7 @@ int main() {
       cmocka_unit_test_setup_teardown(wrong_requests_are_refused, serve, end),
       cmocka_unit_test_setup_teardown(more_clients_than_places_get_503, serve_few, end),
       cmocka_unit_test_setup_teardown(who_has_nothing_to_say_makes_room, serve_few, end),
+      cmocka_unit_test_setup_teardown(eight_browsers_have_room, serve_patiently, end),
       cmocka_unit_test_setup_teardown(half_open_connections_keep_nobody_out, serve, end),
       cmocka_unit_test_setup_teardown(places_are_bounded_per_address, serve_addresses, end),
       cmocka_unit_test_setup_teardown(slow_headers_are_given_up, serve_slow_headers, end),

@@ -39,12 +39,17 @@ export class Audit extends ViewBase {
         border-block-end: 1px solid var(--border);
         overflow-wrap: anywhere;
       }
-      td:first-child {
+      th:nth-child(-n + 2) {
+        width: 1%;
+      }
+      td:nth-child(-n + 2) {
+        padding-inline-end: 24px;
         white-space: nowrap;
         font-variant-numeric: tabular-nums;
       }
       @media (max-width: 760px) {
-        td:first-child {
+        td:nth-child(-n + 2) {
+          padding-inline-end: 8px;
           white-space: normal;
         }
       }
