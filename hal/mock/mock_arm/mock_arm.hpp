@@ -41,6 +41,7 @@ class MockArm final : public MockArmDriver {
   }
 
   void receive(const Tick& tick) noexcept override {
+    if (is_inhibited()) commanded_.reset();
     follow(tick);
     last_cycle_ = tick.now;
     tell(tick.now);

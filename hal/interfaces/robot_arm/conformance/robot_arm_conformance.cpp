@@ -121,6 +121,18 @@ Verdict inhibiting_ends_a_motion(RobotArmWorld& world) {
   return verdict(rest && distance(world, *rest) <= 2 * world.noise() + 1e-9);
 }
 
+/// A command that the inhibition overtook.
+Verdict a_command_from_before_is_forgotten(RobotArmWorld& world) {
+  idle_for(world, 0.05);
+  const JointVector start = beside(world, 0);
+  world.arm().command(positions_of(beside(world, 0.2)));
+  world.arm().set_inhibited(true);
+  idle_for(world, 0.3);
+  world.arm().set_inhibited(false);
+  idle_for(world, 0.5);
+  return verdict(distance(world, start) <= tolerance + 2 * world.noise());
+}
+
 Verdict nonsense_is_a_fault_and_never_followed(RobotArmWorld& world) {
   const JointVector start = beside(world, 0);
   JointVector bad = start;
@@ -217,6 +229,8 @@ int run_robot_arm_conformance(const char* driver, MakeRobotArmWorld make) {
       {"keeps to its limits", judged<keeps_to_its_limits>, nullptr, nullptr, nullptr},
       {"holds while inhibited and forgets", judged<an_inhibited_arm_holds>, nullptr, nullptr, nullptr},
       {"comes to rest when inhibited", judged<inhibiting_ends_a_motion>, nullptr, nullptr, nullptr},
+      {"forgets what an inhibition overtook", judged<a_command_from_before_is_forgotten>, nullptr, nullptr,
+       nullptr},
       {"never follows nonsense", judged<nonsense_is_a_fault_and_never_followed>, nullptr, nullptr, nullptr},
       {"can be made safe", judged<can_be_made_safe>, nullptr, nullptr, nullptr},
       {"is silent without sensors", judged<says_nothing_when_its_sensors_are_lost>, nullptr, nullptr,
