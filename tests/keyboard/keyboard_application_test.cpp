@@ -25,7 +25,6 @@ extern const Application application;
 namespace {
 
 using namespace flexrf;
-using namespace flexrf::user;
 using application::application;
 
 constexpr double tolerance = 1e-3;  // m: the sensors' noise, and what the servos lag at the end
