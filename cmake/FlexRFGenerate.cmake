@@ -23,6 +23,8 @@ define_property(GLOBAL PROPERTY FLEXRF_TYPES BRIEF_DOCS "Targets made by flexrf_
 define_property(GLOBAL PROPERTY FLEXRF_INTERFACES BRIEF_DOCS "Targets made by flexrf_add_interface")
 define_property(GLOBAL PROPERTY FLEXRF_DRIVERS BRIEF_DOCS "Targets made by flexrf_add_driver")
 define_property(GLOBAL PROPERTY FLEXRF_UNITS BRIEF_DOCS "Targets made by flexrf_add_unit")
+define_property(GLOBAL PROPERTY FLEXRF_LIBRARY BRIEF_DOCS
+  "Folders of FlexRF's own tables: what is made of them is in the namespace flexrf, all else in flexrf::user")
 define_property(TARGET PROPERTY FLEXRF_FOLDER BRIEF_DOCS "Folder of the target's table")
 define_property(TARGET PROPERTY FLEXRF_OUTPUT BRIEF_DOCS "Folder of what was generated for the target")
 define_property(TARGET PROPERTY FLEXRF_CLASS BRIEF_DOCS "Interface: its class. Driver: the class of its interface")
@@ -86,7 +88,8 @@ function(_flexrf_search_paths result)
       list(APPEND arguments ${option} ${folders})
     endif()
   endforeach()
-  set(${result} "${arguments}" PARENT_SCOPE)
+  get_property(library GLOBAL PROPERTY FLEXRF_LIBRARY)
+  set(${result} ${arguments} --library ${library} PARENT_SCOPE)
 endfunction()
 
 # ---- Running config-gen

@@ -2,6 +2,7 @@
 //
 //   config-gen (--application FILE | --unit FILE | --interface FILE | --driver FILE | --types-only FOLDER)
 //              [--types FOLDER...] [--units FOLDER...] [--interfaces FOLDER...] [--drivers FOLDER...]
+//              [--library FOLDER...]
 //              (--output FOLDER [--dependencies FILE --stamp FILE] | --check-only)
 //
 // Prints nothing on success. Exit code 1 on any error in the tables or the command line; nothing is written
@@ -33,6 +34,7 @@ constexpr const char* usage =
     "FOLDER)\n"
     "                  [--types FOLDER...] [--units FOLDER...] [--interfaces FOLDER...] [--drivers "
     "FOLDER...]\n"
+    "                  [--library FOLDER...]\n"
     "                  (--output FOLDER [--dependencies FILE --stamp FILE] | --check-only)\n";
 
 struct Command {
@@ -54,7 +56,8 @@ Command parse(const std::vector<std::string>& words) {
   const std::map<std::string, std::vector<fs::path>*> folders = {{"--types", &command.paths.types},
                                                                  {"--units", &command.paths.units},
                                                                  {"--interfaces", &command.paths.interfaces},
-                                                                 {"--drivers", &command.paths.drivers}};
+                                                                 {"--drivers", &command.paths.drivers},
+                                                                 {"--library", &command.paths.library}};
   const std::map<std::string, fs::path*> files = {
       {"--output", &command.output}, {"--dependencies", &command.dependencies}, {"--stamp", &command.stamp}};
   for (std::size_t i = 0; i < words.size(); ++i) {

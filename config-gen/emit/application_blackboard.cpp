@@ -49,9 +49,10 @@ void emit_jobs(const Model& model, const ApplicationNames& names, Index index, c
     const Field& field = type.fields[*queue.score];
     order = "{true, Scalar::" + scalar_of(model, field.type) + ", " + std::to_string(field.offset) + "}";
   }
-  out << "constinit JobQueueMemory<" << type.name << ", " << queue.capacity << "> queue_" << name
+  const std::string cpp_name = application_space.of(type, type.name);
+  out << "constinit JobQueueMemory<" << cpp_name << ", " << queue.capacity << "> queue_" << name
       << "_memory{};\n"
-      << "constinit JobQueue queue_" << name << "{descriptor_of<" << type.name << ">, queue_" << name
+      << "constinit JobQueue queue_" << name << "{descriptor_of<" << cpp_name << ">, queue_" << name
       << "_memory.view(), DropPolicy::"
       << (queue.policy == Queue::Policy::drop_newest ? "drop_newest" : "drop_oldest") << ", " << order << ", "
       << bells << "};\n";
@@ -64,7 +65,7 @@ void emit_jobs(const Model& model, const ApplicationNames& names, Index index, c
 void emit_rings(const Model& model, const ApplicationNames& names, Index index, const std::string& bells,
                 Text& out, std::vector<std::string>& sizes) {
   const Queue& queue = model.queues[index];
-  const std::string& type = model.types[queue.type].name;
+  const std::string type = application_space.of(model.types[queue.type], model.types[queue.type].name);
   const std::string& name = names.queue(index);
   for (std::size_t i = 0; i < queue.writers.size(); ++i) {
     const std::string ring = name + "_" + std::to_string(i);
@@ -89,7 +90,18 @@ void emit_rings(const Model& model, const ApplicationNames& names, Index index, 
 }  // namespace
 
 std::string slot_type(const Model& model, const Slot& slot) {
-  return type_name(model, slot.type);
+  const std::string name = type_name(model, slot.type);
+  switch (slot.type.kind) {
+    case SlotType::Kind::unit_runtime:
+    case SlotType::Kind::unit_feedback:
+      return application_space.of(model.unit_types[slot.type.index], name);
+    case SlotType::Kind::interface_runtime:
+    case SlotType::Kind::interface_feedback:
+      return application_space.of(model.interfaces[slot.type.index], name);
+    case SlotType::Kind::declared:
+      break;
+  }
+  return application_space.of(model.types[slot.type.index], name);
 }
 
 void emit_slots(const Model& model, const ApplicationNames& names, Text& out,
@@ -184,8 +196,8 @@ void emit_queue_records(const Model& model, const ApplicationNames& names, Text&
     emit_array("QueueSource* const", "queue_" + name + "_sources", sources, out);
     emit_array("constexpr const char*", "queue_" + name + "_readers", readers, out);
     records << "    {\"" << queue.name << "\", " << string_literal(queue.summary) << ", descriptor_of<"
-            << model.types[queue.type].name << ">, " << queue.capacity << ", "
-            << array_or_none("queue_" + name + "_sinks", sinks) << ", "
+            << application_space.of(model.types[queue.type], model.types[queue.type].name) << ">, "
+            << queue.capacity << ", " << array_or_none("queue_" + name + "_sinks", sinks) << ", "
             << array_or_none("queue_" + name + "_writers", writers) << ", "
             << array_or_none("queue_" + name + "_sources", sources) << ", "
             << array_or_none("queue_" + name + "_readers", readers) << ", " << bool_literal(queue.wall)

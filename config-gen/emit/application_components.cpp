@@ -22,7 +22,8 @@ std::string emit_values(
   for (const auto& [block, values] : parts) {
     for (std::size_t i = 0; i < block->parameters.size(); ++i) {
       const Literal& value = i < values->size() ? (*values)[i] : block->parameters[i].initial;
-      list += (list.empty() ? "" : ", ") + cpp_value(model, block->parameters[i].field, value);
+      list +=
+          (list.empty() ? "" : ", ") + cpp_value(model, application_space, block->parameters[i].field, value);
     }
   }
   if (list.empty()) return "nullptr";
@@ -76,12 +77,13 @@ std::string emit_resources(const Model& model, const Device& device, const std::
 std::string emit_drivers(const Model& model, const Device& device, const std::string& prefix, Text& out) {
   const Interface& interface = model.interfaces[device.interface];
   Text records;
-  const std::string runtime = emit_values(model, block_struct_name(interface.class_name, "Runtime"),
-                                          prefix + "_runtime", {{&interface.runtime, &device.runtime}}, out);
+  const std::string runtime =
+      emit_values(model, application_space.of(interface, block_struct_name(interface.class_name, "Runtime")),
+                  prefix + "_runtime", {{&interface.runtime, &device.runtime}}, out);
   for (const DriverChoice& choice : device.drivers) {
     const Driver& driver = model.drivers[choice.driver];
     const std::string configuration = emit_values(
-        model, block_struct_name(driver.class_name, "Configuration"),
+        model, application_space.of(driver, block_struct_name(driver.class_name, "Configuration")),
         prefix + "_" + driver.stem + "_configuration",
         {{&interface.configuration, &device.configuration}, {&driver.configuration, &choice.configuration}},
         out);
@@ -89,9 +91,10 @@ std::string emit_drivers(const Model& model, const Device& device, const std::st
                        : driver.kind == Driver::Kind::simulated ? "simulated"
                                                                 : "real";
     records << "    {\"" << driver.name << "\", DriverKind::" << kind << ", " << bool_literal(driver.actuates)
-            << ", " << bool_literal(driver.virtual_time) << ", sizeof(" << driver.class_name << "), &"
-            << driver_construct_name(driver) << ", &" << driver_component_name(driver) << ", "
-            << configuration << ", " << runtime << "},\n";
+            << ", " << bool_literal(driver.virtual_time) << ", " << size_name(driver) << ", &"
+            << application_space.of(driver, driver_construct_name(driver)) << ", &"
+            << application_space.of(driver, driver_component_name(driver)) << ", " << configuration << ", "
+            << runtime << "},\n";
   }
   out << "constexpr DriverRecord " << prefix << "_drivers[] = {\n" << records.str() << "};\n";
   return prefix + "_drivers";
@@ -107,8 +110,9 @@ std::string input_binding(const Model& model, const ApplicationNames& names, Ind
   std::string members = "nullptr";
   if (input.range) {
     members = prefix + "_" + std::to_string(port) + "_members";
-    out << "alignas(cache_line) constinit Input<" << model.types[input.type].name << "> " << members << "["
-        << slots.size() << "]{};\n";
+    out << "alignas(cache_line) constinit Input<"
+        << application_space.of(model.types[input.type], model.types[input.type].name) << "> " << members
+        << "[" << slots.size() << "]{};\n";
   }
   return "{" + names.reader_of(index, port) + ", " + std::to_string(slots.size()) + ", " +
          duration_literal(input.max_age.value_or(0)) + ", " + members + "}";
@@ -177,13 +181,9 @@ void emit_devices(const Model& model, const ApplicationNames& names, Text& out,
     const Device& device = model.devices[i];
     const Interface& interface = model.interfaces[device.interface];
     const std::string prefix = "device_" + names.device(i);
-    const auto each_driver = [&](const char* before) {
-      return list_of(device.drivers, [&](const DriverChoice& choice) {
-        return before + model.drivers[choice.driver].class_name + ")";
-      });
-    };
-    out << "\nalignas(cache_line) std::byte " << prefix << "[std::max({" << each_driver("sizeof(")
-        << "})];\n";
+    const std::string each_size = list_of(
+        device.drivers, [&](const DriverChoice& choice) { return size_name(model.drivers[choice.driver]); });
+    out << "\nalignas(cache_line) std::byte " << prefix << "[std::max({" << each_size << "})];\n";
     sizes.push_back("sizeof(" + prefix + ")");
     const OutputsText outputs =
         emit_outputs(names, interface.outputs, device.outputs, Writer::Kind::device_output, i, prefix, out);
@@ -216,18 +216,20 @@ void emit_units(const Model& model, const ApplicationNames& names, Text& out,
     const Unit& unit = model.units[i];
     const UnitType& type = model.unit_types[unit.type];
     const std::string prefix = "unit_" + names.unit(i);
-    out << "\nalignas(cache_line) std::byte " << prefix << "[sizeof(" << type.class_name << ")];\n";
+    out << "\nalignas(cache_line) std::byte " << prefix << "[" << size_name(type) << "];\n";
     sizes.push_back("sizeof(" + prefix + ")");
     const std::string configuration =
-        emit_values(model, block_struct_name(type.class_name, "Configuration"), prefix + "_configuration",
-                    {{&type.configuration, &unit.configuration}}, out);
-    const std::string runtime = emit_values(model, block_struct_name(type.class_name, "Runtime"),
-                                            prefix + "_runtime", {{&type.runtime, &unit.runtime}}, out);
+        emit_values(model, application_space.of(type, block_struct_name(type.class_name, "Configuration")),
+                    prefix + "_configuration", {{&type.configuration, &unit.configuration}}, out);
+    const std::string runtime =
+        emit_values(model, application_space.of(type, block_struct_name(type.class_name, "Runtime")),
+                    prefix + "_runtime", {{&type.runtime, &unit.runtime}}, out);
     const std::string binding = emit_binding(model, names, i, prefix, out);
     records << "    {.name = \"" << unit.name << "\",\n     .summary = " << string_literal(type.summary)
-            << ",\n     .type = &" << unit_component_name(type) << ",\n     .construct = &"
-            << unit_construct_name(type) << ",\n     .storage = " << prefix << ",\n     .size = sizeof("
-            << prefix << "),\n     .binding = " << binding << ",\n     .configuration = " << configuration
+            << ",\n     .type = &" << application_space.of(type, unit_component_name(type))
+            << ",\n     .construct = &" << application_space.of(type, unit_construct_name(type))
+            << ",\n     .storage = " << prefix << ",\n     .size = sizeof(" << prefix
+            << "),\n     .binding = " << binding << ",\n     .configuration = " << configuration
             << ",\n     .runtime = " << runtime
             << ",\n     .runtime_slot = " << slot_or_null(names, unit.values_slot)
             << ",\n     .feedback_slot = " << slot_or_null(names, unit.feedback_slot)

@@ -90,14 +90,29 @@ void emit_application_record(const Model& model, Text& out) {
       << ",\n    .thread_states = " << table("states_of_threads", model.threads.size()) << ",\n};\n";
 }
 
+// Of each class whose object the application has room for.
+void define_sizes(const Model& model, Text& out) {
+  Text sizes;
+  std::set<Index> units, drivers;
+  for (const Unit& unit : model.units)
+    if (units.insert(unit.type).second) define_size(model.unit_types[unit.type], sizes);
+  for (const Device& device : model.devices)
+    for (const DriverChoice& choice : device.drivers)
+      if (drivers.insert(choice.driver).second) define_size(model.drivers[choice.driver], sizes);
+  if (sizes.str().empty()) return;
+  const Space space(user_space);
+  out << space.open() << sizes.str() << space.close() << "\n";
+}
+
 }  // namespace
 
 std::string application_source(const Model& model, Diagnostics& diagnostics) {
   const ApplicationNames names(model, diagnostics);
   std::vector<std::string> sizes;
   Text out;
-  out << generated_note(model.application->file) << includes_of(model)
-      << "\nnamespace flexrf::application {\n";
+  out << generated_note(model.application->file) << includes_of(model) << "\n";
+  define_sizes(model, out);
+  out << application_space.open();
   emit_threads_memory(model, names, out, sizes);
   emit_slots(model, names, out, sizes);
   emit_readers(model, names, out);
@@ -110,7 +125,7 @@ std::string application_source(const Model& model, Diagnostics& diagnostics) {
   emit_thread_records(model, names, out);
   emit_budget(*model.application, sizes, out);
   emit_application_record(model, out);
-  out << "\n}  // namespace flexrf::application\n";
+  out << "\n" << application_space.close();
   return out.take();
 }
 

@@ -39,22 +39,23 @@ std::string needs_name(const BlockText& block, std::size_t parameter) {
 }
 
 void define_needs(const BlockText& block, Text& out) {
+  const std::string runtime(block.plain.space.runtime());
   for (std::size_t i = 0; i < block.parameters.size(); ++i) {
     const std::vector<Need>& needs = block.parameters[i]->needs;
     if (needs.empty()) continue;
-    out << "constexpr CommandNeed " << needs_name(block, i) << "[" << needs.size() << "] = {\n";
+    out << "constexpr " << runtime << "CommandNeed " << needs_name(block, i) << "[" << needs.size() << "] = {\n";
     for (const Need& need : needs) {
-      out << "    {CommandNeed::Kind::" << kind_name(need.of) << ", " << string_literal(need.field) << ", "
+      out << "    {" << runtime << "CommandNeed::Kind::" << kind_name(need.of) << ", " << string_literal(need.field) << ", "
           << need.numbers << "ULL, " << string_literal(need.reason) << "},\n";
     }
     out << "};\n";
   }
 }
 
-void define_port(std::string_view name, std::string_view direction, std::string_view type,
-                 std::string_view summary, Text& out) {
-  out << "    {\"" << name << "\", PortDescriptor::Direction::" << direction << ", \"" << type << "\", "
-      << string_literal(summary) << "},\n";
+void define_port(std::string_view runtime, std::string_view name, std::string_view direction,
+                 std::string_view type, std::string_view summary, Text& out) {
+  out << "    {\"" << name << "\", " << runtime << "PortDescriptor::Direction::" << direction << ", \""
+      << type << "\", " << string_literal(summary) << "},\n";
 }
 
 }  // namespace
@@ -63,14 +64,15 @@ std::string block_struct_name(const std::string& class_name, std::string_view wh
   return class_name + std::string(what);
 }
 
-BlockText block_text(const Model& model, const std::string& class_name, std::string_view what,
-                     const Position& position, const std::vector<const ParameterBlock*>& blocks) {
+BlockText block_text(const Model& model, const std::string& class_name, const Space& space,
+                     std::string_view what, const Position& position,
+                     const std::vector<const ParameterBlock*>& blocks) {
   BlockText block;
   const std::string summary =
       what == "Configuration" ? "Configuration of " + class_name + ": read at initialise()."
       : what == "Runtime"     ? "Runtime parameters of " + class_name + ", in force for a step."
                               : "Feedback of " + class_name + ", published after each step.";
-  block.plain = plain_struct(model, block_struct_name(class_name, what), summary, position, blocks);
+  block.plain = plain_struct(model, block_struct_name(class_name, what), space, summary, position, blocks);
   for (const ParameterBlock* part : blocks) {
     for (const Parameter& parameter : part->parameters) block.parameters.push_back(&parameter);
   }
@@ -81,13 +83,14 @@ void define_parameters(const BlockText& block, bool exported, Text& out) {
   if (block.empty()) return;
   const std::string& name = block.plain.identifier;
   define_needs(block, out);
-  out << (exported ? "constinit const" : "constexpr") << " ParameterDescriptor " << name << "_parameters["
-      << block.parameters.size() << "] = {\n";
+  const std::string runtime(block.plain.space.runtime());
+  out << (exported ? "constinit const" : "constexpr") << " " << runtime << "ParameterDescriptor " << name
+      << "_parameters[" << block.parameters.size() << "] = {\n";
   for (std::size_t i = 0; i < block.parameters.size(); ++i) {
     const Parameter& parameter = *block.parameters[i];
     const bool persist = parameter.kind == Parameter::Kind::runtime && parameter.persist;
     out << "    {&" << name << "_fields[" << i << "], " << bool_literal(parameter.low.has_value()) << ", "
-        << bool_literal(persist) << ", Role::" << role_name(parameter.role) << ", "
+        << bool_literal(persist) << ", " << runtime << "Role::" << role_name(parameter.role) << ", "
         << (parameter.low ? bound(*parameter.low) : "0.0") << ", "
         << (parameter.high ? bound(*parameter.high) : "0.0") << ", " << string_literal(parameter.widget)
         << ", " << string_literal(parameter.label) << ", " << string_literal(parameter.menu) << ", "
@@ -103,27 +106,29 @@ std::string block_initialiser(const BlockText& block) {
 
 void define_ports(const Model& model, const UnitType& unit, Text& out) {
   if (unit.inputs.empty() && unit.outputs.empty() && unit.devices.empty()) return;
-  out << "constexpr PortDescriptor " << unit.name << "_unit_ports[] = {\n";
+  const std::string_view runtime = Space(unit.space).runtime();
+  out << "constexpr " << runtime << "PortDescriptor " << unit.name << "_unit_ports[] = {\n";
   for (const InputPort& port : unit.inputs) {
-    define_port(port.name, port.queue ? "queue_input" : "input", model.types[port.type].name, port.summary,
-                out);
+    define_port(runtime, port.name, port.queue ? "queue_input" : "input", model.types[port.type].name,
+                port.summary, out);
   }
   for (const OutputPort& port : unit.outputs) {
-    define_port(port.name, port.queue ? "queue_output" : "output", model.types[port.type].name, port.summary,
-                out);
+    define_port(runtime, port.name, port.queue ? "queue_output" : "output", model.types[port.type].name,
+                port.summary, out);
   }
   for (const DevicePort& port : unit.devices) {
-    define_port(port.name, "device", model.interfaces[port.interface].class_name, port.summary, out);
+    define_port(runtime, port.name, "device", model.interfaces[port.interface].class_name, port.summary, out);
   }
   out << "};\n";
 }
 
-void define_ports(const Model& model, const Interface& interface, Text& out) {
+void define_ports(const Model& model, const Interface& interface, const Space& space, Text& out) {
   if (interface.outputs.empty()) return;
-  out << "constexpr PortDescriptor " << interface.name << "_ports[] = {\n";
+  const std::string_view runtime = space.runtime();
+  out << "constexpr " << runtime << "PortDescriptor " << interface.name << "_ports[] = {\n";
   for (const OutputPort& port : interface.outputs) {
-    define_port(port.name, port.queue ? "queue_output" : "output", model.types[port.type].name, port.summary,
-                out);
+    define_port(runtime, port.name, port.queue ? "queue_output" : "output", model.types[port.type].name,
+                port.summary, out);
   }
   out << "};\n";
 }
@@ -140,6 +145,22 @@ std::string driver_component_name(const Driver& driver) {
 std::string driver_construct_name(const Driver& driver) {
   return "construct_" + driver.stem + "_driver";
 }
+std::string size_name(const UnitType& unit) {
+  return unit.space == user_space ? std::string(user_space) + "::" + unit.name + "_unit_size"
+                                  : "sizeof(" + unit.class_name + ")";
+}
+std::string size_name(const Driver& driver) {
+  return driver.space == user_space ? std::string(user_space) + "::" + driver.stem + "_driver_size"
+                                    : "sizeof(" + driver.class_name + ")";
+}
+void define_size(const UnitType& unit, Text& out) {
+  if (unit.space == user_space)
+    out << "constexpr std::size_t " << unit.name << "_unit_size = sizeof(" << unit.class_name << ");\n";
+}
+void define_size(const Driver& driver, Text& out) {
+  if (driver.space == user_space)
+    out << "constexpr std::size_t " << driver.stem << "_driver_size = sizeof(" << driver.class_name << ");\n";
+}
 std::string unit_header_path(const UnitType& unit) {
   return include_path(unit.file, unit.header);
 }
@@ -152,7 +173,7 @@ std::string interface_header_path(const Interface& interface) {
 
 BlockText driver_configuration(const Model& model, const Driver& driver) {
   const Interface& interface = model.interfaces[driver.interface];
-  return block_text(model, driver.class_name, "Configuration", driver.position,
+  return block_text(model, driver.class_name, Space(driver.space), "Configuration", driver.position,
                     {&interface.configuration, &driver.configuration});
 }
 

@@ -17,8 +17,9 @@ struct BlockText {
   bool empty() const { return parameters.empty(); }
 };
 // `what`: "Configuration", "Runtime" or "Feedback".
-BlockText block_text(const Model& model, const std::string& class_name, std::string_view what,
-                     const Position& position, const std::vector<const ParameterBlock*>& blocks);
+BlockText block_text(const Model& model, const std::string& class_name, const Space& space,
+                     std::string_view what, const Position& position,
+                     const std::vector<const ParameterBlock*>& blocks);
 
 // The array of ParameterDescriptors; local to its file unless `exported`.
 void define_parameters(const BlockText& block, bool exported, Text& out);
@@ -26,7 +27,7 @@ void define_parameters(const BlockText& block, bool exported, Text& out);
 std::string block_initialiser(const BlockText& block);
 
 void define_ports(const Model& model, const UnitType& unit, Text& out);
-void define_ports(const Model& model, const Interface& interface, Text& out);
+void define_ports(const Model& model, const Interface& interface, const Space& space, Text& out);
 
 // The generated base classes and their sources, as files of a target.
 std::string unit_base_header(const Model& model, const UnitType& unit);
@@ -46,6 +47,12 @@ std::string driver_construct_name(const Driver& driver);        // construct_sim
 std::string unit_header_path(const UnitType& unit);             // units/jog/jog.hpp
 std::string interface_header_path(const Interface& interface);  // interfaces/robot_arm/robot_arm.hpp
 std::string driver_header_path(const Driver& driver);           // simulated/simulated_arm/simulated_arm.hpp
+// The bytes of the author's class, as the application says it. The class may be outside of the namespace,
+// where only the rules of look-up find it: of those of flexrf::user define_size() names the size there.
+std::string size_name(const UnitType& unit);
+std::string size_name(const Driver& driver);
+void define_size(const UnitType& unit, Text& out);
+void define_size(const Driver& driver, Text& out);
 std::string block_struct_name(const std::string& class_name, std::string_view what);
 BlockText driver_configuration(const Model& model, const Driver& driver);
 

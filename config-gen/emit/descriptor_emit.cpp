@@ -187,7 +187,8 @@ Json unit_type_json(const Model& model, const UnitType& type, Json& types) {
   for (const auto& [what, block] : {std::pair{"Configuration", &type.configuration},
                                     {"Runtime", &type.runtime},
                                     {"Feedback", &type.feedback}}) {
-    add_struct(model, block_text(model, type.class_name, what, type.position, {block}), types);
+    add_struct(model, block_text(model, type.class_name, Space(type.space), what, type.position, {block}),
+               types);
   }
   return json;
 }
@@ -200,7 +201,10 @@ Json interface_json(const Model& model, const Interface& interface, Json& types)
   add_block(model, interface.class_name, "feedback", "Feedback", {&interface.feedback}, json);
   for (const auto& [what, block] :
        {std::pair{"Runtime", &interface.runtime}, {"Feedback", &interface.feedback}}) {
-    add_struct(model, block_text(model, interface.class_name, what, interface.position, {block}), types);
+    add_struct(
+        model,
+        block_text(model, interface.class_name, Space(interface.space), what, interface.position, {block}),
+        types);
   }
   return json;
 }

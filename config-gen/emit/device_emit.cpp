@@ -5,10 +5,12 @@ namespace flexrf::config_gen {
 namespace {
 
 BlockText runtime_of(const Model& model, const Interface& interface) {
-  return block_text(model, interface.class_name, "Runtime", interface.position, {&interface.runtime});
+  return block_text(model, interface.class_name, Space(interface.space), "Runtime", interface.position,
+                    {&interface.runtime});
 }
 BlockText feedback_of(const Model& model, const Interface& interface) {
-  return block_text(model, interface.class_name, "Feedback", interface.position, {&interface.feedback});
+  return block_text(model, interface.class_name, Space(interface.space), "Feedback", interface.position,
+                    {&interface.feedback});
 }
 std::string base_of(const Interface& interface) {
   return interface.class_name + "Interface";
@@ -16,8 +18,15 @@ std::string base_of(const Interface& interface) {
 
 void declare_parameters(const BlockText& block, Text& out) {
   if (block.empty()) return;
-  out << "extern const ParameterDescriptor " << block.plain.identifier << "_parameters["
-      << block.parameters.size() << "];\n";
+  out << "extern const " << block.plain.space.runtime() << "ParameterDescriptor " << block.plain.identifier
+      << "_parameters[" << block.parameters.size() << "];\n";
+}
+
+// As that of component.hpp, of a block that is the interface's.
+std::string block_initialiser(const BlockText& block, const Space& space, const Interface& interface) {
+  if (block.empty()) return "{}";
+  return "{&" + space.of(interface, block.plain.identifier) + "_descriptor, " +
+         space.of(interface, block.plain.identifier) + "_parameters}";
 }
 
 bool connects(const Interface& interface) {
@@ -29,6 +38,8 @@ bool connects(const Interface& interface) {
 std::string interface_base_header(const Model& model, const Interface& interface) {
   const BlockText runtime = runtime_of(model, interface);
   const BlockText feedback = feedback_of(model, interface);
+  const Space space(interface.space);
+  const std::string prefix(space.runtime());
   std::set<std::string> system, own{"runtime/device/device.hpp"};
   if (!runtime.empty()) add_includes(model, runtime.plain, system, own);
   if (!feedback.empty()) add_includes(model, feedback.plain, system, own);
@@ -40,28 +51,30 @@ std::string interface_base_header(const Model& model, const Interface& interface
 
   Text out;
   out << generated_note(interface.file) << "#pragma once\n\n"
-      << include_lines(system, own) << "\nnamespace flexrf {\n\n";
+      << include_lines(system, own) << "\n"
+      << space.open() << "\n";
   if (!runtime.empty()) define_struct(model, runtime.plain, out), out << "\n";
   if (!feedback.empty()) define_struct(model, feedback.plain, out), out << "\n";
-  out << "/// " << comment_text(interface.summary) << "\nclass " << base_of(interface)
-      << " : public Device {\n public:\n";
+  out << "/// " << comment_text(interface.summary) << "\nclass " << base_of(interface) << " : public "
+      << prefix << "Device {\n public:\n";
   if (!runtime.empty()) {
     out << "  using Runtime = " << runtime.plain.name << ";\n\n"
         << "  /// May refuse a set of runtime parameters as a whole; its cause goes to who asked. Between "
            "two steps.\n"
-           "  virtual Status accept(const Runtime& /*proposed*/) { return {}; }\n"
-           "  Status accept_runtime(const void* proposed) noexcept final;\n";
+        << "  virtual " << prefix << "Status accept(const Runtime& /*proposed*/) { return {}; }\n"
+        << "  " << prefix << "Status accept_runtime(const void* proposed) noexcept final;\n";
   }
   if (!feedback.empty()) out << "  using Feedback = " << feedback.plain.name << ";\n";
-  out << "  void connect(const DeviceBinding& binding) noexcept override;\n";
+  out << "  void connect(const " << prefix << "DeviceBinding& binding) noexcept override;\n";
   Text members;
   for (const OutputPort& port : interface.outputs) {
-    members << "  " << (port.queue ? "QueueOutput<" : "Output<") << model.types[port.type].name << "> "
-            << port.name << ";  ///< " << comment_text(port.summary) << "\n";
+    members << "  " << prefix << (port.queue ? "QueueOutput<" : "Output<")
+            << space.of(model.types[port.type], model.types[port.type].name) << "> " << port.name
+            << ";  ///< " << comment_text(port.summary) << "\n";
   }
   for (const Resource& resource : interface.resources) {
-    members << "  const " << resource_type(resource.reader) << "* " << resource.name << " = nullptr;  ///< "
-            << comment_text(resource.summary) << "\n";
+    members << "  const " << prefix << resource_type(resource.reader) << "* " << resource.name
+            << " = nullptr;  ///< " << comment_text(resource.summary) << "\n";
   }
   if (!runtime.empty()) members << "  Runtime runtime;\n";
   if (!feedback.empty()) members << "  Feedback feedback;\n";
@@ -70,16 +83,19 @@ std::string interface_base_header(const Model& model, const Interface& interface
   if (!runtime.empty() || !feedback.empty()) out << "\n";
   declare_parameters(runtime, out);
   declare_parameters(feedback, out);
-  out << "\n}  // namespace flexrf\n";
+  out << "\n" << space.close();
   return out.take();
 }
 
 std::string interface_base_source(const Model& model, const Interface& interface) {
   const BlockText runtime = runtime_of(model, interface);
   const BlockText feedback = feedback_of(model, interface);
+  const Space space(interface.space);
+  const std::string prefix(space.runtime());
   Text out;
   out << generated_note(interface.file) << "#include \"" << interface.name
-      << "_interface.hpp\"\n\n#include <cstddef>\n#include <type_traits>\n\nnamespace flexrf {\n\n";
+      << "_interface.hpp\"\n\n#include <cstddef>\n#include <type_traits>\n\n"
+      << space.open() << "\n";
   for (const BlockText* block : {&runtime, &feedback}) {
     if (block->empty()) continue;
     define_descriptor(model, block->plain, out);
@@ -87,7 +103,7 @@ std::string interface_base_source(const Model& model, const Interface& interface
     define_parameters(*block, true, out);
     out << "\n";
   }
-  out << "void " << base_of(interface) << "::connect(const DeviceBinding& "
+  out << "void " << base_of(interface) << "::connect(const " << prefix << "DeviceBinding& "
       << (connects(interface) ? "binding" : "/*binding*/") << ") noexcept {\n";
   std::size_t outputs = 0, queue_outputs = 0;
   for (const OutputPort& port : interface.outputs) {
@@ -97,43 +113,50 @@ std::string interface_base_source(const Model& model, const Interface& interface
   }
   for (std::size_t i = 0; i < interface.resources.size(); ++i) {
     const Resource& resource = interface.resources[i];
-    out << "  " << resource.name << " = static_cast<const " << resource_type(resource.reader)
+    out << "  " << resource.name << " = static_cast<const " << prefix << resource_type(resource.reader)
         << "*>(binding.resources[" << i << "]);\n";
   }
   out << "}\n";
   if (!runtime.empty()) {
-    out << "\nStatus " << base_of(interface) << "::accept_runtime(const void* proposed) noexcept {\n"
+    out << "\n"
+        << prefix << "Status " << base_of(interface) << "::accept_runtime(const void* proposed) noexcept {\n"
         << "  return accept(*static_cast<const Runtime*>(proposed));\n}\n";
   }
-  out << "\n}  // namespace flexrf\n";
+  out << "\n" << space.close();
   return out.take();
 }
 
 std::string driver_base_header(const Model& model, const Driver& driver) {
   const Interface& interface = model.interfaces[driver.interface];
   const BlockText configuration = driver_configuration(model, driver);
+  const Space space(driver.space);
+  const std::string prefix(space.runtime());
   std::set<std::string> system, own{interface_header_path(interface)};
   if (!configuration.empty()) add_includes(model, configuration.plain, system, own);
   if (driver.bus_interface) own.insert(interface_header_path(model.interfaces[*driver.bus_interface]));
 
   Text out;
   out << generated_note(driver.file) << "#pragma once\n\n"
-      << include_lines(system, own) << "\nnamespace flexrf {\n\n";
+      << include_lines(system, own) << "\n"
+      << space.open() << "\n";
   if (!configuration.empty()) define_struct(model, configuration.plain, out), out << "\n";
   out << "/// " << comment_text(driver.summary) << "\nclass " << driver.base_class << " : public "
-      << interface.class_name << " {\n public:\n";
+      << space.of(interface, interface.class_name) << " {\n public:\n";
   if (!configuration.empty()) out << "  using Configuration = " << configuration.plain.name << ";\n\n";
-  if (driver.bus_interface) out << "  void connect(const DeviceBinding& binding) noexcept final;\n";
-  out << "  const ComponentType& component_type() const noexcept final;\n"
-         "  ParameterMemory parameter_memory() noexcept final;\n";
+  if (driver.bus_interface)
+    out << "  void connect(const " << prefix << "DeviceBinding& binding) noexcept final;\n";
+  out << "  const " << prefix << "ComponentType& component_type() const noexcept final;\n"
+      << "  " << prefix << "ParameterMemory parameter_memory() noexcept final;\n";
   if (driver.bus_interface || !configuration.empty()) out << "\n protected:\n";
   if (driver.bus_interface) {
-    out << "  " << model.interfaces[*driver.bus_interface].class_name
+    const Interface& bus = model.interfaces[*driver.bus_interface];
+    out << "  " << space.of(bus, bus.class_name)
         << "* bus = nullptr;  ///< What this device is reached through.\n";
   }
   if (!configuration.empty()) out << "  Configuration configuration;\n";
-  out << "};\n\nextern const ComponentType " << driver_component_name(driver) << ";\n"
-      << "Device* " << driver_construct_name(driver) << "(void* storage);\n\n}  // namespace flexrf\n";
+  out << "};\n\nextern const " << prefix << "ComponentType " << driver_component_name(driver) << ";\n"
+      << prefix << "Device* " << driver_construct_name(driver) << "(void* storage);\n\n"
+      << space.close();
   return out.take();
 }
 
@@ -142,45 +165,54 @@ std::string driver_base_source(const Model& model, const Driver& driver) {
   const BlockText configuration = driver_configuration(model, driver);
   const BlockText runtime = runtime_of(model, interface);
   const BlockText feedback = feedback_of(model, interface);
+  const Space space(driver.space);
+  const std::string prefix(space.runtime());
   Text out;
   out << generated_note(driver.file) << "#include \"" << driver.base_header
-      << "\"\n\n#include <cstddef>\n#include <type_traits>\n\nnamespace flexrf {\n\n";
+      << "\"\n\n#include <cstddef>\n#include <type_traits>\n\n"
+      << space.open() << "\n";
   if (!configuration.empty()) define_descriptor(model, configuration.plain, out), out << "\n";
   Text local;
   define_parameters(configuration, false, local);
-  define_ports(model, interface, local);
+  define_ports(model, interface, space, local);
   if (!local.str().empty()) out << "namespace {\n\n" << local.str() << "\n}  // namespace\n\n";
-  out << "constinit const ComponentType " << driver_component_name(driver) << "{\n    \"" << driver.stem
-      << "\", " << string_literal(driver.summary) << ",\n    " << block_initialiser(configuration)
-      << ",\n    " << block_initialiser(runtime) << ",\n    " << block_initialiser(feedback) << ",\n    "
+  out << "constinit const " << prefix << "ComponentType " << driver_component_name(driver) << "{\n    \""
+      << driver.stem << "\", " << string_literal(driver.summary) << ",\n    "
+      << block_initialiser(configuration) << ",\n    " << block_initialiser(runtime, space, interface)
+      << ",\n    " << block_initialiser(feedback, space, interface) << ",\n    "
       << (interface.outputs.empty() ? "{}" : interface.name + "_ports") << "};\n\n";
   if (driver.bus_interface) {
-    const std::string& bus = model.interfaces[*driver.bus_interface].class_name;
-    out << "void " << driver.base_class << "::connect(const DeviceBinding& binding) noexcept {\n  "
-        << base_of(interface) << "::connect(binding);\n  bus = static_cast<" << bus
-        << "*>(binding.bus);\n}\n\n";
+    const Interface& bus_interface = model.interfaces[*driver.bus_interface];
+    const std::string bus = space.of(bus_interface, bus_interface.class_name);
+    out << "void " << driver.base_class << "::connect(const " << prefix
+        << "DeviceBinding& binding) noexcept {\n  " << space.of(interface, base_of(interface))
+        << "::connect(binding);\n  bus = static_cast<" << bus << "*>(binding.bus);\n}\n\n";
   }
-  out << "const ComponentType& " << driver.base_class << "::component_type() const noexcept { return "
-      << driver_component_name(driver) << "; }\n\nParameterMemory " << driver.base_class
-      << "::parameter_memory() noexcept {\n  return {"
+  out << "const " << prefix << "ComponentType& " << driver.base_class
+      << "::component_type() const noexcept { return " << driver_component_name(driver) << "; }\n\n"
+      << prefix << "ParameterMemory " << driver.base_class << "::parameter_memory() noexcept {\n  return {"
       << (configuration.empty() ? "nullptr" : "&configuration") << ", "
       << (runtime.empty() ? "nullptr" : "&runtime") << ", " << (feedback.empty() ? "nullptr" : "&feedback")
-      << "};\n}\n\n}  // namespace flexrf\n";
+      << "};\n}\n\n"
+      << space.close();
   return out.take();
 }
 
 std::string driver_construct_source(const Driver& driver) {
   const std::string row = short_path(driver.file);
+  const Space space(driver.space);
   Text out;
   out << generated_note(driver.file) << "#include <new>\n#include <type_traits>\n\n#include \""
-      << driver_header_path(driver) << "\"\n\nnamespace flexrf {\n\n"
+      << driver_header_path(driver) << "\"\n\n"
+      << space.open() << "\n"
       << "static_assert(std::is_base_of_v<" << driver.base_class << ", " << driver.class_name
       << ">,\n              \"" << row << ": class " << driver.class_name << " must derive from "
       << driver.base_class << "\");\n"
       << "static_assert(!std::is_abstract_v<" << driver.class_name << ">,\n              \"" << row
-      << ": class " << driver.class_name << " must have every function of its interface\");\n\nDevice* "
-      << driver_construct_name(driver) << "(void* storage) { return new (storage) " << driver.class_name
-      << "; }\n\n}  // namespace flexrf\n";
+      << ": class " << driver.class_name << " must have every function of its interface\");\n\n"
+      << space.runtime() << "Device* " << driver_construct_name(driver)
+      << "(void* storage) { return new (storage) " << driver.class_name << "; }\n\n"
+      << space.close();
   return out.take();
 }
 

@@ -63,17 +63,17 @@ double number(const Literal& value) {
   return 0;
 }
 
-std::string element_value(const Model& model, const Field& field, const Literal& value) {
+std::string element_value(const Model& model, const Space& space, const Field& field, const Literal& value) {
   if (value.value.index() == 0 && value.elements.empty()) return "{}";
   if (field.type.kind == FieldType::Kind::declared) {
     const Type& type = model.types[field.type.declared];
     if (type.kind == Type::Kind::enumeration) {
       const auto chosen = static_cast<std::size_t>(std::get<std::int64_t>(value.value));
-      return type.name + "::" + type.values[chosen].name;
+      return space.of(type, type.name) + "::" + type.values[chosen].name;
     }
-    std::string list = type.name + "{";
+    std::string list = space.of(type, type.name) + "{";
     for (std::size_t i = 0; i < type.fields.size(); ++i) {
-      list += (i == 0 ? "" : ", ") + cpp_value(model, type.fields[i], value.elements[i]);
+      list += (i == 0 ? "" : ", ") + cpp_value(model, space, type.fields[i], value.elements[i]);
     }
     return list + "}";
   }
@@ -173,10 +173,11 @@ std::string scalar_of(const Model& model, const Parameter& parameter) {
   return scalar_of(model, parameter.field.type);
 }
 
-std::string cpp_type(const Model& model, const Field& field) {
+std::string cpp_type(const Model& model, const Space& space, const Field& field) {
   std::string element;
   if (field.type.kind == FieldType::Kind::declared) {
-    element = model.types[field.type.declared].name;
+    const Type& type = model.types[field.type.declared];
+    element = space.of(type, type.name);
   } else if (is_text(field)) {
     element = "std::array<char, " + std::to_string(field.capacity) + ">";
   } else {
@@ -186,29 +187,36 @@ std::string cpp_type(const Model& model, const Field& field) {
                              : "std::array<" + element + ", " + std::to_string(field.elements()) + ">";
 }
 
-std::string cpp_value(const Model& model, const Field& field, const Literal& value) {
-  if (field.shape.empty()) return element_value(model, field, value);
+std::string cpp_value(const Model& model, const Space& space, const Field& field, const Literal& value) {
+  if (field.shape.empty()) return element_value(model, space, field, value);
   if (value.elements.empty()) return "{}";
   std::string list = "{{";
   for (std::size_t i = 0; i < value.elements.size(); ++i) {
-    list += (i == 0 ? "" : ", ") + element_value(model, field, value.elements[i]);
+    list += (i == 0 ? "" : ", ") + element_value(model, space, field, value.elements[i]);
   }
   return list + "}}";
 }
 
 PlainStruct plain_struct(const Model& model, const Type& type) {
-  PlainStruct plain{type.name, snake_case(type.name), type.summary, type.position,
-                    type.size, type.alignment,        type.image,   {}};
+  PlainStruct plain{type.name,
+                    snake_case(type.name),
+                    Space(type.space),
+                    type.summary,
+                    type.position,
+                    type.size,
+                    type.alignment,
+                    type.image,
+                    {}};
   for (const Field& field : type.fields) {
     plain.fields.push_back({&field, field.offset, scalar_of(model, field.type), nullptr});
   }
   return plain;
 }
 
-PlainStruct plain_struct(const Model& model, std::string name, std::string summary, const Position& position,
-                         const std::vector<const ParameterBlock*>& blocks) {
+PlainStruct plain_struct(const Model& model, std::string name, const Space& space, std::string summary,
+                         const Position& position, const std::vector<const ParameterBlock*>& blocks) {
   const std::string identifier = snake_case(name);
-  PlainStruct plain{std::move(name), identifier, std::move(summary), position, 1, 1, false, {}};
+  PlainStruct plain{std::move(name), identifier, space, std::move(summary), position, 1, 1, false, {}};
   Extent extent;
   for (const ParameterBlock* block : blocks) {
     for (const Parameter& parameter : block->parameters) {
@@ -252,21 +260,30 @@ std::string include_lines(const std::set<std::string>& system, const std::set<st
   return out.take();
 }
 
+void declare_descriptor(const Space& space, std::string_view type, std::string_view descriptor, Text& out) {
+  out << "extern const " << space.runtime() << "TypeDescriptor " << descriptor << ";\n";
+  // A specialisation is in the namespace of its template.
+  if (space.is_user()) out << space.close() << Space(library_space).open();
+  const std::string prefix = space.is_user() ? "user::" : "";
+  out << "template <>\ninline constexpr const TypeDescriptor* descriptor_of<" << prefix << type << "> = &"
+      << prefix << descriptor << ";\n";
+  if (space.is_user()) out << Space(library_space).close() << space.open();
+}
+
 void define_struct(const Model& model, const PlainStruct& plain, Text& out) {
   out << "/// " << comment_text(plain.summary) << "\nstruct " << plain.name << " {\n";
   for (const PlainField& entry : plain.fields) {
     const std::string value =
-        entry.initial == nullptr ? "{}" : cpp_value(model, *entry.field, *entry.initial);
+        entry.initial == nullptr ? "{}" : cpp_value(model, plain.space, *entry.field, *entry.initial);
     const bool braced = value.starts_with("{");
-    out << "  " << cpp_type(model, *entry.field) << " " << entry.field->name << (braced ? "" : " = ") << value
-        << ";  ///< " << comment_of(*entry.field) << "\n";
+    out << "  " << cpp_type(model, plain.space, *entry.field) << " " << entry.field->name
+        << (braced ? "" : " = ") << value << ";  ///< " << comment_of(*entry.field) << "\n";
   }
   Text accessors;
   for (const PlainField& entry : plain.fields) define_accessors(*entry.field, accessors);
   if (!accessors.str().empty()) out << "\n" << accessors.str();
-  out << "};\n\nextern const TypeDescriptor " << plain.identifier << "_descriptor;\ntemplate <>\n"
-      << "inline constexpr const TypeDescriptor* descriptor_of<" << plain.name << "> = &" << plain.identifier
-      << "_descriptor;\n";
+  out << "};\n\n";
+  declare_descriptor(plain.space, plain.name, plain.identifier + "_descriptor", out);
 }
 
 std::uint64_t hash_of(const Model& model, const PlainStruct& plain) {
@@ -290,6 +307,7 @@ std::vector<Range> significant_ranges(const Model& model, const PlainStruct& pla
 
 void define_descriptor(const Model& model, const PlainStruct& plain, Text& out) {
   const std::string& name = plain.name;
+  const std::string runtime(plain.space.runtime());
   const std::string row = short_position(plain.position);
   out << "static_assert(sizeof(" << name << ") == " << plain.size << " && alignof(" << name
       << ") == " << plain.alignment << ", \"" << row << ": layout of " << name << "\");\n"
@@ -302,20 +320,21 @@ void define_descriptor(const Model& model, const PlainStruct& plain, Text& out) 
   const std::string fields = plain.fields.empty() ? "{}" : plain.identifier + "_fields";
   const std::string ranges = plain.fields.empty() ? "{}" : plain.identifier + "_significant";
   if (!plain.fields.empty()) {
-    out << "\nnamespace {\n\nconstexpr FieldDescriptor " << fields << "[] = {\n";
+    out << "\nnamespace {\n\nconstexpr " << runtime << "FieldDescriptor " << fields << "[] = {\n";
     for (const PlainField& entry : plain.fields) {
       const Field& field = *entry.field;
       const auto extent = [&](std::size_t i) { return i < field.shape.size() ? field.shape[i] : 0; };
-      out << "    {\"" << field.name << "\", Scalar::" << entry.scalar << ", " << field.shape.size() << ", {"
-          << extent(0) << ", " << extent(1) << "}, " << (is_text(field) ? field.capacity : field.elements())
-          << ", " << entry.offset << ", " << string_literal(field.told_unit) << ", "
-          << string_literal(field.summary) << ", "
+      out << "    {\"" << field.name << "\", " << runtime << "Scalar::" << entry.scalar << ", "
+          << field.shape.size() << ", {" << extent(0) << ", " << extent(1) << "}, "
+          << (is_text(field) ? field.capacity : field.elements()) << ", " << entry.offset << ", "
+          << string_literal(field.told_unit) << ", " << string_literal(field.summary) << ", "
           << (field.type.kind == FieldType::Kind::declared
-                  ? "&" + descriptor_name(model.types[field.type.declared].name)
+                  ? "&" + plain.space.of(model.types[field.type.declared],
+                                         descriptor_name(model.types[field.type.declared].name))
                   : "nullptr")
           << "},\n";
     }
-    out << "};\nconstexpr ByteRange " << ranges << "[] = {";
+    out << "};\nconstexpr " << runtime << "ByteRange " << ranges << "[] = {";
     bool first = true;
     for (const Range& range : significant_ranges(model, plain)) {
       out << (first ? "{" : ", {") << range.offset << ", " << range.size << "}";
@@ -323,9 +342,9 @@ void define_descriptor(const Model& model, const PlainStruct& plain, Text& out) 
     }
     out << "};\n\n}  // namespace\n";
   }
-  out << "\nconstinit const TypeDescriptor " << plain.identifier << "_descriptor{\n    \"" << name << "\", "
-      << string_literal(plain.summary) << ",\n    " << plain.size << ", " << plain.alignment << ", "
-      << hash_literal(hash_of(model, plain)) << ", " << fields << ", " << ranges << ", {}, "
+  out << "\nconstinit const " << runtime << "TypeDescriptor " << plain.identifier << "_descriptor{\n    \""
+      << name << "\", " << string_literal(plain.summary) << ",\n    " << plain.size << ", " << plain.alignment
+      << ", " << hash_literal(hash_of(model, plain)) << ", " << fields << ", " << ranges << ", {}, "
       << bool_literal(plain.image) << "};\n";
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "config-gen/emit/space.hpp"
 #include "config-gen/emit/text.hpp"
 #include "config-gen/model/model.hpp"
 
@@ -21,6 +22,7 @@ struct PlainField {
 struct PlainStruct {
   std::string name;        // CamelCase
   std::string identifier;  // snake_case of it: prefix of what belongs to it
+  Space space{library_space};
   std::string summary;
   Position position;
   std::size_t size = 1;
@@ -31,13 +33,16 @@ struct PlainStruct {
 
 PlainStruct plain_struct(const Model& model, const Type& type);
 // Of parameters laid out one after the other. An interface's come before its driver's own.
-PlainStruct plain_struct(const Model& model, std::string name, std::string summary, const Position& position,
-                         const std::vector<const ParameterBlock*>& blocks);
+PlainStruct plain_struct(const Model& model, std::string name, const Space& space, std::string summary,
+                         const Position& position, const std::vector<const ParameterBlock*>& blocks);
 
 // What #include lines a header with these fields needs.
 void add_includes(const Model& model, const PlainStruct& plain, std::set<std::string>& system,
                   std::set<std::string>& own);
 std::string include_lines(const std::set<std::string>& system, const std::set<std::string>& own);
+
+// The runtime finds the descriptor of a type by the type: for after its definition, in its namespace.
+void declare_descriptor(const Space& space, std::string_view type, std::string_view descriptor, Text& out);
 
 // Definition of the struct, declaration of its descriptor: for a header.
 void define_struct(const Model& model, const PlainStruct& plain, Text& out);
@@ -54,8 +59,8 @@ struct Range {
 std::vector<Range> significant_ranges(const Model& model, const PlainStruct& plain);
 
 // "std::array<double, 3>", and a value of it as a C++ initialiser.
-std::string cpp_type(const Model& model, const Field& field);
-std::string cpp_value(const Model& model, const Field& field, const Literal& value);
+std::string cpp_type(const Model& model, const Space& space, const Field& field);
+std::string cpp_value(const Model& model, const Space& space, const Field& field, const Literal& value);
 
 // Enumerator of flexrf::Scalar for a field, or for a parameter.
 std::string scalar_of(const Model& model, const FieldType& type);

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -24,6 +25,10 @@ namespace flexrf::config_gen {
 
 using Index = std::size_t;
 using Nanoseconds = std::int64_t;
+
+// Namespaces of generated names: of FlexRF's own tables, and of all others.
+constexpr std::string_view library_space = "flexrf";
+constexpr std::string_view user_space = "flexrf::user";
 
 // ---- Types
 // -----------------------------------------------------------------------------------------------------
@@ -66,6 +71,7 @@ struct Type {
   enum class Kind { record, enumeration };
   std::string name;  // CamelCase
   std::string stem;  // the file's name without .toml
+  std::string_view space = user_space;
   std::filesystem::path file;
   Position position;
   Kind kind = Kind::record;
@@ -175,6 +181,7 @@ struct UnitType {
   std::string base_class;   // RobotControlUnit
   std::string header;       // robot_control.hpp, as the author's file is included
   std::string base_header;  // robot_control_unit.hpp
+  std::string_view space = user_space;
   std::filesystem::path file;
   Position position;
   std::string summary;
@@ -207,6 +214,7 @@ struct UnitChoice {
 struct Interface {
   std::string name;        // the table's name: robot_arm
   std::string class_name;  // RobotArm
+  std::string_view space = user_space;
   std::filesystem::path file;
   Position position;
   std::string summary;
@@ -227,6 +235,7 @@ struct Driver {
   std::string base_class;   // SimulatedArmDriver
   std::string header;       // simulated_arm.hpp
   std::string base_header;  // simulated_arm_driver.hpp
+  std::string_view space = user_space;
   std::filesystem::path file;
   Position position;
   std::string summary;

@@ -22,6 +22,8 @@ struct SearchPaths {  // folders; unit tables are DIR/NAME/NAME.toml, all others
   std::vector<std::filesystem::path> units;
   std::vector<std::filesystem::path> interfaces;
   std::vector<std::filesystem::path> drivers;
+  std::vector<std::filesystem::path>
+      library;  // where FlexRF's own tables lie: what is made of them is in flexrf
 };
 
 struct GeneratedFile {

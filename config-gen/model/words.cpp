@@ -23,7 +23,66 @@ constexpr std::string_view keywords[] = {
     "static_cast", "struct",   "switch",     "template",  "this",      "thread_local", "throw",
     "true",        "try",      "typedef",    "typeid",    "typename",  "union",        "unsigned",
     "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
-    "xor_eq",      "errno"};  // a macro of what generated headers include
+    "xor_eq"};
+
+// Macros of the system's headers, which units and drivers include before what is generated.
+constexpr std::string_view macros[] = {"errno",
+                                       "h_addr",
+                                       "h_errno",
+                                       "ifa_broadaddr",
+                                       "ifa_dstaddr",
+                                       "ifc_buf",
+                                       "ifc_req",
+                                       "ifr_addr",
+                                       "ifr_bandwidth",
+                                       "ifr_broadaddr",
+                                       "ifr_data",
+                                       "ifr_dstaddr",
+                                       "ifr_flags",
+                                       "ifr_hwaddr",
+                                       "ifr_ifindex",
+                                       "ifr_map",
+                                       "ifr_metric",
+                                       "ifr_mtu",
+                                       "ifr_name",
+                                       "ifr_netmask",
+                                       "ifr_newname",
+                                       "ifr_qlen",
+                                       "ifr_slave",
+                                       "input_event_sec",
+                                       "input_event_usec",
+                                       "math_errhandling",
+                                       "s6_addr",
+                                       "s6_addr16",
+                                       "s6_addr32",
+                                       "sa_handler",
+                                       "sa_sigaction",
+                                       "sched_priority",
+                                       "si_addr",
+                                       "si_addr_lsb",
+                                       "si_arch",
+                                       "si_band",
+                                       "si_call_addr",
+                                       "si_fd",
+                                       "si_int",
+                                       "si_lower",
+                                       "si_overrun",
+                                       "si_pid",
+                                       "si_pkey",
+                                       "si_ptr",
+                                       "si_status",
+                                       "si_stime",
+                                       "si_syscall",
+                                       "si_timerid",
+                                       "si_uid",
+                                       "si_upper",
+                                       "si_utime",
+                                       "si_value",
+                                       "sigev_notify_attributes",
+                                       "sigev_notify_function",
+                                       "st_atime",
+                                       "st_ctime",
+                                       "st_mtime"};
 
 bool lower(char c) {
   return c >= 'a' && c <= 'z';
@@ -74,6 +133,13 @@ bool is_camel_case(std::string_view name) {
 
 bool is_keyword(std::string_view name) {
   return std::find(std::begin(keywords), std::end(keywords), name) != std::end(keywords);
+}
+
+bool is_macro(std::string_view name) {
+  if (std::find(std::begin(macros), std::end(macros), name) != std::end(macros)) return true;
+  // EOF, NULL, NAN, B9600: too many to be listed; and of <cinttypes> those that are not all capitals.
+  const bool capitals = std::none_of(name.begin(), name.end(), lower);
+  return (capitals && name.size() > 1) || name.starts_with("PRI") || name.starts_with("SCN");
 }
 
 std::string camel_case(std::string_view snake) {

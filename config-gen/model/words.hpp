@@ -12,6 +12,7 @@ bool is_snake_case(
     std::string_view name);  // lower_snake_case, starts with a letter, no "__", no "_" at the end
 bool is_camel_case(std::string_view name);
 bool is_keyword(std::string_view name);  // of C++20
+bool is_macro(std::string_view name);    // or written as one: a class called EOF would be something else
 
 std::string camel_case(std::string_view snake);  // key_event -> KeyEvent
 std::string snake_case(std::string_view camel);  // KeyEvent -> key_event

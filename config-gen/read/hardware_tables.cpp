@@ -11,9 +11,7 @@ namespace {
 
 std::string read_class(Row& row, const std::string& stem, Diagnostics& diagnostics) {
   const std::string name = row.text("class").value_or(camel_case(stem));
-  if (!is_camel_case(name))
-    diagnostics.error(row.position("class"), quote(name) + " is not a name for a class",
-                      "write it in CamelCase, as \"" + camel_case(stem) + "\"");
+  check_class_name(name, row.position("class"), camel_case(stem), diagnostics);
   return name;
 }
 
@@ -111,6 +109,7 @@ std::optional<Index> read_interface_table(Library& library, const Node& root,
   Interface interface;
   interface.name = file.stem().string();
   interface.file = file;
+  interface.space = library.space_of(file);
   interface.position = root.position;
   Row row(root, "this interface table", diagnostics);
   interface.summary = row.summary();
@@ -153,6 +152,7 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
   Driver driver;
   driver.stem = file.stem().string();
   driver.file = file;
+  driver.space = library.space_of(file);
   driver.position = root.position;
   Row row(root, "this driver table", diagnostics);
   driver.summary = row.summary();

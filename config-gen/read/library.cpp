@@ -47,6 +47,7 @@ Library::Library(Model& model, SearchPaths paths, Diagnostics& diagnostics)
     : model_(model), paths_(std::move(paths)), diagnostics_(diagnostics) {
   for (auto* folders : {&paths_.types, &paths_.units, &paths_.interfaces, &paths_.drivers})
     remove_repeated(*folders);
+  for (fs::path& folder : paths_.library) folder = fs::weakly_canonical(folder);
   // Types that belong to one unit or interface lie beside it.
   for (const auto& folders : {paths_.units, paths_.interfaces})
     for (const fs::path& folder : folders)
@@ -97,6 +98,15 @@ void Library::find_drivers() {
         if (name == nullptr || interface == nullptr) continue;
         drivers_.push_back({file, interface->text, name->text, name->position, std::nullopt, false});
       }
+}
+
+std::string_view Library::space_of(const fs::path& file) const {
+  const fs::path place = fs::weakly_canonical(file);
+  const bool own = std::any_of(paths_.library.begin(), paths_.library.end(), [&](const fs::path& folder) {
+    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), place.begin(), place.end());
+    return end == folder.end();
+  });
+  return own ? library_space : user_space;
 }
 
 std::optional<Node> Library::parse(const fs::path& file) {

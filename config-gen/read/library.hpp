@@ -33,6 +33,9 @@ class Library {
   // Parses a file of which the run then depends.
   std::optional<Node> parse(const std::filesystem::path& file);
 
+  // The namespace of what is made of this table.
+  std::string_view space_of(const std::filesystem::path& file) const;
+
   Model& model() { return model_; }
   Diagnostics& diagnostics() { return diagnostics_; }
 

@@ -193,6 +193,13 @@ bool check_name(const Node& row, std::string_view what, bool only_text, Diagnost
                       "choose another name, as " + quote(row.key + "_value"));
     return false;
   }
+  if (!only_text && is_macro(row.key)) {
+    diagnostics.error(
+        row.key_position,
+        std::string(what) + " cannot be named " + quote(row.key) + ": it is a macro of the system's headers",
+        "choose another name, as " + quote(row.key + "_value"));
+    return false;
+  }
   if (!is_snake_case(row.key)) {
     diagnostics.error(
         row.key_position, quote(row.key) + " is not a name for " + std::string(what),
@@ -200,6 +207,17 @@ bool check_name(const Node& row, std::string_view what, bool only_text, Diagnost
     return false;
   }
   return true;
+}
+
+void check_class_name(const std::string& name, const Position& position, const std::string& example,
+                      Diagnostics& diagnostics) {
+  if (!is_camel_case(name))
+    diagnostics.error(position, quote(name) + " is not a name for a class",
+                      "write it in CamelCase, as " + (example.empty() ? "\"Jog\"" : "\"" + example + "\""));
+  else if (is_macro(name))
+    diagnostics.error(
+        position, quote(name) + " is not a name for a class: the system's headers have macros of such names",
+        "use small letters too, as in \"Jog\"");
 }
 
 }  // namespace flexrf::config_gen

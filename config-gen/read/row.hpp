@@ -64,4 +64,8 @@ class Row {
 // Words of C++ are refused, unless the name stays a text in what is generated.
 bool check_name(const Node& row, std::string_view what, bool only_text, Diagnostics& diagnostics);
 
+// Of a type, a unit, an interface or a driver; `example` is a name as it could be.
+void check_class_name(const std::string& name, const Position& position, const std::string& example,
+                      Diagnostics& diagnostics);
+
 }  // namespace flexrf::config_gen

@@ -26,6 +26,7 @@ std::optional<Index> read_type_table(Library& library, const Node& root, const s
   type.stem = file.stem().string();
   type.name = camel_case(type.stem);
   type.file = file;
+  type.space = library.space_of(file);
   type.position = root.position;
   if (!is_snake_case(type.stem)) {
     diagnostics.error(root.position, "the file's name " + quote(type.stem) + " is not a name for a type",
@@ -33,6 +34,7 @@ std::optional<Index> read_type_table(Library& library, const Node& root, const s
     return std::nullopt;
   }
 
+  check_class_name(type.name, root.position, camel_case(type.stem), diagnostics);
   Row row(root, "this type table", diagnostics);
   type.summary = row.summary();
   type.image = row.boolean("image").value_or(false);

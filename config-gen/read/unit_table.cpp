@@ -105,6 +105,7 @@ std::optional<Index> read_unit_table(Library& library, const Node& root, const s
   UnitType unit;
   unit.name = file.stem().string();
   unit.file = file;
+  unit.space = library.space_of(file);
   unit.position = root.position;
   if (!is_snake_case(unit.name))
     diagnostics.error(root.position, "the file's name " + quote(unit.name) + " is not a name for a unit",
@@ -112,9 +113,7 @@ std::optional<Index> read_unit_table(Library& library, const Node& root, const s
   Row row(root, "this unit table", diagnostics);
   unit.summary = row.summary();
   unit.class_name = row.text("class").value_or(camel_case(unit.name));
-  if (!is_camel_case(unit.class_name))
-    diagnostics.error(row.position("class"), quote(unit.class_name) + " is not a name for a class",
-                      "write it in CamelCase, as \"" + camel_case(unit.name) + "\"");
+  check_class_name(unit.class_name, row.position("class"), camel_case(unit.name), diagnostics);
   unit.header = row.text("header").value_or(unit.name + ".hpp");
   unit.base_class = unit.class_name + "Unit";
   unit.base_header = unit.name + "_unit.hpp";

@@ -414,6 +414,7 @@ TableTree::TableTree(const fs::path& repository) {
   small.interfaces = {tests / "base/hal/interfaces"};
   small.drivers = {tests / "base/hal/linux", tests / "base/hal/simulated"};
   SearchPaths large;
+  large.library = {root_ / "runtime", root_ / "hal"};
   large.types = {root_ / "runtime/types"};
   large.units = {root_ / "units"};
   large.interfaces = {root_ / "hal/interfaces"};

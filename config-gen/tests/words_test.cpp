@@ -13,7 +13,11 @@ void names(void**) {
   for (const char* bad : {"", "keyEvent", "Key_Event", "2Key"}) assert_false(is_camel_case(bad));
   assert_true(is_keyword("operator"));
   assert_true(is_keyword("co_await"));
-  assert_true(is_keyword("errno"));
+  assert_true(is_macro("errno"));
+  assert_true(is_macro("EOF"));
+  assert_true(is_macro("PRId64"));
+  assert_false(is_macro("Eof"));
+  assert_false(is_macro("X"));
   assert_false(is_keyword("step"));
 }
 

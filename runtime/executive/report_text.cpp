@@ -4,6 +4,7 @@
 #include "runtime/core/text_table.hpp"
 #include "runtime/executive/report.hpp"
 #include "runtime/executive/report_data.hpp"
+#include "runtime/executive/virtual_time.hpp"
 #include "runtime/realtime/response_time.hpp"
 
 namespace flexrf {
@@ -67,7 +68,15 @@ std::string threads_text(const ReportData& data) {
   std::string text = "\nThreads\n" + counts.text("  ");
   if (!lateness.is_empty()) text += "\n" + lateness.text("  ") + "\n" + execution.text("  ");
   if (estimated) text += std::string{"  * longest response: "} + response_time_label + "\n";
-  if (data.summary.virtual_time) text += "  Simulated: each step lasts its declared budget.\n";
+  if (data.summary.virtual_time) {
+    std::string without;
+    for (const ThreadReport& thread : data.threads) {
+      if (lacks_budget(*data.application, *thread.record))
+        without += (without.empty() ? "" : ", ") + std::string{thread.record->name};
+    }
+    text += "  Simulated: each step lasts its declared budget" +
+            (without.empty() ? "" : "; without one, as in " + without + ", 1 us") + ".\n";
+  }
   return text;
 }
 

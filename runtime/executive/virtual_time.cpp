@@ -13,7 +13,28 @@ namespace {
 constexpr Time beginning{std::chrono::seconds{1}};
 constexpr Duration least_budget = std::chrono::microseconds{1};
 constexpr std::uint32_t events_between_drains = 64;
+
+/// One line for all: an application may have hundreds of threads.
+void tell_missing_budgets(const Application& application) noexcept {
+  std::size_t count = 0;
+  const char* first = "";
+  for (const ThreadRecord& thread : application.threads) {
+    if (lacks_budget(application, thread) && count++ == 0) first = thread.name;
+  }
+  if (count == 0) return;
+  log_warning(
+      application.name,
+      "{} of {} threads have units without a budget, the first is {}: in virtual time a step of those lasts "
+      "1 us",
+      count, application.threads.size(), first);
+}
+
 }  // namespace
+
+bool lacks_budget(const Application& application, const ThreadRecord& thread) noexcept {
+  return std::any_of(thread.units.begin(), thread.units.end(),
+                     [&](std::uint16_t unit) { return application.units[unit].budget <= Duration::zero(); });
+}
 
 VirtualTime::Thread::Thread(Cell& cell, std::uint16_t index)
     : stepper(cell, index),
@@ -33,6 +54,7 @@ VirtualTime::VirtualTime(Cell& cell, Lifecycle& lifecycle, Supervision& supervis
   for (std::size_t i = 0; i < count; ++i) threads_.emplace_back(cell, static_cast<std::uint16_t>(i));
   set_log_clock(&now_);
   set_log_origin(beginning);
+  tell_missing_budgets(cell.application());
 }
 
 VirtualTime::~VirtualTime() {

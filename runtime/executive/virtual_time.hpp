@@ -10,6 +10,10 @@
 
 namespace flexrf {
 
+/// Whether a unit of this thread declares no budget. Its steps last 1 us in virtual time, which is told: what
+/// it publishes is seen sooner than on any machine.
+bool lacks_budget(const Application& application, const ThreadRecord& thread) noexcept;
+
 /// Logical execution time (Henzinger, Horowitz, Kirsch: "Giotto", 2003): a step reads at its release; what it
 /// publishes becomes visible, and its thread goes on, when its declared budget (at least 1 us) is over.
 /// Events are ordered by time, then completions before releases, then priority, then the threads' order in

@@ -23,6 +23,7 @@ extern const Application application;
 namespace {
 
 using namespace flexrf;
+using namespace flexrf::user;
 const Application& cell = flexrf::application::application;
 
 template <class Row>

@@ -19,6 +19,7 @@ extern const Application application;
 namespace {
 
 using namespace flexrf;
+using namespace flexrf::user;
 using application::application;
 
 struct Ending {

@@ -13,6 +13,7 @@
 namespace {
 
 using namespace flexrf;
+using namespace flexrf::user;
 
 constexpr Duration cycle = std::chrono::milliseconds(7);
 

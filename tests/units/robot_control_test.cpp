@@ -14,6 +14,7 @@
 namespace {
 
 using namespace flexrf;
+using namespace flexrf::user;
 
 constexpr Duration cycle = std::chrono::milliseconds(7);
 constexpr double cycle_seconds = 0.007;

@@ -2,7 +2,7 @@
 
 #include "fence_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Fence final : public FenceUnit {
  public:
@@ -16,4 +16,4 @@ class Fence final : public FenceUnit {
   }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

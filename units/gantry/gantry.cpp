@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 Status trouble_of(const ServoDrive& axis, const std::optional<ServoState>& state) {
@@ -226,4 +226,4 @@ void Gantry::publish() noexcept {
   feedback.set_trouble(!hindrance_ ? hindrance_.cause() : trouble_.cause());
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -9,7 +9,7 @@
 #include "gantry_unit.hpp"
 #include "units/gantry/gantry_path.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Gantry final : public GantryUnit {
  public:
@@ -54,4 +54,4 @@ class Gantry final : public GantryUnit {
   bool followed_ = false;  // in the cycle before
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

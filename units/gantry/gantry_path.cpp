@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 // Shorter motions are no motion: far below any encoder's step.
@@ -60,4 +60,4 @@ void GantryPath::advance(double elapsed) noexcept {
     point_[axis] = start_[axis] + along * (target_[axis] - start_[axis]);
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

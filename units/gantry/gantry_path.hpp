@@ -5,7 +5,7 @@
 
 #include "hal/interfaces/robot_arm/jerk_profile.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 /// Horizontal and vertical, in m.
 using GantryPoint = std::array<double, 2>;
@@ -43,4 +43,4 @@ class GantryPath {
   bool stopped_ = false;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

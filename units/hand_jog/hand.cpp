@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 constexpr double detent = 120;            // counts of the wheel
@@ -65,4 +65,4 @@ Eigen::Vector3d PointerHand::follow(const PointerState& state, const Scale& scal
   return velocity;
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

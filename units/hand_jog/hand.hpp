@@ -7,7 +7,7 @@
 #include "types/joystick_state.hpp"
 #include "types/pointer_state.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 struct Hand {
   bool present = false;
@@ -48,4 +48,4 @@ class PointerHand {
   PointerState seen_{};
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -1,6 +1,6 @@
 #include "units/hand_jog/hand_jog.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 /// In the order of the hands; of several, the first one that asks has it.
@@ -77,4 +77,4 @@ void HandJog::choose(const std::array<Hand, hand_count>& hands, bool permitted) 
   }
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

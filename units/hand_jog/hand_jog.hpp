@@ -10,7 +10,7 @@
 #include "hand_jog_unit.hpp"
 #include "units/hand_jog/hand.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class HandJog final : public HandJogUnit {
  public:
@@ -28,4 +28,4 @@ class HandJog final : public HandJogUnit {
   PointerHand pointer_hand_;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -3,7 +3,7 @@
 #include "runtime/core/text.hpp"
 #include "units/motion/key_motion.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 // However fast keys come, a step ends.
@@ -68,4 +68,4 @@ bool Jog::publish_velocity(const Tick& tick) {
   return held;
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -8,7 +8,7 @@
 
 #include "jog_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Jog final : public JogUnit {
  public:
@@ -24,4 +24,4 @@ class Jog final : public JogUnit {
   bool left_behind_ = false;  // the arm was moved by a velocity since the target was seeded
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -4,7 +4,7 @@
 
 #include "runtime/core/status.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 int pixels_of(PixelFormat format) {
@@ -89,4 +89,4 @@ void JpegDecoder::leave_out(const char* why) {
   feedback.set_trouble(why);
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

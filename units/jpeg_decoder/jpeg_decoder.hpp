@@ -6,7 +6,7 @@
 
 #include "jpeg_decoder_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class JpegDecoder final : public JpegDecoderUnit {
  public:
@@ -22,4 +22,4 @@ class JpegDecoder final : public JpegDecoderUnit {
   void* decompressor_ = nullptr;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -5,7 +5,7 @@
 #include "hal/interfaces/robot_arm/pose_conversion.hpp"
 #include "units/motion/key_motion.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 // The arm has arrived when its joints are this near to their set-points: above the sensors' noise.
@@ -76,4 +76,4 @@ void KeyboardRobot::follow_keys() noexcept {
   log_warning(refusals_, name(), "{}", moved.cause());
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

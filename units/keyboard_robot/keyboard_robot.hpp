@@ -7,7 +7,7 @@
 #include "runtime/log/log.hpp"
 #include "units/motion/arm_motion.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class KeyboardRobot final : public KeyboardRobotUnit {
  public:
@@ -26,4 +26,4 @@ class KeyboardRobot final : public KeyboardRobotUnit {
   bool idle_ = true;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -6,7 +6,7 @@
 
 #include "runtime/core/status.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 // However large the picture is, a step ends: so many pixels of each direction are looked at.
@@ -109,4 +109,4 @@ void PartWatch::step(const Tick& /*tick*/) {
   feedback.set_trouble({});
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -6,11 +6,11 @@
 
 #include "part_watch_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class PartWatch final : public PartWatchUnit {
  public:
   void step(const Tick& tick) override;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -6,7 +6,7 @@
 #include "runtime/parameters/value_access.hpp"
 #include "units/remote_control/remote_change.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 using remote::RpcError;
 using remote::RpcProblem;
@@ -266,4 +266,4 @@ void RemoteControl::send_updates(Client& client) {
   }
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

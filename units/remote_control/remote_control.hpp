@@ -12,7 +12,7 @@
 #include "units/remote_control/remote_view.hpp"
 #include "units/remote_control/rpc.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 /// Its thread is not real-time: a step allocates, and takes the observer's lock for as long as a value is
 /// copied. What waits for whom is bounded, so that no script delays another: lines in a step, requests
@@ -124,4 +124,4 @@ class RemoteControl final : public RemoteControlUnit {
   LogLimit sent_away_;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

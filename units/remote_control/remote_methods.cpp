@@ -5,7 +5,7 @@
 #include "units/remote_control/remote_change.hpp"
 #include "units/remote_control/remote_control.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 using remote::RpcCall;
 using remote::RpcError;
@@ -256,4 +256,4 @@ void RemoteControl::tell_subscriptions(Client& client, const RpcCall& call) {
       }));
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

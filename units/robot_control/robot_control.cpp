@@ -5,7 +5,7 @@
 
 #include "hal/interfaces/robot_arm/pose_conversion.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 // The arm has arrived when its joints are this near to their set-points: above the sensors' noise.
@@ -160,4 +160,4 @@ void RobotControl::hold(std::string_view reason) noexcept {
   feedback.set_holding(reason);
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

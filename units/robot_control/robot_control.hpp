@@ -15,7 +15,7 @@
 #include "runtime/log/log.hpp"
 #include "units/motion/arm_motion.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class RobotControl final : public RobotControlUnit {
  public:
@@ -42,4 +42,4 @@ class RobotControl final : public RobotControlUnit {
   bool idle_ = true;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

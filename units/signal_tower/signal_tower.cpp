@@ -1,6 +1,6 @@
 #include "units/signal_tower/signal_tower.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 void SignalTower::step(const Tick& tick) {
   const auto input = emergency_stop->state();
@@ -30,4 +30,4 @@ bool SignalTower::is_lit(LampMode mode, Time now) const noexcept {
   return nanoseconds(now) / half % 2 == 0;
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -3,7 +3,7 @@
 
 #include "signal_tower_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class SignalTower final : public SignalTowerUnit {
  public:
@@ -13,4 +13,4 @@ class SignalTower final : public SignalTowerUnit {
   bool is_lit(LampMode mode, Time now) const noexcept;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

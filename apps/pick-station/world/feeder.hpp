@@ -7,7 +7,7 @@
 
 #include "hal/interfaces/modbus_link/modbus_station_model.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 /// It moves on by one place whenever next_part rises; a moment later there is the next part, as long as there
 /// are any. The registers are those of io_station.csv. It does not know whether the part was really taken.
@@ -47,4 +47,4 @@ class Feeder final : public ModbusStationModel {
   Time moves_since_{};
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -23,7 +23,7 @@ using namespace flexrf::config_gen;
 std::vector<GeneratedFile> generate(const fs::path& root, Target::Kind kind, const fs::path& file) {
   const fs::path tests = root / "tests/generator";
   const SearchPaths paths{
-      {tests / "cell/types"}, {tests / "cell/units"}, {tests / "interfaces"}, {tests / "drivers"}};
+      {tests / "cell/types"}, {tests / "cell/units"}, {tests / "interfaces"}, {tests / "drivers"}, {}};
   Diagnostics diagnostics;
   Model model = read({kind, tests / file}, paths, diagnostics);
   check(model, diagnostics);
@@ -77,7 +77,7 @@ void same_tables_same_bytes(void**) {
 std::uint64_t hash_of_application() {
   const fs::path tests = fs::path(place::source_folder) / "tests/generator";
   const SearchPaths paths{
-      {tests / "cell/types"}, {tests / "cell/units"}, {tests / "interfaces"}, {tests / "drivers"}};
+      {tests / "cell/types"}, {tests / "cell/units"}, {tests / "interfaces"}, {tests / "drivers"}, {}};
   Diagnostics diagnostics;
   Model model = read({Target::Kind::application, tests / "cell/generated_cell.toml"}, paths, diagnostics);
   const std::uint64_t before = descriptor_text(model).hash;

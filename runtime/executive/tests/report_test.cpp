@@ -66,6 +66,24 @@ void an_ordinary_run_tells_all_and_ends_in_a_sentence() {
   CHECK(report.text.ends_with(" ms.\n"));
 }
 
+/// Its steps take no time that a machine could keep, so whoever reads the run's times has to know.
+void a_thread_without_a_budget_is_told_in_virtual_time() {
+  ProducerAndConsumer with;
+  const LogEar before;
+  CHECK_CONTAINS(report_of(with, in_virtual_time(milliseconds{20})).text,
+                 "  Simulated: each step lasts its declared budget.\n");
+  CHECK(!before.has_heard("without a budget"));
+
+  ProducerAndConsumer without;
+  const LogEar ear;
+  without.unit(ProducerAndConsumer::consumer).budget = Duration::zero();
+  CHECK_CONTAINS(report_of(without, in_virtual_time(milliseconds{20})).text,
+                 "  Simulated: each step lasts its declared budget; without one, as in consuming, 1 us.\n");
+  CHECK(ear.has_heard(
+      "1 of 2 threads have units without a budget, the first is consuming: in virtual time a step of "
+      "those lasts 1 us"));
+}
+
 /// Given up for one that hangs, the application still has threads that run, and are in a step at times.
 void a_thread_that_is_in_a_step_does_not_hang() {
   ProducerAndConsumer cell;
@@ -156,6 +174,7 @@ int main() {
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_restraint_is_told_once_while_it_lasts),
       CONTAINED_TEST(an_ordinary_run_tells_all_and_ends_in_a_sentence),
+      CONTAINED_TEST(a_thread_without_a_budget_is_told_in_virtual_time),
       CONTAINED_TEST(a_thread_that_is_in_a_step_does_not_hang),
       CONTAINED_TEST(readers_are_counted),
       CONTAINED_TEST(drops_of_queues_are_shown),

@@ -9,6 +9,7 @@
 namespace {
 
 using namespace flexrf;
+using namespace flexrf::user;
 
 constexpr double cycle = 0.01;  // s
 constexpr GantryLimits limits{MotionLimits{0.5, 2, 20}, MotionLimits{0.25, 1, 10}};

@@ -11,6 +11,7 @@
 namespace {
 
 using namespace flexrf;
+using namespace flexrf::user;
 
 constexpr Duration cycle = std::chrono::milliseconds(10);
 constexpr std::size_t dead_man = 0;

@@ -9,6 +9,7 @@
 namespace {
 
 using namespace flexrf;
+using namespace flexrf::user;
 
 constexpr Duration interval = std::chrono::milliseconds(100);
 

@@ -13,6 +13,7 @@
 namespace {
 
 using namespace flexrf;
+using namespace flexrf::user;
 
 constexpr std::uint32_t width = 50;
 constexpr std::uint32_t height = 30;

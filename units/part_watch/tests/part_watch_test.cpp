@@ -11,6 +11,7 @@
 namespace {
 
 using namespace flexrf;
+using namespace flexrf::user;
 
 constexpr std::uint32_t width = 40;
 constexpr std::uint32_t height = 20;

@@ -2,7 +2,7 @@
 
 #include "hal/simulated/simulated_modbus_link/simulated_modbus_link.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 Status FeederStation::initialise() {
   auto* const link = dynamic_cast<SimulatedModbusLink*>(bus);
@@ -19,4 +19,4 @@ Status FeederStation::initialise() {
   return LinkedStation::initialise();
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

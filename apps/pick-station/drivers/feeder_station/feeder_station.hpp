@@ -7,7 +7,7 @@
 #include "feeder_station_driver.hpp"
 #include "hal/interfaces/modbus_station/linked_station.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class FeederStation final : public LinkedStation<FeederStationDriver> {
  public:
@@ -20,4 +20,4 @@ class FeederStation final : public LinkedStation<FeederStationDriver> {
   std::shared_ptr<Feeder> feeder_;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -1,6 +1,6 @@
 #include "apps/pick-station/units/pick_sequence/pick_machine.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 constexpr Duration shortest_pulse = std::chrono::milliseconds(200);
@@ -255,4 +255,4 @@ void PickMachine::prepare_axes() noexcept {
   }
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

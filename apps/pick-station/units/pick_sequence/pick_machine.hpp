@@ -14,7 +14,7 @@
 #include "types/pick_mode.hpp"
 #include "types/pick_state.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 /// Positions in m, as the axes count.
 struct PickPlan {
@@ -159,4 +159,4 @@ class PickMachine {
   Counters counters_;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -3,7 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 const char* words_of(PickState state) {
@@ -163,4 +163,4 @@ PickMessage describe(const PickMachine& machine, const PickView& view, const Pic
   return writer.text();
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -5,7 +5,7 @@
 
 #include "apps/pick-station/units/pick_sequence/pick_machine.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 struct PickMessage {
   std::array<char, 240> message{};  ///< zero-terminated
@@ -15,4 +15,4 @@ struct PickMessage {
 /// As of the machine's last step with this view.
 PickMessage describe(const PickMachine& machine, const PickView& view, const PickWishes& wishes) noexcept;
 
-}  // namespace flexrf
+}  // namespace flexrf::user

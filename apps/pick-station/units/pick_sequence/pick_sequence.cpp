@@ -4,7 +4,7 @@
 #include "hal/interfaces/gripper/gripper.hpp"
 #include "hal/interfaces/modbus_station/modbus_station.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 Duration duration_of(double time) {
@@ -130,4 +130,4 @@ TowerSignal PickSequence::lamps(const PickView& view) const noexcept {
   return shown;
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -4,7 +4,7 @@
 #include "apps/pick-station/units/pick_sequence/pick_machine.hpp"
 #include "pick_sequence_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class PickSequence final : public PickSequenceUnit {
  public:
@@ -25,4 +25,4 @@ class PickSequence final : public PickSequenceUnit {
   std::size_t next_part_ = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

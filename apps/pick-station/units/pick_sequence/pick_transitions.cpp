@@ -1,7 +1,7 @@
 // Of PickMachine: how it gets from one state to the next, and what each begins with.
 #include "apps/pick-station/units/pick_sequence/pick_machine.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 void PickMachine::enter(PickState state) noexcept {
   state_ = state;
@@ -126,4 +126,4 @@ bool PickMachine::holds_part() const noexcept {
   return object == GripperObject::gripped || object == GripperObject::gripped_inside;
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

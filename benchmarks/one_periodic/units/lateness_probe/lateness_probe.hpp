@@ -7,7 +7,7 @@
 
 #include "lateness_probe_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 /// Set before the start, in memory that outlives the application.
 struct LatenessRecord {
@@ -26,4 +26,4 @@ class LatenessProbe final : public LatenessProbeUnit {
   }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 constexpr std::uint32_t columns = 640;
@@ -48,4 +48,4 @@ void Camera::step(const Tick& tick) {
   recording_->pictures.fetch_add(1, std::memory_order_relaxed);
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -5,7 +5,7 @@
 #include "benchmarks/panel_load/recording.hpp"
 #include "camera_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Camera final : public CameraUnit {
  public:
@@ -16,4 +16,4 @@ class Camera final : public CameraUnit {
   Recording* recording_ = nullptr;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -3,7 +3,7 @@
 #include "benchmarks/panel_load/recording.hpp"
 #include "mover_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Mover final : public MoverUnit {
  public:
@@ -26,4 +26,4 @@ class Mover final : public MoverUnit {
   Recording* recording_ = nullptr;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

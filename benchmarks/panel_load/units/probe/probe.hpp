@@ -3,7 +3,7 @@
 #include "benchmarks/panel_load/recording.hpp"
 #include "probe_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Probe final : public ProbeUnit {
  public:
@@ -25,4 +25,4 @@ class Probe final : public ProbeUnit {
   Recording* recording_ = nullptr;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "publisher_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Publisher final : public PublisherUnit {
  public:
@@ -16,4 +16,4 @@ class Publisher final : public PublisherUnit {
   }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

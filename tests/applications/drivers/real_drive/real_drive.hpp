@@ -2,7 +2,7 @@
 
 #include "real_drive_driver.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class RealDrive final : public RealDriveDriver {
  public:
@@ -10,4 +10,4 @@ class RealDrive final : public RealDriveDriver {
   double speed() const noexcept override { return 0; }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

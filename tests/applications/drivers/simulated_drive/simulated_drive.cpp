@@ -9,7 +9,7 @@
 
 #include "runtime/realtime/last_gasp.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 constexpr double change_per_cycle = 0.05;
@@ -61,4 +61,4 @@ void SimulatedDrive::write_down(const char* text) noexcept {
   [[maybe_unused]] const ssize_t written = write(log_, text, std::strlen(text));
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "simulated_drive_driver.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class SimulatedDrive final : public SimulatedDriveDriver {
  public:
@@ -26,4 +26,4 @@ class SimulatedDrive final : public SimulatedDriveDriver {
   bool making_safe_ = false;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "drive_interface.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Drive : public DriveInterface {
  public:
@@ -11,4 +11,4 @@ class Drive : public DriveInterface {
   virtual double speed() const noexcept = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

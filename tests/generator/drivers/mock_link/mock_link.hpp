@@ -2,7 +2,7 @@
 
 #include "mock_link_driver.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class MockLink final : public MockLinkDriver {
  public:
@@ -12,4 +12,4 @@ class MockLink final : public MockLinkDriver {
   unsigned transfers_ = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

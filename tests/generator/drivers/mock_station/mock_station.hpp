@@ -2,7 +2,7 @@
 
 #include "mock_station_driver.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class MockStation final : public MockStationDriver {
  public:
@@ -13,4 +13,4 @@ class MockStation final : public MockStationDriver {
   double output() const noexcept override { return runtime.setpoint; }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

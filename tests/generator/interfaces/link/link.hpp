@@ -2,7 +2,7 @@
 
 #include "link_interface.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Link : public LinkInterface {
  public:
@@ -10,4 +10,4 @@ class Link : public LinkInterface {
   virtual void transfer() noexcept = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,11 +2,11 @@
 
 #include "station_interface.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Station : public StationInterface {
  public:
   virtual double output() const noexcept = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "simulated_axle_driver.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class SimulatedAxle final : public SimulatedAxleDriver {
  public:
@@ -27,4 +27,4 @@ class SimulatedAxle final : public SimulatedAxleDriver {
   double speed_ = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

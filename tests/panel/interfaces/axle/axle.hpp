@@ -2,7 +2,7 @@
 
 #include "axle_interface.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Axle : public AxleInterface {
  public:
@@ -10,4 +10,4 @@ class Axle : public AxleInterface {
   virtual double speed() const noexcept = 0;        ///< rad/s
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -13,6 +13,7 @@ extern const Application application;
 namespace {
 
 using namespace flexrf;
+using namespace flexrf::user;
 const Application& cell = flexrf::application::application;
 
 const SlotRecord& slot(const char* name) {

@@ -6,6 +6,7 @@
 namespace {
 
 using namespace flexrf;
+using namespace flexrf::user;
 
 struct World {
   UnitBench<NewUnit> bench;

@@ -1,6 +1,6 @@
 #include "units/gatherer/gatherer.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 bool is_whole(const Mark& mark) {
@@ -34,4 +34,4 @@ void Gatherer::step(const Tick& /*tick*/) {
   }
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,11 +2,11 @@
 
 #include "gatherer_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Gatherer final : public GathererUnit {
  public:
   void step(const Tick& tick) override;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "patient_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Patient final : public PatientUnit {
  public:
@@ -16,4 +16,4 @@ class Patient final : public PatientUnit {
   bool is_idle() const noexcept override { return drive->speed() == 0; }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "relay_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Relay final : public RelayUnit {
  public:
@@ -16,4 +16,4 @@ class Relay final : public RelayUnit {
   }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "walker_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Walker final : public WalkerUnit {
  public:
@@ -22,4 +22,4 @@ class Walker final : public WalkerUnit {
   std::uint64_t number_ = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "porter_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Porter final : public PorterUnit {
  public:
@@ -20,4 +20,4 @@ class Porter final : public PorterUnit {
   SocketSession visitor_ = 0;  // who spoke last
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "mover_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 /// Commands in every step, whether it may or not: it is not the unit that keeps the valve shut.
 class Mover final : public MoverUnit {
@@ -10,4 +10,4 @@ class Mover final : public MoverUnit {
   void step(const Tick& tick) override { valve->command(!tick.stop_requested); }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

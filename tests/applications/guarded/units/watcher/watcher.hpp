@@ -2,11 +2,11 @@
 
 #include "watcher_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Watcher final : public WatcherUnit {
  public:
   void step(const Tick& tick) override { lamp->command(tick.motion_inhibited); }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

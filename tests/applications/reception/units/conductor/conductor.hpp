@@ -4,7 +4,7 @@
 
 #include "conductor_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Conductor final : public ConductorUnit {
  public:
@@ -16,4 +16,4 @@ class Conductor final : public ConductorUnit {
   }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "mixer_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Mixer final : public MixerUnit {
  public:
@@ -22,4 +22,4 @@ class Mixer final : public MixerUnit {
   double at_ = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -10,7 +10,7 @@
 
 #include "runtime/log/log.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 namespace {
 
 [[noreturn]] void hang() {
@@ -100,4 +100,4 @@ void Saboteur::obey(char key) {
   }
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -4,7 +4,7 @@
 
 #include "saboteur_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Saboteur final : public SaboteurUnit {
  public:
@@ -22,4 +22,4 @@ class Saboteur final : public SaboteurUnit {
   bool refused_ = false;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace flexrf {
+namespace flexrf::user {
 
 Status Tuner::initialise() {
   learns_ = false;
@@ -43,4 +43,4 @@ void Tuner::obey(char key) {
   }
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

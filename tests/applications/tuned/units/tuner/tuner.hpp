@@ -2,7 +2,7 @@
 
 #include "tuner_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Tuner final : public TunerUnit {
  public:
@@ -15,4 +15,4 @@ class Tuner final : public TunerUnit {
   bool learns_ = false;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

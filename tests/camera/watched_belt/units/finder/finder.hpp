@@ -4,7 +4,7 @@
 
 #include "finder_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Finder final : public FinderUnit {
  public:
@@ -39,4 +39,4 @@ class Finder final : public FinderUnit {
   std::uint64_t sequence_ = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

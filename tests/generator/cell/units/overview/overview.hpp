@@ -2,7 +2,7 @@
 
 #include "overview_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Overview final : public OverviewUnit {
  public:
@@ -18,4 +18,4 @@ class Overview final : public OverviewUnit {
   }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

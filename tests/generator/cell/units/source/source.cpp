@@ -1,6 +1,6 @@
 #include "units/source/source.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 void Source::step(const Tick& tick) {
   Everything all;
@@ -27,4 +27,4 @@ void Source::step(const Tick& tick) {
   feedback.presses += runtime.go;
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

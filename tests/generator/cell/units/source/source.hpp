@@ -2,7 +2,7 @@
 
 #include "source_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Source final : public SourceUnit {
  public:
@@ -13,4 +13,4 @@ class Source final : public SourceUnit {
   void step(const Tick& tick) override;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -4,7 +4,7 @@
 
 #include "stirrer_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Stirrer final : public StirrerUnit {
  public:
@@ -34,4 +34,4 @@ class Stirrer final : public StirrerUnit {
   std::size_t set_ = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -5,7 +5,7 @@
 
 #include "camera_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Camera final : public CameraUnit {
  public:
@@ -32,4 +32,4 @@ class Camera final : public CameraUnit {
   }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "fragile_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Fragile final : public FragileUnit {
  public:
@@ -14,4 +14,4 @@ class Fragile final : public FragileUnit {
   }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

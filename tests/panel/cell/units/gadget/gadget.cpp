@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace flexrf {
+namespace flexrf::user {
 
 Status Gadget::initialise() {
   if (configuration.size == 1.3)
@@ -49,4 +49,4 @@ void Gadget::step(const Tick& tick) {
   feedback.size = size_;
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -4,7 +4,7 @@
 
 #include "gadget_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Gadget final : public GadgetUnit {
  public:
@@ -17,4 +17,4 @@ class Gadget final : public GadgetUnit {
   std::uint32_t initialised_ = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "mover_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Mover final : public MoverUnit {
  public:
@@ -19,4 +19,4 @@ class Mover final : public MoverUnit {
   bool is_idle() const noexcept override { return axle->speed() == 0; }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -2,7 +2,7 @@
 
 #include "worker_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Worker final : public WorkerUnit {
  public:
@@ -15,4 +15,4 @@ class Worker final : public WorkerUnit {
   }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -3,11 +3,11 @@
 
 #include "setpoint_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Setpoint final : public SetpointUnit {
  public:
   void step(const Tick& /*tick*/) override { level.publish({runtime.value}); }
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user

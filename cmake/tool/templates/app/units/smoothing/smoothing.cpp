@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace flexrf {
+namespace flexrf::user {
 
 Status Smoothing::initialise() {
   value_ = 0;
@@ -18,4 +18,4 @@ void Smoothing::step(const Tick& tick) {
   smooth.publish({value_});
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -3,7 +3,7 @@
 
 #include "smoothing_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Smoothing final : public SmoothingUnit {
  public:
@@ -14,4 +14,4 @@ class Smoothing final : public SmoothingUnit {
   double value_ = 0;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user
