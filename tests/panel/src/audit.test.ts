@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { beforeAll, expect, it, onTestFinished } from 'vitest';
 import {
-  Application, Viewer, itemOf, screenshot, useApplication, useBrowser, violations, within, type Rest, type User,
+  Application, Viewer, screenshot, useApplication, useBrowser, violations, within, type Rest, type User,
 } from './harness';
 
 const anna: User = { name: 'anna', role: 'engineer', password: 'a long password of anna' };
@@ -58,7 +58,12 @@ it('an admin reads who did what, others do not', async () => {
 it('a button that could do nothing is dead and says what it needs, and a script is told the same', async () => {
   const running = application();
   const viewer = await Viewer.open(browser(), running.base, { session: admin.cookie });
-  onTestFinished(() => viewer.close());
+  onTestFinished(async () => {
+    await viewer.close();
+    await admin.do('components/gadget/actions/reset', { method: 'POST' });
+    await admin.do('control/release', { method: 'POST' });
+    await admin.do('stop-motion', { method: 'POST' });
+  });
   await viewer.takeControl();
   await viewer.go('units', 'gadget');
   const { page } = viewer;
@@ -79,9 +84,9 @@ it('a button that could do nothing is dead and says what it needs, and a script 
   await need.waitFor({ state: 'hidden' });
   // A hold needs the permission to move.
   await viewer.go('units', 'mover');
-  const run = itemOf(page, 'Run').getByRole('button').first();
+  const move = page.locator('flexrf-item').getByRole('button', { name: 'Forward', exact: true });
   await page.locator('.need').filter({ hasText: 'needs motion to be permitted; give Start' }).first().waitFor();
-  expect(await run.isDisabled()).toBe(true);
+  expect(await move.isDisabled()).toBe(true);
   await admin.do('start-motion', { method: 'POST' });
-  await expect.poll(() => run.isEnabled(), { timeout: within }).toBe(true);
+  await expect.poll(() => move.isEnabled(), { timeout: within }).toBe(true);
 });

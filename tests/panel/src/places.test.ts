@@ -1,6 +1,6 @@
 // Places for browsers: many pages at once, and no room for more.
 import { connect, type Socket } from 'node:net';
-import { expect, it, onTestFinished } from 'vitest';
+import { it, onTestFinished } from 'vitest';
 import { Viewer, useApplication, useBrowser, within } from './harness';
 
 const browser = useBrowser();
