@@ -43,10 +43,12 @@ void define_needs(const BlockText& block, Text& out) {
   for (std::size_t i = 0; i < block.parameters.size(); ++i) {
     const std::vector<Need>& needs = block.parameters[i]->needs;
     if (needs.empty()) continue;
-    out << "constexpr " << runtime << "CommandNeed " << needs_name(block, i) << "[" << needs.size() << "] = {\n";
+    out << "constexpr " << runtime << "CommandNeed " << needs_name(block, i) << "[" << needs.size()
+        << "] = {\n";
     for (const Need& need : needs) {
-      out << "    {" << runtime << "CommandNeed::Kind::" << kind_name(need.of) << ", " << string_literal(need.field) << ", "
-          << need.numbers << "ULL, " << string_literal(need.reason) << "},\n";
+      out << "    {" << runtime << "CommandNeed::Kind::" << kind_name(need.of) << ", "
+          << string_literal(need.field) << ", " << need.numbers << "ULL, " << string_literal(need.reason)
+          << "},\n";
     }
     out << "};\n";
   }
