@@ -21,14 +21,13 @@ struct SaveState {
   bool on_change = false;      ///< it is written by itself; false: only when somebody asks
   bool unsaved = false;        ///< somebody set something that the file does not hold yet
   std::uint64_t answered = 0;  ///< requests up to this one are done, and `failure` says how
-  std::int64_t saved_at =
-      0;           ///< ms since 1970, when it was last found or made to hold everything; 0: not yet
-  Status failure;  ///< of the last attempt; ok: the file holds what was set until then
+  std::int64_t saved_at = 0;   ///< ms since 1970: when the last saving succeeded; 0: not yet
+  Status failure;              ///< of the last attempt; ok: the file holds what was set until then
 };
 
 /// Reads the file at the start; then a thread of its own writes it: when somebody asks (*Save now*), and, if
-/// the application's table does not say `save = "command"`, after changes (SavePolicy). What it writes it
-/// copies from records beside the components, so that it waits for nobody and nobody waits for it.
+/// the application's table does not say `save = { on = "command" }`, after changes (SavePolicy). What it
+/// writes it copies from records beside the components, so that it waits for nobody and nobody waits for it.
 class ValueSaver {
  public:
   explicit ValueSaver(Cell& cell);

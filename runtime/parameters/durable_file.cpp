@@ -101,6 +101,9 @@ Result<std::string> read_file(const std::string& path) {
 }
 
 Status replace_file(const std::string& path, std::string_view contents, mode_t fresh_mode) {
+  if (contents.size() > largest_file)
+    return Status::error(StatusCode::out_of_range,
+                         "'%s' would have more than 16 MiB, and could not be read again", path.c_str());
   const std::string target = resolved_path(path);
   struct stat former {};
   const mode_t mode = ::stat(target.c_str(), &former) == 0 ? former.st_mode & mode_t{0777} : fresh_mode;

@@ -23,7 +23,7 @@ Result<std::string> read_file(const std::string& path);
 
 /// Replaces the file: writes PATH.new, fsync, rename, fsync of the directory. On failure the old file is as
 /// it was. A symbolic link stays and its target is replaced; permissions stay, those of a file that was not
-/// there are `fresh_mode`. Blocks.
+/// there are `fresh_mode`. Not more than read_file() reads. Blocks.
 Status replace_file(const std::string& path, std::string_view contents, mode_t fresh_mode = 0644);
 
 }  // namespace flexrf

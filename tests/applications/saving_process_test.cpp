@@ -15,7 +15,7 @@
 namespace flexrf::whole {
 namespace {
 
-std::vector<std::string> words(std::vector<std::string> more = {}) {
+std::vector<std::string> words(const std::vector<std::string>& more = {}) {
   std::vector<std::string> all{place::application, "--panel", "off", "--no-realtime"};
   all.insert(all.end(), more.begin(), more.end());
   return all;

@@ -250,6 +250,15 @@ void what_a_killed_process_left_does_not_disturb(void**) {
   assert_false(exists(".new"));
 }
 
+void nothing_is_written_that_could_not_be_read_again(void**) {
+  assert_true(replace_file(world->file, "small").is_ok());
+  static std::string text;
+  text.assign((std::size_t{16} << 20) + 1, 'x');
+  const Status status = replace_file(world->file, text);
+  assert_int_equal(status.code(), StatusCode::out_of_range);
+  assert_string_equal(contents().c_str(), "small");
+}
+
 void a_lost_file_falls_back_to_the_previous(void**) {
   world->unit.runtime.step = 0.02;
   assert_true(save());
@@ -595,6 +604,7 @@ int main() {
       cmocka_unit_test_setup_teardown(without_a_file_the_tables_hold, begin, end),
       cmocka_unit_test_setup_teardown(what_is_saved_is_loaded, begin, end),
       cmocka_unit_test_setup_teardown(what_a_killed_process_left_does_not_disturb, begin, end),
+      cmocka_unit_test_setup_teardown(nothing_is_written_that_could_not_be_read_again, begin, end),
       cmocka_unit_test_setup_teardown(a_large_file_is_read_in_linear_time, begin, end),
       cmocka_unit_test_setup_teardown(the_file_holds_what_was_set_and_nothing_else, begin, end),
       cmocka_unit_test_setup_teardown(nothing_is_written_where_nothing_is_set, begin, end),
