@@ -11,6 +11,9 @@ namespace flexrf::panel {
 namespace {
 
 constexpr std::size_t most_lingered = 1U << 20;  // bytes
+/// Of a client that has nothing to say, where another wants its place.
+constexpr Duration stay_between_requests = std::chrono::milliseconds{250};
+constexpr Duration stay_before_the_first = std::chrono::seconds{1};
 
 std::string numeric_text(const net::ip::address& address) {
   if (address.is_v6() && address.to_v6().is_v4_mapped()) {
@@ -53,6 +56,7 @@ void Connection::open(Socket socket) {
   loopback_ = remote_end && remote_end->is_loopback();
   remote_end_ = remote_end.value_or(Address{});
   silent_since_ = surroundings_.now;
+  used_ = false;
   turned_away_ = {};
   local_end_ = Address::parse(numeric_text(local.address())).value_or(Address{});
   session_ = no_session;
@@ -86,9 +90,12 @@ void Connection::turn_away(Socket socket, std::string_view why) {
   turned_away_ = why;
 }
 
-bool Connection::is_dispensable(Time then) const noexcept {
+bool Connection::is_dispensable(Time now) noexcept {
   const bool waits = state_ == State::greeting || (state_ == State::reading && header_end_ == 0);
-  return waits && silent_since_ < then;
+  if (!waits || now - silent_since_ < (used_ ? stay_between_requests : stay_before_the_first)) return false;
+  // What has just come is not to be lost.
+  error_code error;
+  return transport_.socket().available(error) == 0;
 }
 
 void Connection::shut() {

@@ -42,8 +42,12 @@ class Connection final : public LiveLink {
   void open(Socket socket);
   /// Hears the first request and answers 503 with this reason, which lives for ever.
   void turn_away(Socket socket, std::string_view why);
-  /// It waits for a request, or for the rest of one's header, and was silent since before `then`.
-  bool is_dispensable(Time then) const noexcept;
+  /// It waits for a request, or for the rest of one's header, and has been silent for long enough: 250 ms
+  /// between two requests, where a browser sends the next one anew on another connection; 1 s before the
+  /// first, which it does not.
+  bool is_dispensable(Time now) noexcept;
+  /// It has had a request.
+  bool is_used() const noexcept { return used_; }
   Time silent_since() const noexcept { return silent_since_; }
   /// Its end is under way.
   bool is_leaving() const noexcept { return state_ == State::shut; }
@@ -144,6 +148,7 @@ class Connection final : public LiveLink {
   bool loopback_ = false;
   Address remote_end_;
   Time silent_since_{};
+  bool used_ = false;
   std::string_view turned_away_;  // why; empty: it is not
   Address local_end_;
   SessionIndex session_ = no_session;

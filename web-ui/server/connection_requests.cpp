@@ -40,6 +40,7 @@ unsigned Connection::fault_of_header(std::string_view& detail) const {
 
 void Connection::handle() {
   ++exchange_;
+  used_ = true;
   const RequestHeader& header = parser_->header();
   keep_alive_ = header.version == 11 && parser_->keep_alive();
   clear_reply(reply_);

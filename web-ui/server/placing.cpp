@@ -1,6 +1,7 @@
 // Of Server: which client gets a place, which waits for one, and who has to make room.
 #include <algorithm>
 #include <string>
+#include <tuple>
 
 #include "runtime/log/log.hpp"
 #include "web-ui/server/server.hpp"
@@ -8,10 +9,8 @@
 namespace flexrf::panel {
 namespace {
 
-/// A client that has just come may be about to ask.
-constexpr Duration least_stay = std::chrono::milliseconds{250};
 /// For a place: requests that are under way are done by then.
-constexpr Duration most_waiting_time = std::chrono::milliseconds{1500};
+constexpr Duration most_waiting_time = std::chrono::seconds{3};
 constexpr std::size_t most_waiting = 32;
 
 }  // namespace
@@ -57,16 +56,17 @@ Connection* Server::dispensable(const Address& address, Bound bound) noexcept {
   Connection* chosen = nullptr;
   std::size_t chosen_count = 0;
   for (Connection& connection : connections_) {
-    if (!connection.is_dispensable(surroundings_.now - least_stay) ||
-        !may_have_place_of(address, bound, connection))
+    if (!connection.is_dispensable(surroundings_.now) || !may_have_place_of(address, bound, connection))
       continue;
     const Address party = connection.remote_end().neighbourhood();
     const auto count = static_cast<std::size_t>(
         std::count_if(connections_.begin(), connections_.end(), [&](const Connection& other) {
           return !other.is_free() && other.remote_end().neighbourhood() == party;
         }));
-    const bool better = chosen == nullptr || count > chosen_count ||
-                        (count == chosen_count && connection.silent_since() < chosen->silent_since());
+    const auto rank = [](std::size_t places, const Connection& one) {
+      return std::tuple{places, one.is_used(), nanoseconds(Time{}) - nanoseconds(one.silent_since())};
+    };
+    const bool better = chosen == nullptr || rank(count, connection) > rank(chosen_count, *chosen);
     if (better) chosen = &connection, chosen_count = count;
   }
   return chosen;
