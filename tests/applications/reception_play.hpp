@@ -19,6 +19,8 @@ extern const Application application;
 
 namespace flexrf::whole {
 
+using namespace user;  // types and units of the tables
+
 using nlohmann::json;
 
 inline constexpr const char* secret = "0123456789abcdef0123456789abcdef";

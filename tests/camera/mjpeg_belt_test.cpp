@@ -13,6 +13,8 @@
 namespace flexrf {
 namespace {
 
+using namespace user;
+
 using std::chrono::milliseconds;
 
 /// Middle of what is red in the row in the middle, in widths of the picture; below 0: nothing is.

@@ -19,7 +19,6 @@ extern const Application application;
 namespace {
 
 using namespace flexrf;
-using namespace flexrf::user;
 using application::application;
 
 struct Ending {

@@ -13,6 +13,8 @@
 
 namespace flexrf::pick_station {
 
+using namespace user;  // types and units of the tables
+
 /// One run of the application, so one in each process.
 class StationInVirtualTime {
  public:
