@@ -37,18 +37,13 @@ bool is_message(const std::string& line) {
   return line.find(": error: ") != std::string::npos || line.find(": warning: ") != std::string::npos;
 }
 
-// Those of URDF files have none.
-bool needs_hint(const std::string& line) {
-  return is_message(line) && line.find(".urdf:") == std::string::npos;
-}
-
 // A message says where, in which line, and what to do.
 std::string wrong_in(const std::string& messages) {
   std::istringstream stream(messages);
   std::string before;
   std::size_t lines = 0;
   for (std::string line; std::getline(stream, line); ++lines) {
-    if (needs_hint(before) && line.find(": hint: ") == std::string::npos)
+    if (is_message(before) && line.find(": hint: ") == std::string::npos)
       return "a message has no hint: " + before.substr(0, 400);
     if (is_message(line)) {
       const std::string place = line.substr(0, line.find(": "));
@@ -57,7 +52,7 @@ std::string wrong_in(const std::string& messages) {
     }
     before = line;
   }
-  if (needs_hint(before)) return "a message has no hint: " + before.substr(0, 400);
+  if (is_message(before)) return "a message has no hint: " + before.substr(0, 400);
   if (lines > most_lines) return std::to_string(lines) + " lines of messages";
   if (messages.size() > most_bytes) return std::to_string(messages.size()) + " bytes of messages";
   return "";

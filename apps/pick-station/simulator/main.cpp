@@ -32,7 +32,7 @@ int main(int count, char** words) {
     std::fputs("usage: feeder_simulator PORT [STOCK]\n", stderr);
     return 2;
   }
-  Feeder feeder({.stock = static_cast<std::uint32_t>(stock)});
+  user::Feeder feeder({.stock = static_cast<std::uint32_t>(stock)});
   const auto server = ModbusServer::on_tcp(1, static_cast<std::uint16_t>(port));
   if (!server) {
     std::fprintf(stderr, "feeder_simulator: %s\n", server.status().cause());

@@ -1,6 +1,6 @@
 #include "units/new_unit/new_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 void NewUnit::step(const Tick& /*tick*/) {
   const auto pose = wanted.latest();
@@ -11,4 +11,4 @@ void NewUnit::step(const Tick& /*tick*/) {
   ++feedback.passed;
 }
 
-}  // namespace flexrf
+}  // namespace flexrf::user

@@ -3,11 +3,11 @@
 
 #include "new_unit_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class NewUnit final : public NewUnitUnit {
  public:
   void step(const Tick& tick) override;
 };
 
-}  // namespace flexrf
+}  // namespace flexrf::user
