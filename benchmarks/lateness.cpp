@@ -75,7 +75,7 @@ class OurBlocks {
   }
 
   int run_application() {
-    lateness_record = {samples(), &shared_->count};
+    user::lateness_record = {samples(), &shared_->count};
     Options options;
     options.panel = "off";
     Executive executive(application::application, options);

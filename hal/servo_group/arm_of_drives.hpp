@@ -33,6 +33,8 @@ class ArmOfDrives : public Base {
   void stop() override { stop_first(this->chain->joint_count); }
 
   void receive(const Tick& tick) noexcept override {
+    // Before the drives act on a command that the inhibition overtook.
+    if (this->is_inhibited()) group_.lead(false);
     for (Drive& drive : drives()) drive.receive(tick);
     group_.watch();
     const auto state = group_.state();

@@ -100,6 +100,11 @@ Status RunningThread::start(const ThreadSettings& settings, void (*body)(void*),
   if (stack_is_own_) {
     void* const memory = mmap(nullptr, stack_size_, PROT_READ | PROT_WRITE,
                               MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED && errno == EAGAIN)  // mmap(2): what is mapped is locked, and that is limited
+      return Status::error(StatusCode::not_permitted,
+                           "the stack of thread %s cannot be locked: RLIMIT_MEMLOCK is too low, and "
+                           "CAP_IPC_LOCK is not held",
+                           settings.name);
     if (memory == MAP_FAILED)
       return Status::error(StatusCode::unavailable, "no memory for the stack of thread %s: %s", settings.name,
                            strerrordesc_np(errno));
