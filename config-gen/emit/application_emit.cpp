@@ -73,9 +73,9 @@ void emit_application_record(const Model& model, Text& out) {
       << ",\n    .autostart = " << bool_literal(application.autostart)
       << ",\n    .stop_timeout = " << duration_literal(application.stop_timeout)
       << ",\n    .finish_timeout = " << duration_literal(application.finish_timeout)
-      << ",\n    .standstill_limit = " << duration_literal(application.standstill_limit)
-      << ",\n    .save = {" << bool_literal(application.save.on_change) << ", "
-      << duration_literal(application.save.quiet) << ", " << duration_literal(application.save.interval)
+      << ",\n    .standstill_limit = " << duration_literal(application.standstill_limit) << ",\n    .save = {"
+      << bool_literal(application.save.on_change) << ", " << duration_literal(application.save.quiet) << ", "
+      << duration_literal(application.save.interval)
       << "},\n    .slots = " << table("slots_table", model.slots.size())
       << ",\n    .queues = " << table("queues_table", model.queues.size())
       << ",\n    .devices = " << table("devices_table", model.devices.size())

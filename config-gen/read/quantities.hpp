@@ -16,8 +16,8 @@ std::optional<std::int64_t> parse_duration(std::string_view text);
 std::optional<std::size_t> parse_size(std::string_view text);
 
 // Empty when `unit` is a unit of measure in SI, as "m/s^2", "N*m", "1"; else what to write instead. Decimal
-// multiples ("mm", "ns") are for integers only, which often hold what a device counts. "rad|m" is of one or of
-// the other, as the device's row says of each joint.
+// multiples ("mm", "ns") are for integers only, which often hold what a device counts. "rad|m" is of one or
+// of the other, as the device's row says of each joint.
 std::string judge_unit(std::string_view unit, bool multiples);
 
 // The unit with one symbol replaced wherever it stands: "axis/s^2" with "m" for "axis" is "m/s^2".

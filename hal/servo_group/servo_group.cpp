@@ -58,7 +58,8 @@ void ServoGroup::command(const JointPositions& set_points) noexcept {
   // All or none: a joint that is asked for nonsense keeps the others from moving too.
   for (std::size_t i = 0; i < count_; ++i) {
     if (std::isfinite(set_points.position[i])) continue;
-    fail(i, Status::error(StatusCode::invalid_argument, "it was commanded to a position that is not a number"));
+    fail(i,
+         Status::error(StatusCode::invalid_argument, "it was commanded to a position that is not a number"));
     return;
   }
   for (std::size_t i = 0; i < count_; ++i) {

@@ -24,7 +24,7 @@ struct PanelRecord {
 
   std::uint16_t connections = default_connections;  ///< places, 4 to 256
   std::span<const char* const> local;  ///< numeric addresses whose sessions are local, beside loopback ones
-  bool loopback_is_local = true;   ///< false: a tunnel or a proxy ends there, whose visitors are elsewhere
+  bool loopback_is_local = true;  ///< false: a tunnel or a proxy ends there, whose visitors are elsewhere
   Duration session_timeout = default_session_timeout;  ///< of a session that nobody uses
   Duration session_length = default_session_length;    ///< of one that somebody uses
   std::span<const PanelFile> files;

@@ -16,7 +16,8 @@ class ArmMotion {
   /// Before anything else. The chain outlives this.
   void use(const KinematicChain& chain) noexcept;
 
-  /// At rest at these joint positions (rad or m, finite), whatever was before: set-points begin where the arm is.
+  /// At rest at these joint positions (rad or m, finite), whatever was before: set-points begin where the arm
+  /// is.
   void seed(const JointVector& actual) noexcept;
   bool is_seeded() const noexcept { return seeded_; }
 
