@@ -78,8 +78,8 @@ end_behind() {  # end_behind NAME: waits for that stage, and shows what it said
     if ! kill -0 "${behind[@]}" 2>/dev/null && [[ ! -s $stages/$1.result ]]; then
       cat "$stages/behind.log"
       echo "what runs behind ended before this"
-      echo 1 1 >"$stages/$1.counts"
-      printf '0 0 FAILED\n' >"$stages/$1.result"
+      # With a disk that is full, or a folder that somebody removed, it would come to no end.
+      { echo 1 1 >"$stages/$1.counts" && printf '0 0 FAILED\n' >"$stages/$1.result"; } || die "$stages cannot be written"
     fi
     sleep 0.2
   done
