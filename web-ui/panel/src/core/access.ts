@@ -67,6 +67,6 @@ export function locked(situation: Situation, item: ItemInfo | undefined): string
   if (item.kind === 'configuration') return 'changed by Edit';
   const denied = deniedAction(situation, item.role);
   if (denied || situation.state?.motion.may_move) return denied;
-  const reason = item.needs?.find((need) => need.key === undefined)?.reason;
-  return reason ?? (item.scalar === 'hold' ? deniedMotion(situation) : '');
+  if (item.scalar === 'hold') return deniedMotion(situation);
+  return item.needs?.find((need) => need.key === undefined)?.reason ?? '';
 }

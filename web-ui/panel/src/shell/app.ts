@@ -2,7 +2,7 @@
 // one grid, so that nothing ever lies over Stop motion.
 import { LitElement, css, html, nothing } from 'lit';
 import { customElement, query, state } from 'lit/decorators.js';
-import { includes } from '../core/access';
+import { hasControl, includes } from '../core/access';
 import { PanelCore } from '../core/panel_core';
 import { views } from '../views';
 import './control';
@@ -104,6 +104,8 @@ export class Panel extends LitElement {
   @state() private dialog: DialogName | 'none' = 'none';
   @state() private generation = '';
   @state() private ended = '';
+  /** The question to whoever has control can be shown. */
+  @state() private asks = false;
   @query('flexrf-notices') private notices!: Notices;
   #preferences = new Preferences(document.documentElement, localStorage, matchMedia('(prefers-color-scheme: dark)'));
   #ends: (() => void)[] = [];
@@ -168,7 +170,7 @@ export class Panel extends LitElement {
       </div>
       <div class="banner" role="region" aria-label="Warnings">
         ${this.#banner()}
-        <flexrf-consent .core=${this.core}></flexrf-consent>
+        ${this.asks ? html`<flexrf-consent .core=${this.core}></flexrf-consent>` : nothing}
       </div>
     `;
   }
@@ -195,6 +197,7 @@ export class Panel extends LitElement {
 
   #onState(): void {
     const { link } = this.core;
+    if (hasControl(this.core.situation)) void import('./consent').then(() => { this.asks = true; });
     if (this.generation) document.title = titleOf(this.core.application, this.core);
     const lapsed = this.core.session?.lapsed === true;
     if (link.phase === 'open') this.ended = '';

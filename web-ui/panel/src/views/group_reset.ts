@@ -4,6 +4,7 @@ import { customElement, property } from 'lit/decorators.js';
 import type { Value } from '../contract';
 import type { Item } from '../core/descriptor';
 import { placeOver } from '../widgets/place_over';
+import { controlStyles } from '../widgets/control_styles';
 import { Question } from '../widgets/question';
 import { isModified, isParameter } from './search_rows';
 import { ViewBase } from './view_base';
@@ -13,6 +14,7 @@ import { viewStyles } from './view_styles';
 export class GroupReset extends ViewBase {
   static override styles = [
     ...viewStyles,
+    controlStyles,
     css`
       /* Its question lies over what is below, as those of widgets do. */
       :host {

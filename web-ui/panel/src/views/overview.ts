@@ -1,11 +1,10 @@
 // The first view: what the application does, what is wrong and what to do about it, and the values chosen for it.
 import { css, html, nothing } from 'lit';
-import { customElement } from 'lit/decorators.js';
+import { customElement, state } from 'lit/decorators.js';
 import type { Item, Model } from '../core/descriptor';
 import { addressOfFault, faultCount, modeOf, modeText, motionOf, motionText, remedyOf } from '../shell/words';
 import './item_widget';
 import './placement_widget';
-import './values_saver';
 import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
@@ -63,6 +62,9 @@ export class Overview extends ViewBase {
     `,
   ];
 
+  /** The button that saves can be shown. */
+  @state() private saves = false;
+
   override connectedCallback(): void {
     super.connectedCallback();
     this.watchAge();
@@ -79,8 +81,7 @@ export class Overview extends ViewBase {
       <div class="cards">
         ${this.faults()}
         ${this.stateCard()}
-        <section><h3>Configuration file</h3>
-          <flexrf-values-saver .core=${this.core} .host=${this.host}></flexrf-values-saver></section>
+        <section><h3>Configuration file</h3>${this.saver()}</section>
         ${placed.placements.map((placement) => html`
           <section><h3>${placement.label}</h3>
             <flexrf-placement .core=${this.core} .placement=${placement}></flexrf-placement></section>`)}
@@ -88,6 +89,17 @@ export class Overview extends ViewBase {
         ${nothingPlaced ? this.feedback(chosenFeedback(model)) : nothing}
       </div>
     `;
+  }
+
+  private saver(): unknown {
+    const { state } = this.core;
+    if (!state) return nothing;
+    if (!state.values.file) return html`<p>Values are kept until the application ends: it was started without --config FILE.</p>`;
+    if (!this.saves) {
+      void import('./values_saver').then(() => { this.saves = true; });
+      return nothing;
+    }
+    return html`<flexrf-values-saver .core=${this.core} .host=${this.host}></flexrf-values-saver>`;
   }
 
   private faults(): unknown {

@@ -1,4 +1,4 @@
-// What of the values that were set is in the configuration file, and the button that saves them now.
+// What of the values that were set is in the configuration file, and the button that saves them now. Where there is one.
 import { html, nothing } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
 import { textOf } from '../core/host';
@@ -15,7 +15,6 @@ export interface Standing {
 }
 
 export function standingOf(values: SavedValues): Standing {
-  if (!values.file) return { text: 'Kept until the application ends: it has no configuration file.', kind: '' };
   if (values.failure) return { text: `✕ Not saved: ${values.failure}`, kind: 'alarm' };
   if (values.unsaved && values.on === 'command') return { text: '⚠ Not saved: changes are lost at the end.', kind: 'warning' };
   if (values.unsaved) return { text: 'Not saved yet: that follows by itself.', kind: '' };
@@ -39,7 +38,7 @@ export class ValuesSaver extends ViewBase {
     const values = this.core.state?.values;
     if (!values) return nothing;
     const standing = standingOf(values);
-    const locked = values.file ? this.core.deniedAction('operator') : 'Start the application with --config FILE.';
+    const locked = this.core.deniedAction('operator');
     const dead = locked !== '' || this.busy;
     return html`
       <p class=${`${standing.kind} ${this.age}`} role=${standing.kind === 'alarm' ? 'alert' : nothing}>${standing.text}</p>

@@ -1,7 +1,8 @@
 // What every widget shares that acts: a lock with its reason, and what was refused. What is said and asked lies over the page.
 import { html, nothing } from 'lit';
-import type { TemplateResult } from 'lit';
+import type { CSSResultGroup, CSSResultOrNative, TemplateResult } from 'lit';
 import type { ItemInfo } from '../contract';
+import { controlStyles } from './control_styles';
 import { LiveText } from './live_text';
 import { Needs } from './needs';
 import { placeOver } from './place_over';
@@ -12,6 +13,11 @@ import { WidgetBase } from './widget_base';
 const passing = 6000;
 
 export abstract class ControlBase extends WidgetBase {
+  /** Each control's own go on from those of all controls. */
+  protected static override finalizeStyles(styles: CSSResultGroup = []): CSSResultOrNative[] {
+    return super.finalizeStyles([controlStyles, styles]);
+  }
+
   /** Why nothing can be changed now; empty when it can. */
   protected locked = '';
   protected readonly question = new Question(

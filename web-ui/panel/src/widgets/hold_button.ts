@@ -4,7 +4,8 @@ import type { TemplateResult } from 'lit';
 import { ControlBase } from './control_base';
 import { HoldDriver } from './hold_driver';
 import { setAttribute } from './live_text';
-import { holdStyles, widgetStyles } from './styles';
+import { holdStyles } from './control_styles';
+import { widgetStyles } from './styles';
 
 export class HoldButton extends ControlBase {
   static override styles = [widgetStyles, holdStyles];

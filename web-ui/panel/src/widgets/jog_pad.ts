@@ -6,7 +6,8 @@ import type { ItemInfo } from '../contract';
 import { ControlBase } from './control_base';
 import { HoldDriver } from './hold_driver';
 import { setAttribute } from './live_text';
-import { holdStyles, widgetStyles } from './styles';
+import { holdStyles } from './control_styles';
+import { widgetStyles } from './styles';
 
 /** Sign, row and column of the roles that are directions. */
 const directions: { readonly [role: string]: readonly [sign: string, row: number, column: number] } = {

@@ -1,4 +1,4 @@
-import { afterEach, describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
 import { makeModel } from '../../core/descriptor';
 import { sample } from '../../core/tests/sample';
 import { chosenFeedback, type Overview } from '../overview';
@@ -34,5 +34,19 @@ describe('the overview without a word from the application', () => {
     await view.updateComplete;
     expect(old()).toEqual(['section', 'dl']);
     expect(view.shadowRoot!.querySelector('section.stale')!.getAttribute('role')).toBe('alert');
+  });
+  it('tells what becomes of values, with a button where there is a file', async () => {
+    const fake = new FakeCore(sample);
+    const values = { file: false, on: 'change', unsaved: true, saved_at_ms: null, failure: '' } as const;
+    fake.says({ values });
+    view = document.createElement('flexrf-overview') as Overview;
+    Object.assign(view, { core: fake.core, host: fake.host, path: [] });
+    document.body.append(view);
+    await view.updateComplete;
+    expect(view.shadowRoot!.textContent).toContain('without --config FILE');
+    expect(view.shadowRoot!.querySelector('flexrf-values-saver')).toBeNull();
+    fake.says({ values: { ...values, file: true } });
+    await view.updateComplete;
+    await vi.waitFor(() => expect(view.shadowRoot!.querySelector('flexrf-values-saver')!.shadowRoot!.textContent).toContain('Save now'));
   });
 });

@@ -13,7 +13,6 @@ describe('how it stands with the configuration file', () => {
     expect(standingOf({ ...saved, unsaved: true })).toEqual({ text: 'Not saved yet: that follows by itself.', kind: '' });
     expect(standingOf({ ...saved, unsaved: true, on: 'command' }).kind).toBe('warning');
     expect(standingOf({ ...saved, unsaved: true, failure: 'disk full' })).toEqual({ text: '✕ Not saved: disk full', kind: 'alarm' });
-    expect(standingOf({ ...saved, file: false }).text).toContain('no configuration file');
   });
 });
 
@@ -53,11 +52,6 @@ describe('the button Save now', () => {
     await turn();
     expect(button().getAttribute('aria-disabled')).toBe('true');
     expect(view.shadowRoot!.querySelector('#why')!.textContent).toBe('You have no control.');
-    button().click();
-    fake.denied = '';
-    fake.says({ values: { ...saved, file: false } });
-    await turn();
-    expect(view.shadowRoot!.querySelector('#why')!.textContent).toContain('--config FILE');
     button().click();
     await turn();
     expect(fake.requests).toEqual([]);
