@@ -81,11 +81,11 @@ it('a button that could do nothing is dead and says what it needs, and a script 
   await expect.poll(() => ring.isEnabled(), { timeout: within }).toBe(true);
   await ring.click();
   await admin.do('components/gadget/actions/press', { method: 'POST', body: { parameter: 'ring' } });
-  await need.waitFor({ state: 'hidden' });
+  await expect.poll(() => need.count(), { timeout: within }).toBe(0);
   // A hold needs the permission to move.
   await viewer.go('units', 'mover');
   const move = page.locator('flexrf-item').getByRole('button', { name: 'Forward', exact: true });
-  await page.locator('.need').filter({ hasText: 'needs motion to be permitted; give Start' }).first().waitFor();
+  await page.getByText('Dead: motion is inhibited: give Start motion').first().waitFor();
   expect(await move.isDisabled()).toBe(true);
   await admin.do('start-motion', { method: 'POST' });
   await expect.poll(() => move.isEnabled(), { timeout: within }).toBe(true);

@@ -46,6 +46,11 @@ export abstract class ControlBase extends WidgetBase {
     return this.host.locked(item.key) || (this.needs?.unmet(item) ?? '');
   }
 
+  /** That its table says when it acts, beside the motion that each hold needs. */
+  private get hasNeeds(): boolean {
+    return this.commands().some((item) => item.needs?.some((need) => need.key !== undefined || item.scalar !== 'hold'));
+  }
+
   /** The reason, where it is what the table says the command needs: that is to be read, not only to be asked for. */
   private get unmet(): string {
     return this.commands().some((item) => item.needs?.some((need) => need.reason === this.locked)) ? this.locked : '';
@@ -139,7 +144,10 @@ export abstract class ControlBase extends WidgetBase {
     );
   }
 
-  /** For buttons, which bear the label themselves. Why one is dead stands beside it where there is room. */
+  /**
+   * For buttons, which bear the label themselves. Why one is dead stands beside it where there is room; where its table says what it
+   * needs it has a line of its own, which is there also while it acts, so that nothing moves.
+   */
   protected buttonFrame(content: TemplateResult): TemplateResult {
     return html`<div class="row">
       <span
@@ -147,7 +155,9 @@ export abstract class ControlBase extends WidgetBase {
         title=${this.locked === '' ? (this.item?.summary ?? nothing) : this.locked}
         @click=${() => this.sayLocked()}
         >${content}</span
-      ><span class=${this.unmet === '' ? 'why' : 'why need'} aria-hidden="true">${this.locked}</span>${this.over()}
+      >${this.hasNeeds
+        ? html`<span class="why need" aria-hidden="true">${this.locked}</span>`
+        : html`<span class="why" aria-hidden="true">${this.locked}</span>`}${this.over()}
       <div class="notes">${this.note === '' ? nothing : html`<span class="note">${this.note}</span>`}</div>
       <span id="summary" class="hidden">${this.description()}</span><span id="lock" class="hidden">${this.locked}</span>
     </div>`;

@@ -51,6 +51,11 @@ export const controlStyles = css`
     color: var(--muted);
     font-size: 0.9em;
   }
+  .why.need {
+    flex: 1 0 100%;
+    min-height: 1.35em;
+    white-space: normal;
+  }
   .refusal:not(:empty)::before {
     content: '✕ ';
   }
