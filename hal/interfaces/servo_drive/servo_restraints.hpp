@@ -1,20 +1,20 @@
-// What drives say of commands that they do not follow as they are.
+// What drives say of commands that they do not follow as they are. Arrays, so that each has one address in
+// all of a program: a reason is the same while its address is.
 #pragma once
 
 namespace flexrf::servo_restraints {
 
-inline constexpr const char* out_of_range = "a position outside of `lowest` to `highest` is not gone to";
-inline constexpr const char* too_far =
+inline constexpr char out_of_range[] = "a position outside of `lowest` to `highest` is not gone to";
+inline constexpr char too_far[] =
     "a way of more than half of what the drive's counter holds is not gone at once";
-inline constexpr const char* end_of_range =
-    "it goes no farther than the end of its range, `lowest` or `highest`";
-inline constexpr const char* too_fast = "a velocity above `fastest` is not taken";
-inline constexpr const char* own_speed =
+inline constexpr char end_of_range[] = "it goes no farther than the end of its range, `lowest` or `highest`";
+inline constexpr char too_fast[] = "a velocity above `fastest` is not taken";
+inline constexpr char own_speed[] =
     "the speed of a target is not told (`tells_speed = false`): it goes as fast as its maker's tool has set "
     "it";
-inline constexpr const char* another_mode =
+inline constexpr char another_mode[] =
     "a command of another mode than the configured `mode` is without effect";
-inline constexpr const char* no_homing =
+inline constexpr char no_homing[] =
     "it is not sent home: `homing_method` is 0, its encoder is taken for absolute";
 
 }  // namespace flexrf::servo_restraints

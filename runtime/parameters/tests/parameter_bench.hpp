@@ -1,6 +1,8 @@
 // A component's runtime parameters with their slot, and requests to them: what the tests of both share.
 #pragma once
 
+#include <optional>
+
 #include "runtime/parameters/parameter_store.hpp"
 #include "runtime/parameters/tests/sample_component.hpp"
 #include "tests/cmocka.hpp"
@@ -28,10 +30,10 @@ struct Cell {
   }
 };
 
-alignas(Cell) inline std::byte cell_memory[sizeof(Cell)];
+inline std::optional<Cell> cell_of_this_test;
 
 inline Cell& begin() {
-  auto* cell = new (cell_memory) Cell;
+  Cell* const cell = &cell_of_this_test.emplace();
   cell->component.set_name("cell");
   assert_true(cell->parameters
                   .connect(cell->component, &cell->slot.control(), &sample::default_runtime, cell->scratch)
