@@ -496,7 +496,7 @@ Mutation::~Mutation() {
   for (const auto& [file, text] : before_) write_file(file, text);
 }
 
-void Mutation::store(const fs::path& file, std::string text) {
+void Mutation::store(const fs::path& file, const std::string& text) {
   before_.try_emplace(file, contents_of(file));
   write_file(file, text);
 }

@@ -74,7 +74,7 @@ class Mutation {
   bool empty() const { return before_.empty(); }
 
  private:
-  void store(const std::filesystem::path& file, std::string text);
+  void store(const std::filesystem::path& file, const std::string& text);
   void rename_word(const Cell& cell, Dice& dice,
                    const std::function<bool(const std::filesystem::path&)>& may_change);
 

@@ -190,9 +190,10 @@ void Audit::note_stop(const AuditRecord& record, std::int64_t at) {
   if (record.kind == AuditRecord::Kind::stop && stop_) return;
   stop_.reset();
   if (record.kind == AuditRecord::Kind::stop) {
-    stop_.emplace();
-    std::memcpy(stop_->who, record.who, sizeof(record.who));
-    stop_->at = at;
+    Stop stop;
+    std::memcpy(stop.who, record.who, sizeof(record.who));
+    stop.at = at;
+    stop_ = stop;
   }
   revision_.fetch_add(1, std::memory_order_release);
 }

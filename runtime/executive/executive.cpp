@@ -269,24 +269,25 @@ Status Executive::say_last(std::vector<std::string> texts) {
   const bool unhurried = is_unhurried(cell_.control().cause());
   const sigset_t ending = signals::ending_set();
   const timespec interval{0, supervision_interval.count()};
-  const Time begun = MonotonicClock::now();
+  // False: the next signal came, or patience has come to its end.
+  const auto wait_while = [&](bool patient, const auto& is_ending) {
+    const Time begun = MonotonicClock::now();
+    while (is_ending()) {
+      const bool asked = sigtimedwait(&ending, nullptr, &interval) > 0;
+      if (asked || (!patient && MonotonicClock::now() - begun > patience_with_readers)) return false;
+    }
+    return true;
+  };
+  // What the audit says in the log comes before the end of it. A disk that hangs keeps nobody from the
+  // report.
   audit_.begin_end();
-  bool output_ends = false;
-  while (audit_.is_ending() || !output_ends || output_.is_ending()) {
-    // What the audit says in the log comes before the end of it.
-    if (!audit_.is_ending() && !output_ends) {
-      output_.begin_end(std::move(texts));
-      output_ends = true;
-      continue;
-    }
-    const bool asked = sigtimedwait(&ending, nullptr, &interval) > 0;
-    if (asked || (!unhurried && MonotonicClock::now() - begun > patience_with_readers)) {
-      if (audit_.is_ending())
-        return Status::error(StatusCode::unavailable, "the disk does not take the rest of the audit");
-      return Status::error(StatusCode::unavailable,
-                           "nobody reads standard output or error; what is left to be said is not written");
-    }
+  const bool audited = wait_while(false, [&] { return audit_.is_ending(); });
+  output_.begin_end(std::move(texts));
+  if (!wait_while(unhurried, [&] { return output_.is_ending(); })) {
+    return Status::error(StatusCode::unavailable,
+                         "nobody reads standard output or error; what is left to be said is not written");
   }
+  if (!audited) return Status::error(StatusCode::unavailable, "the disk does not take the rest of the audit");
   return output_.failure();
 }
 
