@@ -129,7 +129,7 @@ function(flexrf_add_places target)
   while(rest)
     list(POP_FRONT rest name path)
     string(APPEND declarations "extern const char* const ${name};\n")
-    string(APPEND definitions "const char* const ${name} = \"${path}\";\n")
+    string(APPEND definitions "const char* const ${name} = R\"place(${path})place\";\n")
     flexrf_test_reads(${target} "${path}")
   endwhile()
   file(CONFIGURE OUTPUT "${folder}/places.hpp"

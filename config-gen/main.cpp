@@ -104,12 +104,16 @@ void write_if_changed(const fs::path& file, const std::string& contents) {
   write(file, contents);
 }
 
+// As ninja and make read a name in a rule: before a blank, backslashes of the name are doubled.
 std::string escaped(const fs::path& file) {
   std::string text;
+  std::size_t backslashes = 0;
   for (const char c : file.generic_string()) {
-    if (c == ' ' || c == '#') text += '\\';
+    if (c == ' ') text.append(backslashes + 1, '\\');
+    if (c == '#') text += '\\';
     if (c == '$') text += '$';
     text += c;
+    backslashes = c == '\\' ? backslashes + 1 : 0;
   }
   return text;
 }

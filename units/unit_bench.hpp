@@ -16,9 +16,10 @@ class SlotBench {
   /// For the binding of a unit's input.
   InputBinding input(Duration max_age = {}) { return {&reader_, 1, max_age, nullptr}; }
 
+  /// Of a type that is as large as its slot says: an item of the usual size (SizedItem).
   void publish(const T& value, Time at) {
     const std::uint8_t buffer = control().loan();
-    std::memcpy(control().payload(buffer), &value, sizeof(T));
+    std::memcpy(control().payload(buffer), &value, control().type()->size);
     control().publish(buffer, at);
   }
   /// What a unit published last.

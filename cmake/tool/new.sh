@@ -15,13 +15,14 @@ need_identifier() {  # need_identifier NAME STEM: the tables, hence the generate
   g++ -std=c++20 -fsyntax-only -x c++ - <<<"extern int $2;" 2>/dev/null || refuse "$1" "it is a word of C++"
 }
 
-need_free_class() {  # need_free_class NAME: the unit's class is nobody else's
+need_free_class() {  # need_free_class NAME: no other table, nor another unit, has this class
   local class place
   class=$(camel_case "$1")
-  place=$(find "$root" -path "$root/build" -prune -o -path '*/types/'"$1.toml" -print | head -n 1)
+  # In their namespace they have no neighbours but each other: a Status or a Slot of the runtime is in none's way.
+  place=$(find "$root"/{runtime,hal,units,apps} \( -path '*/types/'"$1.toml" -o -path "$root/hal/*/$1.toml" \) -print | head -n 1)
   [[ $place ]] || place=$(grep -r -l -E --include='*.hpp' \
     "^(class|struct|enum|enum class|union|concept|using)( \[\[[^]]*\]\]| alignas\([^ ]*\))* ($class|${class}Unit)\b" \
-    "$root/runtime" "$root/hal" "$root/units" | head -n 1)
+    "$root/units" | head -n 1)
   [[ $place ]] && refuse "$1" "${place#"$root/"} has a $class already"
 }
 
@@ -66,7 +67,7 @@ new_unit() {
   cat <<TEXT
 Made units/$name and added it to units/CMakeLists.txt. It builds and passes its test as it is:
 
-  ./flexrf build && ctest --test-dir build/release -R '^${name}_test\$' --output-on-failure
+  ./flexrf build && ctest --test-dir build/release -R '^unit_${name}_test\$' --output-on-failure
 
 Next:
 TEXT

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/response_time.hpp"
 #include "config-gen/check/checks.hpp"
-#include "config-gen/check/response_time.hpp"
 #include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
@@ -14,7 +14,8 @@ constexpr std::array<const char*, 3> role_names{"control", "io", "any"};
 
 struct Member {
   Index thread = 0;
-  Task task;
+  PeriodicTask task;
+  Nanoseconds deadline = 0;  // at most the period
 };
 
 std::string load_text(const Model& model, const std::vector<Member>& members, const Member& late) {
@@ -26,8 +27,8 @@ std::string load_text(const Model& model, const std::vector<Member>& members, co
       loads.emplace_back("...");
       break;
     }
-    loads.push_back(quote(model.threads[member.thread].name) + " " + duration_text(member.task.demand) +
-                    " each " + duration_text(member.task.interval) + " at priority " +
+    loads.push_back(quote(model.threads[member.thread].name) + " " + duration_text(member.task.execution) +
+                    " each " + duration_text(member.task.period) + " at priority " +
                     std::to_string(member.task.priority));
   }
   return join(loads, ", ");
@@ -38,30 +39,29 @@ std::string load_text(const Model& model, const std::vector<Member>& members, co
 void check_schedule(Model& model, Diagnostics& diagnostics) {
   for (std::size_t role = 0; role < role_names.size(); ++role) {
     std::vector<Member> members;
-    std::vector<Task> tasks;
+    std::vector<PeriodicTask> tasks;
     for (Index index = 0; index < model.threads.size(); ++index) {
       const Thread& thread = model.threads[index];
       const Nanoseconds interval = interval_of(thread);
       if (thread.priority == 0 || thread.partial || static_cast<std::size_t>(thread.role) != role ||
           interval == 0 || thread.demand == 0)
         continue;
-      const Task task{thread.priority, thread.demand, interval, 0,
-                      std::min(thread.deadline.value_or(interval), interval)};
-      members.push_back({index, task});
+      const PeriodicTask task{0, thread.priority, thread.demand, interval, 0};
+      members.push_back({index, task, std::min(thread.deadline.value_or(interval), interval)});
       tasks.push_back(task);
     }
+    ResponseTimeAnalysis analysis(tasks);
     for (std::size_t i = 0; i < members.size(); ++i) {
       Thread& thread = model.threads[members[i].thread];
-      constexpr std::int64_t patience = 100;  // deadlines, after which the queue is taken to grow without end
-      const auto response = response_time(tasks, i, patience * tasks[i].deadline);
+      const auto response = analysis.longest_response(i);
       thread.response_time = response;
-      if (response && *response <= tasks[i].deadline) continue;
+      if (response && *response <= members[i].deadline) continue;
       const InInstance instance(diagnostics, model, thread.name);
       diagnostics.error(
           thread.position,
           "thread " + quote(thread.name) + " can miss its deadline: response time " +
               (response ? duration_text(*response) : "without bound") + ", deadline " +
-              duration_text(tasks[i].deadline),
+              duration_text(members[i].deadline),
           std::string("role '") + role_names[role] + "' carries " + load_text(model, members, members[i]) +
               " (by declared budgets): lower a budget, lengthen a period, or move a thread to another role");
     }

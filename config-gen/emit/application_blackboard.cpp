@@ -3,6 +3,7 @@
 
 #include "config-gen/emit/application_parts.hpp"
 #include "config-gen/emit/component.hpp"
+#include "config-gen/emit/plain_struct.hpp"
 #include "config-gen/model/layout.hpp"
 
 namespace flexrf::config_gen {
@@ -87,6 +88,23 @@ void emit_rings(const Model& model, const ApplicationNames& names, Index index, 
       << array_or_none("queue_" + name + "_rings", rings) << "};\n";
 }
 
+// Of a slot whose row gives its items another size than usual, a descriptor of its own.
+std::string define_slot_descriptor(const Model& model, const Slot& slot, const std::string& name, Text& out) {
+  const std::string usual = "descriptor_of<" + slot_type(model, slot) + ">";
+  if (slot.elements == 0) return usual;
+  const Type& type = model.types[slot.type.index];
+  Field resized = *type.resizable();
+  if (slot.elements == resized.elements()) return usual;
+  resized.shape = {slot.elements};
+  lay_out(model, resized);
+  PlainStruct plain = plain_struct(model, type);
+  plain.identifier = "slot_" + name;
+  plain.size = slot.payload_size;
+  plain.fields.back().field = &resized;
+  define_descriptor_alone(model, plain, application_space, out);
+  return "&slot_" + name + "_descriptor";
+}
+
 }  // namespace
 
 std::string slot_type(const Model& model, const Slot& slot) {
@@ -124,9 +142,15 @@ void emit_slots(const Model& model, const ApplicationNames& names, Text& out,
       history = ", &slot_" + name + "_history";
       sizes.push_back("sizeof(slot_" + name + "_history_memory)");
     }
-    out << "constinit SlotMemory<" << type << ", " << slot.buffers() << "> slot_" << name << "_memory{};\n"
-        << "constinit SlotControl slot_" << name << "{descriptor_of<" << type << ">, slot_" << name
-        << "_memory.view(" << slot.loans << ", " << bool_literal(triple) << ")"
+    const std::string descriptor = define_slot_descriptor(model, slot, name, out);
+    if (slot.elements > 0) {
+      out << "constinit SizedSlotMemory<" << type << ", " << slot.buffers() << ", " << slot.elements << ">";
+    } else {
+      out << "constinit SlotMemory<" << type << ", " << slot.buffers() << ">";
+    }
+    out << " slot_" << name << "_memory{};\n"
+        << "constinit SlotControl slot_" << name << "{" << descriptor << ", slot_" << name << "_memory.view("
+        << slot.loans << ", " << bool_literal(triple) << ")"
         << (rung == "{}" && history.empty() ? "" : ", " + rung) << history << "};\n";
     sizes.push_back("sizeof(slot_" + name + "_memory)");
   }

@@ -37,9 +37,10 @@ void emit_budget(const Application& application, const std::vector<std::string>&
   out << "};\nconstexpr std::size_t memory_used =\n    std::accumulate(std::begin(memory_sizes), "
          "std::end(memory_sizes), std::size_t{0});\n"
          "template <std::size_t bytes_used, std::size_t bytes_budgeted>\nstruct MemoryBudget {\n"
-         "  static_assert(bytes_used <= bytes_budgeted,\n                \""
-      << short_position(application.memory_budget_position)
-      << ": memory_budget is less than slots, queues, stacks, units and drivers take\");\n"
+         "  static_assert(bytes_used <= bytes_budgeted,\n                "
+      << string_literal(short_position(application.memory_budget_position) +
+                        ": memory_budget is less than slots, queues, stacks, units and drivers take")
+      << ");\n"
          "  static constexpr bool is_kept = true;\n};\nstatic_assert(MemoryBudget<memory_used, "
       << *application.memory_budget << ">::is_kept);\n";
 }

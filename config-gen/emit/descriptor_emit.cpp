@@ -363,15 +363,17 @@ Json readers_json(const Model& model, const Readers& readers) {
 }
 
 Json slot_json(const Model& model, const Slot& slot) {
-  return {{"name", slot.name},
-          {"type", type_name(model, slot.type)},
-          {"writer", writer_text(model, slot.writer)},
-          {"readers", readers_json(model, slot.inputs)},
-          {"buffers", slot.buffers()},
-          {"observe", slot.observe},
-          {"wall", slot.wall},
-          {"history", slot.history},
-          {"summary", slot.summary}};
+  Json json = {{"name", slot.name},
+               {"type", type_name(model, slot.type)},
+               {"writer", writer_text(model, slot.writer)},
+               {"readers", readers_json(model, slot.inputs)},
+               {"buffers", slot.buffers()},
+               {"observe", slot.observe},
+               {"wall", slot.wall},
+               {"history", slot.history}};
+  if (slot.elements > 0) json["elements"] = slot.elements;
+  json["summary"] = slot.summary;
+  return json;
 }
 
 Json queue_json(const Model& model, const Queue& queue) {

@@ -199,17 +199,16 @@ std::string driver_base_source(const Model& model, const Driver& driver) {
 }
 
 std::string driver_construct_source(const Driver& driver) {
-  const std::string row = short_path(driver.file);
+  const std::string row = short_path(driver.file) + ": class " + driver.class_name;
   const Space space(driver.space);
   Text out;
-  out << generated_note(driver.file) << "#include <new>\n#include <type_traits>\n\n#include \""
-      << driver_header_path(driver) << "\"\n\n"
+  out << generated_note(driver.file) << "#include <new>\n#include <type_traits>\n\n"
+      << include_line(driver_header_path(driver)) << "\n"
       << space.open() << "\n"
       << "static_assert(std::is_base_of_v<" << driver.base_class << ", " << driver.class_name
-      << ">,\n              \"" << row << ": class " << driver.class_name << " must derive from "
-      << driver.base_class << "\");\n"
-      << "static_assert(!std::is_abstract_v<" << driver.class_name << ">,\n              \"" << row
-      << ": class " << driver.class_name << " must have every function of its interface\");\n\n"
+      << ">,\n              " << string_literal(row + " must derive from " + driver.base_class) << ");\n"
+      << "static_assert(!std::is_abstract_v<" << driver.class_name << ">,\n              "
+      << string_literal(row + " must have every function of its interface") << ");\n\n"
       << space.runtime() << "Device* " << driver_construct_name(driver)
       << "(void* storage) { return new (storage) " << driver.class_name << "; }\n\n"
       << space.close();

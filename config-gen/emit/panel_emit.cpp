@@ -31,7 +31,8 @@ std::string panel_source(const Model& model) {
   for (std::size_t i = 0; i < panel.files.size(); ++i) {
     const PanelFile& file = panel.files[i];
     const std::string name = "file_" + std::to_string(i);
-    out << "\n// " << short_path(file.file) << "\nconstexpr char " << name << "[] =\n    \"\"\n";
+    out << "\n// " << comment_text(short_path(file.file)) << "\nconstexpr char " << name
+        << "[] =\n    \"\"\n";
     emit_bytes(contents_of(file.file), out);
     out << "    ;\n";
     files << "    {" << string_literal(file.path) << ", " << string_literal(file.content_type) << ", {"

@@ -122,13 +122,37 @@ std::string comment_of(const Field& field) {
                       (field.unit.empty() || field.unit == "1" ? "" : " [" + field.told_unit + "]"));
 }
 
+// Of the last field, which lies behind the struct. No field's name ends as these do.
+void define_elements(const PlainStruct& plain, Text& out) {
+  const Field& field = *plain.fields.back().field;
+  const std::string element = cpp_scalar(field.type.scalar);
+  const auto accessor = [&](const char* of, const char* where) {
+    out << "  std::span<" << of << element << "> " << field.name << "()" << where << "noexcept {\n"
+        << "    return {reinterpret_cast<" << of << element << "*>(reinterpret_cast<" << of
+        << "std::byte*>(this) + elements_begin_), elements_};\n  }\n";
+  };
+  out << "  std::uint32_t elements_{};  ///< how many " << field.name << "() has: the slot writes it\n\n"
+      << "  using SlotElement = " << element << ";\n"
+      << "  static constexpr std::size_t elements_begin_ = " << plain.fields.back().offset << ";\n"
+      << "  static constexpr std::size_t usual_elements_ = " << field.elements() << ";\n";
+  out << "  /// " << comment_of(field) << "\n";
+  accessor("", " ");
+  accessor("const ", " const ");
+  out << "\n  " << plain.name << "() noexcept = default;\n\n private:\n"
+      << "  // It is as large as its slot says: what looks at it looks where it lies.\n"
+      << "  " << plain.name << "(const " << plain.name << "&) = default;\n"
+      << "  " << plain.name << "& operator=(const " << plain.name << "&) = default;\n";
+}
+
+// What a slot's row may say is not of the type.
 std::string field_signature(const Model& model, const PlainField& plain) {
   const Field& field = *plain.field;
   std::string text = field.name + ":" + plain.scalar;
   if (field.type.kind == FieldType::Kind::declared) {
     text += "=" + hash_text(hash_of(model, model.types[field.type.declared]));
   }
-  for (const std::size_t extent : field.shape) text += "[" + std::to_string(extent) + "]";
+  for (const std::size_t extent : field.shape)
+    text += field.resizable ? "[slot]" : "[" + std::to_string(extent) + "]";
   if (is_text(field)) text += "(" + std::to_string(field.capacity) + ")";
   return text + " " + field.unit + ";";
 }
@@ -197,16 +221,13 @@ std::string cpp_value(const Model& model, const Space& space, const Field& field
   return list + "}}";
 }
 
+std::size_t PlainStruct::struct_size() const {
+  return elements_offset == 0 ? size : round_up(elements_offset + sizeof(std::uint32_t), alignment);
+}
+
 PlainStruct plain_struct(const Model& model, const Type& type) {
-  PlainStruct plain{type.name,
-                    snake_case(type.name),
-                    Space(type.space),
-                    type.summary,
-                    type.position,
-                    type.size,
-                    type.alignment,
-                    type.image,
-                    {}};
+  PlainStruct plain{type.name, snake_case(type.name), Space(type.space), type.summary,         type.position,
+                    type.size, type.alignment,        type.image,        type.elements_offset, {}};
   for (const Field& field : type.fields) {
     plain.fields.push_back({&field, field.offset, scalar_of(model, field.type), nullptr});
   }
@@ -216,7 +237,7 @@ PlainStruct plain_struct(const Model& model, const Type& type) {
 PlainStruct plain_struct(const Model& model, std::string name, const Space& space, std::string summary,
                          const Position& position, const std::vector<const ParameterBlock*>& blocks) {
   const std::string identifier = snake_case(name);
-  PlainStruct plain{std::move(name), identifier, space, std::move(summary), position, 1, 1, false, {}};
+  PlainStruct plain{std::move(name), identifier, space, std::move(summary), position, 1, 1, false, 0, {}};
   Extent extent;
   for (const ParameterBlock* block : blocks) {
     for (const Parameter& parameter : block->parameters) {
@@ -237,6 +258,10 @@ void add_includes(const Model& model, const PlainStruct& plain, std::set<std::st
   own.insert("runtime/core/type_descriptor.hpp");
   for (const PlainField& entry : plain.fields) {
     const Field& field = *entry.field;
+    if (field.resizable) {
+      system.insert({"cstddef", "cstdint", "span"});
+      continue;
+    }
     if (!field.shape.empty() || is_text(field)) system.insert("array");
     if (has_map(field)) system.insert("Eigen/Core");
     if (is_text(field)) {
@@ -256,7 +281,7 @@ std::string include_lines(const std::set<std::string>& system, const std::set<st
   Text out;
   for (const std::string& header : system) out << "#include <" << header << ">\n";
   if (!system.empty() && !own.empty()) out << "\n";
-  for (const std::string& header : own) out << "#include \"" << header << "\"\n";
+  for (const std::string& header : own) out << include_line(header);
   return out.take();
 }
 
@@ -273,6 +298,7 @@ void declare_descriptor(const Space& space, std::string_view type, std::string_v
 void define_struct(const Model& model, const PlainStruct& plain, Text& out) {
   out << "/// " << comment_text(plain.summary) << "\nstruct " << plain.name << " {\n";
   for (const PlainField& entry : plain.fields) {
+    if (entry.field->resizable) continue;
     const std::string value =
         entry.initial == nullptr ? "{}" : cpp_value(model, plain.space, *entry.field, *entry.initial);
     const bool braced = value.starts_with("{");
@@ -280,7 +306,9 @@ void define_struct(const Model& model, const PlainStruct& plain, Text& out) {
         << (braced ? "" : " = ") << value << ";  ///< " << comment_of(*entry.field) << "\n";
   }
   Text accessors;
-  for (const PlainField& entry : plain.fields) define_accessors(*entry.field, accessors);
+  for (const PlainField& entry : plain.fields)
+    if (!entry.field->resizable) define_accessors(*entry.field, accessors);
+  if (plain.elements_offset != 0) define_elements(plain, accessors);
   if (!accessors.str().empty()) out << "\n" << accessors.str();
   out << "};\n\n";
   declare_descriptor(plain.space, plain.name, plain.identifier + "_descriptor", out);
@@ -307,16 +335,23 @@ std::vector<Range> significant_ranges(const Model& model, const PlainStruct& pla
 
 void define_descriptor(const Model& model, const PlainStruct& plain, Text& out) {
   const std::string& name = plain.name;
-  const std::string runtime(plain.space.runtime());
   const std::string row = short_position(plain.position);
-  out << "static_assert(sizeof(" << name << ") == " << plain.size << " && alignof(" << name
-      << ") == " << plain.alignment << ", \"" << row << ": layout of " << name << "\");\n"
+  out << "static_assert(sizeof(" << name << ") == " << plain.struct_size() << " && alignof(" << name
+      << ") == " << plain.alignment << ", " << string_literal(row + ": layout of " + name) << ");\n"
       << "static_assert(std::is_trivially_copyable_v<" << name << "> && std::is_standard_layout_v<" << name
       << ">);\n";
   for (const PlainField& entry : plain.fields) {
-    out << "static_assert(offsetof(" << name << ", " << entry.field->name << ") == " << entry.offset << ", \""
-        << short_position(entry.field->position) << ": place of " << entry.field->name << "\");\n";
+    const bool behind = entry.field->resizable;
+    out << "static_assert(offsetof(" << name << ", " << (behind ? "elements_" : entry.field->name)
+        << ") == " << (behind ? plain.elements_offset : entry.offset) << ", "
+        << string_literal(short_position(entry.field->position) + ": place of " + entry.field->name)
+        << ");\n";
   }
+  define_descriptor_alone(model, plain, plain.space, out);
+}
+
+void define_descriptor_alone(const Model& model, const PlainStruct& plain, const Space& space, Text& out) {
+  const std::string runtime(space.runtime());
   const std::string fields = plain.fields.empty() ? "{}" : plain.identifier + "_fields";
   const std::string ranges = plain.fields.empty() ? "{}" : plain.identifier + "_significant";
   if (!plain.fields.empty()) {
@@ -329,8 +364,8 @@ void define_descriptor(const Model& model, const PlainStruct& plain, Text& out) 
           << (is_text(field) ? field.capacity : field.elements()) << ", " << entry.offset << ", "
           << string_literal(field.told_unit) << ", " << string_literal(field.summary) << ", "
           << (field.type.kind == FieldType::Kind::declared
-                  ? "&" + plain.space.of(model.types[field.type.declared],
-                                         descriptor_name(model.types[field.type.declared].name))
+                  ? "&" + space.of(model.types[field.type.declared],
+                                   descriptor_name(model.types[field.type.declared].name))
                   : "nullptr")
           << "},\n";
     }
@@ -343,9 +378,10 @@ void define_descriptor(const Model& model, const PlainStruct& plain, Text& out) 
     out << "};\n\n}  // namespace\n";
   }
   out << "\nconstinit const " << runtime << "TypeDescriptor " << plain.identifier << "_descriptor{\n    \""
-      << name << "\", " << string_literal(plain.summary) << ",\n    " << plain.size << ", " << plain.alignment
-      << ", " << hash_literal(hash_of(model, plain)) << ", " << fields << ", " << ranges << ", {}, "
-      << bool_literal(plain.image) << "};\n";
+      << plain.name << "\", " << string_literal(plain.summary) << ",\n    " << plain.size << ", "
+      << plain.alignment << ", " << hash_literal(hash_of(model, plain)) << ", " << fields << ", " << ranges
+      << ", {}, " << bool_literal(plain.image)
+      << (plain.elements_offset == 0 ? "" : ", " + std::to_string(plain.elements_offset)) << "};\n";
 }
 
 }  // namespace flexrf::config_gen

@@ -28,7 +28,11 @@ struct PlainStruct {
   std::size_t size = 1;
   std::size_t alignment = 1;
   bool image = false;
+  std::size_t elements_offset = 0;  // as Type's: the last field lies behind the struct
   std::vector<PlainField> fields;
+
+  // Of the C++ struct.
+  std::size_t struct_size() const;
 };
 
 PlainStruct plain_struct(const Model& model, const Type& type);
@@ -46,8 +50,10 @@ void declare_descriptor(const Space& space, std::string_view type, std::string_v
 
 // Definition of the struct, declaration of its descriptor: for a header.
 void define_struct(const Model& model, const PlainStruct& plain, Text& out);
-// Checks of the layout, and the descriptor itself: for a source file. `fields` names the array of fields.
+// Checks of the layout, and the descriptor itself: for a source file.
 void define_descriptor(const Model& model, const PlainStruct& plain, Text& out);
+// The descriptor alone, called as plain.identifier says, as names are in `space`.
+void define_descriptor_alone(const Model& model, const PlainStruct& plain, const Space& space, Text& out);
 
 std::uint64_t hash_of(const Model& model, const PlainStruct& plain);
 std::uint64_t hash_of(const Model& model, const Type& type);

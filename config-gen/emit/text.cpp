@@ -42,32 +42,12 @@ std::string last_components(const std::filesystem::path& file, std::size_t count
 
 }  // namespace
 
-std::string string_literal(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      result += '\\';
-      result += c;
-    } else if (c == '\n') {
-      result += "\\n";
-    } else if (byte < 0x20 || byte == 0x7F) {
-      // Three octal digits, so that a digit that follows is not taken in.
-      std::array<char, 8> escape{};
-      std::snprintf(escape.data(), escape.size(), "\\%03o", byte);
-      result += escape.data();
-    } else {
-      result += c;
-    }
-  }
-  return result + '"';
-}
-
 std::string comment_text(std::string_view text) {
   std::string line;
   for (const char c : text) line += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   const std::size_t last = line.find_last_not_of(' ');
-  if (last != std::string::npos && line[last] == '\\') line += '.';
+  if (last != std::string::npos && (line[last] == '\\' || line.substr(0, last + 1).ends_with("?\?/")))
+    line += '.';
   return line;
 }
 
@@ -140,6 +120,12 @@ std::string generated_note(const std::filesystem::path& file) {
 
 std::string include_path(const std::filesystem::path& table, std::string_view header) {
   return last_components(table.parent_path(), 2) + "/" + std::string(header);
+}
+
+std::string include_line(std::string_view header) {
+  const bool is_quoted = header.find('"') == std::string_view::npos;
+  return std::string("#include ") + (is_quoted ? '"' : '<') + std::string(header) + (is_quoted ? "\"" : ">") +
+         "\n";
 }
 
 const std::string& Identifiers::of(const std::string& name) {

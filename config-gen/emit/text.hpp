@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "config-gen/model/model.hpp"
+#include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
 
@@ -34,7 +35,6 @@ class Text {
   std::string text_;
 };
 
-std::string string_literal(std::string_view text);  // "…" in C++, whatever the text holds
 // For the rest of a line after "//": without line breaks, and no backslash at its end that would take in the
 // next.
 std::string comment_text(std::string_view text);
@@ -59,6 +59,8 @@ std::string generated_note(const std::filesystem::path& file);
 
 // How the file beside a table is included: "units/jog/jog.hpp".
 std::string include_path(const std::filesystem::path& table, std::string_view header);
+// The line that includes it. Nothing can be escaped there: a quote goes between angle brackets.
+std::string include_line(std::string_view header);
 
 // Identifiers for names of the application: "axis[2].drive" becomes axis_2_drive. Two names never become the
 // same identifier, and none ends in a word that generated names are made with (unit_jog_inputs).

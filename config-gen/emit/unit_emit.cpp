@@ -185,17 +185,16 @@ std::string unit_base_source(const Model& model, const UnitType& unit) {
 }
 
 std::string unit_construct_source(const UnitType& unit) {
-  const std::string row = short_path(unit.file);
+  const std::string row = short_path(unit.file) + ": class " + unit.class_name;
   const Space space(unit.space);
   Text out;
-  out << generated_note(unit.file) << "#include <new>\n#include <type_traits>\n\n#include \""
-      << unit_header_path(unit) << "\"\n\n"
+  out << generated_note(unit.file) << "#include <new>\n#include <type_traits>\n\n"
+      << include_line(unit_header_path(unit)) << "\n"
       << space.open() << "\n"
       << "static_assert(std::is_base_of_v<" << unit.base_class << ", " << unit.class_name
-      << ">,\n              \"" << row << ": class " << unit.class_name << " must derive from "
-      << unit.base_class << "\");\n"
-      << "static_assert(!std::is_abstract_v<" << unit.class_name << ">,\n              \"" << row
-      << ": class " << unit.class_name << " must have step()\");\n\n"
+      << ">,\n              " << string_literal(row + " must derive from " + unit.base_class) << ");\n"
+      << "static_assert(!std::is_abstract_v<" << unit.class_name << ">,\n              "
+      << string_literal(row + " must have step()") << ");\n\n"
       << space.runtime() << "Unit* " << unit_construct_name(unit) << "(void* storage) { return new (storage) "
       << unit.class_name << "; }\n\n"
       << space.close();

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "config-gen/model/limits.hpp"
+#include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -29,7 +30,7 @@ std::string_view intern(std::string_view file) {
 }
 
 std::string to_string(const Position& position) {
-  std::string text(position.file);
+  std::string text = on_one_line(position.file);
   if (position.line > 0) text += ":" + std::to_string(position.line) + ":" + std::to_string(position.column);
   return text;
 }
@@ -108,9 +109,9 @@ void Diagnostics::print(std::ostream& out) const {
   }
   for (const Diagnostic& diagnostic : shown) {
     const std::string place = to_string(diagnostic.position);
-    out << place << (diagnostic.severity == Severity::error ? ": error: " : ": warning: ") << diagnostic.text
-        << '\n';
-    if (!diagnostic.hint.empty()) out << place << ": hint: " << diagnostic.hint << '\n';
+    out << place << (diagnostic.severity == Severity::error ? ": error: " : ": warning: ")
+        << on_one_line(diagnostic.text) << '\n';
+    if (!diagnostic.hint.empty()) out << place << ": hint: " << on_one_line(diagnostic.hint) << '\n';
     if (!diagnostic.instance.empty())
       out << to_string(diagnostic.instantiated) << ": note: in group instance '" << diagnostic.instance
           << "', which this row makes\n";

@@ -28,6 +28,8 @@ constexpr std::array<ScalarRow, 12> scalars{{{"bool", 1},
                                              {"f64", 8},
                                              {"text", 1}}};
 
+constexpr std::size_t elements_count_size = 4;
+
 const ParameterBlock* block_of(const Model& model, const SlotType& type) {
   switch (type.kind) {
     case SlotType::Kind::unit_runtime:
@@ -128,9 +130,19 @@ void lay_out(const Model& model, Type& type) {
       type.single_fields += single_fields(model, field);
       type.single_values += single_values(model, field);
       lay_out(model, field);
-      append(field, extent, &field == &type.fields.front());
+      if (!field.resizable) append(field, extent, &field == &type.fields.front());
     }
+    // One whose fields were all refused has none, and there must not be any number of it either.
+    type.single_fields = std::max<std::size_t>(1, type.single_fields);
+    type.single_values = std::max<std::size_t>(1, type.single_values);
     extent = finish(extent, type.fields.empty());
+    if (!type.fields.empty() && type.fields.back().resizable) {
+      type.elements_offset = round_up(extent.size, elements_count_size);
+      extent.alignment = std::max(extent.alignment, elements_count_size);
+      extent.size = round_up(type.elements_offset + elements_count_size, page);
+      type.fields.back().offset = extent.size;
+      extent.size += type.fields.back().size;
+    }
   }
   type.size = extent.size;
   type.alignment = extent.alignment;
@@ -150,6 +162,14 @@ void lay_out(const Model& model, ParameterBlock& block) {
 std::size_t size_of(const Model& model, const SlotType& type) {
   const ParameterBlock* block = block_of(model, type);
   return block != nullptr ? block->size : model.types[type.index].size;
+}
+
+std::size_t size_of(const Model& model, const SlotType& type, std::size_t elements) {
+  if (elements == 0) return size_of(model, type);
+  Field field = *model.types[type.index].resizable();
+  field.shape = {elements};
+  lay_out(model, field);
+  return field.offset + field.size;
 }
 
 std::size_t alignment_of(const Model& model, const SlotType& type) {

@@ -20,6 +20,7 @@ constexpr std::size_t max_nesting =
 
 // Of a type, and of parameters.
 constexpr std::size_t max_type_size = std::size_t{1} << 30;  // bytes
+constexpr std::size_t most_elements = std::size_t{1} << 28;  // of one field
 constexpr std::size_t max_type_fields =
     65536;  // single fields of a type, those of each record's element counted
 constexpr std::size_t max_parameter_values = 65536;                   // single values of one parameter

@@ -53,8 +53,9 @@ struct Field {
   std::string unit;                // unit of measure; empty for what has none to declare
   std::string told_unit;           // the same for people: "m/s or rad/s" where each device's row chooses
   std::string summary;
+  bool resizable = false;  // a slot's row may give it another shape; the last of its record
 
-  std::size_t offset = 0;  // in the enclosing struct
+  std::size_t offset = 0;  // in the enclosing struct; of one that is resizable behind it
   std::size_t size = 0;    // of the whole array
   std::size_t alignment = 1;
 
@@ -83,6 +84,11 @@ struct Type {
   std::size_t single_values = 1;         // scalars
   std::size_t size = 0;
   std::size_t alignment = 1;
+  std::size_t elements_offset =
+      0;  // of a record with a resizable field, its size being that with its own shape:
+          // where the struct, which ends there, has its number of elements (u32)
+
+  const Field* resizable() const { return elements_offset == 0 ? nullptr : &fields.back(); }
 };
 
 // ---- Values
@@ -294,6 +300,7 @@ struct Slot {
       name;  // "tool_pose", "tracks[3]", "axis[2].position"; of parameters "jog.feedback", "jog.values"
   Position position;  // its row, or where it was first named
   SlotType type;
+  std::size_t elements = 0;      // of the type's resizable field; 0: it has none
   std::size_t payload_size = 0;  // of the type; 0 until the layout is known
   std::size_t payload_alignment = 1;
   Writer writer;
@@ -605,6 +612,8 @@ struct Model {
 
 // Size, alignment and name of what a slot carries.
 std::size_t size_of(const Model& model, const SlotType& type);
+// With so many elements in its resizable field; 0: it has none.
+std::size_t size_of(const Model& model, const SlotType& type, std::size_t elements);
 std::size_t alignment_of(const Model& model, const SlotType& type);
 
 }  // namespace flexrf::config_gen

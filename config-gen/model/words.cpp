@@ -25,64 +25,73 @@ constexpr std::string_view keywords[] = {
     "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
     "xor_eq"};
 
-// Macros of the system's headers, which units and drivers include before what is generated.
-constexpr std::string_view macros[] = {"errno",
-                                       "h_addr",
-                                       "h_errno",
-                                       "ifa_broadaddr",
-                                       "ifa_dstaddr",
-                                       "ifc_buf",
-                                       "ifc_req",
-                                       "ifr_addr",
-                                       "ifr_bandwidth",
-                                       "ifr_broadaddr",
-                                       "ifr_data",
-                                       "ifr_dstaddr",
-                                       "ifr_flags",
-                                       "ifr_hwaddr",
-                                       "ifr_ifindex",
-                                       "ifr_map",
-                                       "ifr_metric",
-                                       "ifr_mtu",
-                                       "ifr_name",
-                                       "ifr_netmask",
-                                       "ifr_newname",
-                                       "ifr_qlen",
-                                       "ifr_slave",
-                                       "input_event_sec",
-                                       "input_event_usec",
-                                       "math_errhandling",
-                                       "s6_addr",
-                                       "s6_addr16",
-                                       "s6_addr32",
-                                       "sa_handler",
-                                       "sa_sigaction",
-                                       "sched_priority",
-                                       "si_addr",
-                                       "si_addr_lsb",
-                                       "si_arch",
-                                       "si_band",
-                                       "si_call_addr",
-                                       "si_fd",
-                                       "si_int",
-                                       "si_lower",
-                                       "si_overrun",
-                                       "si_pid",
-                                       "si_pkey",
-                                       "si_ptr",
-                                       "si_status",
-                                       "si_stime",
-                                       "si_syscall",
-                                       "si_timerid",
-                                       "si_uid",
-                                       "si_upper",
-                                       "si_utime",
-                                       "si_value",
-                                       "sigev_notify_attributes",
-                                       "sigev_notify_function",
-                                       "st_atime",
-                                       "st_ctime",
-                                       "st_mtime"};
+// Macros of the headers that units and drivers include before what is generated. A test compares.
+constexpr std::string_view macros[] = {
+    "errno",
+    "h_addr",
+    "h_errno",
+    "ifa_broadaddr",
+    "ifa_dstaddr",
+    "ifc_buf",
+    "ifc_req",
+    "ifr_addr",
+    "ifr_bandwidth",
+    "ifr_broadaddr",
+    "ifr_data",
+    "ifr_dstaddr",
+    "ifr_flags",
+    "ifr_hwaddr",
+    "ifr_ifindex",
+    "ifr_map",
+    "ifr_metric",
+    "ifr_mtu",
+    "ifr_name",
+    "ifr_netmask",
+    "ifr_newname",
+    "ifr_qlen",
+    "ifr_slave",
+    "input_event_sec",
+    "input_event_usec",
+    "math_errhandling",
+    "s6_addr",
+    "s6_addr16",
+    "s6_addr32",
+    "sa_handler",
+    "sa_sigaction",
+    "si_addr",
+    "si_addr_lsb",
+    "si_arch",
+    "si_band",
+    "si_call_addr",
+    "si_fd",
+    "si_int",
+    "si_lower",
+    "si_overrun",
+    "si_pid",
+    "si_pkey",
+    "si_ptr",
+    "si_status",
+    "si_stime",
+    "si_syscall",
+    "si_timerid",
+    "si_uid",
+    "si_upper",
+    "si_utime",
+    "si_value",
+    "sigev_notify_attributes",
+    "sigev_notify_function",
+    "simdjson_fallthrough",
+    "simdjson_inline",
+    "simdjson_never_inline",
+    "simdjson_really_inline",
+    "simdjson_strcasecmp",
+    "simdjson_strncasecmp",
+    "simdjson_unused",
+    "simdjson_warn_unused",
+    "st_atime",
+    "st_ctime",
+    "st_mtime",
+};
 
 bool lower(char c) {
   return c >= 'a' && c <= 'z';
@@ -140,6 +149,10 @@ bool is_macro(std::string_view name) {
   // EOF, NULL, NAN, B9600: too many to be listed; and of <cinttypes> those that are not all capitals.
   const bool capitals = std::none_of(name.begin(), name.end(), lower);
   return (capitals && name.size() > 1) || name.starts_with("PRI") || name.starts_with("SCN");
+}
+
+std::span<const std::string_view> known_macros() {
+  return macros;
 }
 
 std::string camel_case(std::string_view snake) {
@@ -202,12 +215,32 @@ std::string suggest(std::string_view word, const std::vector<std::string>& known
   return cut ? text + ", ..." : text;
 }
 
-std::string printable(std::string_view text) {
-  constexpr std::size_t most_letters = 120;
+std::string string_literal(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    // Compilers warn of what C++ once took for trigraphs: no two question marks follow each other.
+    if (c == '"' || c == '\\' || (c == '?' && result.back() == '?')) {
+      result += '\\';
+      result += c;
+    } else if (c == '\n') {
+      result += "\\n";
+    } else if (byte < 0x20 || byte == 0x7F) {
+      // Three octal digits, so that a digit that follows is not taken in.
+      std::array<char, 8> escape{};
+      std::snprintf(escape.data(), escape.size(), "\\%03o", byte);
+      result += escape.data();
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+std::string on_one_line(std::string_view text) {
   std::string result;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if (result.size() >= most_letters && (byte & 0xC0) != 0x80) return result + "...";
     if (c == '\n') {
       result += "\\n";
     } else if (byte < 0x20 || byte == 0x7F) {
@@ -219,6 +252,18 @@ std::string printable(std::string_view text) {
     }
   }
   return result;
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t most_letters = 120;
+  std::string result = on_one_line(text);
+  if (result.size() <= most_letters) return result;
+  std::size_t end = most_letters;
+  // Letters are whole.
+  while (end < result.size() && (static_cast<unsigned char>(result[end]) & 0xC0) == 0x80) ++end;
+  if (end == result.size()) return result;
+  result.resize(end);
+  return result + "...";
 }
 
 std::string quote(std::string_view word) {

@@ -14,6 +14,8 @@ bool is_camel_case(std::string_view name);
 bool is_keyword(std::string_view name);  // of C++20
 bool is_macro(std::string_view name);    // or written as one: a class called EOF would be something else
 
+std::span<const std::string_view> known_macros();  // but those of capitals, which are too many
+
 std::string camel_case(std::string_view snake);  // key_event -> KeyEvent
 std::string snake_case(std::string_view camel);  // KeyEvent -> key_event
 
@@ -24,8 +26,10 @@ std::string nearest(std::string_view word, std::span<const std::string> known);
 std::string suggest(std::string_view word, const std::vector<std::string>& known, std::string_view kinds,
                     std::string_view otherwise);
 
-// On one line, and not too long to read: control characters as escapes, what comes after 120 letters as
-// "...".
+std::string string_literal(std::string_view text);  // "…" in C++, whatever the text holds
+// On one line, whatever it holds: control characters as escapes.
+std::string on_one_line(std::string_view text);
+// The same, and not too long to read: what comes after 120 letters as "...".
 std::string printable(std::string_view text);
 std::string quote(std::string_view word);                   // 'word', printable
 std::string listed(const std::vector<std::string>& words);  // 'a', 'b' and 'c'

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "config-gen/model/layout.hpp"
+#include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
 
@@ -272,11 +273,62 @@ void connect_input(Assembly& assembly, Index unit, Index port_index, const Conne
   for (const Index slot : connection.slots) model.slots[slot].inputs.push_back(reference);
 }
 
+// elements = 4147200, or [1920, 1080, 2], which is their product.
+std::optional<std::size_t> read_elements(Row& row, Diagnostics& diagnostics) {
+  const Node* const node = row.any("elements");
+  if (node == nullptr) return std::nullopt;
+  const auto is_count = [](const Node& one) {
+    return one.kind == Node::Kind::integer && one.integer > 0 &&
+           one.integer <= static_cast<std::int64_t>(most_elements);
+  };
+  std::size_t product = 1;
+  bool good = is_count(*node);
+  if (good) product = static_cast<std::size_t>(node->integer);
+  if (node->kind == Node::Kind::array && !node->children.empty()) {
+    good = std::all_of(node->children.begin(), node->children.end(), is_count);
+    for (const Node& one : node->children)
+      if (good) product = std::min(most_elements + 1, product * static_cast<std::size_t>(one.integer));
+  }
+  if (good && product <= most_elements) return product;
+  diagnostics.error(node->position,
+                    "'elements' of " + row.name() + " must be a whole number from 1 to " +
+                        std::to_string(most_elements) + ", or a list of such that are multiplied",
+                    "write elements = 4147200, or elements = [1920, 1080, 2]");
+  return std::nullopt;
+}
+
+void set_elements(Assembly& assembly, Slot& slot, std::size_t elements, const Position& position) {
+  const Field* const field = slot.type.kind == SlotType::Kind::declared
+                                 ? assembly.model.types[slot.type.index].resizable()
+                                 : nullptr;
+  if (field == nullptr) {
+    assembly.diagnostics.error(position,
+                               "the items of slot " + quote(slot.name) + " all have one size: " +
+                                   type_name(assembly.model, slot.type) + " has no field that is resizable",
+                               "remove 'elements'; what is as large as its slot says is the last field of a "
+                               "type, with resizable = true in the type's table");
+    return;
+  }
+  Field resized = *field;
+  resized.shape = {elements};
+  lay_out(assembly.model, resized);
+  if (resized.offset + resized.size > max_type_size) {
+    assembly.diagnostics.error(position,
+                               "an item of slot " + quote(slot.name) + " takes " +
+                                   std::to_string(resized.offset + resized.size) + " bytes, more than " +
+                                   std::to_string(max_type_size),
+                               "make 'elements' smaller");
+    return;
+  }
+  slot.elements = elements;
+}
+
 void read_slot_row(Assembly& assembly, const FlatRow& flat) {
   Row row(*flat.node, "[slot." + flat.node->key + "]", assembly.diagnostics);
   const auto observe = row.boolean("observe");
   const auto wall = row.boolean("wall");
   const auto history = row.integer("history", 1, 1 << 20);
+  const auto elements = read_elements(row, assembly.diagnostics);
   const auto summary = row.sentence("summary");
   row.finish();
   const std::string name = flat.scope->slot_name(flat.node->key);
@@ -305,6 +357,7 @@ void read_slot_row(Assembly& assembly, const FlatRow& flat) {
     slot.wall = wall.value_or(false);
     slot.history = static_cast<std::size_t>(history.value_or(0));
     slot.summary = summary.value_or("");
+    if (elements) set_elements(assembly, slot, *elements, row.position("elements"));
   }
 }
 

@@ -190,7 +190,11 @@ void derive(Assembly& assembly) {
   split_triggers(assembly, queues);
   add_parameter_slots(model);
   for (Slot& slot : model.slots) {
-    slot.payload_size = size_of(model, slot.type);
+    if (slot.type.kind == SlotType::Kind::declared && slot.elements == 0) {
+      if (const Field* const field = model.types[slot.type.index].resizable(); field != nullptr)
+        slot.elements = field->elements();
+    }
+    slot.payload_size = size_of(model, slot.type, slot.elements);
     slot.payload_alignment = alignment_of(model, slot.type);
     add_readers(model, slot);
   }

@@ -13,8 +13,6 @@
 namespace flexrf::config_gen {
 namespace {
 
-constexpr std::size_t most_elements = std::size_t{1} << 28;
-
 std::vector<std::string> scalar_words() {
   std::vector<std::string> words;
   for (int i = 0; i <= static_cast<int>(Scalar::text); ++i)
@@ -281,7 +279,13 @@ std::optional<Field> read_field(Library& library, Row& row, const std::vector<st
       field.type.scalar = *type == "button" ? Scalar::u32 : Scalar::boolean;
       known = true;
     } else if (is_camel_case(*type)) {
-      if (const auto declared = library.type(*type, row.position("type"))) {
+      const auto declared = library.type(*type, row.position("type"));
+      if (declared && library.model().types[*declared].resizable() != nullptr) {
+        diagnostics.error(
+            row.position("type"),
+            row.name() + " cannot be of the type " + quote(*type) + ", which is as large as each slot says",
+            "publish it as an [output.NAME] of its own");
+      } else if (declared) {
         field.type = {FieldType::Kind::declared, Scalar::boolean, *declared};
         known = true;
       }

@@ -123,7 +123,7 @@ class NeedReader {
       const auto found = std::find(known.begin(), known.end(), wanted[i]);
       if (found == known.end()) {
         diagnostics.error(node.position, quote(name) + " has no value " + quote(wanted[i]),
-                          suggest(wanted[i], known, "values", ""));
+                          suggest(wanted[i], known, "values", "its type has none"));
         return std::nullopt;
       }
       need.numbers |= std::uint64_t{1} << (found - known.begin());

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "config-gen/model/words.hpp"
-#include "config-gen/read/csv.hpp"
+#include "config-gen/read/csv_rows.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -34,64 +34,28 @@ std::string_view trimmed(std::string_view text) {
   return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
-class ListReader {
+class ListReader : CsvRowReader {
  public:
   ListReader(const CsvTable& table, const std::vector<ListParameter>& parameters, Diagnostics& diagnostics)
-      : table_(table), parameters_(parameters), diagnostics_(diagnostics) {}
+      : CsvRowReader(table, column_names, "a list of objects", " of an object", diagnostics),
+        parameters_(parameters) {}
 
   std::vector<NeededObject> read() {
-    if (!find_columns()) return {};
+    if (!find_columns({index, name, type, access})) return {};
     for (const CsvRow& row : table_.rows) {
       row_ = &row;
-      good_ = true;
+      failed_ = false;
       entry_ = {};
       read_row();
-      if (good_) objects_.push_back(entry_);
+      if (!failed_) objects_.push_back(entry_);
     }
     return std::move(objects_);
   }
 
  private:
-  void error(const CsvCell& cell, std::string text, std::string hint) {
-    good_ = false;
-    diagnostics_.error(cell.position, std::move(text), std::move(hint));
-  }
-
-  bool find_columns() {
-    const std::vector<std::string> known(column_names.begin(), column_names.end());
-    bool good = true;
-    for (const CsvCell& cell : table_.header) {
-      if (std::find(known.begin(), known.end(), cell.text) != known.end()) continue;
-      good = false;
-      diagnostics_.error(cell.position, "a list of objects has no column " + quote(cell.text),
-                         suggest(cell.text, known, "columns", "remove it"));
-    }
-    for (std::size_t i = 0; i < columns; ++i) places_[i] = table_.column(column_names[i]);
-    for (const Column needed : {index, name, type, access})
-      if (!table_.required_column(column_names[needed], diagnostics_)) good = false;
-    return good;
-  }
-
-  // Null when the list has no such column or the cell is empty.
-  const CsvCell* cell(Column column) const {
-    if (!places_[column]) return nullptr;
-    const CsvCell& found = (*row_)[*places_[column]];
-    return found.text.empty() ? nullptr : &found;
-  }
-
-  std::optional<std::size_t> word(Column column, const std::vector<std::string>& words) {
-    const CsvCell* found = cell(column);
-    if (found == nullptr) return std::nullopt;
-    const auto place = std::find(words.begin(), words.end(), found->text);
-    if (place != words.end()) return static_cast<std::size_t>(place - words.begin());
-    error(*found, quote(found->text) + " is no " + std::string(column_names[column]) + " of an object",
-          suggest(found->text, words, "ones", "write one of " + listed(words)));
-    return std::nullopt;
-  }
-
   std::optional<std::size_t> required_word(Column column, const std::vector<std::string>& words) {
     if (cell(column) == nullptr)
-      error((*row_)[*places_[column]], std::string("this object has no ") + column_names[column],
+      error(place(column), std::string("this object has no ") + column_names[column],
             "write one of " + listed(words));
     return word(column, words);
   }
@@ -101,7 +65,7 @@ class ListReader {
     if (found == nullptr) return otherwise;
     const auto number = CsvTable::integer(*found, diagnostics_);
     if (!number) {
-      good_ = false;
+      failed_ = true;
     } else if (*number < least || *number > most) {
       error(*found, quote(found->text) + " is no " + column_names[column] + " of an object",
             "it is from " + std::to_string(least) + " to " + std::to_string(most));
@@ -175,7 +139,7 @@ class ListReader {
     } else if (const auto number = read_number(*found)) {
       entry_.value = *number;
     } else {
-      good_ = false;
+      failed_ = true;
     }
   }
 
@@ -199,14 +163,9 @@ class ListReader {
     return nullptr;
   }
 
-  const CsvTable& table_;
   const std::vector<ListParameter>& parameters_;
-  Diagnostics& diagnostics_;
-  std::array<std::optional<std::size_t>, columns> places_;
-  const CsvRow* row_ = nullptr;
   NeededObject entry_;
   std::vector<NeededObject> objects_;
-  bool good_ = true;
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "config-gen/model/words.hpp"
-#include "config-gen/read/csv.hpp"
+#include "config-gen/read/csv_rows.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -64,12 +64,13 @@ struct Taken {
   std::uint16_t bits;
 };
 
-class MapReader {
+class MapReader : CsvRowReader {
  public:
-  MapReader(const CsvTable& table, Diagnostics& diagnostics) : table_(table), diagnostics_(diagnostics) {}
+  MapReader(const CsvTable& table, Diagnostics& diagnostics)
+      : CsvRowReader(table, column_names, "a register map", "", diagnostics) {}
 
   std::optional<RegisterMap> read() {
-    if (!find_columns()) return std::nullopt;
+    if (!find_columns({name, address, type, access})) return std::nullopt;
     for (const CsvRow& row : table_.rows) {
       row_ = &row;
       read_row();
@@ -82,45 +83,6 @@ class MapReader {
   }
 
  private:
-  void error(const CsvCell& cell, std::string text, std::string hint) {
-    failed_ = true;
-    diagnostics_.error(cell.position, std::move(text), std::move(hint));
-  }
-
-  bool find_columns() {
-    const std::vector<std::string> known(column_names.begin(), column_names.end());
-    for (const CsvCell& cell : table_.header) {
-      if (std::find(known.begin(), known.end(), cell.text) == known.end())
-        error(cell, "a register map has no column " + quote(cell.text),
-              suggest(cell.text, known, "columns", "remove it"));
-    }
-    for (std::size_t i = 0; i < columns; ++i) places_[i] = table_.column(column_names[i]);
-    for (const Column needed : {name, address, type, access}) {
-      if (!table_.required_column(column_names[needed], diagnostics_)) failed_ = true;
-    }
-    return !failed_;
-  }
-
-  // Null when the list has no such column or the cell is empty.
-  const CsvCell* cell(Column column) const {
-    if (!places_[column]) return nullptr;
-    const CsvCell& found = (*row_)[*places_[column]];
-    return found.text.empty() ? nullptr : &found;
-  }
-  // The cell, or the row's first where there is none: something to point at.
-  const CsvCell& place(Column column) const {
-    return places_[column] ? (*row_)[*places_[column]] : row_->cells.front();
-  }
-
-  std::optional<std::size_t> word(Column column, const std::vector<std::string>& words) {
-    const CsvCell* found = cell(column);
-    if (found == nullptr) return std::nullopt;
-    for (std::size_t i = 0; i < words.size(); ++i)
-      if (words[i] == found->text) return i;
-    error(*found, quote(found->text) + " is no " + std::string(column_names[column]),
-          suggest(found->text, words, "ones", "write one of " + listed(words)));
-    return std::nullopt;
-  }
   std::optional<std::size_t> required_word(Column column, const std::vector<std::string>& words) {
     if (cell(column) == nullptr) {
       error(place(column), "the register " + quote(entry_.name) + " has no " + column_names[column],
@@ -318,17 +280,12 @@ class MapReader {
     limit(written_, max_output_words_of_station, "words to write");
   }
 
-  const CsvTable& table_;
-  Diagnostics& diagnostics_;
-  std::array<std::optional<std::size_t>, columns> places_;
-  const CsvRow* row_ = nullptr;
   ModbusRegister entry_;
   RegisterMap map_;
   std::map<std::string, Position> names_;
   std::map<std::array<std::uint32_t, 3>, std::vector<Taken>> taken_;
   std::size_t read_ = 0;
   std::size_t written_ = 0;
-  bool failed_ = false;
 };
 
 }  // namespace

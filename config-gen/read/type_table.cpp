@@ -18,6 +18,16 @@ void check_image(const Type& type, const Position& position, Diagnostics& diagno
   }
 }
 
+bool read_resizable(Row& row, const Field& field, Diagnostics& diagnostics) {
+  if (!row.boolean("resizable").value_or(false)) return false;
+  if (field.type.kind == FieldType::Kind::scalar && field.type.scalar != Scalar::text &&
+      field.shape.size() == 1)
+    return true;
+  diagnostics.error(row.position("resizable"), row.name() + " cannot be resizable: it is no row of scalars",
+                    "give it a scalar type and shape = [N], its size where a slot's row says no other");
+  return false;
+}
+
 }  // namespace
 
 std::optional<Index> read_type_table(Library& library, const Node& root, const std::filesystem::path& file) {
@@ -44,8 +54,20 @@ std::optional<Index> read_type_table(Library& library, const Node& root, const s
 
   for (const Node* node : named_rows(library, root, "field", "a field")) {
     Row field_row(*node, "[field." + node->key + "]", diagnostics);
-    if (auto field = read_field(library, field_row)) type.fields.push_back(std::move(*field));
+    if (auto field = read_field(library, field_row)) {
+      field->resizable = read_resizable(field_row, *field, diagnostics);
+      type.fields.push_back(std::move(*field));
+    } else {
+      field_row.also("resizable");
+    }
     field_row.finish();
+  }
+  for (std::size_t i = 0; i < type.fields.size(); ++i) {
+    if (!type.fields[i].resizable || i + 1 == type.fields.size()) continue;
+    diagnostics.error(type.fields[i].position,
+                      quote(type.fields[i].name) + " is resizable, and fields follow it",
+                      "a type has one such field, and it is the last: move its row to the end of the file");
+    type.fields[i].resizable = false;
   }
   std::vector<const Field*> fields;
   for (const Field& field : type.fields) fields.push_back(&field);

@@ -41,6 +41,12 @@ PortType read_port_type(Library& library, Row& row) {
     return port;
   }
   port.type = library.type(*name, port.position);
+  if (port.queue && port.type && library.model().types[*port.type].resizable() != nullptr) {
+    diagnostics.error(port.position,
+                      quote(*name) + " cannot be an item of a queue: it is as large as each slot says",
+                      "publish it in a slot: type = \"" + *name + "\"");
+    port.type.reset();
+  }
   return port;
 }
 

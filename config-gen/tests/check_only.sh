@@ -34,6 +34,15 @@ check_application() {  # check_application TABLE DRIVERS...: sets status and out
   status=$?
 }
 
+# Nor of the cells that tests are made of, but of one whose keyboard tells more than it wants to know.
+for table in "$repository"/tests/{applications,generator,panel,melfa,modbus,camera}/*/*.toml; do
+  part=$(dirname "$(dirname "$table")")
+  [[ $(<"$table") == *memory_budget* ]] || continue
+  check_application "$table" "$part/drivers" --interfaces "$repository/hal/interfaces" "$part/interfaces"
+  [[ $table != */hand.toml ]] || output=${output#*"hand.toml:6:9: warning: output 'keys' of 'keyboard' goes nowhere"*$'\n'*"should see it"}
+  [[ $status == 0 && ! $output ]] || fail "$table is not without a word: $status"
+done
+
 checked=0
 for table in "$repository"/apps/*/*.toml "$repository/cmake/tool/templates/app/new_app.toml"; do
   check_application "$table" "$(dirname "$table")/drivers"
@@ -49,3 +58,11 @@ mkdir folder.toml
 check_application "$work/folder.toml"
 [[ $status == 1 && $output == *"folder.toml:1:1: error: cannot read this file: Is a directory"*": hint: "* ]] ||
   fail "a folder has no place: $status"
+
+# Rules for the build system, of a folder that has what is special there.
+odd="$work/a\\ b#c\$d"
+cp -r "$tests/cells/shared" "$odd"
+output=$("$generator" --application "$odd/cell.toml" --types "$tests/base/types" --units "$tests/base/units" --interfaces "$tests/base/hal/interfaces" \
+  --drivers "$tests"/base/hal/{linux,simulated} --output made --dependencies made/rules --stamp made/stamp 2>&1)
+status=$?
+[[ $status == 0 && $(<made/rules) == *'/a\\\ b\#c$$d/cell.toml'* ]] || fail "the rules do not name the folder: $status $(<made/rules)"

@@ -47,6 +47,14 @@ void what_is_alike_is_told_once(void**) {
                       "cell.toml:1:1: hint: mend it\n");
 }
 
+void a_message_is_one_line_whatever_it_quotes(void**) {
+  Diagnostics diagnostics;
+  diagnostics.error({intern("odd\nfolder/cell.toml"), 1, 2}, "saw 't\n'", "not \x1b[31m");
+  assert_string_equal(printed(diagnostics).c_str(),
+                      "odd\\nfolder/cell.toml:1:2: error: saw 't\\n'\n"
+                      "odd\\nfolder/cell.toml:1:2: hint: not \\x1B[31m\n");
+}
+
 bool gives_up_after(Diagnostics& diagnostics, std::size_t errors, bool alike) {
   std::size_t added = 0;
   try {
@@ -83,6 +91,7 @@ int main() {
   using namespace flexrf::config_gen;
   const CMUnitTest tests[] = {
       cmocka_unit_test(many_messages_are_cut_and_counted), cmocka_unit_test(what_is_alike_is_told_once),
-      cmocka_unit_test(too_many_errors_end_it), cmocka_unit_test(too_many_warnings_do_not)};
+      cmocka_unit_test(a_message_is_one_line_whatever_it_quotes), cmocka_unit_test(too_many_errors_end_it),
+      cmocka_unit_test(too_many_warnings_do_not)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -222,6 +222,7 @@ void the_driver_of_grippers_and_the_simulated_drive(void**) {
 // What is optional in CiA 402, or of use to nobody here.
 void what_a_drive_need_not_have(void**) {
   const Numbers plain{{"mode", profile_position}, {"vendor", 0x123}};
+  assert_string_equal(messages_for("canopen_servo_drive", plain, without("6083")).c_str(), "");
   assert_string_equal(messages_for("canopen_servo_drive", plain, without("6084")).c_str(), "");
   assert_string_equal(messages_for("canopen_servo_drive", plain, {{"[1018sub2]", "[1018sub3]"}}).c_str(), "");
   Numbers named = plain;
@@ -238,10 +239,13 @@ void the_column_that_helps_is_in_the_hint(void**) {
     const char* hint;
     Numbers said;
   };
-  const Texts no_cyclic{{"DefaultValue=0x000001A5", "DefaultValue=0x00000065"}};
+  const Texts no_cyclic{{"DefaultValue=0x000001E5", "DefaultValue=0x00000065"}};
   const Texts unmapped_speed{{"DefaultValue=10000\nPDOMapping=1", "DefaultValue=10000\nPDOMapping=0"}};
   const Case cases[] = {
-      {{{"mode", cyclic_position}}, no_cyclic, "with 'interpolates = true' in its configuration", {}},
+      {{{"mode", cyclic_position}},
+       no_cyclic,
+       "with 'interpolates = true' in its configuration",
+       {{"interpolates", 1}}},
       {{{"mode", profile_position}}, unmapped_speed, "'maps_speed = false'", {{"maps_speed", 0}}},
       {{{"mode", profile_position}}, without("6081"), "'maps_speed = false'", {}},
       {{{"mode", profile_position}, {"maps_speed", 0}},
@@ -252,6 +256,7 @@ void the_column_that_helps_is_in_the_hint(void**) {
        without("6007"),
        "'tells_abort_connection = false'",
        {{"tells_abort_connection", 0}}},
+      {{{"mode", cyclic_position}}, without("606C"), "'maps_velocity = false'", {{"maps_velocity", 0}}},
       {{{"mode", cyclic_position}}, without("1017"), "'guarded = true'", {{"guarded", 1}}},
       {{{"mode", cyclic_position}},
        {{"[60C2sub1]", "[20C2sub1]"}},
@@ -266,9 +271,9 @@ void the_column_that_helps_is_in_the_hint(void**) {
     for (const auto& [name, value] : one.said) said[name] = value;
     assert_string_equal(messages_for("canopen_servo_drive", said, one.exchanged).c_str(), "");
   }
-  assert_true(
-      says(messages_for("canopen_servo_drive", {{"mode", cyclic_position}, {"interpolates", 1}}, no_cyclic),
-           "object 0x60C1:01 (interpolation point) is missing"));
+  assert_true(says(messages_for("canopen_servo_drive", {{"mode", cyclic_position}, {"interpolates", 1}},
+                                {{"[60C1sub1]", "[20C1sub1]"}}),
+                   "object 0x60C1:01 (interpolation point) is missing"));
 }
 
 // An identifier that cannot be written is as good if it is the right one.

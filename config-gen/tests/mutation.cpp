@@ -373,11 +373,11 @@ class Change {
   std::vector<std::string> lines_;
 };
 
+}  // namespace
+
 void write_file(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
 }
-
-}  // namespace
 
 std::uint64_t Dice::next() {
   state_ += 0x9E3779B97F4A7C15U;

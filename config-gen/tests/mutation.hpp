@@ -31,6 +31,8 @@ class Dice {
   std::uint64_t state_;
 };
 
+void write_file(const std::filesystem::path& file, const std::string& text);
+
 // An application with all that its tables can name.
 struct Cell {
   std::filesystem::path table;

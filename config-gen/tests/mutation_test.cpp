@@ -2,25 +2,24 @@
 // hangs.
 //
 //   config_gen_mutation_test [COUNT [FIRST]]    default: 1500 0; the same numbers make the same changes
-#include <cstdlib>
 #include <iostream>
 
 #include "config-gen/tests/mutation_judge.hpp"
+#include "config-gen/tests/numbered.hpp"
 #include "places.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf::config_gen::tests {
 namespace {
 
-std::uint64_t first = 0;
-std::uint64_t count = 1500;
+Numbers numbers{0, 1500};
 
 std::size_t wrong_answers() {
   const TableTree tree(place::repository);
   watch_for_crashes();  // here, for cmocka has handlers of its own while a test runs
   std::size_t wrong = 0, accepted = 0;
   constexpr std::size_t most_shown = 20;
-  for (std::uint64_t number = first; number < first + count; ++number) {
+  for (std::uint64_t number = numbers.first; number < numbers.first + numbers.count; ++number) {
     Dice dice(~number);
     // The large applications are half of it: the small cells are many.
     const std::size_t large = 6;
@@ -34,7 +33,7 @@ std::size_t wrong_answers() {
       std::cerr << "mutation " << number << " of " << cell.table.string() << ": " << judgement.wrong << '\n'
                 << mutation.description();
   }
-  std::cout << count << " mutations, " << accepted << " accepted, " << wrong << " answered wrongly\n";
+  std::cout << numbers.count << " mutations, " << accepted << " accepted, " << wrong << " answered wrongly\n";
   return wrong;
 }
 
@@ -47,8 +46,7 @@ void mutated_tables_are_answered(void**) {
 
 int main(int argument_count, char** arguments) {
   using namespace flexrf::config_gen::tests;
-  if (argument_count > 1) count = std::strtoull(arguments[1], nullptr, 10);
-  if (argument_count > 2) first = std::strtoull(arguments[2], nullptr, 10);
+  numbers.take(argument_count, arguments);
   const CMUnitTest tests[] = {cmocka_unit_test(mutated_tables_are_answered)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -119,7 +119,7 @@ std::string UrdfDocument::read_end(const DocumentJoint& joint, const char* end) 
           "write <" + std::string(end) + " link=\"...\"/>");
   } else if (!links_.contains(link)) {
     error(element, "joint '" + joint.name + "': there is no link '" + link + "'",
-          suggest(link, link_names_, "links", ""));
+          suggest(link, link_names_, "links", "add <link name=\"...\"/> of this name"));
   }
   return link;
 }

@@ -1,6 +1,7 @@
 #include <array>
 #include <charconv>
 
+#include "config-gen/model/words.hpp"
 #include "config-gen/urdf/urdf_reader.hpp"
 
 namespace flexrf::config_gen {
@@ -22,15 +23,6 @@ std::string list(const std::array<double, Count>& values) {
   return text + "}";
 }
 
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  }
-  return result + "\"";
-}
-
 const char* kind(UrdfJoint::Kind kind) {
   switch (kind) {
     case UrdfJoint::Kind::revolute:
@@ -50,10 +42,10 @@ std::string transform(const UrdfTransform& value) {
 }  // namespace
 
 std::string emit_kinematic_chain(const UrdfChain& chain) {
-  std::string text = "flexrf::KinematicChain{\n    .name = " + quoted(chain.name) +
+  std::string text = "flexrf::KinematicChain{\n    .name = " + string_literal(chain.name) +
                      ",\n    .joint_count = " + std::to_string(chain.joints.size()) + ",\n    .joints = {{\n";
   for (const UrdfJoint& joint : chain.joints) {
-    text += "        {.name = " + quoted(joint.name) + ",\n         .kind = " + kind(joint.kind) +
+    text += "        {.name = " + string_literal(joint.name) + ",\n         .kind = " + kind(joint.kind) +
             ",\n         .origin = " + transform(joint.origin) + ",\n         .axis = " + list(joint.axis) +
             ",\n         .lower = " + literal(joint.lower) + ", .upper = " + literal(joint.upper) +
             ", .velocity = " + literal(joint.velocity) +

@@ -29,6 +29,7 @@ void read_axis_columns(const Columns& columns, cia402::AxisPlan& plan) noexcept 
   plan.is_guarded = columns.guarded;
   plan.maps_mode = columns.maps_mode;
   plan.maps_speed = columns.maps_speed;
+  plan.maps_velocity = columns.maps_velocity;
   plan.tells_speed = columns.tells_speed;
   plan.mode_timeout = whole_milliseconds(columns.mode_timeout);
   plan.set_point_timeout = whole_milliseconds(columns.set_point_timeout);

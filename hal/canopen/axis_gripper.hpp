@@ -16,6 +16,7 @@ class AxisGripper : public Base {
 
   void receive(const Tick& tick) noexcept override {
     control_.receive(tick);
+    control_.tell_own_ramps(this->name());
     report_.fill(this->name(), this->feedback, control_.state(), control_.trouble());
   }
 

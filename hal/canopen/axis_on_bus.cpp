@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hal/canopen/can_message.hpp"
+#include "runtime/log/log.hpp"
 
 namespace flexrf::canopen {
 namespace {
@@ -21,7 +22,7 @@ Status AxisOnBus::open(const cia402::AxisPlan& plan, CanBus& bus) {
   plan_ = plan;
   bus_ = &bus;
   outbox_.clear();
-  began_ = false;
+  began_ = told_own_ramps_ = false;
   last_sent_ = Time{};
   // Tried here, for its errors; begun in the first cycle, whose time counts.
   if (const Status status = axis_.begin(plan_, Time{}, outbox_); !status.is_ok()) return status;
@@ -72,6 +73,16 @@ void AxisOnBus::send(const Tick& tick, bool may_move) noexcept {
   if (const auto word = axis_.last_word()) {
     bus_->prepare_last_word(last_word_, to_frame(*word), to_frame({sync_identifier, 0, {}}));
   }
+}
+
+void AxisOnBus::tell_own_ramps(const char* name) noexcept {
+  if (told_own_ramps_ || !axis_.has_own_ramps()) return;
+  told_own_ramps_ = true;
+  log_warning(
+      name,
+      "node {} takes no acceleration (it has no object 6083): its ramps are its own, and `acceleration` "
+      "is to be what they are",
+      unsigned{plan_.node});
 }
 
 std::optional<ServoState> AxisOnBus::state() const noexcept {

@@ -14,6 +14,7 @@ class CanopenDrive : public Base {
 
   void receive(const Tick& tick) noexcept override {
     link_.receive(tick);
+    link_.tell_own_ramps(this->name());
     auto& told = this->feedback;
     told.homing = link_.homing();
     const canopen::Node& node = link_.axis().node();
@@ -32,7 +33,8 @@ class CanopenDrive : public Base {
     told.velocity = state->velocity;
     told.following_error = state->following_error;
     told.at_internal_limit = state->at_internal_limit;
-    this->supervise(this->configuration, link_.axis().asked_velocity(), tick.now);
+    this->supervise(this->configuration, link_.axis().asked_velocity(), link_.axis().profile_target(),
+                    tick.now);
   }
 
   void send(const Tick& tick) noexcept override {

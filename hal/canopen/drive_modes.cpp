@@ -29,10 +29,10 @@ double CyclicSetPoint::next(Duration elapsed) noexcept {
     set_point_ = wanted_ = std::clamp(before + velocity_ * time, lowest_, highest_);
     return set_point_;
   }
-  const double most = fastest_ * time;
+  most_ = fastest_ * time;
   // Not by adding the clamped difference alone: what is in reach is met exactly.
   const double difference = wanted_ - before;
-  set_point_ = std::abs(difference) <= most ? wanted_ : before + std::clamp(difference, -most, most);
+  set_point_ = std::abs(difference) <= most_ ? wanted_ : before + std::clamp(difference, -most_, most_);
   if (time > 0) velocity_ = (set_point_ - before) / time;
   return set_point_;
 }

@@ -1,6 +1,7 @@
 // What the modes of CiA 402 ask for beside the state machine: handshakes, and set-points that do not jump.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "hal/canopen/cia402.hpp"
@@ -30,6 +31,9 @@ class CyclicSetPoint {
   double wanted() const noexcept { return wanted_; }
   /// What is wanted is farther away than the axis may go in the cycle.
   bool is_limited() const noexcept { return set_point_ != wanted_; }
+  /// And by more than another cycle makes up for: it is led faster than it may go. What a cycle that came
+  /// early or late makes of a motion at its greatest velocity is less.
+  bool is_outpaced() const noexcept { return std::abs(wanted_ - set_point_) > most_; }
 
  private:
   double slowed(double time) const noexcept;
@@ -37,6 +41,7 @@ class CyclicSetPoint {
   double fastest_;
   double set_point_ = 0;
   double wanted_ = 0;
+  double most_ = 0;          // in the last cycle
   double velocity_ = 0;      // of the last cycle, a second
   double deceleration_ = 0;  // above 0: it halts
   double lowest_ = 0;
@@ -64,6 +69,8 @@ class SetPointHandshake {
   std::int32_t target() const noexcept { return target_; }
   /// Of that target.
   double speed() const noexcept { return speed_; }
+  /// The drive took the last command.
+  bool is_taken() const noexcept { return (step_ == Step::free || step_ == Step::withdrawn) && !waiting_; }
   /// The drive took the last command and says that it is there; before it took it, it may say so of the one
   /// before.
   bool is_reached(std::uint16_t statusword) const noexcept {

@@ -139,6 +139,7 @@ void Node::observe(NmtState heard, Time now, Outbox& outbox) noexcept {
     emergency_.reset();
     state_ = NodeState::configuring;
     step_ = 0;
+    left_out_.reset();
     mapping_is_fixed_ = reads_back_ = false;
     brought_back_ = 0;
     // It may be about to start itself (object 1F80), and takes no mapping then.
@@ -163,6 +164,13 @@ void Node::observe(NmtState heard, Time now, Outbox& outbox) noexcept {
     return;
   }
   if (is_operational()) heartbeat_.observe(now);
+}
+
+bool Node::has_left_out(ObjectAddress object) const noexcept {
+  for (std::size_t i = 0; i < plan_.configuration.size(); ++i) {
+    if (left_out_.test(i) && plan_.configuration[i].object == object) return true;
+  }
+  return false;
 }
 
 void Node::configure(Time now, Outbox& outbox) noexcept {
@@ -207,7 +215,10 @@ void Node::end_step(Time now, Outbox& outbox) noexcept {
 bool Node::judge_refusal(const ConfigurationStep& step, Time now, Outbox& outbox) noexcept {
   const std::uint32_t code = client_.abort_code();
   const bool is_missing = code == sdo_abort::no_object || code == sdo_abort::no_subindex;
-  if (step.optional && is_missing) return true;
+  if (step.optional && is_missing) {
+    left_out_.set(step_);
+    return true;
+  }
   if (tells_of_fixed_mapping(step)) {
     mapping_is_fixed_ = true;
     return true;

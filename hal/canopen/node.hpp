@@ -2,6 +2,8 @@
 // 302-2).
 #pragma once
 
+#include <bitset>
+
 #include "hal/canopen/configuration.hpp"
 #include "hal/canopen/emergency.hpp"
 #include "hal/canopen/nmt.hpp"
@@ -61,6 +63,9 @@ class Node {
   /// What it said last of what is wrong in it; none while nothing is.
   const std::optional<Emergency>& emergency() const noexcept { return emergency_; }
 
+  /// Of its configuration, since it booted: what is optional, and it has no object for.
+  bool has_left_out(ObjectAddress object) const noexcept;
+
   std::uint64_t emergencies() const noexcept { return emergencies_; }
   std::uint64_t times_operational() const noexcept { return times_operational_; }
   /// Boot-ups that nobody had asked for.
@@ -95,8 +100,9 @@ class Node {
   bool toggle_ = false;  // of its last answer to guarding
   std::size_t step_ = 0;
   bool mapping_is_fixed_ = false;  // of the PDO that is being configured
-  bool reads_back_ = false;        // what the step could not write
-  unsigned brought_back_ = 0;      // to pre-operational, since it booted
+  std::bitset<Configuration::capacity> left_out_;
+  bool reads_back_ = false;    // what the step could not write
+  unsigned brought_back_ = 0;  // to pre-operational, since it booted
   Time deadline_{};
   Status problem_;
   std::optional<Emergency> emergency_;

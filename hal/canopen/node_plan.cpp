@@ -51,9 +51,9 @@ Status Node::check(const NodePlan& plan) const noexcept {
 void Node::plan_supervision() noexcept {
   const auto period = static_cast<std::uint32_t>(in_ms(plan_.heartbeat_period));
   if (plan_.is_guarded) {
-    plan_.configuration.write(objects::guard_time, 2, period);
+    plan_.configuration.write(objects::guard_time, 2, period, "guarded = false");
     plan_.configuration.write(objects::life_time_factor, 1,
-                              static_cast<std::uint32_t>(life_time_factor_of(plan_)));
+                              static_cast<std::uint32_t>(life_time_factor_of(plan_)), "guarded = false");
   } else {
     plan_.configuration.write(objects::producer_heartbeat, 2, period, "guarded = true");
   }

@@ -47,10 +47,12 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   bring_ups_ = node_.times_operational();
   was_commanded_ = halts_ = false;
   velocity_ = asked_velocity_ = 0;
+  ignored_ = 0;
   most_torque_ = 1;
   target_object_ = 0;
   counted_.reset();
-  restraint_ = {};
+  from_positions_.forget();
+  restraint_ = held_ = {};
   return node_.begin(node_plan(), now, outbox);
 }
 
@@ -70,8 +72,7 @@ bool ServoAxis::take_process_data(const Message& message, Time now) noexcept {
   std::uint64_t values[3] = {};
   if (message.identifier == motion_.identifier) {
     if (!state_ || !unpack(motion_, message, values)) return true;
-    state_->velocity = static_cast<double>(with_sign(values[0], 32)) / to_velocity_object(1);
-    state_->torque = static_cast<double>(with_sign(values[1], 16)) / whole_torque;
+    take_motion(values);
     return true;
   }
   if (message.identifier != states_.identifier) return false;
@@ -79,12 +80,23 @@ bool ServoAxis::take_process_data(const Message& message, Time now) noexcept {
   if (!state_) state_.emplace();
   statusword_ = static_cast<std::uint16_t>(values[0]);
   state_->position = position_of(static_cast<std::int32_t>(with_sign(values[1], 32)));
+  if (!plan_.maps_velocity) state_->velocity = from_positions_.take(way_, now);
   state_->at_internal_limit = (statusword_ & status_bit::internal_limit) != 0;
   state_->target_reached = has_reached(statusword_);
   if (plan_.maps_mode) mode_shown_ = static_cast<Mode>(with_sign(values[2], 8));
   heard_ = now;
   heard_now_ = true;
   return true;
+}
+
+void ServoAxis::take_motion(const std::uint64_t* values) noexcept {
+  for (std::size_t i = 0; i < motion_.count; ++i) {
+    if (motion_.entries[i].object == objects::actual_velocity) {
+      state_->velocity = static_cast<double>(with_sign(values[i], 32)) / to_velocity_object(1);
+    } else {
+      state_->torque = static_cast<double>(with_sign(values[i], 16)) / whole_torque;
+    }
+  }
 }
 
 /// The drive's counter runs over after 2^32 increments; an endless axis goes on.
@@ -94,9 +106,13 @@ double ServoAxis::position_of(std::int32_t increments) noexcept {
   count_ = goes_on ? count_ + wrapped(std::int64_t{increments} - before) : increments;
   counted_ = increments;
   way_ = static_cast<double>(count_) / plan_.increments_per_unit;
-  if (plan_.modulo == 0) return way_;
-  const double told = way_ - plan_.modulo * std::floor(way_ / plan_.modulo);
-  return told < plan_.modulo ? told : 0;  // a hair below 0 is rounded up to it
+  return told(way_);
+}
+
+double ServoAxis::told(double way) const noexcept {
+  if (plan_.modulo == 0) return way;
+  const double within_it = way - plan_.modulo * std::floor(way / plan_.modulo);
+  return within_it < plan_.modulo ? within_it : 0;  // a hair below 0 is rounded up to it
 }
 
 void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) noexcept {
@@ -131,8 +147,37 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   target_object_ = plan_.endless && !is_led_in(Mode::cyclic_velocity, Mode::profile_velocity)
                        ? static_cast<std::uint32_t>(wrapped(std::llround(target)))
                        : to_object(target);
+  watch_following();
   heard_now_ = false;
+  tell_restraint();
   say(word, outbox);
+}
+
+// In the cyclic modes bit 12 says whether set-points are followed or ignored. One that is ignored is no error
+// of the drive, which stays enabled: it may be about something of its own, and drives older than these modes
+// leave the bit 0 for ever. So it is told, and an axis that then falls behind is in fault for that.
+// Interpolated position knows more, see InterpolationSwitch.
+void ServoAxis::watch_following() noexcept {
+  const bool is_led = is_led_in(Mode::cyclic_position, Mode::cyclic_velocity) && power_.is_enabled() &&
+                      !homing_.is_running() && mode_shown_ == plan_.mode;
+  if (!is_led || (heard_now_ && (statusword_ & status_bit::follows) != 0)) {
+    ignored_ = 0;
+  } else if (heard_now_) {
+    ignored_ = std::min(ignored_ + 1, ignoring_cycles);
+  }
+}
+
+// What was said in this cycle goes before what stands since the command, and that before its consequence.
+void ServoAxis::tell_restraint() noexcept {
+  const bool is_of_speed =
+      held_.reason == servo_restraints::too_fast || held_.reason == servo_restraints::own_speed;
+  if (plan_.mode == Mode::profile_position && is_of_speed && state_->target_reached) held_ = {};
+  if (restraint_.reason != nullptr || !power_.is_enabled()) return;
+  restraint_ = held_;
+  if (ignored_ == ignoring_cycles) restraint_ = {.reason = servo_restraints::set_points_ignored};
+  const bool is_led = is_led_in(Mode::cyclic_position, Mode::interpolated_position);
+  if (restraint_.reason == nullptr && is_led && cyclic_.is_outpaced())
+    restraint_ = {servo_restraints::led_too_fast, told(cyclic_.wanted()), told(cyclic_.set_point())};
 }
 
 // The first cause counts: what follows from it says less.
@@ -157,6 +202,7 @@ void ServoAxis::watch(bool may_move, Time now) noexcept {
     power_.begin(plan_.limits);
     homing_.forget();
     unmapped_.forget();
+    from_positions_.forget();
     state_.reset();
   }
   if (node_.state() == NodeState::refused && fault_.is_ok()) fault_ = node_.problem();
@@ -210,6 +256,7 @@ void ServoAxis::seed() noexcept {
   handshake_.reset(wrapped(count_));
   velocity_ = 0;
   was_commanded_ = halts_ = false;
+  held_ = {};
 }
 
 std::uint16_t ServoAxis::mode_bits(bool at_rest, Time now) noexcept {
@@ -218,7 +265,10 @@ std::uint16_t ServoAxis::mode_bits(bool at_rest, Time now) noexcept {
     const std::uint16_t bits = homing_.advance(
         {.statusword = statusword_, .is_new = heard_now_, .shown = mode_shown_, .at_rest = at_rest}, now);
     // From here on it counts anew, while it is still on its way back into its mode and seeded.
-    if (homing_.knows_home() && !knew_home) counted_.reset();
+    if (homing_.knows_home() && !knew_home) {
+      counted_.reset();
+      from_positions_.forget();
+    }
     if (!homing_.trouble().is_ok()) fail(homing_.trouble());
     if (!homing_.is_resting()) return bits;
   }
@@ -272,14 +322,27 @@ bool ServoAxis::would_leave() const noexcept {
          (velocity_ < 0 && state_->position <= plan_.lowest);
 }
 
+double ServoAxis::beside_target() const noexcept {
+  const std::int64_t beside = count_ - handshake_.target();
+  return static_cast<double>(plan_.endless ? wrapped(beside) : beside) / plan_.increments_per_unit;
+}
+
+std::optional<ProfileTarget> ServoAxis::profile_target() const noexcept {
+  const bool is_on_its_way = plan_.mode == Mode::profile_position && power_.is_enabled() && was_commanded_ &&
+                             !halts_ && !homing_.is_running() && handshake_.is_taken();
+  if (!is_on_its_way || !state_ || state_->target_reached) return std::nullopt;
+  // A drive that is told no speed has one of its own, that is taken for no less than this.
+  const double speed = plan_.tells_speed ? handshake_.speed() : plan_.fastest / 10;
+  return ProfileTarget{
+      .position = handshake_.target() / plan_.increments_per_unit, .left = -beside_target(), .speed = speed};
+}
+
 bool ServoAxis::has_reached(std::uint16_t statusword) const noexcept {
   if (!power_.is_enabled() || !was_commanded_ || halts_) return false;
   if (plan_.mode == Mode::profile_position) {
     // What the drive says may be about another target: it is there only if it is there.
-    const std::int64_t beside = count_ - handshake_.target();
-    const double off =
-        static_cast<double>(plan_.endless ? wrapped(beside) : beside) / plan_.increments_per_unit;
-    return handshake_.is_reached(statusword) && std::abs(off) <= plan_.fastest * seconds(plan_.period);
+    return handshake_.is_reached(statusword) &&
+           std::abs(beside_target()) <= plan_.fastest * seconds(plan_.period);
   }
   if (plan_.mode != Mode::profile_velocity || would_leave()) return false;
   return cycles_ == settle_cycles && (statusword & status_bit::target_reached) != 0;

@@ -9,7 +9,9 @@
 #include "hal/canopen/drive_modes.hpp"
 #include "hal/canopen/drive_power.hpp"
 #include "hal/canopen/node.hpp"
+#include "hal/canopen/position_velocity.hpp"
 #include "hal/canopen/unmapped_objects.hpp"
+#include "hal/interfaces/servo_drive/profile_progress.hpp"
 #include "runtime/unit/restraint.hpp"
 
 namespace flexrf::canopen::cia402 {
@@ -48,6 +50,7 @@ struct AxisPlan {
   bool is_guarded = false;             ///< it has no heartbeat, see NodePlan
   bool maps_mode = true;               ///< objects 6060 and 6061 in its PDOs; else see UnmappedObjects
   bool maps_speed = true;              ///< object 6081 in a PDO; else likewise
+  bool maps_velocity = true;           ///< object 606C in a PDO; else its velocity is that of its positions
   bool tells_speed = true;             ///< object 6081; else each profile is as fast as the drive's own
   // Of an axis that may meet something, as a gripper's does.
   bool limits_torque = false;   ///< object 6072, see limit_torque(); in mode profile_position only
@@ -141,12 +144,17 @@ class ServoAxis {
   const Node& node() const noexcept { return node_; }
   /// What the drive is told in the modes that are led by velocities, unit/s; else 0.
   double asked_velocity() const noexcept { return asked_velocity_; }
-  /// Why it does less than it was commanded, in this cycle; once.
+  /// In the modes with a profile: the drive has no object for an acceleration (6083) and was told none.
+  bool has_own_ramps() const noexcept { return node_.has_left_out(objects::profile_acceleration); }
+  /// In mode profile_position, what the drive took and is not at yet; else nothing.
+  std::optional<ProfileTarget> profile_target() const noexcept;
+  /// Why it does less than it was commanded, in this cycle and as long as that command stands; once.
   Restraint take_restraint() noexcept { return std::exchange(restraint_, Restraint{}); }
 
  private:
-  static constexpr int silent_cycles = 10;  // without process data it is not known where it is
-  static constexpr int settle_cycles = 5;   // from a velocity that is commanded to a status that is about it
+  static constexpr int silent_cycles = 10;    // without process data it is not known where it is
+  static constexpr int ignoring_cycles = 10;  // with set-points that it says it ignores, before that is told
+  static constexpr int settle_cycles = 5;  // from a velocity that is commanded to a status that is about it
 
   Status check(const AxisPlan& plan) const noexcept;
   NodePlan node_plan() noexcept;
@@ -157,6 +165,7 @@ class ServoAxis {
   bool is_told_by_sdo() const noexcept;
   std::uint32_t speed_object() const noexcept { return to_amount(to_velocity_object(handshake_.speed())); }
   void settle_unmapped(Time now, Outbox& outbox) noexcept;
+  void watch_following() noexcept;
   bool mode_is_taken(bool wanted, Time now) noexcept;
   bool is_led_in(Mode one, Mode other) const noexcept { return plan_.mode == one || plan_.mode == other; }
   bool takes(Mode one, Mode other) noexcept;
@@ -166,11 +175,15 @@ class ServoAxis {
   double by_the_shorter_way(double position, double from) const noexcept;
   double in_reach(double way) noexcept;
   double position_of(std::int32_t increments) noexcept;
+  void take_motion(const std::uint64_t* values) noexcept;
+  double told(double way) const noexcept;
+  void tell_restraint() noexcept;
   double within(double value, double lowest, double highest, const char* reason) noexcept;
   void seed() noexcept;
   std::uint16_t mode_bits(bool at_rest, Time now) noexcept;
   double target_for(Duration elapsed) noexcept;
   double velocity_for(Duration elapsed) noexcept;
+  double beside_target() const noexcept;
   bool has_reached(std::uint16_t statusword) const noexcept;
   Message process_data(std::uint16_t word) const noexcept;
   void say(std::uint16_t word, Outbox& outbox) const noexcept;
@@ -195,6 +208,7 @@ class ServoAxis {
   PdoPlan motion_;
   HeartbeatProducer beat_;
   std::optional<AxisState> state_;
+  PositionVelocity from_positions_;
   Status fault_;
   Time heard_{};
   bool heard_now_ = false;  // since the last send()
@@ -206,6 +220,7 @@ class ServoAxis {
   std::uint64_t bring_ups_ = 0;
   bool was_commanded_ = false;       // since it was enabled, homed or halted
   bool halts_ = false;               // until the next command, in profile_position until it is handed over
+  int ignored_ = 0;                  // set-points, one after the other, at most ignoring_cycles
   int cycles_ = 0;                   // since the velocity was commanded, at most settle_cycles
   double velocity_ = 0;              // commanded
   double asked_velocity_ = 0;        // of the drive
@@ -214,7 +229,8 @@ class ServoAxis {
   std::optional<std::int32_t> counted_;  // of an endless axis: what the drive said last
   std::int64_t count_ = 0;               // increments, beyond what the drive's counter holds
   double way_ = 0;                       // the same, unit: the position but for its modulo
-  Restraint restraint_;
+  Restraint restraint_;                  // of this cycle
+  Restraint held_;                       // of the command that stands
 };
 
 }  // namespace flexrf::canopen::cia402

@@ -10,6 +10,7 @@ namespace flexrf::canopen::cia402 {
 void ServoAxis::command_position(double position) noexcept {
   if (!takes(Mode::cyclic_position, Mode::interpolated_position) || !may_be_commanded()) return;
   if (!is_number(position, "position")) return;
+  held_ = {};
   cyclic_.command(plan_.endless
                       ? by_the_shorter_way(position, cyclic_.wanted())
                       : within(position, plan_.lowest, plan_.highest, servo_restraints::out_of_range));
@@ -18,6 +19,7 @@ void ServoAxis::command_position(double position) noexcept {
 void ServoAxis::command_velocity(double velocity) noexcept {
   if (!takes(Mode::cyclic_velocity, Mode::profile_velocity) || !may_be_commanded()) return;
   if (!is_number(velocity, "velocity")) return;
+  held_ = {};
   const double kept = within(velocity, -plan_.fastest, plan_.fastest, servo_restraints::too_fast);
   if (kept == velocity_ && was_commanded_ && !halts_) return;
   velocity_ = kept;
@@ -34,11 +36,12 @@ void ServoAxis::move_to(double position, double speed) noexcept {
     fail(Status::error(StatusCode::invalid_argument, "it was commanded to move with a speed of %g", speed));
     return;
   }
+  held_ = {};
   // As fast as it may: nothing is held back.
   double kept_speed = plan_.fastest;
   if (speed != full_speed) {
     kept_speed = within(speed, 0, plan_.fastest, servo_restraints::too_fast);
-    if (!plan_.tells_speed) restraint_ = {.reason = servo_restraints::own_speed, .asked = speed};
+    if (!plan_.tells_speed) held_ = {.reason = servo_restraints::own_speed, .asked = speed};
   }
   const double kept = plan_.endless
                           ? in_reach(by_the_shorter_way(position, way_))
@@ -67,6 +70,7 @@ void ServoAxis::halt() noexcept {
   cyclic_.halt(plan_.acceleration, plan_.endless ? -no_end : plan_.lowest,
                plan_.endless ? no_end : plan_.highest);
   handshake_.reset(handshake_.target());
+  held_ = {};
   was_commanded_ = false;
   halts_ = true;
   state_->target_reached = false;
@@ -84,7 +88,7 @@ bool ServoAxis::takes(Mode one, Mode other) noexcept {
 
 double ServoAxis::within(double value, double lowest, double highest, const char* reason) noexcept {
   const double kept = std::clamp(value, lowest, highest);
-  if (kept != value) restraint_ = {reason, value, kept};
+  if (kept != value) held_ = {reason, value, kept};
   return kept;
 }
 

@@ -84,8 +84,8 @@ NodePlan ServoAxis::node_plan() noexcept {
   motion_ = {.direction = PdoDirection::sent_by_node,
              .number = 2,
              .identifier = transmit_pdo_identifier(2, plan_.node)};
-  motion_.add(objects::actual_velocity, 32);
-  if (plan_.tells_torque) motion_.add(objects::actual_torque, 16);
+  if (plan_.maps_velocity) motion_.add(objects::actual_velocity, 32, "maps_velocity = false");
+  if (plan_.tells_torque) motion_.add(objects::actual_torque, 16, "tells_torque = false");
   states_.forbids_remote = motion_.forbids_remote = plan_.forbids_remote;
   if (plan_.forbids_remote) states_.helps = motion_.helps = "forbids_remote = false";
   profile_ = {.direction = PdoDirection::received_by_node,
@@ -96,7 +96,7 @@ NodePlan ServoAxis::node_plan() noexcept {
     profile_.add(objects::profile_velocity, 32, helps);
     profile_.helps = helps;
   }
-  if (plan_.limits_torque) profile_.add(objects::most_torque, 16);
+  if (plan_.limits_torque) profile_.add(objects::most_torque, 16, "limits_torque = false");
 
   NodePlan node{.node = plan_.node,
                 .master = plan_.master,
@@ -121,8 +121,9 @@ NodePlan ServoAxis::node_plan() noexcept {
     list.write(objects::period_exponent, 1, milliseconds_exponent, helps);
   }
   plan_motion(list);
-  for (const PdoPlan& pdo : {commands_, states_, motion_}) list.configure_pdo(pdo);
-  if (profile_.count > 0) list.configure_pdo(profile_);
+  for (const PdoPlan& pdo : {commands_, states_, motion_, profile_}) {
+    if (pdo.count > 0) list.configure_pdo(pdo);
+  }
   return node;
 }
 
@@ -131,10 +132,12 @@ void ServoAxis::plan_motion(Configuration& list) const noexcept {
   const double scale = plan_.increments_per_unit * plan_.acceleration_factor;
   const double acceleration = plan_.acceleration * scale;
   if (plan_.quick_stop_deceleration > 0) {
-    list.write(objects::quick_stop_deceleration, 4, to_amount(plan_.quick_stop_deceleration * scale));
+    list.write(objects::quick_stop_deceleration, 4, to_amount(plan_.quick_stop_deceleration * scale),
+               "quick_stop_deceleration = 0");
   }
   if (is_led_in(Mode::profile_position, Mode::profile_velocity)) {
-    list.write(objects::profile_acceleration, 4, to_amount(acceleration));
+    // A drive may have ramps of its own; see has_own_ramps().
+    list.write_if_there(objects::profile_acceleration, 4, to_amount(acceleration));
     // Where it is missing, the acceleration serves for both (CiA 402).
     list.write_if_there(objects::profile_deceleration, 4, to_amount(acceleration));
   }
@@ -144,11 +147,13 @@ void ServoAxis::plan_motion(Configuration& list) const noexcept {
     list.write_if_there(objects::interpolation_kind, 2, linear);
     list.write_if_there(objects::interpolation_buffer, 1, points_come_in);
   }
-  if (plan_.may_be_blocked) list.write(objects::following_window, 4, no_window);
+  // One that has no window does not look.
+  if (plan_.may_be_blocked) list.write_if_there(objects::following_window, 4, no_window);
   if (plan_.homing_method == 0) return;
-  list.write(objects::homing_method, 1, static_cast<std::uint8_t>(plan_.homing_method));
-  list.write(objects::homing_search_speed, 4, to_amount(to_velocity_object(plan_.homing_speed)));
-  list.write(objects::homing_creep_speed, 4, to_amount(to_velocity_object(plan_.homing_creep_speed)));
+  constexpr const char* helps = "homing_method = 0";
+  list.write(objects::homing_method, 1, static_cast<std::uint8_t>(plan_.homing_method), helps);
+  list.write(objects::homing_search_speed, 4, to_amount(to_velocity_object(plan_.homing_speed)), helps);
+  list.write(objects::homing_creep_speed, 4, to_amount(to_velocity_object(plan_.homing_creep_speed)), helps);
 }
 
 }  // namespace flexrf::canopen::cia402

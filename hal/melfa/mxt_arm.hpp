@@ -54,6 +54,7 @@ class MxtArm : public Base {
       dialogue_.reopen();  // to see where the arm is
     }
     dialogue_.send(!this->is_inhibited() && this->fault().is_ok(), tick.now);
+    if (dialogue_.is_leading()) this->restrain(dialogue_.restraint());
   }
   bool make_safe() noexcept override {
     dialogue_.end();
@@ -67,7 +68,7 @@ class MxtArm : public Base {
     for (std::size_t i = 0; i < this->chain->joint_count; ++i) {
       if (!std::isfinite(set_points.position[i])) return this->fail(no_number(i));
     }
-    this->restrain(restraint_of(*this->chain, set_points.position));
+    this->tell_limits(set_points);
     dialogue_.command(set_points.position);
   }
 

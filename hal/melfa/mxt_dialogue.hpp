@@ -48,6 +48,8 @@ class MxtDialogue {
   const std::optional<ToldJoints>& told() const noexcept { return told_; }
   /// Commands are followed.
   bool is_leading() const noexcept { return phase_ == Phase::leading && !follower_.brakes(); }
+  /// While it leads: that the joints are led faster than they may go or accelerate.
+  Restraint restraint() const noexcept { return follower_.restraint(); }
   const PacingCounters& counters() const noexcept { return pacing_.counters(); }
   /// The controller fell silent while it was led.
   bool has_lost_it() const noexcept { return lost_; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/interfaces/robot_arm/joint_pace.hpp"
+
 namespace flexrf {
 namespace {
 
@@ -51,6 +53,15 @@ const JointAngles& JointFollower::next() noexcept {
   if (brakes_) wanted_ = set_point_;
   wanted_before_ = wanted_;
   return set_point_;
+}
+
+Restraint JointFollower::restraint() const noexcept {
+  constexpr double cycles = 3;
+  for (std::size_t i = 0; i < chain_->joint_count; ++i) {
+    if (std::abs(wanted_[i] - set_point_[i]) > cycles * cycle_ * chain_->joints[i].velocity)
+      return outpaced(i, wanted_[i], set_point_[i]);
+  }
+  return {};
 }
 
 // As fast as what is wanted moves, and beside that only so fast that it is not passed.

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "hal/interfaces/robot_arm/kinematic_chain.hpp"
+#include "runtime/unit/restraint.hpp"
 
 namespace flexrf {
 
@@ -31,6 +32,9 @@ class JointFollower {
   /// One cycle further.
   const JointAngles& next() noexcept;
   const JointAngles& set_point() const noexcept { return set_point_; }
+  /// The first joint that is farther behind what is commanded than it goes in some cycles at its greatest
+  /// velocity: what a packet that was lost makes is less.
+  Restraint restraint() const noexcept;
   bool brakes() const noexcept { return brakes_; }
   bool is_at_rest() const noexcept { return velocity_ == JointAngles{}; }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "hal/interfaces/robot_arm/kinematics.hpp"
+#include "hal/interfaces/servo_drive/servo_restraints.hpp"
 #include "hal/servo_group/same_columns.hpp"
 #include "hal/servo_group/servo_group.hpp"
 
@@ -47,7 +48,9 @@ class ArmOfDrives : public Base {
     group_.lead(!this->is_inhibited() && !made_safe_ && this->fault().is_ok());
     for (Drive& drive : drives()) {
       drive.send(tick);
-      this->restrain(drive.take_restraint());
+      // That it is led too fast the arm says itself, with the joint's name.
+      if (const Restraint held = drive.take_restraint(); held.reason != servo_restraints::led_too_fast)
+        this->restrain(held);
     }
     group_.watch();
     if (!group_.fault().is_ok()) this->fail(group_.fault());
@@ -61,7 +64,7 @@ class ArmOfDrives : public Base {
   void command(const JointPositions& set_points) noexcept override {
     if (this->is_inhibited() || made_safe_) return;
     group_.command(set_points);
-    if (group_.is_ready()) this->restrain(restraint_of(*this->chain, set_points.position));
+    if (group_.is_ready()) this->tell_limits_and_pace(set_points);
   }
   /// All drives are enabled and know where they are: commands are followed.
   bool is_ready() const noexcept { return group_.is_ready(); }

@@ -11,6 +11,7 @@ const bool SlotControl::poisons_loans = false;
 
 void SlotControl::poison(std::uint8_t buffer) noexcept {
   std::memset(payload(buffer), 0xA5, type_->size);
+  lay_out(buffer);
 }
 
 }  // namespace flexrf

@@ -93,7 +93,7 @@ class View {
   const T& operator*() const noexcept { return *value_; }
   const T* operator->() const noexcept { return value_; }
   /// Copies the value, faster than `value = *view` where it is large. False, and nothing copied, for NULL.
-  bool copy_to(T& value) const noexcept {
+  bool copy_to(T& value) const noexcept requires(!SizedBySlot<T>) {
     if (value_ != nullptr) copy_item<T>(&value, value_);
     return value_ != nullptr;
   }
@@ -234,7 +234,7 @@ class Input : public InputCursor {
 
   /// history = true: what the slot held at `time`, by value; the reason when it is no longer (or not yet)
   /// known.
-  NullReason at(Time time, T& value, Time* sampled_at = nullptr) const noexcept {
+  NullReason at(Time time, T& value, Time* sampled_at = nullptr) const noexcept requires(!SizedBySlot<T>) {
     if (reader_ == nullptr || reader_->slot()->history() == nullptr) return NullReason::not_registered;
     ItemHeader header{};
     const NullReason reason = reader_->slot()->history()->at(time, header, &value);
@@ -242,7 +242,8 @@ class Input : public InputCursor {
     return reason;
   }
   /// history = true: the items sampled in [from, to], oldest first; returns how many fit.
-  std::size_t between(Time from, Time to, std::span<ItemHeader> headers, T* values) const noexcept {
+  std::size_t between(Time from, Time to, std::span<ItemHeader> headers, T* values) const noexcept
+      requires(!SizedBySlot<T>) {
     if (reader_ == nullptr || reader_->slot()->history() == nullptr) return 0;
     return reader_->slot()->history()->between(from, to, headers, values);
   }
@@ -324,9 +325,16 @@ class Output {
   }
   bool is_connected() const noexcept { return slot_ != nullptr; }
 
+  /// How many elements its items have room for, of a type that is as large as its slot says.
+  std::size_t elements() const noexcept requires SizedBySlot<T> {
+    return slot_ == nullptr ? 0 : slot_->type()->fields.back().count;
+  }
+
   /// False when nothing was published because all loans are out.
-  bool publish(const T& value) noexcept { return slot_ == nullptr || publish(value, context_->now); }
-  bool publish(const T& value, Time sampled_at) noexcept {
+  bool publish(const T& value) noexcept requires(!SizedBySlot<T>) {
+    return slot_ == nullptr || publish(value, context_->now);
+  }
+  bool publish(const T& value, Time sampled_at) noexcept requires(!SizedBySlot<T>) {
     if (slot_ == nullptr) return true;
     const std::uint8_t buffer = slot_->loan();
     if (buffer == SlotControl::none) return false;

@@ -4,6 +4,16 @@
 
 namespace flexrf {
 
+void SlotControl::lay_out_items() noexcept {
+  for (std::uint8_t buffer = 0; buffer < memory_.buffers; ++buffer) lay_out(buffer);
+}
+
+void SlotControl::lay_out(std::uint8_t buffer) noexcept {
+  if (type_->elements_offset == 0) return;
+  const std::uint32_t elements = type_->fields.back().count;
+  std::memcpy(payload(buffer) + type_->elements_offset, &elements, sizeof(elements));
+}
+
 void SlotControl::make_visible(std::uint8_t buffer) noexcept {
   if (history_ != nullptr) history_->append(header(buffer), payload(buffer));
   if (memory_.triple) {

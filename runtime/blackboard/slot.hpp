@@ -118,6 +118,8 @@ class SlotControl {
 
   // ---- before the start, and after the end
 
+  /// Tells each buffer how many elements it has, where the slot's row says that: once, before the first loan.
+  void lay_out_items() noexcept;
   /// Virtual time: publications wait for commit().
   void set_deferred(bool on) noexcept { deferred_ = on; }
   /// Whether to digest publications, and the digest so far (name not included).
@@ -143,6 +145,7 @@ class SlotControl {
   }
   bool is_free(std::uint8_t buffer) const noexcept;
   void make_visible(std::uint8_t buffer) noexcept;
+  void lay_out(std::uint8_t buffer) noexcept;
   void poison(std::uint8_t buffer) noexcept;
 
   // Whether this is a checked build. Known when it is linked: what uses slots is compiled once for both.
@@ -195,11 +198,9 @@ struct SlotMemory<T, Buffers, false> {
   }
 };
 
-template <class T, std::size_t Buffers>
-struct SlotMemory<T, Buffers, true> {
-  struct alignas(page) Value {
-    T value;
-  };
+/// Values that begin a page each.
+template <class Value, std::size_t Buffers>
+struct LargeSlotMemory {
   // Apart from each other too: the writer fills one while readers look at others.
   struct alignas(cache_line) Header {
     ItemHeader header;
@@ -222,6 +223,28 @@ struct SlotMemory<T, Buffers, true> {
   }
 };
 
+template <class T>
+struct alignas(page) PageValue {
+  T value;
+};
+template <class T, std::size_t Buffers>
+struct SlotMemory<T, Buffers, true> : LargeSlotMemory<PageValue<T>, Buffers> {};
+
+/// A value that is as large as the slot says: its elements lie behind it, and begin a page.
+template <SizedBySlot T, std::size_t Elements>
+struct alignas(page) SizedValue {
+  T value;
+  alignas(page) typename T::SlotElement elements[Elements];
+};
+template <SizedBySlot T, std::size_t Buffers, std::size_t Elements>
+struct SizedSlotMemory : LargeSlotMemory<SizedValue<T, Elements>, Buffers> {
+  using Value = SizedValue<T, Elements>;
+  static_assert(offsetof(Value, elements) == T::elements_begin_);
+};
+
+template <SizedBySlot T, std::size_t Buffers>
+struct SlotMemory<T, Buffers, false> : SizedSlotMemory<T, Buffers, T::usual_elements_> {};
+
 /// Control block and memory in one, for code written by hand and for tests. The generator keeps them apart so
 /// that payload lies in .bss.
 template <class T, std::size_t Readers, std::size_t Loans = 1, std::size_t Holds = 0>
@@ -232,7 +255,9 @@ class Slot {
 
   explicit Slot(std::span<Doorbell* const> bells = {}, History* history = nullptr) noexcept
       : control_(descriptor_of<T>, memory_.view(Loans, Readers == 1 && Loans == 1 && Holds == 0), bells,
-                 history) {}
+                 history) {
+    control_.lay_out_items();
+  }
   SlotControl& control() noexcept { return control_; }
   operator SlotControl&() noexcept { return control_; }
 

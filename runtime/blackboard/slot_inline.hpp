@@ -36,6 +36,7 @@ inline std::uint8_t SlotControl::loan_last() noexcept {
   if (buffer == none) return none;
   if (last_ == none) {
     std::memset(payload(buffer), 0, type_->size);
+    lay_out(buffer);
   } else {
     std::memcpy(payload(buffer), payload(last_), type_->size);
   }

@@ -6,6 +6,7 @@
 
 #include "runtime/blackboard/history.hpp"
 #include "runtime/blackboard/ports.hpp"
+#include "runtime/blackboard/sized_slot.hpp"
 #include "runtime/blackboard/test_types.hpp"
 #include "tests/cmocka.hpp"
 
@@ -13,6 +14,7 @@ namespace flexrf {
 namespace {
 
 using test::Block;
+using test::Cloud;
 using test::Sample;
 
 Time at(std::int64_t ns) {
@@ -420,6 +422,65 @@ void a_slot_feeds_its_history(void**) {
   assert_int_equal(header.sequence, 4);
 }
 
+Cloud& cloud(SlotControl& control, std::uint8_t buffer) {
+  return *reinterpret_cast<Cloud*>(control.payload(buffer));
+}
+
+// Whatever a loan begins as, it knows how many elements it has, and each is its own.
+void check_items_of(SlotControl& control, std::size_t elements) {
+  const std::uint8_t empty = control.loan_last();
+  assert_int_equal(cloud(control, empty).points().size(), elements);
+  assert_int_equal(cloud(control, empty).points().back(), 0);
+  control.abandon(empty);
+  for (std::uint64_t number = 1; number < 8; ++number) {
+    const std::uint8_t buffer = control.loan();
+    assert_int_equal(cloud(control, buffer).points().size(), elements);
+    assert_int_equal(reinterpret_cast<std::uintptr_t>(cloud(control, buffer).points().data()) % page, 0);
+    for (std::uint64_t& point : cloud(control, buffer).points()) point = number;
+    cloud(control, buffer).count = static_cast<std::uint32_t>(number);
+    control.publish(buffer, Time{Duration{static_cast<std::int64_t>(number)}});
+    std::uint8_t held = SlotControl::none;
+    const std::uint8_t again = control.loan_last();
+    assert_int_equal(cloud(control, again).points().size(), elements);
+    assert_int_equal(cloud(control, again).points().back(), number);
+    for (std::uint64_t& point : cloud(control, again).points()) point = 99;
+    control.abandon(again);
+    control.take(held);
+    assert_int_equal(cloud(control, held).count, number);
+    for (const std::uint64_t point : cloud(control, held).points()) assert_int_equal(point, number);
+    control.give(held);
+  }
+}
+
+void items_are_as_large_as_their_slot_says(void**) {
+  Slot<Cloud, 2> usual;
+  SizedSlot<Cloud, 2> large{1000};
+  SizedSlot<Cloud, 2> small{1};
+  check_items_of(usual.control(), 8);
+  check_items_of(large.control(), 1000);
+  check_items_of(small.control(), 1);
+  assert_int_equal(large.control().type()->size, 4096 + 8000);
+  assert_int_equal(large.control().type()->significant.back().size, 8000);
+  SizedItem<Cloud> alone{20};
+  assert_int_equal(alone->points().size(), 20);
+  assert_int_equal(alone->points()[19], 0);
+}
+
+std::uint64_t digest_with(std::size_t elements, std::size_t changed) {
+  SizedSlot<Cloud, 1> slot{elements};
+  slot.control().set_digested(true);
+  const std::uint8_t buffer = slot.control().loan_last();
+  if (changed < elements) cloud(slot.control(), buffer).points()[changed] = 1;
+  slot.control().publish(buffer, Time{});
+  return slot.control().digest();
+}
+
+void a_digest_covers_all_elements_of_the_slot(void**) {
+  assert_int_equal(digest_with(100, 100), digest_with(100, 100));
+  assert_int_not_equal(digest_with(100, 100), digest_with(100, 99));
+  assert_int_not_equal(digest_with(100, 0), digest_with(100, 99));
+}
+
 void a_thousand_slots_are_independent(void**) {
   static Slot<Sample, 1> slots[1000];
   std::uint8_t held[1000];
@@ -454,6 +515,8 @@ int main() {
       cmocka_unit_test(large_payload_is_page_aligned_and_apart_from_headers),
       cmocka_unit_test(loans_are_poisoned_in_checked_builds),
       cmocka_unit_test(a_slot_feeds_its_history),
+      cmocka_unit_test(items_are_as_large_as_their_slot_says),
+      cmocka_unit_test(a_digest_covers_all_elements_of_the_slot),
       cmocka_unit_test(a_thousand_slots_are_independent),
   };
   return cmocka_run_group_tests_name("slot", tests, nullptr, nullptr);

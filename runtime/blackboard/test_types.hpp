@@ -1,7 +1,9 @@
 // Types for the blackboard's tests, described by hand as config-gen would.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "runtime/core/type_descriptor.hpp"
 
@@ -23,6 +25,34 @@ inline constexpr ByteRange sample_significant[] = {{0, 4}, {offsetof(Sample, val
 inline constexpr TypeDescriptor sample_type = {"Sample",           "For tests.", sizeof(Sample),
                                                alignof(Sample),    0x5A,         sample_fields,
                                                sample_significant, {},           false};
+
+/// As large as its slot says, and otherwise of eight numbers.
+struct Cloud {
+  std::uint32_t count{};
+  std::uint32_t elements_{};
+
+  using SlotElement = std::uint64_t;
+  static constexpr std::size_t elements_begin_ = 4096;
+  static constexpr std::size_t usual_elements_ = 8;
+  std::span<std::uint64_t> points() noexcept {
+    return {reinterpret_cast<std::uint64_t*>(reinterpret_cast<std::byte*>(this) + elements_begin_),
+            elements_};
+  }
+
+  Cloud() noexcept = default;
+
+ private:
+  Cloud(const Cloud&) = default;
+  Cloud& operator=(const Cloud&) = default;
+};
+
+inline constexpr FieldDescriptor cloud_fields[] = {
+    {"count", Scalar::u32, 0, {}, 1, 0, "1", "A number.", nullptr},
+    {"points", Scalar::u64, 1, {8, 0}, 8, 4096, "1", "Numbers.", nullptr},
+};
+inline constexpr ByteRange cloud_significant[] = {{0, 4}, {4096, 64}};
+inline constexpr TypeDescriptor cloud_type = {"Cloud",      "For tests.",      4160, alignof(Cloud), 0x5B,
+                                              cloud_fields, cloud_significant, {},   false,          4};
 
 /// Every word says which item it belongs to, so that a torn one shows.
 template <std::size_t Words>
@@ -52,6 +82,8 @@ namespace flexrf {
 
 template <>
 inline constexpr const TypeDescriptor* descriptor_of<test::Sample> = &test::sample_type;
+template <>
+inline constexpr const TypeDescriptor* descriptor_of<test::Cloud> = &test::cloud_type;
 template <std::size_t Words>
 inline constexpr const TypeDescriptor* descriptor_of<test::Block<Words>> = &test::block_type<Words>;
 

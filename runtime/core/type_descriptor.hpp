@@ -53,7 +53,7 @@ struct EnumerationValue {
   const char* summary;
 };
 
-/// A plain struct: fixed size, trivially copyable, all-zero bytes are a valid value.
+/// A plain struct: trivially copyable, all-zero bytes are a valid value.
 struct TypeDescriptor {
   const char* name;
   const char* summary;
@@ -64,6 +64,16 @@ struct TypeDescriptor {
   std::span<const ByteRange> significant;    ///< everything but padding, merged, ascending
   std::span<const EnumerationValue> values;  ///< of an enumeration, else empty
   bool is_image;
+  /// Of a type that is as large as its slot says: where the struct has the number of elements (u32) of its
+  /// last field, which lies behind it; size and last field are those of one slot. 0: its size is fixed.
+  std::uint32_t elements_offset = 0;
+};
+
+/// A type that is as large as its slot says (`resizable` in its table). It is looked at where it lies, and
+/// cannot be copied by value.
+template <class T>
+concept SizedBySlot = requires {
+  typename T::SlotElement;
 };
 
 /// `descriptor_of<Pose>` is the descriptor of Pose; each generated type header specialises it.

@@ -1,6 +1,7 @@
 #include "runtime/executive/audit.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <ctime>
 
@@ -24,6 +25,15 @@ bool is_act(const AuditRecord& record) noexcept {
   return record.kind != AuditRecord::Kind::change;
 }
 
+AuditEntry loss(const char* how, std::uint64_t count, Time now) {
+  AuditEntry entry;
+  entry.who = "FlexRF";
+  entry.record.did = how;
+  entry.record.at = now;
+  entry.count = count;
+  return entry;
+}
+
 std::string file_of(const Options& options) {
   if (options.virtual_time || options.audit_file == "off") return {};
   if (!options.audit_file.empty()) return options.audit_file;
@@ -33,7 +43,7 @@ std::string file_of(const Options& options) {
 }  // namespace
 
 Audit::Audit(Cell& cell, const Options& options)
-    : cell_(cell), on_(!options.virtual_time), file_(file_of(options)) {
+    : cell_(cell), on_(!options.virtual_time), named_(!options.audit_file.empty()), file_(file_of(options)) {
   if (on_) cell_.audit().open();
 }
 
@@ -44,7 +54,12 @@ Audit::~Audit() {
 
 Status Audit::prepare() {
   if (!on_) return {};
-  if (const Status status = file_.check(); !status) return status;
+  if (const Status status = file_.check(); !status) {
+    // Nobody asked for this file: beside a configuration that is only read the cell runs without it.
+    if (named_ || status.code() != StatusCode::not_permitted)
+      return Status::error(StatusCode::invalid_argument, "%s", status.cause());
+    std::fprintf(stderr, "who did what is not written down: %s\n", status.cause());
+  }
   for (std::string& line : file_.last_lines(most_recent)) {
     recent_.push_back(std::move(line));
     ++last_;
@@ -74,20 +89,24 @@ void Audit::run() {
   tell_due(now, true);
   retry_at_ = {};
   write(now);
+  conclude();
   ended_.store(true, std::memory_order_release);
+}
+
+void Audit::conclude() {
+  const auto left = static_cast<std::uint64_t>(std::count(unwritten_.begin(), unwritten_.end(), '\n'));
+  if (left + lost_ == 0) return;
+  failure_ = Status::error(StatusCode::unavailable, "%llu entries of the audit are not written down: %s",
+                           static_cast<unsigned long long>(left + lost_),
+                           told_ ? "for a time its file could not be written" : told_.cause());
 }
 
 void Audit::turn(Time now) {
   AuditRecord record;
   for (std::uint32_t i = 0; i < AuditIntake::capacity && cell_.audit().take(record); ++i) take(record, now);
   if (const std::uint64_t dropped = cell_.audit().dropped(); dropped != dropped_told_) {
-    AuditEntry entry;
-    entry.who = "FlexRF";
-    entry.record.did = "lost entries: too many at a time";
-    entry.record.at = now;
-    entry.count = dropped - dropped_told_;
+    tell(loss("lost entries: too many at a time", dropped - dropped_told_, now), now);
     dropped_told_ = dropped;
-    tell(entry, now);
   }
   tell_due(now, false);
   write(now);
@@ -198,19 +217,33 @@ void Audit::note_stop(const AuditRecord& record, std::int64_t at) {
   revision_.fetch_add(1, std::memory_order_release);
 }
 
+/// A cause that stays is told once.
 void Audit::write(Time now) {
-  if (unwritten_.empty() || now < retry_at_) return;
-  if (const Status status = file_.append(unwritten_); status) {
+  if (now < retry_at_) return keep_what_fits();
+  while (!unwritten_.empty()) {
+    const Status status = file_.append(unwritten_);
+    if (!status) {
+      if (std::strcmp(status.cause(), told_.cause()) != 0)
+        log_error("audit", "who did what is not written down: {}; the cell goes on", status.cause());
+      told_ = status;
+      retry_at_ = now + retry_interval;
+      return keep_what_fits();
+    }
     unwritten_.clear();
+    if (!told_) log_info("audit", "who did what is written down again");
+    told_ = {};
     retry_at_ = {};
-    return;
-  } else {
-    log_error(failed_, "audit", "who did what is not written down: {}; the cell goes on", status.cause());
+    if (lost_ == lost_told_) return;
+    tell(loss("lost entries: they could not be written for too long", lost_ - lost_told_, now), now);
+    lost_told_ = lost_;
   }
-  retry_at_ = now + retry_interval;
+}
+
+void Audit::keep_what_fits() {
   if (unwritten_.size() <= most_unwritten) return;
-  const std::size_t surplus = unwritten_.find('\n', unwritten_.size() - most_unwritten);
-  unwritten_.erase(0, surplus + 1);
+  const auto surplus = static_cast<std::ptrdiff_t>(unwritten_.find('\n', unwritten_.size() - most_unwritten));
+  lost_ += static_cast<std::uint64_t>(std::count(unwritten_.begin(), unwritten_.begin() + surplus + 1, '\n'));
+  unwritten_.erase(0, static_cast<std::size_t>(surplus) + 1);
 }
 
 std::optional<Audit::Stop> Audit::stopped_by() const {

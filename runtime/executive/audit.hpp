@@ -20,8 +20,9 @@ namespace flexrf {
 
 /// A thread of its own takes what Cell::audit() was told and writes it down. Nobody waits for it: what it
 /// cannot take in time is dropped and counted, and where the file cannot be written the cell goes on, the log
-/// says so, and what fits into 64 KiB is tried again. Changes of one parameter by one person are told as one,
-/// once there was none for a second, at least every 10 s; likewise what somebody does again and again.
+/// says so, and what fits into 64 KiB is tried again; how much was more than that stands in the file, too.
+/// Changes of one parameter by one person are told as one, once there was none for a second, at least every
+/// 10 s; likewise what somebody does again and again.
 class Audit {
  public:
   static constexpr std::size_t most_recent = 512;
@@ -41,6 +42,8 @@ class Audit {
   /// Writes the rest; does not wait. Once.
   void begin_end() noexcept;
   bool is_ending() const noexcept { return thread_.is_started() && !ended_.load(std::memory_order_acquire); }
+  /// What of this run the file does not hold; ok: nothing. After is_ending() became false.
+  const Status& failure() const noexcept { return failure_; }
 
   /// What the thread does again and again; tests, and who has no thread. Blocks.
   void turn(Time now);
@@ -79,12 +82,15 @@ class Audit {
   void tell_due(Time now, bool all);
   void tell(const AuditEntry& entry, Time now);
   void write(Time now);
+  void keep_what_fits();
+  void conclude();
   void note_stop(const AuditRecord& record, std::int64_t at);
   std::string owner_of(const AuditRecord& record);
   static bool is_over(const Pending& pending, Time now, bool all) noexcept;
 
   Cell& cell_;
   bool on_;
+  bool named_;  // the file, by whoever started the cell
   AuditFile file_;
   // ---- the thread's
   std::vector<Pending> pending_;
@@ -92,7 +98,10 @@ class Audit {
   std::string unwritten_;
   Time retry_at_{};
   std::uint64_t dropped_told_ = 0;
-  LogLimit failed_;
+  std::uint64_t lost_ = 0;       // entries that the file could not take, and that were more than fits
+  std::uint64_t lost_told_ = 0;  // of them, in the file
+  Status told_;                  // of the last attempt
+  Status failure_;
   // ---- everybody's
   mutable std::mutex mutex_;
   std::deque<std::string> recent_;

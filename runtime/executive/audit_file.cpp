@@ -9,6 +9,8 @@
 #include <cstring>
 #include <utility>
 
+#include "runtime/parameters/durable_file.hpp"
+
 namespace flexrf {
 namespace {
 
@@ -42,7 +44,7 @@ Status failure(const std::string& path, const char* why) {
 }
 
 Status failure(const std::string& path) {
-  return failure(path, std::strerror(errno));
+  return failure(path, cause_of(errno).c_str());
 }
 
 }  // namespace
@@ -52,7 +54,8 @@ Status AuditFile::check() const {
   struct stat status {};
   if (::lstat(path_.c_str(), &status) == 0) {
     if (!S_ISREG(status.st_mode)) return failure(path_, "this is no ordinary file; name one, or `off`");
-    return ::access(path_.c_str(), W_OK | R_OK) == 0 ? Status{} : failure(path_);
+    if (::access(path_.c_str(), W_OK | R_OK) == 0) return {};
+    return Status::error(StatusCode::not_permitted, "%s", failure(path_).cause());
   }
   if (errno != ENOENT && errno != ENOTDIR) return failure(path_);
   const std::size_t slash = path_.rfind('/');
@@ -60,7 +63,10 @@ Status AuditFile::check() const {
   if (::stat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode))
     return failure(path_, "there is no such folder; make it, or name a file elsewhere, or `off`");
   if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
-  return failure(path_, "nothing can be written into this folder; name a file elsewhere, or `off`");
+  return Status::error(
+      StatusCode::not_permitted,
+      "--audit %s: nothing can be written into this folder (%s); name a file elsewhere, or `off`",
+      path_.c_str(), strerrordesc_np(errno));
 }
 
 std::vector<std::string> AuditFile::last_lines(std::size_t count) const {
@@ -107,19 +113,21 @@ Status AuditFile::append(std::string_view lines) {
   char last = '\n';
   if (before > 0 && ::pread(file.number(), &last, 1, before - 1) == 1 && last != '\n') text = "\n";
   text += lines;
+  const auto undo = [&] {
+    const Status status = failure(path_);
+    // What is written in part would be read as a whole; where even this fails, the next append mends it.
+    if (::ftruncate(file.number(), before) != 0) errno = 0;
+    return status;
+  };
   std::string_view rest = text;
   while (!rest.empty()) {
     const ssize_t written = ::write(file.number(), rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) {
-      const Status status = failure(path_);
-      // What is written in part would be read as a whole; where even this fails, the next append mends it.
-      if (::ftruncate(file.number(), before) != 0) errno = 0;
-      return status;
-    }
+    if (written <= 0) return undo();
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
-  return ::fdatasync(file.number()) == 0 ? Status{} : failure(path_);
+  // Some disks say only now that they are full.
+  return ::fdatasync(file.number()) == 0 ? Status{} : undo();
 }
 
 }  // namespace flexrf

@@ -20,7 +20,8 @@ class AuditFile {
   /// Empty: there is no file, and whatever is written is forgotten.
   explicit AuditFile(std::string path) : path_(std::move(path)) {}
 
-  /// Whether lines can be appended: the cause says what is in the way.
+  /// Whether lines can be appended: the cause says what is in the way. not_permitted: the place is there, but
+  /// cannot be written.
   Status check() const;
   /// At most so many of the newest whole lines, oldest first; none where there is no file yet.
   std::vector<std::string> last_lines(std::size_t count) const;

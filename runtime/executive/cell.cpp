@@ -49,6 +49,7 @@ Cell::Cell(const Application& application, const Options& options)
   for (std::size_t i = 0; i < application.threads.size(); ++i)
     requests_[i].set_bell(application.threads[i].bell);
   for (ComponentIndex i = 0; i < component_count(); ++i) parameters_[i].set_audit(*audit_, i);
+  for (const SlotRecord& slot : application.slots) slot.control->lay_out_items();
 }
 
 Cell::~Cell() {

@@ -2,6 +2,7 @@
 
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include "runtime/executive/trigger.hpp"
 #include "runtime/executive/virtual_time.hpp"
 #include "runtime/log/log.hpp"
+#include "runtime/parameters/durable_file.hpp"
 #include "runtime/realtime/last_gasp.hpp"
 #include "runtime/realtime/machine_file.hpp"
 #include "runtime/realtime/process_statistics.hpp"
@@ -121,6 +123,15 @@ class ConfigurationBefore {
   std::vector<Values> values_;
 };
 
+/// Of the log, where standard error is a file. That a reader went away is his own affair.
+Status log_file_failure() {
+  const int error = log_write_error();
+  struct stat errors {};
+  if (error == 0 || fstat(STDERR_FILENO, &errors) != 0 || !S_ISREG(errors.st_mode)) return {};
+  return Status::error(StatusCode::unavailable, "standard error: %s (%llu lines of the log are not there)",
+                       cause_of(error).c_str(), static_cast<unsigned long long>(unwritten_log_lines()));
+}
+
 const char* name_of_role(CpuRole role) noexcept {
   switch (role) {
     case CpuRole::any:
@@ -149,9 +160,19 @@ Executive::Executive(const Application& application, Options options)
 /// After a run that got stuck: whoever hung may have let go since, else this waits.
 Executive::~Executive() {
   join_threads();
+  if (options_.virtual_time) set_log_clock(nullptr);
+}
+
+/// What is said around a run in virtual time has times of that clock, too: two runs say the same, and a
+/// LogLimit that let something through before does not wait for a clock that is years ahead.
+void Executive::use_log_time(Time time) noexcept {
+  log_time_ = time;
+  set_log_clock(&log_time_);
+  set_log_origin(VirtualTime::beginning);
 }
 
 Status Executive::prepare() {
+  if (options_.virtual_time) use_log_time(VirtualTime::beginning);
   if (const Status status = check_triggers(cell_.application()); !status) return status;
   if (const Status status = cell_.construct(); !status) return status;
   if (const Status status = saver_.load(); !status) return status;
@@ -241,11 +262,12 @@ void Executive::request_end() noexcept {
 
 RunSummary Executive::run() {
   RunSummary summary;
-  set_log_origin(began_);
+  if (!options_.virtual_time) set_log_origin(began_);
   if (cell_.application().autostart) cell_.control().permit_motion_at_power_on();
   signals::ignore_what_writes_tell();
   if (options_.virtual_time) {
     run_in_virtual_time(summary);
+    use_log_time(VirtualTime::beginning + summary.run_time);
   } else {
     run_on_the_wall_clock(summary);
   }
@@ -265,7 +287,7 @@ RunSummary Executive::run() {
   return summary;
 }
 
-Status Executive::say_last(std::vector<std::string> texts) {
+std::vector<Status> Executive::say_last(std::vector<std::string> texts) {
   const bool unhurried = is_unhurried(cell_.control().cause());
   const sigset_t ending = signals::ending_set();
   const timespec interval{0, supervision_interval.count()};
@@ -283,12 +305,18 @@ Status Executive::say_last(std::vector<std::string> texts) {
   audit_.begin_end();
   const bool audited = wait_while(false, [&] { return audit_.is_ending(); });
   output_.begin_end(std::move(texts));
-  if (!wait_while(unhurried, [&] { return output_.is_ending(); })) {
-    return Status::error(StatusCode::unavailable,
-                         "nobody reads standard output or error; what is left to be said is not written");
-  }
-  if (!audited) return Status::error(StatusCode::unavailable, "the disk does not take the rest of the audit");
-  return output_.failure();
+  const bool said = wait_while(unhurried, [&] { return output_.is_ending(); });
+  std::vector<Status> failures;
+  const auto note = [&failures](const Status& status) {
+    if (!status) failures.push_back(status);
+  };
+  note(audited ? audit_.failure()
+               : Status::error(StatusCode::unavailable, "the disk does not take the rest of the audit"));
+  note(said ? output_.failure()
+            : Status::error(StatusCode::timeout,
+                            "nobody reads standard output or error; what is left to be said is not written"));
+  note(log_file_failure());
+  return failures;
 }
 
 void Executive::begin_running() noexcept {

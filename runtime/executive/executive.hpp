@@ -41,9 +41,10 @@ class Executive {
   /// Until the application ended. Signals SIGINT and SIGTERM end it by a controlled stop.
   RunSummary run();
   /// After run(): the rest of the log, then these on standard output. Waits for whoever reads them; when a
-  /// signal or a fault ended the application 2 s at most, and never longer than to the next ending signal. An
-  /// error: they are not there as a whole.
-  Status say_last(std::vector<std::string> texts);
+  /// signal or a fault ended the application 2 s at most, and never longer than to the next ending signal.
+  /// What comes back is what is not there as a whole, the log and the audit among it; timeout: nobody reads
+  /// it.
+  std::vector<Status> say_last(std::vector<std::string> texts);
   /// say_last() waited in vain: the process can only be left by _exit().
   bool is_still_saying() const noexcept { return output_.is_ending() || audit_.is_ending(); }
   /// The file system of the configuration file does not answer: likewise.
@@ -93,6 +94,7 @@ class Executive {
   void live();  // the lifecycle thread
   void join_threads() noexcept;
   void begin_running() noexcept;
+  void use_log_time(Time time) noexcept;
 
   Options options_;
   Cell cell_;
@@ -103,6 +105,7 @@ class Executive {
   Status start_status_;
   std::atomic<bool> lives_{false};
   LogLimit useless_signal_;
+  Time log_time_{};  // of what is said before and after virtual time runs
   Time began_{};
   ValueSaver saver_;
   OutputThread output_;

@@ -52,7 +52,14 @@ Status check_output(const char* option, const std::string& path, bool kept) {
   // A device, as /dev/null, takes a report.
   if (!S_ISREG(found.st_mode) && (kept || !S_ISCHR(found.st_mode)))
     return wrong_kind(option, path, found.st_mode);
-  if (!kept && access(path.c_str(), W_OK) != 0) return refused(option, path, strerrordesc_np(errno));
+  if (kept) return {};
+  if (access(path.c_str(), W_OK) != 0) return refused(option, path, strerrordesc_np(errno));
+  // A file is replaced by one that is written beside it.
+  const std::string folder = folder_of(resolved_path(path));
+  if (S_ISREG(found.st_mode) && access(folder.c_str(), W_OK | X_OK) != 0) {
+    return Status::error(StatusCode::invalid_argument, "%s %s: nothing can be written into its folder (%s)",
+                         option, path.c_str(), strerrordesc_np(errno));
+  }
   return {};
 }
 

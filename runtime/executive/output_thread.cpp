@@ -3,11 +3,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <ctime>
 #include <string_view>
 
 #include "runtime/log/log.hpp"
+#include "runtime/parameters/durable_file.hpp"
 
 namespace flexrf {
 namespace {
@@ -16,12 +16,13 @@ constexpr timespec turn_interval{0, 10'000'000};
 /// A reader that takes nothing for so long is stuck.
 constexpr Duration log_patience = std::chrono::milliseconds{200};
 
-Status write_all(int descriptor, std::string_view text) noexcept {
+Status write_text(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = write(descriptor, text.data(), text.size());
     if (written < 0) {
-      return Status::error(StatusCode::unavailable, "standard output: %s; the report is not there as a whole",
-                           strerrordesc_np(errno));
+      return Status::error(StatusCode::unavailable,
+                           "standard output: %s (the report is not there as a whole)",
+                           cause_of(errno).c_str());
     }
     text.remove_prefix(static_cast<std::size_t>(written));
   }
@@ -92,7 +93,7 @@ void OutputThread::run() noexcept {
 
 void OutputThread::write_texts() noexcept {
   for (const std::string& text : texts_) {
-    if (failure_) failure_ = write_all(STDOUT_FILENO, text);
+    if (failure_) failure_ = write_text(STDOUT_FILENO, text);
   }
 }
 

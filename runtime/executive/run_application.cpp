@@ -1,11 +1,11 @@
 // The main function of every application.
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cinttypes>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -16,6 +16,7 @@
 #include "runtime/executive/file_options.hpp"
 #include "runtime/executive/report.hpp"
 #include "runtime/log/log.hpp"
+#include "runtime/parameters/durable_file.hpp"
 #include "runtime/realtime/instance_lock.hpp"
 
 namespace flexrf {
@@ -50,18 +51,39 @@ void complain(const Application& application, const Status& status) {
     std::fprintf(stderr, "%s: %s\n", application.name, status.cause());
 }
 
+std::string version_line(const Application& application) {
+  char hash[20];
+  std::snprintf(hash, sizeof(hash), "%016" PRIx64, application.descriptor_hash);
+  return std::string{application.name} + ", descriptor " + hash + ", FlexRF " FLEXRF_VERSION "\n";
+}
+
 std::string digest_line(std::uint64_t digest) {
   char text[20];
   std::snprintf(text, sizeof(text), "%016" PRIx64 "\n", digest);
   return text;
 }
 
-Status write_file(const std::string& path, const std::string& text) {
+/// On a disk that is full the report of the run before stays.
+Status write_report(const std::string& path, const std::string& text) {
+  constexpr std::size_t largest = std::size_t{1} << 30;
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0 || S_ISREG(found.st_mode)) {
+    const Status status = replace_file(path, text, 0644, largest);
+    return status ? status : Status::error(status.code(), "--report %s: %s", path.c_str(), status.cause());
+  }
+  // A device, as /dev/null, is not replaced.
   std::FILE* file = std::fopen(path.c_str(), "w");
   bool written = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   if (file != nullptr) written = std::fclose(file) == 0 && written;
   if (written) return {};
-  return Status::error(StatusCode::unavailable, "--report %s: %s", path.c_str(), std::strerror(errno));
+  return Status::error(StatusCode::unavailable, "--report %s: %s", path.c_str(), cause_of(errno).c_str());
+}
+
+/// What somebody asked for instead of a run.
+int answer(const Application& application, const std::string& text) {
+  if (std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return 0;
+  std::fprintf(stderr, "%s: standard output: %s\n", application.name, cause_of(errno).c_str());
+  return exit_usage;
 }
 
 /// Before anything of the cell is touched. In virtual time nothing is: any number may run.
@@ -85,19 +107,9 @@ int run_application(const Application& application, int argument_count, char** a
   hold_standard_descriptors();
   Result<Options> options = parse_options(application, argument_count, arguments);
   if (!options) return refuse(application, options.status());
-  if (options->help) {
-    std::fputs(usage(application).c_str(), stdout);
-    return 0;
-  }
-  if (options->version) {
-    std::printf("%s, descriptor %016" PRIx64 ", FlexRF %s\n", application.name, application.descriptor_hash,
-                FLEXRF_VERSION);
-    return 0;
-  }
-  if (options->descriptor) {
-    std::puts(application.descriptor_json);
-    return 0;
-  }
+  if (options->help) return answer(application, usage(application));
+  if (options->version) return answer(application, version_line(application));
+  if (options->descriptor) return answer(application, std::string{application.descriptor_json} + "\n");
   if (make == nullptr && options->panel_given) {
     return refuse(
         application,
@@ -128,17 +140,15 @@ int run_application(const Application& application, int argument_count, char** a
   const auto note_failure = [&](const Status& status) {
     if (status) return;
     complain(application, status);
-    if (summary.exit_code == 0) summary.exit_code = exit_usage;
+    // Whoever ended it by a signal is told as well, if he was not the one who did not read.
+    const bool is_hidden = summary.exit_code > 128 && status.code() != StatusCode::timeout;
+    if (summary.exit_code == 0 || is_hidden) summary.exit_code = exit_usage;
   };
-  if (!options->report_file.empty()) {
-    const Status status = write_file(options->report_file, report_json(executive.cell(), summary));
-    note_failure(status);
-    // Whoever ended it by a signal is told as well.
-    if (!status && summary.exit_code > 128) summary.exit_code = exit_usage;
-  }
+  if (!options->report_file.empty())
+    note_failure(write_report(options->report_file, report_json(executive.cell(), summary)));
   std::vector<std::string> texts{report_text(executive.cell(), summary)};
   if (summary.digest) texts.push_back(digest_line(*summary.digest));
-  note_failure(executive.say_last(std::move(texts)));
+  for (const Status& failure : executive.say_last(std::move(texts))) note_failure(failure);
   // A thread that hangs can be neither joined nor destroyed under; the process can only be left.
   if (summary.stuck || executive.is_still_saying() || executive.is_still_saving()) _exit(summary.exit_code);
   return summary.exit_code;

@@ -9,8 +9,6 @@
 namespace flexrf {
 namespace {
 
-/// The simulated clock begins here, so that no instant is "no time".
-constexpr Time beginning{std::chrono::seconds{1}};
 constexpr Duration least_budget = std::chrono::microseconds{1};
 constexpr std::uint32_t events_between_drains = 64;
 

@@ -1,6 +1,7 @@
 // Virtual time: the whole application on one thread under a simulated clock.
 #pragma once
 
+#include <chrono>
 #include <vector>
 
 #include "runtime/executive/accounting.hpp"
@@ -20,6 +21,9 @@ bool lacks_budget(const Application& application, const ThreadRecord& thread) no
 /// the table. So a run depends on nothing but the tables, the seed and the input.
 class VirtualTime {
  public:
+  /// Where the simulated clock begins, so that no instant is "no time".
+  static constexpr Time beginning{std::chrono::seconds{1}};
+
   /// While it lives, this thread's log messages carry its time.
   VirtualTime(Cell& cell, Lifecycle& lifecycle, Supervision& supervision);
   VirtualTime(const VirtualTime&) = delete;

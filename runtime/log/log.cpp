@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
@@ -20,6 +21,8 @@ constinit std::atomic<std::int64_t> origin{0};
 /// Since when a line is being written, ns of the monotonic clock; 0: none is.
 constinit std::atomic<std::int64_t> writing_since{0};
 constinit std::atomic<std::uint64_t> unwritten{0};
+constinit std::atomic<int> write_error{0};
+constinit std::atomic<bool> is_line_torn{false};
 constinit thread_local const Time* thread_clock [[gnu::tls_model("initial-exec")]] = nullptr;
 
 /// What was drained. The mutex is between threads that are not real-time: those that drain and those that
@@ -93,12 +96,32 @@ std::size_t take_line(char* line, bool is_written) noexcept {
   return drained.take(line, is_written);
 }
 
+/// Of a full disk a part may be written: what follows then begins on a line of its own.
+bool write_all(int descriptor, const char* text, std::size_t size) noexcept {
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t written = write(descriptor, text + done, size - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      write_error.store(errno, std::memory_order_relaxed);
+      if (done > 0) is_line_torn.store(true, std::memory_order_relaxed);
+      return false;
+    }
+    done += static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
 /// All of it, or false.
 bool write_line(int descriptor, const char* line, std::size_t size) noexcept {
   writing_since.store(nanoseconds(MonotonicClock::now()), std::memory_order_relaxed);
-  const ssize_t written = write(descriptor, line, size);
+  bool is_written = true;
+  if (is_line_torn.load(std::memory_order_relaxed)) {
+    is_written = write_all(descriptor, "\n", 1);
+    if (is_written) is_line_torn.store(false, std::memory_order_relaxed);
+  }
+  is_written = is_written && write_all(descriptor, line, size);
   writing_since.store(0, std::memory_order_relaxed);
-  return written == static_cast<ssize_t>(size);
+  return is_written;
 }
 
 }  // namespace
@@ -156,6 +179,10 @@ std::size_t relieve_log(Duration patience) noexcept {
 
 std::uint64_t unwritten_log_lines() noexcept {
   return unwritten.load(std::memory_order_relaxed);
+}
+
+int log_write_error() noexcept {
+  return write_error.load(std::memory_order_relaxed);
 }
 
 std::uint64_t visit_recent_log(std::uint64_t after, void* context,

@@ -61,6 +61,9 @@ std::size_t relieve_log(Duration patience) noexcept;
 /// Lines that were not written because nobody took them, or because writing failed. Any thread.
 std::uint64_t unwritten_log_lines() noexcept;
 
+/// Why the last line that could not be written was not, errno's value; 0: there was none. Any thread.
+int log_write_error() noexcept;
+
 /// The last lines that were drained, for the panel. Calls `line(context, number, text)` for each line whose
 /// number is greater than `after`, oldest first; numbers count from 1. Non-real-time threads; must not drain
 /// or log_... from inside.

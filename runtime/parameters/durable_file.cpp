@@ -11,8 +11,6 @@
 namespace flexrf {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{16} << 20;
-
 // Closes on the way out; close() reports what it is told.
 class Descriptor {
  public:
@@ -37,8 +35,7 @@ Status failure(const char* act, const std::string& path) {
   const StatusCode code = error == ENOENT                     ? StatusCode::not_found
                           : error == EACCES || error == EPERM ? StatusCode::not_permitted
                                                               : StatusCode::unavailable;
-  return Status::error(code, "cannot %s '%s': %s", act, path.c_str(),
-                       std::error_code(error, std::generic_category()).message().c_str());
+  return Status::error(code, "cannot %s '%s': %s", act, path.c_str(), cause_of(error).c_str());
 }
 
 /// A file that nobody else has: what lies there is of a process that was killed while it wrote.
@@ -65,6 +62,13 @@ const char* name_of_file_kind(mode_t mode) noexcept {
          : S_ISFIFO(mode) ? "a pipe"
          : S_ISSOCK(mode) ? "a socket"
                           : "a device";
+}
+
+std::string cause_of(int error) {
+  std::string cause = std::error_code(error, std::generic_category()).message();
+  if (error == ENOSPC || error == EDQUOT) cause += "; make room there";
+  if (error == EROFS) cause += "; mount it for writing, or name a file elsewhere";
+  return cause;
 }
 
 std::string folder_of(const std::string& path) {
@@ -95,15 +99,17 @@ Result<std::string> read_file(const std::string& path) {
     if (count < 0) return failure("read", path);
     if (count == 0) return contents;
     contents.append(part, static_cast<std::size_t>(count));
-    if (contents.size() > largest_file)
+    if (contents.size() > largest_read_file)
       return Status::error(StatusCode::out_of_range, "'%s' has more than 16 MiB", path.c_str());
   }
 }
 
-Status replace_file(const std::string& path, std::string_view contents, mode_t fresh_mode) {
-  if (contents.size() > largest_file)
+Status replace_file(const std::string& path, std::string_view contents, mode_t fresh_mode,
+                    std::size_t largest) {
+  if (contents.size() > largest)
     return Status::error(StatusCode::out_of_range,
-                         "'%s' would have more than 16 MiB, and could not be read again", path.c_str());
+                         "'%s' would have more than %zu MiB, and could not be read again", path.c_str(),
+                         largest >> 20);
   const std::string target = resolved_path(path);
   struct stat former {};
   const mode_t mode = ::stat(target.c_str(), &former) == 0 ? former.st_mode & mode_t{0777} : fresh_mode;

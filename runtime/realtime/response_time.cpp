@@ -1,67 +1,26 @@
 #include "runtime/realtime/response_time.hpp"
 
-#include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <vector>
+
+#include "base/response_time.hpp"
 
 namespace flexrf {
 
-namespace {
-
 using Task = ResponseTimeTask;
 
-bool disturbs(const Task& other, const Task& task) noexcept {
-  return &other != &task && other.cpu == task.cpu && other.priority >= task.priority;
-}
-
-/// Execution that `task` may ask for in a window: releases in it, the first as late as its jitter allows.
-std::int64_t demand(const Task& task, std::int64_t window) noexcept {
-  const std::int64_t reach = window + task.jitter.count();
-  return (reach + task.period.count() - 1) / task.period.count() * task.execution.count();
-}
-
-/// Whether the task and what disturbs it ask for no more than the CPU has; beyond that no response has a
-/// bound.
-bool has_bound(std::span<const Task> tasks, const Task& task) noexcept {
-  // Rounding may call a load of exactly one too much or too little: the whole busy period is then finite but
-  // for one that never ends, which `most_releases` below catches.
-  double load = 0;
-  for (const Task& other : tasks)
-    if (&other == &task || disturbs(other, task))
-      load += static_cast<double>(other.execution.count()) / static_cast<double>(other.period.count());
-  return load <= 1.0 + 1e-9;
-}
-
-/// Releases of one busy period after which it is taken to have no end.
-constexpr std::int64_t most_releases = 100'000;
-
-Duration response_of(std::span<const Task> tasks, const Task& task) noexcept {
-  if (!has_bound(tasks, task)) return Duration::max();
-  const std::int64_t period = task.period.count();
-  std::int64_t longest = 0;
-  std::int64_t window = 0;
-  // The release number `release` of a busy period that begins with everybody's latest possible release.
-  for (std::int64_t release = 0; release < most_releases; ++release) {
-    const std::int64_t own = (release + 1) * task.execution.count();
-    std::int64_t next = std::max(window, own);
-    do {
-      window = next;
-      next = own;
-      for (const Task& other : tasks)
-        if (disturbs(other, task)) next += demand(other, window);
-    } while (next != window);
-    longest = std::max(longest, window + task.jitter.count() - release * period);
-    // The busy period ends before the next release comes.
-    if (window + task.jitter.count() <= (release + 1) * period) return Duration{longest};
-  }
-  return Duration::max();
-}
-
-}  // namespace
-
 bool analyse_response_times(std::span<const Task> tasks, std::span<ResponseTimeResult> results) noexcept {
+  std::vector<PeriodicTask> periodic;
+  periodic.reserve(tasks.size());
+  for (const Task& task : tasks)
+    periodic.push_back(
+        {task.cpu, task.priority, task.execution.count(), task.period.count(), task.jitter.count()});
+  ResponseTimeAnalysis analysis(periodic);
   bool all = true;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    results[i].response = response_of(tasks, tasks[i]);
+    const std::optional<std::int64_t> response = analysis.longest_response(i);
+    results[i].response = response ? Duration{*response} : Duration::max();
     results[i].meets_deadline = results[i].response <= tasks[i].deadline;
     all = all && results[i].meets_deadline;
   }

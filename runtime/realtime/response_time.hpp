@@ -26,14 +26,12 @@ struct ResponseTimeTask {
 
 struct ResponseTimeResult {
   /// Longest time from due to completion, jitter included; Duration::max() when it has no bound (the CPU is
-  /// asked for more than it has).
+  /// asked for more than it has), or none that was found in a bounded number of rounds.
   Duration response{};
   bool meets_deadline = false;
 };
 
-/// Joseph and Pandya, "Finding response times in a real-time system", 1986; Audsley et al., "Applying new
-/// scheduling theory to static priority pre-emptive scheduling", 1993; over the whole busy period (Lehoczky
-/// 1990, Tindell 1994), so that deadlines beyond the period are right too. Pure; any thread, not for
+/// ResponseTimeAnalysis, as config-gen does it for the roles in the tables. Pure; any thread, not for
 /// real-time paths.
 /// @param results as many as tasks, same order.
 /// @returns whether every task meets its deadline.

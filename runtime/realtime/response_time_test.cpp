@@ -86,6 +86,37 @@ void equal_priorities_disturb_each_other(void**) {
   check(results[1], 5, true);
 }
 
+ResponseTimeTask in_nanoseconds(std::uint8_t priority, std::int64_t execution, std::int64_t period) {
+  ResponseTimeTask made = task(priority, 0, 0, 0);
+  made.execution = Duration{execution};
+  made.period = Duration{period};
+  made.deadline = Duration{period};
+  return made;
+}
+
+// The first runs 99'999 of each 100'000 ns: what the second needs comes together in 1 s, one nanosecond of
+// each. Step by step this takes a million rounds.
+void close_to_full_is_found_without_going_step_by_step(void**) {
+  const ResponseTimeTask tasks[] = {in_nanoseconds(2, 99'999, 100'000),
+                                    in_nanoseconds(1, 10'000, 2'000'000'000)};
+  ResponseTimeResult results[2];
+  assert_true(analyse_response_times(tasks, results));
+  assert_true(results[0].response == Duration{99'999});
+  check(results[1], 1000, true);
+}
+
+// A thousand million rounds to the first completion, and as many releases: neither is waited for.
+void as_good_as_full_has_no_bound_that_is_found(void**) {
+  const ResponseTimeTask tasks[] = {in_nanoseconds(3, 999'999'999, 1'000'000'000),
+                                    in_nanoseconds(2, 100'000'000, 200'000'000'000'000'000),
+                                    in_nanoseconds(1, 1, 4'000'000'000)};
+  ResponseTimeResult results[3];
+  assert_false(analyse_response_times(tasks, results));
+  assert_true(results[0].response == Duration{999'999'999});
+  assert_true(results[1].response == Duration::max());
+  assert_true(results[2].response == Duration::max());
+}
+
 void too_much_work_has_no_bound(void**) {
   const ResponseTimeTask tasks[] = {task(2, 6, 10, 10), task(1, 5, 10, 1000)};
   ResponseTimeResult results[2];
@@ -136,6 +167,8 @@ int main() {
       cmocka_unit_test(jitter_lengthens_own_and_lower_responses),
       cmocka_unit_test(cpus_do_not_disturb_each_other),
       cmocka_unit_test(equal_priorities_disturb_each_other),
+      cmocka_unit_test(close_to_full_is_found_without_going_step_by_step),
+      cmocka_unit_test(as_good_as_full_has_no_bound_that_is_found),
       cmocka_unit_test(too_much_work_has_no_bound),
       cmocka_unit_test(nearly_endless_busy_period_ends),
       cmocka_unit_test(says_that_it_is_an_estimate),

@@ -31,7 +31,9 @@ Place tool_in(const Report& report) {
 const Place& home() {
   static const Place place = [] {
     const Folder folder;
-    CHECK_EQUAL(run(folder, {application, "--no-realtime", "--panel", "off", "--report", "report"}).exit_code,
+    CHECK_EQUAL(run(folder, {application, "--no-realtime", "--standstill-limit", "10min", "--panel", "off",
+                             "--report", "report"})
+                    .exit_code,
                 0);
     return tool_in(Report(folder / "report"));
   }();
@@ -63,7 +65,8 @@ void check_finished(const Ending& ending, const Report& report) {
 void piped_keys_move_the_arm() {
   for (const bool realtime : {true, false}) {
     const Folder folder;
-    std::vector<std::string> words{application, "--panel", "off", "--report", "report"};
+    std::vector<std::string> words{application, "--panel",  "off",   "--standstill-limit",
+                                   "10min",     "--report", "report"};
     if (!realtime) words.push_back("--no-realtime");
     const Ending ending = run(folder, words, "wwwwddd");
     const Report report(folder / "report");
@@ -150,7 +153,8 @@ void wrong_usage_is_1_and_names_the_nearest() {
 void a_signal_lets_the_arm_come_to_rest() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const Folder folder;
-    Process process(folder, {application, "--no-realtime", "--panel", "off", "--report", "report"});
+    Process process(folder, {application, "--no-realtime", "--standstill-limit", "10min", "--panel", "off",
+                             "--report", "report"});
     // The way is long enough to be under way still when the signal comes.
     process.type(std::string(30, 'a'));
     process.wait_for_error("autostart");
@@ -187,9 +191,10 @@ void a_moving_arm_comes_to_rest_on_its_way() {
 
 void a_second_start_names_the_holder() {
   const Folder folder;
-  Process first(folder, {application, "--no-realtime", "--panel", "off"});
+  Process first(folder, {application, "--no-realtime", "--standstill-limit", "10min", "--panel", "off"});
   first.wait_for_error("autostart");
-  const Ending second = run(folder, {application, "--no-realtime", "--panel", "off"});
+  const Ending second =
+      run(folder, {application, "--no-realtime", "--standstill-limit", "10min", "--panel", "off"});
   CHECK_EQUAL(second.exit_code, 2);
   CHECK_CONTAINS(second.errors, "is run already by process " + std::to_string(first.id()) + " (");
   // Simulated, it touches nothing of the cell.
@@ -197,7 +202,9 @@ void a_second_start_names_the_holder() {
   CHECK_EQUAL(run(folder, {application, "--virtual-time", "1s", "--keys", "keys"}).exit_code, 0);
   first.end_input();
   CHECK_EQUAL(first.wait().exit_code, 0);
-  CHECK_EQUAL(run(folder, {application, "--no-realtime", "--panel", "off"}).exit_code, 0);
+  CHECK_EQUAL(
+      run(folder, {application, "--no-realtime", "--standstill-limit", "10min", "--panel", "off"}).exit_code,
+      0);
 }
 
 // ---- floods
@@ -206,8 +213,10 @@ void ten_thousand_keys_are_all_counted() {
   const Folder folder;
   std::string keys;
   for (int n = 0; n < 2500; ++n) keys += "wsad";
-  const Ending ending =
-      run(folder, {application, "--no-realtime", "--panel", "off", "--report", "report"}, keys);
+  const Ending ending = run(
+      folder,
+      {application, "--no-realtime", "--standstill-limit", "10min", "--panel", "off", "--report", "report"},
+      keys);
   const Report report(folder / "report");
   check_finished(ending, report);
   CHECK_EQUAL(presses_in(report), 10'000U);

@@ -41,7 +41,10 @@ void check_tells_what_is_missing(const Ending& ending, const std::string& copy) 
 void without_rights_and_real_actuators_it_goes_on() {
   const Folder folder;
   const Ending ending =
-      run(folder, as_nobody(folder, place::keyboard, {"--panel", "off", "--report", "report"}), "w");
+      run(folder,
+          as_nobody(folder, place::keyboard,
+                    {"--panel", "off", "--standstill-limit", "10min", "--report", "report"}),
+          "w");
   check_tells_what_is_missing(ending, folder / "application");
   CHECK_CONTAINS(ending.errors, "Going on without real time: no real actuator is chosen.");
   CHECK_EQUAL(ending.exit_code, 0);
@@ -111,11 +114,11 @@ void a_real_actuator_is_run_once_on_the_machine() {
 void a_limit_between_budget_and_need_is_noticed() {
   if (geteuid() != 0) skip();  // only root can keep the priorities and give up the capability
   const Folder folder;
-  const Ending ending =
-      run(folder,
-          {"bash", "-c", "ulimit -l 8192; exec \"$0\" \"$@\"", "setpriv", "--bounding-set=-ipc_lock",
-           "--inh-caps=-ipc_lock", place::keyboard, "--panel", "off", "--report", "report"},
-          "w");
+  const Ending ending = run(folder,
+                            {"bash", "-c", "ulimit -l 8192; exec \"$0\" \"$@\"", "setpriv",
+                             "--bounding-set=-ipc_lock", "--inh-caps=-ipc_lock", place::keyboard, "--panel",
+                             "off", "--standstill-limit", "10min", "--report", "report"},
+                            "w");
   CHECK_CONTAINS(ending.errors, "RLIMIT_MEMLOCK is 8192 KiB and the process does not hold CAP_IPC_LOCK.");
   CHECK_CONTAINS(ending.errors, "Going on without real time");
   CHECK_EQUAL(ending.exit_code, 0);

@@ -47,6 +47,8 @@ namespace {
 Options quietly(Options options, RightsOfATest rights) {
   options.realtime = rights == RightsOfATest::real_time;
   options.status_view = false;
+  // Other programs take the processors away; a test of a standstill says so itself.
+  if (!options.standstill_limit) options.standstill_limit = std::chrono::minutes{10};
   return options;
 }
 

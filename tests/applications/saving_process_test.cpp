@@ -16,7 +16,8 @@ namespace flexrf::whole {
 namespace {
 
 std::vector<std::string> words(const std::vector<std::string>& more = {}) {
-  std::vector<std::string> all{place::application, "--panel", "off", "--no-realtime"};
+  std::vector<std::string> all{place::application,   "--panel", "off", "--no-realtime",
+                               "--standstill-limit", "10min"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 
 /// Middle of what is red in the row in the middle, in widths of the picture; below 0: nothing is.
 double red_middle(const CameraFrame& frame) {
-  const std::uint8_t* const row = frame.data.data() + std::size_t{frame.height / 2} * frame.stride;
+  const std::uint8_t* const row = frame.data().data() + std::size_t{frame.height / 2} * frame.stride;
   std::uint32_t sum = 0;
   std::uint32_t count = 0;
   for (std::uint32_t x = 0; x < frame.width; ++x) {

@@ -153,6 +153,7 @@ bool asks_for_what_is_listed(ServoMode mode, bool has_all, bool interpolates) {
   drive->configuration().guarded = !has_all;
   drive->configuration().maps_mode = has_all;
   drive->configuration().maps_speed = has_all;
+  drive->configuration().maps_velocity = has_all;
   drive->configuration().interpolates = interpolates;
   DriveConsole far_end{{.node = listed_node}, bus->now()};
   if (!bus->driver().initialise() || !drive->driver().initialise()) return false;
@@ -255,6 +256,8 @@ int run_asked_objects() {
        nullptr},
       {"guarded, and its mode and speed in no PDO", judged_in<ServoMode::profile_position, false>, nullptr,
        nullptr, nullptr},
+      {"interpolated positions", judged_in<ServoMode::cyclic_position, true, true>, nullptr, nullptr,
+       nullptr},
       {"the simulated drive is as its data sheet says", data_sheet, nullptr, nullptr, nullptr},
   };
   return cmocka_run_group_tests_name("the driver asks for what its list of objects says", tests, nullptr,

@@ -29,7 +29,7 @@ class CanopenArmWorld final : public RobotArmWorld {
   explicit CanopenArmWorld(Odd odd = nullptr) {
     auto& configuration = arm_.configuration();
     configuration.vendor = 0x123;
-    configuration.quick_stop_deceleration = 60;
+    configuration.quick_stop_deceleration.fill(60);
     initialised_ = bus_.driver().initialise().is_ok();
     for (std::size_t i = 0; i < six_axis.joint_count; ++i) {
       const auto node = static_cast<std::uint8_t>(11 + i);
@@ -67,6 +67,10 @@ class CanopenArmWorld final : public RobotArmWorld {
     arm_.send();
     bus_.send();
   }
+  /// What the drive of this joint was told, in its units.
+  double told(std::size_t joint, canopen::ObjectAddress object) {
+    return static_cast<double>(far_ends_[joint]->drive().objects().get(object)) / increments;
+  }
   double noise() const override { return 1 / increments; }
   bool lose_sensors() override {
     far_ends_[4]->drive().power_off();
@@ -94,6 +98,33 @@ bool comes_up(Odd odd) {
   CanopenArmWorld world{odd};
   if (!world.is_ready()) std::printf("%s\n", world.arm().fault().cause());
   return world.is_ready();
+}
+
+// In its own unit of measure, rad or m.
+bool each_joint_has_its_own_speeds() {
+  namespace axis = canopen::cia402::objects;
+  CanopenArmWorld world{[](DriveObjects&, CanopenArm::Configuration& arm) {
+    for (std::size_t i = 0; i < six_axis.joint_count; ++i) {
+      const double factor = static_cast<double>(i + 1);
+      arm.homing_methods[i] = 35;
+      arm.homing_speed[i] = 0.1 * factor;
+      arm.homing_creep_speed[i] = 0.02 * factor;
+      arm.quick_stop_deceleration[i] = 10 * factor;
+    }
+  }};
+  bool good = true;
+  for (std::size_t i = 0; i < six_axis.joint_count; ++i) {
+    const double factor = static_cast<double>(i + 1);
+    good = good && std::abs(world.told(i, axis::homing_search_speed) - 0.1 * factor) < 1e-6 &&
+           std::abs(world.told(i, axis::homing_creep_speed) - 0.02 * factor) < 1e-6 &&
+           std::abs(world.told(i, axis::quick_stop_deceleration) - 10 * factor) < 1e-6;
+  }
+  return good;
+}
+
+void speeds_of_each_joint(void**) {
+  const bool good = each_joint_has_its_own_speeds();
+  assert_true(good);
 }
 
 void drives_that_lack_what_others_have(void**) {
@@ -138,8 +169,9 @@ void columns_of_a_drive(void**) {
   for (const FieldDescriptor& wanted : descriptor_of<CanopenServoDrive::Configuration>->fields) {
     if (std::find(std::begin(elsewhere), std::end(elsewhere), wanted.name) != std::end(elsewhere)) continue;
     const bool there = std::any_of(fields.begin(), fields.end(), [&](const FieldDescriptor& have) {
+      // One for all joints, or one for each.
       return std::string_view(have.name) == wanted.name && have.scalar == wanted.scalar &&
-             have.count == wanted.count;
+             (have.count == wanted.count || have.count == wanted.count * max_joints);
     });
     if (!there) std::printf("an arm has no column %s\n", wanted.name);
     assert_true(there);
@@ -150,6 +182,7 @@ int run_columns() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(columns_of_a_drive),
       cmocka_unit_test(drives_that_lack_what_others_have),
+      cmocka_unit_test(speeds_of_each_joint),
   };
   return cmocka_run_group_tests_name("columns of an arm of CANopen drives", tests, nullptr, nullptr);
 }

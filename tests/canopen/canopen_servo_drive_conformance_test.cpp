@@ -11,9 +11,10 @@ using namespace flexrf;
 
 class CanopenWorld final : public ServoDriveWorld {
  public:
-  explicit CanopenWorld(const ServoDriveSetup& setup) {
+  explicit CanopenWorld(const ServoDriveSetup& setup, bool interpolates) {
     auto& configuration = drive_.configuration();
     configuration.mode = setup.mode;
+    configuration.interpolates = interpolates && setup.mode == ServoMode::cyclic_position;
     configuration.endless = setup.endless;
     configuration.modulo = setup.modulo;
     configuration.acceleration = 100;
@@ -70,11 +71,14 @@ class CanopenWorld final : public ServoDriveWorld {
   bool initialised_ = false;
 };
 
+template <bool Interpolates>
+std::unique_ptr<ServoDriveWorld> make_world(const ServoDriveSetup& setup) {
+  return std::make_unique<CanopenWorld>(setup, Interpolates);
+}
+
 }  // namespace
 
 int main() {
-  return run_servo_drive_conformance("canopen servo drive",
-                                     [](const ServoDriveSetup& setup) -> std::unique_ptr<ServoDriveWorld> {
-                                       return std::make_unique<CanopenWorld>(setup);
-                                     });
+  return run_servo_drive_conformance("canopen servo drive", make_world<false>) +
+         run_servo_drive_conformance("canopen servo drive, interpolated positions", make_world<true>);
 }

@@ -124,6 +124,12 @@ void no_mode_in_a_pdo(void**) {
   assert_true(good);
 }
 
+void no_velocity(void**) {
+  const bool good = is_a_matter_of_configuration(
+      {{"lack 606C"}, "`maps_velocity = false`", [](Said& said) { said.maps_velocity = false; }});
+  assert_true(good);
+}
+
 }  // namespace
 
 int run_drive_quirks() {
@@ -134,6 +140,7 @@ int run_drive_quirks() {
       {"identifiers without bit 30", no_bit_30, nullptr, nullptr, nullptr},
       {"no heartbeat: node guarding", no_heartbeat, nullptr, nullptr, nullptr},
       {"a mode that is in no PDO", no_mode_in_a_pdo, nullptr, nullptr, nullptr},
+      {"no velocity", no_velocity, nullptr, nullptr, nullptr},
   };
   return cmocka_run_group_tests_name("quirks are columns", tests, nullptr, nullptr);
 }

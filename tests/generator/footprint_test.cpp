@@ -51,6 +51,18 @@ constexpr bool is_as_believed() {
   return true;
 }
 
+// A type that is as large as its slot says.
+struct Sized {
+  std::uint32_t elements_;
+  using SlotElement = std::uint16_t;
+  static constexpr std::size_t elements_begin_ = 4096;
+};
+template <std::size_t Elements, std::size_t Count>
+constexpr bool is_sized_as_believed() {
+  return sizeof(SizedSlotMemory<Sized, Count, Elements>) ==
+         config_gen::slot_memory(4096 + 2 * Elements, Count);
+}
+
 template <std::size_t Size, std::size_t Alignment>
 constexpr bool is_as_believed() {
   return is_as_believed<Size, Alignment, 3>() && is_as_believed<Size, Alignment, 16>() &&
@@ -62,6 +74,8 @@ void sizes_are_as_config_gen_believes(void**) {
   static_assert(is_as_believed<8, 8>() && is_as_believed<48, 8>() && is_as_believed<56, 8>());
   static_assert(is_as_believed<4088, 8>() && is_as_believed<4096, 8>() && is_as_believed<4097, 1>());
   static_assert(is_as_believed<921'600, 8>());
+  static_assert(is_sized_as_believed<1, 3>() && is_sized_as_believed<2048, 5>() &&
+                is_sized_as_believed<100'000, 16>());
 }
 
 // What the system adds for the registers of its CPU differs from machine to machine, so there is room.

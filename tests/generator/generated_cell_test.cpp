@@ -199,6 +199,37 @@ void former_names_are_told(void**) {
   assert_string_equal(cell.renames[1].to, "source.vector");
 }
 
+const FieldDescriptor& data_of(const SlotRecord& slot) {
+  return slot.control->type()->fields.back();
+}
+
+void items_are_as_large_as_their_slot_says(void**) {
+  const SlotRecord& large = row(cell.slots, "picture");
+  const SlotRecord& usual = row(cell.slots, "usual_picture");
+  const TypeDescriptor& type = *large.control->type();
+  assert_ptr_equal(usual.control->type(), descriptor_of<Picture>);
+  assert_int_equal(data_of(usual).count, 80000);
+  assert_int_equal(data_of(large).count, 90000);
+  assert_int_equal(data_of(large).offset, 4096);
+  assert_int_equal(type.size, 4096 + 90000);
+  assert_int_equal(type.hash, descriptor_of<Picture>->hash);
+  assert_int_equal(type.significant.back().size, 90000);
+  assert_int_equal(reinterpret_cast<std::uintptr_t>(usual.control->payload(1)) % 4096, 0);
+  for (std::uint8_t buffer = 0; buffer < 3; ++buffer) {
+    const auto& picture =
+        *static_cast<const Picture*>(static_cast<const void*>(large.control->payload(buffer)));
+    assert_int_equal(picture.data().size(), 90000);
+    assert_ptr_equal(picture.data().data(), large.control->payload(buffer) + 4096);
+  }
+  // What the unit filled to the last byte stays within its buffer, and a step's own pictures differ.
+  const ItemHeader* const item = usual.observer->newest();
+  assert_non_null(item);
+  const auto& picture = *static_cast<const Picture*>(usual.observer->payload());
+  assert_int_equal(picture.data().size(), 80000);
+  assert_int_equal(picture.data()[79999], (item->sequence - 1) & 0xFF);
+  static_assert(!std::is_copy_constructible_v<Picture> && !std::is_copy_assignable_v<Picture>);
+}
+
 void an_image_is_read_as_any_slot(void**) {
   const SlotRecord& slot = row(cell.slots, "thumbnail");
   assert_true(slot.control->type()->is_image);
@@ -321,6 +352,7 @@ int main() {
                               cmocka_unit_test(the_panel_has_its_settings_and_files),
                               cmocka_unit_test(ranges_that_rows_narrow_are_told),
                               cmocka_unit_test(it_runs),
+                              cmocka_unit_test(items_are_as_large_as_their_slot_says),
                               cmocka_unit_test(an_image_is_read_as_any_slot)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

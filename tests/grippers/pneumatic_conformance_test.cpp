@@ -44,30 +44,47 @@ int run(const char* name) {
                                  []() -> std::unique_ptr<GripperWorld> { return std::make_unique<World>(); });
 }
 
-// As an application's table has it, without a model of anything.
-bool follows_mere_wires() {
-  DeviceBench<SimulatedGpioChip> chip(nullptr);
-  chip.configuration().set_wires("VALVE_OPEN>REED_OPEN VALVE_CLOSE>REED_CLOSED");
-  chip.configuration().wire_delay = 0.1;
-  if (!chip.driver().initialise()) return false;
-  DeviceBench<PneumaticGripper> gripper(nullptr, {}, &chip.driver());
-  if (!gripper.driver().initialise()) return false;
-  const auto run_for = [&](int milliseconds) {
+// As an application's table has it, without a model of anything; with a switch that stays off, if one is
+// named.
+struct MereWires {
+  explicit MereWires(const char* blocked = "") {
+    chip.configuration().set_wires("VALVE_OPEN>REED_OPEN VALVE_CLOSE>REED_CLOSED");
+    chip.configuration().wire_delay = 0.1;
+    chip.configuration().set_blocked(blocked);
+    gripper.configuration().travel_timeout = 0.3;
+    good = chip.driver().initialise().is_ok() && gripper.driver().initialise().is_ok();
+    run_for(10);
+  }
+  PneumaticGripper& fingers() { return gripper.driver(); }
+  GripperState state() { return fingers().state().value_or(GripperState{}); }
+  void run_for(int milliseconds) {
     for (int i = 0; i < milliseconds; ++i) {
       chip.receive(std::chrono::milliseconds(1));
       gripper.receive(std::chrono::milliseconds(1));
       gripper.send();
       chip.send();
     }
-  };
-  run_for(10);
+  }
+  /// And whether it holds something then.
+  bool grips_within(int milliseconds) {
+    run_for(milliseconds);
+    return state().object == GripperObject::gripped;
+  }
+
+  DeviceBench<SimulatedGpioChip> chip{nullptr};
+  DeviceBench<PneumaticGripper> gripper{nullptr, {}, &chip.driver()};
+  bool good = false;
+};
+
+bool follows_mere_wires() {
+  MereWires cell;
   for (const bool opens : {true, false, true}) {
-    opens ? gripper.driver().open() : gripper.driver().close();
-    if (!gripper.driver().state()->moving) return false;
-    run_for(400);
-    const auto state = gripper.driver().state();
-    const double width = opens ? gripper.configuration().open_width : gripper.configuration().closed_width;
-    if (!state || state->moving || state->opening != width || !gripper.driver().trouble().is_ok())
+    opens ? cell.fingers().open() : cell.fingers().close();
+    if (!cell.good || !cell.state().moving) return false;
+    cell.run_for(400);
+    const auto& told = cell.gripper.configuration();
+    const double width = opens ? told.open_width : told.closed_width;
+    if (cell.state().moving || cell.state().opening != width || !cell.fingers().trouble().is_ok())
       return false;
   }
   return true;
@@ -75,37 +92,20 @@ bool follows_mere_wires() {
 
 // Something is in the way of the switch for closed, until it is taken away.
 bool finds_an_object_on_mere_wires() {
-  DeviceBench<SimulatedGpioChip> chip(nullptr);
-  chip.configuration().set_wires("VALVE_OPEN>REED_OPEN VALVE_CLOSE>REED_CLOSED");
-  chip.configuration().wire_delay = 0.1;
-  chip.configuration().set_blocked("REED_CLOSED");
-  if (!chip.driver().initialise()) return false;
-  DeviceBench<PneumaticGripper> gripper(nullptr, {}, &chip.driver());
-  gripper.configuration().travel_timeout = 0.3;
-  if (!gripper.driver().initialise()) return false;
-  const auto run_for = [&](int milliseconds) {
-    for (int i = 0; i < milliseconds; ++i) {
-      chip.receive(std::chrono::milliseconds(1));
-      gripper.receive(std::chrono::milliseconds(1));
-      gripper.send();
-      chip.send();
-    }
-    return gripper.driver().state().value_or(GripperState{}).object;
-  };
-  run_for(10);
-  gripper.driver().open();
-  if (run_for(500) == GripperObject::gripped) return false;
+  MereWires cell{"REED_CLOSED"};
+  cell.fingers().open();
+  if (!cell.good || cell.grips_within(500)) return false;
   for (int grips = 1; grips <= 2; ++grips) {
-    gripper.driver().close();
-    if (run_for(500) != GripperObject::gripped || !gripper.driver().trouble().is_ok()) return false;
-    gripper.driver().open();
-    if (run_for(500) == GripperObject::gripped) return false;
+    cell.fingers().close();
+    if (!cell.grips_within(500) || !cell.fingers().trouble().is_ok()) return false;
+    cell.fingers().open();
+    if (cell.grips_within(500)) return false;
   }
-  gripper.driver().close();
-  if (run_for(500) != GripperObject::gripped) return false;
-  chip.driver().line("REED_CLOSED").block(false);
-  if (run_for(500) != GripperObject::lost) return false;
-  return gripper.feedback().grips == 3 && gripper.feedback().losses == 1;
+  cell.fingers().close();
+  if (!cell.grips_within(500)) return false;
+  cell.chip.driver().line("REED_CLOSED").block(false);
+  if (cell.grips_within(500) || cell.state().object != GripperObject::lost) return false;
+  return cell.gripper.feedback().grips == 3 && cell.gripper.feedback().losses == 1;
 }
 
 // The write that switches a valve off fails for a while.

@@ -47,6 +47,8 @@ Outcome pick_many(Hardware hardware) {
   CHECK_EQUAL(station.seen().faults, 0U);
   CHECK_EQUAL(station.seen().missed_grips, 0U);
   CHECK_EQUAL(station.seen().lost_parts, 0U);
+  // Ordinary motion is not held back, nor said to be.
+  CHECK_EQUAL(station.restraints(), 0U);
   CHECK_EQUAL(station.message(), "Ready: the batch is done.");
   if (MockWorld* world = cell.world()) {
     CHECK_EQUAL(world->taken(), static_cast<int>(picks));

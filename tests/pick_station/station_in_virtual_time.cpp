@@ -182,6 +182,13 @@ Device& StationInVirtualTime::find(const char* name) {
   return *application.device_states[index_of(application.devices, name)].device;
 }
 
+std::uint64_t StationInVirtualTime::restraints() {
+  std::uint64_t count = 0;
+  for (const DeviceState& device : executive_.cell().application().device_states)
+    count += device.restraint.count();
+  return count;
+}
+
 void StationInVirtualTime::initialise(const char* device) {
   const Application& application = executive_.cell().application();
   const auto component =

@@ -60,6 +60,8 @@ class StationInVirtualTime {
   }
   std::string message() const { return std::string{feedback_->message_view()}; }
   std::string remedy() const { return std::string{feedback_->remedy_view()}; }
+  /// How often devices, all together, did less than they were commanded, as the report counts it.
+  std::uint64_t restraints();
   /// A lamp, by the name of its line; one that blinks is lit or dark.
   bool is_lit(const char* line);
   /// A person initialises a device on its page; the outcome must be good.

@@ -11,10 +11,12 @@ mkdir -p "$tree/units" "$tree/hal/interfaces/keyboard/types" "$tree/runtime/core
 printf 'add_subdirectory(jog)' >"$tree/units/CMakeLists.txt" # and no end of line
 printf 'add_subdirectory(keyboard)\n' >"$tree/apps/CMakeLists.txt"
 touch "$tree/hal/interfaces/keyboard/types/key_event.toml"
-echo 'class TextTable {' >"$tree/runtime/core/text_table.hpp"
 echo 'class [[nodiscard]] Status {' >"$tree/runtime/core/status.hpp"
-echo 'using Time = long;' >"$tree/runtime/core/time.hpp"
-echo 'struct alignas(64) StepUnit {' >"$tree/runtime/core/step.hpp"
+mkdir -p "$tree/units/arm_watch" "$tree/hal/simulated/simulated_arm"
+touch "$tree/hal/simulated/simulated_arm/simulated_arm.toml"
+echo 'class [[nodiscard]] TextTable {' >"$tree/units/arm_watch/text_table.hpp"
+echo 'using Reach = long;' >"$tree/units/arm_watch/reach.hpp"
+echo 'struct alignas(64) NextUnit {' >"$tree/units/arm_watch/next.hpp"
 
 made() { (cd "$1" && find . -type f | LC_ALL=C sort | tr '\n' ' '); }
 
@@ -24,7 +26,7 @@ expect "files of a unit" "$(made "$tree/units/lift_guard")" \
   "./CMakeLists.txt ./lift_guard.cpp ./lift_guard.hpp ./lift_guard.toml ./tests/lift_guard_test.cpp "
 expect "class of a unit" "$(<"$tree/units/lift_guard/lift_guard.hpp")" "*class LiftGuard final : public LiftGuardUnit {*"
 expect "list of units" "$(<"$tree/units/CMakeLists.txt")" "add_subdirectory(jog)"$'\n'"add_subdirectory(lift_guard)"
-expect "next steps" "$output" "*-R '^lift_guard_test\$'*units/lift_guard/lift_guard.toml *"
+expect "next steps" "$output" "*-R '^unit_lift_guard_test\$'*units/lift_guard/lift_guard.toml *"
 
 flexrf new app level-cell </dev/null
 expect "exit code of an application" "$status" 0
@@ -34,6 +36,9 @@ expect "library of the test" "$(<"$tree/apps/level-cell/CMakeLists.txt")" "*LIBR
 expect "list of applications" "$(<"$tree/apps/CMakeLists.txt")" "*add_subdirectory(level-cell)"
 expect "next steps" "$output" "*./flexrf run level-cell *apps/level-cell/level_cell.toml *"
 expect "names left from the template" "$(grep -r -i -E 'new.?(unit|app)' "$tree/units" "$tree/apps")" ""
+
+flexrf new unit status </dev/null
+expect "a unit that is called as something of the runtime" "$status $(<"$tree/units/status/status.hpp")" "0 *class Status final : public StatusUnit {*"
 
 before=$(find "$tree/units" "$tree/apps" -type f -exec cksum {} +)
 refused() {  # refused REASON KIND NAME
@@ -49,10 +54,10 @@ refused "a word of C++" unit operator
 refused "a word of C++" app operator
 refused "more than 40" unit "$(printf 'x%.0s' {1..41})"
 refused "key_event.toml has a KeyEvent already" unit key_event
+refused "simulated_arm.toml has a SimulatedArm already" unit simulated_arm
 refused "text_table.hpp has a TextTable already" unit text_table
-refused "status.hpp has a Status already" unit status
-refused "time.hpp has a Time already" unit time
-refused "step.hpp has a Step already" unit step
+refused "reach.hpp has a Reach already" unit reach
+refused "next.hpp has a Next already" unit next
 refused "the build" app test
 expect "what a refusal changes" "$(find "$tree/units" "$tree/apps" -type f -exec cksum {} +)" "$before"
 flexrf new </dev/null

@@ -33,7 +33,7 @@ struct World {
     binding.outputs = outputs;
     binding.devices = devices;
     bench.unit().connect(binding);
-    arm.configuration().noise = 0;
+    arm.configuration().noise = {};
     ready = arm.driver().initialise().is_ok() && bench.unit().initialise().is_ok();
   }
   void run(double duration) {

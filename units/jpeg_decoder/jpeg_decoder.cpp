@@ -58,18 +58,18 @@ void JpegDecoder::decode(const CameraFrame& from, Time sampled_at) {
   int height = 0;
   int sampling = 0;
   int colours = 0;
-  if (from.size > from.data.size()) return leave_out("the picture is longer than its item");
-  if (tjDecompressHeader3(decompressor_, from.data.data(), from.size, &width, &height, &sampling, &colours) !=
-      0)
+  const std::span<const std::uint8_t> jpeg = from.data();
+  if (from.size > jpeg.size()) return leave_out("the picture is longer than its item");
+  if (tjDecompressHeader3(decompressor_, jpeg.data(), from.size, &width, &height, &sampling, &colours) != 0)
     return leave_out(tjGetErrorStr2(decompressor_));
   const int layout = pixels_of(configuration.format);
   const std::size_t stride = static_cast<std::size_t>(width) * static_cast<std::size_t>(tjPixelSize[layout]);
   const std::size_t size = stride * static_cast<std::size_t>(height);
-  if (size > from.data.size()) return leave_out("the picture's pixels do not fit an item");
+  if (pixels.is_connected() && size > pixels.elements()) return leave_out_for_want_of_room(size);
   auto to = pixels.loan();
   if (!to) return;
   // What it would only warn of is a picture with a part that was never sent.
-  if (tjDecompress2(decompressor_, from.data.data(), from.size, to->data.data(), width, 0, height, layout,
+  if (tjDecompress2(decompressor_, jpeg.data(), from.size, to->data().data(), width, 0, height, layout,
                     TJFLAG_STOPONWARNING) != 0)
     return leave_out(tjGetErrorStr2(decompressor_));
   to->width = static_cast<std::uint32_t>(width);
@@ -82,6 +82,15 @@ void JpegDecoder::decode(const CameraFrame& from, Time sampled_at) {
   to.publish(sampled_at);
   ++feedback.pictures;
   feedback.set_trouble({});
+}
+
+void JpegDecoder::leave_out_for_want_of_room(std::size_t size) {
+  const auto status =
+      Status::error(StatusCode::out_of_range,
+                    "its pixels take %zu bytes, an item of the slot for them holds %zu: write "
+                    "elements = %zu into the row of that slot ([slot.NAME])",
+                    size, pixels.elements(), size);
+  leave_out(status.cause());
 }
 
 void JpegDecoder::leave_out(const char* why) {

@@ -18,6 +18,7 @@ class JpegDecoder final : public JpegDecoderUnit {
  private:
   void decode(const CameraFrame& from, Time sampled_at);
   void leave_out(const char* why);
+  void leave_out_for_want_of_room(std::size_t size);
 
   void* decompressor_ = nullptr;
 };

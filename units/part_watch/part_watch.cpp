@@ -79,10 +79,11 @@ void PartWatch::step(const Tick& /*tick*/) {
     feedback.set_trouble("the picture is its sensor's mosaic of colours: have the camera give yuyv or grey8");
     return;
   }
+  const std::span<const std::uint8_t> data = frame->data();
   const auto layout = layout_of(frame->format);
   const std::uint64_t least_stride = layout ? std::uint64_t{frame->width} * layout->bytes : 0;
   if (!layout || frame->width == 0 || frame->height == 0 || frame->stride < least_stride ||
-      std::uint64_t{frame->stride} * (frame->height - 1) + least_stride > frame->data.size()) {
+      std::uint64_t{frame->stride} * (frame->height - 1) + least_stride > data.size()) {
     feedback.set_trouble("the picture's format or size is not one that can be judged");
     return;
   }
@@ -96,7 +97,7 @@ void PartWatch::step(const Tick& /*tick*/) {
     for (std::uint32_t i = 0; i < across; ++i) {
       const std::size_t column = columns.first + std::size_t{i} * columns.count / across;
       const std::size_t place = row * frame->stride + column * layout->bytes;
-      for (std::size_t k = 0; k < layout->bytes; ++k) sum += layout->weights[k] * frame->data[place + k];
+      for (std::size_t k = 0; k < layout->bytes; ++k) sum += layout->weights[k] * data[place + k];
     }
   }
   PartSight seen{};

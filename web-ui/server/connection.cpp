@@ -1,9 +1,13 @@
 #include "web-ui/server/connection.hpp"
 
+#include <sys/socket.h>
+
 #include <algorithm>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
+#include "web-ui/server/encryption.hpp"
 #include "web-ui/server/http_problem.hpp"
 #include "web-ui/server/reply_head.hpp"
 
@@ -78,11 +82,22 @@ void Connection::open(Socket socket) {
   wait_at_most(surroundings_.settings.header_timeout);
   transport_.async_handshake(under_way([this](error_code failure) {
     if (failure) {
-      shut();
+      refuse_encryption(failure);
     } else {
       read_request();
     }
   }));
+}
+
+/// Who asked without TLS can be told so, as far as the socket takes it at once.
+void Connection::refuse_encryption(const error_code& failure) noexcept {
+  if (const char* const why = refusal_of_encryption(failure))
+    surroundings_.note_refusal(remote_address_, why);
+  const std::string_view answer = answer_without_encryption(failure);
+  if (!answer.empty())
+    static_cast<void>(::send(transport_.socket().native_handle(), answer.data(), answer.size(),
+                             MSG_DONTWAIT | MSG_NOSIGNAL));
+  shut();
 }
 
 void Connection::turn_away(Socket socket, std::string_view why) {

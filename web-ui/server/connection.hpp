@@ -96,6 +96,7 @@ class Connection final : public LiveLink {
   void wait_at_most(Duration duration) noexcept { deadline_ = surroundings_.now + duration; }
 
   // ---- connection.cpp: HTTP
+  void refuse_encryption(const error_code& failure) noexcept;
   void read_request();
   void read_more();
   void on_read(error_code error, std::size_t size);

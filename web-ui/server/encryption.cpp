@@ -44,6 +44,32 @@ Result<std::unique_ptr<net::ssl::context>> make_encryption(const std::string& ce
   return context;
 }
 
+const char* refusal_of_encryption(const error_code& failure) noexcept {
+  if (failure.category() != net::error::get_ssl_category()) return nullptr;
+  switch (ERR_GET_REASON(static_cast<unsigned long>(failure.value()))) {
+    case SSL_R_HTTP_REQUEST:
+      return "it asked without TLS; the address begins with https://";
+    case SSL_R_UNSUPPORTED_PROTOCOL:
+    case SSL_R_VERSION_TOO_LOW:
+      return "it knows no version of TLS that is allowed here (1.2 and 1.3)";
+    case SSL_R_NO_SHARED_CIPHER:
+      return "it knows no encryption that is allowed here (AES-GCM and ChaCha20-Poly1305)";
+    case SSL_R_WRONG_VERSION_NUMBER:
+      return "what it sent is no TLS";
+    default:
+      return ERR_reason_error_string(static_cast<unsigned long>(failure.value()));
+  }
+}
+
+std::string_view answer_without_encryption(const error_code& failure) noexcept {
+  if (failure.category() != net::error::get_ssl_category() ||
+      ERR_GET_REASON(static_cast<unsigned long>(failure.value())) != SSL_R_HTTP_REQUEST)
+    return {};
+  return "HTTP/1.1 400 Bad Request\r\nContent-Type: text/plain\r\nContent-Length: 55\r\n"
+         "Connection: close\r\n\r\n"
+         "The panel speaks TLS here: the address begins https://\n";
+}
+
 std::string certificate_command(const std::string& host) {
   const bool is_numeric = Address::parse(host).has_value();
   return "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 825 -subj \"/CN=" +

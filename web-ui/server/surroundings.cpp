@@ -11,4 +11,9 @@ void Surroundings::note(std::string_view what, Duration taken) noexcept {
   log_warning(limit, "panel", "{} kept the server for {:.1} ms", what, seconds(taken) * 1e3);
 }
 
+void Surroundings::note_refusal(std::string_view address, const char* why) noexcept {
+  static LogLimit limit;
+  log_warning(limit, "panel", "{} was not let in by TLS: {}", address, why);
+}
+
 }  // namespace flexrf::panel

@@ -41,6 +41,9 @@ struct Surroundings {
     return call();
   }
 
+  /// A client did not get as far as a request.
+  void note_refusal(std::string_view address, const char* why) noexcept;
+
  private:
   void note(std::string_view what, Duration taken) noexcept;
 };

@@ -99,6 +99,9 @@ void literals(void**) {
   assert_true(text_is(string_literal("a \"b\" \\ \n\x01"
                                      "7 \xC2\xB5"),
                       "\"a \\\"b\\\" \\\\ \\n\\0017 \xC2\xB5\""));
+  // What C++ once took for a backslash, and compilers warn of.
+  assert_true(text_is(string_literal("?\?/???"), R"("?\?/?\?\?")"));
+  assert_true(text_is(comment_text("what?\?/ "), "what?\?/ ."));
   assert_true(text_is(double_literal(1), "1.0"));
   assert_true(text_is(double_literal(0.1), "0.1"));
   assert_true(text_is(double_literal(1e-9), "1e-09"));

@@ -16,7 +16,8 @@ const char* must_be_even(std::uint32_t width, std::uint32_t height, PixelFormat 
 
 }  // namespace
 
-Status check_picture(std::uint32_t width, std::uint32_t height, PixelFormat format) noexcept {
+Status check_picture(std::uint32_t width, std::uint32_t height, PixelFormat format,
+                     std::size_t room) noexcept {
   if (row_bytes(format, 1) == 0 && format != PixelFormat::mjpeg) {
     return Status::error(StatusCode::invalid_argument,
                          "a camera gives %s: set configuration.format to one of them", camera_formats_text);
@@ -27,11 +28,11 @@ Status check_picture(std::uint32_t width, std::uint32_t height, PixelFormat form
                          even);
   }
   const std::size_t bytes = picture_bytes(format, row_bytes(format, width), height);
-  if (bytes > most_picture_bytes) {
-    return Status::error(
-        StatusCode::out_of_range,
-        "a picture of %ux%u pixels takes %zu bytes, an item holds %zu; ask for a smaller one", width, height,
-        bytes, most_picture_bytes);
+  if (room > 0 && bytes > room) {
+    return Status::error(StatusCode::out_of_range,
+                         "a picture of %ux%u pixels takes %zu bytes, an item of its slot holds %zu: write "
+                         "elements = %zu into the row of the slot ([slot.NAME]), or ask for a smaller one",
+                         width, height, bytes, room, bytes);
   }
   return {};
 }

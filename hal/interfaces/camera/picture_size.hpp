@@ -1,16 +1,16 @@
-// How many bytes a picture takes, and whether a CameraFrame holds it.
+// How many bytes a picture takes, and whether there is room for it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 
 #include "runtime/core/status.hpp"
 #include "types/camera_frame.hpp"
 
 namespace flexrf {
 
-inline constexpr std::size_t most_picture_bytes = std::tuple_size_v<decltype(CameraFrame::data)>;
+/// Of a slot whose row says no other number.
+inline constexpr std::size_t usual_picture_bytes = CameraFrame::usual_elements_;
 
 /// Bytes that a row's pixels take, at least; 0: there are no rows, or it is none of a camera's formats.
 constexpr std::uint32_t row_bytes(PixelFormat format, std::uint32_t width) noexcept {
@@ -60,7 +60,9 @@ constexpr std::size_t picture_bytes(PixelFormat format, std::uint32_t stride, st
   return std::size_t{stride} * data_rows(format, height);
 }
 
-/// Whether a camera may be asked for this at all. Any thread.
-Status check_picture(std::uint32_t width, std::uint32_t height, PixelFormat format) noexcept;
+/// Whether a camera may be asked for this at all. `room`: bytes that an item of its slot holds; 0: it has no
+/// slot, and no limit. Any thread.
+Status check_picture(std::uint32_t width, std::uint32_t height, PixelFormat format,
+                     std::size_t room) noexcept;
 
 }  // namespace flexrf

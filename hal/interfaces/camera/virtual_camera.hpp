@@ -16,6 +16,7 @@
 #include "hal/interfaces/camera/jpeg_check.hpp"
 #include "hal/interfaces/camera/jpeg_maker.hpp"
 #include "hal/interfaces/camera/picture_size.hpp"
+#include "runtime/blackboard/sized_slot.hpp"
 
 namespace flexrf {
 
@@ -52,7 +53,8 @@ class VirtualCamera : public Base {
     VirtualCamera::stop();
     const auto& set = this->configuration;
     if (!refusal_.is_ok()) return refusal_;
-    if (Status status = check_picture(set.width, set.height, set.format); !status) return status;
+    if (Status status = check_picture(set.width, set.height, set.format, this->frames.elements()); !status)
+      return status;
     if (Status status = check_settings(controls_, text_view(this->runtime.controls)); !status) return status;
     jpegs_.reset();
     if (set.format == PixelFormat::mjpeg) {
@@ -63,7 +65,7 @@ class VirtualCamera : public Base {
     streaming_ = false;
     now_ = Time{};
     controls_in_force_ = {};
-    if (!this->frames.is_connected()) own_ = std::make_unique<CameraFrame>();
+    if (!this->frames.is_connected()) own_.emplace(most_bytes());
     if (!this->environment().virtual_time) {
       timer_ = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);
       if (timer_ < 0) {
@@ -145,6 +147,15 @@ class VirtualCamera : public Base {
   /// How soon it is noticed that the camera is back.
   static constexpr Duration looking_interval = std::chrono::milliseconds(50);
 
+  /// Of a picture: as its slot has room for, or, where it has none, as it takes at most.
+  std::size_t most_bytes() const noexcept {
+    constexpr std::size_t most_of_a_jpeg_without_picture = 4096;
+    const auto& set = this->configuration;
+    return this->frames.is_connected()
+               ? this->frames.elements()
+               : std::size_t{3} * set.width * set.height + most_of_a_jpeg_without_picture;
+  }
+
   Duration silence() const noexcept {
     return Duration{static_cast<Duration::rep>(this->configuration.silence * 1e9)};
   }
@@ -212,21 +223,22 @@ class VirtualCamera : public Base {
   /// What is found of a picture of which but half came.
   const char* damage_of_half() noexcept {
     if (jpegs_ == nullptr) return "garbled on purpose";
-    const auto jpeg = jpegs_->make(most_picture_bytes);
+    const auto jpeg = jpegs_->make(most_bytes());
     return check_jpeg(jpeg.first(jpeg.size() / 2), this->configuration.width, this->configuration.height)
         .damage;
   }
 
   void show(Time at, std::uint32_t number) noexcept {
-    if (own_ != nullptr) {
-      fill(*own_, at, journal_.note_whole(number));
-      image_ = CameraImage{.data = {own_->data.data(), own_->size},
-                           .width = own_->width,
-                           .height = own_->height,
-                           .stride = own_->stride,
-                           .format = own_->format,
+    if (own_) {
+      CameraFrame& own = **own_;
+      fill(own, at, journal_.note_whole(number));
+      image_ = CameraImage{.data = own.data().first(own.size),
+                           .width = own.width,
+                           .height = own.height,
+                           .stride = own.stride,
+                           .format = own.format,
                            .time = at,
-                           .sequence = own_->sequence};
+                           .sequence = own.sequence};
     } else if (auto loan = this->frames.loan()) {
       fill(*loan, at, journal_.note_whole(number));
       loan.publish(at);
@@ -235,6 +247,7 @@ class VirtualCamera : public Base {
 
   void fill(CameraFrame& frame, Time at, std::uint64_t sequence) noexcept {
     const auto& set = this->configuration;
+    const std::span<std::uint8_t> data = frame.data();
     frame.width = set.width;
     frame.height = set.height;
     frame.format = set.format;
@@ -243,15 +256,15 @@ class VirtualCamera : public Base {
     frame.sequence = sequence;
     if (jpegs_ != nullptr) {
       draw({jpegs_->canvas(), frame.width, frame.height, PixelFormat::rgb24}, at, sequence);
-      const auto jpeg = jpegs_->make(frame.data.size());
+      const auto jpeg = jpegs_->make(data.size());
       frame.size = static_cast<std::uint32_t>(jpeg.size());
-      std::copy_n(jpeg.begin(), frame.size, frame.data.begin());
+      std::copy_n(jpeg.begin(), frame.size, data.begin());
     } else {
       frame.size = static_cast<std::uint32_t>(picture_bytes(frame.format, frame.stride, frame.height));
-      draw({{frame.data.data(), frame.size}, frame.width, frame.height, frame.format}, at, sequence);
+      draw({data.first(frame.size), frame.width, frame.height, frame.format}, at, sequence);
     }
     // The same run gives the same items, to the last byte.
-    std::fill(frame.data.begin() + frame.size, frame.data.end(), std::uint8_t{0});
+    std::fill(data.begin() + frame.size, data.end(), std::uint8_t{0});
   }
 
   void arm_timer(Time when) noexcept {
@@ -273,8 +286,8 @@ class VirtualCamera : public Base {
   CameraJournal journal_;
   std::array<CameraControl, most_controls> controls_{};
   std::array<char, 256> controls_in_force_{};
-  std::unique_ptr<CameraFrame> own_;  // of one that belongs to a unit
-  std::unique_ptr<JpegMaker> jpegs_;  // of one that gives mjpeg
+  std::optional<SizedItem<CameraFrame>> own_;  // of one that belongs to a unit
+  std::unique_ptr<JpegMaker> jpegs_;           // of one that gives mjpeg
   std::optional<CameraImage> image_;
   ComingPicture coming_;
   std::uint32_t count_ = 0;  // the camera's

@@ -4,7 +4,9 @@
 #include <optional>
 
 #include "hal/interfaces/robot_arm/arm_supervision.hpp"
+#include "hal/interfaces/robot_arm/joint_pace.hpp"
 #include "hal/interfaces/robot_arm/kinematic_chain.hpp"
+#include "hal/interfaces/robot_arm/kinematics.hpp"
 #include "robot_arm_interface.hpp"
 #include "types/joint_positions.hpp"
 #include "types/joint_state.hpp"
@@ -20,15 +22,28 @@ class RobotArm : public RobotArmInterface {
   virtual std::optional<JointState> state() const noexcept = 0;
 
   /// Where the joints shall be (rad, or m where one slides), sent at the end of the cycle and held until the
-  /// next command. An arm keeps to its own limits whatever it is commanded; what is not finite puts it in
-  /// fault. Without effect while is_inhibited(), and not remembered.
+  /// next command. An arm keeps to its own limits whatever it is commanded, and tells it
+  /// (Component::restrain()) while it does; what is not finite puts it in fault. Without effect while
+  /// is_inhibited(), and not remembered.
   virtual void command(const JointPositions& set_points) noexcept = 0;
 
  protected:
+  /// In command(), by every driver, with what it follows from now on, finite: what of it is beyond a joint's
+  /// range is told.
+  void tell_limits(const JointPositions& set_points) noexcept {
+    restrain(restraint_of(*chain, set_points.position));
+  }
+  /// Likewise, by a driver that has no follower of its own: also that joints are led faster than they may go.
+  void tell_limits_and_pace(const JointPositions& set_points) noexcept {
+    tell_limits(set_points);
+    const auto told = state();
+    pace_.command(*chain, set_points.position, told ? told->position : set_points.position);
+  }
   /// In initialise(), by every driver.
   /// `configuration`: the driver's.
   void begin_supervision(const auto& configuration) noexcept {
     supervision_.begin(*chain, {configuration.following_time, configuration.silence});
+    pace_.forget();
   }
   /// At the end of receive(), by every driver: an arm that does not follow what its drives are asked to
   /// (feedback.following_error), or does not say where it is, is in fault.
@@ -36,10 +51,15 @@ class RobotArm : public RobotArmInterface {
     const bool may_move = !is_inhibited() && fault().is_ok();
     if (const Status found = supervision_.look(state(), feedback.following_error, may_move, now); !found)
       set_fault(found);
+    if (!may_move) pace_.forget();
+    restrain(pace_.look(*chain, looked_at_ == Time{} ? 0 : seconds(now - looked_at_)));
+    looked_at_ = now;
   }
 
  private:
   ArmSupervision supervision_;
+  JointPace pace_;
+  Time looked_at_{};
 };
 
 }  // namespace flexrf

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "hal/interfaces/servo_drive/profile_progress.hpp"
 #include "hal/interfaces/servo_drive/velocity_lag.hpp"
 #include "servo_drive_interface.hpp"
 #include "types/servo_homing.hpp"
@@ -66,22 +67,26 @@ class ServoDrive : public ServoDriveInterface {
   virtual void halt() noexcept = 0;
 
  protected:
-  /// At the end of receive(), by every driver: an axis that does not follow its set-points, or does not go as
-  /// fast as it is told, is in fault. `configuration`: the driver's. `asked`: the velocity that the drive is
-  /// told, unit/s; 0 in other modes than those that are led by velocities.
-  void supervise(const auto& configuration, double asked, Time now) noexcept {
+  /// At the end of receive(), by every driver: an axis that does not follow its set-points, does not go as
+  /// fast as it is told, or does not come nearer to its target, is in fault. `configuration`: the driver's.
+  /// `asked`: the velocity that the drive is told, unit/s; 0 in other modes than those that are led by
+  /// velocities. `target`: of a drive that is on its way to one with its own profile; else nothing.
+  void supervise(const auto& configuration, double asked, const std::optional<ProfileTarget>& target,
+                 Time now) noexcept {
     const auto told = state();
     if (!told || !told->enabled || is_inhibited() || !fault().is_ok() || configuration.following_time == 0) {
       lag_.forget();
+      progress_.forget();
       return;
     }
     const double most = configuration.following_time * configuration.fastest;
+    supervise_profile(configuration, most, target, now);
     // A drive that is led by cyclic velocities is told no acceleration, and has its own limits.
     const double patient = configuration.acceleration / 2;
     const double slow = lag_.look(asked, patient, told->position, 2 * most,
                                   configuration.endless ? configuration.modulo : 0, now);
     const double behind = std::max(std::abs(told->following_error), slow);
-    if (behind <= most) return;
+    if (behind <= most || !fault().is_ok()) return;
     set_fault(Status::error(
         StatusCode::device_fault,
         "its axis is %.4g behind, more than it moves in `following_time` (%g s): does it stick, or does its "
@@ -90,7 +95,23 @@ class ServoDrive : public ServoDriveInterface {
   }
 
  private:
+  void supervise_profile(const auto& configuration, double most, const std::optional<ProfileTarget>& target,
+                         Time now) noexcept {
+    // A drive may need some time to begin, and the time of its ramps to turn round before that.
+    const double ramps = 2 * configuration.fastest / configuration.acceleration;
+    const double patience = 4 * configuration.following_time + ramps;
+    constexpr double all_but_there = 0.04;
+    const auto away = progress_.look(target, patience, all_but_there * most, now);
+    if (!away) return;
+    set_fault(Status::error(
+        StatusCode::device_fault,
+        "its axis is %.4g from its target and has not come nearer in %.3g s (four times `following_time` and "
+        "its ramps) by a tenth of what its speed makes: does it stick, or does its encoder?",
+        *away, patience));
+  }
+
   VelocityLag lag_;
+  ProfileProgress progress_;
 };
 
 }  // namespace flexrf

@@ -9,6 +9,10 @@ inline constexpr char too_far[] =
     "a way of more than half of what the drive's counter holds is not gone at once";
 inline constexpr char end_of_range[] = "it goes no farther than the end of its range, `lowest` or `highest`";
 inline constexpr char too_fast[] = "a velocity above `fastest` is not taken";
+inline constexpr char led_too_fast[] =
+    "set-points that move faster than `fastest` are followed no faster, and it falls behind them";
+inline constexpr char set_points_ignored[] =
+    "the drive says that it does not follow its set-points (bit 12 of its statusword is 0)";
 inline constexpr char own_speed[] =
     "the speed of a target is not told (`tells_speed = false`): it goes as fast as its maker's tool has set "
     "it";

@@ -9,6 +9,10 @@ Status CanopenArm::configure(std::size_t joint, CanopenServoDriveConfiguration& 
   drive.node = configuration.nodes[joint];
   drive.increments_per_unit = configuration.increments_per_unit[joint];
   drive.homing_method = configuration.homing_methods[joint];
+  drive.homing_speed = configuration.homing_speed[joint];
+  drive.homing_creep_speed = configuration.homing_creep_speed[joint];
+  drive.rest_velocity = configuration.rest_velocity[joint];
+  drive.quick_stop_deceleration = configuration.quick_stop_deceleration[joint];
   return {};
 }
 

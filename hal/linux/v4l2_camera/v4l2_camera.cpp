@@ -27,7 +27,8 @@ bool watch(int events, int descriptor) noexcept {
 Status V4l2Camera::initialise() {
   V4l2Camera::stop();
   const auto& set = configuration;
-  if (Status status = check_picture(set.width, set.height, set.format); !status) return status;
+  if (Status status = check_picture(set.width, set.height, set.format, frames.elements()); !status)
+    return status;
   feedback = {};
   trouble_ = {};
   journal_.restart(name());
@@ -47,7 +48,8 @@ Status V4l2Camera::initialise() {
                          .format = set.format,
                          .frame_rate = set.frame_rate},
               .controls = std::string(text_view(runtime.controls)),
-              .buffers = {lent_.data(), set.user_pointers ? loan_count_ : 0}};
+              .buffers = {lent_.data(), set.user_pointers ? loan_count_ : 0},
+              .room = frames.elements()};
   silence_ = Duration{static_cast<Duration::rep>(set.silence * 1e9)};
   reports_.connect(nullptr, &report_slot_.control());
   wishes_.connect(nullptr, &wishes_slot_.control());
@@ -181,7 +183,7 @@ int V4l2Camera::publish_filled(const VideoPicture& picture, Time at, std::uint64
 
 int V4l2Camera::publish_copy(const VideoPicture& picture, Time at, std::uint64_t sequence) noexcept {
   if (lent_[0] != nullptr) {
-    std::memcpy(lent_[0]->data.data(), session_->mapped(picture.index).data(), picture.bytes);
+    std::memcpy(lent_[0]->data().data(), session_->mapped(picture.index).data(), picture.bytes);
     feedback.copied_bytes += picture.bytes;
     describe(*lent_[0], picture, at, sequence);
     lent_[0] = nullptr;

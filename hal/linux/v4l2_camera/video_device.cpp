@@ -178,7 +178,7 @@ int VideoDevice::propose(VideoFormat& format, std::uint32_t& field) noexcept {
   return 0;
 }
 
-Status VideoDevice::agree(VideoFormat& format) {
+Status VideoDevice::agree(VideoFormat& format, std::size_t room) {
   VideoFormat given = format;
   std::uint32_t field = V4L2_FIELD_NONE;
   const int result = propose(given, field);
@@ -201,11 +201,11 @@ Status VideoDevice::agree(VideoFormat& format) {
   format.stride = row == 0 ? 0 : std::max(given.stride, row);
   format.size = std::max(given.size, format.stride * data_rows(format.format, format.height));
   // Of compressed pictures the longest that could be, which none is: the buffers may be longer than an item.
-  if (format.size > most_picture_bytes && format.format != PixelFormat::mjpeg) {
-    return Status::error(
-        StatusCode::out_of_range,
-        "the camera %s needs %u bytes for a picture, an item holds %zu; ask for a smaller one", path(),
-        format.size, most_picture_bytes);
+  if (room > 0 && format.size > room && format.format != PixelFormat::mjpeg) {
+    return Status::error(StatusCode::out_of_range,
+                         "the camera %s needs %u bytes for a picture, an item of its slot holds %zu: write "
+                         "elements = %u into the row of the slot ([slot.NAME]), or ask for a smaller one",
+                         path(), format.size, room, format.size);
   }
   v4l2_streamparm rate{};
   rate.type = buffer_type_;

@@ -38,7 +38,7 @@ class VideoDevice {
   /// busy, not_permitted, invalid_argument (not a camera).
   Status open(const std::string& name);
   /// Errors: busy; invalid_argument, with what it offers instead, or of fields that come one after the other.
-  Status agree(VideoFormat& format);
+  Status agree(VideoFormat& format, std::size_t room);
   /// Of its buffers, V4L2_BUF_TYPE_...
   std::uint32_t buffer_type() const noexcept { return buffer_type_; }
   /// Its buffers are described by planes; those of all our formats have one.

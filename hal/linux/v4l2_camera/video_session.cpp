@@ -35,14 +35,14 @@ struct VideoBuffer {
   VideoBuffer(const VideoBuffer&) = delete;
   VideoBuffer& operator=(const VideoBuffer&) = delete;
 
-  void set_memory(std::uint8_t* data, std::size_t size) noexcept {
-    const auto address = reinterpret_cast<unsigned long>(data);
+  void set_memory(std::span<std::uint8_t> data) noexcept {
+    const auto address = reinterpret_cast<unsigned long>(data.data());
     if (planes) {
       plane.m.userptr = address;
-      plane.length = static_cast<std::uint32_t>(size);
+      plane.length = static_cast<std::uint32_t>(data.size());
     } else {
       buffer.m.userptr = address;
-      buffer.length = static_cast<std::uint32_t>(size);
+      buffer.length = static_cast<std::uint32_t>(data.size());
     }
   }
   std::uint32_t length() const noexcept { return planes ? plane.length : buffer.length; }
@@ -63,9 +63,10 @@ std::size_t whole_size(const VideoFormat& format) noexcept {
 Result<std::unique_ptr<VideoSession>> VideoSession::begin(VideoCalls& calls, const VideoRequest& request) {
   std::unique_ptr<VideoSession> session(new VideoSession(calls));
   session->format_ = request.format;
+  session->room_ = request.room;
   if (Status status = session->device_.open(request.device); !status) return status;
   session->device_.find_controls();
-  if (Status status = session->device_.agree(session->format_); !status) return status;
+  if (Status status = session->device_.agree(session->format_, request.room); !status) return status;
   if (Status status = check_settings(session->device_.controls(), request.controls); !status) return status;
   session->controls_trouble_ = session->device_.set_controls(request.controls);
   if (Status status = session->stream(request); !status) return status;
@@ -90,10 +91,12 @@ std::uint32_t VideoSession::memory() const noexcept {
 
 Status VideoSession::stream(const VideoRequest& request) {
   int result = -EINVAL;
-  if (!request.buffers.empty() && format_.size > most_picture_bytes) {
-    log_warning(request.name,
-                "the camera wants buffers of {} bytes, an item has {}: every picture is copied once",
-                format_.size, most_picture_bytes);
+  if (!request.buffers.empty() && format_.size > room_) {
+    log_warning(
+        request.name,
+        "the camera wants buffers of {} bytes, an item of its slot has {}: every picture is copied once; "
+        "with elements = {} in the row of the slot none is",
+        format_.size, room_, format_.size);
   } else if (!request.buffers.empty()) {
     result = use_frames(request.buffers);
     if (result == -EBUSY || result == -ENODEV) return video_error(result, device_.path(), "stream");
@@ -193,20 +196,22 @@ int VideoSession::take(VideoPicture& picture) noexcept {
 void VideoSession::judge(VideoPicture& picture) const noexcept {
   if (format_.format != PixelFormat::mjpeg) {
     if (picture.bytes < whole_size(format_)) picture.damage = "too short";
+    picture.bytes = std::min(picture.bytes, format_.size);
     return;
   }
-  const std::uint8_t* const data =
-      user_pointers_ ? frames_[picture.index]->data.data() : maps_[picture.index].data();
-  const std::size_t room = user_pointers_ ? most_picture_bytes : maps_[picture.index].size();
-  const CheckedJpeg checked =
-      check_jpeg({data, std::min<std::size_t>(picture.bytes, room)}, format_.width, format_.height);
+  const std::span<const std::uint8_t> data =
+      user_pointers_ ? frames_[picture.index]->data() : maps_[picture.index];
+  const CheckedJpeg checked = check_jpeg(data.first(std::min<std::size_t>(picture.bytes, data.size())),
+                                         format_.width, format_.height);
   picture.bytes = static_cast<std::uint32_t>(checked.size);
-  picture.damage = checked.size > most_picture_bytes ? "it does not fit an item" : checked.damage;
+  picture.damage = room_ > 0 && checked.size > room_
+                       ? "it does not fit an item: its slot's row says too few elements"
+                       : checked.damage;
 }
 
 int VideoSession::give(std::uint32_t index) noexcept {
   VideoBuffer given(device_, memory(), index);
-  if (user_pointers_) given.set_memory(frames_[index]->data.data(), frames_[index]->data.size());
+  if (user_pointers_) given.set_memory(frames_[index]->data());
   const int result = device_.calls().control(descriptor(), VIDIOC_QBUF, &given.buffer);
   if (result >= 0) queued_[index] = true;
   return result < 0 ? result : 0;

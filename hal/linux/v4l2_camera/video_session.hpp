@@ -18,6 +18,7 @@ struct VideoRequest {
   VideoFormat format;
   std::string controls;
   std::span<CameraFrame* const> buffers;  ///< for the kernel to fill, or null; empty: it has its own
+  std::size_t room = 0;                   ///< bytes that the item a picture goes to has; 0: it goes to none
 };
 
 /// A picture, or what came instead of one.
@@ -78,6 +79,7 @@ class VideoSession {
   VideoDevice device_;
   VideoFormat format_;
   Status controls_trouble_;
+  std::size_t room_ = 0;
   bool user_pointers_ = false;
   bool streaming_ = false;
   std::uint32_t count_ = 0;  // of buffers that the kernel knows

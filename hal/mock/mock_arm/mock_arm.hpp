@@ -35,7 +35,7 @@ class MockArm final : public MockArmDriver {
                          "a joint was commanded to a position that is not a number"));
       return;
     }
-    restrain(restraint_of(*chain, set_points.position));
+    tell_limits_and_pace(set_points);
     commanded_ = set_points;
     ++commands_;
   }
@@ -85,7 +85,7 @@ class MockArm final : public MockArmDriver {
     }
     if (measured) {
       for (std::size_t i = 0; i < chain->joint_count; ++i)
-        measured->position[i] += noise_.around_zero(configuration.angle_noise);
+        measured->position[i] += noise_.around_zero(configuration.position_noise[i]);
     }
     told_ = delay_.pass(measured, now);
   }

@@ -20,7 +20,7 @@ class MockServoDrive final : public MockServoDriveDriver {
   Status initialise() override {
     state_ = ServoState{};
     set_point_ = way_ = 0;
-    commanded_.reset();
+    forget();
     homing_ = ServoHoming::not_homed;
     homing_problem_ = {};
     last_cycle_ = Time{};
@@ -41,12 +41,14 @@ class MockServoDrive final : public MockServoDriveDriver {
   }
 
   void command_position(double position) noexcept override {
-    if (takes(ServoMode::cyclic_position, ServoMode::cyclic_position)) take_position(position);
+    if (!takes(ServoMode::cyclic_position, ServoMode::cyclic_position)) return;
+    hold({});
+    take_position(position);
   }
   void command_velocity(double velocity) noexcept override {
     if (!takes(ServoMode::cyclic_velocity, ServoMode::profile_velocity) || !is_number(velocity)) return;
     const double kept = std::clamp(velocity, -configuration.fastest, configuration.fastest);
-    if (kept != velocity) restrain(servo_restraints::too_fast, velocity, kept);
+    hold(kept != velocity ? Restraint{servo_restraints::too_fast, velocity, kept} : Restraint{});
     if (commanded_ != kept) state_->target_reached = false;
     take(kept);
   }
@@ -58,13 +60,14 @@ class MockServoDrive final : public MockServoDriveDriver {
       return;
     }
     speed_ = std::min(speed, configuration.fastest);
-    if (speed_ != speed && speed != full_speed) restrain(servo_restraints::too_fast, speed, speed_);
+    hold(speed_ != speed && speed != full_speed ? Restraint{servo_restraints::too_fast, speed, speed_}
+                                                : Restraint{});
     take_position(position);
   }
   void home() noexcept override {
     if (!may_be_commanded()) return;
     if (configuration.homing_method == 0) return restrain(servo_restraints::no_homing);
-    commanded_.reset();
+    forget();
     homing_ = ServoHoming::running;
     homing_problem_ = {};
     ++homings_;
@@ -74,7 +77,7 @@ class MockServoDrive final : public MockServoDriveDriver {
   void halt() noexcept override {
     if (!may_follow()) return;
     ++halts_;
-    commanded_.reset();
+    forget();
     end_homing("the homing was halted");
     tell();
   }
@@ -89,14 +92,15 @@ class MockServoDrive final : public MockServoDriveDriver {
     state_->velocity = elapsed > 0 ? (state_->position - before) / elapsed : 0;
     measure();
     tell();
-    supervise(configuration, asked_velocity(), tick.now);
+    supervise(configuration, asked_velocity(), profile_target(), tick.now);
   }
   void send(const Tick& /*tick*/) noexcept override {
     if (state_) state_->enabled = !is_inhibited() && fault().is_ok();
-    if (is_inhibited()) commanded_.reset();
+    if (is_inhibited()) forget();
+    if (may_follow()) tell_restraint();
   }
   bool make_safe() noexcept override {
-    commanded_.reset();
+    forget();
     end_homing("the homing was interrupted: the drive was made safe");
     return true;
   }
@@ -139,6 +143,12 @@ class MockServoDrive final : public MockServoDriveDriver {
   double asked_velocity() const noexcept {
     return commanded_ && !takes_positions() && !is_at_its_end_ ? *commanded_ : 0;
   }
+  std::optional<ProfileTarget> profile_target() const noexcept {
+    const bool is_on_its_way = commanded_ && configuration.mode == ServoMode::profile_position &&
+                               homing_ != ServoHoming::running && !state_->target_reached;
+    if (!is_on_its_way) return std::nullopt;
+    return ProfileTarget{.position = *commanded_, .left = *commanded_ - way_, .speed = speed_};
+  }
   bool may_follow() const noexcept { return state_ && state_->enabled && !is_inhibited() && fault().is_ok(); }
   bool takes(ServoMode one, ServoMode other) noexcept {
     if (!may_be_commanded()) return false;
@@ -159,10 +169,25 @@ class MockServoDrive final : public MockServoDriveDriver {
       const bool cyclic = configuration.mode == ServoMode::cyclic_position;
       kept = by_the_shorter_way(position, cyclic ? commanded_.value_or(way_) : way_);
     } else if (kept != position) {
-      restrain(servo_restraints::out_of_range, position, kept);
+      hold({servo_restraints::out_of_range, position, kept});
     }
     take(kept);
     state_->target_reached = false;
+  }
+  void hold(const Restraint& restraint) noexcept { held_ = restraint; }
+  void forget() noexcept {
+    commanded_.reset();
+    is_outpaced_ = is_at_its_end_ = false;
+    held_ = {};
+  }
+  // What was said in this cycle goes before what stands since the command, and that before its consequence.
+  void tell_restraint() noexcept {
+    if (state_->target_reached && held_.reason == servo_restraints::too_fast && takes_positions()) held_ = {};
+    const Restraint said = take_restraint();
+    if (is_outpaced_) restrain(servo_restraints::led_too_fast, told(*commanded_), told(set_point_));
+    restrain(held_);
+    if (is_at_its_end_) restrain(servo_restraints::end_of_range, *commanded_, 0);
+    restrain(said);
   }
   void take(double value) noexcept {
     commanded_ = value;
@@ -177,6 +202,7 @@ class MockServoDrive final : public MockServoDriveDriver {
 
   void move(double elapsed) noexcept {
     const bool cyclic = configuration.mode == ServoMode::cyclic_position;
+    is_outpaced_ = is_at_its_end_ = false;
     if (!cyclic || !commanded_) set_point_ = way_;
     if (homing_ == ServoHoming::running) {
       const bool reached = go_to(0, configuration.homing_speed * elapsed);
@@ -185,7 +211,9 @@ class MockServoDrive final : public MockServoDriveDriver {
     }
     if (!commanded_) return;
     if (takes_positions()) {
-      const bool reached = go_to(*commanded_, (cyclic ? configuration.fastest : speed_) * elapsed);
+      const double most = (cyclic ? configuration.fastest : speed_) * elapsed;
+      const bool reached = go_to(*commanded_, most);
+      is_outpaced_ = cyclic && std::abs(*commanded_ - set_point_) > most;
       state_->target_reached = reached && !sticks_ && !cyclic;
       return;
     }
@@ -194,7 +222,6 @@ class MockServoDrive final : public MockServoDriveDriver {
     const bool endless = configuration.endless;
     go_on_to(endless ? wanted : std::clamp(wanted, configuration.lowest, configuration.highest));
     is_at_its_end_ = way_ != wanted;
-    if (is_at_its_end_) restrain(servo_restraints::end_of_range, *commanded_, 0);
     state_->target_reached = configuration.mode == ServoMode::profile_velocity && way_ == wanted;
   }
   // True: the set-point is there, and with it the axis.
@@ -207,8 +234,11 @@ class MockServoDrive final : public MockServoDriveDriver {
   }
   void go_on_to(double way) noexcept {
     way_ = way;
+    state_->position = told(way);
+  }
+  double told(double way) const noexcept {
     const double modulo = configuration.endless ? configuration.modulo : 0;
-    state_->position = modulo > 0 ? way - modulo * std::floor(way / modulo) : way;
+    return modulo > 0 ? way - modulo * std::floor(way / modulo) : way;
   }
   double by_the_shorter_way(double position, double from) const noexcept {
     const double modulo = configuration.modulo;
@@ -244,6 +274,8 @@ class MockServoDrive final : public MockServoDriveDriver {
   double speed_ = 1;
   bool sticks_ = false;
   bool is_at_its_end_ = false;
+  bool is_outpaced_ = false;  // by more than another cycle makes up for
+  Restraint held_;            // of the command that stands
   std::uint64_t commands_ = 0;
   std::uint64_t homings_ = 0;
   std::uint64_t halts_ = 0;

@@ -56,7 +56,7 @@ bool is_seeded(double value, Measure of_seed) {
 bool arm_is_noisy() {
   return is_seeded(six_axis.joints[2].home, [](std::uint64_t seed) {
     DeviceBench<MockArm> bench{&six_axis};
-    bench.configuration().angle_noise = noise;
+    bench.configuration().position_noise[2] = noise;
     return measure(bench, seed, as_it_is, [](const MockArm& arm) { return arm.state()->position[2]; });
   });
 }

@@ -47,7 +47,7 @@ void SimulatedArm::command(const JointPositions& set_points) noexcept {
     commanded_.reset();
     return;
   }
-  restrain(restraint_of(*chain, set_points.position));
+  tell_limits_and_pace(set_points);
   commanded_ = set_points;
 }
 
@@ -88,10 +88,9 @@ void SimulatedArm::sense() noexcept {
     return;
   }
   JointVector sensed = model_.position();
-  if (configuration.noise > 0) {
-    for (std::size_t i = 0; i < chain->joint_count; ++i) {
-      sensed[static_cast<Eigen::Index>(i)] += configuration.noise * noise_(random_);
-    }
+  for (std::size_t i = 0; i < chain->joint_count; ++i) {
+    const double deviation = configuration.noise[i];
+    if (deviation > 0) sensed[static_cast<Eigen::Index>(i)] += deviation * noise_(random_);
   }
   state_.emplace();
   state_->position_map() = sensed;

@@ -80,11 +80,13 @@ DriveObjects::DriveObjects() {
   add(axis::homing_method, 1, true, false, 35);
   add(axis::homing_search_speed, 4, true, false, 10000);
   add(axis::homing_creep_speed, 4, true, false, 1000);
+  add(axis::interpolation_kind, 2, true, false);
+  add(axis::interpolation_point, 4, true, true);
   add(axis::period_value, 1, true, false, 1);
   add(axis::period_exponent, 1, true, false, 0xFD);
   add(axis::following_error, 4, false, true);
   add(axis::target_velocity, 4, true, true);
-  add(axis::supported_modes, 4, false, false, 0x01A5);
+  add(axis::supported_modes, 4, false, false, 0x01E5);
   std::sort(objects_.begin(), objects_.begin() + static_cast<std::ptrdiff_t>(count_),
             [](const Object& one, const Object& other) { return key(one.address) < key(other.address); });
 }

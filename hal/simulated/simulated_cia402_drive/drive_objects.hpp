@@ -70,7 +70,7 @@ class DriveObjects final : public canopen::ObjectDictionary {
            std::uint64_t first = 0);
   std::uint32_t check_mapping(canopen::ObjectAddress address, std::uint64_t value) const;
 
-  static constexpr std::size_t capacity = 96;
+  static constexpr std::size_t capacity = 128;
 
   std::array<Object, capacity> objects_{};  // by their address
   std::size_t count_ = 0;

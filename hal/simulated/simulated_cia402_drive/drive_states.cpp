@@ -74,6 +74,7 @@ void SimulatedCia402Drive::command(Time now, Outbox& outbox) {
   const bool enable = (word & 0x8F) == 0x0F;
   const bool disable_voltage = (word & 0x82) == 0x00;
   const bool quick_stop = (word & 0x86) == 0x02;
+  const auto mode = static_cast<Mode>(objects_.get_signed(axis::mode));
   switch (state_) {
     case DriveState::switch_on_disabled:
       if (shutdown) {
@@ -95,17 +96,17 @@ void SimulatedCia402Drive::command(Time now, Outbox& outbox) {
       if (shutdown) enter(DriveState::ready_to_switch_on, now);
       if (disable_voltage) enter(DriveState::switch_on_disabled, now);
       if (quick_stop) enter(DriveState::quick_stop_active, now);
-      if ((risen & control_bit::new_set_point) != 0) {
+      // Bit 4 is each mode's own.
+      if ((risen & control_bit::new_set_point) != 0 && mode == Mode::profile_position) {
         const std::int64_t told = objects_.get_signed(axis::target_position);
         const bool is_relative = (word & control_bit::relative) != 0;
         profile_target_ = is_relative ? profile_target_ + static_cast<double>(told) : place_of(told);
         profile_speed_ = static_cast<double>(objects_.get(axis::profile_velocity));
-        if (objects_.get_signed(axis::mode) == static_cast<int>(Mode::profile_position)) ++set_points_;
+        ++set_points_;
         mode_bits_ = status_bit::set_point_acknowledged;
-        if (objects_.get_signed(axis::mode) == static_cast<int>(Mode::homing)) mode_bits_ = 0;
       }
-      if (objects_.get_signed(axis::mode) == static_cast<int>(Mode::profile_position) &&
-          (word & control_bit::new_set_point) == 0) {
+      if ((risen & control_bit::start_homing) != 0 && mode == Mode::homing) mode_bits_ = 0;
+      if (mode == Mode::profile_position && (word & control_bit::new_set_point) == 0) {
         mode_bits_ &= static_cast<std::uint16_t>(~status_bit::set_point_acknowledged);
       }
       break;
@@ -179,21 +180,19 @@ void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
     return;
   }
   switch (mode) {
-    case Mode::cyclic_position: {
-      const double target = place_of(objects_.get_signed(axis::target_position));
+    case Mode::cyclic_position:
+      if (ignores_set_points_) return stay(acceleration, time);
       mode_bits_ = status_bit::follows;
-      if (cyclic_speed_ > options_.fastest) mode_bits_ |= status_bit::internal_limit;
-      motion_.follow(target, std::min(cyclic_speed_, options_.fastest), time);
-      const double error = std::abs(target - motion_.position());
-      objects_.set(axis::following_error, static_cast<std::int64_t>(target - motion_.position()));
-      if (error > static_cast<double>(objects_.get(axis::following_window))) {
-        mode_bits_ |= status_bit::following_error;
-        trip(0x8611, false, outbox);
-      }
+      follow_cyclic_target(time, outbox);
       break;
-    }
+    case Mode::interpolated_position:
+      if (!interpolates()) return stay(acceleration, time);
+      mode_bits_ = status_bit::interpolates;
+      follow_cyclic_target(time, outbox);
+      break;
     case Mode::cyclic_velocity:
     case Mode::profile_velocity: {
+      if (ignores_set_points_ && mode == Mode::cyclic_velocity) return stay(acceleration, time);
       const auto wanted = static_cast<double>(objects_.get_signed(axis::target_velocity));
       const double velocity = std::clamp(wanted, -options_.fastest, options_.fastest);
       motion_.ramp(velocity, acceleration, time);
@@ -213,10 +212,27 @@ void SimulatedCia402Drive::move_in_mode(double time, Outbox& outbox) {
     case Mode::homing:
       find_home((word & control_bit::start_homing) != 0, acceleration, time);
       break;
-    case Mode::interpolated_position:  // it has none, see object 6502
     case Mode::none:
       break;
   }
+}
+
+// Enabled, and not led.
+void SimulatedCia402Drive::stay(double acceleration, double time) {
+  mode_bits_ = 0;
+  motion_.ramp(0, acceleration, time);
+}
+
+// In a straight line through the period: linear interpolation, which is object 60C0 at 0.
+void SimulatedCia402Drive::follow_cyclic_target(double time, Outbox& outbox) {
+  const double target = cyclic_target();
+  if (cyclic_speed_ > options_.fastest) mode_bits_ |= status_bit::internal_limit;
+  motion_.follow(target, std::min(cyclic_speed_, options_.fastest), time);
+  const double error = std::abs(target - motion_.position());
+  objects_.set(axis::following_error, static_cast<std::int64_t>(target - motion_.position()));
+  if (error <= static_cast<double>(objects_.get(axis::following_window))) return;
+  mode_bits_ |= status_bit::following_error;
+  trip(0x8611, false, outbox);
 }
 
 // Methods 35 and 37 are at home where they are; for all others it is at 0.

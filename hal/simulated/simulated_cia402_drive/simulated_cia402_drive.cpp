@@ -17,7 +17,8 @@ constexpr std::uint8_t last_synchronous = 240;
 bool writes_target(const Message& request) {
   const auto index = static_cast<std::uint16_t>(canopen::read_number(request.data.data() + 1, 2));
   const bool is_write = (request.data[0] & 0xE0) == 0x20;
-  return is_write && (index == axis::target_position.index || index == axis::target_velocity.index);
+  return is_write && (index == axis::target_position.index || index == axis::target_velocity.index ||
+                      index == axis::interpolation_point.index);
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ void SimulatedCia402Drive::receive(const Message& message, Time now, Outbox& out
   if (nmt_ == NmtState::stopped) return;
   if (const auto answer = server_.receive(message)) {
     outbox.push(*answer);
-    if (writes_target(message)) targets_fresh_ = true;
+    if (writes_target(message)) take_cyclic_target();
     command(now, outbox);
     return;
   }
@@ -235,13 +236,17 @@ void SimulatedCia402Drive::apply(const canopen::PdoPlan& plan, const Message& me
     objects_.set(plan.entries[i].object, static_cast<std::int64_t>(values[i]));
     if (options_.acts_on_each_object) command(now, outbox);
   }
+  take_cyclic_target();
+}
+
+// It goes to a cyclic position within the period that it was told, as drives do that interpolate.
+void SimulatedCia402Drive::take_cyclic_target() {
   targets_fresh_ = true;
-  // It goes to a cyclic position within the period that it was told, as drives do that interpolate.
   const double period = static_cast<double>(objects_.get(axis::period_value)) *
                         std::pow(10.0, static_cast<double>(objects_.get_signed(axis::period_exponent)));
-  const double distance = std::abs(place_of(objects_.get_signed(axis::target_position)) - motion_.position());
+  const double distance = std::abs(cyclic_target() - motion_.position());
   cyclic_speed_ = distance / std::max(period, 1e-6);
-  if (state_ == DriveState::operation_enabled && is_cyclic_position()) {
+  if (state_ == DriveState::operation_enabled && is_led_by_positions()) {
     longest_jump_ = std::max(longest_jump_, distance);
   }
 }
@@ -253,8 +258,23 @@ double SimulatedCia402Drive::place_of(std::int64_t target) const {
                                                               static_cast<std::uint32_t>(here)));
 }
 
-bool SimulatedCia402Drive::is_cyclic_position() const {
-  return objects_.get_signed(axis::mode) == static_cast<int>(canopen::cia402::Mode::cyclic_position);
+bool SimulatedCia402Drive::is_led_by_positions() const {
+  return interpolates() ||
+         objects_.get_signed(axis::mode) == static_cast<int>(canopen::cia402::Mode::cyclic_position);
+}
+
+// In interpolated position mode the controlword enables interpolation beside the operation, and until then
+// points are taken and not gone to.
+bool SimulatedCia402Drive::interpolates() const {
+  const bool is_its_mode =
+      objects_.get_signed(axis::mode) == static_cast<int>(canopen::cia402::Mode::interpolated_position);
+  return is_its_mode && (objects_.get(axis::controlword) & canopen::cia402::control_bit::interpolate) != 0;
+}
+
+double SimulatedCia402Drive::cyclic_target() const {
+  const bool is_point =
+      objects_.get_signed(axis::mode) == static_cast<int>(canopen::cia402::Mode::interpolated_position);
+  return place_of(objects_.get_signed(is_point ? axis::interpolation_point : axis::target_position));
 }
 
 void SimulatedCia402Drive::supervise(Time now, Outbox& outbox) {

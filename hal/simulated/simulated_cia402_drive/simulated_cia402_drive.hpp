@@ -47,6 +47,8 @@ class SimulatedCia402Drive {
   void trip(std::uint16_t error_code, bool persists, canopen::Outbox& outbox);
   /// It keeps the mode that it is in.
   void ignore_mode(bool on) { ignores_mode_ = on; }
+  /// It stays where it is in the cyclic modes, and says so.
+  void ignore_set_points(bool on) { ignores_set_points_ = on; }
   /// It finds no home.
   void lose_home(bool on) { homeless_ = on; }
   void heal() { cause_persists_ = false; }
@@ -98,7 +100,10 @@ class SimulatedCia402Drive {
   canopen::Message pdo_now(const canopen::PdoPlan& plan) const;
   void send_at_sync(Time now, canopen::Outbox& outbox);
   void send_by_events(Time now, canopen::Outbox& outbox);
-  bool is_cyclic_position() const;
+  bool is_led_by_positions() const;
+  bool interpolates() const;
+  double cyclic_target() const;
+  void take_cyclic_target();
   double place_of(std::int64_t target) const;
   void supervise(Time now, canopen::Outbox& outbox);
   void raise(Error error, std::uint16_t code, canopen::Outbox& outbox);
@@ -113,6 +118,8 @@ class SimulatedCia402Drive {
   void meet_obstacles();
   void find_home(bool started, double acceleration, double time);
   void move_in_mode(double time, canopen::Outbox& outbox);
+  void follow_cyclic_target(double time, canopen::Outbox& outbox);
+  void stay(double acceleration, double time);
   void publish();
 
   Options options_;
@@ -137,6 +144,7 @@ class SimulatedCia402Drive {
   std::optional<canopen::cia402::DriveState> stuck_;
   bool cause_persists_ = false;
   bool ignores_mode_ = false;
+  bool ignores_set_points_ = false;
   bool homeless_ = false;
   bool is_cut_ = false;
   std::optional<double> below_;

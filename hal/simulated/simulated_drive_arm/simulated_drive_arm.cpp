@@ -9,6 +9,7 @@ Status SimulatedDriveArm::configure(std::size_t joint, SimulatedServoDriveConfig
   drive.node = configuration.nodes[joint];
   drive.increments_per_unit = configuration.increments_per_unit[joint];
   drive.homing_method = configuration.homing_methods[joint];
+  drive.homing_speed = configuration.homing_speed[joint];
   drive.first_position = chain->joints[joint].home;
   return {};
 }

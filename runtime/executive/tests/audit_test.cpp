@@ -69,10 +69,16 @@ struct Audited {
     made.set_who("ann (192.168.0.7)");
     return made;
   }
-  ParameterAnswer set_gain(double gain) {
+  ParameterAnswer set_gain(double gain, std::string_view who = "ann (192.168.0.7)") {
     ParameterRequest made = request(RequestKind::set);
+    made.set_who(who);
     made.add(0, 0, &gain, sizeof(gain));
     return running.ask(made);
+  }
+  /// An act: what was changed before it is told by then.
+  void log_out() {
+    inside().audit().note("ann (192.168.0.7)", "logged out");
+    CHECK(is_told("logged out"));
   }
   std::string told() {
     std::string all;
@@ -122,9 +128,7 @@ void a_drag_is_one_entry_and_one_there_and_back_none() {
   CHECK_EQUAL(count_of(audited.told(), "producer.gain"), 1U);
   CHECK_EQUAL(audited.set_gain(4).kind, AnswerKind::accepted);
   CHECK_EQUAL(audited.set_gain(3).kind, AnswerKind::accepted);
-  // What is an act comes after the changes before it.
-  audited.inside().audit().note("ann (192.168.0.7)", "logged out");
-  CHECK(audited.is_told("logged out"));
+  audited.log_out();
   CHECK_EQUAL(count_of(audited.told(), "producer.gain"), 1U);
 }
 
@@ -205,8 +209,7 @@ void a_full_disk_stops_nobody() {
   CHECK_EQUAL(getrlimit(RLIMIT_FSIZE, &former), 0);
   const rlimit full{before.size() + 10, former.rlim_max};
   CHECK_EQUAL(setrlimit(RLIMIT_FSIZE, &full), 0);
-  audited.inside().audit().note("ann (192.168.0.7)", "logged out");
-  CHECK(audited.is_told("logged out"));
+  audited.log_out();
   CHECK_EQUAL(audited.set_gain(3).kind, AnswerKind::accepted);
   CHECK(audited.is_told(R"j("after":3})j"));
   CHECK_EQUAL(contents_of(file), before);  // nothing in part
@@ -216,16 +219,45 @@ void a_full_disk_stops_nobody() {
   CHECK_EQUAL(audited.running.finish().exit_code, 0);
 }
 
+/// As above, for longer than what is kept has room.
+void what_a_full_disk_costs_is_counted() {
+  AuditFolder folder;
+  const std::string file = folder / "audit";
+  Audited audited(file);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit former{};
+  CHECK_EQUAL(getrlimit(RLIMIT_FSIZE, &former), 0);
+  const rlimit full{0, former.rlim_max};
+  CHECK_EQUAL(setrlimit(RLIMIT_FSIZE, &full), 0);
+  const std::string padding(140, '.');
+  for (int batch = 0; batch < 6; ++batch) {
+    for (int i = 0; i < 100; ++i)
+      audited.inside().audit().note("ann (192.168.0.7)", "did this",
+                                    std::to_string(100 * batch + i) + padding);
+    CHECK(audited.is_told("\"" + std::to_string(100 * batch + 99) + "."));
+  }
+  CHECK_EQUAL(setrlimit(RLIMIT_FSIZE, &former), 0);
+  CHECK(audited.is_told("lost entries: they could not be written for too long"));
+  const std::string text = contents_of(file);
+  CHECK(text.find("\"0.") == std::string::npos);
+  CHECK_CONTAINS(text, "\"599.");
+  CHECK_EQUAL(audited.running.finish().exit_code, 0);
+  const std::vector<Status> failures = audited.running.executive().say_last({});
+  // The audit's comes first; the log of this test may have met the same end.
+  CHECK(!failures.empty());
+  const std::string cause = failures.front().cause();
+  CHECK_EQUAL(
+      cause.substr(cause.find(' ')),
+      std::string{" entries of the audit are not written down: for a time its file could not be written"});
+  // All that is there, and all that is not: the six hundred and the entry that tells of the loss.
+  CHECK_EQUAL(count_of(contents_of(file), "\n") + std::stoul(cause), 601U);
+}
+
 void nothing_is_kept_of_whom_nobody_asked() {
   AuditFolder folder;
   Audited audited(folder / "audit");
-  ParameterRequest made = audited.request(RequestKind::set);
-  made.set_who("");
-  const double gain = 5;
-  made.add(0, 0, &gain, sizeof(gain));
-  CHECK_EQUAL(audited.running.ask(made).kind, AnswerKind::accepted);
-  audited.inside().audit().note("ann (192.168.0.7)", "logged out");
-  CHECK(audited.is_told("logged out"));
+  CHECK_EQUAL(audited.set_gain(5, "").kind, AnswerKind::accepted);
+  audited.log_out();
   CHECK_EQUAL(count_of(audited.told(), "gain"), 0U);
 }
 
@@ -285,6 +317,7 @@ int main() {
       CONTAINED_TEST(what_is_done_again_and_again_is_counted),
       CONTAINED_TEST(configuration_and_actions_are_told),
       CONTAINED_TEST(a_full_disk_stops_nobody),
+      CONTAINED_TEST(what_a_full_disk_costs_is_counted),
       CONTAINED_TEST(nothing_is_kept_of_whom_nobody_asked),
       CONTAINED_TEST(old_lines_are_set_aside_and_never_more_than_a_few_files),
       CONTAINED_TEST(a_torn_line_does_not_take_the_next_one_along),

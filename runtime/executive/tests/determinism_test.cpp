@@ -1,7 +1,9 @@
 // A run in virtual time depends on nothing but tables, seed and input.
 #include <random>
+#include <string>
 
 #include "runtime/executive/tests/running_cell.hpp"
+#include "runtime/log/log.hpp"
 
 namespace flexrf::fixture {
 namespace {
@@ -110,6 +112,42 @@ void observing_changes_nothing() {
   CHECK_EQUAL(digest(false), digest(true));
 }
 
+/// The lines of a run of 2.5 s in which something is said every millisecond, once a second at most, from
+/// before its beginning until after its end.
+std::string log_of_a_run() {
+  const auto lines_after = [](std::uint64_t number, std::string* text) {
+    while (drain_log(-1) > 0) {
+    }
+    return visit_recent_log(number, text, [](void* all, std::uint64_t, std::string_view line) {
+      if (all != nullptr) *static_cast<std::string*>(all) += std::string{line} + "\n";
+    });
+  };
+  const std::uint64_t before = lines_after(0, nullptr);
+  LogLimit limit;
+  Cell cell;
+  cell.unit(Cell::producer).script.step = [&limit](TestUnit&, const Tick&) {
+    log_warning(limit, "producer", "again");
+  };
+  Executive executive(cell.application(), in_virtual_time(milliseconds{2500}));
+  CHECK(executive.prepare().is_ok());
+  log_warning(limit, "test", "before");
+  executive.run();
+  log_warning("test", "after");
+  std::string text;
+  lines_after(before, &text);
+  return text;
+}
+
+void two_runs_say_the_same() {
+  const std::string text = log_of_a_run();
+  CHECK_EQUAL(text, log_of_a_run());
+  CHECK_CONTAINS(text, "[   0.000000] warning test: before\n");
+  CHECK_CONTAINS(text, "[   1.000000] warning producer: again (1000 more since)\n");
+  CHECK_CONTAINS(text, "[   2.000000] warning producer: again (999 more since)\n");
+  // The controlled stop took 10 ms.
+  CHECK_CONTAINS(text, "[   2.510000] warning test: after\n");
+}
+
 }  // namespace
 }  // namespace flexrf::fixture
 
@@ -122,6 +160,7 @@ int main() {
       CONTAINED_TEST(one_value_changes_the_digest),
       CONTAINED_TEST(what_is_marked_wall_does_not),
       CONTAINED_TEST(observing_changes_nothing),
+      CONTAINED_TEST(two_runs_say_the_same),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -1,9 +1,10 @@
 // Who may do what: passwords, roles, the one control token and its way from one person to another.
 import { readFileSync, statSync } from 'node:fs';
+import { connect, type ConnectionOptions } from 'node:tls';
 import { afterEach, beforeAll, beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import {
   Application, Rest, Viewer, outerAddress, screenshot, tidyUp, unlessKeptWaiting, useApplication, useBrowser, violations, within,
-  type StartOptions, type User,
+  type ApplicationName, type StartOptions, type User,
 } from './harness';
 
 const anna: User = { name: 'anna', role: 'engineer', password: 'a long password of anna' };
@@ -28,8 +29,8 @@ afterEach(async () => {
 });
 
 /** One of the test's own. */
-async function start(options: StartOptions = {}): Promise<void> {
-  running = await Application.start('panel_cell', options);
+async function start(options: StartOptions = {}, name: ApplicationName = 'panel_cell'): Promise<void> {
+  running = await Application.start(name, options);
   const mine = running;
   onTestFinished(() => mine.end());
 }
@@ -59,6 +60,32 @@ describe('with a password file', () => {
     await viewer.page.getByRole('button', { name: 'Log out' }).click();
     await viewer.page.getByText('anna: engineer').waitFor({ state: 'hidden' });
     expect((await rest.ask('descriptor')).status).toBe(401);
+  });
+
+  it('the log-in stands still while the page tries to connect again and again', async () => {
+    const viewer = await open();
+    const { page } = viewer;
+    const dialog = page.locator('flexrf-login');
+    await dialog.getByLabel('User').fill(anna.name);
+    await dialog.getByLabel('Password').fill(anna.password);
+    const seen = await dialog.evaluateHandle((element) => {
+      const states: string[] = [];
+      const note = (): void => {
+        const button = element.shadowRoot!.querySelector<HTMLButtonElement>('button.first')!;
+        const state = `${button.disabled ? 'dead' : 'alive'} at ${button.getBoundingClientRect().y}`;
+        if (states.at(-1) !== state) states.push(state);
+      };
+      note();
+      new MutationObserver(note).observe(element.shadowRoot!, { subtree: true, childList: true, attributes: true, characterData: true });
+      return states;
+    });
+    for (let tries = 0; tries < 4; tries += 1) {
+      await page.waitForResponse((response) => response.url().endsWith('/api/v1/session') && response.status() === 401);
+    }
+    const states = await seen.jsonValue();
+    expect(states).toEqual([expect.stringMatching(/^alive/)]);
+    await dialog.getByRole('button', { name: 'Log in' }).click();
+    await page.getByText('anna: engineer').waitFor();
   });
 
   it('the cookie is kept from scripts and from other sites', async () => {
@@ -214,6 +241,43 @@ describe('the control token', () => {
   });
 });
 
+describe('a session whose time is over', () => {
+  it('is asked for in place, and Stop motion stays alive', async () => {
+    await start({ users: [anna] }, 'brief_session');
+    const viewer = await open(anna);
+    const { page } = viewer;
+    await viewer.takeControl();
+    await viewer.go('units', 'robot');
+    const heading = await page.getByRole('heading', { name: 'robot', level: 2 }).elementHandle();
+
+    const question = page.getByRole('dialog', { name: 'Log in' });
+    await question.waitFor(); // by itself
+    await page.getByText('anna: log in again').waitFor();
+    await page.getByText(/^Round trip/).waitFor(); // the link is alive
+    await page.getByText('Nobody has control').waitFor();
+    await page.locator('flexrf-control').getByText('log in again').waitFor();
+    expect(await page.getByRole('button', { name: 'Take control' }).isDisabled()).toBe(true);
+    await screenshot(page, 'session-over');
+    expect(await violations(page)).toEqual([]);
+    expect((await running.rest().ask('state')).status).toBe(401);
+    const script = await viewer.script();
+    expect((await script.ask('control/take', { method: 'POST' })).status).toBe(403);
+    await page.getByText('Motion enabled').waitFor();
+    await page.getByRole('button', { name: 'Stop motion' }).click();
+    await page.getByText('Motion stopped').first().waitFor();
+    await page.getByText(/^by anna \(127\.0\.0\.1\) at/).first().waitFor();
+    await screenshot(page, 'session-over-stopped');
+
+    expect(await page.locator('flexrf-login').getByLabel('User').inputValue()).toBe(anna.name); // whose it was
+    await viewer.logIn(anna);
+    await question.waitFor({ state: 'hidden' });
+    expect(await heading!.isVisible()).toBe(true); // the view that was open, and no other made like it
+    await viewer.takeControl();
+    await page.getByRole('button', { name: 'Clear stop' }).click();
+    await page.getByText('Motion inhibited').first().waitFor();
+  });
+});
+
 describe('a session at the machine', () => {
   const outer = outerAddress();
 
@@ -259,8 +323,33 @@ describe('by TLS', () => {
     await viewer.takeControl();
     await viewer.go('units', 'gadget');
     await expect.poll(() => viewer.page.getByRole('slider', { name: 'Level of it' }).isEnabled(), { timeout: within }).toBe(true);
-    // Who comes without TLS gets no answer.
-    await expect(new Rest(`http://${address}:${running.port}`).ask('session')).rejects.toThrow();
+  });
+
+  it('tells who comes otherwise how to come, and the log why somebody was not let in', async () => {
+    await start({ users: [anna], certificateFor: '127.0.0.1' });
+    const plain = await new Rest(`http://127.0.0.1:${running.port}`).ask('session');
+    expect(plain).toMatchObject({ status: 400, text: 'The panel speaks TLS here: the address begins https://\n' });
+    await expect.poll(() => running.text, { timeout: within }).toContain('was not let in by TLS: it asked without TLS');
+    const tls = (options: ConnectionOptions): Promise<string> => new Promise((resolve) => {
+      const socket = connect({ host: '127.0.0.1', port: running.port, rejectUnauthorized: false, ...options }, () => {
+        resolve(socket.getProtocol() ?? '');
+        socket.destroy();
+      });
+      socket.on('error', (error) => resolve(error.message));
+    });
+    expect(await tls({ maxVersion: 'TLSv1.2' })).toBe('TLSv1.2');
+    const old = { minVersion: 'TLSv1', maxVersion: 'TLSv1.1', ciphers: 'DEFAULT:@SECLEVEL=0' } as const;
+    expect(await tls(old)).toMatch(/alert protocol version/);
+    // The log says such things once in a second.
+    await expect.poll(async () => (await tls(old), running.text), { timeout: within })
+      .toContain('it knows no version of TLS that is allowed here (1.2 and 1.3)');
+    expect(await tls({ maxVersion: 'TLSv1.2', ciphers: 'ECDHE-ECDSA-AES128-SHA256' })).toMatch(/alert handshake failure/);
+  });
+
+  it('refuses a file that is no certificate, and names it', async () => {
+    await expect(Application.start('panel_cell', {
+      users: [anna], arguments: ['--tls-certificate', '/etc/hostname', '--tls-key', '/etc/hostname'],
+    })).rejects.toThrow(/--tls-certificate \/etc\/hostname: .*PEM/);
   });
 });
 

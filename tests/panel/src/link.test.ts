@@ -92,6 +92,7 @@ it('an application that is stopped: no view shows its values as new', async () =
 });
 
 it('a robot that says nothing: its joints are grey, too', async () => {
+  await running.rest().do('session'); // the address is printed a little before a signal ends it as an application ends
   await running.end();
   running = await Application.start('keyboard');
   viewer = await Viewer.open(browser(), running.address);

@@ -311,7 +311,20 @@ describe('Stop motion', () => {
     await page.getByRole('button', { name: 'Motion is stopped' }).waitFor();
     expect(await violations(page)).toEqual([]);
     expect(await page.getByRole('button', { name: 'Start motion' }).count()).toBe(0);
+    // Start motion takes the place of Clear stop: the second of two quick presses is not for it.
+    await page.locator('flexrf-header').evaluate((header) => {
+      const root = header.shadowRoot as ShadowRoot;
+      const observer = new MutationObserver(() => {
+        const start = [...root.querySelectorAll('button')].find((button) => button.textContent === 'Start motion');
+        if (start === undefined) return;
+        observer.disconnect();
+        start.click();
+        header.setAttribute('data-pressed', 'twice');
+      });
+      observer.observe(root, { subtree: true, childList: true, characterData: true });
+    });
     await page.getByRole('button', { name: 'Clear stop' }).click();
+    await page.locator('flexrf-header[data-pressed=twice]').waitFor();
     await page.getByText('Motion inhibited').first().waitFor();
     await expectAtRest(); // cleared is not started
     // What cannot act says so before anybody presses it.

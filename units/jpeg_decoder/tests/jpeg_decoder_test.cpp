@@ -7,6 +7,7 @@
 #include <string>
 
 #include "hal/interfaces/camera/jpeg_maker.hpp"
+#include "runtime/blackboard/sized_slot.hpp"
 #include "tests/cmocka.hpp"
 #include "units/unit_bench.hpp"
 
@@ -25,7 +26,8 @@ struct World {
   InputBinding inputs[1] = {picture.input(std::chrono::seconds(2))};
   SlotControl* outputs[1] = {&pixels.control()};
   SlotReader reader{&pixels.control()};
-  CameraFrame frame{};
+  SizedItem<CameraFrame> memory;
+  CameraFrame& frame = *memory;
   std::string said;
 
   World() {
@@ -46,9 +48,9 @@ struct World {
     if (!maker.begin(width, height)) std::abort();
     for (std::size_t i = 0; i < std::size_t{width} * height; ++i)
       maker.canvas()[i * 3 + (i < std::size_t{width} * height / 2 ? 0 : 1)] = 255;
-    const auto jpeg = maker.make(frame.data.size());
+    const auto jpeg = maker.make(frame.data().size());
     frame.size = static_cast<std::uint32_t>(jpeg.size());
-    std::memcpy(frame.data.data(), jpeg.data(), jpeg.size());
+    std::memcpy(frame.data().data(), jpeg.data(), jpeg.size());
     frame.format = PixelFormat::mjpeg;
     frame.width = width;
     frame.height = height;
@@ -88,8 +90,8 @@ bool decodes_to(PixelFormat format, std::size_t bytes, int red_above, int red_be
   const std::size_t red = format == PixelFormat::bgr24 ? 2 : 0;
   return picture.format == format && picture.width == width && picture.height == height &&
          picture.stride == width * bytes && picture.size == picture.stride * height && picture.time == 77 &&
-         picture.sequence == 5 && is_near(picture.data[2 * picture.stride + red], red_above) &&
-         is_near(picture.data[28 * picture.stride + red], red_below) &&
+         picture.sequence == 5 && is_near(picture.data()[2 * picture.stride + red], red_above) &&
+         is_near(picture.data()[28 * picture.stride + red], red_below) &&
          world->bench.feedback().pictures == 1 && world->said.empty();
 }
 
@@ -116,8 +118,8 @@ bool a_garbled_one_is_left_out() {
   if (!world->begin(PixelFormat::rgb24)) return false;
   // The end of the data, in front of the end's marker, is gone.
   world->frame.size -= 12;
-  world->frame.data[world->frame.size - 2] = 0xFF;
-  world->frame.data[world->frame.size - 1] = 0xD9;
+  world->frame.data()[world->frame.size - 2] = 0xFF;
+  world->frame.data()[world->frame.size - 1] = 0xD9;
   return world->is_left_out();
 }
 
@@ -125,7 +127,7 @@ bool a_garbled_one_is_left_out() {
 bool what_is_no_jpeg_is_left_out() {
   const auto world = std::make_unique<World>();
   if (!world->begin(PixelFormat::rgb24)) return false;
-  std::memset(world->frame.data.data(), 0x55, 1000);
+  std::memset(world->frame.data().data(), 0x55, 1000);
   if (!world->is_left_out()) return false;
   world->make();
   world->look();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "runtime/blackboard/sized_slot.hpp"
 #include "tests/cmocka.hpp"
 #include "units/unit_bench.hpp"
 
@@ -23,7 +24,8 @@ struct World {
   SlotBench<PartSight> sight;
   InputBinding inputs[1] = {picture.input(std::chrono::seconds(2))};
   SlotControl* outputs[1] = {&sight.control()};
-  CameraFrame frame{};
+  SizedItem<CameraFrame> memory;
+  CameraFrame& frame = *memory;
 
   World() {
     UnitBinding binding;
@@ -37,11 +39,11 @@ struct World {
     frame.height = height;
     frame.stride = width * bytes + 6;  // with padding
     frame.format = format;
-    std::memset(frame.data.data(), 255, frame.data.size());
+    std::memset(frame.data().data(), 255, frame.data().size());
     for (std::uint32_t row = 0; row < height; ++row) {
       for (std::uint32_t column = 0; column < width; ++column) {
         const bool inside = row >= 8 && row < 12 && column >= 16 && column < 24;
-        std::memset(frame.data.data() + std::size_t{row} * frame.stride + std::size_t{column} * bytes,
+        std::memset(frame.data().data() + std::size_t{row} * frame.stride + std::size_t{column} * bytes,
                     inside ? field : ground, bytes);
       }
     }

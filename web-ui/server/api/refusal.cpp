@@ -29,6 +29,7 @@ constexpr Known known[] = {
     {422, "/problems/refused", "The value is refused", 0},
     {503, "/problems/busy", "Too much at a time", 1},
     {504, "/problems/no-answer", "The component does not answer", 1},
+    {507, "/problems/not-stored", "The disk does not take it", 0},
 };
 
 const Known& of(RefusalKind kind) noexcept {

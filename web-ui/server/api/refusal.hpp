@@ -22,6 +22,7 @@ enum class RefusalKind : std::uint8_t {
   refused,
   busy,
   no_answer,
+  not_stored,
 };
 
 /// Never allocates; texts are cut at their capacity.

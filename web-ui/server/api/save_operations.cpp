@@ -47,7 +47,7 @@ void SaveOperations::answer(const Caller& caller, const SaveState& state) {
     return answers_->done(caller, [&state](JsonWriter& json) { json.member("saved_at_ms", state.saved_at); });
   }
   answers_->refuse(
-      caller, Refusal::make(RefusalKind::wrong_state, "The values were not saved: %s.", state.failure.cause())
+      caller, Refusal::make(RefusalKind::not_stored, "The values were not saved: %s.", state.failure.cause())
                   .because(state.failure.cause()));
 }
 

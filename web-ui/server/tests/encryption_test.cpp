@@ -128,11 +128,13 @@ void requests_travel_encrypted(void** state) {
   assert_true(served.text.empty());
 }
 
-void plain_requests_get_nothing(void** state) {
+void plain_requests_are_told_to_use_tls(void** state) {
   auto& served = *static_cast<Served*>(*state);
   assert_true(served.clients[0].connect(served.port()));
   served.clients[0].send(get("/hello"));
-  assert_int_equal(status_of(served.clients[0].reply()), 0);
+  served.text = served.clients[0].reply();
+  assert_int_equal(status_of(served.text), 400);
+  assert_true(has(served.text, "\r\n\r\nThe panel speaks TLS here: the address begins https://\n"));
 }
 
 void what_encrypts_without_authenticating_is_not_offered(void** state) {
@@ -155,7 +157,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(wrong_files_are_named),
       cmocka_unit_test_setup_teardown(requests_travel_encrypted, serve, end),
-      cmocka_unit_test_setup_teardown(plain_requests_get_nothing, serve, end),
+      cmocka_unit_test_setup_teardown(plain_requests_are_told_to_use_tls, serve, end),
       cmocka_unit_test_setup_teardown(what_encrypts_without_authenticating_is_not_offered, serve, end),
   };
   return cmocka_run_group_tests(tests, make_files, remove_files);

@@ -274,9 +274,13 @@ void more_clients_than_places_get_503(void** state) {
     assert_true(has(served.text, "close a page that is not needed"));
     assert_true(served.clients[i].ends());
   }
-  // Who wants the page is shown one that tries again.
-  client_of(state, 6).send(get("/"));
-  served.text = served.clients[6].reply();
+  // Who wants the page is shown one that tries again. There are but so many who are answered at a time: those
+  // before may not be gone yet.
+  served.text.clear();
+  for (int tries = 0; served.text.empty() && tries < 100; ++tries) {
+    client_of(state, 6).send(get("/"));
+    served.text = served.clients[6].reply();
+  }
   assert_int_equal(status_of(served.text), 503);
   assert_true(has(served.text, "Content-Type: text/html"));
   assert_true(has(served.text, "http-equiv=\"refresh\""));
@@ -294,8 +298,13 @@ void who_has_nothing_to_say_makes_room(void** state) {
     client_of(state, i).send(get("/hello"));
     assert_int_equal(status_of(served.clients[i].reply()), 200);
   }
-  client_of(state, 2).send(get("/hello"));
-  assert_int_equal(status_of(served.clients[2].reply()), 200);
+  // An answer may be here before the server has noticed that it has left.
+  unsigned status = 503;
+  for (int tries = 0; status == 503 && tries < 100; ++tries) {
+    client_of(state, 2).send(get("/hello"));
+    status = status_of(served.clients[2].reply());
+  }
+  assert_int_equal(status, 200);
   assert_true(served.clients[0].ends());
 }
 

@@ -2,10 +2,10 @@
 
 namespace flexrf::user {
 
-void NewUnit::step(const Tick& /*tick*/) {
+void NewUnit::step(const flexrf::Tick& /*tick*/) {
   const auto pose = wanted.latest();
   if (!pose) return;  // nothing in, nothing out: who reads us sees the item grow old
-  Pose result = *pose;
+  auto result = *pose;
   result.position[2] += runtime.height;
   raised.publish(result, pose.sampled_at());
   ++feedback.passed;

@@ -7,7 +7,7 @@ namespace flexrf::user {
 
 class NewUnit final : public NewUnitUnit {
  public:
-  void step(const Tick& tick) override;
+  void step(const flexrf::Tick& tick) override;
 };
 
 }  // namespace flexrf::user

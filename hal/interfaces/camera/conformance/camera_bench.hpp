@@ -4,7 +4,9 @@
 #include <memory>
 
 #include "hal/interfaces/camera/conformance/camera_conformance.hpp"
+#include "hal/interfaces/camera/picture_size.hpp"
 #include "hal/interfaces/device_bench.hpp"
+#include "runtime/blackboard/sized_slot.hpp"
 #include "runtime/core/text.hpp"
 
 namespace flexrf {
@@ -12,10 +14,12 @@ namespace flexrf {
 template <class Driver>
 class CameraBench {
  public:
-  using PictureSlot = Slot<CameraFrame, 1, 3>;
+  using PictureSlot = SizedSlot<CameraFrame, 1, 3>;
 
   explicit CameraBench(const CameraRequest& request)
-      : slot_(request.into_slot ? std::make_unique<PictureSlot>() : nullptr),
+      : slot_(request.into_slot ? std::make_unique<PictureSlot>(request.elements == 0 ? usual_picture_bytes
+                                                                                      : request.elements)
+                                : nullptr),
         bench_(nullptr, {}, nullptr, slot()) {
     auto& set = bench_.configuration();
     set.width = request.width;

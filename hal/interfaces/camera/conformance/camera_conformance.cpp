@@ -172,11 +172,40 @@ Verdict a_damaged_picture_is_counted_and_not_shown(CameraWorld& world) {
 }
 
 Verdict a_picture_that_fits_nowhere_is_refused(CameraWorld& world) {
-  return verdict(said(world.start({.width = 8192, .height = 8192}), StatusCode::out_of_range, "smaller") &&
+  return verdict(said(world.start({.width = 8192, .height = 8192, .into_slot = true}),
+                      StatusCode::out_of_range, "elements = 134217728 into the row of the slot") &&
                  said(world.start({.width = 641}), StatusCode::invalid_argument, "even") &&
                  said(world.start({.height = 361, .format = PixelFormat::nv12}), StatusCode::invalid_argument,
                       "height are even") &&
                  said(world.start({.format = PixelFormat::bgr24}), StatusCode::invalid_argument, "rgb24"));
+}
+
+/// The largest picture is the slot's own; what is one byte larger is refused.
+Verdict a_slot_may_have_room_for_full_hd(CameraWorld& world) {
+  CameraRequest request{.width = 1920, .height = 1080, .into_slot = true, .elements = 1920 * 1080 * 2 - 1};
+  if (!said(world.start(request), StatusCode::out_of_range, "elements = 4147200")) return Verdict::failed;
+  ++request.elements;
+  if (const Status status = world.start(request); !status) {
+    print_message("%s\n", status.cause());
+    return Verdict::failed;
+  }
+  CameraEye eye(world);
+  for (int i = 0; i < 5; ++i) {
+    const auto image = eye.next();
+    if (!image || !is_as_asked(*image, request)) return Verdict::failed;
+  }
+  return verdict(world.feedback().copied_bytes == 0 && world.feedback().damaged_frames == 0);
+}
+
+Verdict a_unit_sees_full_hd_without_a_slot(CameraWorld& world) {
+  const CameraRequest request{.width = 1920, .height = 1080, .format = PixelFormat::rgb24};
+  if (const Status status = world.start(request); !status) {
+    print_message("%s\n", status.cause());
+    return Verdict::failed;
+  }
+  CameraEye eye(world);
+  const auto image = eye.next();
+  return verdict(image && is_as_asked(*image, request));
 }
 
 Verdict a_size_that_is_not_offered_is_refused_with_those_that_are(CameraWorld& world) {
@@ -324,6 +353,8 @@ int run_camera_conformance(const char* driver, MakeCameraWorld make) {
       CASE(lost_pictures_are_counted),
       CASE(a_damaged_picture_is_counted_and_not_shown),
       CASE(a_picture_that_fits_nowhere_is_refused),
+      CASE(a_slot_may_have_room_for_full_hd),
+      CASE(a_unit_sees_full_hd_without_a_slot),
       CASE(a_size_that_is_not_offered_is_refused_with_those_that_are),
       CASE(controls_are_found_and_set),
       CASE(a_control_that_cannot_be_set_is_refused),

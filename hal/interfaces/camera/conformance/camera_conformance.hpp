@@ -16,7 +16,8 @@ struct CameraRequest {
   double frame_rate = 30;  // 1/s
   double silence = 5;      // s
   std::string_view controls{};
-  bool into_slot = false;  ///< else it belongs to a unit
+  bool into_slot = false;    ///< else it belongs to a unit
+  std::size_t elements = 0;  ///< bytes that an item of the slot has; 0: as usual
 };
 
 class CameraWorld {

@@ -17,7 +17,7 @@ class CameraEye {
     if (header == nullptr || header->sequence == seen_) return std::nullopt;
     seen_ = header->sequence;
     const auto& frame = *static_cast<const CameraFrame*>(reader_.payload());
-    return CameraImage{.data = {frame.data.data(), frame.size},
+    return CameraImage{.data = frame.data().first(frame.size),
                        .width = frame.width,
                        .height = frame.height,
                        .stride = frame.stride,

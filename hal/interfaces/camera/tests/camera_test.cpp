@@ -124,23 +124,39 @@ void as_many_names_as_fit_are_told(void**) {
 }
 
 void pictures_that_do_not_fit_are_refused(void**) {
-  assert_int_equal(check_picture(1280, 720, PixelFormat::yuyv).code(), StatusCode::ok);
-  assert_int_equal(check_picture(1280, 720, PixelFormat::rgb24).code(), StatusCode::out_of_range);
-  assert_int_equal(check_picture(639, 480, PixelFormat::yuyv).code(), StatusCode::invalid_argument);
-  assert_int_equal(check_picture(639, 480, PixelFormat::grey8).code(), StatusCode::ok);
-  assert_int_equal(check_picture(1280, 960, PixelFormat::nv12).code(), StatusCode::ok);
-  assert_int_equal(check_picture(1280, 962, PixelFormat::nv12).code(), StatusCode::out_of_range);
-  assert_int_equal(check_picture(640, 481, PixelFormat::nv12).code(), StatusCode::invalid_argument);
-  assert_int_equal(check_picture(639, 480, PixelFormat::nv12).code(), StatusCode::invalid_argument);
-  assert_int_equal(check_picture(640, 480, PixelFormat::bgr24).code(), StatusCode::invalid_argument);
-  assert_int_equal(check_picture(1280, 720, PixelFormat::uyvy).code(), StatusCode::ok);
-  assert_int_equal(check_picture(639, 480, PixelFormat::uyvy).code(), StatusCode::invalid_argument);
-  assert_int_equal(check_picture(639, 480, PixelFormat::grey16).code(), StatusCode::ok);
-  assert_int_equal(check_picture(1280, 960, PixelFormat::grey16).code(), StatusCode::out_of_range);
-  assert_int_equal(check_picture(1280, 960, PixelFormat::bayer_bggr8).code(), StatusCode::ok);
-  assert_int_equal(check_picture(640, 481, PixelFormat::bayer_rggb8).code(), StatusCode::invalid_argument);
+  assert_int_equal(check_picture(1280, 720, PixelFormat::yuyv, usual_picture_bytes).code(), StatusCode::ok);
+  assert_int_equal(check_picture(1280, 720, PixelFormat::rgb24, usual_picture_bytes).code(),
+                   StatusCode::out_of_range);
+  assert_int_equal(check_picture(639, 480, PixelFormat::yuyv, usual_picture_bytes).code(),
+                   StatusCode::invalid_argument);
+  assert_int_equal(check_picture(639, 480, PixelFormat::grey8, usual_picture_bytes).code(), StatusCode::ok);
+  assert_int_equal(check_picture(1280, 960, PixelFormat::nv12, usual_picture_bytes).code(), StatusCode::ok);
+  assert_int_equal(check_picture(1280, 962, PixelFormat::nv12, usual_picture_bytes).code(),
+                   StatusCode::out_of_range);
+  assert_int_equal(check_picture(640, 481, PixelFormat::nv12, usual_picture_bytes).code(),
+                   StatusCode::invalid_argument);
+  assert_int_equal(check_picture(639, 480, PixelFormat::nv12, usual_picture_bytes).code(),
+                   StatusCode::invalid_argument);
+  assert_int_equal(check_picture(640, 480, PixelFormat::bgr24, usual_picture_bytes).code(),
+                   StatusCode::invalid_argument);
+  assert_int_equal(check_picture(1280, 720, PixelFormat::uyvy, usual_picture_bytes).code(), StatusCode::ok);
+  assert_int_equal(check_picture(639, 480, PixelFormat::uyvy, usual_picture_bytes).code(),
+                   StatusCode::invalid_argument);
+  assert_int_equal(check_picture(639, 480, PixelFormat::grey16, usual_picture_bytes).code(), StatusCode::ok);
+  assert_int_equal(check_picture(1280, 960, PixelFormat::grey16, usual_picture_bytes).code(),
+                   StatusCode::out_of_range);
+  assert_int_equal(check_picture(1280, 960, PixelFormat::bayer_bggr8, usual_picture_bytes).code(),
+                   StatusCode::ok);
+  assert_int_equal(check_picture(640, 481, PixelFormat::bayer_rggb8, usual_picture_bytes).code(),
+                   StatusCode::invalid_argument);
+  // Of a slot with room for it, and without one.
+  assert_int_equal(check_picture(1920, 1080, PixelFormat::yuyv, 4'147'200).code(), StatusCode::ok);
+  assert_int_equal(check_picture(2048, 1536, PixelFormat::rgb24, 0).code(), StatusCode::ok);
+  const Status status = check_picture(1920, 1080, PixelFormat::yuyv, 4'147'199);
+  assert_int_equal(status.code(), StatusCode::out_of_range);
+  assert_non_null(std::strstr(status.cause(), "write elements = 4147200 into the row of the slot"));
   for (const PixelFormat format : camera_formats) {
-    assert_int_equal(check_picture(64, 48, format).code(), StatusCode::ok);
+    assert_int_equal(check_picture(64, 48, format, usual_picture_bytes).code(), StatusCode::ok);
     assert_non_null(std::strstr(camera_formats_text, name_of(format)));
   }
 }

@@ -204,6 +204,46 @@ Verdict a_joint_that_sticks_is_a_fault(RobotArmWorld& world) {
                  std::string_view{fault.cause()}.find("behind") != std::string_view::npos);
 }
 
+// What it said in so long, led to `to` in each cycle.
+Restraint said_while(RobotArmWorld& world, const JointVector& to, double duration) {
+  Restraint said;
+  for (double time = 0; time < duration; time += cycle_seconds) {
+    world.receive(cycle);
+    world.arm().command(positions_of(to));
+    world.send();
+    if (const Restraint now = world.arm().take_restraint(); now.reason != nullptr) said = now;
+  }
+  return said;
+}
+
+/// It falls behind, as long as it lasts; a motion that its joints can follow is none of that.
+Verdict says_that_it_is_led_too_fast(RobotArmWorld& world) {
+  const JointVector start = beside(world, 0);
+  said_while(world, start, 0.1);
+  const KinematicChain& chain = world.arm().kinematic_chain();
+  JointVector goal = start;
+  for (int cycles = 0; cycles < 50; ++cycles) {
+    for (std::size_t i = 0; i < chain.joint_count; ++i)
+      goal[static_cast<Eigen::Index>(i)] += 0.1 * chain.joints[i].velocity * cycle_seconds;
+    goal = within_limits(chain, goal);
+    if (said_while(world, goal, cycle_seconds / 2).reason != nullptr) return Verdict::failed;
+  }
+  idle_for(world, 0.5);
+  static_cast<void>(world.arm().take_restraint());
+  goal = start;
+  // So far that it takes 0.2 s at least; farther behind would be a fault.
+  goal[0] += (start[0] > 0 ? -0.2 : 0.2) * chain.joints[0].velocity;
+  if (said_while(world, goal, 0.05).reason == nullptr) return Verdict::failed;
+  const Restraint said = said_while(world, goal, 0.05);
+  if (said.reason == nullptr || std::string_view{said.reason}.find("joint 1 is led faster") != 0)
+    return Verdict::failed;
+  const bool counts =
+      std::abs(said.asked - goal[0]) < tolerance && std::abs(said.given - goal[0]) > tolerance;
+  command_for(world, goal, 2);
+  static_cast<void>(world.arm().take_restraint());
+  return verdict(counts && said_while(world, goal, 0.1).reason == nullptr && world.arm().fault().is_ok());
+}
+
 Verdict reports_tripped_drives(RobotArmWorld& world) {
   idle_for(world, 0.05);
   if (!world.trip_drives()) return Verdict::skipped;
@@ -239,6 +279,7 @@ int run_robot_arm_conformance(const char* driver, MakeRobotArmWorld make) {
        nullptr, nullptr},
       {"may be silent while inhibited", judged<silence_while_inhibited_is_none>, nullptr, nullptr, nullptr},
       {"is in fault when a joint sticks", judged<a_joint_that_sticks_is_a_fault>, nullptr, nullptr, nullptr},
+      {"says that it is led too fast", judged<says_that_it_is_led_too_fast>, nullptr, nullptr, nullptr},
       {"reports tripped drives", judged<reports_tripped_drives>, nullptr, nullptr, nullptr},
   };
   return cmocka_run_group_tests_name(driver, tests, nullptr, nullptr);

@@ -1,5 +1,6 @@
 // Modes in which the drive makes the profile, and halts in all of them.
 #include <algorithm>
+#include <string_view>
 
 #include "hal/interfaces/servo_drive/conformance/servo_drive_cases.hpp"
 
@@ -14,6 +15,15 @@ bool goes_to(ServoDriveWorld& world, double position, double speed = ServoDrive:
     reached_at_once = state_of(world).target_reached;
   });
   return !reached_at_once && is_reached_in_time(world) && is_at(world, position);
+}
+
+// In so long; a drive has its own following error window, and what it looks at there is its own.
+Verdict is_a_fault_within(ServoDriveWorld& world, double duration) {
+  idle_for(world, duration);
+  const Status& fault = world.drive().fault();
+  return verdict(fault.code() == StatusCode::device_fault &&
+                 std::string_view{fault.cause()}.find("from its target") != std::string_view::npos &&
+                 !state_of(world).enabled);
 }
 
 // It was on its way, and now it is at rest for good, without its target.
@@ -32,6 +42,38 @@ Verdict goes_to_targets_and_says_when_it_is_there(ServoDriveWorld& world) {
     if (!goes_to(world, target)) return Verdict::failed;
   }
   return verdict(holds(world) && state_of(world).target_reached);
+}
+
+Verdict an_axis_that_sticks_on_its_way_is_a_fault(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  do_once(world, [](ServoDrive& drive) { drive.move_to(9, 4); });
+  idle_for(world, 0.5);
+  if (!world.stick_axis()) return Verdict::skipped;
+  return is_a_fault_within(world, 3);
+}
+
+// Far less than it may be behind in other modes.
+Verdict an_axis_that_sticks_on_a_short_way_is_a_fault(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  if (!world.stick_axis()) return Verdict::skipped;
+  do_once(world, [](ServoDrive& drive) { drive.move_to(start + 0.5); });
+  return is_a_fault_within(world, 2);
+}
+
+// A creeping one, one that turns round at its full speed, one that is where it is sent, and one that was
+// halted.
+Verdict an_axis_that_takes_its_time_is_none(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  if (!goes_to(world, start + 1, 0.2)) return Verdict::failed;
+  do_once(world, [](ServoDrive& drive) { drive.move_to(9.9); });
+  idle_for(world, 0.4);
+  if (!goes_to(world, -9)) return Verdict::failed;
+  idle_for(world, 5);
+  do_once(world, [](ServoDrive& drive) { drive.move_to(9, 2); });
+  idle_for(world, 1);
+  do_once(world, [](ServoDrive& drive) { drive.halt(); });
+  idle_for(world, 5);
+  return verdict(world.drive().fault().is_ok() && goes_to(world, 9));
 }
 
 Verdict goes_as_fast_as_it_was_told(ServoDriveWorld& world) {

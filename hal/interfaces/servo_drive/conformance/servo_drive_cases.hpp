@@ -81,6 +81,9 @@ inline bool holds(ServoDriveWorld& world) {
 // ---- with a profile of the drive's own, and halts: profile_cases.cpp
 
 Verdict goes_to_targets_and_says_when_it_is_there(ServoDriveWorld& world);
+Verdict an_axis_that_sticks_on_its_way_is_a_fault(ServoDriveWorld& world);
+Verdict an_axis_that_sticks_on_a_short_way_is_a_fault(ServoDriveWorld& world);
+Verdict an_axis_that_takes_its_time_is_none(ServoDriveWorld& world);
 Verdict goes_as_fast_as_it_was_told(ServoDriveWorld& world);
 Verdict a_new_target_replaces_the_one_before(ServoDriveWorld& world);
 Verdict keeps_targets_to_its_range(ServoDriveWorld& world);

@@ -148,14 +148,62 @@ const char* reason_after(ServoDriveWorld& world, Command command) {
   return world.drive().take_restraint().reason;
 }
 
+// Said in this cycle without a command in it.
+const char* reason_in_force(ServoDriveWorld& world) {
+  return reason_after(world, [](ServoDrive&) {});
+}
+
 Verdict says_what_it_holds_back(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   using namespace servo_restraints;
-  return verdict(reason_after(world, [](ServoDrive& drive) { drive.command_position(2); }) == nullptr &&
+  return verdict(reason_after(world, [](ServoDrive& drive) { drive.command_position(1.1); }) == nullptr &&
                  reason_after(world, [](ServoDrive& drive) { drive.command_position(11); }) == out_of_range &&
+                 reason_in_force(world) == out_of_range &&
                  reason_after(world, [](ServoDrive& drive) { drive.command_velocity(1); }) == another_mode &&
                  reason_after(world, [](ServoDrive& drive) { drive.move_to(2); }) == another_mode &&
                  reason_after(world, [](ServoDrive& drive) { drive.home(); }) == no_homing);
+}
+
+// At 20 a second it may go 0.14 in a cycle.
+Verdict says_that_it_is_led_too_fast(ServoDriveWorld& world) {
+  if (!world.shares_its_cycle()) return Verdict::skipped;
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  static_cast<void>(world.drive().take_restraint());
+  double wanted = start;
+  const auto lead = [&](double speed, int cycles) {
+    Restraint said;
+    for (int i = 0; i < cycles; ++i) {
+      wanted += speed * cycle_seconds;
+      command_for(world, wanted, cycle_seconds / 2);
+      if (const Restraint now = world.drive().take_restraint(); now.reason != nullptr) said = now;
+    }
+    return said;
+  };
+  // As fast as it may, to either side, with what sums of such steps leave over.
+  if (lead(20, 50).reason != nullptr || lead(-20, 50).reason != nullptr) return Verdict::failed;
+  const Restraint fast = lead(30, 20);
+  const bool counts = fast.reason == servo_restraints::led_too_fast && fast.asked > fast.given + 0.14;
+  // While it makes up for it, and no longer.
+  if (!counts || lead(0, 2).reason != servo_restraints::led_too_fast) return Verdict::failed;
+  idle_for(world, 1);
+  static_cast<void>(world.drive().take_restraint());
+  return verdict(lead(0, 20).reason == nullptr && is_at(world, wanted) && world.drive().fault().is_ok());
+}
+
+Verdict says_as_long_as_it_lasts_that_it_turns_no_faster(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  using namespace servo_restraints;
+  if (reason_after(world, [](ServoDrive& drive) { drive.command_velocity(-25); }) != too_fast)
+    return Verdict::failed;
+  for (int cycles = 0; cycles < 20; ++cycles) {
+    if (reason_in_force(world) != too_fast) return Verdict::failed;
+  }
+  if (reason_after(world, [](ServoDrive& drive) { drive.command_velocity(-20); }) != nullptr)
+    return Verdict::failed;
+  if (reason_after(world, [](ServoDrive& drive) { drive.command_velocity(-25); }) != too_fast)
+    return Verdict::failed;
+  return verdict(reason_after(world, [](ServoDrive& drive) { drive.halt(); }) == nullptr &&
+                 reason_in_force(world) == nullptr);
 }
 
 Verdict says_that_it_goes_no_faster(ServoDriveWorld& world) {
@@ -163,6 +211,8 @@ Verdict says_that_it_goes_no_faster(ServoDriveWorld& world) {
   using namespace servo_restraints;
   return verdict(reason_after(world, [](ServoDrive& drive) { drive.move_to(2, 3); }) == nullptr &&
                  reason_after(world, [](ServoDrive& drive) { drive.move_to(3, 21); }) == too_fast &&
+                 reason_in_force(world) == too_fast && is_reached_in_time(world) &&
+                 reason_in_force(world) == nullptr &&
                  reason_after(world, [](ServoDrive& drive) { drive.move_to(-11); }) == out_of_range &&
                  reason_after(world, [](ServoDrive& drive) { drive.command_position(1); }) == another_mode);
 }
@@ -180,12 +230,11 @@ void send_to(ServoDriveWorld& world, double position, bool cyclic) {
 template <bool Cyclic>
 Verdict an_endless_axis_goes_anywhere(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
-  static_cast<void>(world.drive().take_restraint());
   for (const double far : {25.0, -25.0}) {
     send_to(world, far, Cyclic);
-    if (!is_at(world, far)) return Verdict::failed;
+    if (!is_at(world, far) || reason_in_force(world) != nullptr) return Verdict::failed;
   }
-  return verdict(world.drive().take_restraint().reason == nullptr && world.drive().fault().is_ok());
+  return verdict(world.drive().fault().is_ok());
 }
 
 // From 1 to 5 it is nearer through 0, which is 6 as well; and 13 is 1.
@@ -267,6 +316,11 @@ int run_servo_drive_conformance(const char* driver, MakeServoDriveWorld make) {
       test("can be made safe", judged<can_be_made_safe>),
       test("is silent when it is not heard", judged<says_nothing_when_it_is_not_heard>),
       test("says what it holds back", judged<says_what_it_holds_back>),
+      test("says that it is led too fast", judged<says_that_it_is_led_too_fast>),
+      test("says that it turns no faster, cyclic",
+           judged<says_as_long_as_it_lasts_that_it_turns_no_faster, cyclic_velocity>),
+      test("says that it turns no faster, by its profile",
+           judged<says_as_long_as_it_lasts_that_it_turns_no_faster, profile_velocity>),
       test("says that it goes no faster", judged<says_that_it_goes_no_faster, profile_position>),
       test("endless, goes anywhere",
            judged<an_endless_axis_goes_anywhere<true>, cyclic_position, false, Range::endless>),
@@ -281,6 +335,12 @@ int run_servo_drive_conformance(const char* driver, MakeServoDriveWorld make) {
            judged<a_jam_while_it_turns_is_a_fault, cyclic_velocity>),
       test("is in fault when it jams, profile velocity",
            judged<a_jam_while_it_turns_is_a_fault, profile_velocity, false, Range::modulo>),
+      test("is in fault when it sticks on its way",
+           judged<an_axis_that_sticks_on_its_way_is_a_fault, profile_position>),
+      test("is in fault when it sticks on a short way",
+           judged<an_axis_that_sticks_on_a_short_way_is_a_fault, profile_position>),
+      test("is in no fault when it takes its time",
+           judged<an_axis_that_takes_its_time_is_none, profile_position>),
       test("is not behind while it turns, cyclic velocity",
            judged<an_axis_that_turns_is_not_behind, cyclic_velocity, false, Range::endless>),
       test("is not behind while it turns, profile velocity",

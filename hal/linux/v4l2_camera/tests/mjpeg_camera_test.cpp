@@ -23,7 +23,7 @@ Jpeg jpeg(std::size_t detail, std::uint32_t rows = height) {
   if (!maker.begin(width, rows)) return {};
   for (std::size_t i = 0; i < maker.canvas().size(); ++i)
     maker.canvas()[i] = static_cast<std::uint8_t>(detail == 0 ? 90 : i * i * 131 % detail);
-  const auto bytes = maker.make(most_picture_bytes);
+  const auto bytes = maker.make(usual_picture_bytes);
   return {bytes.begin(), bytes.end()};
 }
 
@@ -60,11 +60,12 @@ class InjectedCamera {
     if (header == nullptr || header->sequence == seen_) return {};
     seen_ = header->sequence;
     const auto& frame = *static_cast<const CameraFrame*>(reader_.payload());
-    newest = frame.data.data();
+    newest = frame.data().data();
     if (frame.format != PixelFormat::mjpeg || frame.width != width || frame.height != height ||
-        frame.stride != 0 || frame.size > frame.data.size())
+        frame.stride != 0 || frame.size > frame.data().size())
       return {};
-    return {frame.data.begin(), frame.data.begin() + frame.size};
+    const auto data = frame.data().first(frame.size);
+    return {data.begin(), data.end()};
   }
 
   ScriptedKernel kernel;  // outlives the driver
@@ -131,7 +132,7 @@ void damaged_mjpeg_is_counted_and_left_out_injected_not_produced(void**) {
 
 /// The kernel's buffers are longer than an item: what comes is copied, and what is longer is not cut.
 bool long_buffers_cost_a_copy() {
-  InjectedCamera camera(true, most_picture_bytes + 4096);
+  InjectedCamera camera(true, usual_picture_bytes + 4096);
   if (!camera.start()) return false;
   const Jpeg sent = jpeg(20);
   if (camera.after(sent) != sent || camera.told().copied_bytes != sent.size()) return false;
@@ -140,7 +141,7 @@ bool long_buffers_cost_a_copy() {
   constexpr std::uint8_t marker[] = {0xFF, 0xE0, (2000 - 2) >> 8, (2000 - 2) & 0xFF};
   std::copy(std::begin(marker), std::end(marker), stretch.begin());
   Jpeg too_long(sent.begin(), sent.begin() + 2);
-  while (too_long.size() + sent.size() <= most_picture_bytes + 2)
+  while (too_long.size() + sent.size() <= usual_picture_bytes + 2)
     too_long.insert(too_long.end(), stretch.begin(), stretch.end());
   too_long.insert(too_long.end(), sent.begin() + 2, sent.end());
   return is_left_out(camera, too_long, "does not fit");

@@ -45,8 +45,9 @@ class Injected {
     }
     if (reader_.newest() == nullptr) return false;
     const auto& frame = *static_cast<const CameraFrame*>(reader_.payload());
-    return Bytes(frame.data.begin(), frame.data.begin() + frame.size) == sent && is_as_asked(frame.stride) &&
-           kernel_.was_given(frame.data.data());
+    const auto data = frame.data().first(frame.size);
+    return Bytes(data.begin(), data.end()) == sent && is_as_asked(frame.stride) &&
+           kernel_.was_given(data.data());
   }
 
  private:

@@ -89,10 +89,24 @@ bool a_stuck_joint_stays() {
 std::array<double, 8> first_reading(std::uint64_t seed, double noise) {
   DeviceBench<SimulatedArm> bench(&six_axis);
   bench.environment().seed = seed;
-  bench.configuration().noise = noise;
+  bench.configuration().noise.fill(noise);
   if (!bench.driver().initialise()) return {};
   bench.receive(std::chrono::milliseconds(7));
   return bench.driver().state()->position;
+}
+
+// Each in its unit of measure: what is little for one that turns may be much for one that slides.
+bool each_joint_has_its_noise() {
+  DeviceBench<SimulatedArm> bench(&six_axis);
+  bench.configuration().noise = {};
+  bench.configuration().noise[2] = 1e-3;
+  if (!bench.driver().initialise()) return false;
+  bench.receive(std::chrono::milliseconds(7));
+  const auto told = bench.driver().state()->position;
+  bool good = true;
+  for (std::size_t i = 0; i < six_axis.joint_count; ++i)
+    good = good && (told[i] != six_axis.joints[i].home) == (i == 2);
+  return good;
 }
 
 bool the_seed_makes_the_noise() {
@@ -133,6 +147,9 @@ void stuck_joint(void**) {
 void noise_is_seeded(void**) {
   assert_true(the_seed_makes_the_noise());
 }
+void noise_of_each_joint(void**) {
+  assert_true(each_joint_has_its_noise());
+}
 void faults_are_injected(void**) {
   assert_true(scheduled_faults_come());
 }
@@ -146,6 +163,7 @@ int main() {
       cmocka_unit_test(cadence_does_not_matter),
       cmocka_unit_test(stuck_joint),
       cmocka_unit_test(noise_is_seeded),
+      cmocka_unit_test(noise_of_each_joint),
       cmocka_unit_test(faults_are_injected),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

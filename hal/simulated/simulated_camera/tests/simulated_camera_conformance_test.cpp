@@ -79,7 +79,7 @@ std::uint64_t sum_of_three(PixelFormat format) {
     seen = header->sequence;
     // All of the item, to its last byte.
     const auto& frame = *static_cast<const CameraFrame*>(reader.payload());
-    sum = sum * 31 + checksum({.data = frame.data});
+    sum = sum * 31 + checksum({.data = frame.data()});
   }
   return sum;
 }

@@ -319,7 +319,9 @@ std::uint16_t ForeignDrive::statusword() const {
   const std::uint32_t mode = object(0x6061);
   if (state_ != State::operation_enabled) return word;
   if (mode == 6 && homed_) word |= 0x1000;
-  if ((mode == 1 && acknowledged_) || (mode == 7 && interpolates_now_) || mode == 8) word |= 0x1000;
+  if ((mode == 1 && acknowledged_) || (mode == 7 && interpolates_now_) ||
+      (mode == 8 && !nature_.leaves_bit_12))
+    word |= 0x1000;
   return word;
 }
 
@@ -390,7 +392,7 @@ void ForeignDrive::move() {
     position_ += std::clamp(place - position_, -most, most);
   };
   const std::uint32_t mode = object(0x6061);
-  if (state_ == State::operation_enabled && (word_ & 0x100) == 0) {
+  if (state_ == State::operation_enabled && (word_ & 0x100) == 0 && !sticks_) {
     if (mode == 1) {
       towards(goal_, goal_speed_);
       if (std::abs(position_ - goal_) < 0.5) reached_ = true;

@@ -27,6 +27,7 @@ class ForeignDrive {
     std::uint16_t identifier_of_first = 0;  ///< of RPDO 1; 0: as CiA 301 predefines it
     int serves_after = 0;                   ///< ms until it looks at a request by SDO
     bool acts_at_last = false;              ///< on a controlword behind all else that came before SYNC
+    bool leaves_bit_12 = false;             ///< of its statusword at 0 in cyclic position, as older drives do
     bool interpolates = false;              ///< of the position modes it has interpolated position (7) alone
   };
   struct SetPoint {
@@ -47,6 +48,8 @@ class ForeignDrive {
   double longest_jump() const { return longest_jump_; }
   /// As when points stay away: what comes is ignored from now on, until bit 4 of the controlword rises anew.
   void stop_interpolation() { interpolates_now_ = false; }
+  /// Something holds its axis, and nothing in it notices.
+  void stick() { sticks_ = true; }
   /// 0 where there is none.
   std::uint32_t object(std::uint16_t index, std::uint8_t subindex = 0) const;
   /// Aborts that it answered with.
@@ -99,6 +102,7 @@ class ForeignDrive {
   bool reached_ = true;
   bool homed_ = false;
   bool interpolates_now_ = false;
+  bool sticks_ = false;
   double longest_jump_ = 0;
   std::vector<SetPoint> set_points_;
   std::vector<std::uint32_t> aborts_;

@@ -6,10 +6,16 @@
 #include <optional>
 #include <vector>
 
+#include "hal/canopen/can_message.hpp"
 #include "hal/canopen/servo_axis.hpp"
+#include "hal/interfaces/can_bus/can_node.hpp"
+#include "hal/interfaces/device_bench.hpp"
 #include "hal/interfaces/servo_drive/servo_restraints.hpp"
+#include "hal/linux/canopen_servo_drive/canopen_servo_drive.hpp"
+#include "hal/simulated/in_process_can_bus/in_process_can_bus.hpp"
 #include "hal/simulated/simulated_cia402_drive/tests/foreign_drive.hpp"
 #include "tests/cmocka.hpp"
+#include "tests/log_ear.hpp"
 
 namespace {
 
@@ -268,6 +274,98 @@ void a_drive_without_a_deceleration_of_its_own_takes_that_of_its_acceleration(vo
   assert_int_equal(cell.drive.object(0x6083), 10000);
 }
 
+void a_drive_without_an_acceleration_has_ramps_of_its_own(void**) {
+  for (const Mode mode : {Mode::profile_position, Mode::profile_velocity}) {
+    ForeignCell cell{plan_for(mode), {.lacks = {0x608300, 0x608400}}};
+    assert_true(cell.comes_up());
+    assert_true(cell.axis.has_own_ramps());
+    if (mode == Mode::profile_position) assert_true(each_set_point_has_its_speed(cell, 3));
+  }
+  ForeignCell told{plan_for(Mode::profile_position)};
+  assert_true(told.comes_up());
+  assert_false(told.axis.has_own_ramps());
+}
+
+// In each mode it is at rest where it rests, and about as fast as it goes.
+void a_drive_that_does_not_say_how_fast_it_is_tells_it_by_its_positions(void**) {
+  for (const Mode mode : {Mode::cyclic_position, Mode::profile_position}) {
+    // Nor has it a second PDO to say it in.
+    const ForeignDrive::Nature nature{
+        .lacks = {0x606C00, 0x180100, 0x180101, 0x180102, 0x1A0100, 0x1A0101, 0x1A0102, 0x1A0103, 0x1A0104}};
+    AxisPlan plan = plan_for(mode);
+    plan.homing_method = 35;
+    ForeignCell unsaid{plan, {.lacks = {0x606C00}}};
+    assert_false(unsaid.comes_up());
+    assert_true(unsaid.fault_says("maps_velocity = false"));
+    plan.maps_velocity = false;
+    ForeignCell cell{plan, nature};
+    assert_true(cell.comes_up());
+    cell.run(100);
+    assert_true(cell.axis.state()->velocity == 0);
+    if (mode == Mode::cyclic_position) cell.position = 6;
+    if (mode == Mode::profile_position) cell.axis.move_to(6, 5);
+    cell.run(500);
+    assert_true(std::abs(cell.axis.state()->velocity - 5) < 0.5);
+    cell.position.reset();
+    cell.run(1500);
+    assert_true(cell.is_at(6) && cell.axis.state()->velocity == 0);
+    cell.axis.home();
+    cell.run(6000);
+    assert_true(cell.axis.homing() == canopen::cia402::Homing::homed && cell.axis.fault().is_ok());
+    cell.may_move = false;
+    cell.run(200);
+    assert_true(cell.axis.is_off() && cell.axis.fault().is_ok());
+  }
+}
+
+// What is optional and missing keeps nobody away, but for what the table asks for; then it says so.
+void what_the_table_asks_for_and_is_missing_is_told_with_its_column(void**) {
+  AxisPlan stops = plan_for(Mode::cyclic_position);
+  stops.quick_stop_deceleration = 20;
+  ForeignCell no_stop{stops, {.lacks = {0x608500}}};
+  assert_false(no_stop.comes_up());
+  assert_true(no_stop.fault_says("6085:00") && no_stop.fault_says("quick_stop_deceleration = 0"));
+  AxisPlan homes = plan_for(Mode::cyclic_position);
+  homes.homing_method = 35;
+  for (const std::uint32_t missing : {0x609800U, 0x609901U, 0x609902U}) {
+    ForeignCell no_home{homes, {.lacks = {missing}}};
+    assert_false(no_home.comes_up());
+    assert_true(no_home.fault_says("homing_method = 0"));
+  }
+  AxisPlan guarded = plan_for(Mode::cyclic_position);
+  guarded.is_guarded = true;
+  ForeignCell no_guard{guarded};
+  assert_false(no_guard.comes_up());
+  assert_true(no_guard.fault_says("100C:00") && no_guard.fault_says("guarded = false"));
+  AxisPlan pressing = plan_for(Mode::profile_position);
+  pressing.limits_torque = true;
+  ForeignCell no_limit{pressing};
+  assert_false(no_limit.comes_up());
+  assert_true(no_limit.fault_says("limits_torque = false"));
+  pressing.limits_torque = false;
+  pressing.tells_torque = true;
+  ForeignCell no_torque{pressing};
+  assert_false(no_torque.comes_up());
+  assert_true(no_torque.fault_says("tells_torque = false"));
+  // Without a following error window, to be blocked is no fault of its.
+  pressing.tells_torque = false;
+  pressing.may_be_blocked = true;
+  ForeignCell no_window{pressing};
+  assert_true(no_window.comes_up());
+  ForeignCell plain{plan_for(Mode::cyclic_position), {.lacks = {0x608300, 0x608400, 0x609800, 0x609901}}};
+  assert_true(plain.comes_up());
+}
+
+// As older ones do: it is told what the bit means, and it goes on.
+void a_drive_that_leaves_bit_12_is_led_all_the_same(void**) {
+  ForeignCell cell{plan_for(Mode::cyclic_position), {.leaves_bit_12 = true}};
+  cell.position = 4;
+  assert_true(cell.comes_up());
+  cell.run(2000);
+  assert_true(cell.is_at(4) && cell.axis.fault().is_ok());
+  assert_ptr_equal(cell.restraint.reason, servo_restraints::set_points_ignored);
+}
+
 void the_product_is_asked_for_only_where_it_is_named(void**) {
   ForeignCell unnamed{plan_for(Mode::cyclic_position), {.lacks = {0x101802}}};
   assert_true(unnamed.comes_up());
@@ -297,6 +395,128 @@ void what_cannot_be_written_and_is_right_already_is_taken(void**) {
   assert_true(wrong.fault_says("60C2:01") && wrong.fault_says("tells_period = false"));
 }
 
+// At the other end of a driver's bus.
+class ForeignOnCan final : public CanNode {
+ public:
+  ForeignOnCan(const ForeignDrive::Nature& nature, Time now) : drive_{nature}, now_{now} {}
+  void on_frame(const CanFrame& frame, CanPort& port) noexcept override {
+    if (!frame.extended) drive_.receive(canopen::to_message(frame), says_);
+    say(port);
+  }
+  Time next_event() const noexcept override { return now_ + milliseconds(1); }
+  void on_time(Time now, CanPort& port) noexcept override {
+    now_ = now;
+    drive_.step(says_);
+    say(port);
+  }
+  ForeignDrive& drive() { return drive_; }
+
+ private:
+  void say(CanPort& port) noexcept {
+    for (; !says_.is_empty(); says_.pop()) port.send(canopen::to_frame(says_.front()));
+  }
+
+  ForeignDrive drive_;
+  Outbox says_;
+  Time now_;
+};
+
+// The driver of a foreign drive in mode profile_position.
+class DriverCell {
+ public:
+  explicit DriverCell(bool tells_speed, const ForeignDrive::Nature& nature = {}) : nature_{nature} {
+    auto& configuration = driver_.configuration();
+    configuration.mode = ServoMode::profile_position;
+    configuration.node = 5;
+    configuration.lowest = -10;
+    configuration.highest = 10;
+    configuration.fastest = 5;
+    configuration.tells_speed = tells_speed;
+    good_ = bus_.driver().initialise().is_ok() && driver_.driver().initialise().is_ok() &&
+            bus_.driver().wire()->attach(far_end_) != nullptr;
+  }
+  ~DriverCell() {
+    driver_.driver().stop();
+    bus_.driver().wire()->detach(far_end_);
+    bus_.driver().stop();
+  }
+
+  CanopenServoDrive& drive() { return driver_.driver(); }
+  ForeignDrive& far_end() { return far_end_.drive(); }
+  void run(int ms) {
+    for (int i = 0; i < ms; i += cycle_of_7_ms) {
+      bus_.receive(milliseconds(cycle_of_7_ms));
+      driver_.receive(milliseconds(cycle_of_7_ms));
+      driver_.send();
+      bus_.send();
+    }
+  }
+  bool comes_up() {
+    for (int i = 0; i < 1000 && drive().fault().is_ok() && !is_enabled(); ++i) run(cycle_of_7_ms);
+    return good_ && is_enabled();
+  }
+  bool goes_to(double place, double speed) {
+    drive().move_to(place, speed);
+    for (int i = 0; i < 2000 && drive().fault().is_ok(); ++i) {
+      run(cycle_of_7_ms);
+      if (drive().state() && drive().state()->target_reached) return true;
+    }
+    print_message("fault: %s\n", drive().fault().cause());
+    return false;
+  }
+
+ private:
+  bool is_enabled() { return drive().state() && drive().state()->enabled; }
+
+  ForeignDrive::Nature nature_;
+  DeviceBench<InProcessCanBus> bus_{nullptr};
+  DeviceBench<CanopenServoDrive> driver_{nullptr, {}, &bus_.driver()};
+  ForeignOnCan far_end_{nature_, bus_.now()};
+  bool good_ = false;
+};
+
+// Its drive has no following error window, and says nothing.
+bool a_stuck_one_is_a_fault(bool tells_speed, double way) {
+  DriverCell cell{tells_speed};
+  if (!cell.comes_up() || !cell.goes_to(2, 0.5) || !cell.goes_to(-1, 5)) return false;
+  if (way < 0) {
+    cell.drive().move_to(-1 + way, 2);
+    cell.run(300);
+  }
+  cell.far_end().stick();
+  if (way > 0) cell.drive().move_to(-1 + way, 2);
+  cell.run(2500);
+  const Status& fault = cell.drive().fault();
+  if (std::strstr(fault.cause(), "from its target") != nullptr && !cell.far_end().is_enabled()) return true;
+  print_message("fault: %s\n", fault.cause());
+  return false;
+}
+
+// The driver says it in the log, each time that the drive was brought up by it and not in each cycle.
+bool own_ramps_are_told(bool has_own) {
+  const LogEar ear;
+  std::vector<std::uint32_t> lacks;
+  if (has_own) lacks = {0x608300, 0x608400};
+  DriverCell cell{true, {.lacks = lacks}};
+  return cell.comes_up() && cell.goes_to(2, 5) && ear.has_heard("its ramps are its own") == has_own;
+}
+
+void that_ramps_are_the_drives_own_stands_in_the_log(void**) {
+  for (const bool has_own : {true, false}) {
+    const bool good = own_ramps_are_told(has_own);
+    assert_true(good);
+  }
+}
+
+void an_axis_that_sticks_on_its_way_is_a_fault_where_the_drive_does_not_notice(void**) {
+  for (const bool tells_speed : {true, false}) {
+    for (const double way : {5.0, 0.2, -6.0}) {
+      const bool good = a_stuck_one_is_a_fault(tells_speed, way);
+      assert_true(good);
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -311,9 +531,15 @@ int main() {
       cmocka_unit_test(a_drive_that_ceases_to_interpolate_is_a_fault),
       cmocka_unit_test(a_node_that_starts_itself_is_configured_all_the_same),
       cmocka_unit_test(a_drive_without_a_deceleration_of_its_own_takes_that_of_its_acceleration),
+      cmocka_unit_test(a_drive_without_an_acceleration_has_ramps_of_its_own),
+      cmocka_unit_test(a_drive_that_does_not_say_how_fast_it_is_tells_it_by_its_positions),
+      cmocka_unit_test(what_the_table_asks_for_and_is_missing_is_told_with_its_column),
+      cmocka_unit_test(a_drive_that_leaves_bit_12_is_led_all_the_same),
       cmocka_unit_test(the_product_is_asked_for_only_where_it_is_named),
       cmocka_unit_test(identifiers_that_are_right_already_need_not_be_written),
       cmocka_unit_test(what_cannot_be_written_and_is_right_already_is_taken),
+      cmocka_unit_test(that_ramps_are_the_drives_own_stands_in_the_log),
+      cmocka_unit_test(an_axis_that_sticks_on_its_way_is_a_fault_where_the_drive_does_not_notice),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -126,26 +126,36 @@ struct Bench {
   }
 };
 
-void records_tell_their_highest_subindex(void**) {
+// What it answers to reading, and to writing a byte: each with its command byte, and value or abort code.
+void objects_answer_as_what_they_are(void**) {
+  struct Answer {
+    std::uint16_t index;
+    std::uint8_t subindex;
+    std::uint8_t command;
+    std::uint32_t number;
+  };
+  constexpr Answer read[] = {
+      // Records tell their highest subindex.
+      {0x1016, 0, 0x4F, 1},
+      {0x1018, 0, 0x4F, 2},
+      {0x1400, 0, 0x4F, 5},
+      {0x1801, 0, 0x4F, 5},
+      {0x6099, 0, 0x4F, 2},
+      {0x60C2, 0, 0x4F, 2},
+      // What is missing is a subindex, or the object.
+      {0x1018, 5, 0x80, 0x06090011},
+      {0x6040, 1, 0x80, 0x06090011},
+      {0x2000, 0, 0x80, 0x06020000},
+      {0x2000, 3, 0x80, 0x06020000},
+  };
+  constexpr Answer written[] = {{0x1018, 0, 0x80, 0x06010002}, {0x60C2, 9, 0x80, 0x06090011}};
   Bench bench;
-  assert_true(bench.holds(0x1016, 0, 0x4F, 1));
-  assert_true(bench.holds(0x1018, 0, 0x4F, 2));
-  assert_true(bench.holds(0x1400, 0, 0x4F, 5));
-  assert_true(bench.holds(0x1801, 0, 0x4F, 5));
-  assert_true(bench.holds(0x6099, 0, 0x4F, 2));
-  assert_true(bench.holds(0x60C2, 0, 0x4F, 2));
-  assert_int_equal(bench.tell(0x1018, 0, 1, 3), 0x80);
-  assert_int_equal(bench.value, 0x06010002);
-}
-
-void what_is_missing_is_told_as_what_it_is(void**) {
-  Bench bench;
-  assert_true(bench.holds(0x1018, 5, 0x80, 0x06090011));
-  assert_true(bench.holds(0x6040, 1, 0x80, 0x06090011));
-  assert_true(bench.holds(0x2000, 0, 0x80, 0x06020000));
-  assert_true(bench.holds(0x2000, 3, 0x80, 0x06020000));
-  assert_int_equal(bench.tell(0x60C2, 9, 1, 1), 0x80);
-  assert_int_equal(bench.value, 0x06090011);
+  for (const Answer& wanted : read)
+    assert_true(bench.holds(wanted.index, wanted.subindex, wanted.command, wanted.number));
+  for (const Answer& wanted : written) {
+    assert_int_equal(bench.tell(wanted.index, wanted.subindex, 1, 3), wanted.command);
+    assert_int_equal(bench.value, wanted.number);
+  }
 }
 
 void sync_has_the_identifier_that_it_is_given(void**) {
@@ -217,6 +227,42 @@ void targets_may_be_relative_to_the_last_one(void**) {
   assert_int_equal(bench.position(), 500);
 }
 
+// Sub mode, period, points by SDO; bit 4 of the controlword enables interpolation, bit 12 of the statusword
+// says that it is active.
+void interpolation_is_enabled_beside_the_operation(void**) {
+  Bench bench;
+  bench.ask(0x6502, 0);
+  assert_int_equal(bench.value & 1U << 6, 1U << 6);
+  assert_int_equal(bench.tell(0x60C0, 0, 2, 0), 0x60);
+  assert_true(bench.holds(0x60C1, 0, 0x4F, 1));
+  assert_int_equal(bench.tell(0x60C2, 1, 1, 20), 0x60);
+  assert_int_equal(bench.tell(0x6060, 0, 1, 7), 0x60);
+  for (const std::uint32_t word : {0x06U, 0x07U, 0x0FU}) {
+    bench.tell(0x6040, 0, 2, word);
+    bench.run(60);
+  }
+  bench.tell(0x6040, 0, 2, 0x0F);
+  bench.run(10);
+  assert_true(bench.holds(0x6061, 0, 0x4F, 7));
+  bench.ask(0x6041, 0);
+  assert_int_equal(bench.value & 0x106F, 0x0027);
+  bench.tell(0x60C1, 1, 4, 1200);
+  bench.run(100);
+  assert_int_equal(bench.position(), 1000);
+  bench.tell(0x6040, 0, 2, 0x1F);
+  bench.run(100);
+  assert_int_equal(bench.position(), 1200);
+  bench.ask(0x6041, 0);
+  assert_int_equal(bench.value & 0x106F, 0x1027);
+  bench.tell(0x60C1, 1, 4, 1300);
+  bench.run(10);
+  assert_int_equal(bench.position(), 1250);
+  bench.tell(0x6040, 0, 2, 0x0F);
+  bench.run(100);
+  bench.ask(0x6041, 0);
+  assert_int_equal(bench.value & 0x106F, 0x0027);
+}
+
 void a_fault_is_in_the_error_register_until_it_is_reset(void**) {
   Bench bench;
   assert_true(bench.holds(0x1001, 0, 0x4F, 0));
@@ -254,13 +300,13 @@ void a_lost_heartbeat_is_in_the_error_register_until_it_is_enabled_anew(void**) 
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(records_tell_their_highest_subindex),
-      cmocka_unit_test(what_is_missing_is_told_as_what_it_is),
+      cmocka_unit_test(objects_answer_as_what_they_are),
       cmocka_unit_test(sync_has_the_identifier_that_it_is_given),
       cmocka_unit_test(a_pdo_comes_with_each_so_many_syncs),
       cmocka_unit_test(a_pdo_of_type_0_comes_with_the_sync_behind_a_change),
       cmocka_unit_test(a_pdo_of_type_255_comes_with_its_event_timer_and_a_change),
       cmocka_unit_test(targets_may_be_relative_to_the_last_one),
+      cmocka_unit_test(interpolation_is_enabled_beside_the_operation),
       cmocka_unit_test(a_fault_is_in_the_error_register_until_it_is_reset),
       cmocka_unit_test(a_lost_heartbeat_is_in_the_error_register_until_it_is_enabled_anew),
   };

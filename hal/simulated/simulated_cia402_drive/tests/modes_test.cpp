@@ -19,6 +19,80 @@ void cyclic_positions_are_followed_without_a_jump(void**) {
   assert_true((one.status & status_bit::internal_limit) == 0);
 }
 
+// Object by object, as CiA 402 says, without the master's switch for it: points are taken at any time, and
+// gone to while bit 4 of the controlword is set, each within the period (60C2) that was told.
+void points_are_gone_to_while_interpolation_is_enabled(void**) {
+  SimulatedCia402Drive drive{{.node = drive_node}};
+  DriveObjects& objects = drive.objects();
+  Time now{std::chrono::seconds(1)};
+  canopen::Outbox said;
+  const auto run = [&](int ms) {
+    for (int i = 0; i < ms; ++i) {
+      now += milliseconds(1);
+      drive.advance(now, said);
+      while (!said.is_empty()) said.pop();
+    }
+  };
+  const auto send = [&](const canopen::Message& message) {
+    drive.receive(message, now, said);
+    while (!said.is_empty()) said.pop();
+  };
+  drive.power_on(now);
+  run(30);
+  using namespace canopen::cia402::objects;
+  // RPDO 1: controlword and point, with SYNC; period 10 ms.
+  objects.set({0x1400, 1}, 0x205);
+  objects.set({0x1400, 2}, 1);
+  objects.set({0x1600, 0}, 2);
+  objects.set({0x1600, 1}, 0x60400010);
+  objects.set({0x1600, 2}, 0x60C10120);
+  objects.set(period_value, 10);
+  objects.set(canopen::cia402::objects::mode, 7);
+  send({0x000, 2, {0x01, drive_node}});
+  const auto cycle_with = [&](std::uint16_t word, std::int32_t point) {
+    canopen::Message message{0x205, 6, {}};
+    canopen::write_number(message.data.data(), 2, word);
+    canopen::write_number(message.data.data() + 2, 4, static_cast<std::uint32_t>(point));
+    send(message);
+    send({0x080, 0, {}});
+    run(10);
+    return objects.get(statusword);
+  };
+  for (const auto word : {std::uint16_t{0x06}, std::uint16_t{0x07}, std::uint16_t{0x0F}}) {
+    for (int i = 0; i < 10; ++i) cycle_with(word, 1000);
+  }
+  assert_int_equal(objects.get(statusword) & 0x6F, 0x27);
+  assert_int_equal(objects.get_signed(mode_display), 7);
+  // Enabled, and not led: however far the point is.
+  assert_int_equal(cycle_with(0x0F, 5000) & 0x1000, 0);
+  run(100);
+  assert_true(drive.motion().position() == 1000);
+  assert_true((cycle_with(0x1F, 1100) & 0x1000) != 0);
+  assert_true(drive.motion().position() == 1100);
+  // In a straight line through the period.
+  canopen::Message next{0x205, 6, {0x1F, 0, 0xB0, 0x04, 0, 0}};  // 1200
+  send(next);
+  send({0x080, 0, {}});
+  run(5);
+  assert_true(std::abs(drive.motion().position() - 1150) < 1e-6);
+  run(5);
+  assert_true(drive.motion().position() == 1200);
+  // No point comes: it holds.
+  run(100);
+  assert_true(drive.motion().position() == 1200 && drive.motion().is_at_rest());
+  assert_int_equal(cycle_with(0x0F, 1300) & 0x1000, 0);
+  run(100);
+  assert_true(drive.motion().position() == 1200);
+  // Enabled again, it goes to the point that stands.
+  assert_true((cycle_with(0x1F, 1300) & 0x1000) != 0);
+  assert_true(drive.motion().position() == 1300);
+  // Halt stops it, and a quick stop ends interpolation with the operation.
+  cycle_with(0x11F, 9000);
+  run(100);
+  assert_true(drive.motion().is_at_rest() && drive.motion().position() < 2000);
+  assert_int_equal(cycle_with(0x02, 9000) & 0x1000, 0);
+}
+
 void a_halt_of_cyclic_positions_takes_its_deceleration(void**) {
   Axis one;
   assert_true(one.enable());
@@ -156,6 +230,7 @@ int main() {
   using namespace flexrf;
   const CMUnitTest tests[] = {
       cmocka_unit_test(cyclic_positions_are_followed_without_a_jump),
+      cmocka_unit_test(points_are_gone_to_while_interpolation_is_enabled),
       cmocka_unit_test(a_halt_of_cyclic_positions_takes_its_deceleration),
       cmocka_unit_test(an_internal_limit_is_shown),
       cmocka_unit_test(cyclic_velocities_are_followed),

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 
+#include "hal/interfaces/servo_drive/servo_restraints.hpp"
 #include "hal/simulated/simulated_cia402_drive/tests/axis_cell.hpp"
 #include "hal/simulated/simulated_cia402_drive/tests/odd_drives.hpp"
 #include "tests/cmocka.hpp"
@@ -252,6 +253,71 @@ void an_endless_axis_that_was_homed_counts_from_its_home(void**) {
   assert_true(cell.axis.fault().is_ok());
 }
 
+/// A drive that has this mode instead: led as in cyclic position, from where it is, by no farther a step.
+void interpolated_positions_are_followed(void**) {
+  for (const bool on_each_object : {false, true}) {
+    AxisPlan with = plan();
+    with.mode = Mode::interpolated_position;
+    with.homing_method = 33;
+    Cell cell(with, {.node = node, .acts_on_each_object = on_each_object});
+    assert_true(cell.run_until_enabled());
+    cell.run(300);
+    assert_true(cell.is_at(-1) && cell.drive.longest_jump() == 0);
+    cell.position = 5;
+    cell.run(700);
+    assert_true(cell.is_at(5) && cell.drive.motion().position() == -5000);
+    assert_int_equal(cell.drive.objects().get(canopen::cia402::objects::period_value), 7);
+    cell.position = -5;
+    cell.run(200);
+    cell.may_move = false;
+    cell.run(500);
+    const double rest = cell.axis.state()->position;
+    assert_true(cell.axis.is_off() && rest > -5 && rest < 5);
+    cell.position = std::nullopt;
+    assert_true(cell.run_until_enabled());
+    cell.run(300);
+    assert_true(cell.is_at(rest));
+    cell.axis.home();
+    cell.run(4000);
+    assert_true(cell.axis.homing() == canopen::cia402::Homing::homed && cell.is_at(0));
+    cell.position = 3;
+    cell.run(1000);
+    assert_true(cell.is_at(3) && cell.axis.fault().is_ok());
+    assert_true(cell.drive.longest_jump() <= 20000 * 0.007 * 2);
+  }
+}
+
+/// It stays enabled, and says that it does not follow: which is told while it lasts, a few cycles after it
+/// began.
+void a_drive_that_ignores_its_set_points_is_told(void**) {
+  for (const Mode mode : {Mode::cyclic_position, Mode::cyclic_velocity}) {
+    AxisPlan with = plan();
+    with.mode = mode;
+    Cell cell(with);
+    assert_true(cell.run_until_enabled());
+    cell.run(1000);
+    assert_null(cell.axis.take_restraint().reason);
+    cell.drive.ignore_set_points(true);
+    cell.run(42);
+    assert_null(cell.axis.take_restraint().reason);
+    for (int i = 0; i < 30; ++i) {
+      cell.run(42);
+      const Restraint said = cell.axis.take_restraint();
+      assert_true(i == 0 || said.reason == servo_restraints::set_points_ignored);
+      assert_true(cell.axis.is_enabled() && cell.axis.fault().is_ok());
+    }
+    cell.drive.ignore_set_points(false);
+    cell.run(21);
+    cell.axis.take_restraint();
+    cell.run(200);
+    assert_null(cell.axis.take_restraint().reason);
+    // Neither while it homes nor while it is off does that bit say so.
+    cell.may_move = false;
+    cell.run(500);
+    assert_null(cell.axis.take_restraint().reason);
+  }
+}
+
 void a_drive_fault_is_told_with_what_the_drive_says(void**) {
   Cell cell;
   assert_true(cell.run_until_enabled());
@@ -441,6 +507,8 @@ int main() {
       cmocka_unit_test(an_endless_axis_has_no_end),
       cmocka_unit_test(an_endless_axis_goes_on_when_the_counter_runs_over),
       cmocka_unit_test(an_endless_axis_that_was_homed_counts_from_its_home),
+      cmocka_unit_test(interpolated_positions_are_followed),
+      cmocka_unit_test(a_drive_that_ignores_its_set_points_is_told),
       cmocka_unit_test(a_drive_fault_is_told_with_what_the_drive_says),
       cmocka_unit_test(a_node_that_resets_in_motion_is_a_fault_and_comes_back_off),
       cmocka_unit_test(a_cable_out_in_motion_stops_the_drive_and_is_told),

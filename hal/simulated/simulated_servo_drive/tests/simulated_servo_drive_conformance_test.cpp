@@ -44,8 +44,11 @@ class SimulatedWorld final : public ServoDriveWorld {
     return initialised_;
   }
   bool stick_axis() override {
-    if (initialised_) drive_.driver().far_end().drive().cut_motor(true);
-    return initialised_;
+    if (!initialised_) return false;
+    // Between two obstacles, against which it presses.
+    SimulatedCia402Drive& far_end = drive_.driver().far_end().drive();
+    far_end.block(far_end.motion().position(), far_end.motion().position());
+    return true;
   }
   bool trip_drive() override {
     if (initialised_) {

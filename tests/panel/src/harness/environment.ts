@@ -6,10 +6,12 @@ import { fileURLToPath } from 'node:url';
 
 const build = process.env['FLEXRF_BUILD'] ?? fileURLToPath(new URL('../../../../build/release', import.meta.url));
 
-export type ApplicationName = 'keyboard' | 'keyboard-single' | 'panel_cell';
+const ownApplications = ['panel_cell', 'brief_session'] as const;
+export type ApplicationName = 'keyboard' | 'keyboard-single' | (typeof ownApplications)[number];
 
 export function executableOf(name: ApplicationName): string {
-  return name === 'panel_cell' ? join(build, 'tests/panel', name) : join(build, 'apps', name, name);
+  const own: readonly string[] = ownApplications;
+  return own.includes(name) ? join(build, 'tests/panel', name) : join(build, 'apps', name, name);
 }
 
 export const passwordTool = join(build, 'web-ui/server/access/flexrf-password');

@@ -48,6 +48,7 @@ export function deniedAction(situation: Situation, role: Role): string {
 export function deniedControl(situation: Situation): string {
   const link = deniedLink(situation);
   if (link) return link;
+  if (situation.session?.lapsed) return 'log in again';
   if (!situation.session || !includes(situation.session.role, 'operator')) return 'needs operator';
   const { holder, wanted_by: wanted } = situation.state?.control ?? { holder: null, wanted_by: null };
   if (holder?.local && !situation.session.local) return 'held at the machine';

@@ -246,7 +246,9 @@ export class Connection {
       if (socket.readyState <= 1) socket.close();
     }
     this.#phase = 'waiting';
-    this.#detail = detail;
+    // Of a try that failed once more what was explained last holds until it is explained anew: who reads it, or logs in
+    // because of it, sees nothing come and go.
+    if (wasOpen || !again || detail !== '') this.#detail = detail;
     this.#stale = true;
     this.#roundTrip = undefined;
     this.#lastPing = -Infinity;
@@ -259,12 +261,13 @@ export class Connection {
     this.#failures += 1;
     clearTimeout(this.#retry);
     this.#retry = setTimeout(() => this.#connect(), delay);
-    if (!wasOpen) void this.#explain();
+    if (!wasOpen) void this.#explain(detail);
   }
 
-  async #explain(): Promise<void> {
-    const detail = await this.options.explain?.();
-    if (!detail || this.#phase === 'open') return;
+  /** `reason`: what the lost connection itself said. */
+  async #explain(reason: string): Promise<void> {
+    const detail = (await this.options.explain?.()) || reason;
+    if (this.#phase === 'open') return;
     this.#detail = detail;
     this.options.onStatus();
   }

@@ -12,6 +12,7 @@ import { getJson } from './http';
 import type { Answer, ApplicationState, Hello, LogLine, ServerEvent, SessionInfo, TopicName, Values } from './protocol';
 import { Registry, type BuiltInWidgets } from './registry';
 import { Store } from './store';
+import type { Missing } from '../shell/missing';
 import { Subscriptions } from './subscriptions';
 import { displayUnits } from './units';
 
@@ -150,6 +151,24 @@ export class PanelCore implements Core {
 
   async createWidget(what: { item: ItemInfo } | { placement: Placement }): Promise<WidgetElement> {
     try {
+      return await this.#makeWidget(what);
+    } catch (error) {
+      const name = 'item' in what ? what.item.label : what.placement.label;
+      const missing: Missing & Partial<WidgetElement> = Object.assign(document.createElement('flexrf-missing') as Missing, {
+        text: `${name} cannot be shown: ${textOfError(error)}`,
+        again: async () => {
+          const made = await this.createWidget(what);
+          made.host = missing.host ?? this.host; // whoever asked for it may have put another there
+          missing.replaceWith(made);
+        },
+      });
+      return Object.assign(missing, { host: this.host }, what);
+    }
+  }
+
+  /** Rejects when there is none, and no other for the item either. */
+  async #makeWidget(what: { item: ItemInfo } | { placement: Placement }): Promise<WidgetElement> {
+    try {
       const kind = 'item' in what
         ? await this.registry.kindFor(what.item)
         : await this.registry.kindForRow(this.host, what.placement);
@@ -159,16 +178,10 @@ export class PanelCore implements Core {
       const element = await this.registry.create(kind, controls);
       return Object.assign(element, { host: this.host }, what);
     } catch (error) {
-      if ('item' in what && what.item.widget !== undefined) {
-        const { widget, ...usual } = what.item;
-        const note = `The widget “${widget}” cannot be shown: ${error instanceof Error ? error.message : String(error)}`;
-        return Object.assign(await this.createWidget({ item: usual }), { note });
-      }
-      const name = 'item' in what ? what.item.label : what.placement.label;
-      const broken = document.createElement('p');
-      broken.className = 'broken';
-      broken.textContent = `${name} cannot be shown: ${error instanceof Error ? error.message : String(error)}`;
-      return Object.assign(broken, { host: this.host }, what);
+      if (!('item' in what) || what.item.widget === undefined) throw error;
+      const { widget, ...usual } = what.item;
+      const note = `The widget “${widget}” cannot be shown: ${textOfError(error)}`;
+      return Object.assign(await this.#makeWidget({ item: usual }), { note });
     }
   }
 
@@ -268,6 +281,10 @@ export class PanelCore implements Core {
 function added<Callback>(set: Set<Callback>, callback: Callback): () => void {
   set.add(callback);
   return () => set.delete(callback);
+}
+
+function textOfError(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
 }
 
 function openSocket(): Socket {

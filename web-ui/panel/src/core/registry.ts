@@ -13,6 +13,7 @@
 // <flexrf-widget-KIND>; it never calls customElements.define itself. `host`, `item` or `placement` are set before it is
 // connected. What it may use is in contract.ts.
 import type { ItemInfo, Placement, RegisterWidget, WidgetElement, WidgetHost } from '../contract';
+import { loadPart } from './parts';
 
 type WidgetClass = new () => WidgetElement;
 
@@ -84,16 +85,17 @@ export class Registry {
   }
 
   #builtIns(): Promise<BuiltInWidgets> {
-    this.#builtIn ??= this.loadBuiltIn().then((module) => {
+    this.#builtIn ??= loadPart(this.loadBuiltIn).then((module) => {
       module.registerBuiltIn(this.register);
       return module;
     });
+    this.#builtIn.catch(() => { this.#builtIn = undefined; });
     return this.#builtIn;
   }
 
   async #furtherOnes(): Promise<void> {
     const builtIn = await this.#builtIns();
-    this.#further ??= builtIn.registerFurther(this.register);
+    this.#further ??= loadPart(() => builtIn.registerFurther(this.register));
     this.#further.catch(() => { this.#further = undefined; });
     await this.#further;
   }

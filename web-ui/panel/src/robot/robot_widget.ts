@@ -4,6 +4,7 @@
 // the tool (JointState, RobotArmFeedback).
 import { css, html, nothing, type CSSResultGroup } from 'lit';
 import type { ItemInfo, Joint, Value } from '../contract';
+import { loadPart } from '../core/parts';
 import { displayUnits, formatNumber } from '../core/units';
 import { LiveText } from '../widgets/live_text';
 import { widgetStyles } from '../widgets/styles';
@@ -67,6 +68,17 @@ export class RobotWidget extends WidgetBase {
         color: var(--stale);
         font-style: italic;
       }
+      section {
+        position: relative;
+      }
+      /* Over the picture that stands still: what lies below does not move. */
+      #absence.over {
+        position: absolute;
+        inset: 0 auto auto 0;
+        margin: 0;
+        padding: 2px 6px;
+        background: var(--surface);
+      }
       .views {
         display: flex;
         flex-wrap: wrap;
@@ -122,8 +134,19 @@ export class RobotWidget extends WidgetBase {
     this.tableTimer = undefined;
     this.scene?.dispose();
     this.scene = undefined;
-    // A canvas whose context was given back gets no other: the next view gets a new canvas.
+    this.renewCanvas();
+  }
+
+  /** A canvas whose context was given back gets no other: the next view gets a new canvas. */
+  private renewCanvas(): void {
     this.renderRoot.querySelector('canvas')?.replaceWith(this.makeCanvas());
+  }
+
+  private again(): void {
+    this.renewCanvas();
+    this.trouble = '';
+    this.requestUpdate();
+    void this.build(this.generation);
   }
 
   protected override firstUpdated(): void {
@@ -156,8 +179,9 @@ export class RobotWidget extends WidgetBase {
             <button aria-label=${view.name} title=${view.name} @click=${() => this.scene && view.act(this.scene)}>${view.sign}</button>
           `)}
         </div>
-        ${this.trouble === '' ? nothing : html`<p class="abnormal" role="status">No 3D view: ${this.trouble}</p>`}
-        <p class="abnormal" id="absence"></p>
+        ${this.trouble === '' ? nothing : html`<p class="abnormal" role="status">No 3D view: ${this.trouble}
+          <button @click=${() => this.again()}>Try again</button></p>`}
+        <p class="abnormal ${this.trouble === '' ? 'over' : ''}" id="absence"></p>
         ${this.note === '' ? nothing : html`<p class="abnormal">${this.note}</p>`}
         <details ?open=${this.trouble !== ''}>
           <summary>Joints as a table</summary>
@@ -252,7 +276,7 @@ export class RobotWidget extends WidgetBase {
       return;
     }
     try {
-      const { RobotScene } = await import('./scene');
+      const { RobotScene } = await loadPart(() => import('./scene'));
       if (generation !== this.generation) return;
       const style = getComputedStyle(this);
       const colour = (name: string, otherwise: string): string => style.getPropertyValue(name).trim() || otherwise;

@@ -4,6 +4,7 @@ import { LitElement, css, html, nothing } from 'lit';
 import { customElement, query, state } from 'lit/decorators.js';
 import { hasControl, includes } from '../core/access';
 import { PanelCore } from '../core/panel_core';
+import { loadPart } from '../core/parts';
 import { views } from '../views';
 import './control';
 import './header';
@@ -110,6 +111,7 @@ export class Panel extends LitElement {
   #preferences = new Preferences(document.documentElement, localStorage, matchMedia('(prefers-color-scheme: dark)'));
   #ends: (() => void)[] = [];
   #asked = false;
+  #loadsConsent = false;
 
   readonly core = new PanelCore({
     onModel: (model) => {
@@ -178,7 +180,7 @@ export class Panel extends LitElement {
   #banner(): unknown {
     const { link } = this.core;
     if (link.phase === 'open' && !link.stale) return nothing;
-    if (!this.generation && link.phase === 'connecting') return nothing;
+    if (!this.generation && link.phase === 'connecting' && link.detail === '') return nothing; // the first try
     const why = this.ended ? `The application ended: ${this.ended}.` : link.detail === 'login' ? 'Log in to connect.' : link.detail;
     return html`<p role="alert">⚠ No connection to the application. Values are old, controls are dead. ${why}</p>`;
   }
@@ -197,7 +199,7 @@ export class Panel extends LitElement {
 
   #onState(): void {
     const { link } = this.core;
-    if (hasControl(this.core.situation)) void import('./consent').then(() => { this.asks = true; });
+    if (!this.asks && hasControl(this.core.situation)) void this.#loadConsent();
     if (this.generation) document.title = titleOf(this.core.application, this.core);
     const lapsed = this.core.session?.lapsed === true;
     if (link.phase === 'open') this.ended = '';
@@ -220,9 +222,9 @@ export class Panel extends LitElement {
   /** The views are dead below a dialog: a jog button would not see its release. */
   async #open(dialog: DialogName): Promise<void> {
     try {
-      await dialogs[dialog]();
-    } catch {
-      this.notices?.add('The dialog could not be loaded. Load the page again when the application answers.', 'warning');
+      await loadPart(dialogs[dialog]);
+    } catch (error) {
+      this.notices?.add(`The dialog cannot be shown: ${(error as Error).message}. Its button tries again.`, 'warning');
       return;
     }
     this.core.endHolds('a dialog was opened');
@@ -231,6 +233,19 @@ export class Panel extends LitElement {
 
   #close(): void {
     this.dialog = 'none';
+  }
+
+  /** With the next word of the application it is tried again: silence would hand control over. */
+  async #loadConsent(): Promise<void> {
+    if (this.#loadsConsent) return;
+    this.#loadsConsent = true;
+    try {
+      await loadPart(() => import('./consent'));
+      this.asks = true;
+    } catch (error) {
+      this.notices?.add(`Who asks for control cannot be shown: ${(error as Error).message}. It is tried again.`, 'warning');
+    }
+    this.#loadsConsent = false;
   }
 
   #fromAddress(): Route {

@@ -1,9 +1,10 @@
 // The control token: who holds it, taking and giving it back. The question to its holder: consent.ts.
-import { css, html, nothing } from 'lit';
+import { css, html } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
 import { deniedControl, deniedLink, hasControl, nameOf } from '../core/access';
 import { textOf } from '../core/host';
 import { ShellPart } from './part';
+import { Settled } from './settled';
 import { shellStyles } from './styles';
 
 @customElement('flexrf-control')
@@ -13,17 +14,10 @@ export class Control extends ShellPart {
     css`
       :host {
         display: flex;
-        flex-wrap: wrap;
         align-items: center;
-        gap: 2px 8px;
-      }
-      small {
-        flex-basis: 100%;
-      }
-      @media (max-width: 1100px) {
-        small {
-          flex-basis: auto;
-        }
+        gap: 8px;
+        min-width: 0;
+        min-height: var(--target);
       }
       .mine {
         font-weight: 600;
@@ -32,6 +26,7 @@ export class Control extends ShellPart {
   ];
 
   @state() private busy = false;
+  readonly #settled = new Settled(this);
 
   protected override render(): unknown {
     const control = this.core.state?.control;
@@ -39,14 +34,15 @@ export class Control extends ShellPart {
     const asked = control?.wanted_by?.you === true;
     const denied = deniedControl(this.core.situation);
     const holder = control?.holder;
+    const dead = !this.#settled.is(mine ? 'release' : 'take') || this.busy;
     const note = mine ? '' : asked ? 'The holder has 10 s to refuse.' : denied || this.core.controlRefused;
+    const who = mine ? '✓ You have control' : holder ? `${nameOf(holder)} has control` : 'Nobody has control';
     return html`
-      <span class=${mine ? 'mine' : ''}>${mine ? '✓ You have control' : holder ? `${nameOf(holder)} has control` : 'Nobody has control'}</span>
+      <div class="said" title=${`${who} ${note}`}><span class=${mine ? 'mine' : ''}>${who}</span> <small id="why">${note}</small></div>
       ${mine
-        ? html`<button ?disabled=${this.busy || deniedLink(this.core.situation) !== ''} @click=${() => this.#ask('release_control')}>Release</button>`
-        : html`<button ?disabled=${this.busy || asked || denied !== ''} aria-describedby="why"
+        ? html`<button ?disabled=${dead || deniedLink(this.core.situation) !== ''} @click=${() => this.#ask('release_control')}>Release</button>`
+        : html`<button ?disabled=${dead || asked || denied !== ''} aria-describedby="why"
             @click=${() => this.#ask('take_control')}>${asked ? 'Asked…' : holder ? 'Ask for control' : 'Take control'}</button>`}
-      ${note ? html`<small id="why">${note}</small>` : nothing}
     `;
   }
 

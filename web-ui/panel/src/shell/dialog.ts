@@ -14,8 +14,9 @@ export class Dialog extends LitElement {
         position: absolute;
         inset: 0;
         display: grid;
-        place-items: center;
-        padding: 8px;
+        /* From the top: what is said below its buttons moves none of them. */
+        place-items: start center;
+        padding: clamp(8px, 8dvh, 5rem) 8px 8px;
         overflow: auto;
         background: color-mix(in srgb, var(--flexrf-page) 80%, transparent);
       }

@@ -8,6 +8,7 @@ import './control';
 import './faults';
 import { logOut } from './log_out';
 import { ShellPart } from './part';
+import { Settled } from './settled';
 import { shellStyles } from './styles';
 import { modeOf, modeText, motionOf, motionText, stopText } from './words';
 
@@ -27,25 +28,44 @@ export class Header extends ShellPart {
   static override styles = [
     shellStyles,
     css`
+      /* Lines of fixed height, whatever they say: nothing in the header moves the views below it. */
       :host {
-        display: flex;
-        flex-wrap: wrap;
-        align-items: center;
-        gap: 4px 24px;
+        display: grid;
+        gap: 4px;
         padding: 6px 12px;
         background: var(--flexrf-surface);
       }
-      h1 {
-        font-size: 1.2em;
-        margin: 0;
-      }
-      div {
+      .line,
+      .motion,
+      .session {
         display: flex;
-        flex-wrap: wrap;
         align-items: center;
         gap: 4px 8px;
-        /* A button that comes or goes moves nothing below. */
+        min-width: 0;
         min-height: var(--target);
+      }
+      .line {
+        column-gap: 24px;
+      }
+      :is(.motion, flexrf-control) {
+        min-height: max(var(--target), 2.5em);
+      }
+      h1 {
+        flex: 0 1 auto;
+        min-width: 4rem;
+        font-size: 1.2em;
+        line-height: 1.3;
+        margin: 0;
+        overflow: hidden;
+        text-overflow: ellipsis;
+        white-space: nowrap;
+      }
+      flexrf-faults {
+        flex: 1 1 0;
+      }
+      .motion,
+      flexrf-control {
+        flex: 1 1 0;
       }
       .link {
         font-size: 0.85em;
@@ -55,12 +75,17 @@ export class Header extends ShellPart {
       }
       .session {
         margin-inline-start: auto;
-        flex-wrap: nowrap;
       }
-      flexrf-faults {
-        flex: 1 0 100%;
+      .session button {
+        flex: none;
       }
-      .stale :is(span, flexrf-control) {
+      .session > small {
+        overflow: hidden;
+        text-overflow: ellipsis;
+        white-space: nowrap;
+      }
+      .stale :is(span, small),
+      flexrf-control.stale {
         color: var(--flexrf-stale);
         font-style: italic;
         font-weight: 400;
@@ -70,31 +95,43 @@ export class Header extends ShellPart {
           --target: min(var(--flexrf-target-coarse), 44px);
         }
       }
-      /* Name and session in the first line, so that the others are few; no larger than a finger needs. */
-      @media (max-width: 1100px) {
+      /* No larger than a finger needs, as there are more lines. */
+      @media (max-width: 1200px) {
         :host {
           --target: min(var(--flexrf-target-coarse), 44px);
-          column-gap: 12px;
         }
         /* Their own host's size for fingers would be the larger one. */
         flexrf-control {
           --target: inherit;
         }
-        h1 {
-          order: -2;
-          flex: 1 1 max(5rem, 100% - 26rem);
-          min-width: 0;
-          overflow: hidden;
-          text-overflow: ellipsis;
+        .line {
+          column-gap: 12px;
         }
-        .session {
-          order: -1;
+        .first {
+          flex-wrap: wrap;
+        }
+        h1 {
+          flex: 1 1 0;
+        }
+        flexrf-faults {
+          flex: 1 0 100%;
+          order: 1;
         }
       }
       @media (max-width: 760px) {
         :host {
-          row-gap: 2px;
+          gap: 2px;
           padding: 2px 8px;
+        }
+        .line {
+          row-gap: 2px;
+        }
+        h1,
+        .session {
+          flex: 1 0 100%;
+        }
+        .second {
+          display: grid;
         }
         .unnamed {
           display: none;
@@ -107,6 +144,7 @@ export class Header extends ShellPart {
   ];
 
   @query('.link') private link!: HTMLElement;
+  readonly #settled = new Settled(this);
   #timer: ReturnType<typeof setInterval> | undefined;
 
   override connectedCallback(): void {
@@ -131,35 +169,38 @@ export class Header extends ShellPart {
     const mode = modeOf(core);
     const motion = motionOf(core);
     const abnormal = motion === 'stopped' ? 'alarm' : motion === 'enabled' || motion === 'unknown' ? '' : 'warning';
+    const [op, label] = motion === 'stopped' ? ['clear_stop_motion', 'Clear stop'] as const
+      : motion === 'inhibited' ? ['start_motion', 'Start motion'] as const : [];
+    const denied = op ? core.deniedAction('operator') : '';
+    const settled = this.#settled.is(op ?? '');
+    const note = [motion === 'stopped' ? stopText(core.state) : '', denied && `${label}: ${denied}`].filter((part) => part !== '').join(' · ');
     return html`
-      <h1>${core.application || 'FlexRF'}</h1>
-      <div class=${stale}>
-        <span class=${['running', 'starting', 'unknown'].includes(mode) ? '' : 'warning'}>${modeText(mode)}</span>
-        <span class=${abnormal}>${abnormal === 'alarm' ? '■ ' : abnormal ? '⚠ ' : ''}${motionText[motion]}</span>
-        ${motion === 'stopped' ? html`<small>${stopText(core.state)}</small>${this.#action('clear_stop_motion', 'Clear stop')}` : nothing}
-        ${motion === 'inhibited' ? this.#action('start_motion', 'Start motion') : nothing}
+      <div class="line first">
+        <h1>${core.application || 'FlexRF'}</h1>
+        <flexrf-faults .core=${core}></flexrf-faults>
+        <div class="session">
+          <span class="link"></span>
+          <small>${session?.lapsed ? `${session.user}: log in again` : session
+            ? html`<span class=${session.user ? '' : 'unnamed'}>${session.user || session.name}: </span>${session.role}`
+            : ''}</small>
+          ${session?.user && !session.lapsed
+            ? html`<button ?disabled=${unlinked} @click=${() => logOut(core)}>Log out</button>`
+            : session?.role === 'admin'
+              ? nothing // by the address that the application printed
+              : html`<button ?disabled=${unlinked} @click=${() => this.dispatchEvent(new Event('login'))}>Log in</button>`}
+          <button aria-label="Settings" title="Settings" @click=${() => this.dispatchEvent(new Event('settings'))}>⚙</button>
+        </div>
       </div>
-      <div class=${stale}><flexrf-control .core=${core}></flexrf-control></div>
-      <div class="session">
-        <span class="link"></span>
-        <small>${session?.lapsed ? `${session.user}: log in again` : session
-          ? html`<span class=${session.user ? '' : 'unnamed'}>${session.user || session.name}: </span>${session.role}`
-          : ''}</small>
-        ${session?.user && !session.lapsed
-          ? html`<button ?disabled=${unlinked} @click=${() => logOut(core)}>Log out</button>`
-          : session?.role === 'admin'
-            ? nothing // by the address that the application printed
-            : html`<button ?disabled=${unlinked} @click=${() => this.dispatchEvent(new Event('login'))}>Log in</button>`}
-        <button aria-label="Settings" title="Settings" @click=${() => this.dispatchEvent(new Event('settings'))}>⚙</button>
+      <div class="line second">
+        <div class="motion ${stale}">
+          <div class="said" title=${note || nothing}><span class=${['running', 'starting', 'unknown'].includes(mode) ? '' : 'warning'}>${modeText(mode)}</span>
+            <span class=${abnormal}>${abnormal === 'alarm' ? '■ ' : abnormal ? '⚠ ' : ''}${motionText[motion]}</span>
+            <small>${note}</small></div>
+          ${op ? html`<button ?disabled=${denied !== '' || !settled} title=${denied || nothing} @click=${() => this.#ask(op)}>${label}</button>` : nothing}
+        </div>
+        <flexrf-control class=${stale} .core=${core}></flexrf-control>
       </div>
-      <flexrf-faults .core=${core}></flexrf-faults>
     `;
-  }
-
-  #action(op: 'clear_stop_motion' | 'start_motion', label: string): unknown {
-    const denied = this.core.deniedAction('operator');
-    return html`<button ?disabled=${denied !== ''} title=${denied || nothing} @click=${() => this.#ask(op)}>${label}</button>
-      ${denied ? html`<small>${denied}</small>` : nothing}`;
   }
 
   async #ask(op: string): Promise<void> {

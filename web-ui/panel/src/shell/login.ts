@@ -1,14 +1,14 @@
 // Logging in. A session gets another role by it, so the connection is made anew.
-import { LitElement, css, html, nothing } from 'lit';
-import { customElement, property, state } from 'lit/decorators.js';
+import { css, html, nothing } from 'lit';
+import { customElement, state } from 'lit/decorators.js';
 import { deniedLink } from '../core/access';
 import { postJson } from '../core/http';
-import type { PanelCore } from '../core/panel_core';
-import { shellStyles } from './styles';
 import './dialog';
+import { ShellPart } from './part';
+import { shellStyles } from './styles';
 
 @customElement('flexrf-login')
-export class Login extends LitElement {
+export class Login extends ShellPart {
   static override styles = [
     shellStyles,
     css`
@@ -26,31 +26,21 @@ export class Login extends LitElement {
     `,
   ];
 
-  @property({ attribute: false }) core!: PanelCore;
   @state() private refusal = '';
   @state() private busy = false;
 
-  #end: (() => void) | undefined;
-
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.#end = this.core.watchState(() => this.requestUpdate());
-  }
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    this.#end?.();
-  }
-
   protected override render(): unknown {
     const dead = deniedLink(this.core.situation) !== '' && this.core.link.detail !== 'login';
+    const { session } = this.core;
+    const again = session?.lapsed ? session.user : '';
     return html`
       <flexrf-dialog heading="Log in" @close=${() => this.#close()}>
         <form @submit=${(event: SubmitEvent) => this.#submit(event)}>
-          <label>User <input name="user" autocomplete="username" autocapitalize="none" data-first required /></label>
-          <label>Password <input name="password" type="password" autocomplete="current-password" required /></label>
+          <label>User <input name="user" autocomplete="username" autocapitalize="none" value=${again} ?data-first=${!again} required /></label>
+          <label>Password <input name="password" type="password" autocomplete="current-password" ?data-first=${again} required /></label>
+          <button class="first" ?disabled=${this.busy || dead}>${this.busy ? 'Logging in…' : 'Log in'}</button>
           ${this.refusal ? html`<p class="alarm" role="alert">✕ ${this.refusal}</p>` : nothing}
           ${dead ? html`<p class="warning">⚠ No connection to the application.</p>` : nothing}
-          <button class="first" ?disabled=${this.busy || dead}>${this.busy ? 'Logging in…' : 'Log in'}</button>
         </form>
       </flexrf-dialog>
     `;

@@ -2,7 +2,9 @@
 import { LitElement, css, html, nothing } from 'lit';
 import { customElement, property, state } from 'lit/decorators.js';
 import type { PanelCore } from '../core/panel_core';
+import { loadPart } from '../core/parts';
 import type { ViewElement, ViewInfo } from '../views/view';
+import './missing';
 import type { Route } from './router';
 import { shellStyles } from './styles';
 
@@ -28,14 +30,18 @@ export class Outlet extends LitElement {
   @property({ attribute: false }) route!: Route;
   /** Changes with the application's descriptor: views are made anew then. */
   @property() generation = '';
+  /** Why there is nothing to show; only what could not be loaded is worth a second try. */
   @state() private failure = '';
+  @state() private unloaded = '';
 
   #shown: ViewElement | undefined;
   #shownAs = '';
 
   protected override render(): unknown {
-    return html`<slot></slot>${this.failure
-      ? html`<p class="alarm" role="alert">✕ ${this.failure}</p><button @click=${() => location.reload()}>Load the page again</button>`
+    return html`<slot></slot>${this.failure ? html`<p class="alarm" role="alert">✕ ${this.failure}</p>` : nothing}${this.unloaded
+      ? html`<flexrf-missing .text=${this.unloaded} .again=${() => this.#show()}>
+          <button @click=${() => location.reload()}>Load the page again</button> <small>That gives up what is typed and not yet set.</small>
+        </flexrf-missing>`
       : nothing}`;
   }
 
@@ -52,17 +58,20 @@ export class Outlet extends LitElement {
     }
     const info = this.views.find((view) => view.name === route.view);
     if (!info) {
-      this.#fail(`There is no view "${route.view}".`);
+      this.#clear();
+      this.failure = `There is no view "${route.view}".`;
       return;
     }
     try {
-      await info.load();
-    } catch {
-      this.#fail('This part of the page could not be loaded: the application was perhaps replaced.');
+      await loadPart(info.load);
+    } catch (error) {
+      if (this.route !== route) return;
+      this.#clear();
+      this.unloaded = `“${info.label || route.path.join('/')}” cannot be shown: ${(error as Error).message}`;
       return;
     }
     if (this.route !== route) return; // went on meanwhile
-    this.failure = '';
+    this.#clear();
     const view = Object.assign(document.createElement(info.tag) as ViewElement, {
       core: this.core, host: this.core.host, path: route.path,
     });
@@ -72,8 +81,8 @@ export class Outlet extends LitElement {
     this.dispatchEvent(new Event('shown', { bubbles: true, composed: true }));
   }
 
-  #fail(text: string): void {
-    this.failure = text;
+  #clear(): void {
+    this.failure = this.unloaded = '';
     this.#shown = undefined;
     this.replaceChildren();
   }

@@ -66,6 +66,19 @@ export const shellStyles = css`
     color: var(--flexrf-warning);
     font-weight: 600;
   }
+  /* Beside a button: what is, and what is to be said about it. Never more than two lines. */
+  .said {
+    display: -webkit-box;
+    -webkit-box-orient: vertical;
+    -webkit-line-clamp: 2;
+    overflow: hidden;
+    min-width: 0;
+    line-height: 1.2;
+    overflow-wrap: anywhere;
+  }
+  .said + button {
+    flex: none;
+  }
   .hidden {
     position: absolute;
     width: 1px;

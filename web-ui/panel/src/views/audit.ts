@@ -3,6 +3,7 @@ import { css, html, nothing } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
 import { getJson } from '../core/http';
 import { actOf, filterEntries, timeOf, type AuditEntry } from './audit_entries';
+import { filterField, toolStyles } from './list_tools';
 import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
@@ -13,20 +14,8 @@ const kept = 1000;
 export class Audit extends ViewBase {
   static override styles = [
     viewStyles,
+    toolStyles,
     css`
-      .tools {
-        display: flex;
-        flex-wrap: wrap;
-        align-items: center;
-        gap: 8px 16px;
-        margin-block: 8px;
-      }
-      label {
-        display: inline-flex;
-        align-items: center;
-        gap: 6px;
-        min-height: var(--target);
-      }
       table {
         width: 100%;
         border-collapse: collapse;
@@ -86,9 +75,7 @@ export class Audit extends ViewBase {
       <p class="muted">Who did what. The file of the application has more; what it did by itself is in the log.</p>
       ${this.trouble ? html`<p role="alert">⚠ ${this.trouble}</p>` : nothing}
       <div class="tools">
-        <label>Filter <input type="search" .value=${this.wanted} @input=${(event: Event) => {
-          this.wanted = (event.target as HTMLInputElement).value;
-        }} /></label>
+        ${filterField(this.wanted, (wanted) => { this.wanted = wanted; })}
         <span class="muted">${shown.length} of ${this.entries.length} entries</span>
       </div>
       ${shown.length === 0

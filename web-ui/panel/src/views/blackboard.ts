@@ -27,9 +27,6 @@ export class Blackboard extends ViewBase {
         text-overflow: ellipsis;
         white-space: nowrap;
       }
-      .value-cell.abnormal {
-        white-space: normal;
-      }
       button.expand {
         text-align: start;
         font-weight: 600;

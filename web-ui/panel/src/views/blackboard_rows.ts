@@ -136,6 +136,7 @@ export class SlotRow {
     if (reading.image !== undefined) this.value.text = 'image';
     else if (reading.value === null) this.value.text = `NULL: ${reading.reason || 'no value'}`;
     else this.value.text = compactText(this.slot.item, reading.value, this.core.units);
+    setAttribute(this.valueCell, 'title', missing ? this.value.text : ''); // cut where it is long: a second line would move the rows
     this.tick(this.receivedAt);
   }
 

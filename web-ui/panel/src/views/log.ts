@@ -2,6 +2,7 @@
 import { css, html, nothing } from 'lit';
 import { customElement, query, state } from 'lit/decorators.js';
 import type { LogLine } from '../core/protocol';
+import { filterField, toolStyles } from './list_tools';
 import { filterLines, severities, severityOf, type LogSeverity } from './log_lines';
 import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
@@ -13,6 +14,7 @@ const signs: { readonly [severity in LogSeverity]: string } = { debug: '', info:
 export class Log extends ViewBase {
   static override styles = [
     viewStyles,
+    toolStyles,
     css`
       :host {
         display: flex;
@@ -20,19 +22,6 @@ export class Log extends ViewBase {
         height: 100%;
         box-sizing: border-box;
         padding: 0;
-      }
-      .tools {
-        display: flex;
-        flex-wrap: wrap;
-        align-items: center;
-        gap: 8px 16px;
-        margin-block: 8px;
-      }
-      label {
-        display: inline-flex;
-        align-items: center;
-        gap: 6px;
-        min-height: var(--target);
       }
       /* The whole label is what a finger meets. */
       input[type='checkbox'] {
@@ -95,9 +84,7 @@ export class Log extends ViewBase {
     return html`
       <h2>Log</h2>
       <div class="tools">
-        <label>Filter <input type="search" .value=${this.wanted} @input=${(event: Event) => {
-          this.wanted = (event.target as HTMLInputElement).value;
-        }} /></label>
+        ${filterField(this.wanted, (wanted) => { this.wanted = wanted; })}
         <label>At least <select @change=${(event: Event) => {
           this.least = (event.target as HTMLSelectElement).value as LogSeverity;
         }}>${severities.map((name) => html`<option ?selected=${name === this.least}>${name}</option>`)}</select></label>

@@ -2,6 +2,7 @@
 import { css, html, nothing } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
 import type { Item, Model } from '../core/descriptor';
+import { loadPart } from '../core/parts';
 import { addressOfFault, faultCount, modeOf, modeText, motionOf, motionText, remedyOf } from '../shell/words';
 import './item_widget';
 import './placement_widget';
@@ -64,6 +65,8 @@ export class Overview extends ViewBase {
 
   /** The button that saves can be shown. */
   @state() private saves = false;
+  /** Why it cannot. */
+  @state() private saverFailure = '';
 
   override connectedCallback(): void {
     super.connectedCallback();
@@ -79,7 +82,6 @@ export class Overview extends ViewBase {
       <h2>${model.application}</h2>
       <p class="muted">${model.json.summary}</p>
       <div class="cards">
-        ${this.faults()}
         ${this.stateCard()}
         <section><h3>Configuration file</h3>${this.saver()}</section>
         ${placed.placements.map((placement) => html`
@@ -87,6 +89,7 @@ export class Overview extends ViewBase {
             <flexrf-placement .core=${this.core} .placement=${placement}></flexrf-placement></section>`)}
         ${placed.items.length > 0 ? html`<section><h3>Values</h3>${this.items(placed.items)}</section>` : nothing}
         ${nothingPlaced ? this.feedback(chosenFeedback(model)) : nothing}
+        ${this.faults() /* last: it comes and goes, and the header's line tells it, too */}
       </div>
     `;
   }
@@ -95,11 +98,22 @@ export class Overview extends ViewBase {
     const { state } = this.core;
     if (!state) return nothing;
     if (!state.values.file) return html`<p>Values are kept until the application ends: it was started without --config FILE.</p>`;
+    if (this.saverFailure) return html`<flexrf-missing .text=${this.saverFailure} .again=${() => this.loadSaver()}></flexrf-missing>`;
     if (!this.saves) {
-      void import('./values_saver').then(() => { this.saves = true; });
+      void this.loadSaver();
       return nothing;
     }
     return html`<flexrf-values-saver .core=${this.core} .host=${this.host}></flexrf-values-saver>`;
+  }
+
+  private async loadSaver(): Promise<void> {
+    try {
+      await loadPart(() => import('./values_saver'));
+      this.saves = true;
+      this.saverFailure = '';
+    } catch (error) {
+      this.saverFailure = `“Save now” cannot be shown: ${(error as Error).message}`;
+    }
   }
 
   private faults(): unknown {
@@ -126,7 +140,7 @@ export class Overview extends ViewBase {
               <dt>Application</dt><dd>${modeText(modeOf(this.core))}${state.cause && state.cause !== 'none' ? `: ${state.cause}` : ''}</dd>
               <dt>Motion</dt><dd>${motionText[motionOf(this.core)]}</dd>
               <dt>Faults</dt><dd>${state.faults.length === 0 ? 'none' : html`<strong class="alarm">✕ ${state.faults.length}</strong>`}</dd>
-              ${state.edit ? html`<dt>Being edited</dt><dd>${state.edit.components.join(', ')}</dd>` : nothing}
+              <dt>Being edited</dt><dd>${state.edit ? state.edit.components.join(', ') : 'nothing'}</dd>
               <dt>Connections</dt><dd>${state.server.connections} of ${state.server.places}</dd>
               <dt>Panel's delay</dt><dd>p99 ${(state.server.loop_delay_us.p99 / 1000).toFixed(2)} ms, most ${(state.server.loop_delay_us.max / 1000).toFixed(2)} ms</dd>
             </dl>`

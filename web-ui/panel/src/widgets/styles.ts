@@ -88,6 +88,46 @@ export const widgetStyles = css`
   .head.hidden + .content {
     justify-content: flex-start;
   }
+  /* Why there is no value takes no room of its own: a line that came and went would move what lies below. */
+  #absence {
+    width: 0;
+    flex: 6 1 auto;
+    margin-inline-end: calc(-1 * var(--gap));
+    overflow: hidden;
+    text-overflow: ellipsis;
+    white-space: nowrap;
+    text-align: end;
+    color: var(--muted);
+    font-size: 0.9em;
+    line-height: 1.2;
+  }
+  #absence:empty {
+    display: none;
+  }
+  #absence::after {
+    content: '\u00a0\u00a0';
+  }
+  .head.hidden + .content > #absence {
+    order: 1;
+    text-align: start;
+  }
+  /* What fills its place has no line to spare, and shows nothing meanwhile. */
+  .content:has(> :is(svg, .picture, .dial, .scroll, .cells)) {
+    position: relative;
+  }
+  .content:has(> :is(svg, .picture, .dial, .scroll, .cells)) > #absence {
+    position: absolute;
+    inset: 0 auto auto 0;
+    width: auto;
+    max-width: 100%;
+    margin: 0;
+    padding: 0 4px;
+    box-sizing: border-box;
+    white-space: normal;
+    text-align: start;
+    background: var(--surface);
+    z-index: 1;
+  }
   .notes {
     flex: 1 0 100%;
     display: flex;

@@ -26,6 +26,7 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
   private endings: (() => void)[] = [];
   private watching = false;
   private absence: LiveText | undefined;
+  private absentIn: Element | null = null;
 
   override connectedCallback(): void {
     super.connectedCallback();
@@ -76,14 +77,22 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
   protected override firstUpdated(): void {
     const absence = this.renderRoot.querySelector('#absence');
     if (absence) this.absence = new LiveText(absence);
+    this.absentIn = absence;
     if (this.reading) this.presentReading(this.reading);
     else this.show(null);
-    if (this.absence && !this.reading && this.watching) this.absence.text = 'no value yet';
+    if (!this.reading && this.watching) this.sayAbsent('no value yet');
   }
 
   private presentReading(reading: Reading): void {
-    if (this.absence) this.absence.text = reading.value === null && !reading.image ? reading.reason || 'no value' : '';
+    this.sayAbsent(reading.value === null && !reading.image ? reading.reason || 'no value' : '');
     this.show(reading.value);
+  }
+
+  /** In full where there is room beside what stands for the value, else by the pointer: it moves nothing. */
+  private sayAbsent(why: string): void {
+    if (!this.absence || this.absence.text === why) return;
+    this.absence.text = why;
+    this.absentIn?.setAttribute('title', why);
   }
 
   /** Writes a value into what is rendered, with as little as possible; null: there is none. */
@@ -129,9 +138,8 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
             ? html`<span id="label">${label}</span>`
             : html`<label id="label" for=${control}>${label}</label>`}${controls}
         </div>
-        <div class="content">${content}</div>
+        <div class="content"><span id="absence"></span>${content}</div>
         <div class="notes">
-          <span id="absence"></span>
           ${this.note === '' ? nothing : html`<span class="note">${this.note}</span>`} ${notes}
         </div>
         <span id="summary" class="hidden">${this.description()}</span>

@@ -96,7 +96,8 @@ void a_save_that_fails_says_why() {
   CHECK(mkdir(place.obstacle().c_str(), 0700) == 0);
   rig.request(Method::put, "components/producer/parameters", an_operator, R"({"gain": 3})");
   const Answer refused = rig.request(Method::post, "save-values", an_operator);
-  CHECK_EQUAL(refused.status, 409U);
+  CHECK_EQUAL(refused.status, 507U);
+  CHECK_EQUAL(refused.body.at("type").get<std::string>(), std::string{"/problems/not-stored"});
   CHECK_CONTAINS(refused.body.at("detail").get<std::string>(), "The values were not saved: cannot create");
   const json values = rig.get("state").body.at("values");
   CHECK_CONTAINS(values.at("failure").get<std::string>(), "cell.xml.new");

@@ -6,10 +6,10 @@
 namespace {
 
 using namespace flexrf;
-using namespace flexrf::user;
+using TestedUnit = flexrf::user::NewUnit;
 
 struct World {
-  UnitBench<NewUnit> bench;
+  UnitBench<TestedUnit> bench;
   SlotBench<Pose> wanted;
   SlotBench<Pose> raised;
   InputBinding inputs[1] = {wanted.input(std::chrono::milliseconds(500))};

@@ -22,7 +22,7 @@ class Finder final : public FinderUnit {
  private:
   /// In the row in the middle.
   void look(const CameraFrame& frame) {
-    const std::uint8_t* pixel = frame.data.data() + std::size_t{frame.height / 2} * frame.stride;
+    const std::uint8_t* pixel = frame.data().data() + std::size_t{frame.height / 2} * frame.stride;
     std::uint64_t sum = 0;
     std::uint64_t count = 0;
     for (std::uint32_t x = 0; x < frame.width; ++x, pixel += 3) {

@@ -1,5 +1,7 @@
 #include "units/source/source.hpp"
 
+#include <algorithm>
+
 namespace flexrf::user {
 
 void Source::step(const Tick& tick) {
@@ -12,6 +14,11 @@ void Source::step(const Tick& tick) {
   sample.publish(all);
   if (auto loan = picture.loan()) {
     loan->width = 4;
+    std::ranges::fill(loan->data(), static_cast<std::uint8_t>(tick.number));
+    loan.publish();
+  }
+  if (auto loan = usual_picture.loan()) {
+    std::ranges::fill(loan->data(), static_cast<std::uint8_t>(tick.number));
     loan.publish();
   }
   if (auto loan = thumbnail.loan()) {

@@ -58,7 +58,9 @@ describe('locked', () => {
   });
   it('says that the time of the session is over', () => {
     const over = situation('viewer', null);
-    expect(of('jog.step', { ...over, session: { ...over.session!, lapsed: true } })).toBe('log in again');
+    const lapsed = { ...over, session: { ...over.session!, lapsed: true } };
+    expect(of('jog.step', lapsed)).toBe('log in again');
+    expect(deniedControl(lapsed)).toBe('log in again');
   });
   it('says that motion has to be permitted, last of all and where the table says so', () => {
     const still = situation('operator');

@@ -9,7 +9,7 @@ const onEvent = vi.fn();
 const onFrame = vi.fn();
 let explanation = '';
 
-function connect(now?: () => number): Connection {
+function connect(now?: () => number, onStatus: () => void = () => undefined): Connection {
   const connection = new Connection({
     makeSocket: () => {
       const socket = new FakeSocket();
@@ -19,7 +19,7 @@ function connect(now?: () => number): Connection {
     random: () => 0.5,
     ...(now && { now }),
     onHello, onEvent, onFrame,
-    onStatus: () => undefined,
+    onStatus,
     explain: () => Promise.resolve(explanation),
   });
   connection.start();
@@ -142,6 +142,22 @@ describe('coming back', () => {
     newest().lose();
     await vi.advanceTimersByTimeAsync(0);
     expect(connection.status.detail).toBe('login');
+  });
+  it('keeps what was explained through the next tries, until it is explained anew', async () => {
+    explanation = 'login';
+    const details: string[] = [];
+    let connection: Connection | undefined;
+    const note = (): void => { details.push(connection?.status.detail ?? ''); };
+    connection = connect(undefined, note);
+    for (let tries = 0; tries < 3; tries += 1) {
+      newest().lose();
+      await vi.advanceTimersByTimeAsync(2000);
+    }
+    expect(new Set(details.slice(details.indexOf('login')))).toEqual(new Set(['login']));
+    explanation = ''; // let in by now
+    newest().lose();
+    await vi.advanceTimersByTimeAsync(0);
+    expect(connection.status.detail).toBe('');
   });
   it('is ended by stop()', () => {
     const connection = connect();

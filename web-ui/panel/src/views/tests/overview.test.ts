@@ -32,7 +32,7 @@ describe('the overview without a word from the application', () => {
     expect(old()).toEqual([]);
     fake.turns(true);
     await view.updateComplete;
-    expect(old()).toEqual(['section', 'dl']);
+    expect(old()).toEqual(['dl', 'section']);
     expect(view.shadowRoot!.querySelector('section.stale')!.getAttribute('role')).toBe('alert');
   });
   it('tells what becomes of values, with a button where there is a file', async () => {
