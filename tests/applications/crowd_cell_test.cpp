@@ -40,21 +40,26 @@ void refuse(Running& running, const ParameterRequest& request, const char* reaso
   CHECK_CONTAINS(std::string{answer.reason}, reason);
 }
 
-nlohmann::json gathered(Running& running) {
-  return running.newest("gatherer.feedback");
+nlohmann::json gathered(Running& running, const char* field) {
+  return running.newest("gatherer.feedback", field);
+}
+
+std::uint64_t looks_of(Running& running) {
+  const nlohmann::json looks = gathered(running, "looks");
+  return looks.is_null() ? 0 : looks.get<std::uint64_t>();
 }
 
 bool has_gains(Running& running, const std::vector<std::uint32_t>& gains) {
-  return wait_until([&] { return gathered(running).at("gains") == nlohmann::json(gains); });
+  return wait_until([&] { return gathered(running, "gains") == nlohmann::json(gains); });
 }
 
 void wait_for_start(Running& running) {
-  CHECK(wait_until([&] { return !gathered(running).is_null() && gathered(running).at("seen") == 2; }));
+  CHECK(wait_until([&] { return gathered(running, "seen") == 2; }));
 }
 
 void check_nothing_torn(Running& running) {
-  CHECK_EQUAL(gathered(running).at("torn").get<int>(), 0);
-  CHECK_EQUAL(gathered(running).at("unexplained").get<int>(), 0);
+  CHECK_EQUAL(gathered(running, "torn").get<int>(), 0);
+  CHECK_EQUAL(gathered(running, "unexplained").get<int>(), 0);
 }
 
 // ---- populations
@@ -63,7 +68,7 @@ void members_are_activated_cloned_and_retired() {
   Running running(crowd);
   wait_for_start(running);
   CHECK(has_gains(running, {1, 1, 0, 0, 0, 0, 0, 0}));
-  CHECK(wait_until([&] { return gathered(running).at("retired") == 6; }));
+  CHECK(wait_until([&] { return gathered(running, "retired") == 6; }));
   const std::uint16_t first = running.unit("walker[0]");
   const auto member = [&](int n) { return static_cast<std::uint16_t>(first + n); };
   accept(running, with_gain(request_to(member(5), RequestKind::activate), 7));
@@ -98,8 +103,8 @@ void under_load_nothing_is_torn_and_every_request_answered() {
     accept(running, request_to(copy, RequestKind::retire));
   }
   // A look that began after the last of them.
-  const std::uint64_t looks = gathered(running).at("looks");
-  CHECK(wait_until([&] { return gathered(running).at("looks").get<std::uint64_t>() > looks + 1; }));
+  const std::uint64_t looks = looks_of(running);
+  CHECK(wait_until([&] { return looks_of(running) > looks + 1; }));
   CHECK(has_gains(running, {1, 1, 0, 0, 0, 0, 0, 0}));
   check_nothing_torn(running);
   CHECK_EQUAL(running.stop().exit_code, 0);
@@ -109,20 +114,17 @@ void under_load_nothing_is_torn_and_every_request_answered() {
 
 void each_instance_of_a_group_has_its_own() {
   Running running(crowd);
-  CHECK(wait_until([&] {
-    const nlohmann::json seen = gathered(running);
-    return !seen.is_null() && seen.at("relayed_gains") == nlohmann::json({10, 11, 12});
-  }));
+  CHECK(wait_until([&] { return gathered(running, "relayed_gains") == nlohmann::json({10, 11, 12}); }));
   accept(running, with_gain(request_to(running.unit("pair[1].walker"), RequestKind::set), 500));
-  CHECK(wait_until([&] { return gathered(running).at("relayed_gains") == nlohmann::json({10, 501, 12}); }));
+  CHECK(wait_until([&] { return gathered(running, "relayed_gains") == nlohmann::json({10, 501, 12}); }));
   check_nothing_torn(running);
   CHECK_EQUAL(running.stop().exit_code, 0);
 }
 
 // ---- reconfiguration
 
-std::uint32_t stride_of(Running& running, const char* slot) {
-  return running.newest(slot).at("stride");
+nlohmann::json stride_of(Running& running, const char* slot) {
+  return running.newest(slot, "stride");
 }
 
 void reconfiguration_is_done_or_rolled_back() {
@@ -171,11 +173,11 @@ void press_falter(Running& running) {
 void a_unit_is_restarted_once_and_motion_needs_a_new_start() {
   Running running(crowd);
   const std::uint16_t patient = running.unit("patient");
-  const auto feedback = [&] { return running.newest("patient.feedback"); };
+  const auto feedback = [&](const char* field) { return running.newest("patient.feedback", field); };
   // Without autostart nothing moves before a person says so.
-  CHECK(wait_until([&] { return !feedback().is_null() && feedback().at("inhibited") == true; }));
+  CHECK(wait_until([&] { return feedback("inhibited") == true; }));
   CHECK(running.control().start_motion().is_ok());
-  CHECK(wait_until([&] { return feedback().at("inhibited") == false; }));
+  CHECK(wait_until([&] { return feedback("inhibited") == false; }));
   const double much = 4.0;
   ParameterRequest set = request_to(patient, RequestKind::set);
   CHECK(set.add(dose, 0, &much, sizeof(much)));
@@ -185,19 +187,19 @@ void a_unit_is_restarted_once_and_motion_needs_a_new_start() {
   press_falter(running);
   CHECK(wait_until([&] { return running.control().faults() == 1; }));
   CHECK(wait_until([&] { return running.state("patient").life.load() == Life::running; }));
-  CHECK(wait_until([&] { return feedback().at("inhibited") == true; }));
-  CHECK(feedback().at("steps").get<std::uint64_t>() >= 1);
-  CHECK_EQUAL(running.newest("patient.values").at("dose").get<double>(), much);
+  CHECK(wait_until([&] { return feedback("inhibited") == true; }));
+  CHECK(feedback("steps").get<std::uint64_t>() >= 1);
+  CHECK_EQUAL(running.newest("patient.values", "dose").get<double>(), much);
   CHECK(!running.control().may_move());
   CHECK(running.control().start_motion().is_ok());
-  CHECK(wait_until([&] { return feedback().at("inhibited") == false; }));
+  CHECK(wait_until([&] { return feedback("inhibited") == false; }));
 
   press_falter(running);
   CHECK(wait_until([&] { return running.control().faults() == 2; }));
   CHECK(wait_until([&] { return running.state("patient").life.load() == Life::fault; }));
   // Its thread goes on without it; the policy does not come again.
-  const std::uint64_t looks = gathered(running).at("looks");
-  CHECK(wait_until([&] { return gathered(running).at("looks").get<std::uint64_t>() > looks + 1000; }));
+  const std::uint64_t looks = looks_of(running);
+  CHECK(wait_until([&] { return looks_of(running) > looks + 1000; }));
   CHECK_EQUAL(running.state("patient").life.load(), Life::fault);
   CHECK_EQUAL(running.stop().exit_code, 2);
 }

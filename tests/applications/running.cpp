@@ -26,6 +26,10 @@ void in_a_process(void (*body)()) {
       const std::size_t size = std::min(failed.message.size(), sizeof(message) - 1);
       if (write(ends[1], failed.message.data(), size) < 0) _exit(3);
       _exit(1);
+    } catch (const std::exception& other) {
+      const std::string text = std::string{"the test itself: "} + other.what();
+      if (write(ends[1], text.data(), std::min(text.size(), sizeof(message) - 1)) < 0) _exit(3);
+      _exit(1);
     }
     _exit(0);
   }
@@ -94,6 +98,11 @@ nlohmann::json Running::newest(const std::string& slot) {
     return nlohmann::json::parse(json.take());
   }
   throw fixture::CheckFailed{"there is no observed slot " + slot};
+}
+
+nlohmann::json Running::newest(const std::string& slot, const std::string& field) {
+  const nlohmann::json value = newest(slot);
+  return value.is_null() ? value : value.at(field);
 }
 
 ParameterAnswer Running::ask(ParameterRequest request) {

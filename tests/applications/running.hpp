@@ -41,6 +41,9 @@ class Running {
   }
   /// What a slot holds now, as in the report; null while nothing was published.
   nlohmann::json newest(const std::string& slot);
+  /// One field of it; null while nothing was published, as before a unit's first step and its first after a
+  /// restart.
+  nlohmann::json newest(const std::string& slot, const std::string& field);
   /// Sends, and waits for the answer.
   ParameterAnswer ask(ParameterRequest request);
   /// Asks for the controlled stop and waits for the end.

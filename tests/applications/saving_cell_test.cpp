@@ -157,12 +157,12 @@ void a_unit_changes_its_own_values() {
   const Folder folder;
   Running running(tuned, with_file(folder));
   running.type("g");
-  CHECK(wait_until([&] { return running.newest("tuner.values").at("gain") == 3.0; }));
+  CHECK(wait_until([&] { return running.newest("tuner.values", "gain") == 3.0; }));
   CHECK(is_saved(folder, "<gain>3</gain>"));
   running.type("d");
   CHECK(is_saved(folder, "<gain>1</gain>"));
   running.type("t");
-  CHECK(wait_until([&] { return running.newest("tuner.values").at("tries") == 1; }));
+  CHECK(wait_until([&] { return running.newest("tuner.values", "tries") == 1; }));
   CHECK(save_now(running).is_ok());
   CHECK(!holds(folder, "tries"));
   CHECK_EQUAL(running.stop().exit_code, 0);
@@ -177,8 +177,8 @@ void check_is_refused(const char* key) {
   UnitState& state = running.state("tuner");
   CHECK(wait_until([&] { return state.life.load() == Life::fault; }));
   CHECK_CONTAINS(state.fault.read().cause(), "it changed its own values, and they are refused: gain: ");
-  CHECK_EQUAL(running.newest("tuner.values").at("gain"), 2.5);
-  CHECK_EQUAL(running.newest("tuner.values").at("offset"), 0.25);
+  CHECK_EQUAL(running.newest("tuner.values", "gain"), 2.5);
+  CHECK_EQUAL(running.newest("tuner.values", "offset"), 0.25);
   CHECK(save_now(running).is_ok());
   CHECK(holds(folder, "<gain>2.5</gain>"));
   CHECK(!holds(folder, "offset"));
@@ -187,7 +187,7 @@ void check_is_refused(const char* key) {
   running.executive().act(ComponentAction::initialise, running.unit("tuner"),
                           [&](const Status& status) { again = status.is_ok(); });
   CHECK(wait_until([&] { return again.load(); }));
-  CHECK_EQUAL(running.newest("tuner.values").at("gain"), 2.5);
+  CHECK_EQUAL(running.newest("tuner.values", "gain"), 2.5);
   CHECK_EQUAL(running.stop().exit_code, 2);
 }
 

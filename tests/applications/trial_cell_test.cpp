@@ -27,8 +27,9 @@ bool is_moving(Running& running) {
 
 bool is_at_rest(Running& running) {
   if (is_moving(running)) return false;
-  const nlohmann::json joints = running.newest("joints");
-  for (const nlohmann::json& velocity : joints.at("velocity"))
+  const nlohmann::json velocities = running.newest("joints", "velocity");
+  if (velocities.is_null()) return false;
+  for (const nlohmann::json& velocity : velocities)
     if (std::abs(velocity.get<double>()) > 1e-3) return false;
   return true;
 }
@@ -40,7 +41,8 @@ double way(Running& running, double from) {
 /// Where the arm is. Its motions are slow: one that is to be ended on its way is under way for longer than
 /// whoever looks for it may be kept from its CPU.
 double wait_for_start(Running& running) {
-  CHECK(wait_until([&] { return !running.newest("target").is_null(); }));
+  for (const char* slot : {"target", "tool_pose"})  // of two units
+    CHECK(wait_until([&] { return !running.newest(slot).is_null(); }));
   ParameterRequest slow;
   slow.component = running.unit("robot");
   const double part = 0.02;
