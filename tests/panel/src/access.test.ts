@@ -373,4 +373,14 @@ describe('the address that is printed', () => {
     await second.page.getByText(/: viewer/).waitFor();
     await expect.poll(() => second.page.getByRole('button', { name: 'Take control' }).isDisabled(), { timeout: within }).toBe(true);
   });
+
+  it('is not lost to what the same page had asked before it', async () => {
+    await start();
+    const viewer = await open(undefined, `${running.base}/#/log`); // is left while it still loads and connects
+    await viewer.page.goto(running.address);
+    await viewer.page.getByText(/: admin/).waitFor();
+    await viewer.takeControl();
+    await viewer.again();
+    await viewer.page.getByText(/: admin/).waitFor();
+  });
 });

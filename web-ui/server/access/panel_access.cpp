@@ -10,23 +10,27 @@ bool prepare_cryptography() noexcept {
   return sodium_init() >= 0;
 }
 
+namespace {
+
+std::string cookie_name(const char* name, const AccessSettings& settings) {
+  // A browser takes a cookie of such a name only by TLS, for this host and all of it (RFC 6265bis, 4.1.3).
+  return (settings.secure ? "__Host-" : "") + std::string{name} + std::to_string(settings.port);
+}
+
+}  // namespace
+
 PanelAccess::PanelAccess(const AccessSettings& settings)
     : settings_(settings),
-      // A browser takes a cookie of such a name only by TLS, for this host and all of it (RFC
-      // 6265bis, 4.1.3).
-      cookie_name_((settings.secure ? "__Host-flexrf_session_" : "flexrf_session_") +
-                   std::to_string(settings.port)),
+      login_cookie_(cookie_name("flexrf_session_", settings)),
+      visitor_cookie_(cookie_name("flexrf_visitor_", settings)),
       sessions_(settings.sessions, settings.local, settings.loopback_is_local) {
   if (!settings_.needs_login) token_.emplace();
 }
 
 SessionIndex PanelAccess::identify(const Visitor& visitor, SessionHandle& own, Time now,
                                    std::string& set_cookie) {
-  CookieValues values(visitor.cookies, cookie_name_);
-  SessionIndex session = no_session;
-  for (std::string_view value = values.next(); value.data() != nullptr && session == no_session;
-       value = values.next())
-    session = sessions_.find(value);
+  SessionIndex session = by_cookie(visitor.cookies, login_cookie_);
+  if (session == no_session) session = by_cookie(visitor.cookies, visitor_cookie_);
   if (session == no_session && own.serial != 0 && sessions_.serial(own.index) == own.serial)
     session = own.index;
   if (session != no_session) {
@@ -39,6 +43,15 @@ SessionIndex PanelAccess::identify(const Visitor& visitor, SessionHandle& own, T
   return session;
 }
 
+SessionIndex PanelAccess::by_cookie(std::string_view cookies, std::string_view name) const noexcept {
+  CookieValues values(cookies, name);
+  SessionIndex session = no_session;
+  for (std::string_view value = values.next(); value.data() != nullptr && session == no_session;
+       value = values.next())
+    session = sessions_.find(value);
+  return session;
+}
+
 SessionIndex PanelAccess::begin(std::string_view user, Role role, std::string_view address, Time now,
                                 std::string& set_cookie) {
   if (sessions_.is_full()) end(sessions_.dispensable(control_.holder()));
@@ -47,8 +60,9 @@ SessionIndex PanelAccess::begin(std::string_view user, Role role, std::string_vi
   ++revision_;
   // One that nobody logged in to lives as long as its page: its cookie has to.
   constexpr Duration for_ever = std::chrono::hours{365 * 24};
-  write_set_cookie(set_cookie, cookie_name_, sessions_.cookie(session),
-                   user.empty() ? for_ever : settings_.sessions.absolute, settings_.secure);
+  write_set_cookie(set_cookie, role == Role::viewer && user.empty() ? visitor_cookie_ : login_cookie_,
+                   sessions_.cookie(session), user.empty() ? for_ever : settings_.sessions.absolute,
+                   settings_.secure);
   return session;
 }
 
@@ -70,7 +84,7 @@ void PanelAccess::note(SessionIndex session, const char* did) noexcept {
 void PanelAccess::log_out(SessionIndex session, std::string& set_cookie) {
   note(session, "logged out");
   end(session);
-  write_forget_cookie(set_cookie, cookie_name_, settings_.secure);
+  write_forget_cookie(set_cookie, login_cookie_, settings_.secure);
 }
 
 void PanelAccess::end_sessions_of(std::string_view user) {

@@ -104,13 +104,17 @@ class PanelAccess final : public AccessControl {
   std::uint64_t revision() const override { return revision_ + control_.revision(); }
 
  private:
+  SessionIndex by_cookie(std::string_view cookies, std::string_view name) const noexcept;
   SessionIndex begin(std::string_view user, Role role, std::string_view address, Time now,
                      std::string& set_cookie);
   void end(SessionIndex session);
   void note(SessionIndex session, const char* did) noexcept;
 
   AccessSettings settings_;
-  std::string cookie_name_;
+  // Two names: a browser asks for several things at once, and the answer to one that was asked before a login
+  // may come after it. A visitor's cookie in it must not take the place of the login's.
+  std::string login_cookie_;
+  std::string visitor_cookie_;
   SessionTable sessions_;
   ControlToken control_;
   std::optional<OneTimeToken> token_;

@@ -1,8 +1,10 @@
 #include "web-ui/server/access/entrance.hpp"
 
 #include <cstring>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "tests/cmocka.hpp"
 
@@ -134,6 +136,53 @@ void the_token_makes_an_admin_once(void**) {
   assert_false(world->access.has_role(session, Role::operator_));
 }
 
+/// What a browser keeps: of each name the newest.
+struct CookieJar {
+  std::map<std::string, std::string> values;
+  void keep(const std::string& set_cookie) {
+    if (set_cookie.empty()) return;
+    const std::size_t equals = set_cookie.find('=');
+    values[set_cookie.substr(0, equals)] = set_cookie.substr(equals + 1, set_cookie.find(';') - equals - 1);
+  }
+  std::string header() const {
+    std::string text;
+    for (const auto& [name, value] : values)
+      text.append(text.empty() ? "" : "; ").append(name).append("=").append(value);
+    return text;
+  }
+};
+
+void what_was_asked_before_the_token_does_not_take_its_session_away(void**) {
+  CookieJar jar;
+  assert_int_equal(refusal_of(Method::get, "/"), 0);
+  jar.keep(reply.set_cookie);
+  const std::string before = jar.header();
+  cookie = before;
+  query = "token=" + std::string{world->access.one_time_token()->text()};
+  approach.query = query;
+  approach.place = 1;
+  assert_int_equal(refusal(), 303);
+  jar.keep(reply.set_cookie);
+  approach.query = {};
+  // Each on a connection of its own, sent by the first page: file, question, live connection.
+  for (const auto& [path, upgrade] :
+       {std::pair{"/assets/index-1234.js", false}, {"/api/v1/session", false}, {"/api/v1/live", true}}) {
+    cookie = before;
+    world->entrance.on_connection_closed(2);
+    approach.place = 2;
+    approach.upgrade = upgrade;
+    assert_int_equal(refusal_of(Method::get, path), 0);
+    assert_false(world->access.has_role(session, Role::operator_));  // whoever knew the old one has nothing
+    jar.keep(reply.set_cookie);
+  }
+  approach.upgrade = false;
+  cookie = jar.header();
+  approach.place = 3;
+  assert_int_equal(refusal_of(Method::get, "/api/v1/session"), 0);
+  assert_true(world->access.has_role(session, Role::admin));
+  assert_string_equal(reply.set_cookie.c_str(), "");
+}
+
 void only_a_get_uses_the_token_up(void**) {
   query = "token=" + std::string{world->access.one_time_token()->text()};
   approach.query = query;
@@ -202,6 +251,7 @@ int main() {
       cmocka_unit_test_setup(a_foreign_host_is_misdirected, begin),
       cmocka_unit_test_setup(changes_and_upgrades_need_our_own_page, begin),
       cmocka_unit_test_setup(the_token_makes_an_admin_once, begin),
+      cmocka_unit_test_setup(what_was_asked_before_the_token_does_not_take_its_session_away, begin),
       cmocka_unit_test_setup(only_a_get_uses_the_token_up, begin),
       cmocka_unit_test_setup(the_token_is_for_this_machine, begin),
       cmocka_unit_test_setup(wrong_tokens_count_as_failed_logins, begin),

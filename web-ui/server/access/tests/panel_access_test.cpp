@@ -85,7 +85,7 @@ void on_loopback_everybody_is_a_viewer(void**) {
   assert_int_equal(access_control->session(session)->role, Role::viewer);
   assert_true(access_control->has_role(session, Role::viewer));
   assert_false(access_control->has_role(session, Role::operator_));
-  assert_non_null(strstr(set_cookie.c_str(), "flexrf_session_8081="));
+  assert_non_null(strstr(set_cookie.c_str(), "flexrf_visitor_8081="));
   assert_int_equal(access_control->take(session, start), Taking::refused_role);
   assert_int_equal(access_control->take(no_session, start), Taking::refused_role);
   assert_false(access_control->has_role(no_session, Role::viewer));
@@ -96,7 +96,7 @@ void a_cookie_brings_the_session_back(void**) {
   keep_cookie();
   assert_int_equal(visit(), session);
   assert_string_equal(set_cookie.c_str(), "");
-  cookies = "flexrf_session_8081=" + std::string(32, '0') + "; a=b; " + cookies;
+  cookies = "flexrf_visitor_8081=" + std::string(32, '0') + "; a=b; " + cookies;
   assert_int_equal(visit(), session);
   assert_int_equal(access_control->session_count(), 1);
 }
@@ -287,6 +287,8 @@ void by_tls_the_cookie_is_this_hosts_alone(void**) {
   settings.secure = true;
   access_control.emplace(settings);
   visit();
+  assert_int_equal(set_cookie.rfind("__Host-flexrf_visitor_8443=", 0), 0);
+  log_in("ann", Role::operator_);
   assert_int_equal(set_cookie.rfind("__Host-flexrf_session_8443=", 0), 0);
   assert_non_null(strstr(set_cookie.c_str(), "; Path=/; HttpOnly; SameSite=Strict; Secure"));
 }
