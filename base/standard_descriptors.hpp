@@ -3,7 +3,11 @@
 #pragma once
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
+
+#include <climits>
+#include <string_view>
 
 namespace flexrf {
 
@@ -21,6 +25,14 @@ inline void hold_standard_descriptors() noexcept {
       close(opened);
     }
   }
+}
+
+/// Writes to standard error what its reader takes at once: nobody waits for who does not read. At most
+/// PIPE_BUF bytes, which a pipe with room takes whole. False: it was not taken.
+inline bool tell_at_once(std::string_view text) noexcept {
+  pollfd errors{STDERR_FILENO, POLLOUT, 0};
+  if (text.size() > PIPE_BUF || poll(&errors, 1, 0) <= 0 || (errors.revents & POLLOUT) == 0) return false;
+  return write(STDERR_FILENO, text.data(), text.size()) == static_cast<ssize_t>(text.size());
 }
 
 }  // namespace flexrf

@@ -1,10 +1,10 @@
 // The main function of every application.
-#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cinttypes>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -18,6 +18,7 @@
 #include "runtime/log/log.hpp"
 #include "runtime/parameters/durable_file.hpp"
 #include "runtime/realtime/instance_lock.hpp"
+#include "runtime/realtime/signals.hpp"
 
 namespace flexrf {
 namespace {
@@ -44,11 +45,8 @@ int refuse(const Application& application, const Status& status) {
   return exit_code_of(status);
 }
 
-/// Where standard error takes it at once.
 void complain(const Application& application, const Status& status) {
-  pollfd errors{STDERR_FILENO, POLLOUT, 0};
-  if (poll(&errors, 1, 0) > 0 && (errors.revents & POLLOUT) != 0)
-    std::fprintf(stderr, "%s: %s\n", application.name, status.cause());
+  tell_at_once(std::string{application.name} + ": " + status.cause() + "\n");
 }
 
 std::string version_line(const Application& application) {
@@ -126,6 +124,9 @@ int run_application(const Application& application, int argument_count, char** a
     return refuse(application, status);
   std::unique_ptr<Observer> observer;
   if (options->observed) {
+    // From here on somebody may know that it runs: who ends it gets a report, as later.
+    const sigset_t awaited = signals::supervised_set();
+    pthread_sigmask(SIG_BLOCK, &awaited, nullptr);
     observer = make(executive);
     if (const Status status = observer->prepare(); !status) {
       observer->stop();

@@ -169,6 +169,19 @@ void a_signal_lets_the_arm_come_to_rest() {
   }
 }
 
+/// Whoever reads the panel's address may end it at once, before any of its threads runs.
+void a_signal_at_the_start_is_a_controlled_stop() {
+  for (int n = 0; n < 5; ++n) {
+    const Folder folder;
+    Process process(folder, {application, "--no-realtime", "--standstill-limit", "10min", "--panel",
+                             "127.0.0.1:0", "--report", "report"});
+    process.wait_for_error("Panel: ");
+    process.send(SIGTERM);
+    CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
+    CHECK_EQUAL(Report(folder / "report")["run"].at("cause").get<std::string>(), "signal");
+  }
+}
+
 /// The end of virtual time is a controlled stop like any other, at an instant that every run has alike.
 void a_moving_arm_comes_to_rest_on_its_way() {
   const Folder folder;
@@ -239,6 +252,7 @@ int main() {
       CONTAINED_TEST(virtual_time_ends_when_it_is_over_and_says_so),
       CONTAINED_TEST(wrong_usage_is_1_and_names_the_nearest),
       CONTAINED_TEST(a_signal_lets_the_arm_come_to_rest),
+      CONTAINED_TEST(a_signal_at_the_start_is_a_controlled_stop),
       CONTAINED_TEST(a_moving_arm_comes_to_rest_on_its_way),
       CONTAINED_TEST(a_second_start_names_the_holder),
       CONTAINED_TEST(ten_thousand_keys_are_all_counted),

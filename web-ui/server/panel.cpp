@@ -219,11 +219,10 @@ void Panel::write_address(const OneTimeToken& token) {
 void Panel::print_address() {
   // Whoever can read this terminal started the application, and may control it.
   const OneTimeToken* const token = access_->one_time_token();
-  std::fprintf(stderr, "Panel: %s\n", address_with(token).c_str());
-  if (token == nullptr) return;
-  write_address(*token);
-  if (!address_file_.empty())
-    std::fprintf(stderr, "Once that was opened, the next address is in %s\n", address_file_.c_str());
+  std::string text = "Panel: " + address_with(token) + "\n";
+  if (token != nullptr) write_address(*token);
+  if (!address_file_.empty()) text += "Once that was opened, the next address is in " + address_file_ + "\n";
+  if (!tell_at_once(text)) log_warning("panel", "nobody reads standard error, where its address belongs");
 }
 
 Status Panel::start() {
