@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
 # --check-only says what a build would say, a broken URDF included, and writes nothing; and it has nothing to say of the
-# applications that come along: check_only.sh CONFIG_GEN REPOSITORY
+# applications that come along: check_only.sh CONFIG_GEN REPOSITORY CATALOGUE_TEST
 set -u -o pipefail
 generator=$1
 repository=$2
+catalogue_test=$3
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+broken=$(mktemp -d)
+trap 'rm -rf "$work" "$broken"' EXIT
 cd "$work" || exit 1
 
 check() {  # check FOLDER: sets status and output
-  output=$("$generator" --application "$tests/$1/cell.toml" --check-only --types "$tests/base/types" --units "$tests/base/units" \
+  output=$("$generator" --application "$1/cell.toml" --check-only --types "$tests/base/types" --units "$tests/base/units" \
     --interfaces "$tests/base/hal/interfaces" --drivers "$tests"/base/hal/{linux,simulated} 2>&1)
   status=$?
 }
@@ -20,9 +22,10 @@ fail() {
   exit 1
 }
 
-check cells/shared
+check "$tests/cells/shared"
 [[ $status == 0 && ! $output ]] || fail "good tables are not good: $status"
-check catalogue/urdf-is-broken
+"$catalogue_test" urdf-is-broken "$broken" || fail "the catalogue has no broken URDF"
+check "$broken"
 [[ $status == 1 && $output == *"six-axis.urdf:4:3: error: joint 'shoulder' has no <limit>"* ]] || fail "a broken URDF passes: $status"
 [[ ! $(ls -A) ]] || fail "it wrote $(ls -A)"
 

@@ -1,18 +1,15 @@
 #include "config-gen/tests/mutation.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <set>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "config-gen/model/file_contents.hpp"
 #include "config-gen/model/words.hpp"
+#include "config-gen/tests/catalogue_case.hpp"
+#include "config-gen/tests/lines.hpp"
 
 namespace flexrf::config_gen::tests {
 namespace {
@@ -127,19 +124,6 @@ constexpr std::string_view texts[] = {"ends in a backslash \\\\",
 
 constexpr std::string_view keys[] = {"capacity", "count",        "shape", "loans",   "history", "stack",
                                      "budget",   "min_interval", "on",    "default", "range",   "type"};
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
 
 std::string repeated(std::string_view part, std::size_t count) {
   std::string text;
@@ -388,46 +372,45 @@ std::uint64_t Dice::next() {
 }
 
 TableTree::TableTree(const fs::path& repository) {
-  std::string name = (fs::temp_directory_path() / "flexrf-tables-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a folder for the tables");
-  root_ = name;
   std::set<std::string> words;
   for (const std::string_view folder : copied_folders)
     for (const auto& entry : fs::recursive_directory_iterator(repository / folder)) {
-      const fs::path place = root_ / fs::relative(entry.path(), repository);
+      const fs::path place = root() / fs::relative(entry.path(), repository);
       const auto is_copied = [&](std::string_view ending) { return entry.path().extension() == ending; };
-      if (!entry.is_regular_file() ||
+      if (!entry.is_regular_file() || place.string().find("/catalogue/") != std::string::npos ||
           std::none_of(std::begin(copied_endings), std::end(copied_endings), is_copied))
         continue;
       fs::create_directories(place.parent_path());
       fs::copy_file(entry.path(), place);
-      if (place.extension() != ".toml" || place.string().find("/catalogue/") != std::string::npos) continue;
+      if (place.extension() != ".toml") continue;
       for (const std::string& line : lines_of(contents_of(place)))
         for (const auto& [from, to] : quoted_in(line)) words.insert(line.substr(from, to - from));
     }
   words_.assign(words.begin(), words.end());
 
-  const fs::path tests = root_ / "config-gen/tests";
+  const fs::path tests = root() / "config-gen/tests";
+  for (const fs::path& file : case_files(repository / "config-gen/tests/catalogue"))
+    write_cell(read_case(file).files, tests / "catalogue" / file.stem());
   SearchPaths small;
   small.types = {tests / "base/types"};
   small.units = {tests / "base/units"};
   small.interfaces = {tests / "base/hal/interfaces"};
   small.drivers = {tests / "base/hal/linux", tests / "base/hal/simulated"};
   SearchPaths large;
-  large.library = {root_ / "runtime", root_ / "hal"};
-  large.types = {root_ / "runtime/types"};
-  large.units = {root_ / "units"};
-  large.interfaces = {root_ / "hal/interfaces"};
-  large.drivers = {root_ / "hal/linux", root_ / "hal/mock", root_ / "hal/simulated"};
+  large.library = {root() / "runtime", root() / "hal"};
+  large.types = {root() / "runtime/types"};
+  large.units = {root() / "units"};
+  large.interfaces = {root() / "hal/interfaces"};
+  large.drivers = {root() / "hal/linux", root() / "hal/mock", root() / "hal/simulated"};
   for (const char* part : {"generator", "panel", "applications"}) {
-    large.interfaces.push_back(root_ / "tests" / part / "interfaces");
-    large.drivers.push_back(root_ / "tests" / part / "drivers");
+    large.interfaces.push_back(root() / "tests" / part / "interfaces");
+    large.drivers.push_back(root() / "tests" / part / "drivers");
   }
-  large.drivers.push_back(root_ / "apps/pick-station/drivers");
+  large.drivers.push_back(root() / "apps/pick-station/drivers");
   for (const char* table : {"apps/keyboard/keyboard", "apps/keyboard-single/keyboard_single",
                             "apps/pick-station/pick_station", "tests/generator/cell/generated_cell",
                             "tests/panel/cell/panel_cell", "tests/applications/crowd/crowd"})
-    add(root_ / (std::string(table) + ".toml"), large);
+    add(root() / (std::string(table) + ".toml"), large);
   for (const char* part : {"cells", "catalogue"}) {
     std::vector<fs::path> folders;
     for (const auto& entry : fs::directory_iterator(tests / part)) folders.push_back(entry.path());
@@ -439,11 +422,6 @@ TableTree::TableTree(const fs::path& repository) {
       if (fs::exists(folder / "cell.toml")) add(folder / "cell.toml", paths);
     }
   }
-}
-
-TableTree::~TableTree() {
-  std::error_code ignored;
-  fs::remove_all(root_, ignored);
 }
 
 void TableTree::add(const fs::path& table, const SearchPaths& paths) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "config-gen/model/target.hpp"
+#include "config-gen/tests/temporary_folder.hpp"
 
 namespace flexrf::config_gen::tests {
 
@@ -44,11 +45,8 @@ struct Cell {
 class TableTree {
  public:
   explicit TableTree(const std::filesystem::path& repository);
-  ~TableTree();
-  TableTree(const TableTree&) = delete;
-  TableTree& operator=(const TableTree&) = delete;
 
-  const std::filesystem::path& root() const { return root_; }
+  const std::filesystem::path& root() const { return folder_.path(); }
   // Applications, and the small cells that the generator's tests are made of, broken ones too.
   const std::vector<Cell>& cells() const { return cells_; }
   const std::vector<std::string>& words() const { return words_; }  // all that stands in double quotes
@@ -56,7 +54,7 @@ class TableTree {
  private:
   void add(const std::filesystem::path& table, const SearchPaths& paths);
 
-  std::filesystem::path root_;
+  TemporaryFolder folder_;
   std::vector<Cell> cells_;
   std::vector<std::string> words_;
 };
