@@ -288,7 +288,6 @@ RunSummary Executive::run() {
 }
 
 std::vector<Status> Executive::say_last(std::vector<std::string> texts) {
-  const bool unhurried = is_unhurried(cell_.control().cause());
   const sigset_t ending = signals::ending_set();
   const timespec interval{0, supervision_interval.count()};
   // False: the next signal came, or patience has come to its end.
@@ -296,6 +295,7 @@ std::vector<Status> Executive::say_last(std::vector<std::string> texts) {
     const Time begun = MonotonicClock::now();
     while (is_ending()) {
       const bool asked = sigtimedwait(&ending, nullptr, &interval) > 0;
+      asked_to_end_ = asked_to_end_ || asked;
       if (asked || (!patient && MonotonicClock::now() - begun > patience_with_readers)) return false;
     }
     return true;
@@ -305,6 +305,8 @@ std::vector<Status> Executive::say_last(std::vector<std::string> texts) {
   audit_.begin_end();
   const bool audited = wait_while(false, [&] { return audit_.is_ending(); });
   output_.begin_end(std::move(texts));
+  // Who asked while the run came to its end by itself asked for this, too.
+  const bool unhurried = is_unhurried(cell_.control().cause()) && !asked_to_end_;
   const bool said = wait_while(unhurried, [&] { return output_.is_ending(); });
   std::vector<Status> failures;
   const auto note = [&failures](const Status& status) {
@@ -530,6 +532,7 @@ void Executive::obey(const siginfo_t& sent, RunSummary& summary) noexcept {
   switch (signals::use_of(signal)) {
     case signals::Use::end:
       summary.signal = signal;
+      asked_to_end_ = true;
       control.set_cause(EndCause::signal);
       // Asked twice, or by Ctrl-\, whoever asks does not want to wait for units to come to rest.
       control.rise_to(signal == SIGQUIT || control.mode() == Mode::stopping ? Mode::safe : Mode::stopping);

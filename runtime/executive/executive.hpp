@@ -104,6 +104,7 @@ class Executive {
   std::deque<RunningThread> threads_;
   Status start_status_;
   std::atomic<bool> lives_{false};
+  bool asked_to_end_ = false;  // by a signal; the main thread
   LogLimit useless_signal_;
   Time log_time_{};  // of what is said before and after virtual time runs
   Time began_{};

@@ -138,6 +138,21 @@ void a_reader_that_is_slow_gets_the_report_and_a_signal_ends_the_wait() {
   CHECK_EQUAL(process.wait().exit_code, 1);
 }
 
+/// Wherever in the end it comes: whoever asks need not ask twice.
+void a_signal_just_before_the_report_ends_the_wait_for_its_reader() {
+  for (const useconds_t later : {0U, 500U, 2'000U, 8'000U, 30'000U}) {
+    const Folder folder;
+    const FullPipe pipe;
+    Process process(folder, words(), Input::pipe, [&] { dup2(pipe.end(), STDOUT_FILENO); });
+    process.type("d");
+    process.end_input();
+    CHECK(wait_until([&] { return drive_log(folder).ends_with("safe\n"); }));
+    usleep(later);
+    process.send(SIGTERM);
+    CHECK_EQUAL(process.wait().exit_code, 1);
+  }
+}
+
 void a_standard_output_that_fails_is_an_error() {
   const Folder folder;
   Process process(folder, words(), Input::pipe, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
@@ -393,6 +408,7 @@ int main() {
       CONTAINED_TEST(a_full_standard_error_holds_up_no_last_gasp),
       CONTAINED_TEST(a_full_standard_output_is_told_and_left),
       CONTAINED_TEST(a_reader_that_is_slow_gets_the_report_and_a_signal_ends_the_wait),
+      CONTAINED_TEST(a_signal_just_before_the_report_ends_the_wait_for_its_reader),
       CONTAINED_TEST(a_standard_output_that_fails_is_an_error),
       CONTAINED_TEST(a_standard_output_that_fails_is_seen_behind_a_signal),
       CONTAINED_TEST(an_answer_that_is_not_written_is_an_error),
