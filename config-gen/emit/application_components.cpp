@@ -56,6 +56,25 @@ OutputsText emit_outputs(const ApplicationNames& names, const std::vector<Output
   return text;
 }
 
+std::string port_binding(const ApplicationNames& names, const std::optional<Index>& thread,
+                         const std::string& prefix, const OutputsText& outputs) {
+  return "{&context_" + names.thread(thread.value_or(0)) + ", " +
+         array_or_none(prefix + "_outputs", outputs.slots) + ", " +
+         array_or_none(prefix + "_queue_outputs", outputs.queues) + "}";
+}
+
+// What the records of units and devices have in common; either is told by its row.
+template <class Row>
+std::string common_part(const ApplicationNames& names, const Row& row, const std::string& summary,
+                        const std::string& prefix) {
+  return "{.name = \"" + row.name + "\",\n      .summary = " + string_literal(summary) +
+         ",\n      .storage = " + prefix + ",\n      .storage_size = sizeof(" + prefix +
+         "),\n      .thread = " + index_or_none(row.thread) +
+         ",\n      .runtime_slot = " + slot_or_null(names, row.values_slot) +
+         ",\n      .feedback_slot = " + slot_or_null(names, row.feedback_slot) +
+         ",\n      .initialise_timeout = " + duration_literal(row.initialise_timeout) + "}";
+}
+
 std::string emit_resources(const Model& model, const Device& device, const std::string& prefix, Text& out) {
   std::string list;
   for (const DeviceResource& resource : device.resources) {
@@ -139,11 +158,9 @@ std::string emit_binding(const Model& model, const ApplicationNames& names, Inde
   const OutputsText outputs =
       emit_outputs(names, type.outputs, unit.outputs, Writer::Kind::unit_output, index, prefix, out);
   emit_array("constexpr Device* const*", prefix + "_devices", devices, out);
-  return "{&context_" + names.thread(unit.thread.value_or(0)) + ", " +
+  return "{" + port_binding(names, unit.thread, prefix, outputs) + ", " +
          array_or_none(prefix + "_inputs", inputs) + ", " +
-         array_or_none(prefix + "_outputs", outputs.slots) + ", " +
          array_or_none(prefix + "_queue_inputs", queue_inputs) + ", " +
-         array_or_none(prefix + "_queue_outputs", outputs.queues) + ", " +
          array_or_none(prefix + "_devices", devices) + "}";
 }
 
@@ -165,7 +182,7 @@ std::string instead_of(const Device& device) {
   const auto place = [](const std::optional<Index>& driver) {
     return driver ? std::to_string(*driver) : std::string("no_driver");
   };
-  return ",\n     .instead = {" + place(instead[0]) + ", " + place(instead[1]) + ", " + place(instead[2]) +
+  return ",\n      .instead = {" + place(instead[0]) + ", " + place(instead[1]) + ", " + place(instead[2]) +
          "}";
 }
 
@@ -189,20 +206,12 @@ void emit_devices(const Model& model, const ApplicationNames& names, Text& out,
         emit_outputs(names, interface.outputs, device.outputs, Writer::Kind::device_output, i, prefix, out);
     const std::string resources = emit_resources(model, device, prefix, out);
     const std::string drivers = emit_drivers(model, device, prefix, out);
-    records << "    {.name = \"" << device.name
-            << "\",\n     .summary = " << string_literal(interface.summary) << ",\n     .interface = \""
-            << interface.class_name << "\",\n     .drivers = " << drivers << instead_of(device)
-            << ",\n     .storage = " << prefix << ",\n     .storage_size = sizeof(" << prefix
-            << "),\n     .instance = &constructed_devices[" << i << "],\n     .binding = {&context_"
-            << names.thread(device.thread.value_or(0)) << ", "
-            << array_or_none(prefix + "_outputs", outputs.slots) << ", "
-            << array_or_none(prefix + "_queue_outputs", outputs.queues) << ", " << resources
-            << ", nullptr},\n     .bus = " << index_or_none(device.bus)
-            << ",\n     .thread = " << index_or_none(device.thread)
-            << ",\n     .unit = " << index_or_none(device.owner_unit)
-            << ",\n     .runtime_slot = " << slot_or_null(names, device.values_slot)
-            << ",\n     .feedback_slot = " << slot_or_null(names, device.feedback_slot)
-            << ",\n     .initialise_timeout = " << duration_literal(device.initialise_timeout) << "},\n";
+    records << "    {" << common_part(names, device, interface.summary, prefix) << ",\n     {.interface = \""
+            << interface.class_name << "\",\n      .drivers = " << drivers << instead_of(device)
+            << ",\n      .instance = &constructed_devices[" << i << "],\n      .binding = {"
+            << port_binding(names, device.thread, prefix, outputs) << ", " << resources
+            << ", nullptr},\n      .bus = " << index_or_none(device.bus)
+            << ",\n      .unit = " << index_or_none(device.owner_unit) << "}},\n";
   }
   out << "\nconstexpr DeviceRecord devices_table[] = {\n" << records.str() << "};\n";
 }
@@ -225,22 +234,16 @@ void emit_units(const Model& model, const ApplicationNames& names, Text& out,
         emit_values(model, application_space.of(type, block_struct_name(type.class_name, "Runtime")),
                     prefix + "_runtime", {{&type.runtime, &unit.runtime}}, out);
     const std::string binding = emit_binding(model, names, i, prefix, out);
-    records << "    {.name = \"" << unit.name << "\",\n     .summary = " << string_literal(type.summary)
-            << ",\n     .type = &" << application_space.of(type, unit_component_name(type))
-            << ",\n     .construct = &" << application_space.of(type, unit_construct_name(type))
-            << ",\n     .storage = " << prefix << ",\n     .size = sizeof(" << prefix
-            << "),\n     .binding = " << binding << ",\n     .configuration = " << configuration
-            << ",\n     .runtime = " << runtime
-            << ",\n     .runtime_slot = " << slot_or_null(names, unit.values_slot)
-            << ",\n     .feedback_slot = " << slot_or_null(names, unit.feedback_slot)
-            << ",\n     .thread = " << index_or_none(unit.thread)
-            << ",\n     .population = " << index_or_none(unit.population)
-            << ",\n     .member = " << unit.member
-            << ",\n     .restart = RestartPolicy::" << restart_policy(unit.restart)
-            << ",\n     .budget = " << duration_literal(unit.budget.value_or(0))
-            << ",\n     .initialise_timeout = " << duration_literal(unit.initialise_timeout)
-            << ",\n     .stop_timeout = "
-            << duration_literal(unit.stop_timeout.value_or(model.application->stop_timeout)) << "},\n";
+    records << "    {" << common_part(names, unit, type.summary, prefix) << ",\n     {.type = &"
+            << application_space.of(type, unit_component_name(type)) << ",\n      .construct = &"
+            << application_space.of(type, unit_construct_name(type)) << ",\n      .binding = " << binding
+            << ",\n      .configuration = " << configuration << ",\n      .runtime = " << runtime
+            << ",\n      .population = " << index_or_none(unit.population)
+            << ",\n      .member = " << unit.member
+            << ",\n      .restart = RestartPolicy::" << restart_policy(unit.restart)
+            << ",\n      .budget = " << duration_literal(unit.budget.value_or(0))
+            << ",\n      .stop_timeout = "
+            << duration_literal(unit.stop_timeout.value_or(model.application->stop_timeout)) << "}},\n";
   }
   out << "\nconstexpr UnitRecord units_table[] = {\n" << records.str() << "};\n";
   if (model.populations.empty()) return;

@@ -19,10 +19,7 @@ enum class DriverKind : std::uint8_t { mock, simulated, real };
 const char* name_of(DriverKind kind) noexcept;
 
 /// How the generated application connects a device: ports of its own (with an IO thread), constants, its bus.
-struct DeviceBinding {
-  const StepContext* context = nullptr;                        ///< of the thread it lives in
-  std::span<SlotControl* const> outputs;                       ///< in the order of the interface's table
-  std::span<const std::span<QueueSink* const>> queue_outputs;  ///< likewise; empty span: not connected
+struct DeviceBinding : PortBinding {
   std::span<const void* const> resources;  ///< constants, in the order of the interface's table
   Device* bus = nullptr;
 };

@@ -43,6 +43,21 @@ struct QueueRecord {
   bool wall;
 };
 
+/// A component's number, as in requests: units in table order, then devices.
+using ComponentIndex = std::uint16_t;
+
+/// What the tables say of a unit and of a device alike.
+struct ComponentRecord {
+  const char* name;
+  const char* summary;
+  void* storage;  ///< of the object; of a device: of the largest of its drivers
+  std::size_t storage_size;
+  std::uint16_t thread;        ///< index of the thread it lives in
+  SlotControl* runtime_slot;   ///< runtime parameters in force, sized for the largest driver; null: none
+  SlotControl* feedback_slot;  ///< published after each step; null: none
+  Duration initialise_timeout;
+};
+
 struct DriverRecord {
   const char* name;  ///< as in drivers = [...] and --hardware
   DriverKind kind;
@@ -57,47 +72,35 @@ struct DriverRecord {
 
 inline constexpr std::uint8_t no_driver = 0xFF;
 
-struct DeviceRecord {
-  const char* name;
-  const char* summary;
+/// What the tables say of a device beside that.
+struct DevicePart {
   const char* interface;
   std::span<const DriverRecord> drivers;  ///< permitted ones; the first is the default
   /// By DriverKind: index of the driver that a `--hardware KIND` means where none is of that kind.
   std::array<std::uint8_t, 3> instead{no_driver, no_driver, no_driver};
-  void* storage;
-  std::size_t storage_size;
-  Device** instance;          ///< where the constructed driver is put
-  DeviceBinding binding;      ///< bus is filled in at start
-  std::uint16_t bus;          ///< index of the device that carries it, or no_index
-  std::uint16_t thread;       ///< index of the thread it lives in
-  std::uint16_t unit;         ///< index of the unit that owns it, or no_index
-  SlotControl* runtime_slot;  ///< runtime parameters in force, sized for the largest driver; null: none
-  SlotControl* feedback_slot;
-  Duration initialise_timeout;
+  Device** instance;      ///< where the constructed driver is put
+  DeviceBinding binding;  ///< bus is filled in at start
+  std::uint16_t bus;      ///< index of the device that carries it, or no_index
+  std::uint16_t unit;     ///< index of the unit that owns it, or no_index
 };
+struct DeviceRecord : ComponentRecord, DevicePart {};
 
 enum class RestartPolicy : std::uint8_t { never, once, always };
 
-struct UnitRecord {
-  const char* name;
-  const char* summary;
+/// What the tables say of a unit beside that.
+struct UnitPart {
   const ComponentType* type;
   Unit* (*construct)(void* storage);
-  void* storage;
-  std::size_t size;  ///< bytes of the object
   UnitBinding binding;
   const void* configuration;  ///< initial values from the tables; null where it has none
   const void* runtime;
-  SlotControl* runtime_slot;   ///< runtime parameters in force; null: none
-  SlotControl* feedback_slot;  ///< published after each step; null: none
-  std::uint16_t thread;
   std::uint16_t population;  ///< index, or no_index
   std::uint16_t member;      ///< index within the population
   RestartPolicy restart;
   Duration budget;  ///< declared execution time of one step
-  Duration initialise_timeout;
   Duration stop_timeout;
 };
+struct UnitRecord : ComponentRecord, UnitPart {};
 
 struct PopulationRecord {
   const char* name;
@@ -198,7 +201,38 @@ struct Application {
   std::span<UnitState> unit_states;
   std::span<DeviceState> device_states;
   std::span<ThreadState> thread_states;
+
+  // ---- units and devices as what they have in common
+
+  ComponentIndex component_count() const noexcept {
+    return static_cast<ComponentIndex>(units.size() + devices.size());
+  }
+  bool is_unit(ComponentIndex component) const noexcept { return component < units.size(); }
+  ComponentIndex component_of_device(std::uint16_t device) const noexcept {
+    return static_cast<ComponentIndex>(units.size() + device);
+  }
+  /// Of a component that is no unit.
+  std::uint16_t device_of(ComponentIndex component) const noexcept {
+    return static_cast<std::uint16_t>(component - units.size());
+  }
+  const ComponentRecord& component(ComponentIndex component) const noexcept {
+    if (is_unit(component)) return units[component];
+    return devices[device_of(component)];
+  }
+  ComponentState& component_state(ComponentIndex component) const noexcept {
+    if (is_unit(component)) return unit_states[component];
+    return device_states[device_of(component)];
+  }
+  const PortBinding& ports(ComponentIndex component) const noexcept {
+    if (is_unit(component)) return units[component].binding;
+    return devices[device_of(component)].binding;
+  }
 };
+
+/// "unit" or "device".
+inline const char* kind_of(const Application& application, ComponentIndex component) noexcept {
+  return application.is_unit(component) ? "unit" : "device";
+}
 
 /// The main function of every application: reads the command line, runs to the end, returns the exit code
 /// (0 finished, 1 usage or table, 2 fault, 3 right missing, 128+n signal).

@@ -23,6 +23,15 @@ void fill(void* memory, const ParameterBlock& block, const void* initial) noexce
   }
 }
 
+std::vector<std::vector<std::uint16_t>> devices_by_unit(const Application& application) {
+  std::vector<std::vector<std::uint16_t>> devices(application.units.size());
+  for (std::size_t i = 0; i < application.devices.size(); ++i) {
+    if (const std::uint16_t unit = application.devices[i].unit; unit != no_index)
+      devices[unit].push_back(static_cast<std::uint16_t>(i));
+  }
+  return devices;
+}
+
 std::uint64_t seed_of(std::uint64_t seed, const char* name) noexcept {
   Digest digest{seed};
   digest.add_text(name);
@@ -35,20 +44,20 @@ Cell::Cell(const Application& application, const Options& options)
     : application_(&application),
       options_(&options),
       bells_(bells_of(application)),
+      devices_of_units_(devices_by_unit(application)),
       control_(bells_),
       audit_(std::make_unique<AuditIntake>()),
-      parameters_(
-          std::make_unique<RuntimeParameters[]>(application.units.size() + application.devices.size())),
+      parameters_(std::make_unique<RuntimeParameters[]>(application.component_count())),
       requests_(std::make_unique<RequestQueue[]>(application.threads.size())),
       scratch_(std::make_unique<ParameterScratch[]>(application.threads.size())),
-      configurations_(
-          std::make_unique<std::vector<std::byte>[]>(application.units.size() + application.devices.size())),
-      configuration_settings_(
-          std::make_unique<ConfigurationSettings[]>(application.units.size() + application.devices.size())) {
-  for (ComponentIndex i = 0; i < component_count(); ++i) parameters_[i].set_revision(settings_revision_);
+      configurations_(std::make_unique<std::vector<std::byte>[]>(application.component_count())),
+      configuration_settings_(std::make_unique<ConfigurationSettings[]>(application.component_count())) {
+  for (ComponentIndex i = 0; i < application.component_count(); ++i) {
+    parameters_[i].set_revision(settings_revision_);
+    parameters_[i].set_audit(*audit_, i);
+  }
   for (std::size_t i = 0; i < application.threads.size(); ++i)
     requests_[i].set_bell(application.threads[i].bell);
-  for (ComponentIndex i = 0; i < component_count(); ++i) parameters_[i].set_audit(*audit_, i);
   for (const SlotRecord& slot : application.slots) slot.control->lay_out_items();
 }
 
@@ -163,9 +172,8 @@ Status Cell::start_motion(std::string_view who) noexcept {
 
 const ComponentType& Cell::component_type(ComponentIndex component) const noexcept {
   if (const NarrowedType* narrowed = narrowed_type(component); narrowed != nullptr) return narrowed->type();
-  const std::size_t units = application_->units.size();
-  return component < units ? *application_->units[component].type
-                           : *driver(static_cast<std::uint16_t>(component - units)).type;
+  return application_->is_unit(component) ? *application_->units[component].type
+                                          : *driver(application_->device_of(component)).type;
 }
 
 /// Shorter than what is taken for a standstill or a hang.
@@ -187,7 +195,8 @@ Status Cell::construct_device(std::uint16_t index) {
   if (!options_->virtual_time && record.thread != no_index)
     state.environment.longest_step = longest_step_of(application_->threads[record.thread]);
   state.device->set_name(record.name);
-  state.device->set_type_in_force(component_type(component_of_device(index)));
+  const ComponentIndex component = application_->component_of_device(index);
+  state.device->set_type_in_force(component_type(component));
   state.device->set_environment(&state.environment);
   DeviceBinding binding = record.binding;
   if (record.bus != no_index) binding.bus = application_->device_states[record.bus].device;
@@ -195,8 +204,8 @@ Status Cell::construct_device(std::uint16_t index) {
   const ParameterMemory memory = state.device->parameter_memory();
   fill(memory.configuration, driver.type->configuration, driver.configuration);
   fill(memory.runtime, driver.type->runtime, driver.runtime);
-  return parameters_[component_of_device(index)].connect(*state.device, record.runtime_slot, driver.runtime,
-                                                         scratch_[record.thread]);
+  return parameters_[component].connect(*state.device, record.runtime_slot, driver.runtime,
+                                        scratch_[record.thread]);
 }
 
 Status Cell::construct_unit(std::uint16_t index) {
@@ -294,10 +303,9 @@ Status Cell::reconstruct_unit(std::uint16_t index) noexcept {
   return {};
 }
 
-const char* Cell::component_name(ComponentIndex component) const noexcept {
-  const std::size_t units = application_->units.size();
-  return component < units ? application_->units[component].name
-                           : application_->devices[component - units].name;
+std::string Cell::driver_text(ComponentIndex component) const {
+  if (application_->is_unit(component)) return {};
+  return std::string{" (driver "} + driver(application_->device_of(component)).name + ")";
 }
 
 void Cell::note_configuration(ComponentIndex index) {
@@ -355,22 +363,18 @@ void Cell::copy_settings(ComponentIndex index, ComponentSettings& settings) cons
 }
 
 Component& Cell::component(ComponentIndex component) const noexcept {
-  const std::size_t units = application_->units.size();
-  if (component < units) return *application_->unit_states[component].unit;
-  return *application_->device_states[component - units].device;
+  if (application_->is_unit(component)) return *application_->unit_states[component].unit;
+  return *application_->device_states[application_->device_of(component)].device;
 }
 
 void Cell::send(const ParameterRequest& request) noexcept {
-  if (request.component >= component_count()) {
+  if (request.component >= application_->component_count()) {
     answer(request.requester,
            ParameterAnswer::refused(request, 0, no_parameter, "there is no such component"));
     return;
   }
-  const std::size_t units = application_->units.size();
-  const std::uint16_t thread = request.component < units
-                                   ? application_->units[request.component].thread
-                                   : application_->devices[request.component - units].thread;
-  if (!requests_[thread].push(request)) answer(request.requester, ParameterAnswer::busy(request));
+  if (!requests_[application_->component(request.component).thread].push(request))
+    answer(request.requester, ParameterAnswer::busy(request));
 }
 
 std::uint16_t Cell::add_requester(AnswerQueue& answers) noexcept {
@@ -398,45 +402,36 @@ const char* Cell::real_actuator() const noexcept {
   return nullptr;
 }
 
-bool Cell::owns_actuator(std::uint16_t unit) const noexcept {
-  for (std::size_t i = 0; i < application_->devices.size(); ++i) {
-    if (application_->devices[i].unit == unit && driver(static_cast<std::uint16_t>(i)).actuates) return true;
-  }
-  return false;
+bool Cell::moves_something(ComponentIndex component) const noexcept {
+  if (!application_->is_unit(component)) return driver(application_->device_of(component)).actuates;
+  const std::span<const std::uint16_t> devices = devices_of(component);
+  return std::any_of(devices.begin(), devices.end(),
+                     [this](std::uint16_t device) { return driver(device).actuates; });
 }
 
-void Cell::set_writer_state(std::uint16_t unit, WriterState state) noexcept {
-  for (SlotControl* slot : application_->units[unit].binding.outputs) {
+void Cell::set_writer_state(ComponentIndex component, WriterState state) noexcept {
+  for (SlotControl* slot : application_->ports(component).outputs) {
     if (slot != nullptr) slot->set_writer_state(state);
   }
 }
 
-void Cell::set_device_writer_state(std::uint16_t device, WriterState state) noexcept {
-  for (SlotControl* slot : application_->devices[device].binding.outputs) {
-    if (slot != nullptr) slot->set_writer_state(state);
-  }
+void Cell::set_fault(ComponentIndex component, const Status& cause) noexcept {
+  ComponentState& state = application_->component_state(component);
+  state.fault.publish(cause);
+  state.life.store(Life::fault, std::memory_order_release);
+  set_writer_state(component, WriterState::faulted);
 }
 
-void Cell::commit_unit(std::uint16_t unit) noexcept {
-  const UnitRecord& record = application_->units[unit];
-  for (SlotControl* slot : record.binding.outputs) {
+void Cell::commit(ComponentIndex component) noexcept {
+  const PortBinding& ports = application_->ports(component);
+  for (SlotControl* slot : ports.outputs) {
     if (slot != nullptr) slot->commit();
   }
-  for (const std::span<QueueSink* const> sinks : record.binding.queue_outputs) {
+  for (const std::span<QueueSink* const> sinks : ports.queue_outputs) {
     for (QueueSink* sink : sinks) sink->commit();
   }
-  if (record.feedback_slot != nullptr) record.feedback_slot->commit();
-}
-
-void Cell::commit_device(std::uint16_t device) noexcept {
-  const DeviceRecord& record = application_->devices[device];
-  for (SlotControl* slot : record.binding.outputs) {
-    if (slot != nullptr) slot->commit();
-  }
-  for (const std::span<QueueSink* const> sinks : record.binding.queue_outputs) {
-    for (QueueSink* sink : sinks) sink->commit();
-  }
-  if (record.feedback_slot != nullptr) record.feedback_slot->commit();
+  if (SlotControl* const slot = application_->component(component).feedback_slot; slot != nullptr)
+    slot->commit();
 }
 
 void Cell::prepare_virtual_time(bool digest) noexcept {
@@ -454,13 +449,9 @@ void Cell::prepare_virtual_time(bool digest) noexcept {
   const auto defer = [](SlotControl* slot) {
     if (slot != nullptr) slot->set_deferred(true);
   };
-  for (const UnitRecord& unit : application_->units) {
-    for (SlotControl* slot : unit.binding.outputs) defer(slot);
-    defer(unit.feedback_slot);
-  }
-  for (const DeviceRecord& device : application_->devices) {
-    for (SlotControl* slot : device.binding.outputs) defer(slot);
-    defer(device.feedback_slot);
+  for (ComponentIndex i = 0; i < application_->component_count(); ++i) {
+    for (SlotControl* slot : application_->ports(i).outputs) defer(slot);
+    defer(application_->component(i).feedback_slot);
   }
 }
 

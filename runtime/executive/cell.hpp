@@ -70,17 +70,20 @@ class Cell {
   std::span<const char* const> other_drivers(std::uint16_t device) const noexcept {
     return other_drivers_[device];
   }
-  ComponentIndex component_count() const noexcept {
-    return static_cast<ComponentIndex>(application_->units.size() + application_->devices.size());
-  }
-  ComponentIndex component_of_device(std::uint16_t device) const noexcept {
-    return static_cast<ComponentIndex>(application_->units.size() + device);
+  ComponentIndex component_count() const noexcept { return application_->component_count(); }
+  /// Of a unit "", of a device " (driver NAME)": for messages, behind its name.
+  std::string driver_text(ComponentIndex component) const;
+  /// The devices that belong to the unit.
+  std::span<const std::uint16_t> devices_of(std::uint16_t unit) const noexcept {
+    return devices_of_units_[unit];
   }
   /// How long a thread or the process may do nothing before that is a fault; 0: as long as it likes.
   Duration standstill_limit() const noexcept {
     return options_->standstill_limit.value_or(application_->standstill_limit);
   }
-  const char* component_name(ComponentIndex component) const noexcept;
+  const char* component_name(ComponentIndex component) const noexcept {
+    return application_->component(component).name;
+  }
   /// The object: its owning thread, and whoever knows that nobody restarts it. Others ask component_type().
   Component& component(ComponentIndex component) const noexcept;
   /// What is declared of it: of a device by the chosen driver, with ranges as the application narrows them.
@@ -134,14 +137,14 @@ class Cell {
   bool is_real(std::uint16_t device) const noexcept;
   /// The first device that would move something real; null: none.
   const char* real_actuator() const noexcept;
-  /// A device that actuates and belongs to the unit. Any thread.
-  bool owns_actuator(std::uint16_t unit) const noexcept;
-  /// How readers see what the unit writes.
-  void set_writer_state(std::uint16_t unit, WriterState state) noexcept;
-  void set_device_writer_state(std::uint16_t device, WriterState state) noexcept;
-  /// In virtual time, where publications wait: makes what the unit published in its step visible.
-  void commit_unit(std::uint16_t unit) noexcept;
-  void commit_device(std::uint16_t device) noexcept;
+  /// A device that actuates, or a unit that owns one. Any thread.
+  bool moves_something(ComponentIndex component) const noexcept;
+  /// How readers see what the component writes.
+  void set_writer_state(ComponentIndex component, WriterState state) noexcept;
+  /// Publishes the cause, then that it is in fault. Who owns the component.
+  void set_fault(ComponentIndex component, const Status& cause) noexcept;
+  /// In virtual time, where publications wait: makes what the component published in its step visible.
+  void commit(ComponentIndex component) noexcept;
   /// Virtual time: publications wait for commit, and are digested unless marked wall.
   void prepare_virtual_time(bool digest) noexcept;
   /// Of every slot and queue that is not marked wall: name, and all that was published.
@@ -159,7 +162,8 @@ class Cell {
   const Application* application_;
   const Options* options_;
   std::vector<Doorbell*> bells_;
-  std::vector<std::vector<const char*>> other_drivers_;  // per device
+  std::vector<std::vector<const char*>> other_drivers_;       // per device
+  std::vector<std::vector<std::uint16_t>> devices_of_units_;  // per unit
   Control control_;
   std::unique_ptr<AuditIntake> audit_;
   Heartbeat heartbeat_;

@@ -13,9 +13,6 @@ namespace flexrf {
 
 class Cell;
 
-/// A component's number, as in requests: units in table order, then devices.
-using ComponentIndex = std::uint16_t;
-
 /// For units whose table says access = "cell", which are in no real-time thread: whoever looks at a slot as
 /// the observer takes a lock (Cell::observe()). From connect() on; initialise() and stop() on the lifecycle
 /// thread, else the unit's.

@@ -16,13 +16,6 @@ const char* name_of(ComponentAction action) noexcept {
   return "unknown";
 }
 
-Life ComponentActions::life(ComponentIndex component) const noexcept {
-  const Application& application = cell_->application();
-  return is_unit(component)
-             ? application.unit_states[component].life.load(std::memory_order_acquire)
-             : application.device_states[device_of(component)].life.load(std::memory_order_acquire);
-}
-
 Status ComponentActions::run(ComponentAction action, ComponentIndex component) {
   if (component >= cell_->component_count())
     return Status::error(StatusCode::not_found, "there is no component number %u",
@@ -76,23 +69,20 @@ Status ComponentActions::initialise(ComponentIndex component) {
 }
 
 Status ComponentActions::stop_one(ComponentIndex component) {
-  if (is_unit(component)) {
-    const Status status = lifecycle_->stop_unit(component);
-    if (cell_->owns_actuator(component)) cell_->control().require_start();
-    return status;
-  }
-  const std::uint16_t device = device_of(component);
-  if (cell_->driver(device).actuates) cell_->control().require_start();
-  return lifecycle_->stop_device(device);
+  const bool moves = cell_->moves_something(component);
+  // A unit brings its devices to rest first, which it could not once they are inhibited.
+  if (moves && !cell_->application().is_unit(component)) cell_->control().require_start();
+  const Status status = lifecycle_->stop(component);
+  if (moves) cell_->control().require_start();
+  return status;
 }
 
 Status ComponentActions::start_one(ComponentIndex component) {
   // What it was in the middle of when it failed is nobody's to know.
-  if (is_unit(component) && life(component) == Life::fault) {
+  if (cell_->application().is_unit(component) && life(component) == Life::fault) {
     if (const Status status = cell_->reconstruct_unit(component); !status) return status;
   }
-  return is_unit(component) ? lifecycle_->start_unit(component)
-                            : lifecycle_->start_device(device_of(component));
+  return lifecycle_->start(component);
 }
 
 /// Buses before the devices on them.
@@ -101,15 +91,14 @@ std::vector<ComponentIndex> ComponentActions::stands_on(ComponentIndex component
   std::vector<ComponentIndex> below;
   const auto add = [&](std::uint16_t device) {
     if (const std::uint16_t bus = application.devices[device].bus; bus != no_index)
-      below.insert(below.begin(), cell_->component_of_device(bus));
-    if (cell_->component_of_device(device) != component) below.push_back(cell_->component_of_device(device));
+      below.insert(below.begin(), application.component_of_device(bus));
+    if (const ComponentIndex one = application.component_of_device(device); one != component)
+      below.push_back(one);
   };
-  if (!is_unit(component)) {
-    add(device_of(component));
-    return below;
-  }
-  for (std::size_t d = 0; d < application.devices.size(); ++d) {
-    if (application.devices[d].unit == component) add(static_cast<std::uint16_t>(d));
+  if (application.is_unit(component)) {
+    for (const std::uint16_t device : cell_->devices_of(component)) add(device);
+  } else {
+    add(application.device_of(component));
   }
   return below;
 }
@@ -120,7 +109,7 @@ std::vector<ComponentIndex> moving_components(const Cell& cell) {
   for (std::size_t i = 0; i < application.units.size(); ++i) {
     const auto unit = static_cast<std::uint16_t>(i);
     const UnitState& state = application.unit_states[i];
-    if (cell.owns_actuator(unit) && state.life.load(std::memory_order_acquire) == Life::running &&
+    if (cell.moves_something(unit) && state.life.load(std::memory_order_acquire) == Life::running &&
         !state.idle.load(std::memory_order_acquire)) {
       moving.push_back(unit);
     }
@@ -133,7 +122,7 @@ std::vector<ComponentIndex> moving_components(const Cell& cell) {
         state.life.load(std::memory_order_acquire) == Life::running && !state.device->is_inhibited();
     const bool comes_to_rest =
         state.make_safe.load(std::memory_order_acquire) && !state.safe.load(std::memory_order_acquire);
-    if (may_move || comes_to_rest) moving.push_back(cell.component_of_device(device));
+    if (may_move || comes_to_rest) moving.push_back(application.component_of_device(device));
   }
   return moving;
 }

@@ -35,12 +35,8 @@ class ComponentActions {
   Status stop_one(ComponentIndex component);
   Status start_one(ComponentIndex component);
   std::vector<ComponentIndex> stands_on(ComponentIndex component) const;
-  Life life(ComponentIndex component) const noexcept;
-  bool is_unit(ComponentIndex component) const noexcept {
-    return component < cell_->application().units.size();
-  }
-  std::uint16_t device_of(ComponentIndex component) const noexcept {
-    return static_cast<std::uint16_t>(component - cell_->application().units.size());
+  Life life(ComponentIndex component) const noexcept {
+    return cell_->application().component_state(component).life.load(std::memory_order_acquire);
   }
 
   Cell* cell_;

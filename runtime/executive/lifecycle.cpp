@@ -62,35 +62,38 @@ Status Lifecycle::start_all() noexcept {
   for (const bool carried : {false, true}) {
     for (std::size_t i = 0; i < application.devices.size(); ++i) {
       if ((application.devices[i].bus != no_index) != carried) continue;
-      if (const Status status = start_device(static_cast<std::uint16_t>(i)); !status) return status;
+      if (const Status status = start(application.component_of_device(static_cast<std::uint16_t>(i)));
+          !status)
+        return status;
     }
   }
   for (std::size_t i = 0; i < application.units.size(); ++i) {
-    if (const Status status = start_unit(static_cast<std::uint16_t>(i)); !status) return status;
+    if (const Status status = start(static_cast<ComponentIndex>(i)); !status) return status;
   }
   return {};
 }
 
 void Lifecycle::stop_all() noexcept {
   const Application& application = cell_->application();
-  const auto report = [](const char* name, const Status& status) {
-    if (!status) log_error(name, "cannot be stopped: {}", status.cause());
+  const auto stop_one = [this](std::size_t component) {
+    const auto index = static_cast<ComponentIndex>(component);
+    if (const Status status = stop(index); !status)
+      log_error(cell_->component_name(index), "cannot be stopped: {}", status.cause());
   };
-  for (std::size_t i = application.units.size(); i-- > 0;) {
-    report(application.units[i].name, stop_unit(static_cast<std::uint16_t>(i)));
-  }
+  for (std::size_t i = application.units.size(); i-- > 0;) stop_one(i);
   for (const bool carried : {true, false}) {
     for (std::size_t i = application.devices.size(); i-- > 0;) {
-      if ((application.devices[i].bus != no_index) != carried) continue;
-      report(application.devices[i].name, stop_device(static_cast<std::uint16_t>(i)));
+      if ((application.devices[i].bus != no_index) == carried)
+        stop_one(application.component_of_device(static_cast<std::uint16_t>(i)));
     }
   }
 }
 
 // ---- the handshake
 
-Status Lifecycle::take_back(std::atomic<Ownership>& ownership, std::uint16_t thread,
-                            const char* name) noexcept {
+Status Lifecycle::take_back(ComponentIndex component) noexcept {
+  const Application& application = cell_->application();
+  std::atomic<Ownership>& ownership = application.component_state(component).ownership;
   if (!threads_run_) {
     ownership.store(Ownership::lifecycle, std::memory_order_release);
     return {};
@@ -100,57 +103,111 @@ Status Lifecycle::take_back(std::atomic<Ownership>& ownership, std::uint16_t thr
       expected == Ownership::lifecycle) {
     return {};
   }
-  ThreadState& state = cell_->application().thread_states[thread];
-  const Time give_up = now() + patience_with(cell_->application().threads[thread]);
+  const ComponentRecord& record = application.component(component);
+  const ThreadRecord& thread = application.threads[record.thread];
+  const Time give_up = now() + patience_with(thread);
   while (ownership.load(std::memory_order_acquire) != Ownership::lifecycle) {
-    state.asked_back.store(true, std::memory_order_release);
-    cell_->application().threads[thread].bell->ring();
+    application.thread_states[record.thread].asked_back.store(true, std::memory_order_release);
+    thread.bell->ring();
     if (now() > give_up) {
-      return Status::error(StatusCode::timeout, "thread %s does not let go of %s",
-                           cell_->application().threads[thread].name, name);
+      return Status::error(StatusCode::timeout, "thread %s does not let go of %s", thread.name, record.name);
     }
     pause();
   }
   return {};
 }
 
-// ---- one unit
+// ---- one component
 
-Status Lifecycle::start_unit(std::uint16_t index) noexcept {
-  const UnitRecord& record = cell_->application().units[index];
-  UnitState& state = cell_->application().unit_states[index];
+Status Lifecycle::start(ComponentIndex index) noexcept {
+  const Application& application = cell_->application();
+  const ComponentRecord& record = application.component(index);
+  ComponentState& state = application.component_state(index);
+  Component& component = cell_->component(index);
+  const bool is_unit = application.is_unit(index);
   if (state.ownership.load(std::memory_order_acquire) != Ownership::lifecycle) {
     return Status::error(StatusCode::not_permitted, "%s is %s already", record.name,
                          name_of(state.life.load()));
   }
   cell_->note_configuration(index);
-  state.stop_requested.store(false, std::memory_order_release);
+  if (is_unit) {
+    application.unit_states[index].stop_requested.store(false, std::memory_order_release);
+  } else {
+    prepare_device(application.device_of(index));
+  }
   begin_operation(record.name, record.initialise_timeout);
-  state.unit->clear_fault();
-  Status status = guarded([&] { return state.unit->initialise(); });
+  component.clear_fault();
+  Status status = guarded([&] { return component.initialise(); });
   end_operation();
-  if (status && !state.unit->fault().is_ok()) status = state.unit->fault();
+  if (status && !component.fault().is_ok()) status = component.fault();
   // What the tables or the file say was checked before; accept() may still refuse it.
-  const ParameterMemory memory = state.unit->parameter_memory();
+  const ParameterMemory memory = component.parameter_memory();
   if (status && memory.runtime != nullptr) status = cell_->parameters(index).adopt(memory.runtime, stamp());
   if (!status) {
-    state.fault.publish(status);
-    state.life.store(Life::fault, std::memory_order_release);
-    cell_->set_writer_state(index, WriterState::faulted);
-    return Status::error(status.code(), "%s: initialise: %s", record.name, status.cause());
+    cell_->set_fault(index, status);
+    return Status::error(status.code(), "%s%s: initialise: %s", record.name,
+                         cell_->driver_text(index).c_str(), status.cause());
   }
   state.fault.publish({});
-  state.steps.store(0, std::memory_order_relaxed);
-  state.idle.store(true, std::memory_order_relaxed);
-  for (std::size_t d = 0; d < cell_->application().devices.size(); ++d) {
-    if (cell_->application().devices[d].unit != index) continue;
-    cell_->application().device_states[d].make_safe.store(false);
-    cell_->application().device_states[d].safe.store(false);
+  if (is_unit) {
+    begin_unit(index);
+  } else {
+    begin_device(application.device_of(index));
   }
-  cell_->set_writer_state(index, state.active.load() ? WriterState::running : WriterState::retired);
   state.life.store(Life::running, std::memory_order_release);
   state.ownership.store(Ownership::thread, std::memory_order_release);
+  // Of a device: its thread may sleep until something arrives on a descriptor that exists only now.
+  if (!is_unit) application.threads[record.thread].bell->ring();
   return {};
+}
+
+Status Lifecycle::stop(ComponentIndex index) noexcept {
+  const Application& application = cell_->application();
+  const ComponentRecord& record = application.component(index);
+  ComponentState& state = application.component_state(index);
+  if (state.life.load() == Life::created || state.life.load() == Life::stopped) return {};
+  const bool is_unit = application.is_unit(index);
+  if (is_unit) bring_to_rest(index);
+  if (const Status status = take_back(index); !status) return status;
+  cell_->set_writer_state(index, WriterState::stopped);
+  // Nobody steps it, so nobody would end what is held.
+  cell_->parameters(index).end_all_leases(stamp());
+  begin_operation(record.name, is_unit ? application.units[index].stop_timeout : record.initialise_timeout);
+  const Status status = guarded([&] {
+    cell_->component(index).stop();
+    return Status{};
+  });
+  end_operation();
+  if (state.life.load() != Life::fault) state.life.store(Life::stopped, std::memory_order_release);
+  if (is_unit) application.unit_states[index].idle.store(true, std::memory_order_relaxed);
+  return status;
+}
+
+// ---- what differs
+
+void Lifecycle::begin_unit(std::uint16_t index) noexcept {
+  UnitState& state = cell_->application().unit_states[index];
+  state.steps.store(0, std::memory_order_relaxed);
+  state.idle.store(true, std::memory_order_relaxed);
+  for (const std::uint16_t device : cell_->devices_of(index)) {
+    cell_->application().device_states[device].make_safe.store(false);
+    cell_->application().device_states[device].safe.store(false);
+  }
+  cell_->set_writer_state(index, state.active.load() ? WriterState::running : WriterState::retired);
+}
+
+void Lifecycle::prepare_device(std::uint16_t index) noexcept {
+  DeviceState& state = cell_->application().device_states[index];
+  state.guards.store(state.device->guards_motion(), std::memory_order_release);
+  // An actuator is inhibited until its thread has seen a Start.
+  state.device->set_inhibited(!cell_->control().may_move());
+}
+
+void Lifecycle::begin_device(std::uint16_t index) noexcept {
+  DeviceState& state = cell_->application().device_states[index];
+  state.make_safe.store(false);
+  state.safe.store(false);
+  cell_->set_writer_state(cell_->application().component_of_device(index), WriterState::running);
 }
 
 bool Lifecycle::is_at_rest(std::uint16_t index) const noexcept {
@@ -160,23 +217,19 @@ bool Lifecycle::is_at_rest(std::uint16_t index) const noexcept {
 }
 
 bool Lifecycle::devices_are_safe(std::uint16_t index) const noexcept {
-  const Application& application = cell_->application();
-  for (std::size_t d = 0; d < application.devices.size(); ++d) {
-    const DeviceState& state = application.device_states[d];
-    if (application.devices[d].unit == index && state.make_safe.load(std::memory_order_acquire) &&
-        !state.safe.load(std::memory_order_acquire) &&
-        state.ownership.load(std::memory_order_acquire) == Ownership::thread) {
-      return false;
-    }
-  }
-  return true;
+  const std::span<const std::uint16_t> devices = cell_->devices_of(index);
+  return std::none_of(devices.begin(), devices.end(), [this](std::uint16_t device) {
+    const DeviceState& state = cell_->application().device_states[device];
+    return state.make_safe.load(std::memory_order_acquire) && !state.safe.load(std::memory_order_acquire) &&
+           state.is_owned_by_thread();
+  });
 }
 
 /// As the application's own controlled stop, of one unit.
 void Lifecycle::bring_to_rest(std::uint16_t index) noexcept {
   const Application& application = cell_->application();
   UnitState& state = application.unit_states[index];
-  if (!threads_run_ || !cell_->owns_actuator(index) || !state.active.load() ||
+  if (!threads_run_ || !cell_->moves_something(index) || !state.active.load() ||
       state.life.load(std::memory_order_acquire) != Life::running) {
     return;
   }
@@ -199,40 +252,19 @@ void Lifecycle::bring_to_rest(std::uint16_t index) noexcept {
   if (rests || cell_->control().mode() >= Mode::safe) return;
   log_warning(application.units[index].name,
               "not at rest within its stop_timeout; its devices are made safe");
-  for (std::size_t d = 0; d < application.devices.size(); ++d) {
-    if (application.devices[d].unit == index) application.device_states[d].make_safe.store(true);
-  }
+  for (const std::uint16_t device : cell_->devices_of(index))
+    application.device_states[device].make_safe.store(true);
   if (!wait(patience_with(application.threads[application.units[index].thread]),
             [&] { return devices_are_safe(index); }))
     log_error(application.units[index].name, "its devices did not become safe in time");
 }
 
-Status Lifecycle::stop_unit(std::uint16_t index) noexcept {
-  const UnitRecord& record = cell_->application().units[index];
-  UnitState& state = cell_->application().unit_states[index];
-  if (state.life.load() == Life::created || state.life.load() == Life::stopped) return {};
-  bring_to_rest(index);
-  if (const Status status = take_back(state.ownership, record.thread, record.name); !status) return status;
-  cell_->set_writer_state(index, WriterState::stopped);
-  // Nobody steps it, so nobody would end what is held.
-  cell_->parameters(index).end_all_leases(stamp());
-  begin_operation(record.name, record.stop_timeout);
-  const Status status = guarded([&] {
-    state.unit->stop();
-    return Status{};
-  });
-  end_operation();
-  if (state.life.load() != Life::fault) state.life.store(Life::stopped, std::memory_order_release);
-  state.idle.store(true, std::memory_order_relaxed);
-  return status;
-}
-
 Status Lifecycle::restart_unit(std::uint16_t index) noexcept {
   // Set-points are seeded anew; until a person says so, nothing follows them.
   cell_->control().require_start();
-  if (const Status status = stop_unit(index); !status) return status;
+  if (const Status status = stop(index); !status) return status;
   if (const Status status = cell_->reconstruct_unit(index); !status) return status;
-  return start_unit(index);
+  return start(index);
 }
 
 bool Lifecycle::post(std::function<void()> job) {
@@ -265,19 +297,17 @@ bool Lifecycle::may_restart(std::uint16_t index) const noexcept {
   const Application& application = cell_->application();
   const RestartPolicy policy = application.units[index].restart;
   if (policy == RestartPolicy::never || (policy == RestartPolicy::once && restarts_[index] > 0)) return false;
-  for (std::size_t d = 0; d < application.devices.size(); ++d) {
-    const auto device = static_cast<std::uint16_t>(d);
-    if (application.devices[d].unit == index && cell_->driver(device).actuates && cell_->is_real(device))
-      return false;
-  }
-  return true;
+  const std::span<const std::uint16_t> devices = cell_->devices_of(index);
+  return std::none_of(devices.begin(), devices.end(), [this](std::uint16_t device) {
+    return cell_->driver(device).actuates && cell_->is_real(device);
+  });
 }
 
 void Lifecycle::restart_by_policy() noexcept {
   for (std::size_t i = 0; i < cell_->application().units.size(); ++i) {
     const auto index = static_cast<std::uint16_t>(i);
     UnitState& state = cell_->application().unit_states[i];
-    if (state.life.load(std::memory_order_acquire) != Life::fault || !may_restart(index) ||
+    if (!state.is_in_fault() || !may_restart(index) ||
         state.ownership.load(std::memory_order_acquire) != Ownership::lifecycle) {
       continue;
     }
@@ -289,59 +319,6 @@ void Lifecycle::restart_by_policy() noexcept {
       log_error(cell_->application().units[i].name, "restart failed: {}", status.cause());
     }
   }
-}
-
-// ---- one device
-
-Status Lifecycle::start_device(std::uint16_t index) noexcept {
-  const DeviceRecord& record = cell_->application().devices[index];
-  DeviceState& state = cell_->application().device_states[index];
-  cell_->note_configuration(cell_->component_of_device(index));
-  begin_operation(record.name, record.initialise_timeout);
-  state.device->clear_fault();
-  state.guards.store(state.device->guards_motion(), std::memory_order_release);
-  // An actuator is inhibited until its thread has seen a Start.
-  state.device->set_inhibited(!cell_->control().may_move());
-  Status status = guarded([&] { return state.device->initialise(); });
-  end_operation();
-  if (status && !state.device->fault().is_ok()) status = state.device->fault();
-  const ParameterMemory memory = state.device->parameter_memory();
-  if (status && memory.runtime != nullptr) {
-    status = cell_->parameters(cell_->component_of_device(index)).adopt(memory.runtime, stamp());
-  }
-  if (!status) {
-    state.fault.publish(status);
-    state.life.store(Life::fault, std::memory_order_release);
-    cell_->set_device_writer_state(index, WriterState::faulted);
-    return Status::error(status.code(), "%s (driver %s): initialise: %s", record.name,
-                         cell_->driver(index).name, status.cause());
-  }
-  state.fault.publish({});
-  state.make_safe.store(false);
-  state.safe.store(false);
-  cell_->set_device_writer_state(index, WriterState::running);
-  state.life.store(Life::running, std::memory_order_release);
-  state.ownership.store(Ownership::thread, std::memory_order_release);
-  // Its thread may sleep until something arrives on a descriptor that exists only now.
-  cell_->application().threads[record.thread].bell->ring();
-  return {};
-}
-
-Status Lifecycle::stop_device(std::uint16_t index) noexcept {
-  const DeviceRecord& record = cell_->application().devices[index];
-  DeviceState& state = cell_->application().device_states[index];
-  if (state.life.load() == Life::created || state.life.load() == Life::stopped) return {};
-  if (const Status status = take_back(state.ownership, record.thread, record.name); !status) return status;
-  cell_->set_device_writer_state(index, WriterState::stopped);
-  cell_->parameters(cell_->component_of_device(index)).end_all_leases(stamp());
-  begin_operation(record.name, record.initialise_timeout);
-  const Status status = guarded([&] {
-    state.device->stop();
-    return Status{};
-  });
-  end_operation();
-  if (state.life.load() != Life::fault) state.life.store(Life::stopped, std::memory_order_release);
-  return status;
 }
 
 }  // namespace flexrf

@@ -25,15 +25,14 @@ class Lifecycle {
   /// Takes back and stops everything: units in reverse order, then devices, what is carried before its bus.
   void stop_all() noexcept;
 
-  Status start_unit(std::uint16_t unit) noexcept;
+  /// Initialises it and hands it over to its thread.
+  Status start(ComponentIndex component) noexcept;
   /// A running unit that owns an actuator is brought to rest first: it sees stop_requested and has its
   /// stop_timeout to become idle; then nothing moves before the next Start, and its devices are made safe if
   /// it did not.
-  Status stop_unit(std::uint16_t unit) noexcept;
+  Status stop(ComponentIndex component) noexcept;
   /// Stop, destroy, construct in place, initialise; motion needs a new Start.
   Status restart_unit(std::uint16_t unit) noexcept;
-  Status start_device(std::uint16_t device) noexcept;
-  Status stop_device(std::uint16_t device) noexcept;
   /// Has a job done by the lifecycle thread, between two operations; false, and nothing is done, after
   /// close(). Any non-real-time thread; does not wait.
   bool post(std::function<void()> job);
@@ -59,7 +58,10 @@ class Lifecycle {
   Operation operation() const noexcept;
 
  private:
-  Status take_back(std::atomic<Ownership>& ownership, std::uint16_t thread, const char* name) noexcept;
+  Status take_back(ComponentIndex component) noexcept;
+  void prepare_device(std::uint16_t device) noexcept;
+  void begin_unit(std::uint16_t unit) noexcept;
+  void begin_device(std::uint16_t device) noexcept;
   void bring_to_rest(std::uint16_t unit) noexcept;
   bool is_at_rest(std::uint16_t unit) const noexcept;
   bool devices_are_safe(std::uint16_t unit) const noexcept;

@@ -23,10 +23,6 @@ class Reconfiguration final : public ReconfigureHost {
   void fault(std::uint16_t owner, const Status& cause) override;
 
  private:
-  bool is_unit(std::uint16_t index) const noexcept { return index < cell_->application().units.size(); }
-  std::uint16_t device_of(std::uint16_t index) const noexcept {
-    return static_cast<std::uint16_t>(index - cell_->application().units.size());
-  }
   int stopping_rank(std::uint16_t index) const noexcept;
 
   Cell* cell_;

@@ -54,36 +54,37 @@ std::vector<ThreadReport> collect_threads(const Application& application, const 
   return threads;
 }
 
-std::vector<ComponentReport> collect_units(const Application& application) {
-  std::vector<ComponentReport> units(application.units.size());
-  for (std::size_t i = 0; i < units.size(); ++i) {
+ComponentReport collect_component(const Cell& cell, ComponentIndex index) {
+  const ComponentState& state = cell.application().component_state(index);
+  ComponentReport component;
+  component.name = cell.component_name(index);
+  component.life = state.life.load();
+  if (component.life == Life::fault) component.fault = state.fault.read().cause();
+  component.restraints = state.restraint.count();
+  return component;
+}
+
+std::vector<ComponentReport> collect_units(const Cell& cell) {
+  const Application& application = cell.application();
+  std::vector<ComponentReport> units;
+  for (std::size_t i = 0; i < application.units.size(); ++i) {
     const UnitState& state = application.unit_states[i];
-    ComponentReport& unit = units[i];
-    unit.name = application.units[i].name;
-    unit.life = state.life.load();
+    ComponentReport& unit = units.emplace_back(collect_component(cell, static_cast<ComponentIndex>(i)));
     unit.active = state.active.load();
     unit.steps = state.steps.load();
     unit.budget = application.units[i].budget;
     unit.execution_maximum = Duration{state.execution_maximum.load()};
     if (unit.steps > 0)
       unit.execution_mean = Duration{state.execution_total.load() / static_cast<std::int64_t>(unit.steps)};
-    if (unit.life == Life::fault) unit.fault = state.fault.read().cause();
-    unit.restraints = state.restraint.count();
   }
   return units;
 }
 
 std::vector<ComponentReport> collect_devices(const Cell& cell) {
-  const Application& application = cell.application();
-  std::vector<ComponentReport> devices(application.devices.size());
-  for (std::size_t i = 0; i < devices.size(); ++i) {
-    const DeviceState& state = application.device_states[i];
-    ComponentReport& device = devices[i];
-    device.name = application.devices[i].name;
-    device.driver = cell.driver(static_cast<std::uint16_t>(i)).name;
-    device.life = state.life.load();
-    if (device.life == Life::fault) device.fault = state.fault.read().cause();
-    device.restraints = state.restraint.count();
+  std::vector<ComponentReport> devices;
+  for (std::uint16_t i = 0; i < cell.application().devices.size(); ++i) {
+    devices.push_back(collect_component(cell, cell.application().component_of_device(i)));
+    devices.back().driver = cell.driver(i).name;
   }
   return devices;
 }
@@ -226,7 +227,7 @@ ReportData collect_report(const Cell& cell, const RunSummary& summary) {
   data.application = &application;
   data.summary = summary;
   data.threads = collect_threads(application, summary);
-  data.units = collect_units(application);
+  data.units = collect_units(cell);
   data.devices = collect_devices(cell);
   data.slots = collect_slots(application);
   data.queues = collect_queues(application);

@@ -26,33 +26,38 @@ enum class Ownership : std::uint8_t {
   asked_back,  ///< the unit's thread, which is asked to let go
 };
 
-struct UnitState {
-  Unit* unit = nullptr;
+/// Of a unit and of a device alike.
+struct ComponentState {
   std::atomic<Life> life{Life::created};
   std::atomic<Ownership> ownership{Ownership::lifecycle};
+  SharedStatus fault;  ///< why; published before life becomes fault
+  SharedRestraint restraint;
+
+  bool is_owned_by_thread() const noexcept {
+    return ownership.load(std::memory_order_acquire) == Ownership::thread;
+  }
+  bool is_in_fault() const noexcept { return life.load(std::memory_order_acquire) == Life::fault; }
+};
+
+struct UnitState : ComponentState {
+  Unit* unit = nullptr;
   std::atomic<bool> active{false};  ///< member of a population: stepped. Others: always true
   std::atomic<bool> idle{true};     ///< what is_idle() said after the last step
   std::atomic<bool> stop_requested{
       false};  ///< it alone is to come to rest: the lifecycle thread will stop it
   std::atomic<std::uint64_t> steps{0};
-  Time stepped_at{};   ///< the unit's thread only
-  SharedStatus fault;  ///< why; published before life becomes fault
-  SharedRestraint restraint;
+  Time stepped_at{};                               ///< the unit's thread only
   std::atomic<std::int64_t> execution_maximum{0};  ///< ns, longest step
   std::atomic<std::int64_t> execution_total{0};    ///< ns, all steps
 };
 
-struct DeviceState {
+struct DeviceState : ComponentState {
   Device* device = nullptr;
-  std::uint16_t driver = 0;  ///< index of the chosen driver
-  std::atomic<Life> life{Life::created};
-  std::atomic<Ownership> ownership{Ownership::lifecycle};
+  std::uint16_t driver = 0;            ///< index of the chosen driver
   std::atomic<bool> make_safe{false};  ///< its unit or itself is in fault: its thread makes it safe
   std::atomic<bool> safe{false};       ///< make_safe() said so
   std::atomic<bool> guards{false};     ///< guards_motion(), as it was or is to be initialised
   bool demands = false;  ///< counted in Control; its thread only, before the start the main thread
-  SharedStatus fault;    ///< why; published before life becomes fault
-  SharedRestraint restraint;
   DeviceEnvironment environment;
 };
 

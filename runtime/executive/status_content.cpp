@@ -81,16 +81,10 @@ StatusLine StatusContent::heading(Time now) const {
 std::vector<StatusLine> StatusContent::faults() const {
   std::vector<StatusLine> lines;
   const Application& application = cell_->application();
-  for (std::size_t i = 0; i < application.devices.size(); ++i) {
-    const DeviceState& state = application.device_states[i];
-    if (state.life.load(std::memory_order_acquire) == Life::fault)
-      lines.push_back({Style::alarm, "fault: " + std::string{application.devices[i].name} + ": " +
-                                         state.fault.read().cause()});
-  }
-  for (std::size_t i = 0; i < application.units.size(); ++i) {
-    const UnitState& state = application.unit_states[i];
-    if (state.life.load(std::memory_order_acquire) == Life::fault)
-      lines.push_back({Style::alarm, "fault: " + std::string{application.units[i].name} + ": " +
+  for (ComponentIndex i = 0; i < application.component_count(); ++i) {
+    const ComponentState& state = application.component_state(i);
+    if (state.is_in_fault())
+      lines.push_back({Style::alarm, "fault: " + std::string{application.component(i).name} + ": " +
                                          state.fault.read().cause()});
   }
   return lines;
@@ -129,10 +123,9 @@ StatusContent::Section StatusContent::units() const {
     const UnitState& state = application.unit_states[i];
     if (!state.active.load(std::memory_order_relaxed)) continue;
     std::string devices;
-    for (std::size_t d = 0; d < application.devices.size(); ++d) {
-      if (application.devices[d].unit != i) continue;
-      devices += (devices.empty() ? "" : ", ") + std::string{application.devices[d].name} + " (" +
-                 cell_->driver(static_cast<std::uint16_t>(d)).name + ")";
+    for (const std::uint16_t device : cell_->devices_of(static_cast<std::uint16_t>(i))) {
+      devices += (devices.empty() ? "" : ", ") + std::string{application.devices[device].name} + " (" +
+                 cell_->driver(device).name + ")";
     }
     const Duration budget = application.units[i].budget;
     table.add({application.units[i].name, name_of(state.life.load(std::memory_order_acquire)),
@@ -158,11 +151,10 @@ StatusContent::Section StatusContent::feedback() const {
       return;
     }
   };
-  for (std::size_t i = 0; i < application.units.size(); ++i) {
-    if (application.unit_states[i].active.load(std::memory_order_relaxed))
-      add(application.units[i].name, application.units[i].feedback_slot);
+  for (ComponentIndex i = 0; i < application.component_count(); ++i) {
+    if (!application.is_unit(i) || application.unit_states[i].active.load(std::memory_order_relaxed))
+      add(application.component(i).name, application.component(i).feedback_slot);
   }
-  for (const DeviceRecord& device : application.devices) add(device.name, device.feedback_slot);
   if (table.is_empty()) return {};
   return {lines_of(table), "values"};
 }

@@ -33,7 +33,7 @@ Stepper::Stepper(Cell& cell, std::uint16_t thread)
       receives_(!record_->devices.empty()) {}
 
 bool Stepper::owns_device(std::uint16_t device) const noexcept {
-  return application_->device_states[device].ownership.load(std::memory_order_acquire) == Ownership::thread;
+  return application_->device_states[device].is_owned_by_thread();
 }
 
 // ---- between steps
@@ -48,12 +48,12 @@ void Stepper::serve(Time now) noexcept {
 
 void Stepper::give_back() noexcept {
   state_->asked_back.store(false, std::memory_order_relaxed);
-  const auto let_go = [](std::atomic<Ownership>& ownership) {
+  const auto let_go = [](ComponentState& state) {
     Ownership asked = Ownership::asked_back;
-    ownership.compare_exchange_strong(asked, Ownership::lifecycle, std::memory_order_acq_rel);
+    state.ownership.compare_exchange_strong(asked, Ownership::lifecycle, std::memory_order_acq_rel);
   };
-  for (const std::uint16_t unit : record_->units) let_go(application_->unit_states[unit].ownership);
-  for (const std::uint16_t device : record_->devices) let_go(application_->device_states[device].ownership);
+  for (const std::uint16_t unit : record_->units) let_go(application_->unit_states[unit]);
+  for (const std::uint16_t device : record_->devices) let_go(application_->device_states[device]);
 }
 
 void Stepper::apply_requests(Time now) noexcept {
@@ -64,16 +64,10 @@ void Stepper::apply_requests(Time now) noexcept {
 }
 
 void Stepper::apply(const ParameterRequest& request, Time now) noexcept {
-  const std::size_t units = application_->units.size();
-  const bool is_unit = request.component < units;
-  const std::atomic<Ownership>& ownership =
-      is_unit ? application_->unit_states[request.component].ownership
-              : application_->device_states[request.component - units].ownership;
-  if (ownership.load(std::memory_order_acquire) != Ownership::thread) {
-    const Life life = is_unit ? application_->unit_states[request.component].life.load()
-                              : application_->device_states[request.component - units].life.load();
+  const ComponentState& state = application_->component_state(request.component);
+  if (!state.is_owned_by_thread()) {
     const Status cause = Status::error(StatusCode::not_permitted, "%s is %s; initialise it first",
-                                       cell_->component_name(request.component), name_of(life));
+                                       cell_->component_name(request.component), name_of(state.life.load()));
     cell_->answer(request.requester,
                   ParameterAnswer::refused(request, cell_->parameters(request.component).sequence(),
                                            no_parameter, cause.cause()));
@@ -105,7 +99,7 @@ void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t uni
     cell_->answer(request.requester,
                   ParameterAnswer::refused(request, parameters.sequence(), no_parameter, reason));
   };
-  if (unit >= application_->units.size() || application_->units[unit].population == no_index) {
+  if (!application_->is_unit(unit) || application_->units[unit].population == no_index) {
     return refuse("it is not a member of a population");
   }
   UnitState& member = application_->unit_states[unit];
@@ -124,7 +118,7 @@ void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t uni
   const void* base = nullptr;
   if (request.kind == RequestKind::clone) {
     const std::uint16_t source = request.source;
-    if (source >= application_->units.size() ||
+    if (!application_->is_unit(source) ||
         application_->units[source].population != application_->units[unit].population) {
       return refuse("a member can only be cloned from one of its own population");
     }
@@ -167,12 +161,10 @@ void Stepper::follow_motion_permission(Time now) noexcept {
   withdrawals_ = withdrawals;
   // What a person holds ends with the permission to move, and only a new press begins it again.
   for (const std::uint16_t unit : record_->units) {
-    if (application_->unit_states[unit].ownership.load(std::memory_order_acquire) == Ownership::thread) {
-      cell_->parameters(unit).end_all_leases(now);
-    }
+    if (application_->unit_states[unit].is_owned_by_thread()) cell_->parameters(unit).end_all_leases(now);
   }
   for (const std::uint16_t device : record_->devices) {
-    if (owns_device(device)) cell_->parameters(cell_->component_of_device(device)).end_all_leases(now);
+    if (owns_device(device)) cell_->parameters(application_->component_of_device(device)).end_all_leases(now);
   }
 }
 
@@ -270,7 +262,7 @@ void Stepper::receive(Time now) noexcept {
     if (!owns_device(index)) continue;
     Device& device = *application_->device_states[index].device;
     note_stepped(application_->devices[index].name);
-    cell_->parameters(cell_->component_of_device(index)).before_step(now);
+    cell_->parameters(application_->component_of_device(index)).before_step(now);
     device.receive(tick_);
     // What comes to its end before all is initialised is noticed afterwards: until then nothing can be
     // finished.
@@ -286,8 +278,7 @@ void Stepper::receive(Time now) noexcept {
 bool Stepper::step(std::size_t place, Time now) noexcept {
   const std::uint16_t index = record_->units[place];
   UnitState& state = application_->unit_states[index];
-  if (state.ownership.load(std::memory_order_acquire) != Ownership::thread || making_safe_ ||
-      !state.active.load(std::memory_order_relaxed)) {
+  if (!state.is_owned_by_thread() || making_safe_ || !state.active.load(std::memory_order_relaxed)) {
     return false;
   }
   const UnitRecord& record = application_->units[index];
@@ -343,7 +334,7 @@ void Stepper::send(Time now) noexcept {
     note_stepped(application_->devices[index].name);
     state.device->send(tick_);
     note_restraint(application_->devices[index].name, *state.device, state.restraint, now);
-    if (const Status own = cell_->parameters(cell_->component_of_device(index)).after_step(now); !own)
+    if (const Status own = cell_->parameters(application_->component_of_device(index)).after_step(now); !own)
         [[unlikely]]
       blame(*state.device, own);
     check_device(index);
@@ -421,11 +412,9 @@ void Stepper::check_device(std::uint16_t index) noexcept {
   if (state.device->fault().is_ok() || state.life.load(std::memory_order_relaxed) == Life::fault) return;
   const Status cause = state.device->fault();
   cell_->control().note_fault();
-  state.fault.publish(cause);
-  state.life.store(Life::fault, std::memory_order_release);
+  cell_->set_fault(application_->component_of_device(index), cause);
   state.make_safe.store(true, std::memory_order_relaxed);
   state.device->set_inhibited(true);
-  cell_->set_device_writer_state(index, WriterState::faulted);
   log_error(application_->devices[index].name, "fault: {}", cause.cause());
 }
 
@@ -433,17 +422,12 @@ void Stepper::fault_unit(std::uint16_t index, const Status& cause) noexcept {
   UnitState& state = application_->unit_states[index];
   // Counted first: who sees the fault, and ends the application for it, finds it counted.
   cell_->control().note_fault();
-  state.fault.publish(cause);
-  state.life.store(Life::fault, std::memory_order_release);
+  cell_->set_fault(index, cause);
   state.idle.store(true, std::memory_order_release);
-  cell_->set_writer_state(index, WriterState::faulted);
   cell_->parameters(index).end_all_leases(context_->now);
   // Nobody commands its devices any more: they are brought to rest by their own means.
-  for (const std::uint16_t device : record_->devices) {
-    if (application_->devices[device].unit == index) {
-      application_->device_states[device].make_safe.store(true, std::memory_order_relaxed);
-    }
-  }
+  for (const std::uint16_t device : cell_->devices_of(index))
+    application_->device_states[device].make_safe.store(true, std::memory_order_relaxed);
   log_error(application_->units[index].name, "fault: {}", cause.cause());
   // The last that is done: from here on the lifecycle thread may destroy the unit, and with it the cause.
   state.ownership.store(Ownership::lifecycle, std::memory_order_release);
@@ -451,9 +435,7 @@ void Stepper::fault_unit(std::uint16_t index, const Status& cause) noexcept {
 
 void Stepper::fault_all(const Status& cause) noexcept {
   for (const std::uint16_t unit : record_->units) {
-    if (application_->unit_states[unit].ownership.load(std::memory_order_acquire) == Ownership::thread) {
-      fault_unit(unit, cause);
-    }
+    if (application_->unit_states[unit].is_owned_by_thread()) fault_unit(unit, cause);
   }
 }
 

@@ -75,7 +75,7 @@ Due Trigger::due_by_sources(Time now) noexcept {
 
 const Device* Trigger::owned_device() const noexcept {
   const DeviceState& state = application_->device_states[record_->device];
-  return state.ownership.load(std::memory_order_acquire) == Ownership::thread ? state.device : nullptr;
+  return state.is_owned_by_thread() ? state.device : nullptr;
 }
 
 Due Trigger::due_by_device(Time now, bool readable) const noexcept {

@@ -159,11 +159,16 @@ void VirtualTime::begin(Thread& thread) noexcept {
   go_on(thread);
 }
 
+void VirtualTime::commit_devices(const Thread& thread) noexcept {
+  for (const std::uint16_t device : thread.stepper.record().devices)
+    cell_->commit(cell_->application().component_of_device(device));
+}
+
 void VirtualTime::complete(Thread& thread) noexcept {
   if (thread.phase == Phase::receiving) {
-    for (const std::uint16_t device : thread.stepper.record().devices) cell_->commit_device(device);
+    commit_devices(thread);
   } else {
-    cell_->commit_unit(thread.stepper.record().units[thread.place]);
+    cell_->commit(thread.stepper.record().units[thread.place]);
     ++thread.place;
   }
   go_on(thread);
@@ -185,7 +190,7 @@ void VirtualTime::end(Thread& thread) noexcept {
   const ThreadRecord& record = thread.stepper.record();
   thread.stepper.send(now_);
   thread.stepper.state().step_began.store(0, std::memory_order_relaxed);
-  for (const std::uint16_t device : record.devices) cell_->commit_device(device);
+  commit_devices(thread);
   const std::uint64_t past = thread.trigger.finished(now_, record.overrun);
   if (thread.accounting.count(thread.release, now_, past)) {
     thread.stepper.fault_all(

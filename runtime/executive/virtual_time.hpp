@@ -58,6 +58,7 @@ class VirtualTime {
   void look_for_release(Thread& thread) noexcept;
   void begin(Thread& thread) noexcept;
   void complete(Thread& thread) noexcept;
+  void commit_devices(const Thread& thread) noexcept;
   void go_on(Thread& thread) noexcept;
   void end(Thread& thread) noexcept;
 

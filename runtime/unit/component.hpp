@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "runtime/blackboard/item.hpp"
@@ -11,6 +12,17 @@
 #include "runtime/unit/restraint.hpp"
 
 namespace flexrf {
+
+class QueueSink;
+class SlotControl;
+
+/// How the generated application connects what units and devices publish, each kind of port in the order of
+/// its table.
+struct PortBinding {
+  const StepContext* context = nullptr;                        ///< of the thread it lives in
+  std::span<SlotControl* const> outputs;                       ///< null: not connected
+  std::span<const std::span<QueueSink* const>> queue_outputs;  ///< empty span: not connected
+};
 
 class Component {
  public:

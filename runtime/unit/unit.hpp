@@ -13,13 +13,10 @@ namespace flexrf {
 class CellAccess;
 
 /// How the generated application connects a unit: each kind of port in the order of the unit's table.
-struct UnitBinding {
-  const StepContext* context = nullptr;
+struct UnitBinding : PortBinding {
   std::span<const InputBinding> inputs;
-  std::span<SlotControl* const> outputs;                       ///< null: not connected
-  std::span<QueueSource* const> queue_inputs;                  ///< null: not connected
-  std::span<const std::span<QueueSink* const>> queue_outputs;  ///< empty span: not connected
-  std::span<Device* const* const> devices;                     ///< where the constructed driver is found
+  std::span<QueueSource* const> queue_inputs;  ///< null: not connected
+  std::span<Device* const* const> devices;     ///< where the constructed driver is found
 };
 
 /// initialise, stop: the lifecycle thread, while the unit does not run. step, reset, is_idle, accept: its

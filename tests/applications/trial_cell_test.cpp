@@ -85,7 +85,7 @@ void the_arm_holds_when_the_writer_is_stopped() {
   running.type("m");
   CHECK(wait_until([&] { return is_moving(running); }));
   running.executive().lifecycle().post(
-      [&running] { static_cast<void>(running.executive().lifecycle().stop_unit(running.unit("saboteur"))); });
+      [&running] { static_cast<void>(running.executive().lifecycle().stop(running.unit("saboteur"))); });
   // The writer owns a drive: when it is stopped, nothing moves before the next Start.
   check_holds(running, start, "motion is inhibited");
   CHECK(wait_until([&] { return running.state("saboteur").life.load() == Life::stopped; }));

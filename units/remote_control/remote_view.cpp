@@ -94,7 +94,7 @@ std::optional<RpcProblem> RemoteView::list(Fields& params, JsonWriter& json, std
     } else if (of == "components") {
       const auto component = static_cast<ComponentIndex>(next);
       entry.member("name", cell_->component_name(component));
-      entry.member("kind", component < application().units.size() ? "unit" : "device");
+      entry.member("kind", kind_of(application(), component));
       entry.member("type", cell_->component_type(component).name);
     } else {
       static constexpr const char* kinds[] = {"configuration", "runtime", "feedback"};
@@ -196,16 +196,8 @@ std::optional<RpcProblem> RemoteView::read(Fields& params, JsonWriter& json) {
 }
 
 std::uint16_t RemoteView::slot_of(ComponentIndex component, bool feedback) const noexcept {
-  const std::size_t units = application().units.size();
-  const SlotControl* control = nullptr;
-  if (component < units) {
-    const UnitRecord& unit = application().units[component];
-    control = feedback ? unit.feedback_slot : unit.runtime_slot;
-  } else {
-    const DeviceRecord& device = application().devices[component - units];
-    control = feedback ? device.feedback_slot : device.runtime_slot;
-  }
-  return index_of(application(), control);
+  const ComponentRecord& record = application().component(component);
+  return index_of(application(), feedback ? record.feedback_slot : record.runtime_slot);
 }
 
 void RemoteView::write_block(JsonWriter& json, const char* key, std::uint16_t slot,

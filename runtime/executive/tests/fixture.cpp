@@ -349,8 +349,8 @@ void TestApplication::make_units() {
     record.type = &TestUnit::type;
     record.construct = &UnitPlace::construct<Unit>;
     record.storage = place.object;
-    record.size = sizeof(place.object);
-    record.binding = {&made_->contexts[thread], inputs, outputs, sources, sinks, devices};
+    record.storage_size = sizeof(place.object);
+    record.binding = {{&made_->contexts[thread], outputs, sinks}, inputs, sources, devices};
     record.configuration = &TestUnit::default_configuration;
     record.runtime = &TestUnit::default_settings;
     if (plan.parameters) {

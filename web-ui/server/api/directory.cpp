@@ -19,17 +19,11 @@ std::uint16_t index_of(const Application& application, const SlotControl* contro
 
 Directory::Directory(Cell& cell) {
   const Application& application = cell.application();
-  for (const UnitRecord& unit : application.units) {
-    const auto index = static_cast<ComponentIndex>(components_.size());
-    components_.push_back({unit.name, true, &cell.component(index).type_in_force(),
-                           index_of(application, unit.runtime_slot),
-                           index_of(application, unit.feedback_slot)});
-  }
-  for (const DeviceRecord& device : application.devices) {
-    const auto index = static_cast<ComponentIndex>(components_.size());
-    components_.push_back({device.name, false, &cell.component(index).type_in_force(),
-                           index_of(application, device.runtime_slot),
-                           index_of(application, device.feedback_slot)});
+  for (ComponentIndex i = 0; i < application.component_count(); ++i) {
+    const ComponentRecord& record = application.component(i);
+    components_.push_back({record.name, application.is_unit(i), &cell.component_type(i),
+                           index_of(application, record.runtime_slot),
+                           index_of(application, record.feedback_slot)});
   }
   for (std::size_t i = 0; i < components_.size(); ++i)
     component_names_.emplace(components_[i].name, static_cast<std::uint16_t>(i));

@@ -31,10 +31,8 @@ std::uint64_t StateEvent::signature() const noexcept {
   digest.add((control.motion_stopped() ? 2U : 0U) + (control.may_move() ? 1U : 0U));
   digest.add(control.faults());
   std::uint64_t in_fault = 0;
-  for (const UnitState& unit : application.unit_states)
-    in_fault += unit.life.load(std::memory_order_relaxed) == Life::fault ? 1U : 0U;
-  for (const DeviceState& device : application.device_states)
-    in_fault += device.life.load(std::memory_order_relaxed) == Life::fault ? 1U : 0U;
+  for (ComponentIndex i = 0; i < application.component_count(); ++i)
+    in_fault += application.component_state(i).is_in_fault() ? 1U : 0U;
   digest.add(in_fault);
   for (const ThreadState& thread : application.thread_states)
     digest.add(static_cast<std::uint64_t>(thread.longest_standstill.load(std::memory_order_relaxed)));
@@ -47,7 +45,7 @@ std::uint64_t StateEvent::signature() const noexcept {
 }
 
 std::size_t StateEvent::fault_places(const Application& application) noexcept {
-  return application.units.size() + application.devices.size() + application.threads.size() + 1;
+  return application.component_count() + application.threads.size() + 1;
 }
 
 /// A standstill that was longer than those before is a new one.
@@ -58,11 +56,8 @@ void StateEvent::note_faults(Time now) noexcept {
     Fault& fault = faults_[place++];
     if (extent != fault.extent) fault = {extent, now};
   };
-  const auto is_fault = [](const auto& state) -> std::int64_t {
-    return state.life.load(std::memory_order_acquire) == Life::fault ? 1 : 0;
-  };
-  for (std::size_t i = 0; i < application.units.size(); ++i) note(is_fault(application.unit_states[i]));
-  for (std::size_t i = 0; i < application.devices.size(); ++i) note(is_fault(application.device_states[i]));
+  for (ComponentIndex i = 0; i < application.component_count(); ++i)
+    note(application.component_state(i).is_in_fault() ? 1 : 0);
   for (std::size_t i = 0; i < application.threads.size(); ++i)
     note(application.thread_states[i].longest_standstill.load(std::memory_order_relaxed));
   note(executive_->control().longest_standstill().count());
@@ -116,13 +111,11 @@ void StateEvent::write_faults(JsonWriter& json) const {
     json.begin_object().member("component", name).member("kind", kind).member("cause", cause(fault.extent));
     json.member("since_ns", fault.since.time_since_epoch().count()).end_object();
   };
-  const auto write_component = [&write](const char* kind, const char* name, const auto& state) {
-    write(kind, name, [&state](std::int64_t) { return std::string{state.fault.read().cause()}; });
-  };
-  for (std::size_t i = 0; i < application.units.size(); ++i)
-    write_component("unit", application.units[i].name, application.unit_states[i]);
-  for (std::size_t i = 0; i < application.devices.size(); ++i)
-    write_component("device", application.devices[i].name, application.device_states[i]);
+  for (ComponentIndex i = 0; i < application.component_count(); ++i) {
+    const ComponentState& state = application.component_state(i);
+    write(kind_of(application, i), application.component(i).name,
+          [&state](std::int64_t) { return std::string{state.fault.read().cause()}; });
+  }
   const auto standstill = [](std::int64_t longest) {
     return "stood still for " + duration_text(Duration{longest});
   };

@@ -138,42 +138,51 @@ void TopicBodies::write(JsonWriter& json, Topic topic, Time now) {
 }
 
 void TopicBodies::write_component(JsonWriter& json, ComponentIndex component) const {
-  const std::size_t units = application_->units.size();
-  component < units ? write_unit(json, component) : write_device(json, component - units);
+  const ComponentState& state = application_->component_state(component);
+  json.begin_object().member("name", application_->component(component).name);
+  json.member("kind", kind_of(*application_, component));
+  if (application_->is_unit(component)) {
+    json.member("type", application_->units[component].type->name);
+  } else {
+    json.member("driver", executive_->cell().driver(application_->device_of(component)).name);
+  }
+  write_life(json, state);
+  write_restraint(json, state.restraint);
+  write_steps(json, component);
+  json.end_object();
 }
 
-void TopicBodies::write_unit(JsonWriter& json, std::size_t index) const {
-  const UnitRecord& unit = application_->units[index];
-  const UnitState& state = application_->unit_states[index];
+void TopicBodies::write_life(JsonWriter& json, const ComponentState& state) {
   const Life life = state.life.load(std::memory_order_acquire);
-  const std::uint64_t steps = state.steps.load(std::memory_order_relaxed);
-  json.begin_object().member("name", unit.name).member("kind", "unit").member("type", unit.type->name);
   json.member("life", flexrf::name_of(life))
       .member("fault", life == Life::fault ? state.fault.read().cause() : "");
-  write_restraint(json, state.restraint);
-  json.member("active", state.active.load(std::memory_order_relaxed)).key("member");
-  if (unit.population == no_index) {
+}
+
+/// A device takes no steps of its own, and is no member of a population.
+void TopicBodies::write_steps(JsonWriter& json, ComponentIndex component) const {
+  bool active = true;
+  std::uint64_t steps = 0;
+  std::int64_t total = 0;
+  std::int64_t longest = 0;
+  std::uint16_t population = no_index;
+  if (application_->is_unit(component)) {
+    const UnitState& state = application_->unit_states[component];
+    active = state.active.load(std::memory_order_relaxed);
+    steps = state.steps.load(std::memory_order_relaxed);
+    total = state.execution_total.load(std::memory_order_relaxed);
+    longest = state.execution_maximum.load(std::memory_order_relaxed);
+    population = application_->units[component].population;
+  }
+  json.member("active", active).key("member");
+  if (population == no_index) {
     json.null();
   } else {
-    json.begin_object().member("population", application_->populations[unit.population].name);
-    json.member("index", unit.member).end_object();
+    json.begin_object().member("population", application_->populations[population].name);
+    json.member("index", application_->units[component].member).end_object();
   }
   json.member("steps", steps).key("execution").begin_object();
-  const std::int64_t total = state.execution_total.load(std::memory_order_relaxed);
   json.member("mean_ns", steps == 0 ? 0 : total / static_cast<std::int64_t>(steps));
-  json.member("max_ns", state.execution_maximum.load(std::memory_order_relaxed)).end_object().end_object();
-}
-
-void TopicBodies::write_device(JsonWriter& json, std::size_t index) const {
-  const DeviceState& state = application_->device_states[index];
-  const Life life = state.life.load(std::memory_order_acquire);
-  json.begin_object().member("name", application_->devices[index].name).member("kind", "device");
-  json.member("driver", executive_->cell().driver(static_cast<std::uint16_t>(index)).name);
-  json.member("life", flexrf::name_of(life))
-      .member("fault", life == Life::fault ? state.fault.read().cause() : "");
-  write_restraint(json, state.restraint);
-  json.member("active", true).key("member").null().member("steps", 0).key("execution").begin_object();
-  json.member("mean_ns", 0).member("max_ns", 0).end_object().end_object();
+  json.member("max_ns", longest).end_object();
 }
 
 void TopicBodies::write_devices(JsonWriter& json) const {
@@ -182,15 +191,13 @@ void TopicBodies::write_devices(JsonWriter& json) const {
     const DeviceRecord& device = application_->devices[i];
     const DeviceState& state = application_->device_states[i];
     const DriverRecord& driver = executive_->cell().driver(static_cast<std::uint16_t>(i));
-    const Life life = state.life.load(std::memory_order_acquire);
     json.begin_object().member("name", device.name).member("interface", device.interface);
     json.member("driver", driver.name).member("kind", flexrf::name_of(driver.kind));
     json.member("actuates", driver.actuates);
     json.member("unit", device.unit == no_index ? "" : application_->units[device.unit].name);
     json.member("bus", device.bus == no_index ? "" : application_->devices[device.bus].name);
     json.member("thread", application_->threads[device.thread].name);
-    json.member("life", flexrf::name_of(life))
-        .member("fault", life == Life::fault ? state.fault.read().cause() : "");
+    write_life(json, state);
     json.member("inhibited", driver.actuates && state.device->is_inhibited()).end_object();
   }
   json.end_array();

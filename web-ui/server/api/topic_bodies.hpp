@@ -60,8 +60,8 @@ class TopicBodies {
 
   void write(JsonWriter& json, Topic topic, Time now);
   static void write_restraint(JsonWriter& json, const SharedRestraint& shared);
-  void write_unit(JsonWriter& json, std::size_t unit) const;
-  void write_device(JsonWriter& json, std::size_t device) const;
+  static void write_life(JsonWriter& json, const ComponentState& state);
+  void write_steps(JsonWriter& json, ComponentIndex component) const;
   void write_slots(JsonWriter& json) const;
   void write_queues(JsonWriter& json) const;
   void write_threads(JsonWriter& json, Time now);
