@@ -4,10 +4,10 @@
 #include <string_view>
 
 #include "runtime/core/json_writer.hpp"
+#include "runtime/face/refusal.hpp"
 #include "web-ui/server/access.hpp"
 #include "web-ui/server/api/caller.hpp"
 #include "web-ui/server/api/clients.hpp"
-#include "web-ui/server/api/refusal.hpp"
 
 namespace flexrf::panel {
 

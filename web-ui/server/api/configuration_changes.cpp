@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "runtime/face/change.hpp"
 #include "runtime/json/value_reader.hpp"
 #include "runtime/parameters/value_access.hpp"
-#include "web-ui/server/api/request_builder.hpp"
 
 namespace flexrf::panel {
 namespace {

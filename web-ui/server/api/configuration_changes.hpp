@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "runtime/face/directory.hpp"
 #include "runtime/json/json_reader.hpp"
 #include "runtime/parameters/reconfigure.hpp"
-#include "web-ui/server/api/directory.hpp"
 
 namespace flexrf::panel {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "runtime/executive/cell.hpp"
-#include "web-ui/server/api/directory.hpp"
+#include "runtime/face/directory.hpp"
 
 namespace flexrf::panel {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "runtime/executive/executive.hpp"
+#include "runtime/face/component_values.hpp"
 #include "runtime/json/json_reader.hpp"
 #include "web-ui/server/api/answers.hpp"
-#include "web-ui/server/api/component_values.hpp"
 #include "web-ui/server/api/configuration_changes.hpp"
 #include "web-ui/server/api/mailbox.hpp"
 

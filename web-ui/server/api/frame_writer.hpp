@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "runtime/face/observed_slots.hpp"
 #include "web-ui/server/api/clients.hpp"
 #include "web-ui/server/api/image_worker.hpp"
-#include "web-ui/server/api/observed_slots.hpp"
 
 namespace flexrf::panel {
 

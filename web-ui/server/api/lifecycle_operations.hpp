@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "runtime/executive/executive.hpp"
+#include "runtime/face/directory.hpp"
 #include "web-ui/server/api/answers.hpp"
-#include "web-ui/server/api/directory.hpp"
 #include "web-ui/server/api/mailbox.hpp"
 
 namespace flexrf::panel {

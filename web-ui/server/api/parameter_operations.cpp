@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "web-ui/server/api/request_builder.hpp"
+#include "runtime/face/change.hpp"
 
 namespace flexrf::panel {
 namespace {

@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "runtime/executive/cell.hpp"
+#include "runtime/face/component_values.hpp"
 #include "runtime/json/json_reader.hpp"
 #include "web-ui/server/access.hpp"
 #include "web-ui/server/api/answers.hpp"
-#include "web-ui/server/api/component_values.hpp"
 #include "web-ui/server/api/leases.hpp"
 #include "web-ui/server/api/pending_requests.hpp"
 

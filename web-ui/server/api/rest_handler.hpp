@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/face/component_values.hpp"
 #include "runtime/json/json_reader.hpp"
-#include "web-ui/server/api/component_values.hpp"
 #include "web-ui/server/api/image_requests.hpp"
 #include "web-ui/server/api/operations.hpp"
 #include "web-ui/server/api/routes.hpp"

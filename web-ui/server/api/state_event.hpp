@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "runtime/executive/executive.hpp"
+#include "runtime/face/directory.hpp"
 #include "web-ui/server/access.hpp"
-#include "web-ui/server/api/directory.hpp"
 #include "web-ui/server/api/edit_operations.hpp"
 #include "web-ui/server/server_services.hpp"
 

@@ -1,9 +1,9 @@
 // What a page wants to see, and how often.
 #pragma once
 
+#include "runtime/face/directory.hpp"
 #include "runtime/json/json_reader.hpp"
 #include "web-ui/server/api/answers.hpp"
-#include "web-ui/server/api/directory.hpp"
 #include "web-ui/server/api/image_worker.hpp"
 
 namespace flexrf::panel {

@@ -1,8 +1,8 @@
-#include "web-ui/server/api/component_values.hpp"
+#include "runtime/face/component_values.hpp"
 
 #include "runtime/core/value_json.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 
 std::uint64_t ComponentValues::sequence(ComponentIndex component) {
   const std::uint16_t slot = directory_->entry(component).runtime_slot;
@@ -53,4 +53,4 @@ void ComponentValues::write_all(JsonWriter& json, ComponentIndex component) {
   write_feedback(json, component);
 }
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

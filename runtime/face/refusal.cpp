@@ -1,10 +1,10 @@
-#include "web-ui/server/api/refusal.hpp"
+#include "runtime/face/refusal.hpp"
 
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 
-namespace flexrf::panel {
+namespace flexrf {
 namespace {
 
 struct Known {
@@ -91,4 +91,4 @@ void Refusal::write(JsonWriter& json) const {
   json.end_object();
 }
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

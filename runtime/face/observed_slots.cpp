@@ -1,8 +1,8 @@
-#include "web-ui/server/api/observed_slots.hpp"
+#include "runtime/face/observed_slots.hpp"
 
 #include <cstring>
 
-namespace flexrf::panel {
+namespace flexrf {
 namespace {
 
 /// Why an observed slot is NULL whose newest item has this header.
@@ -51,4 +51,4 @@ ObservedSlot ObservedSlots::read_header(std::uint16_t slot) {
   return newest;
 }
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

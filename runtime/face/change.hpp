@@ -5,13 +5,13 @@
 #include <optional>
 #include <string_view>
 
+#include "runtime/face/directory.hpp"
+#include "runtime/face/refusal.hpp"
 #include "runtime/json/json_reader.hpp"
 #include "runtime/parameters/request.hpp"
 #include "runtime/parameters/value_access.hpp"
-#include "web-ui/server/api/directory.hpp"
-#include "web-ui/server/api/refusal.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 
 /// A parameter, or a part of one, that a path names.
 struct ParameterPlace {
@@ -38,4 +38,4 @@ std::optional<Refusal> add_name(const ComponentEntry& component, std::string_vie
 /// What an answer that is no acceptance tells the client.
 Refusal refusal_of(const ParameterAnswer& answer, const ComponentEntry& component) noexcept;
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

@@ -7,7 +7,7 @@
 
 #include "runtime/executive/cell.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 
 /// A slot's newest item, or the NULL item with its reason.
 struct ObservedSlot {
@@ -44,4 +44,4 @@ class ObservedSlots {
   std::vector<Cached> slots_;
 };
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

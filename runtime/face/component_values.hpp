@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "runtime/core/json_writer.hpp"
+#include "runtime/face/directory.hpp"
+#include "runtime/face/observed_slots.hpp"
 #include "web-ui/server/api/configuration_values.hpp"
-#include "web-ui/server/api/directory.hpp"
-#include "web-ui/server/api/observed_slots.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 
 /// The server's thread. What a component has none of is {}; what is not known yet is null.
 class ComponentValues {
@@ -36,4 +36,4 @@ class ComponentValues {
   std::vector<std::byte> bytes_;
 };
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

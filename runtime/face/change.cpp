@@ -1,4 +1,4 @@
-#include "web-ui/server/api/request_builder.hpp"
+#include "runtime/face/change.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 #include "runtime/parameters/parameter_store.hpp"
 #include "runtime/parameters/scalar_types.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 namespace {
 
 std::optional<Refusal> too_many(const ComponentEntry& component) noexcept {
@@ -123,4 +123,4 @@ Refusal refusal_of(const ParameterAnswer& answer, const ComponentEntry& componen
       .because(answer.reason);
 }
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

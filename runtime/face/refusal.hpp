@@ -6,7 +6,7 @@
 
 #include "runtime/core/json_writer.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 
 enum class RefusalKind : std::uint8_t {
   bad_request,
@@ -55,4 +55,4 @@ class Refusal {
   std::size_t moving_count_ = 0;
 };
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

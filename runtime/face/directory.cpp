@@ -1,10 +1,10 @@
-#include "web-ui/server/api/directory.hpp"
+#include "runtime/face/directory.hpp"
 
 #include <algorithm>
 
 #include "runtime/core/nearest_name.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 namespace {
 
 std::uint16_t index_of(const Application& application, const SlotControl* control) noexcept {
@@ -54,4 +54,4 @@ Refusal Directory::no_slot(std::string_view name) const noexcept {
   return unknown("slot", slot_names_, name);
 }
 
-}  // namespace flexrf::panel
+}  // namespace flexrf

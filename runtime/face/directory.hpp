@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "runtime/executive/cell.hpp"
-#include "web-ui/server/api/refusal.hpp"
+#include "runtime/face/refusal.hpp"
 
-namespace flexrf::panel {
+namespace flexrf {
 
 struct ComponentEntry {
   const char* name;
@@ -47,4 +47,4 @@ class Directory {
   Names slot_names_;
 };
 
-}  // namespace flexrf::panel
+}  // namespace flexrf
