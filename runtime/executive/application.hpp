@@ -43,9 +43,6 @@ struct QueueRecord {
   bool wall;
 };
 
-/// A component's number, as in requests: units in table order, then devices.
-using ComponentIndex = std::uint16_t;
-
 /// What the tables say of a unit and of a device alike.
 struct ComponentRecord {
   const char* name;

@@ -89,15 +89,15 @@ class Cell {
   /// What is declared of it: of a device by the chosen driver, with ranges as the application narrows them.
   /// Any thread, from construct() on.
   const ComponentType& component_type(ComponentIndex component) const noexcept;
-  /// Copies the configuration values that the component was initialised with last, at most `size` bytes; the
-  /// object itself may be under restart. How many there are, 0: none. Any non-real-time thread.
+  /// Copies the configuration values of the component as they were set last, at most `size` bytes; the object
+  /// itself may be under restart. How many there are, 0: none. Any non-real-time thread.
   std::size_t copy_configuration(ComponentIndex component, void* to, std::size_t size) const;
-  /// Rises with each initialisation: the values may be others than before. Any thread.
+  /// Rises with each initialisation and reconfiguration: the values may be others than before. Any thread.
   std::uint64_t configuration_revision() const noexcept {
     return configuration_revision_.load(std::memory_order_acquire);
   }
-  /// The values are those that the component is about to be initialised with. Lifecycle thread; before the
-  /// start: the main thread.
+  /// The values in the component's memory are those that count now. Lifecycle thread; before the start: the
+  /// main thread.
   void note_configuration(ComponentIndex component);
   RuntimeParameters& parameters(ComponentIndex component) noexcept { return parameters_[component]; }
 

@@ -8,6 +8,7 @@
 #include "runtime/core/time.hpp"
 #include "runtime/executive/value_saver.hpp"
 #include "runtime/parameters/request.hpp"
+#include "runtime/unit/component.hpp"
 
 namespace flexrf {
 

@@ -176,6 +176,7 @@ Status Executive::prepare() {
   if (const Status status = check_triggers(cell_.application()); !status) return status;
   if (const Status status = cell_.construct(); !status) return status;
   if (const Status status = saver_.load(); !status) return status;
+  for (ComponentIndex i = 0; i < cell_.component_count(); ++i) cell_.note_configuration(i);
   if (const Status status = audit_.prepare(); !status) return status;
   for (DeviceState& state : cell_.application().device_states) {
     state.demands = state.device->guards_motion();
@@ -229,6 +230,10 @@ void Executive::reconfigure(std::vector<ConfigurationChange> changes, Reconfigur
     const ConfigurationBefore before(cell_, changes);
     const ReconfigureResult result = flexrf::reconfigure(host, changes);
     if (result.outcome == ReconfigureOutcome::done) note_set(cell_, changes);
+    // Owners that were not initialised anew, too.
+    for (const ConfigurationChange& change : changes) {
+      if (change.component < cell_.component_count()) cell_.note_configuration(change.component);
+    }
     before.note(who, result);
     done(result);
   };

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <iterator>
 
-#include "runtime/blackboard/registry.hpp"
 #include "runtime/core/text_table.hpp"
 #include "runtime/parameters/value_access.hpp"
 

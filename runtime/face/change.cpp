@@ -11,13 +11,22 @@ namespace flexrf {
 namespace {
 
 std::optional<Refusal> too_many(const ComponentEntry& component) noexcept {
-  return Refusal::make(RefusalKind::too_large,
-                       "%s: one request takes at most %u values and %u bytes of them; split it into several.",
-                       component.name, ParameterRequest::max_changes, ParameterRequest::max_value_bytes);
+  return Refusal::make(RefusalKind::too_large, "%s: one request takes at most %u values and %u bytes of them",
+                       component.name, ParameterRequest::max_changes, ParameterRequest::max_value_bytes)
+      .hint("split it into several");
 }
 
 int shown(std::string_view path) noexcept {
   return static_cast<int>(std::min<std::size_t>(path.size(), 80));
+}
+
+/// A button is pressed, a hold held, and each of them nothing else.
+std::optional<Refusal> cannot_be(const char* act, const char* other, const ComponentEntry& component,
+                                 std::string_view path, const char* hint) noexcept {
+  return Refusal::make(RefusalKind::refused, "%s.%.*s cannot be %s: it is no %s", component.name, shown(path),
+                       path.data(), act, other)
+      .hint("%s", hint)
+      .about(path);
 }
 
 }  // namespace
@@ -32,16 +41,15 @@ std::optional<Refusal> find_parameter(const ParameterBlock& block, const char* k
     if (name != block.parameters[i].field->name) continue;
     const Result<FieldPlace> place = find_field(*block.type, path);
     if (!place)
-      return Refusal::make(RefusalKind::not_found, "%s: %s.", component.name, place.status().cause())
+      return Refusal::make(RefusalKind::not_found, "%s: %s", component.name, place.status().cause())
           .about(path);
     found = {&block.parameters[i], static_cast<std::uint16_t>(i), *place};
     return std::nullopt;
   }
-  const std::string_view best = nearest.best();
-  return Refusal::make(RefusalKind::not_found, "%s has no %s parameter '%.*s'%s%.*s%s", component.name, kind,
-                       shown(path), path.data(), best.empty() ? "." : "; did you mean '",
-                       static_cast<int>(best.size()), best.data(), best.empty() ? "" : "'?")
-      .about(path);
+  Refusal refusal = Refusal::make(RefusalKind::not_found, "%s has no %s parameter '%.*s'", component.name,
+                                  kind, shown(path), path.data());
+  if (const std::string_view best = nearest.best(); !best.empty()) refusal.hint_nearest(best);
+  return refusal.about(path);
 }
 
 std::optional<Refusal> add_values(const ComponentEntry& component, JsonObject values,
@@ -52,12 +60,13 @@ std::optional<Refusal> add_values(const ComponentEntry& component, JsonObject va
   for (const auto member : values) {
     ParameterPlace found;
     if (auto refusal = find_parameter(block, "runtime", component, member.key, found)) return refusal;
+    role = std::max(role, found.parameter->role);
     ValueRange range{};
     const bool is_member = member.key.find('.') != std::string_view::npos;
     const Status status = read_value(member.value, found.place, structure,
                                      is_member ? nullptr : range_of(*found.parameter, range));
     if (!status) {
-      return Refusal::make(RefusalKind::refused, "%s.%.*s is refused: %s.", component.name, shown(member.key),
+      return Refusal::make(RefusalKind::refused, "%s.%.*s is refused: %s", component.name, shown(member.key),
                            member.key.data(), status.cause())
           .about(member.key)
           .because(status.cause());
@@ -67,9 +76,9 @@ std::optional<Refusal> add_values(const ComponentEntry& component, JsonObject va
                                  : found.place.count * element_size(*found.place.field);
     if (!request.add(found.index, found.offset(), structure + found.place.offset, size))
       return too_many(component);
-    role = std::max(role, found.parameter->role);
   }
-  return std::nullopt;
+  if (request.change_count > 0) return std::nullopt;
+  return Refusal::make(RefusalKind::bad_request, "There is no value").hint("write {\"PATH\": value, ...}");
 }
 
 std::optional<Refusal> add_name(const ComponentEntry& component, std::string_view path,
@@ -77,50 +86,67 @@ std::optional<Refusal> add_name(const ComponentEntry& component, std::string_vie
   ParameterPlace found;
   if (auto refusal = find_parameter(component.type->runtime, "runtime", component, path, found))
     return refusal;
-  const Scalar scalar = found.place.field->scalar;
-  const char* act = nullptr;
-  if (request.kind == RequestKind::press && scalar != Scalar::button) act = "pressed: it is no button";
-  if (request.kind == RequestKind::hold && scalar != Scalar::hold) act = "held: it is no hold parameter";
-  if (act != nullptr) {
-    return Refusal::make(RefusalKind::refused, "%s.%.*s cannot be %s.", component.name, shown(path),
-                         path.data(), act)
-        .about(path);
-  }
-  if (!request.add_name(found.index, found.offset())) return too_many(component);
   role = std::max(role, found.parameter->role);
+  if (request.kind == RequestKind::hold && found.place.field->scalar != Scalar::hold)
+    return cannot_be("held", "hold parameter", component, path, "nothing was changed");
+  if (!request.add_name(found.index, found.offset())) return too_many(component);
+  return std::nullopt;
+}
+
+std::optional<Refusal> add_presses(const ComponentEntry& component, std::string_view path,
+                                   std::uint64_t count, ParameterRequest& request, Role& role) noexcept {
+  ParameterPlace found;
+  if (auto refusal = find_parameter(component.type->runtime, "runtime", component, path, found))
+    return refusal;
+  role = std::max(role, found.parameter->role);
+  const Scalar scalar = found.place.field->scalar;
+  if (scalar != Scalar::button) {
+    return cannot_be(
+        "pressed", "button", component, path,
+        scalar == Scalar::hold ? "only a person who watches can hold it" : "it is set to a value");
+  }
+  if (count < 1 || count > most_presses) {
+    return Refusal::make(RefusalKind::bad_request, "'count' lies from 1 to %llu",
+                         static_cast<unsigned long long>(most_presses));
+  }
+  const auto presses = static_cast<std::uint32_t>(count);
+  request.kind = RequestKind::press;
+  if (!request.add(found.index, found.offset(), &presses, sizeof(presses))) return too_many(component);
   return std::nullopt;
 }
 
 Refusal refusal_of(const ParameterAnswer& answer, const ComponentEntry& component) noexcept {
   switch (answer.kind) {
     case AnswerKind::busy:
-      return Refusal::make(RefusalKind::busy, "%s has too many requests waiting; try again in a moment.",
-                           component.name);
+      return Refusal::make(RefusalKind::busy, "%s has too many requests waiting", component.name)
+          .hint("try again in a moment");
     case AnswerKind::stale:
-      return Refusal::make(
-          RefusalKind::stale,
-          "%s: somebody changed its settings since you read them (now %llu); read them again.",
-          component.name, static_cast<unsigned long long>(answer.sequence));
+      return Refusal::make(RefusalKind::stale,
+                           "%s: somebody changed its settings since you read them (now %llu)", component.name,
+                           static_cast<unsigned long long>(answer.sequence))
+          .hint("read them again");
     case AnswerKind::accepted:
     case AnswerKind::unmet:
     case AnswerKind::refused:
       break;
   }
   if (answer.parameter == no_parameter) {
-    return Refusal::make(RefusalKind::wrong_state, "%s refuses: %s.", component.name, answer.reason)
+    return Refusal::make(RefusalKind::wrong_state, "%s refuses: %s", component.name, answer.reason)
         .because(answer.reason);
   }
   const char* const parameter = component.type->runtime.parameters[answer.parameter].field->name;
-  if (answer.kind == AnswerKind::unmet) {
-    return Refusal::make(RefusalKind::wrong_state, "%s.%s has no effect now: %s.", component.name, parameter,
-                         answer.reason)
-        .about(parameter)
-        .because(answer.reason);
-  }
-  return Refusal::make(RefusalKind::refused, "%s.%s is refused: %s.", component.name, parameter,
+  const bool is_unmet = answer.kind == AnswerKind::unmet;
+  return Refusal::make(is_unmet ? RefusalKind::wrong_state : RefusalKind::refused, "%s.%s %s: %s",
+                       component.name, parameter, is_unmet ? "has no effect now" : "is refused",
                        answer.reason)
       .about(parameter)
       .because(answer.reason);
+}
+
+Refusal no_answer(const ComponentEntry& component, Duration waited) noexcept {
+  return Refusal::make(RefusalKind::no_answer, "%s did not answer within %.3g s", component.name,
+                       seconds(waited))
+      .hint("its thread may hang; whether it happened is not known, read the values");
 }
 
 }  // namespace flexrf

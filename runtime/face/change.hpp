@@ -1,4 +1,5 @@
-// From what a client names and writes to a request that the component's thread understands.
+// From what somebody names and writes to a request that the component's thread understands, and what its
+// answer means.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,6 @@
 #include <string_view>
 
 #include "runtime/face/directory.hpp"
-#include "runtime/face/refusal.hpp"
 #include "runtime/json/json_reader.hpp"
 #include "runtime/parameters/request.hpp"
 #include "runtime/parameters/value_access.hpp"
@@ -22,20 +22,29 @@ struct ParameterPlace {
   std::uint32_t offset() const noexcept { return place.offset - parameter->field->offset; }
 };
 
+/// Presses that one request may count.
+inline constexpr std::uint64_t most_presses = 100;
+
 /// "gain", "gains[2]", "limits.low" in a block; the refusal names the nearest known name.
 std::optional<Refusal> find_parameter(const ParameterBlock& block, const char* kind,
                                       const ComponentEntry& component, std::string_view path,
                                       ParameterPlace& found) noexcept;
 
-/// Adds a change for each member of `values`. `role` rises to what they need. Nothing is sent.
+// Each adds to a request; nothing is sent. `role` rises to what the parameters need.
+
+/// A change for each member of `values`.
 std::optional<Refusal> add_values(const ComponentEntry& component, JsonObject values,
                                   ParameterRequest& request, Role& role) noexcept;
-
-/// Adds the name of a button, hold or setting without a value.
+/// The name of a hold or setting without a value.
 std::optional<Refusal> add_name(const ComponentEntry& component, std::string_view path,
                                 ParameterRequest& request, Role& role) noexcept;
+/// So many presses of a button; makes it a request of the kind press.
+std::optional<Refusal> add_presses(const ComponentEntry& component, std::string_view path,
+                                   std::uint64_t count, ParameterRequest& request, Role& role) noexcept;
 
-/// What an answer that is no acceptance tells the client.
+/// What an answer that is no acceptance tells who asked.
 Refusal refusal_of(const ParameterAnswer& answer, const ComponentEntry& component) noexcept;
+/// There was none within this time.
+Refusal no_answer(const ComponentEntry& component, Duration waited) noexcept;
 
 }  // namespace flexrf

@@ -35,8 +35,8 @@ void ComponentValues::write_feedback(JsonWriter& json, ComponentIndex component)
 
 void ComponentValues::write_configuration(JsonWriter& json, ComponentIndex component) {
   const TypeDescriptor* const type = directory_->entry(component).type->configuration.type;
-  configuration_->copy(component, bytes_);
-  if (type == nullptr || bytes_.empty()) {
+  if (type != nullptr && bytes_.size() < type->size) bytes_.resize(type->size);
+  if (type == nullptr || cell_->copy_configuration(component, bytes_.data(), type->size) == 0) {
     json.begin_object().end_object();
   } else {
     write_value(json, *type, bytes_.data());

@@ -7,16 +7,14 @@
 #include "runtime/core/json_writer.hpp"
 #include "runtime/face/directory.hpp"
 #include "runtime/face/observed_slots.hpp"
-#include "web-ui/server/api/configuration_values.hpp"
 
 namespace flexrf {
 
-/// The server's thread. What a component has none of is {}; what is not known yet is null.
+/// One thread's, which is not real-time. What a component has none of is {}; what is not known yet is null.
 class ComponentValues {
  public:
-  ComponentValues(const Directory& directory, ObservedSlots& slots,
-                  const ConfigurationValues& configuration) noexcept
-      : directory_(&directory), slots_(&slots), configuration_(&configuration) {}
+  ComponentValues(const Cell& cell, const Directory& directory, ObservedSlots& slots) noexcept
+      : cell_(&cell), directory_(&directory), slots_(&slots) {}
 
   /// Sequence of the runtime parameters in force; 0: none.
   std::uint64_t sequence(ComponentIndex component);
@@ -30,9 +28,9 @@ class ComponentValues {
  private:
   void write_slot(JsonWriter& json, std::uint16_t slot, const TypeDescriptor* type);
 
+  const Cell* cell_;
   const Directory* directory_;
   ObservedSlots* slots_;
-  const ConfigurationValues* configuration_;
   std::vector<std::byte> bytes_;
 };
 

@@ -1,7 +1,5 @@
 #include "runtime/face/directory.hpp"
 
-#include <algorithm>
-
 #include "runtime/core/nearest_name.hpp"
 
 namespace flexrf {
@@ -17,7 +15,7 @@ std::uint16_t index_of(const Application& application, const SlotControl* contro
 
 }  // namespace
 
-Directory::Directory(Cell& cell) {
+Directory::Directory(const Cell& cell) {
   const Application& application = cell.application();
   for (ComponentIndex i = 0; i < application.component_count(); ++i) {
     const ComponentRecord& record = application.component(i);
@@ -39,11 +37,7 @@ std::optional<std::uint16_t> Directory::find(const Names& names, std::string_vie
 Refusal Directory::unknown(const char* what, const Names& names, std::string_view name) noexcept {
   NearestName nearest(name);
   for (const auto& [known, index] : names) nearest.offer(known);
-  const std::string_view best = nearest.best();
-  return Refusal::make(RefusalKind::not_found, "There is no %s '%.*s'%s%.*s%s", what,
-                       static_cast<int>(std::min<std::size_t>(name.size(), 80)), name.data(),
-                       best.empty() ? "; descriptor.json has the names." : "; did you mean '",
-                       static_cast<int>(best.size()), best.data(), best.empty() ? "" : "'?");
+  return no_such(what, name, nearest.best(), "descriptor.json has the names");
 }
 
 Refusal Directory::no_component(std::string_view name) const noexcept {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -24,7 +23,7 @@ struct ComponentEntry {
 /// Made once, when everything is constructed; any thread reads it. Looking up allocates nothing.
 class Directory {
  public:
-  explicit Directory(Cell& cell);
+  explicit Directory(const Cell& cell);
 
   std::optional<ComponentIndex> component(std::string_view name) const noexcept {
     return find(component_names_, name);

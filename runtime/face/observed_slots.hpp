@@ -16,10 +16,10 @@ struct ObservedSlot {
   const void* value = nullptr;  ///< null unless reason is none
 };
 
-/// The server's thread. Memory for a slot's value is allocated when it is first asked for.
+/// One thread's, which is not real-time. Memory for a slot's value is allocated when it is first asked for.
 class ObservedSlots {
  public:
-  explicit ObservedSlots(Cell& cell) : cell_(&cell), slots_(cell.application().slots.size()) {}
+  explicit ObservedSlots(const Cell& cell) : cell_(&cell), slots_(cell.application().slots.size()) {}
 
   /// From here on, each slot is read anew once.
   void begin_turn() noexcept { ++turn_; }
@@ -39,7 +39,7 @@ class ObservedSlots {
     std::vector<std::byte> bytes;
   };
 
-  Cell* cell_;
+  const Cell* cell_;
   std::uint64_t turn_ = 1;
   std::vector<Cached> slots_;
 };

@@ -12,6 +12,10 @@ enum class ParameterKind : std::uint8_t { configuration, runtime, feedback };
 
 /// Least role that may change a parameter or press an action. Ascending rights.
 enum class Role : std::uint8_t { viewer, operator_, engineer, admin };
+constexpr const char* name_of(Role role) noexcept {
+  constexpr const char* names[] = {"viewer", "operator", "engineer", "admin"};
+  return names[static_cast<std::size_t>(role)];
+}
 
 /// What must be so for a button or a hold to have an effect, as its table says (`needs`).
 struct CommandNeed {

@@ -16,6 +16,9 @@ namespace flexrf {
 class QueueSink;
 class SlotControl;
 
+/// A component's number, as in requests: units in table order, then devices.
+using ComponentIndex = std::uint16_t;
+
 /// How the generated application connects what units and devices publish, each kind of port in the order of
 /// its table.
 struct PortBinding {

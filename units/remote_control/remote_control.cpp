@@ -74,6 +74,7 @@ Status RemoteControl::look_at_the_door() {
 
 void RemoteControl::step(const Tick& tick) {
   now_ = tick.now;
+  view_->begin_turn();
   meet_clients();
   take_answers();
   take_saves();
@@ -153,10 +154,8 @@ void RemoteControl::take_answers() {
   std::erase_if(waiting_, [this](const Waiting& waiting) {
     if (now_ < waiting.overdue_at) return false;
     if (Client* const client = find(waiting.session); client != nullptr) {
-      say_error(*client, waiting.id,
-                {RpcError::no_answer,
-                 std::string{cell.cell().component_name(waiting.component)} + " did not answer within 1 s",
-                 "its thread may hang; whether it happened is not known, read the values"});
+      const Refusal refusal = no_answer(view_->entry(waiting.component), answer_timeout);
+      say_error(*client, waiting.id, remote::problem_of(refusal));
     }
     return true;
   });
@@ -194,13 +193,13 @@ void RemoteControl::answer(const Waiting& waiting, const ParameterAnswer& given)
   Client* const client = find(waiting.session);
   if (client == nullptr) return;
   if (given.kind != AnswerKind::accepted) {
-    const remote::ChangedComponent component{cell.cell().component_name(waiting.component),
-                                             cell.cell().component_type(waiting.component)};
-    return say_error(*client, waiting.id, problem_of(given, component));
+    const Refusal refusal = refusal_of(given, view_->entry(waiting.component));
+    return say_error(*client, waiting.id, remote::problem_of(refusal));
   }
   if (waiting.id.empty()) return;
   say(*client, waiting.id, remote::result_line(waiting.id, [&](JsonWriter& json) {
     // What was published before this answer came is what the answer speaks of.
+    view_->begin_turn();
     if (waiting.wants_values) return view_->write_runtime(json, waiting.component);
     json.begin_object().end_object();
   }));
@@ -248,15 +247,15 @@ void RemoteControl::send_updates(Client& client) {
   for (Subscription& wanted : client.subscriptions) {
     if (now_ < wanted.next) continue;
     wanted.next = std::max(wanted.next + wanted.interval, now_);
-    const remote::SlotLook seen = view_->look(wanted.slot);
-    if (wanted.any && seen.sequence == wanted.sequence && seen.reason == wanted.reason) continue;
+    const ObservedSlot& seen = view_->look(wanted.slot);
+    if (wanted.any && seen.header.sequence == wanted.sequence && seen.reason == wanted.reason) continue;
     JsonWriter json(std::string{}, JsonWriter::Style::compact);
     json.begin_object().member("jsonrpc", "2.0").member("method", "slot").key("params").begin_object();
     view_->write_slot(json, wanted.slot, seen);
     json.member("dropped", client.dropped).end_object().end_object();
     if (door->write_line(client.session, json.release())) {
       wanted.any = true;
-      wanted.sequence = seen.sequence;
+      wanted.sequence = seen.header.sequence;
       wanted.reason = seen.reason;
       ++feedback.updates;
     } else {

@@ -139,10 +139,10 @@ RemoteControl::Problem RemoteControl::change(Client& client, const RpcCall& call
     return RpcProblem{RpcError::role_missing, "what scripts may do is not for scripts to say",
                       "a person changes it in the panel"};
   }
-  const remote::ChangedComponent component{cell.cell().component_name(index),
-                                           cell.cell().component_type(index)};
+  const ComponentEntry& component = view_->entry(index);
   ParameterRequest request;
-  if (auto problem = is_press ? read_press(params, component, request) : read_set(params, component, request))
+  if (auto problem = is_press ? remote::read_press(params, component, request)
+                              : remote::read_set(params, component, request))
     return problem;
   const auto mine = std::count_if(waiting_.begin(), waiting_.end(),
                                   [&](const Waiting& waiting) { return waiting.session == client.session; });

@@ -1,22 +1,13 @@
 #include "units/remote_control/remote_view.hpp"
 
-#include <cstring>
-
 #include "runtime/core/nearest_name.hpp"
 #include "runtime/core/value_json.hpp"
+#include "units/remote_control/remote_change.hpp"
 
 namespace flexrf::remote {
 namespace {
 
 constexpr std::size_t kept_for_the_rest = 512;  // bytes of an answer, beside its list
-
-std::uint16_t index_of(const Application& application, const SlotControl* control) noexcept {
-  if (control == nullptr) return no_index;
-  for (std::size_t i = 0; i < application.slots.size(); ++i) {
-    if (application.slots[i].control == control) return static_cast<std::uint16_t>(i);
-  }
-  return no_index;
-}
 
 const char* type_of(const FieldDescriptor& field) noexcept {
   static constexpr const char* names[] = {"bool",        "i8",        "u8",     "i16", "u16", "i32",
@@ -26,32 +17,20 @@ const char* type_of(const FieldDescriptor& field) noexcept {
   return names[static_cast<std::size_t>(field.scalar)];
 }
 
-const char* role_named(Role role) noexcept {
-  static constexpr const char* names[] = {"viewer", "operator", "engineer", "admin"};
-  return names[static_cast<std::size_t>(role)];
-}
-
 }  // namespace
 
 std::optional<RpcProblem> RemoteView::find_slot(std::string_view name, std::uint16_t& slot) const {
-  NearestName nearest(name);
-  for (std::size_t i = 0; i < application().slots.size(); ++i) {
-    slot = static_cast<std::uint16_t>(i);
-    if (name == application().slots[i].name) return std::nullopt;
-    nearest.offer(application().slots[i].name);
-  }
-  return RpcProblem{RpcError::not_found, "there is no slot '" + std::string{shown(name)} + "'",
-                    nearest_hint(nearest.best(), R"(the method list names them: {"of": "slots"})")};
+  const std::optional<std::uint16_t> found = directory_.slot(name);
+  if (!found) return problem_of(directory_.no_slot(name));
+  slot = *found;
+  return std::nullopt;
 }
 
 std::optional<RpcProblem> RemoteView::find_component(std::string_view name, ComponentIndex& component) const {
-  NearestName nearest(name);
-  for (component = 0; component < cell_->component_count(); ++component) {
-    if (name == cell_->component_name(component)) return std::nullopt;
-    nearest.offer(cell_->component_name(component));
-  }
-  return RpcProblem{RpcError::not_found, "there is no unit or device '" + std::string{shown(name)} + "'",
-                    nearest_hint(nearest.best(), R"(the method list names them: {"of": "components"})")};
+  const std::optional<ComponentIndex> found = directory_.component(name);
+  if (!found) return problem_of(directory_.no_component(name));
+  component = *found;
+  return std::nullopt;
 }
 
 // ---- list
@@ -127,39 +106,17 @@ void RemoteView::list_parameter(JsonWriter& json, const char* kind,
   if (field.unit[0] != '\0') json.member("unit", field.unit);
   if (parameter.has_range)
     json.key("range").begin_array().value(parameter.minimum).value(parameter.maximum).end_array();
-  json.member("role", role_named(parameter.role));
+  json.member("role", name_of(parameter.role));
 }
 
 // ---- read
 
-SlotLook RemoteView::look(std::uint16_t slot) {
-  const SlotRecord& record = application().slots[slot];
-  SlotLook seen;
-  if (record.observer == nullptr) {
-    seen.reason = NullReason::not_registered;
-    return seen;
-  }
-  const std::size_t size = record.control->type()->size;
-  if (bytes_.size() < size) bytes_.resize(size);
-  {
-    const auto lock = cell_->observe();
-    if (const ItemHeader* const header = record.observer->newest(); header != nullptr) {
-      std::memcpy(bytes_.data(), record.observer->payload(), size);
-      seen.sequence = header->sequence;
-      seen.sampled_at = header->sampled_at;
-    }
-  }
-  seen.reason = null_reason_of(record.control->writer_state());
-  if (seen.reason == NullReason::none && seen.sequence == 0) seen.reason = NullReason::nothing_yet;
-  if (seen.reason == NullReason::none) seen.value = bytes_.data();
-  return seen;
-}
-
-void RemoteView::write_slot(JsonWriter& json, std::uint16_t slot, const SlotLook& seen) const {
+void RemoteView::write_slot(JsonWriter& json, std::uint16_t slot, const ObservedSlot& seen) const {
   const SlotRecord& record = application().slots[slot];
   json.member("name", record.name).member("type", record.control->type()->name);
   json.member("reason", seen.reason == NullReason::none ? "" : name_of(seen.reason));
-  json.member("sequence", seen.sequence).member("sampled_at_ns", nanoseconds(seen.sampled_at)).key("value");
+  json.member("sequence", seen.header.sequence);
+  json.member("sampled_at_ns", nanoseconds(seen.header.sampled_at)).key("value");
   if (seen.value == nullptr) {
     json.null();
   } else {
@@ -188,53 +145,22 @@ std::optional<RpcProblem> RemoteView::read(Fields& params, JsonWriter& json) {
     return RpcProblem{RpcError::too_large, "'" + std::string{name} + "' holds a picture, or too much",
                       "look at it in the panel"};
   }
-  const SlotLook seen = look(slot);
+  const ObservedSlot& seen = look(slot);
   json.begin_object();
   write_slot(json, slot, seen);
   json.end_object();
   return std::nullopt;
 }
 
-std::uint16_t RemoteView::slot_of(ComponentIndex component, bool feedback) const noexcept {
-  const ComponentRecord& record = application().component(component);
-  return index_of(application(), feedback ? record.feedback_slot : record.runtime_slot);
-}
-
-void RemoteView::write_block(JsonWriter& json, const char* key, std::uint16_t slot,
-                             const TypeDescriptor* type, bool with_sequence) {
-  const SlotLook seen = slot == no_index ? SlotLook{} : look(slot);
-  if (with_sequence) json.member("sequence", seen.sequence);
-  json.key(key);
-  if (slot == no_index || type == nullptr) {
-    json.begin_object().end_object();
-  } else if (seen.value == nullptr) {
-    json.null();
-  } else {
-    // A device's slot is as large as its largest driver needs; its contents are the chosen driver's.
-    write_value(json, *type, seen.value);
-  }
-}
-
 void RemoteView::write_runtime(JsonWriter& json, ComponentIndex component) {
-  json.begin_object();
-  write_block(json, "values", slot_of(component, false), cell_->component_type(component).runtime.type, true);
+  json.begin_object().member("sequence", values_.sequence(component)).key("values");
+  values_.write_runtime(json, component);
   json.end_object();
 }
 
 void RemoteView::write_component(JsonWriter& json, ComponentIndex component) {
-  const ComponentType& type = cell_->component_type(component);
   json.begin_object();
-  write_block(json, "runtime", slot_of(component, false), type.runtime.type, true);
-  write_block(json, "feedback", slot_of(component, true), type.feedback.type, false);
-  json.key("configuration");
-  const TypeDescriptor* const configuration = type.configuration.type;
-  if (configuration != nullptr && bytes_.size() < configuration->size) bytes_.resize(configuration->size);
-  if (configuration == nullptr ||
-      cell_->copy_configuration(component, bytes_.data(), configuration->size) == 0) {
-    json.begin_object().end_object();
-  } else {
-    write_value(json, *configuration, bytes_.data());
-  }
+  values_.write_all(json, component);
   json.end_object();
 }
 

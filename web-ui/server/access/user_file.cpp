@@ -57,20 +57,6 @@ User* Users::find(std::string_view name) noexcept {
   return const_cast<User*>(std::as_const(*this).find(name));
 }
 
-const char* name_of(Role role) noexcept {
-  switch (role) {
-    case Role::viewer:
-      return "viewer";
-    case Role::operator_:
-      return "operator";
-    case Role::engineer:
-      return "engineer";
-    case Role::admin:
-      return "admin";
-  }
-  return "unknown";
-}
-
 Result<Role> parse_role(std::string_view text) {
   NearestName nearest(text);
   for (const Role role : roles) {

@@ -30,7 +30,6 @@ struct Users {
 };
 
 /// "viewer", "operator", "engineer", "admin".
-const char* name_of(Role role) noexcept;
 /// invalid_argument names the roles there are, and the nearest.
 Result<Role> parse_role(std::string_view text);
 /// Letters, digits, '.', '-', '_', at most longest_name; invalid_argument says so.

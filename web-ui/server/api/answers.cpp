@@ -1,35 +1,8 @@
 #include "web-ui/server/api/answers.hpp"
 
+#include "web-ui/server/api/problem.hpp"
+
 namespace flexrf::panel {
-namespace {
-
-const char* name_of_role(Role role) noexcept {
-  switch (role) {
-    case Role::viewer:
-      return "viewer";
-    case Role::operator_:
-      return "operator";
-    case Role::engineer:
-      return "engineer";
-    case Role::admin:
-      return "admin";
-  }
-  return "unknown";
-}
-
-}  // namespace
-
-void write_refusal(Reply& reply, const Refusal& refusal) {
-  reply.status = refusal.status();
-  reply.retry_after = refusal.retry_after();
-  reply.content_type = "application/problem+json";
-  reply.etag.clear();
-  reply.fixed = {};
-  reply.text.clear();
-  JsonWriter json(std::move(reply.text));
-  refusal.write(json);
-  reply.text = json.release();
-}
 
 void Answers::begin_request(Ticket ticket, Reply& reply) noexcept {
   current_ = ticket;
@@ -100,12 +73,12 @@ void Answers::end_bytes(const Caller& caller, std::string_view content_type) {
 
 void Answers::refuse(const Caller& caller, const Refusal& refusal) {
   if (Reply* reply = reply_of(caller); reply != nullptr) {
-    write_refusal(*reply, refusal);
+    write_problem(*reply, refusal);
     complete(caller);
   } else if (Client* client = clients_->find(caller); client != nullptr) {
     JsonWriter json(client->outbox.begin_message());
     json.begin_object().member("id", caller.id).member("ok", false).key("problem");
-    refusal.write(json);
+    write_problem(json, refusal);
     json.end_object();
     client->outbox.end_message(json.release());
   }
@@ -115,7 +88,7 @@ bool Permission::has_role(const Caller& caller, Role role, std::string_view act)
   if (caller.session != no_session && access_->has_role(caller.session, role)) return true;
   answers_->refuse(caller, Refusal::make(RefusalKind::role_missing,
                                          "To %.*s needs the role %s; log in as somebody who has it.",
-                                         static_cast<int>(act.size()), act.data(), name_of_role(role)));
+                                         static_cast<int>(act.size()), act.data(), name_of(role)));
   return false;
 }
 

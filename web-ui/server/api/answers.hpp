@@ -62,9 +62,6 @@ class Answers {
   bool answered_ = false;
 };
 
-/// Makes the reply that refusal.
-void write_refusal(Reply& reply, const Refusal& refusal);
-
 /// Whether a session may do something; refuses in its name when not. The server's thread.
 class Permission {
  public:

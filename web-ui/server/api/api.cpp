@@ -50,7 +50,6 @@ struct Api::Parts final : public Ticked, public ControlWatcher, public SessionWa
 
     Directory directory;
     ObservedSlots slots;
-    ConfigurationValues configuration;
     ComponentValues values;
     ImageWorker images;
     ImageRequests pictures;
@@ -82,13 +81,12 @@ struct Api::Parts final : public Ticked, public ControlWatcher, public SessionWa
 Api::Parts::Made::Made(Parts& parts, Executive& executive, AccessControl& access)
     : directory(executive.cell()),
       slots(executive.cell()),
-      configuration(executive.cell(), directory),
-      values(directory, slots, configuration),
+      values(executive.cell(), directory, slots),
       images(executive.cell()),
       pictures(images, parts.answers, parts.timeouts.picture),
       parameters(executive.cell(), directory, slots, values, parts.answers, parts.permission, parts.boot,
                  parts.timeouts.answer),
-      edits(executive, directory, configuration, values, parts.answers, parts.permission),
+      edits(executive, directory, values, parts.answers, parts.permission),
       motion(executive, access, parts.answers, parts.permission, parameters, edits),
       lifecycle(executive, directory, parts.answers, parts.permission),
       saving(executive, parts.answers, parts.permission),

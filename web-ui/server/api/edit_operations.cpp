@@ -142,11 +142,7 @@ void EditOperations::run(const Caller& caller, const WantedChanges& wanted) {
   applying_ = true;
   applier_ = caller;
   executive_->reconfigure(
-      wanted.changes,
-      [results = results_, configuration = configuration_](const ReconfigureResult& result) {
-        configuration->refresh();
-        results->push(result);
-      },
+      wanted.changes, [results = results_](const ReconfigureResult& result) { results->push(result); },
       permission_->who(caller));
 }
 

@@ -17,11 +17,10 @@ namespace flexrf::panel {
 /// One edit at a time; while it is open nothing moves. The server's thread.
 class EditOperations {
  public:
-  EditOperations(Executive& executive, const Directory& directory, ConfigurationValues& configuration,
-                 ComponentValues& values, Answers& answers, Permission& permission)
+  EditOperations(Executive& executive, const Directory& directory, ComponentValues& values, Answers& answers,
+                 Permission& permission)
       : executive_(&executive),
         directory_(&directory),
-        configuration_(&configuration),
         values_(&values),
         answers_(&answers),
         permission_(&permission) {}
@@ -55,7 +54,6 @@ class EditOperations {
 
   Executive* executive_;
   const Directory* directory_;
-  ConfigurationValues* configuration_;
   ComponentValues* values_;
   Answers* answers_;
   Permission* permission_;

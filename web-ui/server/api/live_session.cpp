@@ -17,13 +17,8 @@ enum : std::uint16_t { close_no_text = 1007, close_violation = 1008, close_later
 /// Of one client before the others have their turn.
 constexpr int messages_per_turn = 16;
 
-const char* name_of_role(const SessionInfo& session) noexcept {
-  constexpr const char* names[] = {"viewer", "operator", "engineer", "admin"};
-  return names[static_cast<std::size_t>(session.role)];
-}
-
 void write_session(JsonWriter& json, const SessionInfo& info) {
-  json.begin_object().member("name", info.name).member("role", name_of_role(info));
+  json.begin_object().member("name", info.name).member("role", name_of(info.role));
   json.member("local", info.local).member("user", info.user).member("lapsed", info.lapsed).end_object();
 }
 
@@ -34,11 +29,7 @@ Refusal unknown_op(std::string_view op) noexcept {
         "clear_stop_motion", "start_motion", "save_values", "take_control", "release_control",
         "answer_control", "action", "edit_begin", "edit_apply", "edit_discard", "ping"})
     nearest.offer(known);
-  const std::string_view best = nearest.best();
-  return Refusal::make(RefusalKind::not_found, "There is no op '%.*s'%s%.*s%s",
-                       static_cast<int>(std::min<std::size_t>(op.size(), 60)), op.data(),
-                       best.empty() ? "." : "; did you mean '", static_cast<int>(best.size()), best.data(),
-                       best.empty() ? "" : "'?");
+  return no_such("op", op, nearest.best(), "docs/panel-protocol.md lists them");
 }
 
 }  // namespace

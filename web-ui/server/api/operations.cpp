@@ -19,13 +19,8 @@ void Operations::act(const Caller& caller, ComponentIndex component, std::string
   NearestName nearest(action);
   for (const char* known : {"start", "stop", "initialise", "activate", "retire", "clone", "reset", "press"})
     nearest.offer(known);
-  const std::string_view best = nearest.best();
-  answers.refuse(
-      caller,
-      Refusal::make(RefusalKind::not_found, "There is no action '%.*s'%s%.*s%s",
-                    static_cast<int>(std::min<std::size_t>(action.size(), 60)), action.data(),
-                    best.empty() ? ": start, stop, initialise, activate, retire, clone" : "; did you mean '",
-                    static_cast<int>(best.size()), best.data(), best.empty() ? "." : "'?"));
+  answers.refuse(caller, no_such("action", action, nearest.best(),
+                                 "there are start, stop, initialise, activate, retire, clone"));
 }
 
 }  // namespace flexrf::panel

@@ -7,8 +7,6 @@
 namespace flexrf::panel {
 namespace {
 
-constexpr std::uint64_t most_presses = 100;
-
 Refusal no_place() noexcept {
   return Refusal::make(RefusalKind::busy, "Too many requests wait for an answer; try again in a moment.");
 }
@@ -39,10 +37,6 @@ void ParameterOperations::set(const Caller& caller, ComponentIndex component, Js
   // Who may not change anything is told so first, and learns no more.
   if (!permission_->may_control(caller, refusal ? Role::operator_ : role, "change parameters")) return;
   if (refusal) return answers_->refuse(caller, *refusal);
-  if (request.change_count == 0) {
-    return answers_->refuse(
-        caller, Refusal::make(RefusalKind::bad_request, "There is no value; write {\"PATH\": value, ...}."));
-  }
   request.component = component;
   request.set_who(permission_->who(caller));
   send(request, {caller, component, Purpose::values, 0, {}}, now);
@@ -77,22 +71,13 @@ void ParameterOperations::reset(const Caller& caller, ComponentIndex component,
 
 void ParameterOperations::press(const Caller& caller, ComponentIndex component, std::string_view parameter,
                                 std::uint64_t count, Time now) {
-  ParameterRequest named;
-  named.kind = RequestKind::press;
+  ParameterRequest request;
   Role role = Role::operator_;
-  const auto refusal = add_name(directory_->entry(component), parameter, named, role);
+  const auto refusal = add_presses(directory_->entry(component), parameter, count, request, role);
   if (!permission_->may_control(caller, refusal ? Role::operator_ : role, "press a button")) return;
   if (refusal) return answers_->refuse(caller, *refusal);
-  if (count < 1 || count > most_presses) {
-    return answers_->refuse(caller, Refusal::make(RefusalKind::bad_request, "'count' lies from 1 to %llu.",
-                                                  static_cast<unsigned long long>(most_presses)));
-  }
-  ParameterRequest request;
-  request.kind = RequestKind::press;
   request.component = component;
   request.set_who(permission_->who(caller));
-  const auto presses = static_cast<std::uint32_t>(count);
-  request.add(named.changes[0].parameter, named.changes[0].offset, &presses, sizeof(presses));
   send(request, {caller, component, Purpose::plain, 0, {}}, now);
 }
 
@@ -215,10 +200,7 @@ void ParameterOperations::tick(Time now) {
   while (pending_.take_overdue(now, pending)) {
     // Whatever becomes of it: nobody knows, so nobody may go on holding.
     if (pending.lease != 0) leases_.forget(pending.lease);
-    answers_->refuse(
-        pending.caller,
-        Refusal::make(RefusalKind::no_answer, "%s did not answer within %.3g s; its thread may hang.",
-                      directory_->entry(pending.component).name, seconds(answer_timeout_)));
+    answers_->refuse(pending.caller, no_answer(directory_->entry(pending.component), answer_timeout_));
   }
 }
 

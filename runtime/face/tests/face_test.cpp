@@ -1,0 +1,155 @@
+// What every outsider of a cell shares: finding by name, looking at slots, making requests of what is
+// written.
+#include <cstring>
+#include <optional>
+
+#include "runtime/face/change.hpp"
+#include "runtime/face/component_values.hpp"
+
+// CMocka's macros would change what the headers above declare.
+#include "runtime/executive/tests/running_cell.hpp"
+
+namespace flexrf::fixture {
+namespace {
+
+using Cell = ProducerAndConsumer;
+
+/// A cell that was prepared and does not run: the test is the writer.
+struct Still {
+  Still() : running(cell) {
+    directory.emplace(inside());
+    slots.emplace(inside());
+    values.emplace(inside(), *directory, *slots);
+  }
+  const flexrf::Cell& inside() { return running.executive().cell(); }
+  SlotControl& control() { return cell.slot_control(Cell::values); }
+  void publish(std::int64_t number) {
+    const std::uint8_t buffer = control().loan();
+    const Item item{number, 0.5};
+    std::memcpy(control().payload(buffer), &item, sizeof(item));
+    control().publish(buffer, Time{Duration{number}});
+  }
+  const ObservedSlot& look() { return slots->read(Cell::values); }
+  static std::int64_t number_in(const ObservedSlot& seen) {
+    return static_cast<const Item*>(seen.value)->number;
+  }
+  const ComponentEntry& producer() { return directory->entry(Cell::producer); }
+
+  Cell cell;
+  RunningCell running;
+  std::optional<Directory> directory;
+  std::optional<ObservedSlots> slots;
+  std::optional<ComponentValues> values;
+};
+
+void things_are_found_by_name_and_the_nearest_is_named() {
+  Still cell;
+  CHECK_EQUAL(*cell.directory->component("producer"), Cell::producer);
+  CHECK_EQUAL(*cell.directory->component("actuator"), cell.cell.application().component_of_device(0));
+  CHECK(!cell.directory->component("produce"));
+  CHECK_EQUAL(*cell.directory->slot("values"), Cell::values);
+  CHECK(!cell.directory->slot(""));
+  const Refusal refusal = cell.directory->no_slot("valeus");
+  CHECK_EQUAL(refusal.kind(), RefusalKind::not_found);
+  CHECK_EQUAL(std::string{refusal.text()}, "There is no slot 'valeus'");
+  CHECK_EQUAL(std::string{refusal.hint()}, "did you mean 'values'?");
+  CHECK_EQUAL(std::string{refusal.detail()}, "There is no slot 'valeus'; did you mean 'values'?");
+  CHECK_EQUAL(std::string{cell.directory->no_component("x").detail()},
+              "There is no unit or device 'x'; descriptor.json has the names.");
+}
+
+void a_slot_is_read_once_in_a_turn_with_the_reason_when_there_is_nothing() {
+  Still cell;
+  CHECK_EQUAL(cell.look().reason, NullReason::nothing_yet);
+  CHECK(cell.look().value == nullptr);
+  cell.publish(5);
+  CHECK_EQUAL(cell.look().reason, NullReason::nothing_yet);  // in this turn
+  for (std::int64_t number = 6; number < 20; ++number) {
+    cell.publish(number);
+    cell.slots->begin_turn();
+    CHECK_EQUAL(cell.look().reason, NullReason::none);
+    CHECK_EQUAL(Still::number_in(cell.look()), number);
+    CHECK_EQUAL(cell.look().header.sequence, static_cast<std::uint64_t>(number) - 4);
+    CHECK_EQUAL(nanoseconds(cell.look().header.sampled_at), number);
+  }
+  cell.control().set_writer_state(WriterState::faulted);
+  cell.slots->begin_turn();
+  CHECK_EQUAL(cell.look().reason, NullReason::writer_faulted);
+  CHECK(cell.look().value == nullptr);
+  CHECK_EQUAL(cell.look().header.sequence, 15U);  // when it was last is still known
+}
+
+void a_slot_that_is_not_observed_says_so() {
+  Cell cell;
+  cell.slot(Cell::values).observe = false;
+  RunningCell running(cell);
+  ObservedSlots slots(running.executive().cell());
+  CHECK_EQUAL(slots.read(Cell::values).reason, NullReason::not_registered);
+  CHECK(slots.read(Cell::values).value == nullptr);
+}
+
+void configuration_is_known_before_anything_runs() {
+  Still cell;
+  JsonWriter json;
+  cell.values->write_configuration(json, Cell::producer);
+  CHECK_CONTAINS(json.take(), "\"offset\"");
+}
+
+template <class Add>
+std::optional<Refusal> added(Still& cell, std::string_view text, ParameterRequest& request, Role& role,
+                             const Add& add) {
+  JsonReader reader;
+  const Result<JsonObject> object = reader.object(text);
+  CHECK(static_cast<bool>(object));
+  return add(cell.producer(), *object, request, role);
+}
+
+void what_is_written_becomes_a_request_or_is_refused_in_one_wording() {
+  Still cell;
+  const auto set = [&cell](std::string_view text) {
+    ParameterRequest request;
+    Role role = Role::viewer;
+    const auto refusal = added(cell, text, request, role, add_values);
+    if (!refusal) CHECK_EQUAL(request.change_count, 1U);
+    return refusal ? std::string{refusal->detail()} : std::string{};
+  };
+  CHECK_EQUAL(set(R"({"gain": 2.5})"), "");
+  CHECK_EQUAL(set(R"({"gian": 2.5})"), "producer has no runtime parameter 'gian'; did you mean 'gain'?");
+  CHECK_CONTAINS(set(R"({"gain": 11})"), "producer.gain is refused: ");
+  CHECK_EQUAL(set("{}"), "There is no value; write {\"PATH\": value, ...}.");
+
+  const auto press = [&cell](std::string_view path, std::uint64_t count) {
+    ParameterRequest request;
+    Role role = Role::viewer;
+    const auto refusal = add_presses(cell.producer(), path, count, request, role);
+    CHECK_EQUAL(request.kind == RequestKind::press, !refusal);
+    return refusal ? std::string{refusal->detail()} : std::string{};
+  };
+  CHECK_EQUAL(press("kick", 100), "");
+  CHECK_EQUAL(press("kick", 0), "'count' lies from 1 to 100.");
+  CHECK_EQUAL(press("kick", 101), "'count' lies from 1 to 100.");
+  CHECK_EQUAL(press("move", 1),
+              "producer.move cannot be pressed: it is no button; only a person who watches can hold it.");
+  ParameterRequest hold;
+  hold.kind = RequestKind::hold;
+  Role role = Role::viewer;
+  CHECK(!add_name(cell.producer(), "move", hold, role));
+  const auto refusal = add_name(cell.producer(), "gain", hold, role);
+  CHECK(refusal.has_value());
+  CHECK_CONTAINS(std::string{refusal->detail()}, "producer.gain cannot be held: it is no hold parameter");
+}
+
+}  // namespace
+}  // namespace flexrf::fixture
+
+int main() {
+  using namespace flexrf::fixture;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(things_are_found_by_name_and_the_nearest_is_named),
+      CONTAINED_TEST(a_slot_is_read_once_in_a_turn_with_the_reason_when_there_is_nothing),
+      CONTAINED_TEST(a_slot_that_is_not_observed_says_so),
+      CONTAINED_TEST(configuration_is_known_before_anything_runs),
+      CONTAINED_TEST(what_is_written_becomes_a_request_or_is_refused_in_one_wording),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
