@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/standard_descriptors.hpp"
 #include "runtime/executive/executive.hpp"
 #include "runtime/log/log.hpp"
 #include "runtime/parameters/durable_file.hpp"

@@ -88,7 +88,7 @@ Status set(const Request& request, Users& users) {
   *user = {request.user, role, std::move(*hash)};
   if (const Status status = flexrf::panel::write_users(request.file, users); !status) return status;
   std::fprintf(stderr, "%s may log in as %s, at once where the panel runs with this file: %s\n",
-               request.user.c_str(), flexrf::panel::name_of(role), request.file.c_str());
+               request.user.c_str(), flexrf::name_of(role), request.file.c_str());
   return {};
 }
 
@@ -109,7 +109,7 @@ Status serve(const Request& request) {
   if (request.act == Request::Act::set) return set(request, known);
   if (request.act == Request::Act::remove) return remove(request, known);
   for (const User& user : known.list)
-    std::printf("%-31s %s\n", user.name.c_str(), flexrf::panel::name_of(user.role));
+    std::printf("%-31s %s\n", user.name.c_str(), flexrf::name_of(user.role));
   return {};
 }
 
