@@ -74,7 +74,7 @@ void note_set(Cell& cell, std::span<const ConfigurationChange> changes) {
 std::vector<ConfigurationComponent> configuration_components(Cell& cell) {
   const Application& application = cell.application();
   std::vector<ConfigurationComponent> components(cell.component_count());
-  for (ComponentIndex i = 0; i < components.size(); ++i) {
+  for (ComponentIndex i = 0; i < cell.component_count(); ++i) {
     ConfigurationComponent& component = components[i];
     component.name = cell.component_name(i);
     component.type = &cell.component_type(i);

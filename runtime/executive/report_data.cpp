@@ -82,9 +82,10 @@ std::vector<ComponentReport> collect_units(const Cell& cell) {
 
 std::vector<ComponentReport> collect_devices(const Cell& cell) {
   std::vector<ComponentReport> devices;
-  for (std::uint16_t i = 0; i < cell.application().devices.size(); ++i) {
-    devices.push_back(collect_component(cell, cell.application().component_of_device(i)));
-    devices.back().driver = cell.driver(i).name;
+  for (std::size_t i = 0; i < cell.application().devices.size(); ++i) {
+    const auto device = static_cast<std::uint16_t>(i);
+    devices.push_back(collect_component(cell, cell.application().component_of_device(device)));
+    devices.back().driver = cell.driver(device).name;
   }
   return devices;
 }
