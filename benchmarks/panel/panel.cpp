@@ -30,6 +30,7 @@ int run(int argument_count, char** arguments) {
   good = measure_lateness(report, machine) && good;
   good = measure_memory(report) && good;
   good = measure_page(report) && good;
+  good = measure_changes(report, machine) && good;
   good = measure_holds(report, machine) && good;
   const int status = report.finish();
   return good ? status : 1;

@@ -23,6 +23,8 @@ bool measure_lateness(Report& report, const Machine& machine);
 /// footprint.cpp: memory, the page's size.
 bool measure_memory(Report& report);
 bool measure_page(Report& report);
+/// changes.cpp: from a change to its answer.
+bool measure_changes(Report& report, const Machine& machine);
 /// holds.cpp: what ends a motion, and how soon.
 bool measure_holds(Report& report, const Machine& machine);
 

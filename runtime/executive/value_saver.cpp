@@ -9,6 +9,7 @@
 #include <ctime>
 #include <vector>
 
+#include "runtime/blackboard/doorbell.hpp"
 #include "runtime/executive/cell.hpp"
 #include "runtime/executive/reconfiguration.hpp"
 #include "runtime/log/log.hpp"
@@ -170,6 +171,7 @@ void ValueSaver::save() {
     if (status) state_.saved_at = milliseconds_since_1970();
   }
   attempts_.fetch_add(1, std::memory_order_acq_rel);
+  if (bell_ != nullptr) bell_->ring();
   tell(status, asked);
 }
 

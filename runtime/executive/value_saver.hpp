@@ -14,6 +14,7 @@
 namespace flexrf {
 
 class Cell;
+class Doorbell;
 
 /// How it stands with the configuration file, for whoever shows it.
 struct SaveState {
@@ -40,6 +41,8 @@ class ValueSaver {
   /// standard error. An error: nothing may be started. busy: another process has the file. Main thread, after
   /// Cell::construct().
   Status load();
+  /// Rung after each attempt. Before start(); it outlives the thread.
+  void set_bell(Doorbell& bell) noexcept { bell_ = &bell; }
   /// Starts the thread; without one (virtual time) whoever asks saves. Main thread.
   Status start() noexcept;
 
@@ -67,6 +70,7 @@ class ValueSaver {
   void tell(const Status& status, bool asked);
 
   Cell* cell_;
+  Doorbell* bell_ = nullptr;
   InstanceLock lock_;
   RunningThread thread_;
   std::atomic<bool> ends_{false};

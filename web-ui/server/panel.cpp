@@ -182,7 +182,7 @@ void Panel::make_access() {
 
 Status Panel::make_api() {
   files_.emplace(page_files(), record_.files);
-  api_.emplace(executive_, *access_, *server_, record_.connections);
+  api_.emplace(executive_, *access_, *server_, record_.connections, ApiTimeouts{}, &server_->bell());
   routes_.connect({*server_, *access_, *entrance_, *endpoints_, *api_, *files_}, record_.connections);
   return api_->prepare();
 }

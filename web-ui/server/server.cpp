@@ -1,7 +1,11 @@
 #include "web-ui/server/server.hpp"
 
+#include <sys/eventfd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <ctime>
 
 #include "runtime/log/log.hpp"
@@ -42,7 +46,8 @@ Server::Server(const ServerSettings& settings, std::unique_ptr<net::ssl::context
       acceptor_(context_),
       accepted_(context_),
       beat_timer_(context_),
-      tick_timer_(context_) {
+      tick_timer_(context_),
+      rings_(context_) {
   surroundings_.now = MonotonicClock::now();
   write_date(surroundings_.date);
   for (std::uint32_t place = 0; place < settings_.places; ++place) {
@@ -51,7 +56,17 @@ Server::Server(const ServerSettings& settings, std::unique_ptr<net::ssl::context
   for (std::uint32_t i = 0; i < porter_count; ++i) porters_.emplace_back(surroundings_, no_place);
 }
 
+Status Server::make_bell() {
+  const int descriptor = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (descriptor < 0)
+    return Status::error(StatusCode::unavailable, "the panel: no event descriptor: %s", std::strerror(errno));
+  rings_.assign(descriptor);
+  bell_.use_descriptor(descriptor);
+  return {};
+}
+
 Status Server::listen(const ListenAddress& address) {
+  if (const Status status = make_bell(); !status) return status;
   error_code error;
   const tcp::endpoint endpoint(net::ip::make_address(address.address, error), address.port);
   if (!error) acceptor_.open(endpoint.protocol(), error);
@@ -89,11 +104,13 @@ void Server::run() {
   for (Connection& porter : porters_) porter.unlock_memory();
   surroundings_.now = MonotonicClock::now();
   accept();
+  hear();
   beat_timer_.expires_at(on_asios_clock(surroundings_.now + beat_interval));
   beat();
   tick();
   while (!stops_.load(std::memory_order_acquire)) {
-    context_.run_one();
+    // Rung while the last tick looked: the next follows what is there already.
+    bell_announced_ ? context_.run_one() : context_.poll_one();
     for (int i = 1; i < handlers_per_turn && context_.poll_one() > 0; ++i) {
     }
     // When a place may have become free, and now and then, as who has nothing to say is not told of.
@@ -103,7 +120,7 @@ void Server::run() {
       place_newcomers();
     }
     occupied_ = surroundings_.connections;
-    if (std::exchange(surroundings_.handled, false)) tick();
+    if (std::exchange(surroundings_.handled, false) || !bell_announced_) tick();
   }
   wind_up();
 }
@@ -123,6 +140,7 @@ void Server::wind_up() {
   for (Connection& porter : porters_) porter.shut();
   beat_timer_.cancel();
   tick_timer_.cancel();
+  rings_.cancel(ignored);
   context_.poll();
 }
 
@@ -152,9 +170,20 @@ void Server::check_connections() {
   surroundings_.handled = true;
 }
 
+void Server::hear() {
+  rings_.async_wait(Descriptor::wait_read, HandlerIn(handler_memory_, [this](error_code error) {
+                      if (error) return;
+                      surroundings_.handled = true;
+                      hear();
+                    }));
+}
+
 void Server::tick() {
+  if (std::exchange(bell_announced_, false)) bell_.settle();
+  const std::uint32_t heard = bell_.listen();
   surroundings_.now = MonotonicClock::now();
   surroundings_.watch("what is due", [this] { ticked_.on_tick(surroundings_.now); });
+  bell_announced_ = bell_.announce(heard);
   surroundings_.handled = false;
   plan_tick();
 }

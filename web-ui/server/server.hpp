@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "runtime/blackboard/doorbell.hpp"
 #include "runtime/core/histogram.hpp"
 #include "runtime/core/status.hpp"
 #include "runtime/log/log.hpp"
@@ -45,6 +46,9 @@ class Server final : public LaterReplies {
   Status listen(const ListenAddress& address);
   /// After listen().
   std::uint16_t port() const noexcept { return port_; }
+  /// Whoever does something for the server in another thread rings it when that is done; on_tick() comes
+  /// then.
+  Doorbell& bell() noexcept { return bell_; }
   /// Serves until stop(): the server's thread is the one that calls it.
   void run();
   /// Live clients are told, what is under way may come to its end within 300 ms. Any thread.
@@ -78,6 +82,8 @@ class Server final : public LaterReplies {
   void beat();
   void on_beat();
   void check_connections();
+  Status make_bell();
+  void hear();
   void tick();
   void plan_tick();
   void wind_up();
@@ -93,6 +99,9 @@ class Server final : public LaterReplies {
   Socket accepted_;
   Timer beat_timer_;
   Timer tick_timer_;
+  Doorbell bell_;
+  Descriptor rings_;  // of the bell
+  bool bell_announced_ = false;
   std::deque<Newcomer> newcomers_;  // wait for a place
   std::deque<Connection> porters_;  // who have none, and tell it to whom there is no room for
   std::uint32_t occupied_ = 0;      // places, after the last turn

@@ -12,8 +12,6 @@
 namespace flexrf::panel {
 namespace {
 
-/// How often it is looked whether other threads have answered.
-constexpr Duration answer_interval = std::chrono::milliseconds{1};
 /// For sending in one turn: together with the rest it stays below what a turn may take.
 constexpr Duration sending_time = std::chrono::milliseconds{3};
 
@@ -29,8 +27,9 @@ std::string new_boot() {
 
 struct Api::Parts final : public Ticked, public ControlWatcher, public SessionWatcher {
   Parts(Executive& executive_to_serve, AccessControl& access_control, LaterReplies& replies,
-        std::uint32_t places, const ApiTimeouts& limits)
+        std::uint32_t places, const ApiTimeouts& limits, Doorbell* server_bell)
       : executive(executive_to_serve),
+        bell(server_bell),
         access(access_control),
         timeouts(limits),
         clients(places),
@@ -68,6 +67,7 @@ struct Api::Parts final : public Ticked, public ControlWatcher, public SessionWa
   };
 
   Executive& executive;
+  Doorbell* bell;  // null: whoever ticks looks by himself
   AccessControl& access;
   ApiTimeouts timeouts;
   Clients clients;
@@ -82,13 +82,13 @@ Api::Parts::Made::Made(Parts& parts, Executive& executive, AccessControl& access
     : directory(executive.cell()),
       slots(executive.cell()),
       values(executive.cell(), directory, slots),
-      images(executive.cell()),
+      images(executive.cell(), parts.bell),
       pictures(images, parts.answers, parts.timeouts.picture),
       parameters(executive.cell(), directory, slots, values, parts.answers, parts.permission, parts.boot,
                  parts.timeouts.answer),
-      edits(executive, directory, values, parts.answers, parts.permission),
+      edits(executive, parts.bell, directory, values, parts.answers, parts.permission),
       motion(executive, access, parts.answers, parts.permission, parameters, edits),
-      lifecycle(executive, directory, parts.answers, parts.permission),
+      lifecycle(executive, parts.bell, directory, parts.answers, parts.permission),
       saving(executive, parts.answers, parts.permission),
       operations{directory, parts.answers, parameters, motion, edits, lifecycle, saving},
       state(executive, directory, access, edits),
@@ -116,10 +116,8 @@ void Api::Parts::on_tick(Time now) {
 }
 
 Duration Api::Parts::until_next(Time now) const {
-  Time next = std::min(made->live.next(now), made->state.next());
-  if (made->parameters.is_waiting() || made->edits.is_waiting() || made->lifecycle.is_waiting() ||
-      made->saving.is_waiting() || made->pictures.is_waiting())
-    next = std::min(next, now + answer_interval);
+  // Other threads ring when they have answered; who waits in vain is told in one of the next turns.
+  const Time next = std::min(made->live.next(now), made->state.next());
   return next > now ? next - now : Duration{};
 }
 
@@ -144,14 +142,15 @@ void Api::Parts::on_session_ended(SessionIndex session) {
 }
 
 Api::Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places,
-         const ApiTimeouts& timeouts)
-    : parts_(std::make_unique<Parts>(executive, access, replies, places, timeouts)) {}
+         const ApiTimeouts& timeouts, Doorbell* bell)
+    : parts_(std::make_unique<Parts>(executive, access, replies, places, timeouts, bell)) {}
 
 Api::~Api() = default;
 
 Status Api::prepare() {
   parts_->make();
-  return parts_->made->parameters.prepare();
+  if (parts_->bell != nullptr) parts_->executive.saver().set_bell(*parts_->bell);
+  return parts_->made->parameters.prepare(parts_->bell);
 }
 
 Status Api::start() {

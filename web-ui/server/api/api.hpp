@@ -12,8 +12,9 @@
 #include "web-ui/server/server_services.hpp"
 
 namespace flexrf {
+class Doorbell;
 class Executive;
-}
+}  // namespace flexrf
 
 namespace flexrf::panel {
 
@@ -27,10 +28,11 @@ struct ApiTimeouts {
 /// allocates in the steady state (subscribed values, refreshed holds, reading of values).
 class Api {
  public:
-  /// `places`: connections that the server has, each LiveLink's place is below. The main thread, before the
-  /// executive runs; all outlive the Api.
+  /// `places`: connections that the server has, each LiveLink's place is below. `bell`: rung when another
+  /// thread has answered, and ticked() is to come; null: it comes often enough by itself. The main thread,
+  /// before the executive runs; all outlive the Api.
   Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places,
-      const ApiTimeouts& timeouts = {});
+      const ApiTimeouts& timeouts = {}, Doorbell* bell = nullptr);
   Api(const Api&) = delete;
   Api& operator=(const Api&) = delete;
   ~Api();

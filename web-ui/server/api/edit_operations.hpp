@@ -17,9 +17,10 @@ namespace flexrf::panel {
 /// One edit at a time; while it is open nothing moves. The server's thread.
 class EditOperations {
  public:
-  EditOperations(Executive& executive, const Directory& directory, ComponentValues& values, Answers& answers,
-                 Permission& permission)
+  EditOperations(Executive& executive, Doorbell* bell, const Directory& directory, ComponentValues& values,
+                 Answers& answers, Permission& permission)
       : executive_(&executive),
+        results_(std::make_shared<Mailbox<ReconfigureResult>>(bell)),
         directory_(&directory),
         values_(&values),
         answers_(&answers),
@@ -36,7 +37,6 @@ class EditOperations {
   void tick(Time now);
 
   bool is_open() const noexcept { return number_ != 0; }
-  bool is_waiting() const noexcept { return applying_; }
   SessionIndex owner() const noexcept { return owner_; }
   const std::vector<ComponentIndex>& components() const noexcept { return components_; }
   Duration left(Time now) const noexcept { return ends_at_ > now ? ends_at_ - now : Duration{}; }
@@ -53,11 +53,11 @@ class EditOperations {
   void end() noexcept;
 
   Executive* executive_;
+  std::shared_ptr<Mailbox<ReconfigureResult>> results_;
   const Directory* directory_;
   ComponentValues* values_;
   Answers* answers_;
   Permission* permission_;
-  std::shared_ptr<Mailbox<ReconfigureResult>> results_ = std::make_shared<Mailbox<ReconfigureResult>>();
   std::uint64_t number_ = 0;  // of the open edit; 0: none
   std::uint64_t last_number_ = 0;
   std::uint64_t revision_ = 1;

@@ -18,7 +18,6 @@ class ImageRequests {
   /// Answers `caller` when that much patience has run out at the latest.
   void ask(const Caller& caller, std::uint16_t slot, std::uint32_t width, Time now);
   void tick(Time now);
-  bool is_waiting() const noexcept { return count_ != 0; }
 
  private:
   struct Waiting {

@@ -8,7 +8,8 @@
 
 namespace flexrf::panel {
 
-ImageWorker::ImageWorker(Cell& cell) : cell_(&cell), slots_(cell.application().slots.size()) {
+ImageWorker::ImageWorker(Cell& cell, Doorbell* bell)
+    : cell_(&cell), bell_(bell), slots_(cell.application().slots.size()) {
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const SlotRecord& record = cell.application().slots[i];
     const PictureLayout layout = PictureLayout::of(*record.control->type());
@@ -96,10 +97,12 @@ void ImageWorker::run() {
         continue;
       }
       const std::uint32_t width = std::max(looked_at ? slot.width : 0, slot.width_once);
+      const bool is_awaited = slot.width_once != 0;
       slot.width_once = 0;
       if (looked_at) slot.due = std::max(slot.due + slot.interval, now);
       lock.unlock();
       encode(static_cast<std::uint16_t>(i), slot, width);
+      if (is_awaited && bell_ != nullptr) bell_->ring();
       lock.lock();
       encoded = true;
     }

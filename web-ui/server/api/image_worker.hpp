@@ -20,7 +20,8 @@ namespace flexrf::panel {
 /// for the first time.
 class ImageWorker {
  public:
-  explicit ImageWorker(Cell& cell);
+  /// `bell`: rung when a picture is there that demand_once() asked for; null: nothing is.
+  ImageWorker(Cell& cell, Doorbell* bell);
   ~ImageWorker() { stop(); }
   ImageWorker(const ImageWorker&) = delete;
   ImageWorker& operator=(const ImageWorker&) = delete;
@@ -71,6 +72,7 @@ class ImageWorker {
   void tell(const SlotRecord& record, Slot& slot);
 
   Cell* cell_;
+  Doorbell* bell_;
   std::vector<std::unique_ptr<Slot>> slots_;  // null: no image, or not observed
   mutable std::mutex mutex_;
   std::condition_variable wake_;

@@ -14,13 +14,16 @@ namespace flexrf::panel {
 /// Answers its caller when it is done. The server's thread.
 class LifecycleOperations {
  public:
-  LifecycleOperations(Executive& executive, const Directory& directory, Answers& answers,
+  LifecycleOperations(Executive& executive, Doorbell* bell, const Directory& directory, Answers& answers,
                       Permission& permission)
-      : executive_(&executive), directory_(&directory), answers_(&answers), permission_(&permission) {}
+      : executive_(&executive),
+        outcomes_(std::make_shared<Mailbox<Outcome>>(bell)),
+        directory_(&directory),
+        answers_(&answers),
+        permission_(&permission) {}
 
   void act(const Caller& caller, ComponentIndex component, ComponentAction action);
   void tick();
-  bool is_waiting() const noexcept { return waiting_count_ != 0; }
 
  private:
   static constexpr std::size_t most_waiting = 8;
@@ -36,10 +39,10 @@ class LifecycleOperations {
   };
 
   Executive* executive_;
+  std::shared_ptr<Mailbox<Outcome>> outcomes_;
   const Directory* directory_;
   Answers* answers_;
   Permission* permission_;
-  std::shared_ptr<Mailbox<Outcome>> outcomes_ = std::make_shared<Mailbox<Outcome>>();
   std::array<Waiting, most_waiting> waiting_{};
   std::size_t waiting_count_ = 0;
 };

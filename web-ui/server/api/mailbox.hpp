@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "runtime/blackboard/doorbell.hpp"
+
 namespace flexrf::panel {
 
 /// Bounded by what was asked for and is not answered yet, which whoever asks counts. push: any thread that is
@@ -13,9 +15,15 @@ namespace flexrf::panel {
 template <class Value>
 class Mailbox {
  public:
+  /// `bell`: of the server's thread, rung for each value; null: it looks by itself. Outlives the mailbox.
+  explicit Mailbox(Doorbell* bell) noexcept : bell_(bell) {}
+
   void push(Value value) {
-    const std::lock_guard lock(mutex_);
-    values_.push_back(std::move(value));
+    {
+      const std::lock_guard lock(mutex_);
+      values_.push_back(std::move(value));
+    }
+    if (bell_ != nullptr) bell_->ring();
   }
   std::optional<Value> pop() {
     const std::lock_guard lock(mutex_);
@@ -26,6 +34,7 @@ class Mailbox {
   }
 
  private:
+  Doorbell* bell_;
   std::mutex mutex_;
   std::deque<Value> values_;
 };

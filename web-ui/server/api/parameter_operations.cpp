@@ -19,7 +19,8 @@ void write_etag(std::string& etag, std::string_view boot, std::uint64_t sequence
   etag.append(digits, std::to_chars(digits, digits + sizeof(digits), sequence).ptr).append("\"");
 }
 
-Status ParameterOperations::prepare() {
+Status ParameterOperations::prepare(Doorbell* bell) {
+  queue_.set_bell(bell);
   requester_ = cell_->add_requester(queue_);
   if (requester_ != 0) return {};
   return Status::error(StatusCode::internal, "the panel: there are %zu requesters already",

@@ -31,8 +31,8 @@ class ParameterOperations {
         boot_(boot),
         answer_timeout_(answer_timeout) {}
 
-  /// Registers where answers come. Before the start.
-  Status prepare();
+  /// Registers where answers come, and what is rung for them (null: nothing). Before the start.
+  Status prepare(Doorbell* bell);
 
   void set(const Caller& caller, ComponentIndex component, JsonObject values,
            std::optional<std::uint64_t> expected, Time now);
@@ -54,7 +54,6 @@ class ParameterOperations {
 
   /// Fetches answers, gives up on those that do not come.
   void tick(Time now);
-  bool is_waiting() const noexcept { return pending_.has_any(); }
 
  private:
   bool send(ParameterRequest& request, PendingRequest pending, Time now);

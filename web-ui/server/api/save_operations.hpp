@@ -17,7 +17,6 @@ class SaveOperations {
 
   void save(const Caller& caller, Time now);
   void tick(Time now);
-  bool is_waiting() const noexcept { return waiting_count_ != 0; }
 
  private:
   static constexpr std::size_t most_waiting = 8;

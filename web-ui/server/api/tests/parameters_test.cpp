@@ -180,16 +180,41 @@ void a_thread_that_does_not_answer_is_given_up() {
   CHECK(found);
 }
 
+/// Nobody has to look whether there is an answer: whoever has one rings.
+void answers_of_other_threads_ring() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  rig.access().give(an_engineer);
+  PlayedLink& link = rig.connect(an_engineer);
+  for (json message : {set("producer", {{"gain", 2.5}}),
+                       json{{"op", "action"}, {"component", "producer"}, {"action", "initialise"}}}) {
+    message["id"] = 55;
+    link.texts.clear();
+    const std::uint32_t heard = rig.bell().listen();
+    rig.send(link, message);
+    CHECK(rig.bell().wait(heard, MonotonicClock::now() + fixture::patience));
+    rig.tick();
+    const auto answers = std::count_if(link.texts.begin(), link.texts.end(),
+                                       [](const json& text) { return text.value("id", 0) == 55; });
+    CHECK_EQUAL(answers, 1);
+  }
+}
+
 }  // namespace
 }  // namespace flexrf::panel
 
 int main() {
   using namespace flexrf::panel;
   const CMUnitTest tests[] = {
-      CONTAINED_TEST(a_set_is_answered_with_the_values_in_force), CONTAINED_TEST(what_changed_since_is_stale),
-      CONTAINED_TEST(wrong_values_are_refused_with_their_place),  CONTAINED_TEST(the_unit_may_refuse),
-      CONTAINED_TEST(roles_and_the_token_are_asked_for),          CONTAINED_TEST(presses_arrive),
+      CONTAINED_TEST(a_set_is_answered_with_the_values_in_force),
+      CONTAINED_TEST(what_changed_since_is_stale),
+      CONTAINED_TEST(wrong_values_are_refused_with_their_place),
+      CONTAINED_TEST(the_unit_may_refuse),
+      CONTAINED_TEST(roles_and_the_token_are_asked_for),
+      CONTAINED_TEST(presses_arrive),
       CONTAINED_TEST(a_thread_that_does_not_answer_is_given_up),
+      CONTAINED_TEST(answers_of_other_threads_ring),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

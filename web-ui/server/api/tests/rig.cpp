@@ -126,7 +126,7 @@ Reply* PlayedReplies::reply_of(Ticket ticket) {
 
 Rig::Rig(fixture::TestApplication& application, const ApiTimeouts& timeouts, Options options)
     : running_(application, std::move(options)),
-      api_(running_.executive(), access_, replies_, places, timeouts) {
+      api_(running_.executive(), access_, replies_, places, timeouts, &bell_) {
   Status status = api_.prepare();
   if (status) status = api_.start();
   if (!status) throw CheckFailed{std::string{"the API: "} + status.cause()};

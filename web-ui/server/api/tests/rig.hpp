@@ -115,6 +115,8 @@ class Rig {
   Api& api() { return api_; }
   PlayedAccess& access() { return access_; }
   PlayedReplies& replies() { return replies_; }
+  /// What other threads ring when they have answered. The rig looks often enough without it.
+  Doorbell& bell() { return bell_; }
   void tick() { tick(MonotonicClock::now()); }
   void tick(Time now) { api_.ticked().on_tick(now); }
   template <class Condition>
@@ -144,6 +146,7 @@ class Rig {
   PlayedAccess access_;
   PlayedReplies replies_;
   fixture::RunningCell running_;
+  Doorbell bell_;
   Api api_;
   std::deque<PlayedLink> links_;
   std::vector<bool> connected_ = std::vector<bool>(places);
