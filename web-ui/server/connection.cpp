@@ -130,7 +130,7 @@ void Connection::release_if_idle() {
   state_ = State::free;
   if (place_ == no_place) return;
   --surroundings_.connections;
-  surroundings_.gate.on_connection_closed(place_);
+  surroundings_.service.on_connection_closed(place_);
 }
 
 void Connection::end() {

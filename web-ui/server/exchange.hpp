@@ -56,15 +56,6 @@ enum class Handled : std::uint8_t {
   later,  ///< somebody kept the ticket and will complete it
 };
 
-/// The server's thread only; must return within 5 ms.
-class RequestHandler {
- public:
-  virtual Handled handle(const Request& request, Reply& reply, Ticket ticket) = 0;
-
- protected:
-  ~RequestHandler() = default;
-};
-
 /// The server's side of a reply that came later. The server's thread.
 class LaterReplies {
  public:

@@ -26,12 +26,12 @@ std::span<const PageFile> page_files() noexcept;
 
 /// Answers GET and HEAD of files; `/` is the page's index.html, `/application/PATH` a file of the
 /// application. The server's thread.
-class Files final : public RequestHandler {
+class Files {
  public:
   /// What is named lives for ever. Compresses the application's files where that saves something.
   Files(std::span<const PageFile> page, std::span<const PanelFile> application);
 
-  Handled handle(const Request& request, Reply& reply, Ticket ticket) override;
+  Handled handle(const Request& request, Reply& reply, Ticket ticket);
 
  private:
   /// `plain`: the same bytes uncompressed, where they are at hand.

@@ -85,7 +85,7 @@ void Connection::on_upgraded(error_code error) {
   message_size_ = 0;
   writing_ = answers_ping_ = flooded_ = false;
   announced_ = true;
-  surroundings_.watch("the opening of a live connection", [this] { surroundings_.live.on_open(*this); });
+  surroundings_.watch("the opening of a live connection", [this] { surroundings_.service.on_open(*this); });
   if (state_ == State::live) read_message();
 }
 
@@ -123,7 +123,7 @@ void Connection::on_message() {
   // Not the turn's time: where the server itself stood still, that is from before, and nobody was silent.
   heard_ = MonotonicClock::now();
   const std::string_view text{body_, std::exchange(message_size_, 0U)};
-  surroundings_.watch("a live message", [&] { surroundings_.live.on_text(*this, text); });
+  surroundings_.watch("a live message", [&] { surroundings_.service.on_text(*this, text); });
 }
 
 // ---- sending
@@ -209,7 +209,7 @@ void Connection::on_sent(error_code error) {
   }
   reply_.text.clear();
   surroundings_.watch("a live connection that can take more",
-                      [this] { surroundings_.live.on_writable(*this); });
+                      [this] { surroundings_.service.on_writable(*this); });
 }
 
 // ---- the end
@@ -247,7 +247,7 @@ void Connection::close(std::uint16_t code, std::string_view reason) {
 
 void Connection::end_live() {
   if (!std::exchange(announced_, false)) return;
-  surroundings_.watch("the end of a live connection", [this] { surroundings_.live.on_close(*this); });
+  surroundings_.watch("the end of a live connection", [this] { surroundings_.service.on_close(*this); });
 }
 
 }  // namespace flexrf::panel

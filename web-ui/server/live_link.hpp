@@ -38,19 +38,4 @@ class LiveLink {
   ~LiveLink() = default;
 };
 
-/// The server's thread only; each call returns within 5 ms.
-class LiveHandler {
- public:
-  virtual void on_open(LiveLink& link) = 0;
-  /// A whole text message; binary ones are refused by the server.
-  virtual void on_text(LiveLink& link, std::string_view text) = 0;
-  /// The last message is with the kernel, and was not yet when it was sent.
-  virtual void on_writable(LiveLink& link) = 0;
-  /// Closed by either side, timed out or lost; the link is gone after the call.
-  virtual void on_close(LiveLink& link) = 0;
-
- protected:
-  ~LiveHandler() = default;
-};
-
 }  // namespace flexrf::panel

@@ -136,7 +136,7 @@ Status Panel::listen() {
   settings.places = record_.connections;
   settings.local = local_addresses();
   settings.loopback_is_local = record_.loopback_is_local;
-  server_.emplace(settings, std::move(encryption_), ServerParts{routes_, routes_, routes_, routes_});
+  server_.emplace(settings, std::move(encryption_), routes_);
   Status status = server_->listen(address_);
   // Nobody asked for the default address: another application's panel is no reason not to start.
   if (status.code() == StatusCode::busy && !executive_.options().panel_given) {

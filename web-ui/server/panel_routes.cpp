@@ -22,26 +22,26 @@ void PanelRoutes::on_connection_closed(std::uint32_t place) {
 
 Handled PanelRoutes::handle(const Request& request, Reply& reply, Ticket ticket) {
   if (AccessEndpoints::is_for(request.path)) return parts_->endpoints.handle(request, reply, ticket);
-  if (request.path.starts_with("/api/")) return parts_->api.rest().handle(request, reply, ticket);
+  if (request.path.starts_with("/api/")) return parts_->api.handle(request, reply, ticket);
   return parts_->files.handle(request, reply, ticket);
 }
 
 void PanelRoutes::on_open(LiveLink& link) {
   links_[link.place()] = &link;
   parts_->access.link_opened(link.session());
-  parts_->api.live().on_open(link);
+  parts_->api.on_open(link);
 }
 
 void PanelRoutes::on_text(LiveLink& link, std::string_view text) {
-  parts_->api.live().on_text(link, text);
+  parts_->api.on_text(link, text);
 }
 
 void PanelRoutes::on_writable(LiveLink& link) {
-  parts_->api.live().on_writable(link);
+  parts_->api.on_writable(link);
 }
 
 void PanelRoutes::on_close(LiveLink& link) {
-  parts_->api.live().on_close(link);
+  parts_->api.on_close(link);
   // Of a session that ended the index may be another's already.
   if (links_[link.place()] != nullptr) parts_->access.link_closed(link.session(), MonotonicClock::now());
   links_[link.place()] = nullptr;
@@ -58,11 +58,11 @@ void PanelRoutes::on_session_ended(SessionIndex session) {
 void PanelRoutes::on_tick(Time now) {
   parts_->endpoints.on_tick(now);
   parts_->api.set_figures(parts_->server.figures());
-  parts_->api.ticked().on_tick(now);
+  parts_->api.on_tick(now);
 }
 
 Duration PanelRoutes::until_next(Time now) const {
-  return std::min(parts_->endpoints.until_next(now), parts_->api.ticked().until_next(now));
+  return std::min(parts_->endpoints.until_next(now), parts_->api.until_next(now));
 }
 
 }  // namespace flexrf::panel

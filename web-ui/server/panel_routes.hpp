@@ -10,19 +10,13 @@
 #include "web-ui/server/access/panel_access.hpp"
 #include "web-ui/server/api/api.hpp"
 #include "web-ui/server/files.hpp"
-#include "web-ui/server/gate.hpp"
-#include "web-ui/server/live_link.hpp"
 #include "web-ui/server/server.hpp"
-#include "web-ui/server/server_services.hpp"
+#include "web-ui/server/service.hpp"
 
 namespace flexrf::panel {
 
 /// The server's thread, but connect().
-class PanelRoutes final : public Gate,
-                          public RequestHandler,
-                          public LiveHandler,
-                          public Ticked,
-                          public SessionWatcher {
+class PanelRoutes final : public Service, public SessionWatcher {
  public:
   struct Parts {
     Server& server;

@@ -38,11 +38,11 @@ std::chrono::steady_clock::time_point on_asios_clock(Time time) noexcept {
 }  // namespace
 
 Server::Server(const ServerSettings& settings, std::unique_ptr<net::ssl::context> encryption,
-               const ServerParts& parts)
+               Service& service)
     : settings_(settings),
       encryption_(std::move(encryption)),
-      ticked_(parts.ticked),
-      surroundings_{context_, encryption_.get(), settings_, parts.gate, parts.requests, parts.live},
+      service_(service),
+      surroundings_{context_, encryption_.get(), settings_, service},
       acceptor_(context_),
       accepted_(context_),
       beat_timer_(context_),
@@ -182,14 +182,14 @@ void Server::tick() {
   if (std::exchange(bell_announced_, false)) bell_.settle();
   const std::uint32_t heard = bell_.listen();
   surroundings_.now = MonotonicClock::now();
-  surroundings_.watch("what is due", [this] { ticked_.on_tick(surroundings_.now); });
+  surroundings_.watch("what is due", [this] { service_.on_tick(surroundings_.now); });
   bell_announced_ = bell_.announce(heard);
   surroundings_.handled = false;
   plan_tick();
 }
 
 void Server::plan_tick() {
-  const Time next = surroundings_.now + ticked_.until_next(surroundings_.now);
+  const Time next = surroundings_.now + service_.until_next(surroundings_.now);
   // A timer that comes too early is put right then.
   if (tick_planned_ != Time{} && tick_planned_ <= next) return;
   tick_planned_ = next;

@@ -17,27 +17,19 @@
 #include "web-ui/server/exchange.hpp"
 #include "web-ui/server/handler_memory.hpp"
 #include "web-ui/server/listen_address.hpp"
-#include "web-ui/server/server_services.hpp"
+#include "web-ui/server/server_figures.hpp"
+#include "web-ui/server/service.hpp"
 #include "web-ui/server/settings.hpp"
 #include "web-ui/server/surroundings.hpp"
 
 namespace flexrf::panel {
 
-/// Whose work the server does. They outlive it.
-struct ServerParts {
-  Gate& gate;
-  RequestHandler& requests;
-  LiveHandler& live;
-  Ticked& ticked;
-};
-
-/// Takes all its memory before it runs, but for the few who wait for a place. Functions: the server's thread,
-/// but where they say otherwise.
+/// `service` outlives it. Takes all its memory before it runs, but for the few who wait for a place.
+/// Functions: the server's thread, but where they say otherwise.
 class Server final : public LaterReplies {
  public:
   /// `encryption` null: plain HTTP. Any one thread.
-  Server(const ServerSettings& settings, std::unique_ptr<net::ssl::context> encryption,
-         const ServerParts& parts);
+  Server(const ServerSettings& settings, std::unique_ptr<net::ssl::context> encryption, Service& service);
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
@@ -92,7 +84,7 @@ class Server final : public LaterReplies {
   std::unique_ptr<net::ssl::context> encryption_;
   // One thread at a time, which nobody else posts to: no locks.
   net::io_context context_{BOOST_ASIO_CONCURRENCY_HINT_UNSAFE};
-  Ticked& ticked_;
+  Service& service_;
   Surroundings surroundings_;
   std::deque<Connection> connections_;
   Acceptor acceptor_;

@@ -7,8 +7,7 @@
 
 #include "runtime/core/time.hpp"
 #include "web-ui/server/asio.hpp"
-#include "web-ui/server/gate.hpp"
-#include "web-ui/server/live_link.hpp"
+#include "web-ui/server/service.hpp"
 #include "web-ui/server/settings.hpp"
 
 namespace flexrf::panel {
@@ -18,9 +17,7 @@ struct Surroundings {
   net::io_context& context;
   net::ssl::context* encryption;  ///< null: plain
   const ServerSettings& settings;
-  Gate& gate;
-  RequestHandler& requests;
-  LiveHandler& live;
+  Service& service;
 
   Time now{};          ///< at most 10 ms old
   std::string date{};  ///< for headers

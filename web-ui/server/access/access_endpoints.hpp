@@ -14,13 +14,12 @@
 #include "web-ui/server/access/user_file.hpp"
 #include "web-ui/server/access/user_watch.hpp"
 #include "web-ui/server/exchange.hpp"
-#include "web-ui/server/server_services.hpp"
 
 namespace flexrf::panel {
 
 /// Logins wait here for the one process that checks passwords; those at the machine come first. Also what
 /// drives access control in time: ticks go to PanelAccess. The server's thread.
-class AccessEndpoints final : public RequestHandler, public Ticked {
+class AccessEndpoints {
  public:
   /// Attempts that wait or are under way; those over the network get no more than half.
   static constexpr std::size_t places = 4;
@@ -33,10 +32,10 @@ class AccessEndpoints final : public RequestHandler, public Ticked {
   AccessEndpoints& operator=(const AccessEndpoints&) = delete;
 
   static bool is_for(std::string_view path) noexcept;
-  Handled handle(const Request& request, Reply& reply, Ticket ticket) override;
+  Handled handle(const Request& request, Reply& reply, Ticket ticket);
 
-  void on_tick(Time now) override;
-  Duration until_next(Time now) const override;
+  void on_tick(Time now);
+  Duration until_next(Time now) const;
 
  private:
   struct Attempt {

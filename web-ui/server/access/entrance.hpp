@@ -8,20 +8,20 @@
 #include "web-ui/server/access/host_rules.hpp"
 #include "web-ui/server/access/login_limits.hpp"
 #include "web-ui/server/access/panel_access.hpp"
-#include "web-ui/server/gate.hpp"
+#include "web-ui/server/service.hpp"
 
 namespace flexrf::panel {
 
 /// Refuses with 421 a foreign Host, with 403 a change by a foreign page, with 401 who has to log in first
 /// (the page itself and `login` are open), and redirects who brings the one-time token. The server's thread.
-class Entrance final : public Gate {
+class Entrance {
  public:
   /// `places`: connections that the server has. All outlive it.
   Entrance(PanelAccess& access, LoginLimits& limits, const HostRules& rules, std::uint32_t places,
            Clock clock = &MonotonicClock::now);
 
-  bool admit(const Approach& approach, SessionIndex& session, Reply& reply) override;
-  void on_connection_closed(std::uint32_t place) override;
+  bool admit(const Approach& approach, SessionIndex& session, Reply& reply);
+  void on_connection_closed(std::uint32_t place);
 
  private:
   bool is_ours(const Approach& approach, Reply& reply) const;

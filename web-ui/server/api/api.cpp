@@ -25,7 +25,7 @@ std::string new_boot() {
 
 }  // namespace
 
-struct Api::Parts final : public Ticked, public ControlWatcher, public SessionWatcher {
+struct Api::Parts final : public ControlWatcher, public SessionWatcher {
   Parts(Executive& executive_to_serve, AccessControl& access_control, LaterReplies& replies,
         std::uint32_t places, const ApiTimeouts& limits, Doorbell* server_bell)
       : executive(executive_to_serve),
@@ -38,8 +38,8 @@ struct Api::Parts final : public Ticked, public ControlWatcher, public SessionWa
   /// What needs the cell's objects, which Executive::prepare() constructs.
   void make();
 
-  void on_tick(Time now) override;
-  Duration until_next(Time now) const override;
+  void on_tick(Time now);
+  Duration until_next(Time now) const;
   void on_control_changed(SessionIndex from, SessionIndex to) override;
   void on_session_ended(SessionIndex session) override;
 
@@ -161,16 +161,32 @@ void Api::stop() noexcept {
   if (parts_->made) parts_->made->images.stop();
 }
 
-RequestHandler& Api::rest() noexcept {
-  return parts_->made->rest;
+Handled Api::handle(const Request& request, Reply& reply, Ticket ticket) {
+  return parts_->made->rest.handle(request, reply, ticket);
 }
 
-LiveHandler& Api::live() noexcept {
-  return parts_->made->live;
+void Api::on_open(LiveLink& link) {
+  parts_->made->live.on_open(link);
 }
 
-Ticked& Api::ticked() noexcept {
-  return *parts_;
+void Api::on_text(LiveLink& link, std::string_view text) {
+  parts_->made->live.on_text(link, text);
+}
+
+void Api::on_writable(LiveLink& link) {
+  parts_->made->live.on_writable(link);
+}
+
+void Api::on_close(LiveLink& link) {
+  parts_->made->live.on_close(link);
+}
+
+void Api::on_tick(Time now) {
+  parts_->on_tick(now);
+}
+
+Duration Api::until_next(Time now) const {
+  return parts_->until_next(now);
 }
 
 ControlWatcher& Api::control_watcher() noexcept {

@@ -9,7 +9,7 @@
 #include "web-ui/server/access.hpp"
 #include "web-ui/server/exchange.hpp"
 #include "web-ui/server/live_link.hpp"
-#include "web-ui/server/server_services.hpp"
+#include "web-ui/server/server_figures.hpp"
 
 namespace flexrf {
 class Doorbell;
@@ -29,7 +29,7 @@ struct ApiTimeouts {
 class Api {
  public:
   /// `places`: connections that the server has, each LiveLink's place is below. `bell`: rung when another
-  /// thread has answered, and ticked() is to come; null: it comes often enough by itself. The main thread,
+  /// thread has answered, and on_tick() is to come; null: it comes often enough by itself. The main thread,
   /// before the executive runs; all outlive the Api.
   Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places,
       const ApiTimeouts& timeouts = {}, Doorbell* bell = nullptr);
@@ -45,10 +45,16 @@ class Api {
   void stop() noexcept;
 
   /// All paths under /api/v1 but `session`, `login`, `logout` and `live`.
-  RequestHandler& rest() noexcept;
-  LiveHandler& live() noexcept;
+  Handled handle(const Request& request, Reply& reply, Ticket ticket);
+  // Of live connections, as Service has them.
+  void on_open(LiveLink& link);
+  void on_text(LiveLink& link, std::string_view text);
+  void on_writable(LiveLink& link);
+  void on_close(LiveLink& link);
   /// Answers, time-outs, events, frames.
-  Ticked& ticked() noexcept;
+  void on_tick(Time now);
+  Duration until_next(Time now) const;
+
   ControlWatcher& control_watcher() noexcept;
   SessionWatcher& session_watcher() noexcept;
   /// For the `state` event; as often as they are known anew.

@@ -28,14 +28,14 @@ struct LiveParts {
 };
 
 /// The server's thread.
-class LiveSession final : public LiveHandler {
+class LiveSession {
  public:
   explicit LiveSession(const LiveParts& parts) noexcept : parts_(parts) {}
 
-  void on_open(LiveLink& link) override;
-  void on_text(LiveLink& link, std::string_view text) override;
-  void on_writable(LiveLink& link) override;
-  void on_close(LiveLink& link) override;
+  void on_open(LiveLink& link);
+  void on_text(LiveLink& link, std::string_view text);
+  void on_writable(LiveLink& link);
+  void on_close(LiveLink& link);
 
   /// Sends each client what it is due, until `deadline`; then goes on with the next one the next time.
   void send_all(Time now, Time deadline);

@@ -31,11 +31,11 @@ struct RestParts {
 };
 
 /// The server's thread.
-class RestHandler final : public RequestHandler {
+class RestHandler {
  public:
   explicit RestHandler(const RestParts& parts);
 
-  Handled handle(const Request& request, Reply& reply, Ticket ticket) override;
+  Handled handle(const Request& request, Reply& reply, Ticket ticket);
 
  private:
   /// What never changes; compressed where that saves something, else empty.

@@ -11,7 +11,7 @@
 #include "runtime/face/directory.hpp"
 #include "web-ui/server/access.hpp"
 #include "web-ui/server/api/edit_operations.hpp"
-#include "web-ui/server/server_services.hpp"
+#include "web-ui/server/server_figures.hpp"
 
 namespace flexrf::panel {
 

@@ -106,7 +106,7 @@ std::string ask_encrypted(std::uint16_t port, const std::string& request, int ne
 }
 
 int serve(void** state) {
-  *state = new Served(ServerSettings{}, nullptr, path_of("one.crt"), path_of("one.key"));
+  *state = new Served(ServerSettings{}, {}, path_of("one.crt"), path_of("one.key"));
   return 0;
 }
 

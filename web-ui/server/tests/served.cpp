@@ -94,20 +94,19 @@ void TestHandlers::on_tick(Time) {
     }
   }
   waiting_.clear();
+  if (ticked) ticked();
 }
 
-Served::Served(const ServerSettings& settings, Ticked* ticked, const std::string& certificate_file,
-               const std::string& key_file) {
+Served::Served(const ServerSettings& settings, std::function<void()> ticked,
+               const std::string& certificate_file, const std::string& key_file) {
+  handlers.ticked = std::move(ticked);
   std::unique_ptr<net::ssl::context> encryption;
   if (!certificate_file.empty()) {
     auto made = make_encryption(certificate_file, key_file);
     if (!made) std::abort();
     encryption = std::move(*made);
   }
-  server =
-      std::make_unique<Server>(settings, std::move(encryption),
-                               ServerParts{handlers, handlers, handlers,
-                                           ticked == nullptr ? static_cast<Ticked&>(handlers) : *ticked});
+  server = std::make_unique<Server>(settings, std::move(encryption), handlers);
   handlers.replies = server.get();
   if (!server->listen({"127.0.0.1", 0})) std::abort();
   thread = std::thread([this] { server->run(); });

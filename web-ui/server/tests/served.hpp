@@ -4,15 +4,14 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
 
-#include "web-ui/server/gate.hpp"
-#include "web-ui/server/live_link.hpp"
-#include "web-ui/server/server_services.hpp"
+#include "web-ui/server/service.hpp"
 #include "web-ui/server/settings.hpp"
 #include "web-ui/server/tests/client.hpp"
 
@@ -24,7 +23,7 @@ class Server;
 /// (answered at a later tick), /never. Live: a text comes back; "flood" is answered with message after
 /// message, for ever; "much" with `much_messages`, each of `much_size` bytes, which tell its number, by turns
 /// from the link's buffer and from shared memory; "close" with a close.
-class TestHandlers final : public Gate, public RequestHandler, public LiveHandler, public Ticked {
+class TestHandlers final : public Service {
  public:
   static constexpr std::size_t much_messages = 4;
   static constexpr std::size_t much_size = 8U << 20U;  // several times what a socket takes at once
@@ -35,6 +34,8 @@ class TestHandlers final : public Gate, public RequestHandler, public LiveHandle
   std::atomic<int> closed{0};
   std::atomic<int> texts{0};
   std::atomic<int> connections_closed{0};
+  /// Set before the server runs.
+  std::function<void()> ticked;
 
   bool admit(const Approach& approach, SessionIndex& session, Reply& reply) override;
   void on_connection_closed(std::uint32_t) override { ++connections_closed; }
@@ -44,7 +45,7 @@ class TestHandlers final : public Gate, public RequestHandler, public LiveHandle
   void on_writable(LiveLink& link) override;
   void on_close(LiveLink& link) override;
   void on_tick(Time now) override;
-  Duration until_next(Time) const override { return std::chrono::milliseconds{50}; }
+  Duration until_next(Time) const override { return std::chrono::milliseconds{ticked ? 5 : 50}; }
 
  private:
   std::vector<Ticket> waiting_ = [] {
@@ -62,8 +63,9 @@ class TestHandlers final : public Gate, public RequestHandler, public LiveHandle
 /// The state of a test: where an assertion jumps to, this is taken down. Shows nothing of Asio, whose names
 /// and CMocka's macros do not go together.
 struct Served {
-  /// `ticked` null: the handlers' own; files of TLS empty: plain.
-  explicit Served(const ServerSettings& settings, Ticked* ticked = nullptr,
+  /// `ticked`: called at each tick, which come each 5 ms then; empty: they come each 50 ms. Files of TLS
+  /// empty: plain.
+  explicit Served(const ServerSettings& settings, std::function<void()> ticked = {},
                   const std::string& certificate_file = {}, const std::string& key_file = {});
   ~Served();
 

@@ -217,10 +217,10 @@ void a_slow_client_delays_nobody() {
   quick.frames.clear();
   CHECK(rig.wait_until([&] { return quick.frames.size() >= 15; }));
   CHECK_EQUAL(slow.sent, before);
-  CHECK(rig.api().ticked().until_next(MonotonicClock::now()) <= std::chrono::milliseconds{100});
+  CHECK(rig.api().until_next(MonotonicClock::now()) <= std::chrono::milliseconds{100});
   slow.frames.clear();
   const auto newest = rig.get("slots/values").body.at("sequence").get<std::uint64_t>();
-  slow.unstick(rig.api().live());
+  slow.unstick(rig.api());
   CHECK(slow.frames.size() <= 1);
   CHECK(rig.wait_until([&] {
     while (!slow.frames.empty() && items(slow.frames.front()) == 0) slow.frames.pop_front();
@@ -276,7 +276,7 @@ void what_is_no_message_closes_the_connection() {
                           Case{R"({"op": "ping", "id": 0})", 1008}, Case{R"({"id": 1})", 1008},
                           Case{R"({"op": "ping", "id": -1})", 1008}, Case{R"({"op": 7, "id": 1})", 1008}}) {
     PlayedLink& link = rig.connect(a_viewer);
-    rig.api().live().on_text(link, one.text);
+    rig.api().on_text(link, one.text);
     CHECK_EQUAL(link.closed, one.code);
     rig.disconnect(link);
   }

@@ -140,14 +140,14 @@ void the_descriptor_comes_compressed_to_who_takes_it() {
   request.session = a_viewer;
   request.accepts_gzip = true;
   Reply reply;
-  CHECK(rig.api().rest().handle(request, reply, {0, 999'999}) == Handled::now);
+  CHECK(rig.api().handle(request, reply, {0, 999'999}) == Handled::now);
   CHECK_EQUAL(reply.content_encoding, std::string_view{"gzip"});
   CHECK(reply.varies_by_encoding && plain.reply.varies_by_encoding);
   CHECK(reply.fixed.size() < plain.reply.fixed.size() / 3);
   CHECK(reply.etag != plain.reply.etag);
   request.if_none_match = reply.etag;
   Reply again;
-  CHECK(rig.api().rest().handle(request, again, {0, 999'999}) == Handled::now);
+  CHECK(rig.api().handle(request, again, {0, 999'999}) == Handled::now);
   CHECK_EQUAL(again.status, 304U);
 }
 

@@ -112,9 +112,9 @@ void PlayedLink::close(std::uint16_t code, std::string_view reason) {
   close_reason = reason;
 }
 
-void PlayedLink::unstick(LiveHandler& handler) {
+void PlayedLink::unstick(Api& api) {
   stuck = writing_ = false;
-  handler.on_writable(*this);
+  api.on_writable(*this);
 }
 
 Reply* PlayedReplies::reply_of(Ticket ticket) {
@@ -153,13 +153,13 @@ PlayedLink& Rig::connect(SessionIndex session) {
   const auto place = std::find(connected_.begin(), connected_.end(), false);
   *place = true;
   PlayedLink& link = links_.emplace_back(static_cast<std::uint32_t>(place - connected_.begin()), session);
-  api_.live().on_open(link);
+  api_.on_open(link);
   return link;
 }
 
 void Rig::disconnect(PlayedLink& link) {
   connected_[link.place()] = false;
-  api_.live().on_close(link);
+  api_.on_close(link);
 }
 
 json Rig::ask(PlayedLink& link, json message) {
@@ -208,7 +208,7 @@ Answer Rig::request(Method method, const std::string& path, SessionIndex session
   request.session = session;
   const std::uint32_t exchange = ++exchange_;
   Reply& reply = replies_.waiting[exchange];
-  if (api_.rest().handle(request, reply, {0, exchange}) == Handled::later) {
+  if (api_.handle(request, reply, {0, exchange}) == Handled::later) {
     const bool came = wait_until([&] {
       return std::find(replies_.completed.begin(), replies_.completed.end(), exchange) !=
              replies_.completed.end();

@@ -73,7 +73,7 @@ class PlayedLink final : public LiveLink {
   std::deque<std::string> frames;
   std::uint16_t closed = 0;
   std::string close_reason;
-  void unstick(LiveHandler& handler);
+  void unstick(Api& api);
 
  private:
   std::uint32_t place_;
@@ -118,7 +118,7 @@ class Rig {
   /// What other threads ring when they have answered. The rig looks often enough without it.
   Doorbell& bell() { return bell_; }
   void tick() { tick(MonotonicClock::now()); }
-  void tick(Time now) { api_.ticked().on_tick(now); }
+  void tick(Time now) { api_.on_tick(now); }
   template <class Condition>
   bool wait_until(Condition condition) {
     return fixture::RunningCell::wait_until([&] {
@@ -129,7 +129,7 @@ class Rig {
 
   PlayedLink& connect(SessionIndex session);
   void disconnect(PlayedLink& link);
-  void send(PlayedLink& link, const json& message) { api_.live().on_text(link, message.dump()); }
+  void send(PlayedLink& link, const json& message) { api_.on_text(link, message.dump()); }
   /// Sends with an id of its own, and waits for the answer.
   json ask(PlayedLink& link, json message);
   /// Waits for the next event of this name.

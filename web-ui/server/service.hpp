@@ -1,11 +1,13 @@
-// What the server asks of access control before a request reaches its handler.
+// What the server serves: whom it lets in, what it answers, what it tells without being asked.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 
+#include "runtime/core/time.hpp"
 #include "web-ui/server/access/address.hpp"
 #include "web-ui/server/exchange.hpp"
+#include "web-ui/server/live_link.hpp"
 
 namespace flexrf::panel {
 
@@ -25,8 +27,8 @@ struct Approach {
   bool upgrade = false;             ///< wants to become a WebSocket
 };
 
-/// The server's thread only; must return within 5 ms.
-class Gate {
+/// The server's thread only; each call returns within 5 ms.
+class Service {
  public:
   /// False: `reply` holds the refusal, or the redirection. True: `session` is who asks; `reply.set_cookie`
   /// may have been set.
@@ -34,8 +36,24 @@ class Gate {
   /// The connection of this place is closed; another may get it.
   virtual void on_connection_closed(std::uint32_t place) = 0;
 
+  virtual Handled handle(const Request& request, Reply& reply, Ticket ticket) = 0;
+
+  virtual void on_open(LiveLink& link) = 0;
+  /// A whole text message; binary ones are refused by the server.
+  virtual void on_text(LiveLink& link, std::string_view text) = 0;
+  /// The last message is with the kernel, and was not yet when it was sent.
+  virtual void on_writable(LiveLink& link) = 0;
+  /// Closed by either side, timed out or lost; the link is gone after the call.
+  virtual void on_close(LiveLink& link) = 0;
+
+  /// What is due from time to time: sent, ended, fetched from other threads. When until_next() has passed or
+  /// the server's bell was rung, soon after each handled request or message, and at least each 100 ms.
+  virtual void on_tick(Time now) = 0;
+  /// Until there is something to do; zero: at once, but others first.
+  virtual Duration until_next(Time now) const = 0;
+
  protected:
-  ~Gate() = default;
+  ~Service() = default;
 };
 
 }  // namespace flexrf::panel
