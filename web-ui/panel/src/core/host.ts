@@ -5,6 +5,7 @@ import type { ConfigurationValues } from './configuration';
 import type { Item } from './descriptor';
 import { chosen, History } from './history';
 import type { Holds } from './holds';
+import { Newest } from './newest';
 import type { Answer, Problem } from './protocol';
 import type { Store } from './store';
 import type { Subscriptions } from './subscriptions';
@@ -29,19 +30,15 @@ interface Applied {
 
 interface Wanted {
   readonly value: Value;
-  readonly done: readonly ((outcome: Outcome) => void)[];
-}
-
-/** One parameter that is being set: a newer value waits for the answer to the one before, those between are left out. */
-interface Setting {
-  next: Wanted | undefined;
+  readonly tell: readonly ((outcome: Outcome) => void)[];
 }
 
 const unknownKey: Outcome = { ok: false, detail: 'There is no such parameter.' };
 
 export class Host implements WidgetHost {
   readonly history = new History();
-  #settings = new Map<string, Setting>();
+  /** Of each parameter that is being set: a newer value waits for the answer to the one before, those between are left out. */
+  #settings = new Map<string, Newest<Wanted>>();
 
   constructor(private readonly parts: HostParts) {}
 
@@ -80,14 +77,14 @@ export class Host implements WidgetHost {
     if (item?.component === undefined || item.path === undefined) return Promise.resolve(unknownKey);
     const { component, path } = item;
     return new Promise((resolve) => {
-      const running = this.#settings.get(key);
-      if (running) {
-        running.next = { value, done: [...(running.next?.done ?? []), resolve] };
-        return;
-      }
-      const setting: Setting = { next: undefined };
+      const setting: Newest<Wanted> = this.#settings.get(key) ?? new Newest<Wanted>(async ({ value: wanted, tell }, done) => {
+        const outcome = await this.#change('set', component, [path], { values: { [path]: wanted } });
+        done();
+        if (!setting.pending) this.#settings.delete(key);
+        tell.forEach((one) => one(outcome));
+      });
       this.#settings.set(key, setting);
-      void this.#send(key, setting, component, path, { value, done: [resolve] });
+      setting.put({ value, tell: [...(setting.waiting?.tell ?? []), resolve] });
     });
   }
 
@@ -141,15 +138,6 @@ export class Host implements WidgetHost {
     const parts = path.split('/').filter((part) => part !== '' && part !== '.');
     if (parts.includes('..') || path.includes(':')) throw new Error(`"${path}" is not in the application's folder`);
     return fetch(`/application/${parts.map(encodeURIComponent).join('/')}`);
-  }
-
-  async #send(key: string, setting: Setting, component: string, path: string, first: Wanted): Promise<void> {
-    for (let wanted: Wanted | undefined = first; wanted; wanted = setting.next) {
-      setting.next = undefined;
-      const outcome = await this.#change('set', component, [path], { values: { [path]: wanted.value } });
-      wanted.done.forEach((resolve) => resolve(outcome));
-    }
-    this.#settings.delete(key);
   }
 
   async #change(op: 'set' | 'reset', component: string, paths: readonly string[], fields: object): Promise<Outcome> {

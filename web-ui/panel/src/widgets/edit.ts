@@ -1,25 +1,30 @@
 // The way of one parameter's value: from a person's hand to the unit, and back from the unit to the page.
 import type { Outcome, Value } from '../contract';
+import { Newest } from '../core/newest';
 
 /** Least time between two requests while a hand drags, ms: enough to tune by, little enough for log and audit. */
 const spacing_ms = 100;
 
+interface Request {
+  readonly make: () => Promise<Outcome>;
+  /** What it sets; undefined: the unit knows. */
+  readonly value?: Value;
+}
+
 /**
  * What is shown is the value in force, except while a person drags or types, or a request is unanswered: then it is
- * the person's. One request is under way at a time; of those that wait for it only the newest is sent.
+ * the person's.
  */
 export class Edit {
   /** Why the last request was refused; empty when it was not. */
   refusal = '';
   private force: Value | null = null;
   private own: Value | undefined;
-  private next: Value | undefined;
   private hands = false;
-  private busy = false;
-  private sentAt = Number.NEGATIVE_INFINITY;
-  private timer: ReturnType<typeof setTimeout> | undefined;
-  /** Rises when requests that are under way no longer matter. */
-  private generation = 0;
+  private readonly requests = new Newest<Request>(
+    (request, done) => void this.run(request, done),
+    () => (this.hands ? spacing_ms : 0),
+  );
 
   constructor(
     private readonly send: (value: Value) => Promise<Outcome>,
@@ -37,7 +42,7 @@ export class Edit {
   }
   /** Sent, and not answered yet. */
   get pending(): boolean {
-    return this.busy || this.next !== undefined;
+    return this.requests.pending;
   }
   get shown(): Value | null {
     return (this.hands || this.pending) && this.own !== undefined ? this.own : this.force;
@@ -73,8 +78,7 @@ export class Edit {
   put(value: Value): void {
     this.own = value;
     this.refusal = '';
-    this.next = value;
-    this.launch();
+    this.requests.put({ make: () => this.send(value), value });
     this.changed();
   }
 
@@ -88,59 +92,35 @@ export class Edit {
 
   /** The person gave up, or may not any more: back to the value in force. */
   cancel(): void {
-    if (this.timer !== undefined) clearTimeout(this.timer);
-    this.timer = undefined;
-    this.generation += 1;
+    this.requests.cancel();
     this.hands = false;
-    this.busy = false;
-    this.next = undefined;
     this.own = undefined;
     this.changed();
   }
 
   /** A request of another kind with the same answer: a reset to the default. */
-  perform(request: () => Promise<Outcome>): void {
+  perform(make: () => Promise<Outcome>): void {
     this.cancel();
     this.refusal = '';
-    void this.run(request);
-  }
-
-  private launch(): void {
-    if (this.busy || this.timer !== undefined || this.next === undefined) return;
-    const wait = this.hands ? this.sentAt + spacing_ms - performance.now() : 0;
-    if (wait > 0) {
-      this.timer = setTimeout(() => {
-        this.timer = undefined;
-        this.launch();
-      }, wait);
-      return;
-    }
-    const value = this.next;
-    this.next = undefined;
-    this.sentAt = performance.now();
-    void this.run(() => this.send(value), value);
-  }
-
-  private async run(request: () => Promise<Outcome>, value?: Value): Promise<void> {
-    const generation = this.generation;
-    this.busy = true;
+    this.requests.put({ make });
     this.changed();
+  }
+
+  private async run({ make, value }: Request, done: () => boolean): Promise<void> {
     let outcome: Outcome;
     try {
-      outcome = await request();
+      outcome = await make();
     } catch (failure) {
       outcome = { ok: false, detail: failure instanceof Error ? failure.message : String(failure) };
     }
-    if (generation !== this.generation) return;
-    this.busy = false;
+    if (!done()) return;
     if (outcome.ok) {
       const answered = valueAt(outcome.values, this.path());
       if (answered !== undefined) this.force = answered;
       else if (value !== undefined) this.force = value;
-    } else if (this.next === undefined) {
+    } else if (!this.pending) {
       this.refusal = outcome.detail;
     }
-    this.launch();
     if (!this.pending && !this.hands) this.own = undefined;
     this.changed();
   }

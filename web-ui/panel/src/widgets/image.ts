@@ -2,6 +2,7 @@
 import { css, html } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { Reading } from '../contract';
+import { Newest } from '../core/newest';
 import { widgetStyles } from './styles';
 import { WidgetBase } from './widget_base';
 
@@ -34,9 +35,9 @@ export class ImageView extends WidgetBase {
   private width = 0;
   private endWatch: (() => void) | undefined;
   private address = '';
-  /** One that the browser still decodes; a newer one waits here, the newest. */
-  private loading = false;
-  private waiting: Blob | undefined;
+  /** While the browser decodes one the next waits. */
+  private readonly pictures = new Newest<Blob>((blob, done) => this.put(blob, done));
+  private loaded = (): unknown => undefined;
 
   protected override render(): TemplateResult {
     return this.frame(html`<div class="picture">
@@ -88,8 +89,7 @@ export class ImageView extends WidgetBase {
     this.endWatch?.();
     this.endWatch = undefined;
     this.width = 0;
-    this.waiting = undefined;
-    this.loading = false;
+    this.pictures.cancel();
     this.revoke();
     this.renderRoot.querySelector('img')?.removeAttribute('src');
   }
@@ -98,27 +98,18 @@ export class ImageView extends WidgetBase {
     super.take(reading);
     if (!this.hasUpdated) return;
     this.find('.picture').classList.toggle('absent', !reading.image);
-    if (!reading.image) return;
-    if (this.loading) this.waiting = reading.image;
-    else this.put(reading.image);
+    if (reading.image) this.pictures.put(reading.image);
   }
 
   /** The picture is its own value. */
   protected override show(): void {}
 
-  private put(blob: Blob): void {
+  private put(blob: Blob, done: () => boolean): void {
     const old = this.address;
     this.address = URL.createObjectURL(blob);
-    this.loading = true;
+    this.loaded = done;
     this.find<HTMLImageElement>('img').src = this.address;
     if (old !== '') URL.revokeObjectURL(old);
-  }
-
-  private loaded(): void {
-    this.loading = false;
-    const next = this.waiting;
-    this.waiting = undefined;
-    if (next) this.put(next);
   }
 
   private revoke(): void {
