@@ -12,7 +12,6 @@ import { getJson } from './http';
 import type { Answer, ApplicationState, Hello, LogLine, ServerEvent, SessionInfo, TopicName, Values } from './protocol';
 import { Registry, type BuiltInWidgets } from './registry';
 import { Store } from './store';
-import type { Missing } from '../shell/missing';
 import { Subscriptions } from './subscriptions';
 import { displayUnits } from './units';
 
@@ -22,7 +21,9 @@ export type Severity = 'info' | 'warning' | 'alarm';
 
 export interface PanelCoreOptions {
   readonly makeSocket?: () => Socket;
-  readonly loadBuiltIn?: () => Promise<BuiltInWidgets>;
+  readonly loadBuiltIn: () => Promise<BuiltInWidgets>;
+  /** Stands where a widget belongs that could not be had: says why, and offers a second try. */
+  readonly makeMissing: (text: string, again: () => Promise<unknown>) => HTMLElement;
   /** Another descriptor than before, or the first. */
   readonly onModel: (model: Model) => void;
   readonly onNotice: (text: string, severity: Severity) => void;
@@ -64,7 +65,7 @@ export class PanelCore implements Core {
       onStatus: () => this.#changed(),
       explain: explainRefusal,
     });
-    this.registry = new Registry(options.loadBuiltIn ?? (() => import('../widgets')));
+    this.registry = new Registry(options.loadBuiltIn);
     this.#store = new Store({ serverNow: () => this.connection.serverNow() });
     this.#subscriptions = new Subscriptions({
       request: (op, fields) => this.connection.request(op, fields),
@@ -154,15 +155,15 @@ export class PanelCore implements Core {
       return await this.#makeWidget(what);
     } catch (error) {
       const name = 'item' in what ? what.item.label : what.placement.label;
-      const missing: Missing & Partial<WidgetElement> = Object.assign(document.createElement('flexrf-missing') as Missing, {
-        text: `${name} cannot be shown: ${textOfError(error)}`,
-        again: async () => {
+      const missing: WidgetElement = Object.assign(
+        this.options.makeMissing(`${name} cannot be shown: ${textOfError(error)}`, async () => {
           const made = await this.createWidget(what);
-          made.host = missing.host ?? this.host; // whoever asked for it may have put another there
+          made.host = missing.host; // whoever asked for it may have put another there
           missing.replaceWith(made);
-        },
-      });
-      return Object.assign(missing, { host: this.host }, what);
+        }),
+        { host: this.host }, what,
+      );
+      return missing;
     }
   }
 

@@ -5,17 +5,18 @@ import { customElement, query, state } from 'lit/decorators.js';
 import { hasControl, includes } from '../core/access';
 import { PanelCore } from '../core/panel_core';
 import { loadPart } from '../core/parts';
+import { addressOfRoute, parseRoute, type Route } from '../core/route';
+import { titleOf } from '../core/words';
 import { views } from '../views';
 import './control';
 import './header';
+import { makeMissing } from './missing';
 import './notices';
 import type { Notices } from './notices';
 import './outlet';
 import { Preferences } from './preferences';
-import { addressOfRoute, parseRoute, type Route } from './router';
 import './stop_motion';
 import { shellStyles } from './styles';
-import { titleOf } from './words';
 
 type DialogName = 'login' | 'settings';
 
@@ -119,6 +120,8 @@ export class Panel extends LitElement {
     },
     onNotice: (text, severity) => this.notices?.add(text, severity),
     onEnded: (text) => { this.ended = text; },
+    loadBuiltIn: () => import('../widgets'),
+    makeMissing,
   });
 
   override connectedCallback(): void {

@@ -3,9 +3,9 @@
 import { css, html } from 'lit';
 import { customElement } from 'lit/decorators.js';
 import type { Fault } from '../core/protocol';
+import { addressOfFault, clockText, faultCount, newestFault } from '../core/words';
 import { ShellPart } from './part';
 import { shellStyles } from './styles';
-import { addressOfFault, clockText, faultCount, newestFault } from './words';
 
 @customElement('flexrf-faults')
 export class Faults extends ShellPart {

@@ -4,13 +4,13 @@ import { customElement, query } from 'lit/decorators.js';
 import { deniedLink } from '../core/access';
 import { textOf } from '../core/host';
 import type { LinkStatus } from '../core/core';
+import { modeOf, modeText, motionOf, motionText, stopText } from '../core/words';
 import './control';
 import './faults';
 import { logOut } from './log_out';
 import { ShellPart } from './part';
 import { Settled } from './settled';
 import { shellStyles } from './styles';
-import { modeOf, modeText, motionOf, motionText, stopText } from './words';
 
 const clockPeriod = 250;
 

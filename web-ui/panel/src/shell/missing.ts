@@ -45,3 +45,8 @@ export class Missing extends LitElement {
     this.busy = false;
   }
 }
+
+/** One that stands alone. */
+export function makeMissing(text: string, again: Missing['again']): Missing {
+  return Object.assign(document.createElement('flexrf-missing') as Missing, { text, again });
+}

@@ -3,9 +3,9 @@ import { LitElement, css, html, nothing } from 'lit';
 import { customElement, property, state } from 'lit/decorators.js';
 import type { PanelCore } from '../core/panel_core';
 import { loadPart } from '../core/parts';
+import type { Route } from '../core/route';
 import type { ViewElement, ViewInfo } from '../views/view';
 import './missing';
-import type { Route } from './router';
 import { shellStyles } from './styles';
 
 @customElement('flexrf-outlet')

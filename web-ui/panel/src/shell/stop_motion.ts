@@ -2,9 +2,9 @@
 import { css, html } from 'lit';
 import { customElement } from 'lit/decorators.js';
 import { postJson } from '../core/http';
+import { motionOf } from '../core/words';
 import { ShellPart } from './part';
 import { shellStyles } from './styles';
-import { motionOf } from './words';
 
 // An answer that does not come in this time is not waited for: the other way is tried beside it.
 const patience = 200;

@@ -4,7 +4,7 @@ import { customElement, property } from 'lit/decorators.js';
 import { repeat } from 'lit/directives/repeat.js';
 import type { Component, Item } from '../core/descriptor';
 import { formatNumber } from '../core/units';
-import { remedyOf } from '../shell/words';
+import { remedyOf } from '../core/words';
 import { componentRows, stateText, type ComponentRow } from './component_actions';
 import './component_buttons';
 import { countText, durationText } from './durations';

@@ -3,7 +3,7 @@
 import type { Hold, ItemInfo, Joint, Outcome, Reading, Value, WidgetHost } from '../contract';
 import type { EditFlow } from './edit_flow';
 import { sameValue } from '../core/same_value';
-import { partOf, partsOf, rootOf, withPart } from './value_path';
+import { partOf, partsOf, rootOf, withPart } from '../core/value_path';
 
 interface Watcher {
   readonly item: ItemInfo;

@@ -3,7 +3,7 @@ import { css, html, nothing } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
 import type { Item, Model } from '../core/descriptor';
 import { loadPart } from '../core/parts';
-import { addressOfFault, faultCount, modeOf, modeText, motionOf, motionText, remedyOf } from '../shell/words';
+import { addressOfFault, faultCount, modeOf, modeText, motionOf, motionText, remedyOf } from '../core/words';
 import './item_widget';
 import './placement_widget';
 import { ViewBase } from './view_base';

@@ -9,7 +9,7 @@ import { EditSession } from './edit_session';
 import { Favourites } from './favourites';
 import './group_reset';
 import './item_widget';
-import { addressOfRoute } from '../shell/router';
+import { addressOfRoute } from '../core/route';
 import { askedBy, isModified, isParameter, matches, pathOf, searchable, wordsOf, type Group, type Show } from './search_rows';
 import './undo';
 import { addressOf, ViewBase } from './view_base';

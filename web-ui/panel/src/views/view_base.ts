@@ -3,7 +3,7 @@ import { LitElement } from 'lit';
 import { property, state } from 'lit/decorators.js';
 import type { WidgetHost } from '../contract';
 import type { Core } from '../core/core';
-import { addressOfRoute } from '../shell/router';
+import { addressOfRoute } from '../core/route';
 import type { ViewElement } from './view';
 
 export abstract class ViewBase extends LitElement implements ViewElement {

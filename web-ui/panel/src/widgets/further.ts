@@ -1,6 +1,6 @@
 // The widgets that change something or draw: a chunk of its own, loaded when the first of them is shown.
 import type { RegisterWidget } from '../contract';
-import { RobotWidget } from '../robot/robot_widget';
+import { RobotWidget } from './robot/robot_widget';
 import { ArrayField } from './array_field';
 import { Button } from './button';
 import { Gauge } from './gauge';

@@ -1,7 +1,7 @@
 // @vitest-environment node
 import { describe, expect, it } from 'vitest';
 import { labelOf, makeModel, rowsOf, unitWith } from '../descriptor';
-import { cell } from '../../views/tests/cell';
+import { cell } from './cell';
 import { sample } from './sample';
 
 const model = makeModel(sample);

@@ -84,6 +84,7 @@ describe('Newest', () => {
     spacing = 100;
     ends[1]!();
     newest.cancel();
+    expect(vi.getTimerCount()).toBe(0);
     await vi.advanceTimersByTimeAsync(1000);
     expect(begun).toEqual([1, 3]);
   });

@@ -1,6 +1,8 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import type { WidgetHost } from '../../contract';
 import type { Model } from '../descriptor';
-import { PanelCore } from '../panel_core';
+import { PanelCore, type PanelCoreOptions } from '../panel_core';
+import type { BuiltInWidgets } from '../registry';
 import { FakeSocket } from './fake_socket';
 import { frameOf, runtimeBytes, sample } from './sample';
 
@@ -15,6 +17,8 @@ let hash = sample.hash;
 const onModel = vi.fn<(model: Model) => void>();
 const onNotice = vi.fn();
 const fetched = vi.fn();
+const loadBuiltIn = vi.fn<PanelCoreOptions['loadBuiltIn']>();
+const makeMissing = vi.fn<PanelCoreOptions['makeMissing']>();
 let core: PanelCore;
 
 const newest = (): FakeSocket => sockets.at(-1) ?? new FakeSocket();
@@ -25,6 +29,8 @@ beforeEach(async () => {
   sockets = [];
   hash = sample.hash;
   [onModel, onNotice].forEach((mock) => mock.mockReset());
+  loadBuiltIn.mockReset().mockRejectedValue(new Error('no line'));
+  makeMissing.mockReset().mockImplementation((text) => Object.assign(document.createElement('p'), { textContent: text }));
   fetched.mockReset().mockImplementation(() => Promise.resolve(new Response(JSON.stringify({ ...sample, hash }))));
   vi.stubGlobal('fetch', fetched);
   core = new PanelCore({
@@ -32,7 +38,7 @@ beforeEach(async () => {
       sockets.push(new FakeSocket());
       return newest();
     },
-    onModel, onNotice,
+    onModel, onNotice, loadBuiltIn, makeMissing,
   });
   core.start();
   newest().hello();
@@ -146,5 +152,25 @@ describe('the core', () => {
     core.watchTopic('threads', second);
     expect(first).toHaveBeenCalledWith([{ name: 'control' }]);
     expect(second).toHaveBeenCalledWith([{ name: 'control' }]);
+  });
+  it('puts another element where a widget cannot be had, and the widget in its place when it can', async () => {
+    const item = core.model.item('jog.step')!;
+    const missing = await core.createWidget({ item });
+    expect(missing.textContent).toMatch(/^Schritt cannot be shown: it could not be loaded/);
+    const again = makeMissing.mock.calls[0]![1];
+    const place = document.createElement('div');
+    place.append(missing);
+    const other = { ...core.host } as unknown as WidgetHost;
+    missing.host = other;
+    const builtIn: BuiltInWidgets = {
+      registerBuiltIn: (register) => register('plain', class extends HTMLElement { host!: WidgetHost; }),
+      registerFurther: () => Promise.resolve(),
+      kindOf: () => 'plain',
+      placedKind: () => 'plain',
+    };
+    loadBuiltIn.mockResolvedValue(builtIn);
+    await again();
+    expect(place.firstElementChild).toMatchObject({ localName: 'flexrf-widget-plain', host: other, item });
+    expect(makeMissing).toHaveBeenCalledOnce();
   });
 });

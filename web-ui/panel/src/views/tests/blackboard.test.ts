@@ -1,8 +1,8 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import '../blackboard';
 import type { Blackboard } from '../blackboard';
-import { cell } from './cell';
-import { FakeCore, FakeWidget, reading } from './fake_core';
+import { cell } from '../../core/tests/cell';
+import { FakeCore, FakeWidget, reading } from '../../core/tests/fake_core';
 
 /** The test says which rows are seen. */
 class Observer {

@@ -3,8 +3,8 @@ import '../components';
 import type { ComponentButtons } from '../component_buttons';
 import type { ComponentPage } from '../component_page';
 import type { ViewBase } from '../view_base';
-import { cell } from './cell';
-import { FakeCore, quiet, reading } from './fake_core';
+import { cell } from '../../core/tests/cell';
+import { FakeCore, quiet, reading } from '../../core/tests/fake_core';
 
 const alive = (name: string, more: object = {}) => ({
   name, kind: 'unit', type: 'drive', life: 'running', fault: '', restraint: '', restraints: 0, active: true, member: { population: 'axis', index: Number(name.at(-2)) },

@@ -1,8 +1,8 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { Reading } from '../../contract';
 import { EditSession } from '../edit_session';
-import { cell } from './cell';
-import { FakeCore, quiet, reading } from './fake_core';
+import { cell } from '../../core/tests/cell';
+import { FakeCore, quiet, reading } from '../../core/tests/fake_core';
 
 const lag = 'axis[0].configuration.lag';
 const reach = 'axis[0].configuration.reach';

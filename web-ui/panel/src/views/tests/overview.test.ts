@@ -2,7 +2,7 @@ import { afterEach, describe, expect, it, vi } from 'vitest';
 import { makeModel } from '../../core/descriptor';
 import { sample } from '../../core/tests/sample';
 import { chosenFeedback, type Overview } from '../overview';
-import { FakeCore } from './fake_core';
+import { FakeCore } from '../../core/tests/fake_core';
 
 describe('the overview without anything placed', () => {
   it('shows feedback that is not hidden', () => {

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { makeModel } from '../../core/descriptor';
 import { ownerOf, writerOf } from '../blackboard_rows';
 import { portsOf } from '../ports';
-import { cell } from './cell';
+import { cell } from '../../core/tests/cell';
 
 const model = makeModel(cell);
 

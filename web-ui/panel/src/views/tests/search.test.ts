@@ -2,8 +2,8 @@ import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import '../search';
 import { sample } from '../../core/tests/sample';
 import type { Search } from '../search';
-import { cell } from './cell';
-import { FakeCore, FakeWidget, reading } from './fake_core';
+import { cell } from '../../core/tests/cell';
+import { FakeCore, FakeWidget, reading } from '../../core/tests/fake_core';
 
 let fake: FakeCore;
 let view: Search;

@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 import { ageNow } from '../slot_age';
-import { reading } from './fake_core';
+import { reading } from '../../core/tests/fake_core';
 
 it('grows only when no other value followed', () => {
   const value = reading(1, { age: 0.02 });

@@ -1,8 +1,8 @@
 import { afterEach, expect, it } from 'vitest';
 import '../threads';
 import { triggerText, type Threads } from '../threads';
-import { cell } from './cell';
-import { FakeCore } from './fake_core';
+import { cell } from '../../core/tests/cell';
+import { FakeCore } from '../../core/tests/fake_core';
 
 const histogram = { count: 1000, p50_ns: 20_000, p99_ns: 60_000, 'p99.9_ns': 120_000, max_ns: 150_000, buckets: [200, 900, 240, 100] };
 const row = {

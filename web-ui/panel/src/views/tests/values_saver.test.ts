@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, it } from 'vitest';
 import { sample } from '../../core/tests/sample';
 import type { SavedValues } from '../../core/protocol';
 import { standingOf, type ValuesSaver } from '../values_saver';
-import { FakeCore } from './fake_core';
+import { FakeCore } from '../../core/tests/fake_core';
 
 const saved: SavedValues = { file: true, on: 'change', unsaved: false, saved_at_ms: 1_700_000_000_000, failure: '' };
 

@@ -1,11 +1,11 @@
 // A core without a server: the test says what is subscribed, in force and answered.
 import type { ItemInfo, Placement, Reading, Value, WidgetElement, WidgetHost } from '../../contract';
-import type { Core, LinkStatus, PanelHost } from '../../core/core';
-import { makeModel } from '../../core/descriptor';
-import type { DescriptorJson } from '../../core/descriptor_json';
-import type { ApplicationState } from '../../core/protocol';
-import { History } from '../../core/history';
-import { DisplayUnits } from '../../core/units';
+import type { Core, LinkStatus, PanelHost } from '../core';
+import { makeModel } from '../descriptor';
+import type { DescriptorJson } from '../descriptor_json';
+import type { ApplicationState } from '../protocol';
+import { History } from '../history';
+import { DisplayUnits } from '../units';
 
 /** Records what a widget was given. */
 export class FakeWidget extends HTMLElement implements WidgetElement {

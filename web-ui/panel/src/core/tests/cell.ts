@@ -1,5 +1,5 @@
 // A small cell's descriptor.json: two members of a population, one device with two drivers, slots, a queue, a thread.
-import type { DescriptorJson } from '../../core/descriptor_json';
+import type { DescriptorJson } from '../descriptor_json';
 
 const number = (name: string, offset: number) => ({ name, scalar: 'f64', offset, size: 8, unit: 'm', summary: `${name}.` });
 const slot = (name: string, type: string, writer: string, readers: string[], observe = true) => ({

@@ -3,12 +3,12 @@
 // [widget.NAME] kind = "robot", device = the arm, slots.joints = a slot with a field `position`, rad or m from the base to
 // the tool (JointState, RobotArmFeedback).
 import { css, html, nothing, type CSSResultGroup } from 'lit';
-import type { ItemInfo, Joint, Value } from '../contract';
-import { loadPart } from '../core/parts';
-import { displayUnits, formatNumber } from '../core/units';
-import { LiveText } from '../widgets/live_text';
-import { widgetStyles } from '../widgets/styles';
-import { WidgetBase } from '../widgets/widget_base';
+import type { ItemInfo, Joint, Value } from '../../contract';
+import { loadPart } from '../../core/parts';
+import { displayUnits, formatNumber } from '../../core/units';
+import { LiveText } from '../live_text';
+import { widgetStyles } from '../styles';
+import { WidgetBase } from '../widget_base';
 import type { RobotScene } from './scene';
 
 /** A table that is read needs no 60 values a second. */

@@ -1,7 +1,7 @@
 // What the application's states are called, and what one does about them.
-import type { LinkStatus } from '../core/core';
-import type { ApplicationState, Fault, Mode } from '../core/protocol';
-import { addressOfRoute } from './router';
+import type { LinkStatus } from './core';
+import type { ApplicationState, Fault, Mode } from './protocol';
+import { addressOfRoute } from './route';
 
 const modes: { readonly [mode in Mode]: string } = {
   starting: 'Starting', running: 'Running', finishing: 'Finishing', stopping: 'Stopping', safe: 'Made safe', ended: 'Ended',

@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
-import { FakeCore, reading } from '../../views/tests/fake_core';
-import { cell } from '../../views/tests/cell';
+import { FakeCore, reading } from '../../../core/tests/fake_core';
+import { cell } from '../../../core/tests/cell';
 import { RobotWidget } from '../robot_widget';
 
 customElements.define('flexrf-widget-robot', RobotWidget);
