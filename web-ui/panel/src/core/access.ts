@@ -32,12 +32,18 @@ export function deniedLink(situation: Pick<Situation, 'link'>): string {
   return situation.link.stale ? 'values are old' : '';
 }
 
-/** Why the session may not do what needs this role and the control token; empty when it may. */
-export function deniedAction(situation: Situation, role: Role): string {
+/** Why the session may not do what needs this role, whoever has control. */
+function deniedRole(situation: Situation, role: Role): string {
   const link = deniedLink(situation);
   if (link) return link;
   if (situation.session?.lapsed) return 'log in again';
-  if (!situation.session || !includes(situation.session.role, role)) return `needs ${role}`;
+  return situation.session && includes(situation.session.role, role) ? '' : `needs ${role}`;
+}
+
+/** Why the session may not do what needs this role and the control token; empty when it may. */
+export function deniedAction(situation: Situation, role: Role): string {
+  const denied = deniedRole(situation, role);
+  if (denied) return denied;
   if (situation.state?.mode === 'safe' || situation.state?.mode === 'ended') return 'the application ends';
   if (hasControl(situation)) return '';
   const holder = situation.state?.control.holder;
@@ -46,12 +52,10 @@ export function deniedAction(situation: Situation, role: Role): string {
 
 /** Why a session may not take the control token; empty when it may ask for it. */
 export function deniedControl(situation: Situation): string {
-  const link = deniedLink(situation);
-  if (link) return link;
-  if (situation.session?.lapsed) return 'log in again';
-  if (!situation.session || !includes(situation.session.role, 'operator')) return 'needs operator';
+  const denied = deniedRole(situation, 'operator');
+  if (denied) return denied;
   const { holder, wanted_by: wanted } = situation.state?.control ?? { holder: null, wanted_by: null };
-  if (holder?.local && !situation.session.local) return 'held at the machine';
+  if (holder?.local && !situation.session?.local) return 'held at the machine';
   return wanted && !wanted.you ? `${wanted.user || wanted.name} asks for it already` : '';
 }
 

@@ -1,7 +1,8 @@
 // Configuration in force: asked for once per component, and again when an edit ended.
-import type { Reading, Value } from '../contract';
+import type { Reading } from '../contract';
 import type { Item } from './descriptor';
 import type { Values } from './protocol';
+import { valueAt } from './value_path';
 
 interface Known {
   readonly watchers: Set<{ readonly item: Item; readonly callback: (reading: Reading) => void }>;
@@ -46,21 +47,10 @@ export class ConfigurationValues {
   }
 
   #tell(watcher: { readonly item: Item; readonly callback: (reading: Reading) => void }, values: Values): void {
-    const value = valueAt(values, watcher.item.path ?? '');
+    const value = valueAt(values, watcher.item.path);
     this.#readings += 1;
     watcher.callback({
       value: value ?? null, reason: value === undefined ? 'not known' : '', sampledAt: 0, sequence: this.#readings, age: 0,
     });
   }
-}
-
-/** The value at a path as requests have it: "limits.low", "gains[2]". */
-export function valueAt(values: Values, path: string): Value | undefined {
-  let value: Value | undefined = values as { [field: string]: Value };
-  for (const step of path.split(/[.[\]]+/).filter((part) => part !== '')) {
-    if (Array.isArray(value)) value = value[Number(step)];
-    else if (typeof value === 'object') value = value[step];
-    else return undefined;
-  }
-  return value;
 }

@@ -1,6 +1,7 @@
 // What this page changed, newest last, so that it can be taken back.
 import type { Value } from '../contract';
 import type { Values } from './protocol';
+import { added } from './watchers';
 
 /** One transaction: parameters of one component, by path. */
 export interface Change {
@@ -45,8 +46,7 @@ export class History {
   }
 
   watch(callback: () => void): () => void {
-    this.#watchers.add(callback);
-    return () => this.#watchers.delete(callback);
+    return added(this.#watchers, callback);
   }
 
   #tell(): void {

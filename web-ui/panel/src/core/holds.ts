@@ -5,6 +5,8 @@
 // all holds here: the window without focus, a hidden or frozen page, a lost link, a lost control token, Stop motion.
 import type { Hold } from '../contract';
 import { linkLost, type Connection } from './connection';
+import { listen } from './listen';
+import { textOf } from './reasons';
 
 export const refreshPeriod = 100;
 const askingTimeout = 1000;
@@ -25,24 +27,17 @@ export class Holds {
 
   /** Ends all holds on what happens to the window. Undone by the returned function. */
   guard(page: Window): () => void {
-    const blur = (): void => this.endAll('the window lost the focus');
-    const cancel = (): void => this.endAll('the touch was cancelled');
     const leave = (): void => this.endAll('the page was left');
-    const hide = (): void => {
-      if (page.document.visibilityState === 'hidden') this.endAll('the page is hidden');
-    };
-    page.addEventListener('blur', blur);
-    page.addEventListener('pagehide', leave);
-    page.addEventListener('pointercancel', cancel, true);
-    page.document.addEventListener('visibilitychange', hide);
-    page.document.addEventListener('freeze', leave);
-    return () => {
-      page.removeEventListener('blur', blur);
-      page.removeEventListener('pagehide', leave);
-      page.removeEventListener('pointercancel', cancel, true);
-      page.document.removeEventListener('visibilitychange', hide);
-      page.document.removeEventListener('freeze', leave);
-    };
+    const ends = [
+      listen(page, 'blur', () => this.endAll('the window lost the focus')),
+      listen(page, 'pagehide', leave),
+      listen(page, 'pointercancel', () => this.endAll('the touch was cancelled'), true),
+      listen(page.document, 'visibilitychange', () => {
+        if (page.document.visibilityState === 'hidden') this.endAll('the page is hidden');
+      }),
+      listen(page.document, 'freeze', leave),
+    ];
+    return () => ends.forEach((end) => end());
   }
 
   get alive(): number { return this.#leases.size; }
@@ -51,7 +46,7 @@ export class Holds {
   async begin(component: string, parameter: string): Promise<Hold> {
     const before = this.#ended;
     const answer = await this.link.request<{ lease: string }>('hold', { component, parameter }, askingTimeout);
-    if (!answer.ok) throw new Error(answer.problem.detail ?? answer.problem.title);
+    if (!answer.ok) throw new Error(textOf(answer.problem));
     if (before === this.#ended) return this.#keep(answer.lease);
     this.link.send({ op: 'release', id: this.link.nextId(), lease: answer.lease });
     throw new Error(this.#lastReason);
@@ -78,7 +73,7 @@ export class Holds {
       over(reason);
     };
     const forget = this.link.listen(id, (answer) => {
-      if (!answer.ok) finish(answer.problem === linkLost ? 'the link is lost' : (answer.problem.detail ?? answer.problem.title));
+      if (!answer.ok) finish(answer.problem === linkLost ? 'the link is lost' : textOf(answer.problem));
     });
     const release = (reason: string): void => {
       if (this.#leases.has(entry)) this.link.send({ op: 'release', id: this.link.nextId(), lease });

@@ -6,7 +6,8 @@ import type { Item } from './descriptor';
 import { chosen, History } from './history';
 import type { Holds } from './holds';
 import { Newest } from './newest';
-import type { Answer, Problem } from './protocol';
+import type { Answer } from './protocol';
+import { textOf } from './reasons';
 import type { Store } from './store';
 import type { Subscriptions } from './subscriptions';
 
@@ -158,11 +159,6 @@ export class Host implements WidgetHost {
     const item = this.item(`${component}.${path}`);
     return (item && this.parts.store.reading(item)?.value) ?? undefined;
   }
-}
-
-/** A problem in one sentence or two. */
-export function textOf(problem: Problem): string {
-  return problem.detail ?? problem.reason ?? problem.title;
 }
 
 export function outcomeOf(answer: Answer<Partial<Applied>>): Outcome {

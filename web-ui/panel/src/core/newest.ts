@@ -2,12 +2,10 @@
 
 /** What is put while another is under way waits for its end; of those that wait only the newest is begun. The last is never lost. */
 export class Newest<Wanted extends object> {
+  #underWay: Wanted | undefined;
   #waiting: Wanted | undefined;
-  #underWay = false;
   #begunAt = -Infinity;
   #timer: ReturnType<typeof setTimeout> | undefined;
-  /** Rises with each beginning and each cancel(): the end of an older one is nobody's any longer. */
-  #generation = 0;
 
   constructor(
     /** Calls `done` when it is over: that begins what waits. False: it was cancelled meanwhile. */
@@ -22,7 +20,7 @@ export class Newest<Wanted extends object> {
   }
   /** One is under way, or waits. */
   get pending(): boolean {
-    return this.#underWay || this.#waiting !== undefined;
+    return (this.#underWay ?? this.#waiting) !== undefined;
   }
 
   put(wanted: Wanted): void {
@@ -33,15 +31,12 @@ export class Newest<Wanted extends object> {
   /** Nothing waits any longer, and nobody waits for what is under way: the next begins at once. */
   cancel(): void {
     clearTimeout(this.#timer);
-    this.#timer = undefined;
-    this.#generation += 1;
-    this.#underWay = false;
-    this.#waiting = undefined;
+    this.#timer = this.#underWay = this.#waiting = undefined;
   }
 
   #beginNext(): void {
     const wanted = this.#waiting;
-    if (this.#underWay || this.#timer !== undefined || !wanted) return;
+    if (this.#underWay || this.#timer || !wanted) return;
     const now = performance.now();
     const early = this.#begunAt + this.spacing() - now;
     if (early > 0) {
@@ -51,14 +46,12 @@ export class Newest<Wanted extends object> {
       }, early);
       return;
     }
-    this.#generation += 1;
-    const generation = this.#generation;
     this.#waiting = undefined;
-    this.#underWay = true;
+    this.#underWay = wanted;
     this.#begunAt = now;
     this.begin(wanted, () => {
-      if (generation !== this.#generation) return false;
-      this.#underWay = false;
+      if (this.#underWay !== wanted) return false;
+      this.#underWay = undefined;
       this.#beginNext();
       return true;
     });

@@ -1,6 +1,6 @@
 // The core put together: connection, model, values, access; what shell, views and widgets stand on.
 import type { ItemInfo, Placement, Role, WidgetElement } from '../contract';
-import { deniedAction, hasControl, locked, nameOf, type Situation } from './access';
+import { deniedAction, deniedLink, hasControl, locked, nameOf, type Situation } from './access';
 import { ConfigurationValues } from './configuration';
 import { Connection, type Socket } from './connection';
 import type { Core, LinkStatus } from './core';
@@ -10,10 +10,12 @@ import { Holds } from './holds';
 import { Host } from './host';
 import { getJson } from './http';
 import type { Answer, ApplicationState, Hello, LogLine, ServerEvent, SessionInfo, TopicName, Values } from './protocol';
+import { textOfError } from './reasons';
 import { Registry, type BuiltInWidgets } from './registry';
 import { Store } from './store';
 import { Subscriptions } from './subscriptions';
 import { displayUnits } from './units';
+import { added } from './watchers';
 
 const linesKept = 2000;
 
@@ -141,11 +143,11 @@ export class PanelCore implements Core {
   }
 
   watchLog(callback: (lines: readonly LogLine[]) => void): () => void {
-    this.#logWatchers.add(callback);
+    const forget = added(this.#logWatchers, callback);
     if (this.#log.length > 0) callback(this.#log);
     const unsubscribe = this.#subscriptions.addTopic('log', 10);
     return () => {
-      this.#logWatchers.delete(callback);
+      forget();
       unsubscribe();
     };
   }
@@ -261,9 +263,10 @@ export class PanelCore implements Core {
   /** Holds end at once; who watches is told in the next animation frame, or soon in a hidden page. */
   #changed(): void {
     if (this.link.phase !== 'open' && this.link.detail === 'login') this.session = undefined; // logged out, or too long away
-    if (this.#holds.alive > 0 && (this.link.phase !== 'open' || this.link.stale)) this.#holds.endAll('the link is lost');
-    if (this.#holds.alive > 0 && this.state && !hasControl(this.situation)) this.#holds.endAll('control was lost');
-    if (this.#holds.alive > 0 && this.state?.motion.stopped) this.#holds.endAll('motion is stopped');
+    const lost = deniedLink(this) !== '' ? 'the link is lost'
+      : this.state && !hasControl(this.situation) ? 'control was lost'
+      : this.state?.motion.stopped ? 'motion is stopped' : '';
+    if (lost !== '' && this.#holds.alive > 0) this.#holds.endAll(lost);
     if (this.#telling) return;
     this.#telling = true;
     const tell = (): void => {
@@ -277,15 +280,6 @@ export class PanelCore implements Core {
     if (document.visibilityState === 'hidden') setTimeout(tell, 100);
     else requestAnimationFrame(tell);
   }
-}
-
-function added<Callback>(set: Set<Callback>, callback: Callback): () => void {
-  set.add(callback);
-  return () => set.delete(callback);
-}
-
-function textOfError(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
 }
 
 function openSocket(): Socket {

@@ -2,6 +2,7 @@
 import type { Reading, Value } from '../contract';
 import { decodeField, decodeStructure, reasonText, type Frame, type FrameItem } from './decode';
 import type { Item, Model, Source } from './descriptor';
+import { partOf } from './value_path';
 
 interface SlotState {
   item: FrameItem;
@@ -150,12 +151,6 @@ export class Store {
     } else {
       value = decodeStructure(bytes, 0, type, types);
     }
-    for (const step of source.steps) value = member(value, step);
-    return value;
+    return partOf(value, source.steps);
   }
-}
-
-function member(value: Value | undefined, step: string | number): Value | undefined {
-  if (Array.isArray(value)) return typeof step === 'number' ? value[step] : undefined;
-  return typeof value === 'object' && typeof step === 'string' ? value[step] : undefined;
 }

@@ -1,5 +1,6 @@
 // SI inside, the person's units on display. Values are converted where they are shown and where they are typed in,
 // and nowhere else.
+import { added } from './watchers';
 
 export interface DisplayUnit {
   /** As shown beside a number: "mm", "°", "" for dimensionless. */
@@ -48,8 +49,7 @@ export class DisplayUnits {
 
   /** Calls back when another choice was made. Ends with the returned function. */
   watch(callback: () => void): () => void {
-    this.#watchers.add(callback);
-    return () => this.#watchers.delete(callback);
+    return added(this.#watchers, callback);
   }
 
   of(unit: string): DisplayUnit {
@@ -77,4 +77,9 @@ export function formatNumber(value: number, options: { digits?: number; range?: 
   const decimals = largest === 0 ? 0 : Math.max(0, digits - 1 - Math.floor(Math.log10(largest)));
   const text = value.toFixed(Math.min(decimals, 9));
   return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', '−');
+}
+
+/** A number that nothing is known of: at most so many significant digits, and none that it does not need. */
+export function significantText(value: number, digits: number): string {
+  return String(Number(value.toPrecision(digits))).replaceAll('-', '−');
 }

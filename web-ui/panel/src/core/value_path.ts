@@ -1,16 +1,12 @@
 // Parts of a value by the path that requests use: "gains[2]", "limits.low", "map[1][0]".
 import type { Value } from '../contract';
+import type { Values } from './protocol';
 
-type Part = string | number;
+export type Part = string | number;
 
 /** "limits.low" → ["limits", "low"]; "gains[2]" → ["gains", 2]. */
 export function partsOf(path: string): Part[] {
   return [...path.matchAll(/([^.[\]]+)|\[(\d+)\]/g)].map((match) => (match[2] === undefined ? match[1]! : Number(match[2])));
-}
-
-/** The parameter that a path begins with. */
-export function rootOf(path: string): string {
-  return /^[^.[]*/.exec(path)![0];
 }
 
 /** undefined where there is no such part. */
@@ -23,14 +19,12 @@ export function partOf(whole: Value | undefined, parts: readonly Part[]): Value 
   return value;
 }
 
-/** A copy of the whole with this part replaced; what there is no such part of comes back as it is. */
-export function withPart(whole: Value, parts: readonly Part[], value: Value): Value {
-  const [part, ...rest] = parts;
-  if (part === undefined) return value;
-  if (typeof whole !== 'object') return whole;
-  if (Array.isArray(whole)) {
-    return whole.map((element, i) => (i === part ? withPart(element, rest, value) : element));
-  }
-  const inner = whole[part];
-  return inner === undefined ? whole : { ...whole, [part]: withPart(inner, rest, value) };
+/** Of values that have it so, or have the whole of "limits" or "gains". */
+export function valueAt(values: Values | undefined, path: string | undefined): Value | undefined {
+  return path === undefined ? undefined : (values?.[path] ?? partOf(values, partsOf(path)));
+}
+
+/** "axis.limits.low" → "low". */
+export function lastOf(key: string): string {
+  return key.slice(key.lastIndexOf('.') + 1);
 }

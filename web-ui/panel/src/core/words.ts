@@ -1,4 +1,5 @@
 // What the application's states are called, and what one does about them.
+import { deniedLink } from './access';
 import type { LinkStatus } from './core';
 import type { ApplicationState, Fault, Mode } from './protocol';
 import { addressOfRoute } from './route';
@@ -18,9 +19,10 @@ export interface Known {
 }
 
 /** What it does; once nothing is heard of it, only that it ended is still so. */
-export function modeOf({ state, link }: Known): Mode | 'unknown' {
+export function modeOf(known: Known): Mode | 'unknown' {
+  const { state } = known;
   if (state?.mode === 'ended') return 'ended';
-  return !state || link.phase !== 'open' || link.stale ? 'unknown' : state.mode;
+  return !state || deniedLink(known) !== '' ? 'unknown' : state.mode;
 }
 
 export type MotionState = 'stopped' | 'inhibited' | 'enabled' | 'ending' | 'ended' | 'unknown';
@@ -40,12 +42,13 @@ export const motionText: { readonly [state in MotionState]: string } = {
   ended: 'Motion ended', unknown: 'Motion not known',
 };
 
-/** "14:32:07" of today, "2026-11-22 14:32:07" of another day; by the clock of whoever looks. */
-export function clockText(at: Date, now: Date): string {
-  const two = (part: number): string => String(part).padStart(2, '0');
-  const time = [at.getHours(), at.getMinutes(), at.getSeconds()].map(two).join(':');
-  const day = (date: Date): string => [date.getFullYear(), two(date.getMonth() + 1), two(date.getDate())].join('-');
-  return day(at) === day(now) ? time : `${day(at)} ${time}`;
+const two = (part: number): string => String(part).padStart(2, '0');
+const dayOf = (at: Date): string => [at.getFullYear(), two(at.getMonth() + 1), two(at.getDate())].join('-');
+const timeOf = (at: Date): string => [at.getHours(), at.getMinutes(), at.getSeconds()].map(two).join(':');
+
+/** "14:32:07" of today, "2026-11-22 14:32:07" of another day, and without `now` of each; by the clock of whoever looks. */
+export function clockText(at: Date, now?: Date): string {
+  return now && dayOf(at) === dayOf(now) ? timeOf(at) : `${dayOf(at)} ${timeOf(at)}`;
 }
 
 /** "by anna (192.168.0.7) at 15:40:28", with the day when it was another one; empty: nobody said who. */
@@ -71,10 +74,11 @@ export function faultCount(count: number): string {
 }
 
 /** The browser's tab is all that is seen of a page that lies behind others. */
-export function titleOf(application: string, { state, link }: Known): string {
+export function titleOf(application: string, known: Known): string {
+  const { state } = known;
   const name = `${application} – FlexRF panel`;
   if (state?.mode === 'ended') return `Ended · ${name}`;
-  if (link.phase !== 'open' || link.stale) return `⚠ No connection · ${name}`;
+  if (deniedLink(known) !== '') return `⚠ No connection · ${name}`;
   return state && state.faults.length > 0 ? `✕ ${faultCount(state.faults.length)} · ${name}` : name;
 }
 

@@ -1,13 +1,15 @@
 // The page: header, Stop motion, banner, navigation, the current view, and dialogs above it. Each has a cell of its own in
 // one grid, so that nothing ever lies over Stop motion.
-import { LitElement, css, html, nothing } from 'lit';
+import { css, html, nothing } from 'lit';
 import { customElement, query, state } from 'lit/decorators.js';
-import { hasControl, includes } from '../core/access';
+import { deniedLink, hasControl, includes } from '../core/access';
+import { listen } from '../core/listen';
 import { PanelCore } from '../core/panel_core';
 import { loadPart } from '../core/parts';
 import { addressOfRoute, parseRoute, type Route } from '../core/route';
 import { titleOf } from '../core/words';
 import { views } from '../views';
+import { EndingElement } from '../widgets/ending_element';
 import './control';
 import './header';
 import { makeMissing } from './missing';
@@ -27,7 +29,7 @@ const dialogs: { readonly [name in DialogName]: () => Promise<unknown> } = {
 };
 
 @customElement('flexrf-panel')
-export class Panel extends LitElement {
+export class Panel extends EndingElement {
   static override styles = [
     shellStyles,
     css`
@@ -110,7 +112,6 @@ export class Panel extends LitElement {
   @state() private asks = false;
   @query('flexrf-notices') private notices!: Notices;
   #preferences = new Preferences(document.documentElement, localStorage, matchMedia('(prefers-color-scheme: dark)'));
-  #ends: (() => void)[] = [];
   #asked = false;
   #loadsConsent = false;
 
@@ -126,28 +127,18 @@ export class Panel extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
-    const onHash = (): void => {
+    this.until(listen(window, 'hashchange', () => {
       this.core.endHolds('another view was opened');
       this.#turnPage();
       this.route = this.#fromAddress();
-    };
+    }));
     // Also while the focus is on what no dialog covers: Stop motion, the header.
-    const onKey = (event: KeyboardEvent): void => {
+    this.until(listen(window, 'keydown', (event: KeyboardEvent) => {
       if (event.key === 'Escape' && this.dialog !== 'none') this.#close();
-    };
-    window.addEventListener('hashchange', onHash);
-    window.addEventListener('keydown', onKey);
-    this.#ends = [
-      () => window.removeEventListener('hashchange', onHash),
-      () => window.removeEventListener('keydown', onKey),
-      this.core.watchState(() => this.#onState()),
-    ];
+    }));
+    this.until(this.core.watchState(() => this.#onState()));
     this.core.start();
-  }
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    this.#ends.forEach((end) => end());
-    this.core.connection.stop();
+    this.until(() => this.core.connection.stop());
   }
 
   /** On a narrow screen the entry of the view that is shown may lie beside what is seen of the navigation. */
@@ -182,7 +173,7 @@ export class Panel extends LitElement {
 
   #banner(): unknown {
     const { link } = this.core;
-    if (link.phase === 'open' && !link.stale) return nothing;
+    if (deniedLink(this.core) === '') return nothing;
     if (!this.generation && link.phase === 'connecting' && link.detail === '') return nothing; // the first try
     const why = this.ended ? `The application ended: ${this.ended}.` : link.detail === 'login' ? 'Log in to connect.' : link.detail;
     return html`<p role="alert">⚠ No connection to the application. Values are old, controls are dead. ${why}</p>`;

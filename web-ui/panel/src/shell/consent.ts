@@ -2,7 +2,6 @@
 import { css, html, nothing } from 'lit';
 import { customElement } from 'lit/decorators.js';
 import { deniedLink, nameOf } from '../core/access';
-import { textOf } from '../core/host';
 import { ShellPart } from './part';
 import { shellStyles } from './styles';
 
@@ -27,35 +26,25 @@ export class Consent extends ShellPart {
     `,
   ];
 
-  #timer: ReturnType<typeof setInterval> | undefined;
-
   override connectedCallback(): void {
     super.connectedCallback();
-    this.#timer = setInterval(() => this.core.state?.control.wanted_by && this.requestUpdate(), 250);
-  }
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    clearInterval(this.#timer);
+    const timer = setInterval(() => this.core.state?.control.wanted_by && this.requestUpdate(), 250);
+    this.until(() => clearInterval(timer));
   }
 
   protected override render(): unknown {
     const control = this.core.state?.control;
     if (!control?.wanted_by || !control.holder?.you) return nothing;
-    const dead = deniedLink(this.core.situation) !== '';
+    const dead = deniedLink(this.core) !== '';
     const left = Math.max(0, (control.answer_within_ms ?? 0) - (performance.now() - this.core.stateAt));
     return html`
       <div role="group" aria-label="Request for control">
         <span role="alert"><strong>⚠ ${nameOf(control.wanted_by)} asks for control.</strong>
           Handing over ends what you hold and stops manual motion.</span>
         <span>${dead ? 'No connection: no answer reaches the application.' : `Handed over in ${Math.ceil(left / 1000)} s.`}</span>
-        <button class="first" ?disabled=${dead} @click=${() => this.#answer(false)}>Keep control</button>
-        <button ?disabled=${dead} @click=${() => this.#answer(true)}>Hand over</button>
+        <button class="first" ?disabled=${dead} @click=${() => this.ask('answer_control', { grant: false })}>Keep control</button>
+        <button ?disabled=${dead} @click=${() => this.ask('answer_control', { grant: true })}>Hand over</button>
       </div>
     `;
-  }
-
-  async #answer(grant: boolean): Promise<void> {
-    const answer = await this.core.request('answer_control', { grant });
-    if (!answer.ok) this.core.notify(textOf(answer.problem), 'warning');
   }
 }

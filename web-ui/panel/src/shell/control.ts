@@ -2,7 +2,6 @@
 import { css, html } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
 import { deniedControl, deniedLink, hasControl, nameOf } from '../core/access';
-import { textOf } from '../core/host';
 import { ShellPart } from './part';
 import { Settled } from './settled';
 import { shellStyles } from './styles';
@@ -40,16 +39,15 @@ export class Control extends ShellPart {
     return html`
       <div class="said" title=${`${who} ${note}`}><span class=${mine ? 'mine' : ''}>${who}</span> <small id="why">${note}</small></div>
       ${mine
-        ? html`<button ?disabled=${dead || deniedLink(this.core.situation) !== ''} @click=${() => this.#ask('release_control')}>Release</button>`
+        ? html`<button ?disabled=${dead || deniedLink(this.core) !== ''} @click=${() => this.#act('release_control')}>Release</button>`
         : html`<button ?disabled=${dead || asked || denied !== ''} aria-describedby="why"
-            @click=${() => this.#ask('take_control')}>${asked ? 'Asked…' : holder ? 'Ask for control' : 'Take control'}</button>`}
+            @click=${() => this.#act('take_control')}>${asked ? 'Asked…' : holder ? 'Ask for control' : 'Take control'}</button>`}
     `;
   }
 
-  async #ask(op: 'take_control' | 'release_control'): Promise<void> {
+  async #act(op: 'take_control' | 'release_control'): Promise<void> {
     this.busy = true;
-    const answer = await this.core.request(op);
+    await this.ask(op);
     this.busy = false;
-    if (!answer.ok) this.core.notify(textOf(answer.problem), 'warning');
   }
 }

@@ -2,6 +2,7 @@
 // moves when a fault comes.
 import { css, html } from 'lit';
 import { customElement } from 'lit/decorators.js';
+import { deniedLink } from '../core/access';
 import type { Fault } from '../core/protocol';
 import { addressOfFault, clockText, faultCount, newestFault } from '../core/words';
 import { ShellPart } from './part';
@@ -42,10 +43,10 @@ export class Faults extends ShellPart {
   private at: { readonly since_ns: number; readonly date: Date } | undefined;
 
   protected override render(): unknown {
-    const { state, link } = this.core;
+    const { state } = this.core;
     const faults = state?.faults ?? [];
     const newest = newestFault(faults);
-    const old = link.stale || link.phase !== 'open';
+    const old = deniedLink(this.core) !== '';
     if (newest === undefined) {
       return html`<span class="muted" role="status">${old || !state ? 'Faults: not known' : 'No faults'}</span>`;
     }

@@ -2,7 +2,6 @@
 import { css, html, nothing } from 'lit';
 import { customElement, query } from 'lit/decorators.js';
 import { deniedLink } from '../core/access';
-import { textOf } from '../core/host';
 import type { LinkStatus } from '../core/core';
 import { modeOf, modeText, motionOf, motionText, stopText } from '../core/words';
 import './control';
@@ -145,15 +144,11 @@ export class Header extends ShellPart {
 
   @query('.link') private link!: HTMLElement;
   readonly #settled = new Settled(this);
-  #timer: ReturnType<typeof setInterval> | undefined;
 
   override connectedCallback(): void {
     super.connectedCallback();
-    this.#timer = setInterval(() => this.#tick(), clockPeriod);
-  }
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    clearInterval(this.#timer);
+    const timer = setInterval(() => this.#tick(), clockPeriod);
+    this.until(() => clearInterval(timer));
   }
 
   protected override updated(): void {
@@ -165,7 +160,7 @@ export class Header extends ShellPart {
     const { session } = core;
     const stale = core.link.stale ? 'stale' : '';
     // Who is not logged in has no link either, and gets one by it.
-    const unlinked = deniedLink(core.situation) !== '' && core.link.detail !== 'login';
+    const unlinked = deniedLink(core) !== '' && core.link.detail !== 'login';
     const mode = modeOf(core);
     const motion = motionOf(core);
     const abnormal = motion === 'stopped' ? 'alarm' : motion === 'enabled' || motion === 'unknown' ? '' : 'warning';
@@ -196,16 +191,11 @@ export class Header extends ShellPart {
           <div class="said" title=${note || nothing}><span class=${['running', 'starting', 'unknown'].includes(mode) ? '' : 'warning'}>${modeText(mode)}</span>
             <span class=${abnormal}>${abnormal === 'alarm' ? '■ ' : abnormal ? '⚠ ' : ''}${motionText[motion]}</span>
             <small>${note}</small></div>
-          ${op ? html`<button ?disabled=${denied !== '' || !settled} title=${denied || nothing} @click=${() => this.#ask(op)}>${label}</button>` : nothing}
+          ${op ? html`<button ?disabled=${denied !== '' || !settled} title=${denied || nothing} @click=${() => this.ask(op)}>${label}</button>` : nothing}
         </div>
         <flexrf-control class=${stale} .core=${core}></flexrf-control>
       </div>
     `;
-  }
-
-  async #ask(op: string): Promise<void> {
-    const answer = await this.core.request(op);
-    if (!answer.ok) this.core.notify(textOf(answer.problem), 'warning');
   }
 
   /** Outside of render(): four times a second, and a value is one Text node. */

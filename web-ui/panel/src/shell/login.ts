@@ -30,7 +30,7 @@ export class Login extends ShellPart {
   @state() private busy = false;
 
   protected override render(): unknown {
-    const dead = deniedLink(this.core.situation) !== '' && this.core.link.detail !== 'login';
+    const dead = deniedLink(this.core) !== '' && this.core.link.detail !== 'login';
     const { session } = this.core;
     const again = session?.lapsed ? session.user : '';
     return html`

@@ -1,13 +1,15 @@
 // Stands where a part of the page belongs that could not be had: says why, and offers a second try.
-import { LitElement, css, html } from 'lit';
+import { css, html } from 'lit';
 import { customElement, property, state } from 'lit/decorators.js';
+import { added } from '../core/watchers';
+import { EndingElement } from '../widgets/ending_element';
 import { shellStyles } from './styles';
 
 /** Those that are seen now: what kept one away mostly keeps away all of them, so all are tried again at once. */
 const shown = new Set<Missing>();
 
 @customElement('flexrf-missing')
-export class Missing extends LitElement {
+export class Missing extends EndingElement {
   static override styles = [
     shellStyles,
     css`
@@ -25,11 +27,7 @@ export class Missing extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
-    shown.add(this);
-  }
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    shown.delete(this);
+    this.until(added(shown, this));
   }
 
   protected override render(): unknown {
@@ -48,5 +46,5 @@ export class Missing extends LitElement {
 
 /** One that stands alone. */
 export function makeMissing(text: string, again: Missing['again']): Missing {
-  return Object.assign(document.createElement('flexrf-missing') as Missing, { text, again });
+  return Object.assign(new Missing(), { text, again });
 }

@@ -1,6 +1,7 @@
 // Stop motion: any session that sees the page may give it. It lies in a cell of the page's grid that nothing else can cover.
 import { css, html } from 'lit';
 import { customElement } from 'lit/decorators.js';
+import { deniedLink } from '../core/access';
 import { postJson } from '../core/http';
 import { motionOf } from '../core/words';
 import { ShellPart } from './part';
@@ -53,7 +54,7 @@ export class StopMotion extends ShellPart {
   ];
 
   protected override render(): unknown {
-    const dead = this.core.link.phase !== 'open' || this.core.link.stale;
+    const dead = deniedLink(this.core) !== '';
     const stopped = motionOf(this.core) === 'stopped';
     return html`
       <button aria-disabled=${dead} aria-pressed=${stopped} aria-describedby="what"

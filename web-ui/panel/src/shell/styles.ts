@@ -79,12 +79,4 @@ export const shellStyles = css`
   .said + button {
     flex: none;
   }
-  .hidden {
-    position: absolute;
-    width: 1px;
-    height: 1px;
-    overflow: hidden;
-    clip-path: inset(50%);
-    white-space: nowrap;
-  }
 `;

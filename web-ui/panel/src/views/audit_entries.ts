@@ -1,5 +1,7 @@
 // Entries of the audit in words.
 import type { Value } from '../contract';
+import { clockText } from '../core/words';
+import { hasAll, wordsOf } from './wanted_words';
 
 export interface AuditEntry {
   readonly number: number;
@@ -16,10 +18,7 @@ export interface AuditEntry {
 /** In the person's own time: "2026-11-23 15:40:28". */
 export function timeOf(at: string): string {
   const time = new Date(at);
-  if (Number.isNaN(time.getTime())) return at;
-  const two = (number: number): string => String(number).padStart(2, '0');
-  const day = `${time.getFullYear()}-${two(time.getMonth() + 1)}-${two(time.getDate())}`;
-  return `${day} ${two(time.getHours())}:${two(time.getMinutes())}:${two(time.getSeconds())}`;
+  return Number.isNaN(time.getTime()) ? at : clockText(time);
 }
 
 function textOf(value: Value | null | undefined): string {
@@ -36,10 +35,6 @@ export function actOf(entry: AuditEntry): string {
 
 /** Those with all of these words, in any order and case. */
 export function filterEntries(entries: readonly AuditEntry[], wanted: string): readonly AuditEntry[] {
-  const words = wanted.toLowerCase().split(/\s+/).filter((word) => word !== '');
-  if (words.length === 0) return entries;
-  return entries.filter((entry) => {
-    const text = `${timeOf(entry.at)} ${entry.who} ${actOf(entry)}`.toLowerCase();
-    return words.every((word) => text.includes(word));
-  });
+  const words = wordsOf(wanted);
+  return words.length === 0 ? entries : entries.filter((entry) => hasAll(`${timeOf(entry.at)} ${entry.who} ${actOf(entry)}`, words));
 }

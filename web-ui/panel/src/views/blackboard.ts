@@ -3,11 +3,13 @@ import { css, html, nothing } from 'lit';
 import { customElement, query, state } from 'lit/decorators.js';
 import { repeat } from 'lit/directives/repeat.js';
 import type { QueueJson } from '../core/descriptor_json';
+import { words } from '../widgets/value_text';
 import { ownerOf, slotColumns, SlotRow, type SlotCounters } from './blackboard_rows';
 import { countText, rateText } from './durations';
 import { RateMeters } from './rates';
 import { addressOf, ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
+import { hasAll, wordsOf } from './wanted_words';
 
 /** A row of topic "queues". */
 interface QueueCounters {
@@ -158,7 +160,7 @@ export class Blackboard extends ViewBase {
   }
 
   private get words(): string[] {
-    return this.filter.toLowerCase().split(/\s+/).filter((word) => word !== '');
+    return wordsOf(this.filter);
   }
 
   private get shownSlots(): number {
@@ -166,11 +168,8 @@ export class Blackboard extends ViewBase {
   }
 
   private queueTable(): unknown {
-    const { words } = this;
-    const queues = this.core.model.queues.filter((queue) => {
-      const text = [queue.name, queue.type, ...queue.writers, ...queue.readers].join(' ').toLowerCase();
-      return words.every((word) => text.includes(word));
-    });
+    const queues = this.core.model.queues.filter((queue) =>
+      hasAll([queue.name, queue.type, ...queue.writers, ...queue.readers].join(' '), this.words));
     if (this.core.model.queues.length === 0) return nothing;
     return html`
       <h3 id="queues-title">Queues</h3>
@@ -211,7 +210,7 @@ export class Blackboard extends ViewBase {
           ? html`<th scope="rowgroup" rowspan=${queue.writers.length} title=${queue.summary}>${queue.name}</th>
               <td rowspan=${queue.writers.length}>${queue.type}</td>
               <td rowspan=${queue.writers.length} class="number">${queue.capacity}</td>
-              <td rowspan=${queue.writers.length}>${queue.policy.replaceAll('_', ' ')}</td>`
+              <td rowspan=${queue.writers.length}>${words(queue.policy)}</td>`
           : nothing}
         <td>${this.portLink(writer)}</td>
         <td class="number">${count(counters?.pushed)}</td>
@@ -228,7 +227,7 @@ export class Blackboard extends ViewBase {
   private portLink(port: string): unknown {
     const component = ownerOf(this.core.model, port);
     if (component === undefined) return port;
-    return html`<a href=${addressOf(component.kind === 'unit' ? 'units' : 'devices', component.name)}>${port}</a>`;
+    return html`<a href=${addressOf(`${component.kind}s`, component.name)}>${port}</a>`;
   }
 
   private countSlots(rows: ReadonlyMap<string, SlotRow>, body: unknown): void {

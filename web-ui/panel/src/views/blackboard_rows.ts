@@ -3,10 +3,12 @@ import type { Reading, WidgetHost } from '../contract';
 import type { Core } from '../core/core';
 import type { Component, Model, Slot } from '../core/descriptor';
 import { LiveText, setAttribute } from '../widgets/live_text';
+import { absence } from '../widgets/value_text';
 import { compactText } from './compact_value';
 import { ageText, countText, rateText } from './durations';
 import { ageNow } from './slot_age';
 import { addressOf } from './view_base';
+import { hasAll } from './wanted_words';
 
 /** A row of topic "slots". */
 export interface SlotCounters {
@@ -57,7 +59,7 @@ export class SlotRow {
     private readonly host: WidgetHost,
   ) {
     const { json } = slot;
-    this.haystack = [slot.name, json.type, json.writer, json.summary, ...json.readers].join(' ').toLowerCase();
+    this.haystack = [slot.name, json.type, json.writer, json.summary, ...json.readers].join(' ');
 
     const name = this.cell('th');
     name.scope = 'row';
@@ -80,7 +82,7 @@ export class SlotRow {
   }
 
   matches(words: readonly string[]): boolean {
-    return words.every((word) => this.haystack.includes(word));
+    return hasAll(this.haystack, words);
   }
 
   set hidden(hidden: boolean) {
@@ -131,12 +133,12 @@ export class SlotRow {
   private take(reading: Reading): void {
     this.reading = reading;
     this.receivedAt = performance.now();
-    const missing = reading.value === null && reading.image === undefined;
-    setAttribute(this.valueCell, 'class', missing ? 'value-cell abnormal' : 'value-cell');
+    const missing = absence(reading);
+    setAttribute(this.valueCell, 'class', missing === '' ? 'value-cell' : 'value-cell abnormal');
     if (reading.image !== undefined) this.value.text = 'image';
-    else if (reading.value === null) this.value.text = `NULL: ${reading.reason || 'no value'}`;
+    else if (reading.value === null) this.value.text = `NULL: ${missing}`;
     else this.value.text = compactText(this.slot.item, reading.value, this.core.units);
-    setAttribute(this.valueCell, 'title', missing ? this.value.text : ''); // cut where it is long: a second line would move the rows
+    setAttribute(this.valueCell, 'title', missing === '' ? '' : this.value.text); // cut where it is long: a second line would move the rows
     this.tick(this.receivedAt);
   }
 
@@ -201,7 +203,7 @@ export class SlotRow {
 function link(text: string, component: Component | undefined): Node {
   if (component === undefined) return document.createTextNode(text);
   const anchor = document.createElement('a');
-  anchor.href = addressOf(component.kind === 'unit' ? 'units' : 'devices', component.name);
+  anchor.href = addressOf(`${component.kind}s`, component.name);
   anchor.textContent = text;
   return anchor;
 }

@@ -1,6 +1,7 @@
 // The acts of one unit or device as buttons, each locked one with its reason.
 import { css, html, nothing } from 'lit';
 import { customElement, property, state } from 'lit/decorators.js';
+import { textOf } from '../core/reasons';
 import { actionsOf, type ActionOffer, type ComponentRow } from './component_actions';
 import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
@@ -86,6 +87,6 @@ export class ComponentButtons extends ViewBase {
     const answer = await this.core.request('action', fields, 60_000);
     this.busy = '';
     if (answer.ok) this.core.notify(`${component}: ${offer.label} done.`);
-    else this.core.notify(`${component}: ${offer.label} failed: ${answer.problem.detail ?? answer.problem.title}`, 'alarm');
+    else this.core.notify(`${component}: ${offer.label} failed: ${textOf(answer.problem)}`, 'alarm');
   }
 }

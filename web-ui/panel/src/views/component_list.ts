@@ -71,11 +71,10 @@ export class ComponentList extends ViewBase {
 
   private row(component: Component): unknown {
     const row = this.rows.get(component.name);
-    const view = this.kind === 'unit' ? 'units' : 'devices';
     const sign = row?.life === 'fault' ? 'fault' : row?.life === 'running' && row.active ? 'running' : 'idle';
     return html`
       <tr>
-        <th scope="row"><a href=${addressOf(view, component.name)}>${component.name}</a></th>
+        <th scope="row"><a href=${addressOf(`${this.kind}s`, component.name)}>${component.name}</a></th>
         <td><span class="state ${sign}">${row ? stateText(row) : 'not known yet'}</span></td>
         <td>${component.typeName}</td>
         <td>${this.kind === 'unit' ? this.membership(component) : (row?.driver ?? '')}</td>
@@ -96,11 +95,10 @@ export class ComponentList extends ViewBase {
       .flatMap((component) => this.rows.get(component.name) ?? [])
       .filter((row) => urgency(row) === 0);
     if (faulty.length === 0) return nothing;
-    const view = this.kind === 'unit' ? 'units' : 'devices';
     return html`
       <div class="box abnormal-box ${this.age}">
         ${faulty.map(
-          (row) => html`<p><a href=${addressOf(view, row.name)}>${row.name}</a> <span class="alarm">is in fault:</span> ${row.fault}</p>`,
+          (row) => html`<p><a href=${addressOf(`${this.kind}s`, row.name)}>${row.name}</a> <span class="alarm">is in fault:</span> ${row.fault}</p>`,
         )}
       </div>
     `;

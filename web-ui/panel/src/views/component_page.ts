@@ -11,13 +11,12 @@ import { countText, durationText } from './durations';
 import './edit_panel';
 import { EditSession } from './edit_session';
 import './group_reset';
-import './item_widget';
-import './placement_widget';
 import { portsOf, type Port } from './ports';
 import './slot_age';
 import './undo';
 import { addressOf, ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
+import './widget_place';
 
 /** Buttons and holds bear their own labels and need no line each. */
 function isPressed(item: Item): boolean {
@@ -92,7 +91,7 @@ export class ComponentPage extends ViewBase {
 
   protected override render(): unknown {
     const { component } = this;
-    const view = component.kind === 'unit' ? 'units' : 'devices';
+    const view = `${component.kind}s`;
     return html`
       <nav aria-label="Breadcrumb"><a href="#/${view}">All ${view}</a></nav>
       <h2>${component.name}</h2>

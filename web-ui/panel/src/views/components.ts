@@ -18,8 +18,7 @@ abstract class ComponentsView extends ViewBase {
     }
     const component = this.core.model.components.get(name);
     if (component?.kind !== this.kind) {
-      const list = this.kind === 'unit' ? 'units' : 'devices';
-      return html`<h2>${name}</h2><p>There is no ${this.kind} of this name. <a href="#/${list}">All ${list}</a></p>`;
+      return html`<h2>${name}</h2><p>There is no ${this.kind} of this name. <a href="#/${this.kind}s">All ${this.kind}s</a></p>`;
     }
     // A page for each: what belongs to one component does not stay when another is shown.
     return keyed(name, html`<flexrf-component-page .core=${this.core} .host=${this.host} .component=${component}></flexrf-component-page>`);

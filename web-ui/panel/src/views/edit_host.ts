@@ -1,9 +1,11 @@
 // What widgets of configuration parameters are given as their host: they show the configuration in force, or the draft
 // while it is being edited, and what they set goes into the draft. All else is the page's own host.
 import type { Hold, ItemInfo, Joint, Outcome, Reading, Value, WidgetHost } from '../contract';
-import type { EditFlow } from './edit_flow';
 import { sameValue } from '../core/same_value';
-import { partOf, partsOf, rootOf, withPart } from '../core/value_path';
+import { partOf, partsOf } from '../core/value_path';
+import { added } from '../core/watchers';
+import type { EditFlow } from './edit_flow';
+import { rootOf, withPart } from './value_parts';
 
 interface Watcher {
   readonly item: ItemInfo;
@@ -94,10 +96,10 @@ export class EditHost implements WidgetHost {
   }
 
   watchAccess(callback: () => void): () => void {
-    this.access.add(callback);
+    const forget = added(this.access, callback);
     const end = this.base.watchAccess(callback);
     return () => {
-      this.access.delete(callback);
+      forget();
       end();
     };
   }

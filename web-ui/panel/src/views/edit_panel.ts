@@ -185,7 +185,7 @@ export class EditPanel extends ViewBase {
 
   private link(name: string): unknown {
     const component = this.core.model.components.get(name);
-    return component === undefined ? name : html`<a href=${addressOf(component.kind === 'unit' ? 'units' : 'devices', name)}>${name}</a>`;
+    return component === undefined ? name : html`<a href=${addressOf(`${component.kind}s`, name)}>${name}</a>`;
   }
 
   private open(): void {

@@ -2,6 +2,8 @@
 import { deniedLink, nameOf } from '../core/access';
 import type { Core } from '../core/core';
 import type { Item } from '../core/descriptor';
+import { textOf } from '../core/reasons';
+import { added } from '../core/watchers';
 import { checkValue } from './check_value';
 import type { ComponentRow } from './component_actions';
 import { EditFlow, type ApplyAnswer, type BeginAnswer, type Change, type Configuration, type Editor, type Outcome } from './edit_flow';
@@ -62,8 +64,7 @@ export class EditSession {
 
   /** Calls back at every step, edited value, and second of the countdown. Ends with the returned function. */
   watch(callback: () => void): () => void {
-    this.watchers.add(callback);
-    return () => this.watchers.delete(callback);
+    return added(this.watchers, callback);
   }
 
   /** What topic "components" says; whether one has another driver than was known. */
@@ -107,15 +108,14 @@ export class EditSession {
   private async begin(components: readonly string[]): Promise<BeginAnswer> {
     const answer = await this.core.request<Begun>('edit_begin', { components });
     if (!answer.ok) {
-      const { detail, title, moving } = answer.problem;
-      return { ok: false, detail: detail ?? title, moving: moving ?? [] };
+      return { ok: false, detail: textOf(answer.problem), moving: answer.problem.moving ?? [] };
     }
     return answer;
   }
 
   private async apply(edit: string, changes: readonly Change[]): Promise<ApplyAnswer> {
     const answer = await this.core.request<Applied>('edit_apply', { edit, changes }, apply_timeout);
-    if (!answer.ok) return { ok: false, detail: answer.problem.detail ?? answer.problem.title };
+    if (!answer.ok) return { ok: false, detail: textOf(answer.problem) };
     return { ok: true, outcome: answer.outcome, causes: answer.causes ?? [], owners: answer.owners ?? [] };
   }
 

@@ -3,7 +3,6 @@ import { css, html, nothing } from 'lit';
 import { customElement, property } from 'lit/decorators.js';
 import type { Value } from '../contract';
 import type { Item } from '../core/descriptor';
-import { placeOver } from '../widgets/place_over';
 import { controlStyles } from '../widgets/control_styles';
 import { Question } from '../widgets/question';
 import { isModified, isParameter } from './search_rows';
@@ -67,8 +66,7 @@ export class GroupReset extends ViewBase {
   }
 
   protected override updated(): void {
-    const question = this.renderRoot.querySelector<HTMLElement>('.question');
-    if (question) placeOver(question);
+    this.question.place(this.renderRoot);
   }
 
   private modified(): Item[] {

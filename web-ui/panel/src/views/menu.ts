@@ -1,9 +1,9 @@
 // A menu entry of the application's own: the parameters that name it in the tables.
 import { css, html } from 'lit';
 import { customElement } from 'lit/decorators.js';
-import './item_widget';
 import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
+import './widget_place';
 
 @customElement('flexrf-menu')
 export class Menu extends ViewBase {

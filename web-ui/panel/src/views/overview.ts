@@ -4,10 +4,9 @@ import { customElement, state } from 'lit/decorators.js';
 import type { Item, Model } from '../core/descriptor';
 import { loadPart } from '../core/parts';
 import { addressOfFault, faultCount, modeOf, modeText, motionOf, motionText, remedyOf } from '../core/words';
-import './item_widget';
-import './placement_widget';
 import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
+import './widget_place';
 
 const place = 'overview';
 const most = 24;

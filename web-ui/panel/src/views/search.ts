@@ -4,16 +4,17 @@ import { customElement, state } from 'lit/decorators.js';
 import { repeat } from 'lit/directives/repeat.js';
 import type { Value } from '../contract';
 import type { Item } from '../core/descriptor';
+import { addressOfRoute } from '../core/route';
 import { componentRows } from './component_actions';
 import { EditSession } from './edit_session';
 import { Favourites } from './favourites';
 import './group_reset';
-import './item_widget';
-import { addressOfRoute } from '../core/route';
-import { askedBy, isModified, isParameter, matches, pathOf, searchable, wordsOf, type Group, type Show } from './search_rows';
+import { askedBy, isModified, isParameter, matches, pathOf, searchable, type Group, type Show } from './search_rows';
 import './undo';
 import { addressOf, ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
+import { wordsOf } from './wanted_words';
+import './widget_place';
 
 const shows: readonly (readonly [Show, string])[] = [['all', 'All'], ['modified', 'Modified'], ['favourites', 'Favourites']];
 /** Widgets at first; more when asked for. */
@@ -142,7 +143,7 @@ export class Search extends ViewBase {
     return html`
       <section aria-label=${component.name}>
         <div class="head">
-          <h3><a href=${addressOf(component.kind === 'unit' ? 'units' : 'devices', component.name)}>${component.name}</a></h3>
+          <h3><a href=${addressOf(`${component.kind}s`, component.name)}>${component.name}</a></h3>
           <flexrf-group-reset .core=${this.core} .items=${all}></flexrf-group-reset>
         </div>
         ${repeat(items, (item) => item.key, (item) => this.row(component.name, item))}

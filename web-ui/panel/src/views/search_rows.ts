@@ -2,8 +2,9 @@
 import type { Value } from '../contract';
 import type { Component, Item, Model } from '../core/descriptor';
 import type { DisplayUnits } from '../core/units';
-import { sameValue } from '../core/same_value';
+import { differsFromDefault } from '../widgets/modified';
 import { compactText } from './compact_value';
+import { hasAll } from './wanted_words';
 
 export type Show = 'all' | 'modified' | 'favourites';
 
@@ -26,7 +27,7 @@ export function searchable(model: Model, configurationOf: (component: string) =>
 
 /** Undefined or null: not known, so not known to be modified. */
 export function isModified(item: Item, value: Value | null | undefined): boolean {
-  return isParameter(item) && item.default !== undefined && value != null && !sameValue(value, item.default, item.scalar);
+  return isParameter(item) && differsFromDefault(item, value);
 }
 
 /** Each of the words stands in the name, the label, the summary or the value. */
@@ -35,8 +36,7 @@ export function matches(item: Item, words: readonly string[], value: Value | nul
   const shown = value == null ? '' : compactText(item, value, units);
   // As the tables and scripts name it, too: "axis_x.lowest", which kind of parameter it ever is.
   const plain = item.key.replace(/\.(configuration|feedback)\./, '.');
-  const text = `${item.key} ${plain} ${item.label} ${item.summary} ${shown}`.toLowerCase();
-  return words.every((word) => text.includes(word));
+  return hasAll(`${item.key} ${plain} ${item.label} ${item.summary} ${shown}`, words);
 }
 
 /** What is asked for, as the address has it after "#/search": "all", "axis_x.lowest". */
@@ -47,8 +47,4 @@ export function pathOf(wanted: string, show: Show): string[] {
 export function askedBy(path: readonly string[]): { readonly wanted: string; readonly show: Show } {
   const show = (['all', 'modified', 'favourites'] as const).find((one) => one === path[0]);
   return { show: show ?? 'all', wanted: path.slice(show ? 1 : 0).join('/') };
-}
-
-export function wordsOf(wanted: string): string[] {
-  return wanted.toLowerCase().split(/\s+/).filter((word) => word !== '');
 }

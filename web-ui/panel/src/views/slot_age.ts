@@ -1,6 +1,7 @@
 // Age of a slot's value, or why it is NULL, as it goes on; written into one Text node.
 import type { Reading, WidgetHost } from '../contract';
 import { LiveText, setAttribute } from '../widgets/live_text';
+import { absence } from '../widgets/value_text';
 import { ageText } from './durations';
 
 /** ms within which the next value comes, of a slot that is published often enough: until then none is missing. */
@@ -46,11 +47,11 @@ export class SlotAge extends HTMLElement {
 
   private show(): void {
     const { reading } = this;
-    const missing = reading !== undefined && reading.value === null && reading.image === undefined;
+    const missing = reading ? absence(reading) : '';
     if (reading === undefined) this.text!.text = 'nothing yet';
-    else if (missing) this.text!.text = `NULL: ${reading.reason || 'no value'}`;
+    else if (missing !== '') this.text!.text = `NULL: ${missing}`;
     else this.text!.text = ageText(ageNow(reading, this.receivedAt, performance.now()));
-    setAttribute(this, 'class', this.host.stale ? 'stale' : missing ? 'alarm' : '');
+    setAttribute(this, 'class', this.host.stale ? 'stale' : missing !== '' ? 'alarm' : '');
   }
 }
 

@@ -1,8 +1,8 @@
 // What of the values that were set is in the configuration file, and the button that saves them now. Where there is one.
 import { html, nothing } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
-import { textOf } from '../core/host';
 import type { SavedValues } from '../core/protocol';
+import { textOf } from '../core/reasons';
 import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 

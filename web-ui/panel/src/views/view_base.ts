@@ -1,30 +1,18 @@
 // What the panel's own views have in common: the properties that the shell sets, and subscriptions that end with them.
-import { LitElement } from 'lit';
 import { property, state } from 'lit/decorators.js';
 import type { WidgetHost } from '../contract';
 import type { Core } from '../core/core';
 import { addressOfRoute } from '../core/route';
+import { EndingElement } from '../widgets/ending_element';
 import type { ViewElement } from './view';
 
-export abstract class ViewBase extends LitElement implements ViewElement {
+export abstract class ViewBase extends EndingElement implements ViewElement {
   @property({ attribute: false }) core!: Core;
   @property({ attribute: false }) host!: WidgetHost;
   @property({ attribute: false }) path: readonly string[] = [];
 
   /** Class of what shows values: "stale" once nothing was heard of the application for too long. */
   @state() protected age = '';
-  private ends: (() => void)[] = [];
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    this.ends.forEach((end) => end());
-    this.ends = [];
-  }
-
-  /** Called with the end of something that was begun in connectedCallback. */
-  protected until(end: () => void): void {
-    this.ends.push(end);
-  }
 
   /** Keeps `age`, from connectedCallback on. */
   protected watchAge(): void {

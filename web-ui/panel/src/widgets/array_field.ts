@@ -120,13 +120,7 @@ export class ArrayField extends EditorBase {
     if (!edit.touched || this.locked !== '' || this.question.open) return;
     const parsed = this.quantity.parse(this.input(i).value);
     if (!('value' in parsed)) return edit.refuse(parsed.problem);
-    this.question.ask(
-      () => {
-        edit.letGo();
-        edit.put(parsed.value);
-      },
-      () => edit.cancel(),
-    );
+    this.commit(parsed.value, edit);
   }
 
   protected override dismiss(): void {

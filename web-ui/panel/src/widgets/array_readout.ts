@@ -2,6 +2,7 @@
 import { css, html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { ItemInfo, Value } from '../contract';
+import { lastOf } from '../core/value_path';
 import { BoxedText } from './live_text';
 import { Quantity } from './quantity';
 import { scalarText } from './value_text';
@@ -22,7 +23,7 @@ export function gridOf(item: ItemInfo): { rows: number; columns: number; left: n
 
 /** What stands above an element of a vector: its index, or the axis where the name says that it is one. */
 export function elementName(item: ItemInfo, index: number): string {
-  const name = item.key.slice(item.key.lastIndexOf('.') + 1);
+  const name = lastOf(item.key);
   if (item.shape.length === 1) {
     if (item.shape[0] === 3 && name === 'position') return 'xyz'.charAt(index);
     if (item.shape[0] === 4 && name === 'orientation') return 'xyzw'.charAt(index);

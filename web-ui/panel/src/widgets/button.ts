@@ -1,6 +1,7 @@
 // A button: each press reaches the unit once.
 import { css, html } from 'lit';
 import type { TemplateResult } from 'lit';
+import { textOfError } from '../core/reasons';
 import { ControlBase } from './control_base';
 import { widgetStyles } from './styles';
 
@@ -46,7 +47,7 @@ export class Button extends ControlBase {
       const outcome = await this.host.press(this.item!.key);
       this.say(outcome.ok ? '' : outcome.detail);
     } catch (failure) {
-      this.say(failure instanceof Error ? failure.message : String(failure));
+      this.say(textOfError(failure));
     }
     this.pending = false;
     this.requestUpdate();

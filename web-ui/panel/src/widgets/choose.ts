@@ -1,6 +1,7 @@
 // Which built-in widget shows an item: the one that its table names if it fits, or else the one that suits its type.
 import type { ItemInfo, Placement, WidgetElement, WidgetHost } from '../contract';
 import { tagOf } from '../core/registry';
+import { lastOf } from '../core/value_path';
 import { isNumeric, isWide } from './quantity';
 
 /** What a widget can show or change, for the sentence that says why it does not fit. */
@@ -17,7 +18,7 @@ const numbers = (item: ItemInfo, dimensions: number): boolean => item.shape.leng
 const ranged = (item: ItemInfo): boolean =>
   item.range !== undefined && Number.isFinite(item.range[1] - item.range[0]) && item.range[1] > item.range[0];
 const members = (item: ItemInfo): string[] =>
-  scalar(item) ? (item.members ?? []).map((member) => member.key.slice(member.key.lastIndexOf('.') + 1)) : [];
+  scalar(item) ? (item.members ?? []).map((member) => lastOf(member.key)) : [];
 const named = (item: ItemInfo, names: readonly string[]): boolean => names.every((name) => members(item).includes(name));
 const isImage = (item: ItemInfo): boolean => item.kind === 'slot' && named(item, ['width', 'height', 'format', 'data']);
 

@@ -112,8 +112,7 @@ export abstract class ControlBase extends WidgetBase {
 
   protected override updated(): void {
     this.toggleAttribute('said', this.said !== '' || this.question.open);
-    const question = this.renderRoot.querySelector<HTMLElement>('.question');
-    if (question) placeOver(question);
+    this.question.place(this.renderRoot);
   }
 
   override disconnectedCallback(): void {

@@ -1,7 +1,7 @@
 // @vitest-environment node
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { Outcome, Value } from '../contract';
-import { Edit, valueAt } from './edit';
+import { Edit } from './edit';
 
 /** A unit that answers when the test says so. */
 class Unit {
@@ -117,17 +117,5 @@ describe('Edit', () => {
     edit.perform(async () => ({ ok: true, values: { step: 0.5 } }));
     await vi.advanceTimersByTimeAsync(0);
     expect(edit.shown).toBe(0.5);
-  });
-});
-
-describe('valueAt', () => {
-  it('finds members and elements of what the answer has whole', () => {
-    const values = { gain: 1, gains: [1, 2, 3], limits: { low: [[4, 5], [6, 7]] } };
-    expect(valueAt(values, 'gain')).toBe(1);
-    expect(valueAt(values, 'gains[2]')).toBe(3);
-    expect(valueAt(values, 'limits.low[1][0]')).toBe(6);
-    expect(valueAt(values, 'limits.high')).toBeUndefined();
-    expect(valueAt(values, 'other[1]')).toBeUndefined();
-    expect(valueAt(undefined, 'gain')).toBeUndefined();
   });
 });

@@ -1,6 +1,8 @@
 // The way of one parameter's value: from a person's hand to the unit, and back from the unit to the page.
 import type { Outcome, Value } from '../contract';
 import { Newest } from '../core/newest';
+import { textOfError } from '../core/reasons';
+import { valueAt } from '../core/value_path';
 
 /** Least time between two requests while a hand drags, ms: enough to tune by, little enough for log and audit. */
 const spacing_ms = 100;
@@ -111,7 +113,7 @@ export class Edit {
     try {
       outcome = await make();
     } catch (failure) {
-      outcome = { ok: false, detail: failure instanceof Error ? failure.message : String(failure) };
+      outcome = { ok: false, detail: textOfError(failure) };
     }
     if (!done()) return;
     if (outcome.ok) {
@@ -124,19 +126,4 @@ export class Edit {
     if (!this.pending && !this.hands) this.own = undefined;
     this.changed();
   }
-}
-
-/** The value of "limits.low" or "gains[2]" in an answer that has it so, or has the whole of "limits" or "gains". */
-export function valueAt(values: { readonly [path: string]: Value } | undefined, path: string | undefined): Value | undefined {
-  if (values === undefined || path === undefined) return undefined;
-  if (path in values) return values[path];
-  let value: Value | undefined;
-  path.split(/[.[\]]+/).forEach((step, depth) => {
-    if (step === '') return;
-    if (depth === 0) value = values[step];
-    else if (Array.isArray(value)) value = value[Number(step)];
-    else if (typeof value === 'object') value = value[step];
-    else value = undefined;
-  });
-  return value;
 }

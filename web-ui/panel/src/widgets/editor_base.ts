@@ -4,7 +4,7 @@ import type { TemplateResult } from 'lit';
 import type { Value } from '../contract';
 import { ControlBase } from './control_base';
 import { Edit } from './edit';
-import { sameValue } from '../core/same_value';
+import { differsFromDefault } from './modified';
 import { anyText, scalarText } from './value_text';
 
 export abstract class EditorBase extends ControlBase {
@@ -46,21 +46,22 @@ export abstract class EditorBase extends ControlBase {
   }
 
   /** To the unit, after a question where the table wants one. */
-  protected commit(value: Value): void {
+  protected commit(value: Value, edit = this.edit): void {
     if (this.locked !== '') return;
-    if (!this.question.wanted) {
-      this.edit.letGo();
-      this.edit.put(value);
-      return;
-    }
-    this.edit.propose(value);
+    if (this.question.wanted) edit.propose(value);
     this.question.ask(
       () => {
-        this.edit.letGo();
-        this.edit.put(value);
+        edit.letGo();
+        edit.put(value);
       },
-      () => this.edit.cancel(),
+      () => edit.cancel(),
     );
+  }
+
+  /** Escape: no to the question, or else back to the value in force. */
+  protected giveUp(): void {
+    if (this.question.open) this.question.answer(false);
+    else this.edit.cancel();
   }
 
   private presentEdit(): void {
@@ -68,18 +69,12 @@ export abstract class EditorBase extends ControlBase {
     this.write(this.edit.shown);
     if (this.locked === '' || this.edit.refusal !== '') this.say(this.edit.refusal);
     this.toggleAttribute('pending', this.edit.pending);
-    const modified = this.isModified();
+    const modified = this.item !== undefined && differsFromDefault(this.item, this.edit.inForce);
     if (modified !== this.modified) {
       this.modified = modified;
       this.toggleAttribute('modified', modified);
       this.requestUpdate();
     }
-  }
-
-  private isModified(): boolean {
-    const item = this.item;
-    if (!item || item.default === undefined || this.edit.inForce === null) return false;
-    return !sameValue(this.edit.inForce, item.default, item.scalar);
   }
 
   private get defaultText(): string {

@@ -2,6 +2,7 @@
 import { css, html, nothing, svg } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { Value } from '../contract';
+import { significantText } from '../core/units';
 import { LiveText } from './live_text';
 import { abnormality } from './value_text';
 import { widgetStyles } from './styles';
@@ -70,15 +71,14 @@ export class Gauge extends WidgetBase {
       typeof limit === 'number' ? this.quantity.fraction(limit) : undefined;
     const [below, above] = [at(low), at(high)];
     const ends = this.quantity.range ?? [0, 1];
-    const end = (value: number): string => String(Number(value.toPrecision(4))).replaceAll('-', '−');
     return this.frame(html`<span class="dial">
       <svg viewBox="0 0 120 104" aria-hidden="true">
         <path class="scale" d=${arc(0, 1, 48)} />
         ${below === undefined ? nothing : svg`<path class="limit" d=${arc(0, below, 48)} />`}
         ${above === undefined ? nothing : svg`<path class="limit" d=${arc(above, 1, 48)} />`}
         <line class="needle" x1="60" y1="60" x2="60" y2="18" />
-        <text class="end" x="20" y="100">${end(ends[0])}</text>
-        <text class="end" x="100" y="100">${end(ends[1])}</text>
+        <text class="end" x="20" y="100">${significantText(ends[0], 4)}</text>
+        <text class="end" x="100" y="100">${significantText(ends[1], 4)}</text>
       </svg>
       <span class="reading"><span class="abnormal"></span><span class="value"></span>${this.unitMark()}</span>
     </span>`);

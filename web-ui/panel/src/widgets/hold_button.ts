@@ -2,8 +2,7 @@
 import { html } from 'lit';
 import type { TemplateResult } from 'lit';
 import { ControlBase } from './control_base';
-import { HoldDriver } from './hold_driver';
-import { setAttribute } from './live_text';
+import { HoldDriver, showPhase } from './hold_driver';
 import { holdStyles } from './control_styles';
 import { widgetStyles } from './styles';
 
@@ -62,8 +61,6 @@ export class HoldButton extends ControlBase {
   }
 
   private present(): void {
-    const control = this.find('#control');
-    setAttribute(control, 'data-phase', this.driver.phase);
-    setAttribute(control, 'aria-pressed', String(this.driver.phase === 'held'));
+    showPhase(this.find('#control'), this.driver.phase);
   }
 }

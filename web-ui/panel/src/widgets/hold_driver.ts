@@ -1,11 +1,20 @@
 // From a finger or key on an element to a hold, and to its end, whatever ends it.
 import type { Hold } from '../contract';
+import { listen } from '../core/listen';
+import { textOfError } from '../core/reasons';
+import { setAttribute } from './live_text';
 
 /** asked: pressed, and no lease yet. held: the lease lives. */
 export type HoldPhase = 'idle' | 'asked' | 'held';
 
 /** A finger that rolls a little at the edge still holds, px. */
 const slack = 8;
+
+/** On the button, for the eye and for screen readers. */
+export function showPhase(button: Element, phase: HoldPhase): void {
+  setAttribute(button, 'data-phase', phase);
+  setAttribute(button, 'aria-pressed', String(phase === 'held'));
+}
 
 export class HoldDriver {
   private current: HoldPhase = 'idle';
@@ -29,8 +38,7 @@ export class HoldDriver {
   /** Listens to an element; the returned function ends the hold and the listening. */
   attach(element: HTMLElement, mayBegin: () => boolean): () => void {
     const on = (target: EventTarget, name: string, listener: (event: never) => void): void => {
-      target.addEventListener(name, listener as EventListener);
-      this.endings.push(() => target.removeEventListener(name, listener as EventListener));
+      this.endings.push(listen(target, name, listener));
     };
     on(element, 'pointerdown', (event: PointerEvent) => {
       if (event.button !== 0 || !event.isPrimary || this.current !== 'idle' || !mayBegin()) return;
@@ -97,7 +105,7 @@ export class HoldDriver {
     try {
       hold = await this.begin();
     } catch (failure) {
-      if (attempt === this.attempt) this.end(failure instanceof Error ? failure.message : String(failure));
+      if (attempt === this.attempt) this.end(textOfError(failure));
       return;
     }
     if (attempt !== this.attempt) {

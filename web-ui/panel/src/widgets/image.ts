@@ -2,6 +2,7 @@
 import { css, html } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { Reading } from '../contract';
+import { listen } from '../core/listen';
 import { Newest } from '../core/newest';
 import { widgetStyles } from './styles';
 import { WidgetBase } from './widget_base';
@@ -63,12 +64,10 @@ export class ImageView extends WidgetBase {
     this.ask(picture.clientWidth);
     this.until(() => this.stop());
     // Scrolled away, it costs the server nothing.
-    const scrolled = (event: Event & { skipped?: boolean }): void => {
+    this.until(listen(this, 'contentvisibilityautostatechange', (event: Event & { skipped?: boolean }) => {
       if (event.skipped) this.stop();
       else this.ask(picture.clientWidth);
-    };
-    this.addEventListener('contentvisibilityautostatechange', scrolled);
-    this.until(() => this.removeEventListener('contentvisibilityautostatechange', scrolled));
+    }));
   }
 
   private ask(shown: number): void {

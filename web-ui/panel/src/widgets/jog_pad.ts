@@ -4,8 +4,7 @@ import { css, html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { ItemInfo } from '../contract';
 import { ControlBase } from './control_base';
-import { HoldDriver } from './hold_driver';
-import { setAttribute } from './live_text';
+import { HoldDriver, showPhase } from './hold_driver';
 import { holdStyles } from './control_styles';
 import { widgetStyles } from './styles';
 
@@ -167,10 +166,6 @@ export class JogPad extends ControlBase {
 
   private present(): void {
     if (!this.hasUpdated) return;
-    this.buttons.forEach((button, i) => {
-      const element = this.element(i);
-      setAttribute(element, 'data-phase', button.driver.phase);
-      setAttribute(element, 'aria-pressed', String(button.driver.phase === 'held'));
-    });
+    this.buttons.forEach((button, i) => showPhase(this.element(i), button.driver.phase));
   }
 }

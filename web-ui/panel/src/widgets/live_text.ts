@@ -13,30 +13,31 @@ export class LiveText {
     return this.node.data;
   }
   set text(text: string) {
-    if (this.node.data !== text) this.node.data = text;
+    if (this.node.data !== text) this.write(text);
+  }
+
+  protected write(text: string): void {
+    this.node.data = text;
   }
 }
 
 /**
- * As LiveText, in a box of its own that is as wide as the longest text so far: a new text is laid out by itself, and
- * neither moves nor measures its neighbours. For text in tabular figures.
+ * In a box of its own that is as wide as the longest text so far: a new text is laid out by itself, and neither moves nor
+ * measures its neighbours. For text in tabular figures.
  */
-export class BoxedText {
-  private readonly node: Text;
+export class BoxedText extends LiveText {
   private width = 0;
 
   constructor(private readonly box: HTMLElement) {
-    this.node = box.ownerDocument.createTextNode('');
-    box.append(this.node);
+    super(box);
   }
 
-  set text(text: string) {
-    if (this.node.data === text) return;
+  protected override write(text: string): void {
     if (text.length > this.width) {
       this.width = text.length;
       this.box.style.width = `${text.length}ch`;
     }
-    this.node.data = text;
+    super.write(text);
   }
 }
 

@@ -120,10 +120,8 @@ export class NumberField extends EditorBase {
 
   private onKey(event: KeyboardEvent): void {
     if (event.key === 'Enter') this.commitTyped();
-    else if (event.key === 'Escape') {
-      if (this.question.open) this.question.answer(false);
-      else this.edit.cancel();
-    } else {
+    else if (event.key === 'Escape') this.giveUp();
+    else {
       const step = stepOfKey(event, this.steps.fine, this.steps.coarse);
       if (step === undefined) return;
       event.preventDefault();

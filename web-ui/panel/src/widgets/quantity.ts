@@ -1,6 +1,6 @@
 // How one number is shown and typed in: SI inside, the person's unit outside, a fixed number of decimals.
 import type { ItemInfo, Scalar, Value } from '../contract';
-import { displayUnits } from '../core/units';
+import { displayUnits, significantText } from '../core/units';
 
 const integers: ReadonlySet<Scalar> = new Set<Scalar>(['i8', 'u8', 'i16', 'u16', 'i32', 'u32', 'i64', 'u64']);
 
@@ -232,8 +232,7 @@ export class Quantity {
   /** "0.001 to 0.1 m"; empty without a range. */
   rangeText(): string {
     if (!this.range) return '';
-    const bound = (value: number): string => String(Number(value.toPrecision(6))).replaceAll('-', '−');
-    return `${bound(this.range[0])} to ${bound(this.range[1])}${this.unit === '' ? '' : ` ${this.unit}`}`;
+    return `${significantText(this.range[0], 6)} to ${significantText(this.range[1], 6)}${this.unit === '' ? '' : ` ${this.unit}`}`;
   }
 
   stepText(step: number): string {

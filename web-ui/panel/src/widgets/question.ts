@@ -3,6 +3,7 @@
 import { html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { Value } from '../contract';
+import { placeOver } from './place_over';
 
 export class Question {
   private act: (() => void) | undefined;
@@ -37,6 +38,12 @@ export class Question {
     if (yes) act?.();
     else giveUp?.();
     this.changed();
+  }
+
+  /** After drawing: over what is beside it. */
+  place(root: ParentNode): void {
+    const question = root.querySelector<HTMLElement>('.question');
+    if (question) placeOver(question);
   }
 
   render(label: string): TemplateResult | typeof nothing {

@@ -2,6 +2,7 @@
 import { html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { ItemInfo, Value } from '../contract';
+import { lastOf } from '../core/value_path';
 import { arrayStyles, most_cells } from './array_readout';
 import { LiveText } from './live_text';
 import { Quantity } from './quantity';
@@ -65,7 +66,7 @@ export class Records extends WidgetBase {
     this.cells.forEach((cell, i) => {
       const column = this.columns[i % this.columns.length];
       const record = records[Math.floor(i / this.columns.length)];
-      const name = column?.item.key.slice(column.item.key.lastIndexOf('.') + 1) ?? '';
+      const name = column ? lastOf(column.item.key) : '';
       const member = typeof record === 'object' && !Array.isArray(record) ? record[name] : undefined;
       cell.text = column === undefined || member === undefined || member === null ? dash : scalarText(column.item, column.quantity, member);
     });

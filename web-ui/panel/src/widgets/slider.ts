@@ -2,6 +2,7 @@
 import { css, html } from 'lit';
 import type { CSSResultGroup, TemplateResult } from 'lit';
 import type { Value } from '../contract';
+import { listen } from '../core/listen';
 import { keypadStyles } from './keypad';
 import { setAttribute } from './live_text';
 import { NumberField, numberFieldStyles, stepOfKey } from './number_field';
@@ -57,10 +58,7 @@ export class Slider extends NumberField {
   override connectedCallback(): void {
     super.connectedCallback();
     // The hand may leave the slider before it lets go.
-    const end = (): void => this.letGo();
-    const names = ['pointerup', 'pointercancel', 'blur'] as const;
-    names.forEach((name) => window.addEventListener(name, end));
-    this.until(() => names.forEach((name) => window.removeEventListener(name, end)));
+    for (const name of ['pointerup', 'pointercancel', 'blur']) this.until(listen(window, name, () => this.letGo()));
   }
 
   protected override onLocked(): void {

@@ -36,9 +36,7 @@ export class TextField extends EditorBase {
 
   private onKey(event: KeyboardEvent): void {
     if (event.key === 'Enter' && !event.isComposing) this.commitTyped();
-    if (event.key !== 'Escape') return;
-    if (this.question.open) this.question.answer(false);
-    else this.edit.cancel();
+    if (event.key === 'Escape') this.giveUp();
   }
 
   private commitTyped(): void {

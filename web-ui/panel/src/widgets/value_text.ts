@@ -1,5 +1,6 @@
 // Any value in words.
-import type { ItemInfo, Value } from '../contract';
+import type { ItemInfo, Reading, Value } from '../contract';
+import { significantText } from '../core/units';
 import { isNumeric, type Quantity } from './quantity';
 
 /** "no_key" → "no key". */
@@ -21,8 +22,13 @@ export function anyText(value: Value): string {
   if (typeof value === 'object') {
     return Object.entries(value).map(([name, member]) => `${words(name)} ${anyText(member)}`).join('; ');
   }
-  if (typeof value === 'number') return String(Number(value.toPrecision(6))).replaceAll('-', '−');
+  if (typeof value === 'number') return significantText(value, 6);
   return typeof value === 'boolean' ? (value ? 'on' : 'off') : value;
+}
+
+/** Why a reading has no value; empty when it has one, or a picture. */
+export function absence(reading: Reading): string {
+  return reading.value === null && !reading.image ? reading.reason || 'no value' : '';
 }
 
 /** Below `low` or above `high` of the widget's options, in words and with a sign; empty between them. */

@@ -1,17 +1,19 @@
 // What every widget shares: its item, its place on the page, its label and unit, NULL, and old values.
-import { LitElement, html, nothing } from 'lit';
+import { html, nothing } from 'lit';
 import type { CSSResultGroup, TemplateResult } from 'lit';
 import type { ItemInfo, Placement, Reading, Value, WidgetElement, WidgetHost } from '../contract';
 import { displayUnits } from '../core/units';
 import { misfit, placedItem, placedKind } from './choose';
+import { EndingElement } from './ending_element';
 import { LiveText } from './live_text';
 import { Quantity } from './quantity';
 import { widgetStyles } from './styles';
+import { absence } from './value_text';
 
 /** What is shown in place of a value that is not there. */
 export const dash = '—';
 
-export abstract class WidgetBase extends LitElement implements WidgetElement {
+export abstract class WidgetBase extends EndingElement implements WidgetElement {
   static override styles: CSSResultGroup = widgetStyles;
 
   host!: WidgetHost;
@@ -23,7 +25,6 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
   /** Newest reading; undefined before the first. */
   protected reading: Reading | undefined;
   protected quantity = new Quantity({ scalar: 'f64', unit: '' });
-  private endings: (() => void)[] = [];
   private watching = false;
   private absence: LiveText | undefined;
   private absentIn: Element | null = null;
@@ -47,16 +48,6 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
       }),
     );
     this.begin();
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    this.endings.splice(0).forEach((end) => end());
-  }
-
-  /** Does this when the widget leaves the document. */
-  protected until(end: () => void): void {
-    this.endings.push(end);
   }
 
   /** Where values come from; widgets of several items begin others. */
@@ -84,7 +75,7 @@ export abstract class WidgetBase extends LitElement implements WidgetElement {
   }
 
   private presentReading(reading: Reading): void {
-    this.sayAbsent(reading.value === null && !reading.image ? reading.reason || 'no value' : '');
+    this.sayAbsent(absence(reading));
     this.show(reading.value);
   }
 

@@ -1,14 +1,14 @@
 // @vitest-environment node
 import { describe, expect, it } from 'vitest';
-import { partOf, partsOf, rootOf, withPart } from '../value_path';
+import { lastOf, partOf, partsOf, valueAt } from '../value_path';
 
 describe('paths of values', () => {
   it('are taken apart', () => {
     expect(partsOf('gain')).toEqual(['gain']);
     expect(partsOf('gains[2]')).toEqual(['gains', 2]);
     expect(partsOf('axes[1].limits.low')).toEqual(['axes', 1, 'limits', 'low']);
-    expect(rootOf('axes[1].limits.low')).toBe('axes');
-    expect(rootOf('gain')).toBe('gain');
+    expect(lastOf('axes[1].limits.low')).toBe('low');
+    expect(lastOf('gain')).toBe('gain');
   });
 
   const whole = { limits: { low: 1, high: 2 }, map: [[1, 2], [3, 4]] };
@@ -20,12 +20,18 @@ describe('paths of values', () => {
     expect(partOf(whole, ['limits', 'low', 'x'])).toBeUndefined();
     expect(partOf(undefined, [])).toBeUndefined();
   });
+});
 
-  it('replace parts in a copy', () => {
-    expect(withPart(whole, ['map', 1, 0], 9)).toEqual({ limits: { low: 1, high: 2 }, map: [[1, 2], [9, 4]] });
-    expect(whole.map[1]![0]).toBe(3);
-    expect(withPart(whole, ['limits', 'low'], 0)).toMatchObject({ limits: { low: 0, high: 2 } });
-    expect(withPart(5, [], 6)).toBe(6);
-    expect(withPart(whole, ['nothing', 'low'], 0)).toBe(whole);
+describe('valueAt', () => {
+  it('finds members and elements of what the answer has whole', () => {
+    const values = { gain: 1, gains: [1, 2, 3], limits: { low: [[4, 5], [6, 7]] } };
+    expect(valueAt(values, 'gain')).toBe(1);
+    expect(valueAt(values, 'gains[2]')).toBe(3);
+    expect(valueAt(values, 'limits.low[1][0]')).toBe(6);
+    expect(valueAt(values, 'limits.high')).toBeUndefined();
+    expect(valueAt(values, 'other[1]')).toBeUndefined();
+    expect(valueAt(undefined, 'gain')).toBeUndefined();
+    expect(valueAt({ 'gains[1]': 7, gains: [1, 2] }, 'gains[1]')).toBe(7);
+    expect(valueAt(values, undefined)).toBeUndefined();
   });
 });

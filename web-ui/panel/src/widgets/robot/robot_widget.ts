@@ -5,6 +5,7 @@
 import { css, html, nothing, type CSSResultGroup } from 'lit';
 import type { ItemInfo, Joint, Value } from '../../contract';
 import { loadPart } from '../../core/parts';
+import { textOfError } from '../../core/reasons';
 import { displayUnits, formatNumber } from '../../core/units';
 import { LiveText } from '../live_text';
 import { widgetStyles } from '../styles';
@@ -310,7 +311,7 @@ export class RobotWidget extends WidgetBase {
 
   private fail(generation: number, error: unknown): void {
     if (generation !== this.generation) return;
-    this.trouble = error instanceof Error ? error.message : String(error);
+    this.trouble = textOfError(error);
     this.requestUpdate();
   }
 }
