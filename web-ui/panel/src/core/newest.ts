@@ -1,6 +1,9 @@
 // One at a time, the newest next: for values that come faster than the other end takes them, as from a hand that drags.
 
-/** What is put while another is under way waits for its end; of those that wait only the newest is begun. The last is never lost. */
+/**
+ * What is put while another is under way waits for its end; of those that wait only the newest is begun, and the last is
+ * never lost. Each put is another object.
+ */
 export class Newest<Wanted extends object> {
   #underWay: Wanted | undefined;
   #waiting: Wanted | undefined;
