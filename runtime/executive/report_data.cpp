@@ -5,6 +5,7 @@
 
 #include "runtime/core/text_table.hpp"
 #include "runtime/executive/schedulability.hpp"
+#include "runtime/executive/slot_readers.hpp"
 #include "runtime/executive/supervision.hpp"
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
@@ -90,45 +91,15 @@ std::vector<ComponentReport> collect_devices(const Cell& cell) {
   return devices;
 }
 
-/// Names of the type's inputs of slots, in the order of the table.
-std::vector<const char*> input_names(const ComponentType& type) {
-  std::vector<const char*> names;
-  for (const PortDescriptor& port : type.ports) {
-    if (port.direction == PortDescriptor::Direction::input) names.push_back(port.name);
-  }
-  return names;
-}
-
-void collect_readers(const Application& application, std::vector<SlotReport>& slots) {
-  const auto find = [&](const SlotControl* control) -> SlotReport* {
-    for (SlotReport& slot : slots) {
-      if (slot.record->control == control) return &slot;
-    }
-    return nullptr;
-  };
-  for (std::size_t u = 0; u < application.units.size(); ++u) {
-    const UnitRecord& unit = application.units[u];
-    const Unit* object = application.unit_states[u].unit;
-    if (object == nullptr) continue;
-    const std::vector<const char*> names = input_names(*unit.type);
-    for (std::size_t input = 0; input < unit.binding.inputs.size(); ++input) {
-      const InputBinding& binding = unit.binding.inputs[input];
-      for (std::uint32_t member = 0; member < binding.count; ++member) {
-        SlotReport* slot = find(binding.readers[member].slot());
-        if (slot == nullptr) continue;
-        const std::string name = std::string{unit.name} + "." + (input < names.size() ? names[input] : "?");
-        slot->readers.push_back({name, object->input_counters(input, member)});
-      }
-    }
-  }
-}
-
 std::vector<SlotReport> collect_slots(const Application& application) {
+  const std::vector<std::vector<SlotInput>> readers = readers_of_slots(application);
   std::vector<SlotReport> slots;
-  for (const SlotRecord& record : application.slots) {
-    slots.push_back({&record, record.control->published(), {}});
+  for (std::size_t i = 0; i < application.slots.size(); ++i) {
+    const SlotRecord& record = application.slots[i];
+    SlotReport& slot = slots.emplace_back(SlotReport{&record, record.control->published(), {}});
+    for (const SlotInput& input : readers[i])
+      slot.readers.push_back({input.name, input.counters(application)});
   }
-  collect_readers(application, slots);
   return slots;
 }
 

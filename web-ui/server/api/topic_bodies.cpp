@@ -58,27 +58,9 @@ const char* name_of(Topic topic) noexcept {
 TopicBodies::TopicBodies(Executive& executive)
     : executive_(&executive),
       application_(&executive.cell().application()),
-      readers_(application_->slots.size()),
+      readers_(readers_of_slots(*application_)),
       response_estimates_(application_->threads.size()),
       figures_(application_->threads.size()) {
-  for (std::size_t u = 0; u < application_->units.size(); ++u) {
-    const UnitRecord& unit = application_->units[u];
-    std::vector<const char*> names;
-    for (const PortDescriptor& port : unit.type->ports) {
-      if (port.direction == PortDescriptor::Direction::input) names.push_back(port.name);
-    }
-    for (std::size_t input = 0; input < unit.binding.inputs.size(); ++input) {
-      for (std::uint32_t member = 0; member < unit.binding.inputs[input].count; ++member) {
-        const SlotControl* const control = unit.binding.inputs[input].readers[member].slot();
-        for (std::size_t slot = 0; slot < application_->slots.size(); ++slot) {
-          if (application_->slots[slot].control != control) continue;
-          readers_[slot].push_back(
-              {std::string{unit.name} + "." + (input < names.size() ? names[input] : "?"),
-               static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(input), member});
-        }
-      }
-    }
-  }
   // Ordinary threads are promised nothing.
   if (!executive.options().realtime) return;
   const Result<MachineFile> machine = MachineFile::of_this_machine();
@@ -205,10 +187,8 @@ void TopicBodies::write_devices(JsonWriter& json) const {
 
 void TopicBodies::write_readers(JsonWriter& json, std::uint16_t slot) const {
   json.begin_array();
-  for (const Reader& reader : readers_[slot]) {
-    const Unit* const unit = application_->unit_states[reader.unit].unit;
-    const InputCounters counters =
-        unit == nullptr ? InputCounters{} : unit->input_counters(reader.input, reader.member);
+  for (const SlotInput& reader : readers_[slot]) {
+    const InputCounters counters = reader.counters(*application_);
     json.begin_object().member("name", reader.name).member("read", counters.read);
     json.member("missed", counters.missed).end_object();
   }

@@ -10,6 +10,7 @@
 
 #include "runtime/core/json_writer.hpp"
 #include "runtime/executive/executive.hpp"
+#include "runtime/executive/slot_readers.hpp"
 #include "web-ui/server/api/clients.hpp"
 
 namespace flexrf::panel {
@@ -45,13 +46,6 @@ class TopicBodies {
     Time made_at{};
     std::uint64_t version = 0;
   };
-  // An input of a unit that reads a slot.
-  struct Reader {
-    std::string name;
-    std::uint16_t unit;
-    std::uint16_t input;
-    std::uint32_t member;
-  };
   struct ThreadFigures {
     int cpu = -1;
     std::uint64_t minor_faults = 0;
@@ -69,7 +63,7 @@ class TopicBodies {
   Executive* executive_;
   const Application* application_;
   std::array<Body, topic_count> bodies_;
-  std::vector<std::vector<Reader>> readers_;                 // per slot
+  std::vector<std::vector<SlotInput>> readers_;              // per slot
   std::vector<std::optional<Duration>> response_estimates_;  // per thread
   std::vector<ThreadFigures> figures_;                       // per thread, looked up once a second
   Time figures_at_{};
