@@ -23,4 +23,12 @@ constexpr void set_text(std::array<char, Capacity>& text, std::string_view value
   std::fill(text.begin() + static_cast<std::ptrdiff_t>(size), text.end(), '\0');
 }
 
+/// Cuts what does not fit; always zero-terminated.
+template <std::size_t Capacity>
+constexpr void copy_text(char (&to)[Capacity], std::string_view text) noexcept {
+  const std::size_t size = std::min(text.size(), Capacity - 1);
+  std::copy_n(text.data(), size, to);
+  to[size] = '\0';
+}
+
 }  // namespace flexrf

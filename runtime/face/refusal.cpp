@@ -4,17 +4,9 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "runtime/core/text.hpp"
+
 namespace flexrf {
-namespace {
-
-template <std::size_t Capacity>
-void copy_text(char (&to)[Capacity], std::string_view text) noexcept {
-  const std::size_t size = std::min(text.size(), Capacity - 1);
-  std::copy_n(text.data(), size, to);
-  to[size] = '\0';
-}
-
-}  // namespace
 
 Refusal Refusal::make(RefusalKind kind, const char* format, ...) noexcept {
   Refusal refusal;

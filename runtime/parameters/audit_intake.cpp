@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/core/text.hpp"
 #include "runtime/parameters/value_access.hpp"
 
 namespace flexrf {
 namespace {
-
-template <std::size_t Capacity>
-void copy_text(char (&to)[Capacity], std::string_view text) noexcept {
-  const std::size_t size = std::min(text.size(), Capacity - 1);
-  std::copy_n(text.data(), size, to);
-  to[size] = '\0';
-}
 
 /// Finds what differs and gives each part that fits into a record.
 class Differences {

@@ -124,14 +124,19 @@ void a_full_standard_output_is_told_and_left() {
   CHECK_EQUAL(drive_log(folder), moving + at_rest);
 }
 
+/// A run that came to its end by itself, and has its report to say to a pipe that nobody reads.
+void run_to_the_unread_report(const Folder& folder, Process& process) {
+  process.type("d");
+  process.end_input();
+  CHECK(wait_until([&] { return drive_log(folder).ends_with("safe\n"); }));
+}
+
 /// Whose input has ended waits for its reader, as every program does; whoever is tired of that says so.
 void a_reader_that_is_slow_gets_the_report_and_a_signal_ends_the_wait() {
   const Folder folder;
   const FullPipe pipe;
   Process process(folder, words(), Input::pipe, [&] { dup2(pipe.end(), STDOUT_FILENO); });
-  process.type("d");
-  process.end_input();
-  CHECK(wait_until([&] { return drive_log(folder).ends_with("safe\n"); }));
+  run_to_the_unread_report(folder, process);
   usleep(300'000);
   CHECK(!process.has_ended());
   process.send(SIGTERM);
@@ -144,9 +149,7 @@ void a_signal_just_before_the_report_ends_the_wait_for_its_reader() {
     const Folder folder;
     const FullPipe pipe;
     Process process(folder, words(), Input::pipe, [&] { dup2(pipe.end(), STDOUT_FILENO); });
-    process.type("d");
-    process.end_input();
-    CHECK(wait_until([&] { return drive_log(folder).ends_with("safe\n"); }));
+    run_to_the_unread_report(folder, process);
     usleep(later);
     process.send(SIGTERM);
     CHECK_EQUAL(process.wait().exit_code, 1);
