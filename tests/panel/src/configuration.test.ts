@@ -27,7 +27,11 @@ const apply = () => viewer.page.getByRole('button', { name: 'Apply' });
 
 async function openEdit(): Promise<void> {
   await edit().click();
-  await viewer.page.getByRole('group', { name: 'Editing configuration' }).waitFor();
+  try {
+    await viewer.page.getByRole('group', { name: 'Editing configuration' }).waitFor();
+  } catch {
+    throw new Error(`No edit was opened. The page says:\n${await viewer.page.locator('body').ariaSnapshot()}`);
+  }
 }
 /** mm, as it is shown. */
 async function type(text: string): Promise<void> {
