@@ -19,8 +19,7 @@ Directory::Directory(const Cell& cell) {
   const Application& application = cell.application();
   for (ComponentIndex i = 0; i < application.component_count(); ++i) {
     const ComponentRecord& record = application.component(i);
-    components_.push_back({record.name, application.is_unit(i), &cell.component_type(i),
-                           index_of(application, record.runtime_slot),
+    components_.push_back({record.name, &cell.component_type(i), index_of(application, record.runtime_slot),
                            index_of(application, record.feedback_slot)});
   }
   for (std::size_t i = 0; i < components_.size(); ++i)

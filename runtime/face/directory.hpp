@@ -14,7 +14,6 @@ namespace flexrf {
 
 struct ComponentEntry {
   const char* name;
-  bool is_unit;
   const ComponentType* type;    ///< with ranges as the application narrows them
   std::uint16_t runtime_slot;   ///< in Application::slots, or no_index
   std::uint16_t feedback_slot;  ///< likewise

@@ -36,7 +36,6 @@ class PendingRequests {
   bool take(std::uint64_t correlation, PendingRequest& request) noexcept;
   /// One that is overdue; false: none is.
   bool take_overdue(Time now, PendingRequest& request) noexcept;
-  bool has_any() const noexcept { return count_ != 0; }
 
  private:
   struct Place {
