@@ -45,20 +45,22 @@ foreach(kind IN ITEMS TYPES INTERFACES DRIVERS UNITS)
     get_target_property(output ${target} FLEXRF_OUTPUT)
     get_target_property(name ${target} FLEXRF_NAME)
     get_target_property(class ${target} FLEXRF_CLASS)
+    get_target_property(root ${target} FLEXRF_ROOT)
+    cmake_path(RELATIVE_PATH root BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE searched)
     cmake_path(RELATIVE_PATH folder BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE place)
     install(DIRECTORY "${output}/" DESTINATION ${headers}/generated FILES_MATCHING PATTERN "*.hpp")
-    install(DIRECTORY "${folder}/" DESTINATION share/flexrf/${place} FILES_MATCHING PATTERN "*.toml"
+    install(DIRECTORY "${folder}/" DESTINATION share/flexrf/${place} FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv"
             PATTERN tests EXCLUDE)
     string(REGEX REPLACE "^flexrf_" "FlexRF::" exported ${target})
     string(APPEND registry "set_property(GLOBAL APPEND PROPERTY FLEXRF_${kind} ${exported})\n"
            "set_target_properties(${exported} PROPERTIES FLEXRF_FOLDER \"\${_flexrf_tables}/${place}\" "
-           "FLEXRF_NAME \"${name}\" FLEXRF_CLASS \"${class}\")\n")
+           "FLEXRF_ROOT \"\${_flexrf_tables}/${searched}\" FLEXRF_NAME \"${name}\" FLEXRF_CLASS \"${class}\")\n")
   endforeach()
 endforeach()
 file(WRITE "${PROJECT_BINARY_DIR}/FlexRFRegistry.cmake" "${registry}")
 
 target_include_directories(flexrf_options INTERFACE
-  $<INSTALL_INTERFACE:${headers}> $<INSTALL_INTERFACE:${headers}/hal> $<INSTALL_INTERFACE:${headers}/generated>)
+  $<INSTALL_INTERFACE:${headers}> $<INSTALL_INTERFACE:${headers}/generated>)
 set(panel "")
 if(TARGET flexrf_panel)  # where it was built; of its headers an application needs this one
   set(panel flexrf_panel)
@@ -72,7 +74,7 @@ endforeach()
 install(TARGETS ${needed} config-gen EXPORT FlexRFTargets
         ARCHIVE DESTINATION lib OBJECTS DESTINATION lib RUNTIME DESTINATION bin)
 install(EXPORT FlexRFTargets NAMESPACE FlexRF:: DESTINATION ${package})
-install(DIRECTORY runtime hal units DESTINATION ${headers} FILES_MATCHING PATTERN "*.hpp"
+install(DIRECTORY runtime motion hal units DESTINATION ${headers} FILES_MATCHING PATTERN "*.hpp"
         PATTERN tests EXCLUDE PATTERN conformance EXCLUDE)
 include(CMakePackageConfigHelpers)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/FlexRFConfigVersion.cmake" COMPATIBILITY SameMinorVersion)

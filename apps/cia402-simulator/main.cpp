@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "base/standard_descriptors.hpp"
-#include "hal/linux/socket_can_bus/can_node_runner.hpp"
-#include "hal/simulated/simulated_cia402_drive/drive_console.hpp"
+#include "hal/can/socket_can/can_node_runner.hpp"
+#include "hal/servo_drive/canopen/simulator/drive_console.hpp"
 #include "runtime/core/time.hpp"
 
 namespace {

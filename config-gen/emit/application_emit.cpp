@@ -14,10 +14,9 @@ std::string includes_of(const Model& model) {
                             "runtime/blackboard/job_queue.hpp",  "runtime/blackboard/ports.hpp",
                             "runtime/blackboard/queue_ring.hpp", "runtime/blackboard/slot.hpp",
                             "runtime/executive/application.hpp"};
-  for (const Unit& unit : model.units) own.insert(unit_header_path(model.unit_types[unit.type]));
+  for (const Unit& unit : model.units) own.insert(model.unit_types[unit.type].header);
   for (const Device& device : model.devices) {
-    for (const DriverChoice& choice : device.drivers)
-      own.insert(driver_header_path(model.drivers[choice.driver]));
+    for (const DriverChoice& choice : device.drivers) own.insert(model.drivers[choice.driver].header);
     for (const DeviceResource& resource : device.resources) {
       own.insert(resource_header(model.interfaces[device.interface].resources[resource.resource].reader));
     }

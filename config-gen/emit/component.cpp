@@ -163,15 +163,6 @@ void define_size(const Driver& driver, Text& out) {
   if (driver.space == user_space)
     out << "constexpr std::size_t " << driver.stem << "_driver_size = sizeof(" << driver.class_name << ");\n";
 }
-std::string unit_header_path(const UnitType& unit) {
-  return include_path(unit.file, unit.header);
-}
-std::string driver_header_path(const Driver& driver) {
-  return include_path(driver.file, driver.header);
-}
-std::string interface_header_path(const Interface& interface) {
-  return include_path(interface.file, interface.name + ".hpp");
-}
 
 BlockText driver_configuration(const Model& model, const Driver& driver) {
   const Interface& interface = model.interfaces[driver.interface];
@@ -192,9 +183,9 @@ std::string resource_type(Resource::Reader reader) {
 std::string resource_header(Resource::Reader reader) {
   switch (reader) {
     case Resource::Reader::urdf:
-      return "hal/interfaces/robot_arm/kinematic_chain.hpp";
+      return "motion/kinematic_chain.hpp";
     case Resource::Reader::register_map:
-      return "hal/interfaces/modbus_link/register_map.hpp";
+      return "hal/modbus/link/interface/register_map.hpp";
   }
   return "";
 }

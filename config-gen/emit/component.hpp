@@ -40,13 +40,10 @@ std::string driver_base_source(const Model& model, const Driver& driver);
 std::string driver_construct_source(const Driver& driver);
 
 // Names that the generated code gives.
-std::string unit_component_name(const UnitType& unit);          // jog_unit_component
-std::string unit_construct_name(const UnitType& unit);          // construct_jog_unit
-std::string driver_component_name(const Driver& driver);        // simulated_arm_driver_component
-std::string driver_construct_name(const Driver& driver);        // construct_simulated_arm_driver
-std::string unit_header_path(const UnitType& unit);             // units/jog/jog.hpp
-std::string interface_header_path(const Interface& interface);  // interfaces/robot_arm/robot_arm.hpp
-std::string driver_header_path(const Driver& driver);           // simulated/simulated_arm/simulated_arm.hpp
+std::string unit_component_name(const UnitType& unit);    // jog_unit_component
+std::string unit_construct_name(const UnitType& unit);    // construct_jog_unit
+std::string driver_component_name(const Driver& driver);  // simulated_arm_driver_component
+std::string driver_construct_name(const Driver& driver);  // construct_simulated_arm_driver
 // The bytes of the author's class, as the application says it. The class may be outside of the namespace,
 // where only the rules of look-up find it: of those of flexrf::user define_size() names the size there.
 std::string size_name(const UnitType& unit);

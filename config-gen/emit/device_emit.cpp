@@ -131,9 +131,9 @@ std::string driver_base_header(const Model& model, const Driver& driver) {
   const BlockText configuration = driver_configuration(model, driver);
   const Space space(driver.space);
   const std::string prefix(space.runtime());
-  std::set<std::string> system, own{interface_header_path(interface)};
+  std::set<std::string> system, own{interface.header};
   if (!configuration.empty()) add_includes(model, configuration.plain, system, own);
-  if (driver.bus_interface) own.insert(interface_header_path(model.interfaces[*driver.bus_interface]));
+  if (driver.bus_interface) own.insert(model.interfaces[*driver.bus_interface].header);
 
   Text out;
   out << generated_note(driver.file) << "#pragma once\n\n"
@@ -203,7 +203,7 @@ std::string driver_construct_source(const Driver& driver) {
   const Space space(driver.space);
   Text out;
   out << generated_note(driver.file) << "#include <new>\n#include <type_traits>\n\n"
-      << include_line(driver_header_path(driver)) << "\n"
+      << include_line(driver.header) << "\n"
       << space.open() << "\n"
       << "static_assert(std::is_base_of_v<" << driver.base_class << ", " << driver.class_name
       << ">,\n              " << string_literal(row + " must derive from " + driver.base_class) << ");\n"

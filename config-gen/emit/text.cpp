@@ -118,10 +118,6 @@ std::string generated_note(const std::filesystem::path& file) {
          ". Change the table, not this file.\n";
 }
 
-std::string include_path(const std::filesystem::path& table, std::string_view header) {
-  return last_components(table.parent_path(), 2) + "/" + std::string(header);
-}
-
 std::string include_line(std::string_view header) {
   const bool is_quoted = header.find('"') == std::string_view::npos;
   return std::string("#include ") + (is_quoted ? '"' : '<') + std::string(header) + (is_quoted ? "\"" : ">") +

@@ -83,8 +83,7 @@ std::string unit_base_header(const Model& model, const UnitType& unit) {
   }
   for (const InputPort& port : unit.inputs) own.insert(type_header(model.types[port.type]));
   for (const OutputPort& port : unit.outputs) own.insert(type_header(model.types[port.type]));
-  for (const DevicePort& port : unit.devices)
-    own.insert(interface_header_path(model.interfaces[port.interface]));
+  for (const DevicePort& port : unit.devices) own.insert(model.interfaces[port.interface].header);
   if (unit.cell_access) own.insert("runtime/executive/cell_access.hpp");
 
   Text out;
@@ -189,7 +188,7 @@ std::string unit_construct_source(const UnitType& unit) {
   const Space space(unit.space);
   Text out;
   out << generated_note(unit.file) << "#include <new>\n#include <type_traits>\n\n"
-      << include_line(unit_header_path(unit)) << "\n"
+      << include_line(unit.header) << "\n"
       << space.open() << "\n"
       << "static_assert(std::is_base_of_v<" << unit.base_class << ", " << unit.class_name
       << ">,\n              " << string_literal(row + " must derive from " + unit.base_class) << ");\n"

@@ -185,7 +185,7 @@ struct UnitType {
   std::string name;         // the table's name: robot_control
   std::string class_name;   // RobotControl
   std::string base_class;   // RobotControlUnit
-  std::string header;       // robot_control.hpp, as the author's file is included
+  std::string header;       // units/robot_control/robot_control.hpp, as the author's file is included
   std::string base_header;  // robot_control_unit.hpp
   std::string_view space = user_space;
   std::filesystem::path file;
@@ -220,6 +220,7 @@ struct UnitChoice {
 struct Interface {
   std::string name;        // the table's name: robot_arm
   std::string class_name;  // RobotArm
+  std::string header;      // hal/robot_arm/interface/robot_arm.hpp
   std::string_view space = user_space;
   std::filesystem::path file;
   Position position;
@@ -239,7 +240,7 @@ struct Driver {
   std::string stem;         // the file's name without .toml
   std::string class_name;   // SimulatedArm
   std::string base_class;   // SimulatedArmDriver
-  std::string header;       // simulated_arm.hpp
+  std::string header;       // hal/robot_arm/simulated/simulated_arm.hpp
   std::string base_header;  // simulated_arm_driver.hpp
   std::string_view space = user_space;
   std::filesystem::path file;

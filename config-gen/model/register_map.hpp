@@ -1,5 +1,5 @@
 // The registers of a Modbus station, as a list in CSV names them. Enumerations are in the order of those of
-// hal/interfaces/modbus_link/register_map.hpp.
+// hal/modbus/link/interface/register_map.hpp.
 #pragma once
 
 #include <cstdint>

@@ -110,6 +110,7 @@ std::optional<Index> read_interface_table(Library& library, const Node& root,
   interface.name = file.stem().string();
   interface.file = file;
   interface.space = library.space_of(file);
+  interface.header = library.include_path(file, interface.name + ".hpp");
   interface.position = root.position;
   Row row(root, "this interface table", diagnostics);
   interface.summary = row.summary();
@@ -158,7 +159,7 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
   driver.summary = row.summary();
   driver.class_name = read_class(row, driver.stem, diagnostics);
   driver.base_class = driver.class_name + "Driver";
-  driver.header = driver.stem + ".hpp";
+  driver.header = library.include_path(file, driver.stem + ".hpp");
   driver.base_header = driver.stem + "_driver.hpp";
   driver.name = row.required_text(
                        "name", "add name = \"simulated\", as it is written in drivers = [...] and --hardware")

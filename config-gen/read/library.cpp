@@ -19,13 +19,21 @@ std::vector<fs::path> sorted_tables(const fs::path& folder) {
   return files;
 }
 
+// All folders below this one, at any depth.
 std::vector<fs::path> sorted_folders(const fs::path& folder) {
   std::vector<fs::path> folders;
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, ignored))
     if (entry.is_directory(ignored)) folders.push_back(entry.path());
   std::sort(folders.begin(), folders.end());
   return folders;
+}
+
+// ROOT/NAME/NAME.toml, and whatever lies in a folder called interface, at any depth.
+bool stands_for_itself(const fs::path& table, const fs::path& root) {
+  const fs::path folder = table.parent_path();
+  return folder.filename() == "interface" ||
+         (folder.filename() == table.stem() && folder.parent_path() == root);
 }
 
 // Each folder once, however often and in whatever spelling it is given.
@@ -52,7 +60,7 @@ Library::Library(Model& model, SearchPaths paths, Diagnostics& diagnostics)
   for (const auto& folders : {paths_.units, paths_.interfaces})
     for (const fs::path& folder : folders)
       for (const fs::path& inner : sorted_folders(folder))
-        if (fs::is_directory(inner / "types")) paths_.types.push_back(inner / "types");
+        if (inner.filename() == "types") paths_.types.push_back(inner);
   remove_repeated(paths_.types);
   find_types();
   find_tables(paths_.units, units_, "unit", false);
@@ -77,18 +85,20 @@ void Library::find_types() {
 void Library::find_tables(const std::vector<fs::path>& folders, Entries& entries, const std::string& what,
                           bool as_class) {
   for (const fs::path& folder : folders)
-    for (const fs::path& inner : sorted_folders(folder)) {
-      const std::string name = inner.filename().string();
-      const fs::path file = inner / (name + ".toml");
-      if (fs::exists(file)) add_entry(entries, as_class ? camel_case(name) : name, file, what);
-    }
+    for (const fs::path& inner : sorted_folders(folder))
+      for (const fs::path& file : sorted_tables(inner)) {
+        const std::string name = file.stem().string();
+        if (stands_for_itself(file, folder))
+          add_entry(entries, as_class ? camel_case(name) : name, file, what);
+      }
 }
 
 void Library::find_drivers() {
   if (drivers_found_) return;
   drivers_found_ = true;
   for (const fs::path& folder : paths_.drivers)
-    for (const fs::path& inner : sorted_folders(folder))
+    for (const fs::path& inner : sorted_folders(folder)) {
+      if (inner.filename() == "types") continue;
       for (const fs::path& file : sorted_tables(inner)) {
         Diagnostics unused;  // a broken driver is reported by the run that generates it
         const auto root = parse_file(file, unused);
@@ -98,15 +108,26 @@ void Library::find_drivers() {
         if (name == nullptr || interface == nullptr) continue;
         drivers_.push_back({file, interface->text, name->text, name->position, std::nullopt, false});
       }
+    }
+}
+
+const fs::path* Library::library_with(const fs::path& file) const {
+  const auto found = std::find_if(paths_.library.begin(), paths_.library.end(), [&](const fs::path& folder) {
+    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+    return end == folder.end();
+  });
+  return found == paths_.library.end() ? nullptr : &*found;
 }
 
 std::string_view Library::space_of(const fs::path& file) const {
-  const fs::path place = fs::weakly_canonical(file);
-  const bool own = std::any_of(paths_.library.begin(), paths_.library.end(), [&](const fs::path& folder) {
-    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), place.begin(), place.end());
-    return end == folder.end();
-  });
-  return own ? library_space : user_space;
+  return library_with(fs::weakly_canonical(file)) == nullptr ? user_space : library_space;
+}
+
+std::string Library::include_path(const fs::path& file, const std::string& header) const {
+  const fs::path place = fs::weakly_canonical(file).parent_path();
+  const fs::path* library = library_with(place);
+  const fs::path root = library == nullptr ? place.parent_path().parent_path() : library->parent_path();
+  return (place.lexically_relative(root) / header).generic_string();
 }
 
 std::optional<Node> Library::parse(const fs::path& file) {
@@ -160,7 +181,7 @@ std::optional<Index> Library::unit(const std::string& name, const Position& plac
 std::optional<Index> Library::interface(const std::string& name, const Position& place) {
   const std::string file = snake_case(name);
   return get(interfaces_, name, place, "interface",
-             "declare it in hal/interfaces/" + file + "/" + file + ".toml", read_interface_table);
+             "declare it in hal/" + file + "/interface/" + file + ".toml", read_interface_table);
 }
 
 std::optional<Index> Library::driver(Index interface, const std::string& name, const Position& place) {

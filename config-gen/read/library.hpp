@@ -35,6 +35,9 @@ class Library {
 
   // The namespace of what is made of this table.
   std::string_view space_of(const std::filesystem::path& file) const;
+  // How a header beside this table is included: FlexRF's own from the root,
+  // "hal/gripper/mock/mock_gripper.hpp"; others by their last two folders, "units/jog/jog.hpp".
+  std::string include_path(const std::filesystem::path& file, const std::string& header) const;
 
   Model& model() { return model_; }
   Diagnostics& diagnostics() { return diagnostics_; }
@@ -48,6 +51,8 @@ class Library {
   };
   using Entries = std::map<std::string, Entry, std::less<>>;
 
+  // The folder of FlexRF's own tables in which this file lies, if any.
+  const std::filesystem::path* library_with(const std::filesystem::path& file) const;
   void find_types();
   void find_tables(const std::vector<std::filesystem::path>& folders, Entries& entries,
                    const std::string& what, bool camel_case);

@@ -120,7 +120,7 @@ std::optional<Index> read_unit_table(Library& library, const Node& root, const s
   unit.summary = row.summary();
   unit.class_name = row.text("class").value_or(camel_case(unit.name));
   check_class_name(unit.class_name, row.position("class"), camel_case(unit.name), diagnostics);
-  unit.header = row.text("header").value_or(unit.name + ".hpp");
+  unit.header = library.include_path(file, row.text("header").value_or(unit.name + ".hpp"));
   unit.base_class = unit.class_name + "Unit";
   unit.base_header = unit.name + "_unit.hpp";
   if (const auto access = row.text("access")) {

@@ -33,7 +33,7 @@ check_application() {  # check_application TABLE DRIVERS...: sets status and out
   local table=$1
   shift
   output=$("$generator" --application "$table" --check-only --types "$repository/runtime/types" --units "$repository/units" \
-    --interfaces "$repository/hal/interfaces" --drivers "$repository"/hal/{linux,mock,simulated} "$@" 2>&1)
+    --interfaces "$repository/hal" --drivers "$repository/hal" "$@" 2>&1)
   status=$?
 }
 
@@ -41,7 +41,7 @@ check_application() {  # check_application TABLE DRIVERS...: sets status and out
 for table in "$repository"/tests/{applications,generator,panel,melfa,modbus,camera}/*/*.toml; do
   part=$(dirname "$(dirname "$table")")
   [[ $(<"$table") == *memory_budget* ]] || continue
-  check_application "$table" "$part/drivers" --interfaces "$repository/hal/interfaces" "$part/interfaces"
+  check_application "$table" "$part/drivers" --interfaces "$repository/hal" "$part/interfaces"
   [[ $table != */hand.toml ]] || output=${output#*"hand.toml:6:9: warning: output 'keys' of 'keyboard' goes nowhere"*$'\n'*"should see it"}
   [[ $status == 0 && ! $output ]] || fail "$table is not without a word: $status"
 done

@@ -52,8 +52,8 @@ GeneratedCompiler::GeneratedCompiler(const TableTree& tree, Places places)
             "#include \"runtime/core/type_descriptor.hpp\"\n#include \"runtime/device/device.hpp\"\n"
             "#include \"runtime/executive/application.hpp\"\n#include \"runtime/executive/cell_access.hpp\"\n"
             "#include \"runtime/executive/panel_record.hpp\"\n#include \"runtime/unit/unit.hpp\"\n");
-  for (const auto& entry : fs::directory_iterator(tree.root() / "hal/interfaces"))
-    make_types(entry.path() / "types");
+  for (const auto& entry : fs::recursive_directory_iterator(tree.root() / "hal"))
+    if (entry.is_directory() && entry.path().filename() == "types") make_types(entry.path());
   make_types(tree.root() / "runtime/types");
 }
 

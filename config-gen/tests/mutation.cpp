@@ -400,8 +400,8 @@ TableTree::TableTree(const fs::path& repository) {
   large.library = {root() / "runtime", root() / "hal"};
   large.types = {root() / "runtime/types"};
   large.units = {root() / "units"};
-  large.interfaces = {root() / "hal/interfaces"};
-  large.drivers = {root() / "hal/linux", root() / "hal/mock", root() / "hal/simulated"};
+  large.interfaces = {root() / "hal"};
+  large.drivers = {root() / "hal"};
   for (const char* part : {"generator", "panel", "applications"}) {
     large.interfaces.push_back(root() / "tests" / part / "interfaces");
     large.drivers.push_back(root() / "tests" / part / "drivers");

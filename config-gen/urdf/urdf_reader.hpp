@@ -56,6 +56,6 @@ std::optional<UrdfChain> parse_urdf(std::string_view text, const std::string& fi
 //   inline constexpr flexrf::KinematicChain NAME = <expression>;
 // in a file that includes kinematic_chain_header. The same chain gives the same text.
 std::string emit_kinematic_chain(const UrdfChain& chain);
-inline constexpr std::string_view kinematic_chain_header = "hal/interfaces/robot_arm/kinematic_chain.hpp";
+inline constexpr std::string_view kinematic_chain_header = "motion/kinematic_chain.hpp";
 
 }  // namespace flexrf::config_gen

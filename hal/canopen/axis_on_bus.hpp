@@ -1,9 +1,9 @@
 // An axis of a CiA 402 drive and its place on a CAN bus.
 #pragma once
 
+#include "hal/can/interface/can_bus.hpp"
 #include "hal/canopen/servo_axis.hpp"
-#include "hal/interfaces/can_bus/can_bus.hpp"
-#include "hal/interfaces/servo_drive/servo_drive.hpp"
+#include "hal/servo_drive/interface/servo_drive.hpp"
 #include "runtime/unit/tick.hpp"
 
 namespace flexrf::canopen {

@@ -1,8 +1,8 @@
 // A CANopen message as a frame on a CAN bus, and back.
 #pragma once
 
+#include "hal/can/interface/can_frame.hpp"
 #include "hal/canopen/message.hpp"
-#include "hal/interfaces/can_bus/can_frame.hpp"
 
 namespace flexrf::canopen {
 

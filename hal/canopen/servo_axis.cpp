@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hal/interfaces/servo_drive/servo_restraints.hpp"
+#include "hal/servo_drive/interface/servo_restraints.hpp"
 
 namespace flexrf::canopen::cia402 {
 namespace {

@@ -11,7 +11,7 @@
 #include "hal/canopen/node.hpp"
 #include "hal/canopen/position_velocity.hpp"
 #include "hal/canopen/unmapped_objects.hpp"
-#include "hal/interfaces/servo_drive/profile_progress.hpp"
+#include "hal/servo_drive/interface/profile_progress.hpp"
 #include "runtime/unit/restraint.hpp"
 
 namespace flexrf::canopen::cia402 {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "hal/canopen/servo_axis.hpp"
-#include "hal/interfaces/servo_drive/servo_restraints.hpp"
+#include "hal/servo_drive/interface/servo_restraints.hpp"
 
 namespace flexrf::canopen::cia402 {
 void ServoAxis::command_position(double position) noexcept {

@@ -2,9 +2,9 @@
 // has to do before anything moves again. And the cell's watchdog, which is a mock.
 #include <cstring>
 
-#include "hal/mock/mock_gpio_chip/mock_gpio_chip.hpp"
-#include "hal/mock/mock_watchdog/mock_watchdog.hpp"
-#include "hal/simulated/simulated_gpio_chip/simulated_gpio_chip.hpp"
+#include "hal/gpio/chip/mock/mock_gpio_chip.hpp"
+#include "hal/gpio/chip/simulated/simulated_gpio_chip.hpp"
+#include "hal/watchdog/mock/mock_watchdog.hpp"
 #include "tests/applications/process.hpp"
 #include "tests/applications/running.hpp"
 

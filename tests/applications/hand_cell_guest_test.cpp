@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "hal/linux/evdev/tests/evdev_descriptions.hpp"
+#include "hal/operator/evdev/tests/evdev_descriptions.hpp"
 #include "tests/applications/process.hpp"
 #include "tests/applications/running.hpp"
 

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <cstring>
 
-#include "hal/mock/mock_joystick/mock_joystick.hpp"
-#include "hal/mock/mock_keyboard/mock_keyboard.hpp"
-#include "hal/mock/mock_pointer/mock_pointer.hpp"
+#include "hal/operator/joystick/mock/mock_joystick.hpp"
+#include "hal/operator/keyboard/mock/mock_keyboard.hpp"
+#include "hal/operator/pointer/mock/mock_pointer.hpp"
 #include "tests/applications/running.hpp"
 #include "types/pose.hpp"
 

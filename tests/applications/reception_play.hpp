@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "hal/mock/mock_stream_socket/mock_stream_socket.hpp"
+#include "hal/socket/stream/mock/mock_stream_socket.hpp"
 #include "tests/applications/process.hpp"
 #include "tests/applications/reception/units/conductor/conductor.hpp"
 #include "tests/applications/running.hpp"

@@ -1,6 +1,6 @@
 // A cell with the real driver on the kernel's virtual camera: the kernel fills what the unit sees, and the
 // camera goes away and comes back.
-#include "hal/linux/v4l2_camera/tests/vivid.hpp"
+#include "hal/camera/v4l2/tests/vivid.hpp"
 #include "tests/camera/running_belt.hpp"
 #include "tests/recovery.hpp"
 

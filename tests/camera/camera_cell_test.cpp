@@ -1,6 +1,6 @@
 // A cell with a camera that goes away and comes back, on mock and simulator, in real time.
-#include "hal/mock/mock_camera/mock_camera.hpp"
-#include "hal/simulated/simulated_camera/simulated_camera.hpp"
+#include "hal/camera/mock/mock_camera.hpp"
+#include "hal/camera/simulated/simulated_camera.hpp"
 #include "tests/camera/running_belt.hpp"
 
 namespace flexrf::whole {

@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <memory>
 
-#include "hal/interfaces/camera/conformance/camera_bench.hpp"
-#include "hal/simulated/simulated_camera/camera_scene.hpp"
-#include "hal/simulated/simulated_camera/simulated_camera.hpp"
+#include "hal/camera/conformance/camera_bench.hpp"
+#include "hal/camera/simulated/camera_scene.hpp"
+#include "hal/camera/simulated/simulated_camera.hpp"
 #include "tests/cmocka.hpp"
 #include "units/jpeg_decoder/jpeg_decoder.hpp"
 #include "units/unit_bench.hpp"

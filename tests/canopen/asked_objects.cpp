@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/linux/canopen_servo_drive/canopen_servo_drive.hpp"
-#include "hal/simulated/in_process_can_bus/in_process_can_bus.hpp"
-#include "hal/simulated/simulated_cia402_drive/drive_console.hpp"
+#include "hal/can/in_process/in_process_can_bus.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/servo_drive/canopen/canopen_servo_drive.hpp"
+#include "hal/servo_drive/canopen/simulator/drive_console.hpp"
 #include "places.hpp"
 
 // Its macros would not spare names of ours.

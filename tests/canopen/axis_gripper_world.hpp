@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "hal/interfaces/gripper/conformance/gripper_conformance.hpp"
-#include "hal/linux/canopen_gripper/canopen_gripper.hpp"
+#include "hal/gripper/canopen/canopen_gripper.hpp"
+#include "hal/gripper/conformance/gripper_conformance.hpp"
 
 namespace flexrf {
 

@@ -7,11 +7,11 @@
 #include <optional>
 #include <string_view>
 
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/interfaces/robot_arm/conformance/robot_arm_conformance.hpp"
-#include "hal/linux/canopen_arm/canopen_arm.hpp"
-#include "hal/simulated/in_process_can_bus/in_process_can_bus.hpp"
-#include "hal/simulated/simulated_cia402_drive/drive_on_can.hpp"
+#include "hal/can/in_process/in_process_can_bus.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/robot_arm/conformance/robot_arm_conformance.hpp"
+#include "hal/robot_arm/of_drives/canopen/canopen_arm.hpp"
+#include "hal/servo_drive/canopen/simulator/drive_on_can.hpp"
 #include "six_axis.hpp"
 
 // Its macros would not spare names of ours.

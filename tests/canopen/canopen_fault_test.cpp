@@ -2,9 +2,9 @@
 #include <cstdlib>
 #include <limits>
 
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/simulated/in_process_can_bus/in_process_can_bus.hpp"
-#include "hal/simulated/simulated_cia402_drive/drive_console.hpp"
+#include "hal/can/in_process/in_process_can_bus.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/servo_drive/canopen/simulator/drive_console.hpp"
 #include "tests/canopen/asked_objects.hpp"
 #include "tests/canopen/drive_faults.hpp"
 #include "tests/canopen/drive_quirks.hpp"

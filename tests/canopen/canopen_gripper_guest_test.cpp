@@ -1,6 +1,6 @@
 // The gripper that is an axis on a real interface (vcan), as root: the conformance suite and the faults. The
 // drive is another process, the cable is the interface that goes down.
-#include "hal/linux/canopen_gripper/canopen_gripper.hpp"
+#include "hal/gripper/canopen/canopen_gripper.hpp"
 #include "places.hpp"
 #include "tests/canopen/gripper_faults.hpp"
 #include "tests/canopen/real_axis.hpp"

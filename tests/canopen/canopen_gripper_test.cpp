@@ -1,8 +1,8 @@
 // The gripper that is an axis and a simulated drive, on a simulated bus in virtual time.
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/interfaces/gripper/conformance/gripper_cases.hpp"
-#include "hal/simulated/in_process_can_bus/in_process_can_bus.hpp"
-#include "hal/simulated/simulated_cia402_drive/drive_console.hpp"
+#include "hal/can/in_process/in_process_can_bus.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/gripper/conformance/gripper_cases.hpp"
+#include "hal/servo_drive/canopen/simulator/drive_console.hpp"
 #include "tests/canopen/gripper_faults.hpp"
 
 // Its macros would not spare names of ours.

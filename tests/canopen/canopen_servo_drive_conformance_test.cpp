@@ -1,9 +1,9 @@
 // The real driver, its messages on a simulated bus, and a simulated drive at the other end.
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/interfaces/servo_drive/conformance/servo_drive_conformance.hpp"
-#include "hal/linux/canopen_servo_drive/canopen_servo_drive.hpp"
-#include "hal/simulated/in_process_can_bus/in_process_can_bus.hpp"
-#include "hal/simulated/simulated_cia402_drive/drive_on_can.hpp"
+#include "hal/can/in_process/in_process_can_bus.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/servo_drive/canopen/canopen_servo_drive.hpp"
+#include "hal/servo_drive/canopen/simulator/drive_on_can.hpp"
+#include "hal/servo_drive/conformance/servo_drive_conformance.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // The driver on a real interface (vcan), as root; the drive is another process, and both meet only on the
 // wire.
-#include "hal/interfaces/servo_drive/conformance/servo_drive_conformance.hpp"
+#include "hal/servo_drive/conformance/servo_drive_conformance.hpp"
 #include "places.hpp"
 #include "tests/canopen/real_axis.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "hal/linux/canopen_servo_drive/canopen_servo_drive.hpp"
+#include "hal/servo_drive/canopen/canopen_servo_drive.hpp"
 
 namespace flexrf {
 

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "hal/interfaces/gripper/conformance/gripper_cases.hpp"
+#include "hal/gripper/conformance/gripper_cases.hpp"
 
 // Its macros would not spare names of ours.
 #include "tests/cmocka.hpp"

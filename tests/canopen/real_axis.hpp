@@ -9,9 +9,9 @@
 #include <string>
 #include <thread>
 
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/linux/canopen_servo_drive/canopen_servo_drive.hpp"
-#include "hal/linux/socket_can_bus/socket_can_bus.hpp"
+#include "hal/can/socket_can/socket_can_bus.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/servo_drive/canopen/canopen_servo_drive.hpp"
 #include "tests/simulator_process.hpp"
 
 namespace flexrf {

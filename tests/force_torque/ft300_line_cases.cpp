@@ -12,10 +12,10 @@
 #include <cstring>
 #include <string>
 
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/linux/ft300_sensor/ft300_sensor.hpp"
-#include "hal/simulated/ft300_simulator/ft300_server.hpp"
-#include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/force_torque/ft300/ft300_sensor.hpp"
+#include "hal/force_torque/ft300/simulator/ft300_server.hpp"
+#include "hal/modbus/link/simulator/pseudo_serial_line.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf {

@@ -1,7 +1,7 @@
 // The real driver on a serial line.
 #pragma once
 
-#include "hal/linux/ft300_sensor/ft300_sensor.hpp"
+#include "hal/force_torque/ft300/ft300_sensor.hpp"
 #include "places.hpp"
 #include "tests/force_torque/sensor_world.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "hal/linux/net_ft_sensor/net_ft_sensor.hpp"
+#include "hal/force_torque/net_ft/net_ft_sensor.hpp"
 #include "places.hpp"
 #include "tests/force_torque/sensor_world.hpp"
 

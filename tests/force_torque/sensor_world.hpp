@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "hal/interfaces/force_torque_sensor/conformance/sensor_bench.hpp"
+#include "hal/force_torque/conformance/sensor_bench.hpp"
 #include "tests/simulator_process.hpp"
 
 namespace flexrf {

@@ -1,9 +1,9 @@
 // What comes from a CAN bus: error frames of the kernel, network management, and process data by any plan.
 #include <cstring>
 
+#include "hal/can/socket_can/can_error_frame.hpp"
 #include "hal/canopen/nmt.hpp"
 #include "hal/canopen/pdo.hpp"
-#include "hal/linux/socket_can_bus/can_error_frame.hpp"
 #include "tests/fuzz/can_message.hpp"
 
 namespace flexrf::fuzz {

@@ -1,8 +1,8 @@
 // What a force-torque sensor sends: datagrams of RDT, and the bytes of an FT300's line.
 #include <cmath>
 
-#include "hal/force_torque/ft300_stream.hpp"
-#include "hal/force_torque/net_ft_session.hpp"
+#include "hal/force_torque/ft300/ft300_stream.hpp"
+#include "hal/force_torque/net_ft/net_ft_session.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace flexrf::fuzz {

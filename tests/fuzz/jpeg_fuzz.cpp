@@ -1,7 +1,7 @@
 // Bytes of a camera's compressed picture, as the check without decoding takes them.
 #include <algorithm>
 
-#include "hal/interfaces/camera/jpeg_check.hpp"
+#include "hal/camera/interface/jpeg_check.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace flexrf::fuzz {

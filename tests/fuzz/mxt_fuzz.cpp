@@ -1,7 +1,7 @@
 // Packets of MELFA's real-time external control.
 #include <cmath>
 
-#include "hal/melfa/mxt_packet.hpp"
+#include "hal/robot_arm/melfa_mxt/mxt_packet.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace flexrf::fuzz {

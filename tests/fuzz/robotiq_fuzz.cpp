@@ -1,7 +1,7 @@
 // Registers of a Robotiq gripper, and what its driver makes of any order of them.
 #include <cmath>
 
-#include "hal/robotiq/robotiq_control.hpp"
+#include "hal/gripper/robotiq/robotiq_control.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
 
 namespace flexrf::fuzz {

@@ -1,8 +1,8 @@
 // Cylinder: what a pneumatic gripper's four lines are connected to.
 #pragma once
 
-#include "hal/interfaces/gripper/conformance/gripper_conformance.hpp"
-#include "hal/interfaces/gripper/finger_model.hpp"
+#include "hal/gripper/conformance/gripper_conformance.hpp"
+#include "hal/gripper/interface/finger_model.hpp"
 
 namespace flexrf {
 

@@ -1,7 +1,7 @@
 // The pneumatic gripper on simulated chips, in virtual time: with a cylinder on its lines, and with mere
 // wires.
-#include "hal/mock/mock_gpio_chip/mock_gpio_chip.hpp"
-#include "hal/simulated/simulated_gpio_chip/simulated_gpio_chip.hpp"
+#include "hal/gpio/chip/mock/mock_gpio_chip.hpp"
+#include "hal/gpio/chip/simulated/simulated_gpio_chip.hpp"
 #include "tests/cmocka.hpp"
 #include "tests/grippers/pneumatic_world.hpp"
 #include "tests/log_ear.hpp"

@@ -2,8 +2,8 @@
 // what its valves' lines are.
 #include <ctime>
 
-#include "hal/linux/linux_gpio_chip/linux_gpio_chip.hpp"
-#include "hal/linux/linux_gpio_chip/tests/gpio_sim.hpp"
+#include "hal/gpio/chip/linux/linux_gpio_chip.hpp"
+#include "hal/gpio/chip/linux/tests/gpio_sim.hpp"
 #include "runtime/core/text.hpp"
 #include "tests/grippers/pneumatic_world.hpp"
 

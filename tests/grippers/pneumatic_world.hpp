@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/linux/pneumatic_gripper/pneumatic_gripper.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/gripper/pneumatic/pneumatic_gripper.hpp"
 #include "tests/grippers/cylinder.hpp"
 
 namespace flexrf {

@@ -5,10 +5,10 @@
 #include <ctime>
 #include <optional>
 
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/interfaces/gripper/conformance/gripper_conformance.hpp"
-#include "hal/linux/modbus_rtu_link/modbus_rtu_link.hpp"
-#include "hal/linux/robotiq_gripper/robotiq_gripper.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/gripper/conformance/gripper_conformance.hpp"
+#include "hal/gripper/robotiq/robotiq_gripper.hpp"
+#include "hal/modbus/link/rtu/modbus_rtu_link.hpp"
 #include "places.hpp"
 #include "tests/simulator_process.hpp"
 

@@ -7,8 +7,8 @@
 #include <ctime>
 #include <memory>
 
-#include "hal/simulated/mxt_simulator/mxt_console.hpp"
-#include "hal/simulated/mxt_simulator/mxt_server.hpp"
+#include "hal/robot_arm/melfa_mxt/simulator/mxt_console.hpp"
+#include "hal/robot_arm/melfa_mxt/simulator/mxt_server.hpp"
 #include "tests/melfa/melfa_world.hpp"
 
 namespace flexrf {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/paced_arm/joint_follower.hpp"
+#include "hal/robot_arm/paced/joint_follower.hpp"
 #include "six_axis.hpp"
 
 namespace flexrf {

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/interfaces/robot_arm/conformance/robot_arm_conformance.hpp"
-#include "hal/linux/melfa_mxt/melfa_mxt.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/robot_arm/conformance/robot_arm_conformance.hpp"
+#include "hal/robot_arm/melfa_mxt/melfa_mxt.hpp"
 #include "six_axis.hpp"
 
 namespace flexrf {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "hal/interfaces/robot_arm/pose_conversion.hpp"
+#include "motion/pose_conversion.hpp"
 #include "runtime/executive/executive.hpp"
 #include "six_axis.hpp"
 #include "tests/cmocka.hpp"

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <thread>
 
-#include "hal/simulated/modbus_server/modbus_server.hpp"
-#include "hal/simulated/modbus_server/pseudo_serial_line.hpp"
+#include "hal/modbus/link/simulator/modbus_server.hpp"
+#include "hal/modbus/link/simulator/pseudo_serial_line.hpp"
 #include "tests/modbus/rtu_world.hpp"
 
 // Its macros would not spare names of ours.

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "hal/interfaces/modbus_station/conformance/linked_world.hpp"
-#include "hal/linux/modbus_rtu_link/modbus_rtu_link.hpp"
-#include "hal/linux/modbus_tcp_link/modbus_tcp_link.hpp"
-#include "hal/linux/real_modbus_station/real_modbus_station.hpp"
+#include "hal/modbus/link/rtu/modbus_rtu_link.hpp"
+#include "hal/modbus/link/tcp/modbus_tcp_link.hpp"
+#include "hal/modbus/station/conformance/linked_world.hpp"
+#include "hal/modbus/station/real/real_modbus_station.hpp"
 #include "places.hpp"
 #include "tests/simulator_process.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "hal/interfaces/camera/virtual_camera.hpp"
+#include "hal/camera/interface/virtual_camera.hpp"
 #include "units/part_watch/part_watch.hpp"
 
 namespace flexrf::pick_station {

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "hal/interfaces/servo_drive/servo_drive.hpp"
+#include "hal/servo_drive/interface/servo_drive.hpp"
 #include "tests/pick_station/mock_world.hpp"
 #include "tests/pick_station/station_in_virtual_time.hpp"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "hal/linux/v4l2_camera/tests/vivid.hpp"
+#include "hal/camera/v4l2/tests/vivid.hpp"
 #include "tests/applications/process.hpp"
 #include "tests/applications/running.hpp"
 #include "tests/pick_station/station_box.hpp"

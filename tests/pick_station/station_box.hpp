@@ -1,7 +1,7 @@
 // StationBox: the operator's box of the pick station, as a simulated chip of the guest's kernel.
 #pragma once
 
-#include "hal/linux/linux_gpio_chip/tests/gpio_sim.hpp"
+#include "hal/gpio/chip/linux/tests/gpio_sim.hpp"
 
 namespace flexrf::whole {
 

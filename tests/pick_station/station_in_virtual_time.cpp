@@ -2,8 +2,8 @@
 
 #include <cstring>
 
-#include "hal/mock/mock_gpio_chip/mock_gpio_chip.hpp"
-#include "hal/simulated/simulated_gpio_chip/simulated_gpio_chip.hpp"
+#include "hal/gpio/chip/mock/mock_gpio_chip.hpp"
+#include "hal/gpio/chip/simulated/simulated_gpio_chip.hpp"
 
 namespace flexrf::application {
 extern const Application application;

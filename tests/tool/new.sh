@@ -7,13 +7,13 @@ stand_in g++ <<'BODY'
 [[ $(cat) != *" operator;"* ]]
 BODY
 stand_in clang-format </dev/null
-mkdir -p "$tree/units" "$tree/hal/interfaces/keyboard/types" "$tree/runtime/core"
+mkdir -p "$tree/units" "$tree/hal/operator/keyboard/interface/types" "$tree/runtime/core"
 printf 'add_subdirectory(jog)' >"$tree/units/CMakeLists.txt" # and no end of line
 printf 'add_subdirectory(keyboard)\n' >"$tree/apps/CMakeLists.txt"
-touch "$tree/hal/interfaces/keyboard/types/key_event.toml"
+touch "$tree/hal/operator/keyboard/interface/types/key_event.toml"
 echo 'class [[nodiscard]] Status {' >"$tree/runtime/core/status.hpp"
-mkdir -p "$tree/units/arm_watch" "$tree/hal/simulated/simulated_arm"
-touch "$tree/hal/simulated/simulated_arm/simulated_arm.toml"
+mkdir -p "$tree/units/arm_watch" "$tree/hal/robot_arm/simulated"
+touch "$tree/hal/robot_arm/simulated/simulated_arm.toml"
 echo 'class [[nodiscard]] TextTable {' >"$tree/units/arm_watch/text_table.hpp"
 echo 'using Reach = long;' >"$tree/units/arm_watch/reach.hpp"
 echo 'struct alignas(64) NextUnit {' >"$tree/units/arm_watch/next.hpp"

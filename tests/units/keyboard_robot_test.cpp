@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/interfaces/robot_arm/pose_conversion.hpp"
-#include "hal/mock/mock_keyboard/mock_keyboard.hpp"
-#include "hal/simulated/simulated_arm/simulated_arm.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/operator/keyboard/mock/mock_keyboard.hpp"
+#include "hal/robot_arm/simulated/simulated_arm.hpp"
+#include "motion/pose_conversion.hpp"
 #include "six_axis.hpp"
 #include "tests/cmocka.hpp"
 #include "units/unit_bench.hpp"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/interfaces/device_bench.hpp"
-#include "hal/interfaces/robot_arm/pose_conversion.hpp"
-#include "hal/simulated/simulated_arm/simulated_arm.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/robot_arm/simulated/simulated_arm.hpp"
+#include "motion/pose_conversion.hpp"
 #include "six_axis.hpp"
 #include "tests/cmocka.hpp"
 #include "units/unit_bench.hpp"

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "hal/interfaces/robot_arm/jerk_profile.hpp"
+#include "motion/jerk_profile.hpp"
 
 namespace flexrf::user {
 

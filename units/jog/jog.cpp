@@ -1,7 +1,7 @@
 #include "units/jog/jog.hpp"
 
 #include "runtime/core/text.hpp"
-#include "units/motion/key_motion.hpp"
+#include "units/arm_motion/key_motion.hpp"
 
 namespace flexrf::user {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "hal/interfaces/robot_arm/pose_conversion.hpp"
-#include "units/motion/key_motion.hpp"
+#include "motion/pose_conversion.hpp"
+#include "units/arm_motion/key_motion.hpp"
 
 namespace flexrf::user {
 namespace {

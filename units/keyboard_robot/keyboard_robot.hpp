@@ -5,7 +5,7 @@
 
 #include "keyboard_robot_unit.hpp"
 #include "runtime/log/log.hpp"
-#include "units/motion/arm_motion.hpp"
+#include "units/arm_motion/arm_motion.hpp"
 
 namespace flexrf::user {
 

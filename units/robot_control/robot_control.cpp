@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/interfaces/robot_arm/pose_conversion.hpp"
+#include "motion/pose_conversion.hpp"
 
 namespace flexrf::user {
 namespace {

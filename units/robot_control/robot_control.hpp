@@ -13,7 +13,7 @@
 
 #include "robot_control_unit.hpp"
 #include "runtime/log/log.hpp"
-#include "units/motion/arm_motion.hpp"
+#include "units/arm_motion/arm_motion.hpp"
 
 namespace flexrf::user {
 

@@ -10,7 +10,7 @@
 
 #include "apps/pick-station/world/feeder.hpp"
 #include "base/standard_descriptors.hpp"
-#include "hal/simulated/modbus_server/modbus_server.hpp"
+#include "hal/modbus/link/simulator/modbus_server.hpp"
 
 namespace {
 

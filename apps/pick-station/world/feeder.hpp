@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "hal/interfaces/modbus_link/modbus_station_model.hpp"
+#include "hal/modbus/link/interface/modbus_station_model.hpp"
 
 namespace flexrf::user {
 

@@ -133,7 +133,6 @@ void identifiers_differ_as_names_do(void**) {
 void paths_do_not_say_where_the_repository_lies(void**) {
   assert_true(text_is(short_path("/home/me/flexrf/units/jog/jog.toml"), "units/jog/jog.toml"));
   assert_true(text_is(short_path("jog.toml"), "jog.toml"));
-  assert_true(text_is(include_path("/home/me/flexrf/units/jog/jog.toml", "jog.hpp"), "units/jog/jog.hpp"));
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 #include <cstring>
 #include <vector>
 
-#include "hal/force_torque/ati_status.hpp"
-#include "hal/force_torque/ft300_stream.hpp"
-#include "hal/force_torque/net_ft_session.hpp"
+#include "hal/force_torque/ft300/ft300_stream.hpp"
+#include "hal/force_torque/net_ft/ati_status.hpp"
+#include "hal/force_torque/net_ft/net_ft_session.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf {

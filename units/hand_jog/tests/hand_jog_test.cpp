@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "hal/interfaces/joystick/joystick_tracker.hpp"
-#include "hal/interfaces/keyboard/key_tracker.hpp"
-#include "hal/interfaces/pointer/pointer_tracker.hpp"
+#include "hal/operator/joystick/interface/joystick_tracker.hpp"
+#include "hal/operator/keyboard/interface/key_tracker.hpp"
+#include "hal/operator/pointer/interface/pointer_tracker.hpp"
 #include "tests/cmocka.hpp"
 #include "units/unit_bench.hpp"
 

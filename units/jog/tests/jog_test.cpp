@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "hal/interfaces/device_bench.hpp"
+#include "hal/driver/device_bench.hpp"
 #include "tests/cmocka.hpp"
 #include "units/unit_bench.hpp"
 

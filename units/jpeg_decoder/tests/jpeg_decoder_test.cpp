@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "hal/interfaces/camera/jpeg_maker.hpp"
+#include "hal/camera/interface/jpeg_maker.hpp"
 #include "runtime/blackboard/sized_slot.hpp"
 #include "tests/cmocka.hpp"
 #include "units/unit_bench.hpp"

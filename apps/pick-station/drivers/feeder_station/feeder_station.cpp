@@ -1,6 +1,6 @@
 #include "drivers/feeder_station/feeder_station.hpp"
 
-#include "hal/simulated/simulated_modbus_link/simulated_modbus_link.hpp"
+#include "hal/modbus/link/simulated/simulated_modbus_link.hpp"
 
 namespace flexrf::user {
 

@@ -5,7 +5,7 @@
 
 #include "apps/pick-station/world/feeder.hpp"
 #include "feeder_station_driver.hpp"
-#include "hal/interfaces/modbus_station/linked_station.hpp"
+#include "hal/modbus/station/interface/linked_station.hpp"
 
 namespace flexrf::user {
 

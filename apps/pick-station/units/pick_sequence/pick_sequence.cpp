@@ -1,8 +1,8 @@
 #include "apps/pick-station/units/pick_sequence/pick_sequence.hpp"
 
 #include "apps/pick-station/units/pick_sequence/pick_messages.hpp"
-#include "hal/interfaces/gripper/gripper.hpp"
-#include "hal/interfaces/modbus_station/modbus_station.hpp"
+#include "hal/gripper/interface/gripper.hpp"
+#include "hal/modbus/station/interface/modbus_station.hpp"
 
 namespace flexrf::user {
 namespace {

@@ -1,0 +1,38 @@
+// NetFtSensor: a force-torque sensor of ATI with a network port.
+#pragma once
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include "hal/force_torque/interface/measuring_driver.hpp"
+#include "hal/force_torque/net_ft/net_ft_session.hpp"
+#include "net_ft_sensor_driver.hpp"
+
+namespace flexrf {
+
+/// Asks for its stream while nothing comes, so that a sensor may be switched on, or its cable put in, at any
+/// time.
+class NetFtSensor final : public MeasuringDriver<NetFtSensorDriver> {
+ public:
+  ~NetFtSensor() override { NetFtSensor::stop(); }
+
+  Status initialise() override;
+  /// Ends the sensor's stream.
+  void stop() override;
+  int descriptor() const noexcept override { return socket_; }
+
+ private:
+  void listen(WrenchMeter& meter, Time now) noexcept override;
+  void compare_clocks() noexcept;
+  bool take_datagram(WrenchMeter& meter, Time now) noexcept;
+  bool is_from_sensor(const sockaddr_in& from) const noexcept;
+  Time time_of(msghdr& header, Time now) const noexcept;
+  int send_request(const rdt::RequestBytes& request) noexcept;
+
+  int socket_ = -1;
+  sockaddr_in sensor_{};
+  NetFtSession session_;
+  std::int64_t to_monotonic_ = 0;  // ns, from the wall's clock
+};
+
+}  // namespace flexrf

@@ -1,0 +1,43 @@
+// LinuxGpioChip: a chip of the machine, through the kernel's GPIO interface (libgpiod).
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hal/gpio/chip/linux/linux_gpio_line.hpp"
+#include "linux_gpio_chip_driver.hpp"
+
+namespace flexrf {
+
+/// A chip that goes away takes its lines with it; a thread of its own, the keeper, asks for them again until
+/// the chip is back.
+class LinuxGpioChip final : public LinuxGpioChipDriver {
+ public:
+  ~LinuxGpioChip() override;
+
+  Status initialise() override;
+  void stop() override;
+  void receive(const Tick& tick) noexcept override;
+
+  Result<GpioLine*> request(const GpioLineSettings& settings) override;
+  void release(GpioLine* line) noexcept override;
+
+ private:
+  void keep();
+  void look_after_lines();
+
+  GpioLineCounters counters_;
+  std::string chip_;
+  std::mutex mutex_;  // of what follows; never taken in a cycle
+  std::condition_variable stopped_;
+  bool stopping_ = false;
+  std::vector<std::unique_ptr<LinuxGpioLine>> lines_;
+  Status trouble_;  // why a line that was lost cannot be had, as last told
+  std::thread keeper_;
+};
+
+}  // namespace flexrf

@@ -1,0 +1,55 @@
+// LineDriver: a driver of DigitalIo over a generated base. What differs between drivers is the chip they are
+// on.
+#pragma once
+
+#include "hal/gpio/lines/interface/digital_line.hpp"
+#include "runtime/core/text.hpp"
+
+namespace flexrf {
+
+template <class Base>
+class LineDriver : public Base {
+ public:
+  Status initialise() override {
+    const auto& set = this->configuration;
+    return line_.open(*this->bus, {.name = text_view(set.line),
+                                   .direction = set.direction,
+                                   .bias = set.bias,
+                                   .active_low = set.active_low,
+                                   .debounce = Duration{static_cast<Duration::rep>(set.debounce * 1e9)},
+                                   .emergency_stop = set.emergency_stop,
+                                   .safe_value = set.safe_value,
+                                   .signal = set.signal});
+  }
+  void stop() override { line_.close(); }
+
+  void receive(const Tick& tick) noexcept override {
+    line_.receive(tick.now);
+    if (const auto now = line_.state()) this->level.publish(*now);
+    while (this->edges.is_connected() && this->edges.has_room()) {
+      const std::optional<DigitalEdge> edge = line_.read_edge();
+      if (!edge) break;
+      this->edges.push(*edge, Time{Duration{edge->at}});
+    }
+    line_.fill(this->feedback);
+  }
+  void send(const Tick& tick) noexcept override {
+    line_.send(tick.now, this->is_inhibited());
+    line_.fill(this->feedback);
+  }
+  bool make_safe() noexcept override { return line_.make_safe(); }
+
+  bool guards_motion() const noexcept override { return this->configuration.emergency_stop; }
+  bool demands_safe_state() const noexcept override { return line_.demands_safe_state(); }
+  int descriptor() const noexcept override { return line_.descriptor(); }
+  Time next_event() const noexcept override { return line_.next_event(); }
+
+  std::optional<DigitalState> state() const noexcept override { return line_.state(); }
+  std::optional<DigitalEdge> read_edge() noexcept override { return line_.read_edge(); }
+  void command(bool on) noexcept override { line_.command(on, this->is_inhibited()); }
+
+ private:
+  DigitalLine line_;
+};
+
+}  // namespace flexrf

@@ -1,0 +1,129 @@
+#include "hal/gripper/pneumatic/pneumatic_gripper.hpp"
+
+#include <algorithm>
+
+#include "runtime/core/text.hpp"
+
+namespace flexrf {
+namespace {
+
+Duration in_nanoseconds(double seconds) {
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+Status PneumaticGripper::initialise() {
+  stop();
+  if (const Status status = check_widths(configuration.closed_width, configuration.open_width); !status)
+    return status;
+  control_.begin({.open_width = configuration.open_width,
+                  .closed_width = configuration.closed_width,
+                  .travel_timeout = in_nanoseconds(configuration.travel_timeout),
+                  .dead_time = in_nanoseconds(configuration.dead_time),
+                  .closed_centre = configuration.closed_centre,
+                  .object_between = configuration.object_between});
+  report_.reset();
+  releasing_ = false;
+  // Whether a valve may be on is the control's to say, also while motion is inhibited: to open is safe for
+  // some, to stay closed for others.
+  const auto valve = [&](std::string_view line) {
+    return DigitalLineSettings{.name = line,
+                               .direction = LineDirection::output,
+                               .active_low = configuration.valves_active_low,
+                               .signal = true};
+  };
+  const auto reed = [&](std::string_view line) {
+    return DigitalLineSettings{.name = line,
+                               .bias = configuration.reed_bias,
+                               .active_low = configuration.reeds_active_low,
+                               .debounce = in_nanoseconds(configuration.debounce)};
+  };
+  Status status = reed_open_.open(*bus, reed(text_view(configuration.reed_open)));
+  if (status) status = reed_closed_.open(*bus, reed(text_view(configuration.reed_closed)));
+  if (status) status = valve_open_.open(*bus, valve(text_view(configuration.valve_open)));
+  if (status) status = valve_close_.open(*bus, valve(text_view(configuration.valve_close)));
+  if (!status) stop();
+  return status;
+}
+
+void PneumaticGripper::stop() {
+  for (DigitalLine* line : {&valve_open_, &valve_close_, &reed_open_, &reed_closed_}) line->close();
+}
+
+std::optional<pneumatic::Reeds> PneumaticGripper::reeds() const noexcept {
+  const auto open = reed_open_.state();
+  const auto closed = reed_closed_.state();
+  if (!open || !closed || !valve_open_.state() || !valve_close_.state()) return std::nullopt;
+  return pneumatic::Reeds{open->on, closed->on};
+}
+
+void PneumaticGripper::receive(const Tick& tick) noexcept {
+  now_ = tick.now;
+  for (DigitalLine* line : {&reed_open_, &reed_closed_, &valve_open_, &valve_close_}) line->receive(tick.now);
+  control_.receive(reeds(), tick.now);
+  report_.fill(name(), feedback, control_.state(), control_.trouble());
+}
+
+void PneumaticGripper::send(const Tick& tick) noexcept {
+  now_ = tick.now;
+  const bool safe = is_inhibited() || !fault().is_ok();
+  if (!safe) releasing_ = false;
+  if (safe && !releasing_) control_.halt();
+  switch_valves();
+}
+
+/// The one that is to be off first. A chip that does not take that leaves it on: the other one waits until it
+/// is off, and for the dead time from then.
+void PneumaticGripper::switch_valves() noexcept {
+  const pneumatic::End on = control_.valve();
+  const Duration dead_time = in_nanoseconds(configuration.dead_time);
+  const auto set = [&](DigitalLine& valve, bool value) {
+    valve.command(value, false);
+    valve.send(now_, false);
+  };
+  const auto is_vented = [&](const DigitalLine& valve) {
+    const auto state = valve.state();
+    return state && !state->on && now_ - Time{Duration{state->since}} >= dead_time;
+  };
+  if (on != pneumatic::End::open) set(valve_open_, false);
+  if (on != pneumatic::End::closed) set(valve_close_, false);
+  if (on == pneumatic::End::open && is_vented(valve_close_)) set(valve_open_, true);
+  if (on == pneumatic::End::closed && is_vented(valve_open_)) set(valve_close_, true);
+}
+
+bool PneumaticGripper::make_safe() noexcept {
+  if (configuration.safe_state == GripperSafeState::hold || !control_.follows()) {
+    control_.halt();
+  } else if (!releasing_) {
+    control_.go(pneumatic::End::open);
+    releasing_ = true;
+  }
+  switch_valves();
+  return !control_.is_moving();
+}
+
+Time PneumaticGripper::next_event() const noexcept {
+  return std::min(reed_open_.next_event(), reed_closed_.next_event());
+}
+
+GripperCapabilities PneumaticGripper::capabilities() const noexcept {
+  return {.open_width = configuration.open_width,
+          .closed_width = configuration.closed_width,
+          .detects_object = configuration.object_between,
+          .halts = configuration.closed_centre};
+}
+
+void PneumaticGripper::activate() noexcept {
+  if (!is_inhibited()) control_.forgive();
+}
+
+void PneumaticGripper::command(const GripperGoal& goal) noexcept {
+  if (is_inhibited()) return;
+  if (const Status status = check_goal(goal, capabilities()); !status) return fail(status);
+  restrain(restraint_of(goal, capabilities()));
+  const bool to_open = within_reach(goal.opening, capabilities()) == configuration.open_width;
+  control_.go(to_open ? pneumatic::End::open : pneumatic::End::closed);
+}
+
+}  // namespace flexrf

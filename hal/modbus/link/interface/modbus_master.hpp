@@ -1,0 +1,86 @@
+// A Modbus master that serves the stations of one link: what is due is asked, what changed is written, what
+// fails is tried again after a growing pause, and no station keeps the others from their turn.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+
+#include "hal/modbus/link/interface/modbus_transport.hpp"
+#include "runtime/core/status.hpp"
+#include "runtime/core/time.hpp"
+
+namespace flexrf {
+
+struct ModbusExchange;
+struct ModbusStationSetup;
+
+class ModbusMaster {
+ public:
+  static constexpr std::size_t max_stations = 32;
+
+  ModbusMaster() noexcept;
+  ~ModbusMaster();
+
+  /// Lifecycle thread; allocates. The exchange stays the link's.
+  Result<ModbusExchange*> attach(const ModbusStationSetup& setup);
+  /// Lifecycle thread. The link may be in the middle of a request of this station, and ends it.
+  static void detach(ModbusExchange& exchange) noexcept;
+
+  struct Pauses {
+    Duration shortest{};  ///< after a failure
+    Duration longest{};   ///< after many
+  };
+  /// Lifecycle thread. `name` is the link's, for messages; all outlive the last serve(). `longest_step`: of
+  /// the link's thread; 0: nobody judges. Error, as of attach(): a station's request may take longer.
+  Status start(const char* name, ModbusTransport& transport, Pauses pauses, Duration longest_step) noexcept;
+  void stop() noexcept;
+
+  /// The link's thread: everything that is due, one request after the other; of stations whose last request
+  /// failed after that of the others. A request that fails ends it, so that one call waits for at most one of
+  /// them; the next begins behind that station. So does the lack of time for the next request, in what a step
+  /// of its thread may take; then the next begins with that request.
+  void serve() noexcept;
+  /// Every station has its safe values, as of its last answer; but for those that know that themselves.
+  bool is_safe() const noexcept;
+
+  bool is_connected() const noexcept { return transport_ != nullptr && transport_->is_open(); }
+  std::uint64_t connections() const noexcept { return connections_; }
+  std::uint64_t requests() const noexcept { return requests_; }
+  /// Empty before the first.
+  const char* last_error() const noexcept { return last_error_.cause(); }
+
+ private:
+  Status check_waits(const ModbusExchange& exchange) const noexcept;
+  bool open() noexcept;
+  bool has_time_for(const ModbusBlock& block, bool writes) noexcept;
+  bool serve_station(ModbusExchange& exchange) noexcept;
+  bool write_what_is_due(ModbusExchange& exchange) noexcept;
+  bool read_what_is_due(ModbusExchange& exchange) noexcept;
+  /// False when the station, or the link, must be left alone for a while.
+  bool judge(ModbusExchange& exchange, const ModbusBlock& block, const char* verb, const ModbusReply& reply,
+             Time asked) noexcept;
+  void fail(ModbusExchange& exchange, const ModbusReply& reply) noexcept;
+  void note_lost() noexcept;
+  Duration pause_after(std::uint32_t failures) const noexcept;
+
+  std::array<std::atomic<ModbusExchange*>, max_stations> exchanges_{};
+  std::array<std::unique_ptr<ModbusExchange>, max_stations> owned_;  // the lifecycle thread's
+
+  const char* name_ = "";
+  ModbusTransport* transport_ = nullptr;
+  Duration shortest_{};
+  Duration longest_{};
+  Duration longest_turn_{};  // 0: as long as it takes
+  std::size_t first_ = 0;    // whose turn is first
+  Time turn_began_{};
+  bool turn_is_new_ = false;  // nothing that waits was done in it
+  bool out_of_time_ = false;
+  Time open_at_{};
+  std::uint32_t open_failures_ = 0;
+  std::uint64_t connections_ = 0;
+  std::uint64_t requests_ = 0;
+  Status last_error_;
+};
+
+}  // namespace flexrf

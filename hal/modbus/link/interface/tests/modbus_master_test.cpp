@@ -1,0 +1,283 @@
+// Whose turn it is, on a link whose stations are a script and whose clock is the test's.
+#include "hal/modbus/link/interface/modbus_master.hpp"
+
+#include <vector>
+
+#include "hal/modbus/link/interface/modbus_exchange.hpp"
+#include "runtime/executive/tests/checks.hpp"
+
+namespace flexrf {
+namespace {
+
+constexpr Duration response_timeout = std::chrono::milliseconds(300);
+constexpr Duration answer_time = std::chrono::milliseconds(2);
+constexpr Duration cycle = std::chrono::milliseconds(10);
+constexpr Duration shortest_pause = std::chrono::milliseconds(50);
+constexpr Duration longest_pause = std::chrono::seconds(1);
+
+constexpr ModbusRegister registers[] = {
+    {"level", 0, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::read,
+     ModbusPollGroup::fast, 1, "", 0},
+    {"speed", 10, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::write,
+     ModbusPollGroup::fast, 1, "", 0},
+};
+constexpr ModbusRegisterMap map{registers};
+
+class ScriptedLine final : public ModbusTransport {
+ public:
+  struct Station {
+    ModbusOutcome outcome = ModbusOutcome::answered;
+    int reads = 0;
+    int writes = 0;
+    std::uint16_t written = 0;
+  };
+  Station& station(std::size_t unit_id) { return stations_[unit_id]; }
+  int failures() const { return failures_; }
+  int resynchronisations() const { return resynchronisations_; }
+  void pass(Duration time) { now_ += time; }
+  void set_times(Duration answer, Duration wait) {
+    answer_time_ = answer;
+    wait_ = wait;
+  }
+
+  Status open() noexcept override {
+    open_ = true;
+    return {};
+  }
+  void close() noexcept override { open_ = false; }
+  bool is_open() const noexcept override { return open_; }
+  ModbusReply read(std::uint8_t unit_id, const ModbusBlock& /*block*/,
+                   std::uint16_t* words) noexcept override {
+    Station& asked = stations_[unit_id];
+    ++asked.reads;
+    words[0] = unit_id;
+    return answer(asked);
+  }
+  ModbusReply write(std::uint8_t unit_id, const ModbusBlock& /*block*/,
+                    const std::uint16_t* words) noexcept override {
+    Station& asked = stations_[unit_id];
+    ++asked.writes;
+    if (asked.outcome == ModbusOutcome::answered) asked.written = words[0];
+    return answer(asked);
+  }
+  Duration longest_wait(const ModbusBlock& /*block*/, bool /*writes*/) const noexcept override {
+    return wait_;
+  }
+  void resynchronise() noexcept override { ++resynchronisations_; }
+  Time now() const noexcept override { return now_; }
+
+ private:
+  ModbusReply answer(const Station& asked) noexcept {
+    now_ += asked.outcome == ModbusOutcome::timeout ? wait_ : answer_time_;
+    if (asked.outcome != ModbusOutcome::answered) ++failures_;
+    return {asked.outcome, "as the script has it"};
+  }
+
+  std::array<Station, 256> stations_{};
+  int failures_ = 0;
+  int resynchronisations_ = 0;
+  Duration answer_time_ = answer_time;
+  Duration wait_ = response_timeout;
+  Time now_{std::chrono::seconds(1)};
+  bool open_ = false;
+};
+
+/// `count` stations, unit 1 the first; each is read in every cycle.
+struct Line {
+  explicit Line(std::size_t count, const ModbusRegisterMap& stations = map, Duration longest_step = {}) {
+    CHECK(master.start("line", line, {shortest_pause, longest_pause}, longest_step));
+    for (std::size_t unit = 1; unit <= count; ++unit) {
+      const Result<ModbusExchange*> exchange = master.attach(setup_of(unit, stations));
+      CHECK(exchange);
+      exchanges.push_back(*exchange);
+    }
+  }
+  ~Line() { master.stop(); }
+
+  static ModbusStationSetup setup_of(std::size_t unit, const ModbusRegisterMap& stations) {
+    ModbusStationSetup setup;
+    setup.name = "station";
+    setup.map = &stations;
+    setup.unit_id = static_cast<std::uint8_t>(unit);
+    return setup;
+  }
+
+  void make(std::size_t first, std::size_t last, ModbusOutcome outcome) {
+    for (std::size_t unit = first; unit <= last; ++unit) line.station(unit).outcome = outcome;
+  }
+  void command(std::size_t unit, std::uint16_t value, std::uint64_t sequence, bool safe) {
+    ModbusCommand command{};
+    command.words[0] = value;
+    command.sequence = sequence;
+    command.safe = safe;
+    exchanges[unit - 1]->commands.publish(command, line.now());
+  }
+  const ModbusImage& image(std::size_t unit) {
+    CHECK(exchanges[unit - 1]->images.newest() != nullptr);
+    return *static_cast<const ModbusImage*>(exchanges[unit - 1]->images.payload());
+  }
+  void turn() {
+    const int failed = line.failures();
+    master.serve();
+    CHECK(line.failures() - failed <= 1);
+    line.pass(cycle);
+  }
+
+  ScriptedLine line;
+  ModbusMaster master;
+  std::vector<ModbusExchange*> exchanges;
+};
+
+// More silent ones than there are time-outs in the longest pause: one of them is always due again.
+void silent_stations_do_not_keep_the_last_one_from_its_turn() {
+  constexpr std::size_t count = 12;
+  Line world(count);
+  world.make(1, count - 1, ModbusOutcome::timeout);
+  // Nobody knows yet who is silent: each may cost one turn.
+  for (std::size_t turn = 0; turn < count; ++turn) world.turn();
+  CHECK(world.line.station(count).reads >= 1);
+  for (int turn = 0; turn < 100; ++turn) {
+    const int reads = world.line.station(count).reads;
+    world.turn();
+    CHECK_EQUAL(world.line.station(count).reads, reads + 1);
+  }
+  CHECK(world.image(count).online);
+}
+
+void what_is_written_has_its_turn_likewise() {
+  constexpr std::size_t count = 12;
+  Line world(count);
+  world.make(1, count - 1, ModbusOutcome::timeout);
+  for (std::size_t unit = 1; unit <= count; ++unit) world.command(unit, 7, 1, false);
+  for (std::size_t turn = 0; turn < count; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(count).written, 7);
+  world.command(count, 0, 2, true);
+  world.turn();
+  CHECK_EQUAL(world.line.station(count).written, 0);
+  CHECK_EQUAL(world.image(count).written, 2U);
+}
+
+// Also while others do not come back, each of the silent ones is asked again.
+void every_silent_station_is_asked_again_and_found() {
+  constexpr std::size_t count = 12;
+  Line world(count);
+  world.make(1, count, ModbusOutcome::timeout);
+  for (int turn = 0; turn < 100; ++turn) world.turn();
+  for (std::size_t unit = 1; unit <= count; ++unit) {
+    const int reads = world.line.station(unit).reads;
+    for (std::size_t turn = 0; turn < 2 * count; ++turn) world.turn();
+    CHECK(world.line.station(unit).reads > reads);
+  }
+  for (const std::size_t unit : {std::size_t{1}, std::size_t{6}, count}) {
+    world.make(unit, unit, ModbusOutcome::answered);
+    for (std::size_t turn = 0; turn < 2 * count; ++turn) world.turn();
+    CHECK(world.image(unit).online);
+  }
+}
+
+// Those that answer and fail by turns end as many turns as there are of them.
+void stations_that_fail_now_and_then_do_not_starve_the_last_one() {
+  constexpr std::size_t count = 8;
+  Line world(count);
+  for (int round = 0; round < 20; ++round) {
+    world.make(1, count - 1, round % 2 == 0 ? ModbusOutcome::timeout : ModbusOutcome::answered);
+    const int reads = world.line.station(count).reads;
+    for (std::size_t turn = 0; turn < count; ++turn) world.turn();
+    CHECK(world.line.station(count).reads > reads);
+  }
+}
+
+// Gateways answer for a station that they do not reach; the next answer is none of its.
+void who_is_not_reached_behind_a_gateway_is_not_online() {
+  Line world(2);
+  world.turn();
+  CHECK(world.image(1).online && world.image(2).online);
+  world.make(1, 1, ModbusOutcome::unreachable);
+  for (int turn = 0; turn < 20; ++turn) world.turn();
+  CHECK(!world.image(1).online);
+  CHECK(world.image(1).timeouts > 1);
+  CHECK_EQUAL(world.image(1).exceptions, 0U);
+  CHECK(world.line.station(1).reads < 10);  // it is left alone for a while
+  CHECK(world.image(2).online);
+  CHECK_EQUAL(world.line.station(2).reads, 20);  // in all turns but that in which the other was first lost
+  CHECK_EQUAL(world.line.resynchronisations(), 0);
+  world.make(1, 1, ModbusOutcome::answered);
+  for (int turn = 0; turn < 100; ++turn) world.turn();
+  CHECK(world.image(1).online);
+}
+
+constexpr ModbusRegister scattered[] = {
+    {"a", 0, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::read,
+     ModbusPollGroup::fast, 1, "", 0},
+    {"b", 10, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::read,
+     ModbusPollGroup::fast, 1, "", 0},
+    {"c", 20, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::read,
+     ModbusPollGroup::fast, 1, "", 0},
+    {"speed", 30, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::write,
+     ModbusPollGroup::fast, 1, "", 0},
+};
+constexpr ModbusRegisterMap scattered_map{scattered};
+
+// A slow line with more to do than a step may take: each turn ends in time, and nothing has to wait for ever,
+// also not behind what is written anew in each turn, or for who answers while another does not.
+void turns_end_in_time_and_go_on_where_they_ended() {
+  constexpr Duration longest_step = std::chrono::milliseconds(500);
+  constexpr std::size_t count = 3;
+  Line world(count, scattered_map, longest_step);
+  world.line.set_times(std::chrono::milliseconds(120), std::chrono::milliseconds(200));
+  world.make(2, 2, ModbusOutcome::timeout);
+  for (std::uint64_t turn = 1; turn <= 60; ++turn) {
+    for (std::size_t unit = 1; unit <= count; ++unit)
+      world.command(unit, static_cast<std::uint16_t>(turn), turn, false);
+    const Time began = world.line.now();
+    world.master.serve();
+    CHECK(world.line.now() - began <= longest_step);
+    world.line.pass(cycle);
+  }
+  for (const std::size_t unit : {std::size_t{1}, count}) {
+    CHECK(world.line.station(unit).reads >= 30);
+    CHECK(world.line.station(unit).writes >= 10);
+    CHECK(world.image(unit).online);
+    for (std::size_t block = 0; block < 3; ++block)
+      CHECK(world.line.now() - Time{Duration{world.image(unit).sampled_at[block]}} < std::chrono::seconds(3));
+  }
+  CHECK(world.line.station(2).reads + world.line.station(2).writes >= 5);
+}
+
+void what_a_step_cannot_wait_for_is_refused_with_the_least_that_can() {
+  Line world(0, map, std::chrono::milliseconds(500));
+  world.line.set_times(answer_time, std::chrono::milliseconds(460));
+  const Result<ModbusExchange*> refused = world.master.attach(Line::setup_of(7, map));
+  CHECK(!refused);
+  CHECK_EQUAL(std::string(refused.status().cause()),
+              std::string("reading holding_register 0 to 0 of unit 7 may take 0.46 s, its response_timeout "
+                          "and its time on the "
+                          "line, and a step of the thread of `line` 0.45 s: give it io_thread = { "
+                          "hang_timeout = \"512 ms\" } or "
+                          "more"));
+  world.line.set_times(answer_time, std::chrono::milliseconds(450));
+  CHECK(world.master.attach(Line::setup_of(7, map)));
+  // Reconfigured, with its station on it.
+  world.line.set_times(answer_time, std::chrono::milliseconds(460));
+  CHECK(!world.master.start("line", world.line, {shortest_pause, longest_pause},
+                            std::chrono::milliseconds(500)));
+  CHECK(world.master.start("line", world.line, {shortest_pause, longest_pause},
+                           std::chrono::milliseconds(512)));
+}
+
+}  // namespace
+}  // namespace flexrf
+
+int main() {
+  using namespace flexrf;
+  const CMUnitTest tests[] = {
+      CONTAINED_TEST(silent_stations_do_not_keep_the_last_one_from_its_turn),
+      CONTAINED_TEST(what_is_written_has_its_turn_likewise),
+      CONTAINED_TEST(every_silent_station_is_asked_again_and_found),
+      CONTAINED_TEST(stations_that_fail_now_and_then_do_not_starve_the_last_one),
+      CONTAINED_TEST(who_is_not_reached_behind_a_gateway_is_not_online),
+      CONTAINED_TEST(turns_end_in_time_and_go_on_where_they_ended),
+      CONTAINED_TEST(what_a_step_cannot_wait_for_is_refused_with_the_least_that_can),
+  };
+  return cmocka_run_group_tests_name("Modbus master", tests, nullptr, nullptr);
+}

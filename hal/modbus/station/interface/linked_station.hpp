@@ -1,0 +1,107 @@
+// A station behind a link: what its drivers, real and simulated, have in common.
+#pragma once
+
+#include <cmath>
+
+#include "hal/modbus/link/interface/modbus_link.hpp"
+#include "hal/modbus/station/interface/modbus_station.hpp"
+#include "hal/modbus/station/interface/station_outputs.hpp"
+
+namespace flexrf {
+
+/// The station's end of its exchange with the link. The thread the station lives in, but for attach() and
+/// detach(): the lifecycle thread.
+class StationEnd {
+ public:
+  ~StationEnd() { detach(); }
+  StationEnd() = default;
+  StationEnd(const StationEnd&) = delete;
+  StationEnd& operator=(const StationEnd&) = delete;
+
+  Status attach(ModbusLink& link, const ModbusStationSetup& setup, Duration max_age);
+  void detach() noexcept;
+
+  /// Takes what the link knows; valid until the next call.
+  const ModbusImage& update(Time now) noexcept;
+  ModbusValue read(std::size_t index) const noexcept;
+  /// Hands the outputs over, if they are others than before or `anew`.
+  void send(const StationOutputs& outputs, bool safe, bool anew = false) noexcept;
+  /// What was handed over last is in the station, as its answers say.
+  bool is_written() const noexcept;
+
+ private:
+  ModbusExchange* exchange_ = nullptr;
+  const ModbusImage* image_ = nullptr;
+  ModbusCommand command_{};
+  Duration max_age_{};
+  Time now_{};
+};
+
+/// `Base`: the driver's generated base.
+template <class Base>
+class LinkedStation : public Base {
+ public:
+  Status initialise() override {
+    const auto duration = [](double seconds) {
+      return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+    };
+    const auto& settings = this->configuration;
+    ModbusStationSetup setup;
+    setup.name = this->name();
+    setup.map = this->registers;
+    setup.unit_id = settings.unit_id;
+    setup.poll_periods = {duration(settings.fast_period), duration(settings.normal_period),
+                          duration(settings.slow_period)};
+    setup.refresh_period = duration(settings.refresh_period);
+    outputs_.reset(*this->registers);
+    return end_.attach(*this->bus, setup, duration(settings.max_age));
+  }
+  void stop() override { end_.detach(); }
+
+  void receive(const Tick& tick) noexcept override {
+    const ModbusImage& image = end_.update(tick.now);
+    auto& told = this->feedback;
+    told.online = image.online;
+    told.requests = image.requests;
+    told.timeouts = image.timeouts;
+    told.exceptions = image.exceptions;
+    told.bad_replies = image.bad_replies;
+    told.lost = image.lost;
+    told.round_trip = static_cast<double>(image.round_trip) * 1e-9;
+    told.last_error = image.last_error;
+    if (this->is_inhibited()) outputs_.make_safe();
+  }
+
+  void send(const Tick& /*tick*/) noexcept override {
+    const bool safe = this->is_inhibited() || !this->fault().is_ok();
+    if (safe) outputs_.make_safe();
+    end_.send(outputs_, safe);
+  }
+
+  bool make_safe() noexcept override {
+    outputs_.make_safe();
+    end_.send(outputs_, true);
+    return end_.is_written();
+  }
+
+  ModbusValue read(std::size_t index) const noexcept override { return end_.read(index); }
+
+  void set(std::size_t index, double value) noexcept override {
+    if (this->is_inhibited()) return;
+    if (!std::isfinite(value)) {
+      this->fail(
+          Status::error(StatusCode::invalid_argument, "register %zu was set to what is not a number", index));
+    } else if (!outputs_.set(index, value)) {
+      this->fail(Status::error(StatusCode::invalid_argument,
+                               "%zu is no output: ask output(name) for its index", index));
+    } else {
+      this->restrain(outputs_.restraint_of(index));
+    }
+  }
+
+ private:
+  StationEnd end_;
+  StationOutputs outputs_;
+};
+
+}  // namespace flexrf

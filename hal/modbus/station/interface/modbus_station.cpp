@@ -1,0 +1,38 @@
+#include "hal/modbus/station/interface/modbus_station.hpp"
+
+#include "runtime/core/nearest_name.hpp"
+
+namespace flexrf {
+namespace {
+
+Result<std::size_t> find(const ModbusRegisterMap& map, std::string_view name, bool writing) noexcept {
+  NearestName nearest(name);
+  for (std::size_t i = 0; i < map.registers.size(); ++i) {
+    const ModbusRegister& entry = map.registers[i];
+    if (writing ? !entry.is_written() : !entry.is_read()) {
+      if (entry.name != name) continue;
+      return Status::error(StatusCode::not_permitted,
+                           "register `%.*s` of the register map is not %s: change its access to read_write",
+                           static_cast<int>(name.size()), name.data(), writing ? "written" : "read");
+    }
+    if (entry.name == name) return i;
+    nearest.offer(entry.name);
+  }
+  const std::string_view best = nearest.best();
+  return Status::error(StatusCode::not_found, "the register map has no register `%.*s` to %s%s%.*s%s",
+                       static_cast<int>(name.size()), name.data(), writing ? "write" : "read",
+                       best.empty() ? "" : "; did you mean `", static_cast<int>(best.size()), best.data(),
+                       best.empty() ? "" : "`?");
+}
+
+}  // namespace
+
+Result<std::size_t> ModbusStation::input(std::string_view name) const noexcept {
+  return find(*registers, name, false);
+}
+
+Result<std::size_t> ModbusStation::output(std::string_view name) const noexcept {
+  return find(*registers, name, true);
+}
+
+}  // namespace flexrf

@@ -1,0 +1,176 @@
+// MockModbusStation: gives the values that a test put in and records what is written.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "hal/driver/mock/mock_noise.hpp"
+#include "hal/modbus/station/interface/modbus_station.hpp"
+#include "hal/modbus/station/interface/station_outputs.hpp"
+#include "mock_modbus_station_driver.hpp"
+
+namespace flexrf {
+
+/// Every register holds what was put or written last, 0 at first, and tells it in each cycle, until a test
+/// says otherwise. Tests call it between cycles, from the thread the station lives in. Has no link.
+class MockModbusStation final : public MockModbusStationDriver {
+ public:
+  enum class Fault : std::uint8_t {
+    none,
+    silent,        ///< nothing is read or written
+    refused,       ///< likewise, by exceptions
+    disconnected,  ///< likewise; and what was written is lost
+  };
+
+  Status initialise() override {
+    if (registers->registers.size() > max_modbus_registers) {
+      return Status::error(StatusCode::invalid_argument,
+                           "the register map has %zu registers, at most %zu fit", registers->registers.size(),
+                           max_modbus_registers);
+    }
+    outputs_.reset(*registers);
+    cells_ = {};
+    noise_.seed(environment().seed);
+    behaviour_ = Fault::none;
+    return {};
+  }
+
+  void receive(const Tick& tick) noexcept override {
+    now_ = tick.now;
+    feedback.online = behaviour_ == Fault::none || behaviour_ == Fault::refused;
+    ++feedback.requests;
+    note_failure();
+    if (behaviour_ != Fault::none) return;
+    for (std::size_t i = 0; i < registers->registers.size(); ++i) {
+      Cell& cell = cells_[i];
+      if (now_ < cell.visible_at) continue;
+      cell.told = cell.held;
+      cell.told_at = now_;
+      if (cell.noise > 0)
+        encode_register(registers->registers[i], held(i) + noise_.around_zero(cell.noise), cell.told.data());
+    }
+  }
+
+  void send(const Tick& /*tick*/) noexcept override {
+    if (is_inhibited() || !fault().is_ok()) outputs_.make_safe();
+    write();
+  }
+
+  bool make_safe() noexcept override {
+    outputs_.make_safe();
+    write();
+    return behaviour_ == Fault::none;
+  }
+
+  ModbusValue read(std::size_t index) const noexcept override {
+    ModbusValue result;
+    if (index >= registers->registers.size() || !registers->registers[index].is_read()) {
+      result.reason = NullReason::not_registered;
+      return result;
+    }
+    const Cell& cell = cells_[index];
+    if (cell.told_at == Time{}) {
+      if (behaviour_ == Fault::refused) result.reason = NullReason::writer_faulted;
+      return result;
+    }
+    result.value = decode_register(registers->registers[index], cell.told.data());
+    result.age = now_ - cell.told_at;
+    result.reason = seconds(result.age) <= period_of(registers->registers[index]) + configuration.max_age
+                        ? NullReason::none
+                    : behaviour_ == Fault::refused ? NullReason::writer_faulted
+                    : behaviour_ == Fault::none    ? NullReason::too_old
+                                                   : NullReason::writer_stopped;
+    return result;
+  }
+
+  void set(std::size_t index, double value) noexcept override {
+    if (is_inhibited()) return;
+    if (!std::isfinite(value)) {
+      fail(
+          Status::error(StatusCode::invalid_argument, "register %zu was set to what is not a number", index));
+    } else if (!outputs_.set(index, value)) {
+      fail(Status::error(StatusCode::invalid_argument, "%zu is no output: ask output(name) for its index",
+                         index));
+    } else {
+      restrain(outputs_.restraint_of(index));
+    }
+  }
+
+  // ---- for tests
+
+  /// The register of this index holds it from now on, or tells it only `later`.
+  void put(std::size_t index, double value, Duration later = {}) noexcept {
+    encode_register(registers->registers[index], value, cells_[index].held.data());
+    cells_[index].visible_at = now_ + later;
+  }
+  /// What it holds, told or not.
+  double held(std::size_t index) const noexcept {
+    return decode_register(registers->registers[index], cells_[index].held.data());
+  }
+  /// What the register of this index tells is at most so much more or less than what it holds, at random,
+  /// seeded; 0 or more.
+  void set_noise(std::size_t index, double most) noexcept { cells_[index].noise = most; }
+  void set_fault(Fault which) noexcept {
+    behaviour_ = which;
+    if (which != Fault::disconnected) return;
+    for (Cell& cell : cells_) cell.held = {};
+  }
+
+ private:
+  struct Cell {
+    std::array<std::uint16_t, ModbusRegister::most_words> held{};
+    std::array<std::uint16_t, ModbusRegister::most_words> told{};
+    Time visible_at{};
+    Time told_at{};
+    double noise = 0;
+  };
+
+  void write() noexcept {
+    if (behaviour_ != Fault::none) return;
+    for (std::size_t i = 0; i < registers->registers.size(); ++i) {
+      if (registers->registers[i].is_written())
+        encode_register(registers->registers[i], outputs_[i], cells_[i].held.data());
+    }
+  }
+
+  void note_failure() noexcept {
+    const char* cause = "";
+    switch (behaviour_) {
+      case Fault::none:
+        return;
+      case Fault::silent:
+        ++feedback.timeouts;
+        cause = "no answer, as the mock was asked to";
+        break;
+      case Fault::refused:
+        ++feedback.exceptions;
+        cause = "the station refuses, as the mock was asked to";
+        break;
+      case Fault::disconnected:
+        ++feedback.lost;
+        cause = "the connection was lost, as the mock was asked to";
+        break;
+    }
+    feedback.set_last_error(cause);
+  }
+
+  double period_of(const ModbusRegister& entry) const noexcept {
+    switch (entry.poll_group) {
+      case ModbusPollGroup::fast:
+        return configuration.fast_period;
+      case ModbusPollGroup::normal:
+        return configuration.normal_period;
+      case ModbusPollGroup::slow:
+        break;
+    }
+    return configuration.slow_period;
+  }
+
+  StationOutputs outputs_;
+  std::array<Cell, max_modbus_registers> cells_{};
+  Fault behaviour_ = Fault::none;
+  Time now_{};
+  MockNoise noise_;
+};
+
+}  // namespace flexrf

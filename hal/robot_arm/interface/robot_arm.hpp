@@ -1,0 +1,65 @@
+// RobotArm: an arm that follows joint positions cyclically.
+#pragma once
+
+#include <optional>
+
+#include "hal/robot_arm/interface/arm_supervision.hpp"
+#include "motion/joint_pace.hpp"
+#include "motion/kinematic_chain.hpp"
+#include "motion/kinematics.hpp"
+#include "robot_arm_interface.hpp"
+#include "types/joint_positions.hpp"
+#include "types/joint_state.hpp"
+
+namespace flexrf {
+
+/// Everything: the thread the arm lives in.
+class RobotArm : public RobotArmInterface {
+ public:
+  const KinematicChain& kinematic_chain() const noexcept { return *chain; }
+
+  /// What the sensors said last, as of this cycle; nothing while they say nothing.
+  virtual std::optional<JointState> state() const noexcept = 0;
+
+  /// Where the joints shall be (rad, or m where one slides), sent at the end of the cycle and held until the
+  /// next command. An arm keeps to its own limits whatever it is commanded, and tells it
+  /// (Component::restrain()) while it does; what is not finite puts it in fault. Without effect while
+  /// is_inhibited(), and not remembered.
+  virtual void command(const JointPositions& set_points) noexcept = 0;
+
+ protected:
+  /// In command(), by every driver, with what it follows from now on, finite: what of it is beyond a joint's
+  /// range is told.
+  void tell_limits(const JointPositions& set_points) noexcept {
+    restrain(restraint_of(*chain, set_points.position));
+  }
+  /// Likewise, by a driver that has no follower of its own: also that joints are led faster than they may go.
+  void tell_limits_and_pace(const JointPositions& set_points) noexcept {
+    tell_limits(set_points);
+    const auto told = state();
+    pace_.command(*chain, set_points.position, told ? told->position : set_points.position);
+  }
+  /// In initialise(), by every driver.
+  /// `configuration`: the driver's.
+  void begin_supervision(const auto& configuration) noexcept {
+    supervision_.begin(*chain, {configuration.following_time, configuration.silence});
+    pace_.forget();
+  }
+  /// At the end of receive(), by every driver: an arm that does not follow what its drives are asked to
+  /// (feedback.following_error), or does not say where it is, is in fault.
+  void supervise(Time now) noexcept {
+    const bool may_move = !is_inhibited() && fault().is_ok();
+    if (const Status found = supervision_.look(state(), feedback.following_error, may_move, now); !found)
+      set_fault(found);
+    if (!may_move) pace_.forget();
+    restrain(pace_.look(*chain, looked_at_ == Time{} ? 0 : seconds(now - looked_at_)));
+    looked_at_ = now;
+  }
+
+ private:
+  ArmSupervision supervision_;
+  JointPace pace_;
+  Time looked_at_{};
+};
+
+}  // namespace flexrf

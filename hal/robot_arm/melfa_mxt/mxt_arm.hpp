@@ -1,0 +1,108 @@
+// MxtArm: a driver of RobotArm over a generated base, for a MELFA controller in real-time external control.
+// What differs between drivers is the link to the controller.
+#pragma once
+
+#include <cmath>
+
+#include "hal/robot_arm/interface/robot_arm.hpp"
+#include "hal/robot_arm/melfa_mxt/mxt_dialogue.hpp"
+#include "motion/kinematics.hpp"
+
+namespace flexrf::melfa {
+
+inline Duration in_nanoseconds(double seconds) noexcept {
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+}
+
+/// `where`: the controller, for a person.
+Status lost_controller(const char* where, double silence_limit, const PacingCounters& counters) noexcept;
+Status no_number(std::size_t joint) noexcept;
+
+template <class Base>
+class MxtArm : public Base {
+ public:
+  Status initialise() override {
+    const auto& set = this->configuration;
+    DialoguePlan plan;
+    plan.cycle = set.cycle;
+    plan.pacing.answer = in_nanoseconds(set.answer_timeout);
+    plan.pacing.silence = in_nanoseconds(set.silence_limit);
+    plan.pacing.search = in_nanoseconds(set.search_interval);
+    made_safe_ = false;
+    state_.reset();
+    this->begin_supervision(this->configuration);
+    if (const Status status = open_link(); !status) return status;
+    const Status status = dialogue_.begin(plan, *this->chain, link());
+    if (!status) close_link();
+    return status;
+  }
+  void stop() override {
+    dialogue_.close();
+    close_link();
+  }
+
+  void receive(const Tick& tick) noexcept override {
+    dialogue_.receive(tick.now);
+    if (dialogue_.has_lost_it() && this->fault().is_ok())
+      this->fail(lost_controller(where(), this->configuration.silence_limit, dialogue_.counters()));
+    tell_state();
+    this->supervise(tick.now);
+  }
+  void send(const Tick& tick) noexcept override {
+    if (this->is_inhibited() && made_safe_ && dialogue_.has_ended()) {
+      made_safe_ = false;
+      dialogue_.reopen();  // to see where the arm is
+    }
+    dialogue_.send(!this->is_inhibited() && this->fault().is_ok(), tick.now);
+    if (dialogue_.is_leading()) this->restrain(dialogue_.restraint());
+  }
+  bool make_safe() noexcept override {
+    dialogue_.end();
+    made_safe_ = dialogue_.has_ended();
+    return made_safe_;
+  }
+
+  std::optional<JointState> state() const noexcept override { return state_; }
+  void command(const JointPositions& set_points) noexcept override {
+    if (this->is_inhibited() || !dialogue_.is_leading()) return;
+    for (std::size_t i = 0; i < this->chain->joint_count; ++i) {
+      if (!std::isfinite(set_points.position[i])) return this->fail(no_number(i));
+    }
+    this->tell_limits(set_points);
+    dialogue_.command(set_points.position);
+  }
+
+  /// Commands are followed.
+  bool is_leading() const noexcept { return dialogue_.is_leading(); }
+  const PacingCounters& counters() const noexcept { return dialogue_.counters(); }
+
+ protected:
+  virtual Status open_link() = 0;
+  virtual void close_link() noexcept = 0;
+  virtual DatagramLink& link() noexcept = 0;
+  /// The controller's name for a person.
+  virtual const char* where() const noexcept = 0;
+
+ private:
+  void tell_state() noexcept {
+    this->feedback.late = dialogue_.counters().late;
+    this->feedback.lost = dialogue_.counters().lost;
+    this->feedback.foreign = dialogue_.counters().foreign;
+    state_.reset();
+    const auto& told = dialogue_.told();
+    if (!told) return;
+    state_.emplace();
+    state_->position = told->measured;
+    state_->velocity = told->velocity;
+    this->feedback.position = told->measured;
+    for (std::size_t i = 0; i < max_joints; ++i) {
+      this->feedback.following_error[i] = told->commanded[i] - told->measured[i];
+    }
+  }
+
+  MxtDialogue dialogue_;
+  std::optional<JointState> state_;
+  bool made_safe_ = false;  // until the permission to move was withdrawn
+};
+
+}  // namespace flexrf::melfa

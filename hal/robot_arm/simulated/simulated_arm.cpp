@@ -1,0 +1,102 @@
+#include "hal/robot_arm/simulated/simulated_arm.hpp"
+
+#include <cmath>
+
+#include "motion/kinematics.hpp"
+
+namespace flexrf {
+namespace {
+
+bool is_due(double after, Time started, Time now) {
+  return after > 0 && seconds(now - started) >= after;
+}
+
+}  // namespace
+
+Status SimulatedArm::initialise() {
+  model_.reset(*chain, configuration.servo_lag);
+  model_.stick(static_cast<int>(configuration.stuck_joint) - 1);
+  random_.seed(environment().seed);
+  noise_.reset();
+  state_.reset();
+  commanded_.reset();
+  started_ = Time{};
+  sensors_lost_ = false;
+  begin_supervision(configuration);
+  return {};
+}
+
+void SimulatedArm::receive(const Tick& tick) noexcept {
+  if (started_ == Time{}) started_ = tick.now;
+  inject_scheduled(tick.now);
+  if (is_inhibited() || !fault().is_ok()) {
+    commanded_.reset();
+    model_.hold();
+  }
+  model_.advance(tick.now);
+  sense();
+  supervise(tick.now);
+}
+
+void SimulatedArm::command(const JointPositions& set_points) noexcept {
+  if (is_inhibited()) return;
+  for (std::size_t i = 0; i < max_joints; ++i) {
+    if (std::isfinite(set_points.position[i])) continue;
+    fail(Status::error(StatusCode::invalid_argument,
+                       "joint %zu was commanded to a position that is not a number", i + 1));
+    commanded_.reset();
+    return;
+  }
+  tell_limits_and_pace(set_points);
+  commanded_ = set_points;
+}
+
+void SimulatedArm::send(const Tick& /*tick*/) noexcept {
+  if (is_inhibited() || !fault().is_ok()) return;
+  if (commanded_) model_.follow(commanded_->position_map());
+  commanded_.reset();
+}
+
+bool SimulatedArm::make_safe() noexcept {
+  commanded_.reset();
+  model_.hold();
+  return model_.is_at_rest();
+}
+
+void SimulatedArm::inject(Fault fault) noexcept {
+  switch (fault) {
+    case Fault::drives_trip:
+      fail(Status::error(StatusCode::device_fault, "the simulated drives tripped, as they were asked to"));
+      break;
+    case Fault::sensors_lost:
+      sensors_lost_ = true;
+      break;
+    case Fault::joint_sticks:
+      model_.stick(0);
+      break;
+  }
+}
+
+void SimulatedArm::inject_scheduled(Time now) noexcept {
+  if (is_due(configuration.drive_fault_after, started_, now)) inject(Fault::drives_trip);
+  if (is_due(configuration.sensor_lost_after, started_, now)) inject(Fault::sensors_lost);
+}
+
+void SimulatedArm::sense() noexcept {
+  if (sensors_lost_) {
+    state_.reset();
+    return;
+  }
+  JointVector sensed = model_.position();
+  for (std::size_t i = 0; i < chain->joint_count; ++i) {
+    const double deviation = configuration.noise[i];
+    if (deviation > 0) sensed[static_cast<Eigen::Index>(i)] += deviation * noise_(random_);
+  }
+  state_.emplace();
+  state_->position_map() = sensed;
+  state_->velocity_map() = model_.velocity();
+  feedback.position_map() = sensed;
+  feedback.following_error_map() = model_.followed() - sensed;
+}
+
+}  // namespace flexrf

@@ -1,0 +1,545 @@
+// The master's axis and drives that others built: what the standard leaves open, each met by a drive of its
+// own.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "hal/can/in_process/in_process_can_bus.hpp"
+#include "hal/can/interface/can_node.hpp"
+#include "hal/canopen/can_message.hpp"
+#include "hal/canopen/servo_axis.hpp"
+#include "hal/driver/device_bench.hpp"
+#include "hal/servo_drive/canopen/canopen_servo_drive.hpp"
+#include "hal/servo_drive/canopen/simulator/tests/foreign_drive.hpp"
+#include "hal/servo_drive/interface/servo_restraints.hpp"
+#include "tests/cmocka.hpp"
+#include "tests/log_ear.hpp"
+
+namespace {
+
+using namespace flexrf;
+using canopen::Message;
+using canopen::Outbox;
+using canopen::cia402::AxisPlan;
+using canopen::cia402::Mode;
+using canopen::cia402::ServoAxis;
+using std::chrono::milliseconds;
+
+constexpr int cycle_of_7_ms = 7;
+
+AxisPlan plan_for(Mode mode) {
+  AxisPlan plan;
+  plan.node = 5;
+  plan.vendor = 0x123;
+  plan.mode = mode;
+  plan.increments_per_unit = 1000;
+  plan.lowest = -10;
+  plan.highest = 10;
+  plan.fastest = 5;
+  return plan;
+}
+
+// The wire carries what has the lowest identifier first, as CAN does.
+struct ForeignCell {
+  explicit ForeignCell(const AxisPlan& plan, const ForeignDrive::Nature& nature = {}) : drive{nature} {
+    began = axis.begin(plan, now, said);
+  }
+
+  void step() {
+    for (int ms = 0; ms < cycle_of_7_ms; ++ms) {
+      now += milliseconds(1);
+      if (ms == 0) deliver();
+      drive.step(heard);
+    }
+    for (; !heard.is_empty(); heard.pop()) axis.receive(heard.front(), now, said);
+    if (position) axis.command_position(*position);
+    axis.send(may_move, now, milliseconds(cycle_of_7_ms), said);
+    if (const Restraint held = axis.take_restraint(); held.reason != nullptr) restraint = held;
+  }
+  void deliver() {
+    std::vector<Message> frames;
+    for (; !said.is_empty(); said.pop()) frames.push_back(said.front());
+    std::stable_sort(frames.begin(), frames.end(), [](const Message& one, const Message& other) {
+      return one.identifier < other.identifier;
+    });
+    for (const Message& frame : frames) drive.receive(frame, heard);
+  }
+  void run(int ms) {
+    for (int i = 0; i < ms; i += cycle_of_7_ms) step();
+  }
+  bool comes_up() {
+    may_move = true;
+    for (int i = 0; i < 1000 && axis.fault().is_ok() && !axis.is_enabled(); ++i) step();
+    if (!axis.is_enabled())
+      print_message("fault: %s; node: %s\n", axis.fault().cause(), axis.node().problem().cause());
+    return axis.is_enabled();
+  }
+  bool arrives() {
+    for (int i = 0; i < 1000; ++i) {
+      step();
+      if (axis.state() && axis.state()->target_reached) return true;
+    }
+    print_message("fault: %s\n", axis.fault().cause());
+    return false;
+  }
+  bool is_at(double place) const {
+    return std::abs(drive.position() - 1000 * place) < 2 && axis.state() &&
+           std::abs(axis.state()->position - place) < 0.01;
+  }
+  bool fault_says(const char* words) const {
+    if (std::strstr(axis.fault().cause(), words) != nullptr) return true;
+    print_message("fault: %s\n", axis.fault().cause());
+    return false;
+  }
+
+  Time now{std::chrono::seconds(1)};
+  ForeignDrive drive;
+  ServoAxis axis;
+  Status began;
+  Outbox said;
+  Outbox heard;
+  bool may_move = false;
+  std::optional<double> position;
+  Restraint restraint;
+};
+
+double speed_of(std::int32_t target) {
+  switch (target) {
+    case 3000:
+      return 2000;
+    case -2000:
+      return 4000;
+    case 5000:
+      return 1000;
+    case 1000:
+      return 3000;
+    default:
+      return 0;
+  }
+}
+
+// Two targets, one after the other, and two with so many cycles between them: each that counts does so with
+// its own speed.
+bool each_set_point_has_its_speed(ForeignCell& cell, int cycles_between, bool has_speeds = true) {
+  if (!cell.comes_up()) return false;
+  cell.axis.move_to(3, 2);
+  if (!cell.arrives() || !cell.is_at(3)) return false;
+  cell.axis.move_to(-2, 4);
+  if (!cell.arrives() || !cell.is_at(-2)) return false;
+  cell.axis.move_to(5, 1);
+  for (int i = 0; i < cycles_between; ++i) cell.step();
+  cell.axis.move_to(1, 3);
+  if (!cell.arrives() || !cell.is_at(1)) return false;
+  const auto& taken = cell.drive.set_points();
+  for (const ForeignDrive::SetPoint& one : taken) {
+    const double speed = speed_of(one.target);
+    if (!has_speeds || (speed > 0 && std::abs(one.speed - speed) < 1)) continue;
+    print_message("%d with %u\n", static_cast<int>(one.target), static_cast<unsigned>(one.speed));
+    return false;
+  }
+  return taken.size() >= 3 && taken.back().target == 1000;
+}
+
+bool each_set_point_has_its_speed(const AxisPlan& plan, const ForeignDrive::Nature& nature) {
+  for (int cycles_between = 0; cycles_between < 10; ++cycles_between) {
+    ForeignCell cell{plan, nature};
+    if (!each_set_point_has_its_speed(cell, cycles_between)) return false;
+  }
+  return true;
+}
+
+void a_drive_that_acts_on_each_object_goes_where_it_is_told(void**) {
+  assert_true(each_set_point_has_its_speed(plan_for(Mode::profile_position), {}));
+}
+
+void a_drive_that_acts_at_last_goes_where_it_is_told(void**) {
+  assert_true(each_set_point_has_its_speed(plan_for(Mode::profile_position), {.acts_at_last = true}));
+}
+
+void a_speed_that_is_in_no_pdo_is_told_before_its_target_counts(void**) {
+  AxisPlan plan = plan_for(Mode::profile_position);
+  ForeignCell unsaid{plan, {.unmapped = {0x608100}}};
+  assert_false(unsaid.comes_up());
+  assert_true(unsaid.fault_says("maps_speed = false"));
+  plan.maps_speed = false;
+  assert_true(each_set_point_has_its_speed(plan, {.unmapped = {0x608100}}));
+  assert_true(each_set_point_has_its_speed(plan, {.unmapped = {0x608100}, .acts_at_last = true}));
+  assert_true(each_set_point_has_its_speed(plan, {.unmapped = {0x608100}, .serves_after = 50}));
+  // Beside a mode that is in no PDO either.
+  plan.maps_mode = false;
+  assert_true(each_set_point_has_its_speed(plan, {.unmapped = {0x608100, 0x606000, 0x606100}}));
+}
+
+void a_drive_without_a_second_pdo_is_told_its_speed_by_sdo(void**) {
+  AxisPlan plan = plan_for(Mode::profile_position);
+  plan.maps_speed = false;
+  assert_true(each_set_point_has_its_speed(
+      plan, {.lacks = {0x140100, 0x140101, 0x140102, 0x160100, 0x160101, 0x160102, 0x160103, 0x160104}}));
+}
+
+void a_drive_without_an_object_for_its_speed_says_what_it_does(void**) {
+  AxisPlan plan = plan_for(Mode::profile_position);
+  plan.maps_speed = false;
+  ForeignCell refused{plan, {.lacks = {0x608100}}};
+  static_cast<void>(refused.comes_up());
+  refused.run(200);
+  assert_true(refused.fault_says("6081:00"));
+  plan.tells_speed = false;
+  ForeignCell cell{plan, {.lacks = {0x608100}}};
+  assert_true(cell.comes_up());
+  cell.axis.move_to(4, ServoAxis::full_speed);
+  assert_true(cell.arrives() && cell.is_at(4));
+  assert_null(cell.restraint.reason);
+  assert_true(each_set_point_has_its_speed(cell, 3, false));
+  assert_ptr_equal(cell.restraint.reason, servo_restraints::own_speed);
+}
+
+void interpolated_positions_are_followed_without_a_jump(void**) {
+  const ForeignDrive::Nature nature{.position = -3000, .interpolates = true};
+  ForeignCell unsaid{plan_for(Mode::cyclic_position), nature};
+  assert_false(unsaid.comes_up());
+  assert_true(unsaid.fault_says("interpolates = true"));
+  for (const bool acts_at_last : {false, true}) {
+    ForeignDrive::Nature with = nature;
+    with.acts_at_last = acts_at_last;
+    ForeignCell cell{plan_for(Mode::interpolated_position), with};
+    cell.position = 4;
+    assert_true(cell.comes_up());
+    assert_int_equal(cell.drive.object(0x60C2, 1), 7);
+    cell.run(3000);
+    assert_true(cell.is_at(4));
+    // As far as it may go in a cycle, and never more.
+    assert_true(cell.drive.longest_jump() <= 5000 * 0.007 + 1);
+    // Off in the midst of it, and enabled anew where it then is.
+    cell.position = -4;
+    cell.run(500);
+    cell.may_move = false;
+    cell.run(500);
+    assert_false(cell.axis.is_enabled());
+    const double rest = cell.drive.position();
+    cell.position = std::nullopt;
+    assert_true(cell.comes_up());
+    cell.run(500);
+    assert_true(std::abs(cell.drive.position() - rest) < 40);
+    assert_true(cell.drive.longest_jump() <= 5000 * 0.007 + 1);
+  }
+}
+
+// Set-points that come while it is on its way back from its home are not followed at once when it is there.
+void a_homing_in_the_midst_of_interpolated_positions_ends_without_a_jump(void**) {
+  AxisPlan plan = plan_for(Mode::interpolated_position);
+  plan.homing_method = 35;
+  ForeignCell cell{plan, {.position = 4000, .interpolates = true}};
+  assert_true(cell.comes_up());
+  cell.position = 5;
+  cell.run(1000);
+  assert_true(cell.is_at(5));
+  cell.axis.home();
+  cell.run(6000);
+  assert_true(cell.axis.homing() == canopen::cia402::Homing::homed);
+  assert_true(cell.is_at(5));
+  assert_true(cell.drive.longest_jump() <= 5000 * 0.007 + 1);
+  assert_true(cell.axis.fault().is_ok());
+}
+
+void a_drive_that_ceases_to_interpolate_is_a_fault(void**) {
+  ForeignCell cell{plan_for(Mode::interpolated_position), {.interpolates = true}};
+  cell.position = 4;
+  assert_true(cell.comes_up());
+  cell.run(200);
+  cell.drive.stop_interpolation();
+  cell.run(200);
+  assert_true(cell.fault_says("no longer follows"));
+  assert_false(cell.drive.is_enabled());
+}
+
+void a_node_that_starts_itself_is_configured_all_the_same(void**) {
+  for (const int after : {0, 1, 7, 15, 40}) {
+    for (const bool again : {false, true}) {
+      ForeignCell cell{plan_for(Mode::cyclic_position),
+                       {.starts_itself = after, .starts_again = again && after > 0}};
+      cell.position = 2;
+      assert_true(cell.comes_up());
+      cell.run(1000);
+      assert_true(cell.is_at(2));
+    }
+  }
+}
+
+void a_drive_without_a_deceleration_of_its_own_takes_that_of_its_acceleration(void**) {
+  ForeignCell cell{plan_for(Mode::profile_position), {.lacks = {0x608400}}};
+  assert_true(each_set_point_has_its_speed(cell, 3));
+  assert_int_equal(cell.drive.object(0x6083), 10000);
+}
+
+void a_drive_without_an_acceleration_has_ramps_of_its_own(void**) {
+  for (const Mode mode : {Mode::profile_position, Mode::profile_velocity}) {
+    ForeignCell cell{plan_for(mode), {.lacks = {0x608300, 0x608400}}};
+    assert_true(cell.comes_up());
+    assert_true(cell.axis.has_own_ramps());
+    if (mode == Mode::profile_position) assert_true(each_set_point_has_its_speed(cell, 3));
+  }
+  ForeignCell told{plan_for(Mode::profile_position)};
+  assert_true(told.comes_up());
+  assert_false(told.axis.has_own_ramps());
+}
+
+// In each mode it is at rest where it rests, and about as fast as it goes.
+void a_drive_that_does_not_say_how_fast_it_is_tells_it_by_its_positions(void**) {
+  for (const Mode mode : {Mode::cyclic_position, Mode::profile_position}) {
+    // Nor has it a second PDO to say it in.
+    const ForeignDrive::Nature nature{
+        .lacks = {0x606C00, 0x180100, 0x180101, 0x180102, 0x1A0100, 0x1A0101, 0x1A0102, 0x1A0103, 0x1A0104}};
+    AxisPlan plan = plan_for(mode);
+    plan.homing_method = 35;
+    ForeignCell unsaid{plan, {.lacks = {0x606C00}}};
+    assert_false(unsaid.comes_up());
+    assert_true(unsaid.fault_says("maps_velocity = false"));
+    plan.maps_velocity = false;
+    ForeignCell cell{plan, nature};
+    assert_true(cell.comes_up());
+    cell.run(100);
+    assert_true(cell.axis.state()->velocity == 0);
+    if (mode == Mode::cyclic_position) cell.position = 6;
+    if (mode == Mode::profile_position) cell.axis.move_to(6, 5);
+    cell.run(500);
+    assert_true(std::abs(cell.axis.state()->velocity - 5) < 0.5);
+    cell.position.reset();
+    cell.run(1500);
+    assert_true(cell.is_at(6) && cell.axis.state()->velocity == 0);
+    cell.axis.home();
+    cell.run(6000);
+    assert_true(cell.axis.homing() == canopen::cia402::Homing::homed && cell.axis.fault().is_ok());
+    cell.may_move = false;
+    cell.run(200);
+    assert_true(cell.axis.is_off() && cell.axis.fault().is_ok());
+  }
+}
+
+// What is optional and missing keeps nobody away, but for what the table asks for; then it says so.
+void what_the_table_asks_for_and_is_missing_is_told_with_its_column(void**) {
+  AxisPlan stops = plan_for(Mode::cyclic_position);
+  stops.quick_stop_deceleration = 20;
+  ForeignCell no_stop{stops, {.lacks = {0x608500}}};
+  assert_false(no_stop.comes_up());
+  assert_true(no_stop.fault_says("6085:00") && no_stop.fault_says("quick_stop_deceleration = 0"));
+  AxisPlan homes = plan_for(Mode::cyclic_position);
+  homes.homing_method = 35;
+  for (const std::uint32_t missing : {0x609800U, 0x609901U, 0x609902U}) {
+    ForeignCell no_home{homes, {.lacks = {missing}}};
+    assert_false(no_home.comes_up());
+    assert_true(no_home.fault_says("homing_method = 0"));
+  }
+  AxisPlan guarded = plan_for(Mode::cyclic_position);
+  guarded.is_guarded = true;
+  ForeignCell no_guard{guarded};
+  assert_false(no_guard.comes_up());
+  assert_true(no_guard.fault_says("100C:00") && no_guard.fault_says("guarded = false"));
+  AxisPlan pressing = plan_for(Mode::profile_position);
+  pressing.limits_torque = true;
+  ForeignCell no_limit{pressing};
+  assert_false(no_limit.comes_up());
+  assert_true(no_limit.fault_says("limits_torque = false"));
+  pressing.limits_torque = false;
+  pressing.tells_torque = true;
+  ForeignCell no_torque{pressing};
+  assert_false(no_torque.comes_up());
+  assert_true(no_torque.fault_says("tells_torque = false"));
+  // Without a following error window, to be blocked is no fault of its.
+  pressing.tells_torque = false;
+  pressing.may_be_blocked = true;
+  ForeignCell no_window{pressing};
+  assert_true(no_window.comes_up());
+  ForeignCell plain{plan_for(Mode::cyclic_position), {.lacks = {0x608300, 0x608400, 0x609800, 0x609901}}};
+  assert_true(plain.comes_up());
+}
+
+// As older ones do: it is told what the bit means, and it goes on.
+void a_drive_that_leaves_bit_12_is_led_all_the_same(void**) {
+  ForeignCell cell{plan_for(Mode::cyclic_position), {.leaves_bit_12 = true}};
+  cell.position = 4;
+  assert_true(cell.comes_up());
+  cell.run(2000);
+  assert_true(cell.is_at(4) && cell.axis.fault().is_ok());
+  assert_ptr_equal(cell.restraint.reason, servo_restraints::set_points_ignored);
+}
+
+void the_product_is_asked_for_only_where_it_is_named(void**) {
+  ForeignCell unnamed{plan_for(Mode::cyclic_position), {.lacks = {0x101802}}};
+  assert_true(unnamed.comes_up());
+  AxisPlan named = plan_for(Mode::cyclic_position);
+  named.product = 0x456;
+  ForeignCell cell{named, {.lacks = {0x101802}}};
+  assert_false(cell.comes_up());
+  assert_true(cell.fault_says("1018:02"));
+}
+
+void identifiers_that_are_right_already_need_not_be_written(void**) {
+  ForeignCell cell{plan_for(Mode::cyclic_position), {.constant = {0x140001, 0x140101, 0x180001, 0x180101}}};
+  cell.position = 2;
+  assert_true(cell.comes_up());
+  cell.run(1000);
+  assert_true(cell.is_at(2));
+  ForeignCell other{plan_for(Mode::cyclic_position), {.constant = {0x140001}, .identifier_of_first = 0x333}};
+  assert_false(other.comes_up());
+  assert_true(other.fault_says("1400:01") && other.fault_says("00000333") && other.fault_says("00000205"));
+}
+
+void what_cannot_be_written_and_is_right_already_is_taken(void**) {
+  ForeignCell right{plan_for(Mode::cyclic_position), {.constant = {0x60C202}}};
+  assert_true(right.comes_up());
+  ForeignCell wrong{plan_for(Mode::cyclic_position), {.constant = {0x60C201}}};
+  assert_false(wrong.comes_up());
+  assert_true(wrong.fault_says("60C2:01") && wrong.fault_says("tells_period = false"));
+}
+
+// At the other end of a driver's bus.
+class ForeignOnCan final : public CanNode {
+ public:
+  ForeignOnCan(const ForeignDrive::Nature& nature, Time now) : drive_{nature}, now_{now} {}
+  void on_frame(const CanFrame& frame, CanPort& port) noexcept override {
+    if (!frame.extended) drive_.receive(canopen::to_message(frame), says_);
+    say(port);
+  }
+  Time next_event() const noexcept override { return now_ + milliseconds(1); }
+  void on_time(Time now, CanPort& port) noexcept override {
+    now_ = now;
+    drive_.step(says_);
+    say(port);
+  }
+  ForeignDrive& drive() { return drive_; }
+
+ private:
+  void say(CanPort& port) noexcept {
+    for (; !says_.is_empty(); says_.pop()) port.send(canopen::to_frame(says_.front()));
+  }
+
+  ForeignDrive drive_;
+  Outbox says_;
+  Time now_;
+};
+
+// The driver of a foreign drive in mode profile_position.
+class DriverCell {
+ public:
+  explicit DriverCell(bool tells_speed, const ForeignDrive::Nature& nature = {}) : nature_{nature} {
+    auto& configuration = driver_.configuration();
+    configuration.mode = ServoMode::profile_position;
+    configuration.node = 5;
+    configuration.lowest = -10;
+    configuration.highest = 10;
+    configuration.fastest = 5;
+    configuration.tells_speed = tells_speed;
+    good_ = bus_.driver().initialise().is_ok() && driver_.driver().initialise().is_ok() &&
+            bus_.driver().wire()->attach(far_end_) != nullptr;
+  }
+  ~DriverCell() {
+    driver_.driver().stop();
+    bus_.driver().wire()->detach(far_end_);
+    bus_.driver().stop();
+  }
+
+  CanopenServoDrive& drive() { return driver_.driver(); }
+  ForeignDrive& far_end() { return far_end_.drive(); }
+  void run(int ms) {
+    for (int i = 0; i < ms; i += cycle_of_7_ms) {
+      bus_.receive(milliseconds(cycle_of_7_ms));
+      driver_.receive(milliseconds(cycle_of_7_ms));
+      driver_.send();
+      bus_.send();
+    }
+  }
+  bool comes_up() {
+    for (int i = 0; i < 1000 && drive().fault().is_ok() && !is_enabled(); ++i) run(cycle_of_7_ms);
+    return good_ && is_enabled();
+  }
+  bool goes_to(double place, double speed) {
+    drive().move_to(place, speed);
+    for (int i = 0; i < 2000 && drive().fault().is_ok(); ++i) {
+      run(cycle_of_7_ms);
+      if (drive().state() && drive().state()->target_reached) return true;
+    }
+    print_message("fault: %s\n", drive().fault().cause());
+    return false;
+  }
+
+ private:
+  bool is_enabled() { return drive().state() && drive().state()->enabled; }
+
+  ForeignDrive::Nature nature_;
+  DeviceBench<InProcessCanBus> bus_{nullptr};
+  DeviceBench<CanopenServoDrive> driver_{nullptr, {}, &bus_.driver()};
+  ForeignOnCan far_end_{nature_, bus_.now()};
+  bool good_ = false;
+};
+
+// Its drive has no following error window, and says nothing.
+bool a_stuck_one_is_a_fault(bool tells_speed, double way) {
+  DriverCell cell{tells_speed};
+  if (!cell.comes_up() || !cell.goes_to(2, 0.5) || !cell.goes_to(-1, 5)) return false;
+  if (way < 0) {
+    cell.drive().move_to(-1 + way, 2);
+    cell.run(300);
+  }
+  cell.far_end().stick();
+  if (way > 0) cell.drive().move_to(-1 + way, 2);
+  cell.run(2500);
+  const Status& fault = cell.drive().fault();
+  if (std::strstr(fault.cause(), "from its target") != nullptr && !cell.far_end().is_enabled()) return true;
+  print_message("fault: %s\n", fault.cause());
+  return false;
+}
+
+// The driver says it in the log, each time that the drive was brought up by it and not in each cycle.
+bool own_ramps_are_told(bool has_own) {
+  const LogEar ear;
+  std::vector<std::uint32_t> lacks;
+  if (has_own) lacks = {0x608300, 0x608400};
+  DriverCell cell{true, {.lacks = lacks}};
+  return cell.comes_up() && cell.goes_to(2, 5) && ear.has_heard("its ramps are its own") == has_own;
+}
+
+void that_ramps_are_the_drives_own_stands_in_the_log(void**) {
+  for (const bool has_own : {true, false}) {
+    const bool good = own_ramps_are_told(has_own);
+    assert_true(good);
+  }
+}
+
+void an_axis_that_sticks_on_its_way_is_a_fault_where_the_drive_does_not_notice(void**) {
+  for (const bool tells_speed : {true, false}) {
+    for (const double way : {5.0, 0.2, -6.0}) {
+      const bool good = a_stuck_one_is_a_fault(tells_speed, way);
+      assert_true(good);
+    }
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_drive_that_acts_on_each_object_goes_where_it_is_told),
+      cmocka_unit_test(a_drive_that_acts_at_last_goes_where_it_is_told),
+      cmocka_unit_test(a_speed_that_is_in_no_pdo_is_told_before_its_target_counts),
+      cmocka_unit_test(a_drive_without_a_second_pdo_is_told_its_speed_by_sdo),
+      cmocka_unit_test(a_drive_without_an_object_for_its_speed_says_what_it_does),
+      cmocka_unit_test(interpolated_positions_are_followed_without_a_jump),
+      cmocka_unit_test(a_homing_in_the_midst_of_interpolated_positions_ends_without_a_jump),
+      cmocka_unit_test(a_drive_that_ceases_to_interpolate_is_a_fault),
+      cmocka_unit_test(a_node_that_starts_itself_is_configured_all_the_same),
+      cmocka_unit_test(a_drive_without_a_deceleration_of_its_own_takes_that_of_its_acceleration),
+      cmocka_unit_test(a_drive_without_an_acceleration_has_ramps_of_its_own),
+      cmocka_unit_test(a_drive_that_does_not_say_how_fast_it_is_tells_it_by_its_positions),
+      cmocka_unit_test(what_the_table_asks_for_and_is_missing_is_told_with_its_column),
+      cmocka_unit_test(a_drive_that_leaves_bit_12_is_led_all_the_same),
+      cmocka_unit_test(the_product_is_asked_for_only_where_it_is_named),
+      cmocka_unit_test(identifiers_that_are_right_already_need_not_be_written),
+      cmocka_unit_test(what_cannot_be_written_and_is_right_already_is_taken),
+      cmocka_unit_test(that_ramps_are_the_drives_own_stands_in_the_log),
+      cmocka_unit_test(an_axis_that_sticks_on_its_way_is_a_fault_where_the_drive_does_not_notice),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

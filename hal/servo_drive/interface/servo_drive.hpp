@@ -1,0 +1,117 @@
+// ServoDrive: a drive with one axis that follows positions or velocities, and finds its home.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "hal/servo_drive/interface/profile_progress.hpp"
+#include "hal/servo_drive/interface/velocity_lag.hpp"
+#include "servo_drive_interface.hpp"
+#include "types/servo_homing.hpp"
+#include "types/servo_mode.hpp"
+
+namespace flexrf {
+
+/// Positions in rad of a rotary axis, in m of a linear one; velocities a second of it.
+struct ServoState {
+  double position = 0;
+  double velocity = 0;
+  double following_error = 0;  ///< cyclic set-point less position; 0 in other modes than cyclic_position
+  bool enabled = false;        ///< it follows; else it is off, or on its way to either
+  bool at_internal_limit = false;
+  /// In profile modes: the drive took the last command and has done it. False from the command on, after a
+  /// halt, while it homes, and in cyclic modes.
+  bool target_reached = false;
+  ServoHoming homing = ServoHoming::not_homed;
+};
+
+/// Everything: the thread the drive lives in. With the permission to move, the drive enables itself, with its
+/// set-point where it is; that takes as long as the drive takes. Without it, it stops and is off.
+///
+/// configuration.mode says which of the commands it takes. The others are without effect, as are all of them
+/// while the drive is not enabled or is homing; none of those is remembered. What is kept to a limit or is
+/// without effect for another reason than these two is told (Component::restrain()). What is not finite, or a
+/// speed that is not above 0, puts the drive in fault.
+class ServoDrive : public ServoDriveInterface {
+ public:
+  /// The speed of move_to() that is the greatest of the configuration.
+  static constexpr double full_speed = std::numeric_limits<double>::max();
+
+  /// What the drive said last, as of this cycle, with what was commanded since; nothing while it says
+  /// nothing.
+  virtual std::optional<ServoState> state() const noexcept = 0;
+
+  /// In mode cyclic_position: where the axis shall be, sent at the end of the cycle and held until the next
+  /// command. Kept to the range and the velocity of the configuration; an endless axis has no range, and with
+  /// a modulo goes the shorter way from the command before.
+  virtual void command_position(double position) noexcept = 0;
+  /// In mode cyclic_velocity or profile_velocity: how fast it shall be, kept to the velocity of the
+  /// configuration; zero once the axis is beyond its range and would go on, unless it is endless.
+  virtual void command_velocity(double velocity) noexcept = 0;
+  /// In mode profile_position: where it shall go, once for each target and not in each cycle; kept to the
+  /// range; an endless axis has none, and with a modulo goes the shorter way from where it is. It gives up
+  /// the target before. `speed`: above 0, kept to the velocity of the configuration.
+  virtual void move_to(double position, double speed = full_speed) noexcept = 0;
+
+  /// Begins to find its home with the configured method, whatever the mode; homing is `running` from this
+  /// call on, then `homed` or `failed`. When it is over the drive is in its mode again and holds. Without
+  /// effect while it is not enabled or is homing, and with method 0.
+  virtual void home() noexcept = 0;
+  /// Why homing is `failed`; else ok.
+  virtual const Status& homing_problem() const noexcept = 0;
+
+  /// Comes to rest with the configured acceleration and holds, enabled, until the next command; what was
+  /// commanded is given up. A homing has failed then.
+  virtual void halt() noexcept = 0;
+
+ protected:
+  /// At the end of receive(), by every driver: an axis that does not follow its set-points, does not go as
+  /// fast as it is told, or does not come nearer to its target, is in fault. `configuration`: the driver's.
+  /// `asked`: the velocity that the drive is told, unit/s; 0 in other modes than those that are led by
+  /// velocities. `target`: of a drive that is on its way to one with its own profile; else nothing.
+  void supervise(const auto& configuration, double asked, const std::optional<ProfileTarget>& target,
+                 Time now) noexcept {
+    const auto told = state();
+    if (!told || !told->enabled || is_inhibited() || !fault().is_ok() || configuration.following_time == 0) {
+      lag_.forget();
+      progress_.forget();
+      return;
+    }
+    const double most = configuration.following_time * configuration.fastest;
+    supervise_profile(configuration, most, target, now);
+    // A drive that is led by cyclic velocities is told no acceleration, and has its own limits.
+    const double patient = configuration.acceleration / 2;
+    const double slow = lag_.look(asked, patient, told->position, 2 * most,
+                                  configuration.endless ? configuration.modulo : 0, now);
+    const double behind = std::max(std::abs(told->following_error), slow);
+    if (behind <= most || !fault().is_ok()) return;
+    set_fault(Status::error(
+        StatusCode::device_fault,
+        "its axis is %.4g behind, more than it moves in `following_time` (%g s): does it stick, or does its "
+        "encoder?",
+        behind, configuration.following_time));
+  }
+
+ private:
+  void supervise_profile(const auto& configuration, double most, const std::optional<ProfileTarget>& target,
+                         Time now) noexcept {
+    // A drive may need some time to begin, and the time of its ramps to turn round before that.
+    const double ramps = 2 * configuration.fastest / configuration.acceleration;
+    const double patience = 4 * configuration.following_time + ramps;
+    constexpr double all_but_there = 0.04;
+    const auto away = progress_.look(target, patience, all_but_there * most, now);
+    if (!away) return;
+    set_fault(Status::error(
+        StatusCode::device_fault,
+        "its axis is %.4g from its target and has not come nearer in %.3g s (four times `following_time` and "
+        "its ramps) by a tenth of what its speed makes: does it stick, or does its encoder?",
+        *away, patience));
+  }
+
+  VelocityLag lag_;
+  ProfileProgress progress_;
+};
+
+}  // namespace flexrf

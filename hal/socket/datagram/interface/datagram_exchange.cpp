@@ -1,0 +1,111 @@
+#include "hal/socket/datagram/interface/datagram_exchange.hpp"
+
+#include <algorithm>
+
+#include "runtime/log/log.hpp"
+
+namespace flexrf {
+namespace {
+
+/// Who sends faster than this thread reads must not hold it for ever.
+constexpr int datagrams_per_cycle = 256;
+
+}  // namespace
+
+void DatagramExchange::Box::make(std::size_t entry_count, std::size_t size) {
+  entries.assign(entry_count, {});
+  bytes.assign(entry_count * size, {});
+  each = size;
+  first = count = taken = 0;
+}
+
+void DatagramExchange::Box::settle() noexcept {
+  first = at(taken);
+  count -= taken;
+  taken = 0;
+}
+
+void DatagramExchange::begin(const char* name, DatagramTransport& transport,
+                             const DatagramSettings& settings) {
+  name_ = name;
+  transport_ = &transport;
+  settings_ = settings;
+  inbox_.make(settings.waiting, settings.size);
+  outbox_.make(settings.waiting, settings.size);
+  spare_.assign(settings.size, {});
+  received_ = sent_ = dropped_ = foreign_ = long_ = refused_writes_ = failures_ = 0;
+  trouble_ = {};
+}
+
+/// All that came is taken in, so that what is kept is what came first, and not what the kernel had room for.
+void DatagramExchange::receive(Time now) noexcept {
+  inbox_.settle();
+  for (int n = 0; n < datagrams_per_cycle; ++n) {
+    const bool full = inbox_.is_full();
+    DatagramPeer from;
+    const long size = transport_->receive(full ? std::span(spare_) : inbox_.room(inbox_.count), from);
+    if (size < 0) return;
+    if (settings_.only_remote && settings_.remote.size > 0 && !(from == settings_.remote)) {
+      ++foreign_;
+    } else if (static_cast<std::size_t>(size) > settings_.size) {
+      ++long_;
+    } else if (full) {
+      ++dropped_;
+    } else {
+      inbox_.entries[inbox_.at(inbox_.count++)] = {from, now, static_cast<std::size_t>(size)};
+      ++received_;
+    }
+  }
+}
+
+void DatagramExchange::send() noexcept {
+  while (outbox_.taken < outbox_.count) {
+    const Entry& entry = outbox_.entries[outbox_.at(outbox_.taken)];
+    const DatagramTransport::Sent sent =
+        transport_->send(entry.peer, outbox_.room(outbox_.taken).first(entry.size));
+    if (sent == DatagramTransport::Sent::later) break;
+    ++outbox_.taken;
+    if (sent == DatagramTransport::Sent::done) {
+      ++sent_;
+      trouble_ = {};
+      continue;
+    }
+    // What cannot be sent now is too old later.
+    ++failures_;
+    const std::array<char, sizeof(trouble_)> before = trouble_;
+    set_text(trouble_, transport_->error().cause());
+    if (trouble_ != before) log_warning(name_, "{}", text_view(trouble_));
+  }
+  outbox_.settle();
+}
+
+std::optional<Datagram> DatagramExchange::read() noexcept {
+  if (inbox_.taken == inbox_.count) return std::nullopt;
+  const Entry& entry = inbox_.entries[inbox_.at(inbox_.taken)];
+  const std::span<const std::byte> bytes = inbox_.room(inbox_.taken).first(entry.size);
+  ++inbox_.taken;
+  return Datagram{bytes, entry.peer, entry.at};
+}
+
+bool DatagramExchange::write_to(const DatagramPeer& peer, std::span<const std::byte> bytes) noexcept {
+  if (peer.size == 0 || bytes.size() > settings_.size || outbox_.is_full()) {
+    ++refused_writes_;
+    return false;
+  }
+  std::copy(bytes.begin(), bytes.end(), outbox_.room(outbox_.count).begin());
+  outbox_.entries[outbox_.at(outbox_.count++)] = {peer, Time{}, bytes.size()};
+  return true;
+}
+
+void DatagramExchange::fill(DatagramSocketFeedback& feedback) const noexcept {
+  feedback.received = received_;
+  feedback.sent = sent_;
+  feedback.dropped = dropped_;
+  feedback.foreign = foreign_;
+  feedback.long_datagrams = long_;
+  feedback.refused_writes = refused_writes_;
+  feedback.failures = failures_;
+  feedback.trouble = trouble_;
+}
+
+}  // namespace flexrf
