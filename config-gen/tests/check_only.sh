@@ -38,7 +38,7 @@ check_application() {  # check_application TABLE DRIVERS...: sets status and out
 }
 
 # Nor of the cells that tests are made of, but of one whose keyboard tells more than it wants to know.
-for table in "$repository"/tests/{applications,generator,panel,melfa,modbus,camera}/*/*.toml; do
+for table in "$repository"/tests/{applications,generator,panel,paced_cell,station_cell,camera}/*/*.toml; do
   part=$(dirname "$(dirname "$table")")
   [[ $(<"$table") == *memory_budget* ]] || continue
   check_application "$table" "$part/drivers" --interfaces "$repository/hal" "$part/interfaces"

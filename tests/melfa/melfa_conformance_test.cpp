@@ -1,8 +1,0 @@
-#include "tests/melfa/loopback_world.hpp"
-
-int main() {
-  using namespace flexrf;
-  return run_robot_arm_conformance("MELFA arm over UDP", []() -> std::unique_ptr<RobotArmWorld> {
-    return std::make_unique<MelfaConformanceWorld<LoopbackWorld>>();
-  });
-}
