@@ -2,7 +2,7 @@
 // which the checker must refuse: else it would not see that mistake in the real thing either.
 #include <cstdint>
 
-#include "runtime/blackboard/model.hpp"
+#include "runtime/blackboard/tests/model.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf {

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { FakeHost, key, makeHold, makeParameter, mount, pointer, settled, show, type FakeHold, type Shown } from './tests/fake_host';
+import { FakeHost, key, makeHold, makeParameter, mount, pointer, settled, show, type FakeHold, type Shown } from '../tests/fake_host';
 
 const captured = vi.fn();
 beforeEach(() => {

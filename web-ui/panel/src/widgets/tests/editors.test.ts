@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
-import type { Outcome } from '../contract';
-import { displayUnits } from '../core/units';
-import { FakeHost, key, makeParameter, pointer, settled, show, type, type Shown } from './tests/fake_host';
+import type { Outcome } from '../../contract';
+import { displayUnits } from '../../core/units';
+import { FakeHost, key, makeParameter, pointer, settled, show, type, type Shown } from '../tests/fake_host';
 
 afterEach(() => {
   document.body.replaceChildren();

@@ -1,7 +1,7 @@
 // @vitest-environment node
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import type { Outcome, Value } from '../contract';
-import { Edit } from './edit';
+import type { Outcome, Value } from '../../contract';
+import { Edit } from '../edit';
 
 /** A unit that answers when the test says so. */
 class Unit {

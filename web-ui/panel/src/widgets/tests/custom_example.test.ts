@@ -1,10 +1,10 @@
 // The custom widget of docs/panel-widgets.md works as it is printed there.
 import { afterEach, expect, it } from 'vitest';
 import page from 'documentation/panel-widgets.md?raw';
-import type { WidgetElement } from '../contract';
-import { Registry } from '../core/registry';
+import type { WidgetElement } from '../../contract';
+import { Registry } from '../../core/registry';
 import * as builtIn from '.';
-import { FakeHost, key, makeHold, makeItem, makeParameter, pointer, settled } from './tests/fake_host';
+import { FakeHost, key, makeHold, makeItem, makeParameter, pointer, settled } from '../tests/fake_host';
 
 const code = /\n( {4}const sheet = [^]*?)\n\n?Its row/.exec(page)![1]!.replaceAll(/^ {4}/gm, '');
 

@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it } from 'vitest';
-import { displayUnits } from '../core/units';
-import { makeItem, settled, show } from './tests/fake_host';
+import { displayUnits } from '../../core/units';
+import { makeItem, settled, show } from '../tests/fake_host';
 
 afterEach(() => {
   document.body.replaceChildren();

@@ -2,7 +2,7 @@
 // the checker must refuse.
 #include <cstdint>
 
-#include "runtime/blackboard/model.hpp"
+#include "runtime/blackboard/tests/model.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf {

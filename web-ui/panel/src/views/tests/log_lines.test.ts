@@ -1,6 +1,6 @@
 // @vitest-environment node
 import { describe, expect, it } from 'vitest';
-import { filterLines, severityOf } from './log_lines';
+import { filterLines, severityOf } from '../log_lines';
 
 describe('lines of the log', () => {
   it.each([

@@ -1,9 +1,9 @@
 import { afterEach, describe, expect, it } from 'vitest';
-import type { ItemInfo } from '../contract';
-import { displayUnits, formatNumber } from '../core/units';
-import { isWide, Quantity } from './quantity';
-import { sameValue } from '../core/same_value';
-import { anyText } from './value_text';
+import type { ItemInfo } from '../../contract';
+import { displayUnits, formatNumber } from '../../core/units';
+import { isWide, Quantity } from '../quantity';
+import { sameValue } from '../../core/same_value';
+import { anyText } from '../value_text';
 
 type Measured = Pick<ItemInfo, 'scalar' | 'unit' | 'range' | 'default'>;
 const step: Measured = { scalar: 'f64', unit: 'm', range: [0.001, 0.1], default: 0.01 };

@@ -1,8 +1,8 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import type { ItemInfo } from '../contract';
-import { columnsPath } from './histogram';
-import { flatPose, mapExtent } from './pose_2d';
-import { makeItem, settled, show } from './tests/fake_host';
+import type { ItemInfo } from '../../contract';
+import { columnsPath } from '../histogram';
+import { flatPose, mapExtent } from '../pose_2d';
+import { makeItem, settled, show } from '../tests/fake_host';
 
 afterEach(() => document.body.replaceChildren());
 

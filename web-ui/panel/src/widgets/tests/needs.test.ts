@@ -1,7 +1,7 @@
 // A button is dead, and says why, while it could do nothing.
 import { afterEach, expect, it } from 'vitest';
-import type { ItemInfo } from '../contract';
-import { FakeHost, settled, show } from './tests/fake_host';
+import type { ItemInfo } from '../../contract';
+import { FakeHost, settled, show } from '../tests/fake_host';
 
 const state: ItemInfo = {
   key: 'sequence.feedback.state', label: 'State', summary: '', scalar: 'enumeration', shape: [], unit: '', kind: 'feedback',

@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, it } from 'vitest';
-import type { ItemInfo } from '../contract';
-import { kindOf, misfit, placedKind } from './choose';
-import { FakeHost, makeItem, makeParameter, mount, settled, show } from './tests/fake_host';
+import type { ItemInfo } from '../../contract';
+import { kindOf, misfit, placedKind } from '../choose';
+import { FakeHost, makeItem, makeParameter, mount, settled, show } from '../tests/fake_host';
 
 afterEach(() => document.body.replaceChildren());
 
