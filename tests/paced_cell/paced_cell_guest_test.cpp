@@ -8,10 +8,10 @@
 #include <sstream>
 #include <thread>
 
+#include "hal/robot_arm/melfa_mxt/tests/melfa_controller.hpp"
 #include "places.hpp"
 #include "tests/applications/process.hpp"
 #include "tests/applications/running.hpp"
-#include "hal/robot_arm/melfa_mxt/tests/melfa_controller.hpp"
 #include "tests/simulator_process.hpp"
 
 namespace flexrf::application {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "hal/force_torque/ft300/ft300_sensor.hpp"
-#include "places.hpp"
 #include "hal/force_torque/tests/sensor_world.hpp"
+#include "places.hpp"
 
 namespace flexrf {
 

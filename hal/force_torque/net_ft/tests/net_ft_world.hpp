@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "hal/force_torque/net_ft/net_ft_sensor.hpp"
-#include "places.hpp"
 #include "hal/force_torque/tests/sensor_world.hpp"
+#include "places.hpp"
 
 namespace flexrf {
 

@@ -1,9 +1,9 @@
 // The gripper that is an axis on a real interface (vcan), as root: the conformance suite and the faults. The
 // drive is another process, the cable is the interface that goes down.
 #include "hal/gripper/canopen/canopen_gripper.hpp"
-#include "places.hpp"
 #include "hal/gripper/canopen/tests/gripper_faults.hpp"
 #include "hal/servo_drive/canopen/tests/real_axis.hpp"
+#include "places.hpp"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // The gripper that is an axis and a simulated drive, on a simulated bus in virtual time.
 #include "hal/can/in_process/in_process_can_bus.hpp"
 #include "hal/driver/device_bench.hpp"
+#include "hal/gripper/canopen/tests/gripper_faults.hpp"
 #include "hal/gripper/conformance/gripper_cases.hpp"
 #include "hal/servo_drive/canopen/simulator/drive_console.hpp"
-#include "hal/gripper/canopen/tests/gripper_faults.hpp"
 
 // Its macros would not spare names of ours.
 #include "tests/cmocka.hpp"

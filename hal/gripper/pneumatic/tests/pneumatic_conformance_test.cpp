@@ -2,8 +2,8 @@
 // wires.
 #include "hal/gpio/chip/mock/mock_gpio_chip.hpp"
 #include "hal/gpio/chip/simulated/simulated_gpio_chip.hpp"
-#include "tests/cmocka.hpp"
 #include "hal/gripper/pneumatic/tests/pneumatic_world.hpp"
+#include "tests/cmocka.hpp"
 #include "tests/log_ear.hpp"
 
 namespace {

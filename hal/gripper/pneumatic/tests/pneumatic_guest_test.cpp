@@ -4,8 +4,8 @@
 
 #include "hal/gpio/chip/linux/linux_gpio_chip.hpp"
 #include "hal/gpio/chip/linux/tests/gpio_sim.hpp"
-#include "runtime/core/text.hpp"
 #include "hal/gripper/pneumatic/tests/pneumatic_world.hpp"
+#include "runtime/core/text.hpp"
 
 namespace {
 

@@ -9,9 +9,9 @@
 #include <ctime>
 #include <optional>
 
-#include "places.hpp"
 #include "hal/robot_arm/melfa_mxt/tests/melfa_controller.hpp"
 #include "hal/robot_arm/melfa_mxt/tests/melfa_world.hpp"
+#include "places.hpp"
 #include "tests/simulator_process.hpp"
 
 namespace flexrf {

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "hal/canopen/can_message.hpp"
+#include "hal/servo_drive/canopen/tests/real_axis.hpp"
 #include "places.hpp"
 #include "runtime/realtime/last_gasp.hpp"
-#include "hal/servo_drive/canopen/tests/real_axis.hpp"
 
 // Its macros would not spare names of ours.
 #include "tests/cmocka.hpp"

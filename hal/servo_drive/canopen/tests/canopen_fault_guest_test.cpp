@@ -4,9 +4,9 @@
 #include <net/if.h>
 #include <unistd.h>
 
-#include "places.hpp"
 #include "hal/servo_drive/canopen/tests/drive_faults.hpp"
 #include "hal/servo_drive/canopen/tests/real_axis.hpp"
+#include "places.hpp"
 
 // Its macros would not spare names of ours.
 #include "tests/cmocka.hpp"

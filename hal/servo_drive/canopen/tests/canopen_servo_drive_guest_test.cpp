@@ -1,8 +1,8 @@
 // The driver on a real interface (vcan), as root; the drive is another process, and both meet only on the
 // wire.
+#include "hal/servo_drive/canopen/tests/real_axis.hpp"
 #include "hal/servo_drive/conformance/servo_drive_conformance.hpp"
 #include "places.hpp"
-#include "hal/servo_drive/canopen/tests/real_axis.hpp"
 
 namespace {
 

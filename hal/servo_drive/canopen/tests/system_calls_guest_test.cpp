@@ -15,8 +15,8 @@
 #include <thread>
 #include <vector>
 
-#include "places.hpp"
 #include "hal/servo_drive/canopen/tests/real_axis.hpp"
+#include "places.hpp"
 
 // Its macros would not spare names of ours.
 #include "tests/cmocka.hpp"
