@@ -92,7 +92,13 @@ sources() {  # every C++ file that a person wrote
     \( -name '*.cpp' -o -name '*.hpp' -o -name '*.h' \) -print0
 }
 
-check_format() { sources | xargs -0 -r -n 50 -P "$(nproc)" clang-format --dry-run -Werror; }
+# How sources are written, and which of them know which.
+check_layout() {
+  local status=0
+  sources | xargs -0 -r -n 50 -P "$(nproc)" clang-format --dry-run -Werror || status=1
+  sources | xargs -0 -r awk -v root="$root" -f "$tool/includes.awk" || status=1
+  return "$status"
+}
 
 # The static analysis of the files of the release build's list that lie outside build/.
 analyse() {
@@ -283,7 +289,7 @@ test_stages() {  # test_stages [--full | --guest [--long] [NAME...] | --quick | 
       stage "test release" quick_tests
       ;;
     '' | --full)
-      stage "source layout" count_as_test check_format
+      stage "source layout" count_as_test check_layout
       behind_analysis=1
       [[ $obstacle ]] || behind_guest=1
       if (($#)); then

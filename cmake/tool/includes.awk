@@ -1,0 +1,57 @@
+# Which part of the tree may include which: README's table "What is where". Reads source files and prints each #include against
+# it, as FILE:LINE:COLUMN with a hint; ends with 1 when there was one. -v root: the repository.
+
+BEGIN {
+  FS = "\""
+  may["base"] = "base"
+  may["runtime"] = "base runtime"
+  may["motion"] = "base runtime motion"
+  may["hal"] = "base runtime motion hal"
+  may["units"] = "base runtime motion units hal"
+  may["config-gen"] = "base config-gen"
+  may["web-ui"] = "base runtime web-ui"
+}
+
+FNR == 1 {
+  file = substr(FILENAME, length(root) + 2)
+  part = first(file)
+  # Tests and the suites that they share may use whatever helps them; so may applications.
+  is_free = !(part in may) || file ~ "/(tests|conformance)/"
+}
+
+is_free { next }
+
+/^#include "[^"]*\// {
+  included = $2
+  used = first(included)
+  if (used !~ "^(base|runtime|motion|hal|units|config-gen|web-ui|apps|tests|benchmarks)$") next  # generated
+  if (index(" " may[part] " ", " " used " ") == 0)
+    refuse(part "/ may include only " may[part])
+  else if (used == "hal" && part == "units" && included !~ "/interface/")
+    refuse("a unit knows interfaces only: hal/<family>/interface/")
+  else if (used == "hal" && part == "hal" && !within_hal())
+    refuse("of another family only its interface/, and hal/driver/ and hal/canopen/; what is imagined (mock, simulated, simulator, in_process) " \
+           "may use what is imagined; an arm of drives is made of drives")
+}
+
+END { exit failed }
+
+function first(path) { return substr(path, 1, index(path, "/") - 1) }
+
+function family(path) {
+  sub("^hal/", "", path)
+  return first(path)
+}
+
+function is_imagined(path) { return path ~ "/(mock|simulated[a-z_]*|simulator|in_process)/" }
+
+function within_hal() {
+  return family(included) == family(file) || family(included) ~ "^(driver|canopen)$" || included ~ "/interface/" ||
+    (is_imagined(file) && is_imagined(included)) ||
+    (file ~ "^hal/robot_arm/of_drives/" && family(included) == "servo_drive")
+}
+
+function refuse(hint) {
+  printf "%s:%d:1: error: %s may not include %s\n%s:%d:1: hint: %s\n", file, FNR, file, included, file, FNR, hint
+  failed = 1
+}
