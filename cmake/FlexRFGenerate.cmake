@@ -8,10 +8,11 @@
 #   flexrf_add_application([NAME name] [SOURCES ...] [LIBRARIES ...] [WITHOUT_PANEL])
 #                                                                    NAME.toml, types/, units/*/, widgets/ of its own
 #
-# NAME is the folder's name unless given; in a folder with one other table it is that one's. A unit `jog` is the target FlexRF::unit_jog, an interface FlexRF::interface_NAME,
+# NAME is the folder's name unless given; an interface's and a driver's is that of the folder's only table. A unit `jog` is the target FlexRF::unit_jog, an interface FlexRF::interface_NAME,
 # a driver FlexRF::driver_NAME; an application is the executable NAME, and NAME_application is all of it but main().
 # Where the panel was built, an application carries it, unless WITHOUT_PANEL.
-# LIBRARIES are what the author's sources need beyond the runtime, the types and the interfaces that the table names.
+# LIBRARIES are what the author's sources need beyond the runtime, the types and the interfaces that the table names; a driver's can
+# stand in its table.
 # Order matters as for add_library: types and interfaces before what uses them, applications last.
 
 include_guard(GLOBAL)
@@ -31,43 +32,26 @@ define_property(TARGET PROPERTY FLEXRF_OUTPUT BRIEF_DOCS "Folder of what was gen
 define_property(TARGET PROPERTY FLEXRF_CLASS BRIEF_DOCS "Interface: its class. Driver: the class of its interface")
 define_property(TARGET PROPERTY FLEXRF_NAME BRIEF_DOCS "Unit: its name in tables. Driver: as in drivers = [...]")
 
-# The value of a key in the first part of a table, before any section.
-function(_flexrf_key table key otherwise result)
-  file(STRINGS "${table}" lines REGEX "^(\\[|${key}[ \t]*=)")
-  set(value "${otherwise}")
-  foreach(line IN LISTS lines)
-    if(line MATCHES "^\\[")
-      break()
-    elseif(line MATCHES "=[ \t]*\"([^\"]*)\"")
-      set(value "${CMAKE_MATCH_1}")
+# What a table names: sets part_KEY for each line KEY of config-gen-parts.
+function(_flexrf_list_parts option table)
+  get_property(program GLOBAL PROPERTY FLEXRF_PARTS)
+  execute_process(COMMAND "${program}" ${option} "${table}" OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
+  foreach(key IN ITEMS name class interfaces libraries packages units drivers)
+    set(part_${key} "" PARENT_SCOPE)
+    if("\n${lines}" MATCHES "\n${key} ([^\n]*)")
+      string(REPLACE " " ";" words "${CMAKE_MATCH_1}")
+      set(part_${key} "${words}" PARENT_SCOPE)
     endif()
   endforeach()
-  set(${result} "${value}" PARENT_SCOPE)
 endfunction()
 
-# All quoted words of some tables: what they can name.
-function(_flexrf_words result)
-  set(words "")
-  foreach(table IN LISTS ARGN)
-    file(READ "${table}" text)
-    string(REGEX MATCHALL "\"[A-Za-z0-9_]+\"" found "${text}")
-    list(APPEND words ${found})
-  endforeach()
-  string(REPLACE "\"" "" words "${words}")
-  list(REMOVE_DUPLICATES words)
-  set(${result} "${words}" PARENT_SCOPE)
-endfunction()
-
-function(_flexrf_camel_case snake result)
-  string(REGEX REPLACE "[_-]" ";" parts "${snake}")
-  set(camel "")
-  foreach(part IN LISTS parts)
-    string(SUBSTRING "${part}" 0 1 first)
-    string(SUBSTRING "${part}" 1 -1 rest)
-    string(TOUPPER "${first}" first)
-    string(APPEND camel "${first}${rest}")
-  endforeach()
-  set(${result} "${camel}" PARENT_SCOPE)
+# flexrf_need_package(NAME MODULE): PkgConfig::NAME for the library that pkg-config calls MODULE; an installed FlexRF asks for it
+# where what it needs is linked.
+function(flexrf_need_package name module)
+  if(NOT TARGET PkgConfig::${name})
+    pkg_check_modules(${name} REQUIRED QUIET IMPORTED_TARGET GLOBAL ${module})
+    set_property(GLOBAL APPEND PROPERTY FLEXRF_PACKAGES "${name}=${module}")
+  endif()
 endfunction()
 
 # Options of config-gen that say where tables are searched: those of the application first, then all known ones.
@@ -141,7 +125,7 @@ macro(_flexrf_arguments function)
     cmake_path(GET argument_DIRECTORY FILENAME argument_NAME)
     file(GLOB argument_TABLES CONFIGURE_DEPENDS "${argument_DIRECTORY}/*.toml")
     list(LENGTH argument_TABLES argument_COUNT)
-    if(argument_COUNT EQUAL 1 AND NOT EXISTS "${argument_DIRECTORY}/${argument_NAME}.toml")
+    if("${function}" MATCHES "driver|interface" AND argument_COUNT EQUAL 1)
       cmake_path(GET argument_TABLES STEM argument_NAME)
     endif()
   endif()
@@ -156,7 +140,7 @@ macro(_flexrf_need_table table function)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${table}")
 endmacro()
 
-# The interface targets that the words of a table name, by class.
+# The interface targets of these classes.
 function(_flexrf_interfaces_in result)
   get_property(targets GLOBAL PROPERTY FLEXRF_INTERFACES)
   set(found "")
@@ -254,15 +238,14 @@ function(flexrf_add_interface)
   if(IS_DIRECTORY "${argument_DIRECTORY}/types")
     flexrf_add_types(${name} DIRECTORY "${argument_DIRECTORY}/types")
   endif()
-  _flexrf_camel_case(${name} class)
-  _flexrf_key("${table}" class ${class} class)
+  _flexrf_list_parts(--interface "${table}")
   _flexrf_target(interface ${name})
   _flexrf_all(TYPES types)
   _flexrf_roots(INTERFACES "${argument_DIRECTORY}" unused includes)
   set(generated ${name}_interface.hpp ${name}_interface.cpp)
   _flexrf_generated_library(${target} "${output}"
     GENERATED ${generated} SOURCES ${argument_SOURCES} LIBRARIES ${types} ${argument_LIBRARIES} INCLUDES ${includes})
-  _flexrf_register(INTERFACES ${target} "${argument_DIRECTORY}" ${name} ${class})
+  _flexrf_register(INTERFACES ${target} "${argument_DIRECTORY}" ${name} "${part_class}")
   _flexrf_generate(--interface "${table}" "${output}" ${generated} reference.md)
 endfunction()
 
@@ -271,17 +254,20 @@ function(flexrf_add_driver)
   set(stem ${argument_NAME})
   set(table "${argument_DIRECTORY}/${stem}.toml")
   _flexrf_need_table("${table}" flexrf_add_driver)
-  _flexrf_key("${table}" interface "" class)
-  _flexrf_key("${table}" name ${stem} name)
-  _flexrf_words(words "${table}")
-  _flexrf_interfaces_in(interfaces ${words})
+  _flexrf_list_parts(--driver "${table}")
+  _flexrf_interfaces_in(interfaces ${part_interfaces})
+  foreach(package IN LISTS part_packages)
+    string(MAKE_C_IDENTIFIER "flexrf_${package}" name)
+    flexrf_need_package(${name} ${package})
+    list(APPEND argument_LIBRARIES PkgConfig::${name})
+  endforeach()
   _flexrf_target(driver ${stem})
   _flexrf_roots(DRIVERS "${argument_DIRECTORY}" unused includes)
   set(generated ${stem}_driver.hpp ${stem}_driver.cpp ${stem}_construct.cpp)
   _flexrf_generated_library(${target} "${output}"
-    GENERATED ${generated} SOURCES ${argument_SOURCES} LIBRARIES ${interfaces} ${argument_LIBRARIES}
+    GENERATED ${generated} SOURCES ${argument_SOURCES} LIBRARIES ${interfaces} ${part_libraries} ${argument_LIBRARIES}
     INCLUDES ${includes})
-  _flexrf_register(DRIVERS ${target} "${argument_DIRECTORY}" ${name} "${class}")
+  _flexrf_register(DRIVERS ${target} "${argument_DIRECTORY}" "${part_name}" "${part_class}")
   _flexrf_generate(--driver "${table}" "${output}" ${generated} reference.md)
 endfunction()
 
@@ -293,8 +279,8 @@ function(flexrf_add_unit)
   if(IS_DIRECTORY "${argument_DIRECTORY}/types")
     flexrf_add_types(${name} DIRECTORY "${argument_DIRECTORY}/types")
   endif()
-  _flexrf_words(words "${table}")
-  _flexrf_interfaces_in(interfaces ${words})
+  _flexrf_list_parts(--unit "${table}")
+  _flexrf_interfaces_in(interfaces ${part_interfaces})
   _flexrf_target(unit ${name})
   _flexrf_all(TYPES types)
   _flexrf_roots(UNITS "${argument_DIRECTORY}" unused includes)
@@ -336,12 +322,12 @@ function(flexrf_add_application)
   endforeach()
 
   # Only the units and drivers that the tables can mean are built and linked.
-  _flexrf_words(words ${tables})
+  _flexrf_list_parts(--application "${table}")
   set(parts ${flexrf_local_UNITS} ${flexrf_local_TYPES})
   get_property(units GLOBAL PROPERTY FLEXRF_UNITS)
   foreach(unit IN LISTS units)
     get_target_property(unit_name ${unit} FLEXRF_NAME)
-    if(unit_name IN_LIST words)
+    if(unit_name IN_LIST part_units)
       list(APPEND parts ${unit})
     endif()
   endforeach()
@@ -349,7 +335,7 @@ function(flexrf_add_application)
   foreach(driver IN LISTS drivers)
     get_target_property(driver_name ${driver} FLEXRF_NAME)
     get_target_property(class ${driver} FLEXRF_CLASS)
-    if(driver_name IN_LIST words AND class IN_LIST words)
+    if("${class}/${driver_name}" IN_LIST part_drivers)
       list(APPEND parts ${driver})
     endif()
   endforeach()

@@ -1,6 +1,6 @@
 # What an application outside this repository needs, under one prefix that may be moved:
 #
-#   bin/config-gen                    the generator
+#   bin/config-gen, config-gen-parts  the generator, and what tells the build what tables name
 #   include/flexrf/                   public headers under the paths they are included by, and generated ones
 #   share/flexrf/                     the tables that applications build on
 #   lib/, lib/cmake/FlexRF/           libraries, find_package(FlexRF), flexrf_add_application() and the others
@@ -8,13 +8,17 @@
 set(headers include/flexrf)
 set(package lib/cmake/FlexRF)
 
-# All targets of this project that the given ones need, themselves included.
-function(_flexrf_needed result)
+# All targets of this project that the given ones need, themselves included, and the system's packages that these link.
+function(_flexrf_needed result packages_result)
   set(waiting ${ARGN})
   set(needed "")
+  set(packages "")
   while(waiting)
     list(POP_FRONT waiting target)
     string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" target "${target}")
+    if(target MATCHES "^PkgConfig::(.+)")
+      list(APPEND packages ${CMAKE_MATCH_1})
+    endif()
     if(NOT TARGET ${target})
       continue()
     endif()
@@ -32,10 +36,12 @@ function(_flexrf_needed result)
       list(APPEND waiting ${links})
     endif()
   endwhile()
+  list(REMOVE_DUPLICATES packages)
   set(${result} "${needed}" PARENT_SCOPE)
+  set(${packages_result} "${packages}" PARENT_SCOPE)
 endfunction()
 
-set(registry "# Which tables the installed targets were made from.\n")
+set(registry "# Which tables the installed targets were made from, and what they link.\n")
 set(made "")
 foreach(kind IN ITEMS TYPES INTERFACES DRIVERS UNITS)
   get_property(targets GLOBAL PROPERTY FLEXRF_${kind})
@@ -57,8 +63,6 @@ foreach(kind IN ITEMS TYPES INTERFACES DRIVERS UNITS)
            "FLEXRF_ROOT \"\${_flexrf_tables}/${searched}\" FLEXRF_NAME \"${name}\" FLEXRF_CLASS \"${class}\")\n")
   endforeach()
 endforeach()
-file(WRITE "${PROJECT_BINARY_DIR}/FlexRFRegistry.cmake" "${registry}")
-
 target_include_directories(flexrf_options INTERFACE
   $<INSTALL_INTERFACE:${headers}> $<INSTALL_INTERFACE:${headers}/generated>)
 set(panel "")
@@ -66,13 +70,23 @@ if(TARGET flexrf_panel)  # where it was built; of its headers an application nee
   set(panel flexrf_panel)
   install(FILES web-ui/server/panel.hpp DESTINATION ${headers}/web-ui/server)
 endif()
-_flexrf_needed(needed flexrf_runtime flexrf_allocation_guard ${panel} ${made})
+_flexrf_needed(needed linked flexrf_runtime flexrf_allocation_guard ${panel} ${made})
+get_property(packages GLOBAL PROPERTY FLEXRF_PACKAGES)
+foreach(package IN LISTS packages)
+  string(REGEX MATCH "^([^=]+)=(.+)$" package "${package}")
+  if(CMAKE_MATCH_1 IN_LIST linked)
+    string(APPEND registry "flexrf_need_package(${CMAKE_MATCH_1} ${CMAKE_MATCH_2})\n")
+  endif()
+endforeach()
+file(WRITE "${PROJECT_BINARY_DIR}/FlexRFRegistry.cmake" "${registry}")
 foreach(target IN LISTS needed)
   string(REGEX REPLACE "^flexrf_" "" exported ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${exported})
 endforeach()
 install(TARGETS ${needed} config-gen EXPORT FlexRFTargets
         ARCHIVE DESTINATION lib OBJECTS DESTINATION lib RUNTIME DESTINATION bin)
+get_property(parts GLOBAL PROPERTY FLEXRF_PARTS)
+install(PROGRAMS "${parts}" DESTINATION bin)
 install(EXPORT FlexRFTargets NAMESPACE FlexRF:: DESTINATION ${package})
 install(DIRECTORY runtime motion hal units DESTINATION ${headers} FILES_MATCHING PATTERN "*.hpp"
         PATTERN tests EXCLUDE PATTERN conformance EXCLUDE)

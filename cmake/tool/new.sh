@@ -47,12 +47,6 @@ instantiate() {  # instantiate TEMPLATE FOLDER OLD NEW...: its files, with each 
   mv -T "$place" "$folder" || die "could not make $folder"
 }
 
-add_to_build() {  # add_to_build FOLDER NAME
-  local list=$root/$1/CMakeLists.txt
-  [[ $(tail -c 1 "$list") ]] && echo >>"$list"
-  echo "add_subdirectory($2)" >>"$list"
-}
-
 next_step() { printf '  %-44s %s\n' "$@"; }
 
 new_unit() {
@@ -63,9 +57,8 @@ new_unit() {
   need_free_class "$name"
   class=$(camel_case "$name")
   instantiate "$tool/templates/unit" "$root/units/$name" new_unit "$name" NewUnit "$class"
-  add_to_build units "$name"
   cat <<TEXT
-Made units/$name and added it to units/CMakeLists.txt. It builds and passes its test as it is:
+Made units/$name, which the build finds. It builds and passes its test as it is:
 
   ./flexrf build && ctest --test-dir build/release -R '^unit_${name}_test\$' --output-on-failure
 
@@ -89,9 +82,8 @@ new_app() {
   esac
   need_identifier "$name" "$stem"
   instantiate "$tool/templates/app" "$root/apps/$name" new-app "$name" new_app "$stem"
-  add_to_build apps "$name"
   cat <<TEXT
-Made apps/$name and added it to apps/CMakeLists.txt. It runs as it is, and passes its test:
+Made apps/$name, which the build finds. It runs as it is, and passes its test:
 
   ./flexrf run $name -- --virtual-time 5s
   ./flexrf build && ctest --test-dir build/release -R '^${stem}_cell_test\$' --output-on-failure

@@ -4,6 +4,7 @@
 #include "config-gen/read/members.hpp"
 #include "config-gen/read/needs.hpp"
 #include "config-gen/read/object_list.hpp"
+#include "config-gen/read/parts.hpp"
 #include "config-gen/read/quantities.hpp"
 
 namespace flexrf::config_gen {
@@ -101,6 +102,16 @@ void refuse_sections_of_interface(Row& row, const std::string& interface, Diagno
   }
 }
 
+// The build reads these itself (read/parts.hpp), and only plain words.
+void check_build_words(Row& row, std::string_view key, std::string_view meaning, Diagnostics& diagnostics) {
+  const Node* words = row.list_of_texts(key);
+  if (words == nullptr) return;
+  for (const Node& word : words->children)
+    if (!is_build_word(word.text))
+      diagnostics.error(word.position, quote(word.text) + " cannot be one of " + std::string(key),
+                        "each is " + std::string(meaning));
+}
+
 }  // namespace
 
 std::optional<Index> read_interface_table(Library& library, const Node& root,
@@ -187,6 +198,8 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
                         "name an interface whose table says bus = true");
   }
   row.also("configuration");
+  check_build_words(row, "libraries", "a target of the build, as \"FlexRF::can_wire\"", diagnostics);
+  check_build_words(row, "packages", "what pkg-config calls a library, as \"libgpiod\"", diagnostics);
   const auto objects = row.text("objects");
   refuse_sections_of_interface(row, interface.value_or(""), diagnostics);
   row.finish();

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `new` makes a folder from its template and adds it to the build, or says why not and changes nothing.
+# `new` makes a folder from its template, or says why not and changes nothing.
 source "$(dirname "$0")/stand_in.sh"
 shopt -s extglob
 
@@ -8,8 +8,6 @@ stand_in g++ <<'BODY'
 BODY
 stand_in clang-format </dev/null
 mkdir -p "$tree/units" "$tree/hal/operator/keyboard/interface/types" "$tree/runtime/core"
-printf 'add_subdirectory(jog)' >"$tree/units/CMakeLists.txt" # and no end of line
-printf 'add_subdirectory(keyboard)\n' >"$tree/apps/CMakeLists.txt"
 touch "$tree/hal/operator/keyboard/interface/types/key_event.toml"
 echo 'class [[nodiscard]] Status {' >"$tree/runtime/core/status.hpp"
 mkdir -p "$tree/units/arm_watch" "$tree/hal/robot_arm/simulated"
@@ -25,7 +23,6 @@ expect "exit code of a unit" "$status" 0
 expect "files of a unit" "$(made "$tree/units/lift_guard")" \
   "./CMakeLists.txt ./lift_guard.cpp ./lift_guard.hpp ./lift_guard.toml ./tests/lift_guard_test.cpp "
 expect "class of a unit" "$(<"$tree/units/lift_guard/lift_guard.hpp")" "*class LiftGuard final : public LiftGuardUnit {*"
-expect "list of units" "$(<"$tree/units/CMakeLists.txt")" "add_subdirectory(jog)"$'\n'"add_subdirectory(lift_guard)"
 expect "next steps" "$output" "*-R '^unit_lift_guard_test\$'*units/lift_guard/lift_guard.toml *"
 
 flexrf new app level-cell </dev/null
@@ -33,7 +30,6 @@ expect "exit code of an application" "$status" 0
 expect "files of an application" "$(made "$tree/apps/level-cell")" \
   "./CMakeLists.txt ./level_cell.toml ./tests/level_cell_cell_test.cpp ./types/level.toml *./units/smoothing/smoothing.toml "
 expect "library of the test" "$(<"$tree/apps/level-cell/CMakeLists.txt")" "*LIBRARIES level-cell_application *"
-expect "list of applications" "$(<"$tree/apps/CMakeLists.txt")" "*add_subdirectory(level-cell)"
 expect "next steps" "$output" "*./flexrf run level-cell *apps/level-cell/level_cell.toml *"
 expect "names left from the template" "$(grep -r -i -E 'new.?(unit|app)' "$tree/units" "$tree/apps")" ""
 
