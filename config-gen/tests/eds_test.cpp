@@ -157,15 +157,14 @@ void a_cell_with_an_odd_but_good_file(void**) {
 // all but the texts that are exchanged in its EDS file; with these parameters instead of the defaults.
 using Numbers = std::map<std::string, std::int64_t>;
 using Texts = std::vector<std::pair<std::string, std::string>>;
+constexpr const char* canopen_servo_drive = "servo_drive/canopen/canopen_servo_drive.toml";
+constexpr const char* canopen_gripper = "gripper/canopen/canopen_gripper.toml";
 std::string messages_for(const std::string& driver, const Numbers& said, const Texts& exchanged = {}) {
   const std::filesystem::path hal = std::filesystem::path(place::tests_folder) / "../../hal";
   SearchPaths paths;
-  paths.types = {hal / "interfaces/servo_drive/types", hal / "interfaces/gripper/types",
-                 hal / "interfaces/can_bus/types"};
-  paths.interfaces = {hal / "interfaces"};
+  paths.interfaces = {hal};
   Diagnostics diagnostics;
-  const Model model =
-      read({Target::Kind::driver, hal / "linux" / driver / (driver + ".toml")}, paths, diagnostics);
+  const Model model = read({Target::Kind::driver, hal / driver}, paths, diagnostics);
   std::ifstream file(hal / "../apps/cia402-simulator/cia402_simulator.eds");
   std::string text(std::istreambuf_iterator<char>(file), {});
   for (const auto& [from, to] : exchanged) {
@@ -208,26 +207,26 @@ constexpr std::int64_t profile_position = 2;
 
 void the_driver_of_drives_and_the_simulated_drive(void**) {
   for (std::int64_t mode = 0; mode < 4; ++mode) {
-    assert_string_equal(messages_for("canopen_servo_drive", {{"mode", mode}, {"vendor", 0x123}}).c_str(), "");
-    assert_true(says(messages_for("canopen_servo_drive", {{"mode", mode}, {"vendor", 0x999}}),
+    assert_string_equal(messages_for(canopen_servo_drive, {{"mode", mode}, {"vendor", 0x123}}).c_str(), "");
+    assert_true(says(messages_for(canopen_servo_drive, {{"mode", mode}, {"vendor", 0x999}}),
                      "object 0x1018:01 (vendor) is 0x00000123, and the device's vendor is 0x00000999"));
   }
 }
 
 void the_driver_of_grippers_and_the_simulated_drive(void**) {
-  assert_string_equal(messages_for("canopen_gripper", {{"vendor", 0x123}}).c_str(), "");
-  assert_true(says(messages_for("canopen_gripper", {{"vendor", 0x999}}), "(vendor) is 0x00000123"));
+  assert_string_equal(messages_for(canopen_gripper, {{"vendor", 0x123}}).c_str(), "");
+  assert_true(says(messages_for(canopen_gripper, {{"vendor", 0x999}}), "(vendor) is 0x00000123"));
 }
 
 // What is optional in CiA 402, or of use to nobody here.
 void what_a_drive_need_not_have(void**) {
   const Numbers plain{{"mode", profile_position}, {"vendor", 0x123}};
-  assert_string_equal(messages_for("canopen_servo_drive", plain, without("6083")).c_str(), "");
-  assert_string_equal(messages_for("canopen_servo_drive", plain, without("6084")).c_str(), "");
-  assert_string_equal(messages_for("canopen_servo_drive", plain, {{"[1018sub2]", "[1018sub3]"}}).c_str(), "");
+  assert_string_equal(messages_for(canopen_servo_drive, plain, without("6083")).c_str(), "");
+  assert_string_equal(messages_for(canopen_servo_drive, plain, without("6084")).c_str(), "");
+  assert_string_equal(messages_for(canopen_servo_drive, plain, {{"[1018sub2]", "[1018sub3]"}}).c_str(), "");
   Numbers named = plain;
   named["product"] = 0x456;
-  assert_true(says(messages_for("canopen_servo_drive", named, {{"[1018sub2]", "[1018sub3]"}}),
+  assert_true(says(messages_for(canopen_servo_drive, named, {{"[1018sub2]", "[1018sub3]"}}),
                    "object 0x1018:02 (product code) is missing"));
 }
 
@@ -264,14 +263,14 @@ void the_column_that_helps_is_in_the_hint(void**) {
        {{"tells_period", 0}}},
   };
   for (const Case& one : cases) {
-    const std::string plain = messages_for("canopen_servo_drive", one.plain, one.exchanged);
+    const std::string plain = messages_for(canopen_servo_drive, one.plain, one.exchanged);
     assert_true(says(plain, ": error: ") && says(plain, one.hint));
     if (one.said.empty()) continue;
     Numbers said = one.plain;
     for (const auto& [name, value] : one.said) said[name] = value;
-    assert_string_equal(messages_for("canopen_servo_drive", said, one.exchanged).c_str(), "");
+    assert_string_equal(messages_for(canopen_servo_drive, said, one.exchanged).c_str(), "");
   }
-  assert_true(says(messages_for("canopen_servo_drive", {{"mode", cyclic_position}, {"interpolates", 1}},
+  assert_true(says(messages_for(canopen_servo_drive, {{"mode", cyclic_position}, {"interpolates", 1}},
                                 {{"[60C1sub1]", "[20C1sub1]"}}),
                    "object 0x60C1:01 (interpolation point) is missing"));
 }
@@ -279,7 +278,7 @@ void the_column_that_helps_is_in_the_hint(void**) {
 // An identifier that cannot be written is as good if it is the right one.
 void identifiers_that_are_fixed(void**) {
   const auto fixed = [](const char* value) {
-    return messages_for("canopen_servo_drive", {{"node", 5}},
+    return messages_for(canopen_servo_drive, {{"node", 5}},
                         {{"AccessType=rw\nDefaultValue=$NODEID+0x80000200",
                           std::string("AccessType=const\nDefaultValue=") + value}});
   };

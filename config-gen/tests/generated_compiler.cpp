@@ -23,11 +23,6 @@ void make_file(const fs::path& file, const std::string& text) {
   write_file(file, text);
 }
 
-fs::path author_header(const fs::path& table, const std::string& header) {
-  const fs::path folder = table.parent_path();
-  return folder.parent_path().filename() / folder.filename() / header;
-}
-
 // As the shell takes it for one word.
 std::string shell_word(const fs::path& path) {
   std::string text = "'";
@@ -85,7 +80,7 @@ std::string GeneratedCompiler::make_sources(const Judgement& judgement, const Ce
     if (!is_own(tree_, folder / "any.toml")) sources += make(model, {Target::Kind::types, folder}, mine);
   for (const Interface& interface : model.interfaces) {
     sources += make(model, {Target::Kind::interface, interface.file}, mine);
-    make_file(mine / author_header(interface.file, interface.name + ".hpp"),
+    make_file(mine / interface.header,
               "#pragma once\n#include \"" + interface.name + "_interface.hpp\"\n" +
                   class_text(interface.space, interface.class_name, interface.class_name + "Interface", ""));
   }
@@ -94,17 +89,15 @@ std::string GeneratedCompiler::make_sources(const Judgement& judgement, const Ce
     // build.
     sources += make(model, {Target::Kind::driver, driver.file}, mine,
                     is_own(tree_, driver.file) ? ".cpp" : "_construct.cpp");
-    make_file(mine / author_header(driver.file, driver.header),
-              "#pragma once\n#include \"" + driver.base_header + "\"\n" +
-                  class_text(driver.space, driver.class_name, driver.base_class, ""));
+    make_file(mine / driver.header, "#pragma once\n#include \"" + driver.base_header + "\"\n" +
+                                        class_text(driver.space, driver.class_name, driver.base_class, ""));
   }
   for (const UnitType& unit : model.unit_types) {
     sources += make(model, {Target::Kind::unit, unit.file}, mine);
-    make_file(mine / author_header(unit.file, unit.header),
-              "#pragma once\n#include \"" + unit.base_header + "\"\n" +
-                  class_text(unit.space, unit.class_name, unit.base_class,
-                             "  flexrf::Status initialise() override { return {}; }\n"
-                             "  void step(const flexrf::Tick&) override {}\n"));
+    make_file(mine / unit.header, "#pragma once\n#include \"" + unit.base_header + "\"\n" +
+                                      class_text(unit.space, unit.class_name, unit.base_class,
+                                                 "  flexrf::Status initialise() override { return {}; }\n"
+                                                 "  void step(const flexrf::Tick&) override {}\n"));
   }
   sources += make(model, {Target::Kind::application, cell.table}, mine);
   return sources;

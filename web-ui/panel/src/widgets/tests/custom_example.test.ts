@@ -3,7 +3,7 @@ import { afterEach, expect, it } from 'vitest';
 import page from 'documentation/panel-widgets.md?raw';
 import type { WidgetElement } from '../../contract';
 import { Registry } from '../../core/registry';
-import * as builtIn from '.';
+import * as builtIn from '..';
 import { FakeHost, key, makeHold, makeItem, makeParameter, pointer, settled } from '../tests/fake_host';
 
 const code = /\n( {4}const sheet = [^]*?)\n\n?Its row/.exec(page)![1]!.replaceAll(/^ {4}/gm, '');
