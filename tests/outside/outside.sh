@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# outside.sh SOURCE BUILD: installs FlexRF, moves it, builds two applications against it, and looks at what is built
-# again after a change.
+# outside.sh SOURCE BUILD: installs FlexRF, moves it, builds applications against it, one of them with every driver that is there, and
+# looks at what is built again after a change.
 set -eu -o pipefail
 source=$1 build=$2
 work=$(mktemp -d)
@@ -33,6 +33,16 @@ cmake "${launcher[@]}" -S "$work/project" -B "$work/build" -G Ninja -DCMAKE_BUIL
   -DCMAKE_COMPILE_WARNING_AS_ERROR=ON >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "does not configure"; }
 rebuild
 
+"$work/build/every/every" --help >/dev/null || fail "every: exit code $?"
+drivers() { "$work/prefix/bin/config-gen-parts" "$@"; }
+find "$work/prefix/share/flexrf/hal" -name '*.toml' ! -path '*/types/*' ! -path '*/interface/*' -print0 |
+  while IFS= read -r -d '' table; do
+    drivers --driver "$table" | awk '{ is[$1] = $2 } END { print is["class"] "/" is["name"] }'
+  done | sort >"$work/installed"
+drivers --application "$work/project/every/every.toml" | sed -n 's/^drivers //p' | tr ' ' '\n' | sort >"$work/linked"
+diff "$work/installed" "$work/linked" >&2 || fail "the application with every driver has others than are installed"
+(($(wc -l <"$work/installed") > 50)) || fail "only $(wc -l <"$work/installed") drivers are installed"
+
 printf '0.1 a\n0.2 b\n0.3 c\n' >"$work/keys"
 "$work/build/tally/tally" --virtual-time 2s --keys "$work/keys" --report "$work/report.json" >/dev/null 2>"$work/log" || fail "tally: exit code $?"
 grep -q '"keys"' "$work/report.json" || fail "the report does not know the queue"
@@ -49,7 +59,7 @@ did '/bin/config-gen' || fail "a touched table is not read again"
 sed -i 's/5 ms/6 ms/' "$work/project/tally/tally.toml"
 rebuild
 did 'application\.cpp\.o -c ' || fail "a changed table is not compiled again"
-! did 'second' || fail "a change in one application's table builds another one again"
+! did 'second\|every' || fail "a change in one application's table builds another one again"
 ! did 'tally\.cpp\.o -c ' || fail "a change in an application's table compiles its unit again"
 
 sed -i 's/steps]/steps_so_far]/' "$work/project/second/units/tally/tally.toml"

@@ -12,8 +12,11 @@ cd "$copy"
 
 ./flexrf new unit lift_guard </dev/null
 ./flexrf new app level-cell </dev/null
+./flexrf new driver Gripper schunk </dev/null
+./flexrf new interface lamp_post </dev/null
+./flexrf new driver LampPost dali </dev/null
 if command -v clang-format >/dev/null; then
-  find units/lift_guard apps/level-cell -name '*.[ch]pp' -exec clang-format --dry-run -Werror {} +
+  find units/lift_guard apps/level-cell hal/gripper/schunk hal/lamp_post -name '*.[ch]pp' -exec clang-format --dry-run -Werror {} +
 fi
 # As a person has it who knows nothing of the names in use: those of the runtime, of its tests and of the standard library do;
 # what another table makes is refused, and nothing is left of it.
@@ -30,7 +33,7 @@ for part in words cache build; do
   source "$tool/$part.sh"
 done
 find_cache
-tests=(unit_{lift_guard,status,tick,log,string}_test level_cell_cell_test)
+tests=(unit_{lift_guard,status,tick,log,string}_test level_cell_cell_test {schunk_gripper,{mock,dali}_lamp_post}_conformance_test)
 build release "${tests[@]}" level-cell
 if grep 'warning:' build/release/build.log; then exit 1; fi
 ctest --test-dir build/release --output-on-failure --no-tests=error \
