@@ -92,11 +92,17 @@ sources() {  # every C++ file that a person wrote
     \( -name '*.cpp' -o -name '*.hpp' -o -name '*.h' \) -print0
 }
 
-# How sources are written, and which of them know which.
+documents_and_tests() {  # every file that may promise something, or test it
+  find "$root" \( -path "$root/build" -o -name node_modules -o -name '.?*' \) -prune -o -type f \
+    \( -name '*.md' -o -name '*.cpp' -o -name '*.hpp' -o -name '*.sh' -o -name '*.ts' \) -print
+}
+
+# How sources are written, which of them know which, and that what is promised is tested.
 check_layout() {
   local status=0
   sources | xargs -0 -r -n 50 -P "$(nproc)" clang-format --dry-run -Werror || status=1
   sources | xargs -0 -r awk -v root="$root" -f "$tool/includes.awk" || status=1
+  documents_and_tests | sort | awk -v root="$root" -f "$tool/promises.awk" || status=1
   return "$status"
 }
 
