@@ -112,6 +112,7 @@ Tally judge_all() {
   return tally;
 }
 
+// [exec-14]
 void broken_tables_give_their_messages(void**) {
   const Tally tally = judge_all();
   assert_true(tally.cases >= 288);

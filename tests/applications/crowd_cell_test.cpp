@@ -170,6 +170,7 @@ void press_falter(Running& running) {
   accept(running, press);
 }
 
+// [stop-4] [stop-6] [stop-38]
 void a_unit_is_restarted_once_and_motion_needs_a_new_start() {
   Running running(crowd);
   const std::uint16_t patient = running.unit("patient");

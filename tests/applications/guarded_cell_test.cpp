@@ -106,9 +106,11 @@ void a_chip_that_is_unplugged_stops_too(const char* driver) {
   cell.check_ends_well();
 }
 
+// [stop-12] [stop-16]
 void on_the_mock_it_shuts_the_valve() {
   it_shuts_the_valve_until_cleared_and_started<MockGpioChip>("mock");
 }
+// [stop-12] [stop-16]
 void on_the_simulator_it_shuts_the_valve() {
   it_shuts_the_valve_until_cleared_and_started<SimulatedGpioChip>("simulated");
 }

@@ -62,6 +62,7 @@ void check_finished(const Ending& ending, const Report& report) {
 
 // ---- the pose
 
+// [stop-30] [stop-71]
 void piped_keys_move_the_arm() {
   for (const bool realtime : {true, false}) {
     const Folder folder;
@@ -111,6 +112,7 @@ VirtualRun run_with_seed(const std::string& seed) {
   return result;
 }
 
+// [exec-54]
 void same_seed_same_digest_another_seed_another_joint() {
   const VirtualRun first = run_with_seed("1");
   const VirtualRun second = run_with_seed("1");
@@ -123,6 +125,7 @@ void same_seed_same_digest_another_seed_another_joint() {
   CHECK_EQUAL(first.digest.find_first_not_of("0123456789abcdef"), std::string::npos);
 }
 
+// [stop-71]
 void virtual_time_ends_when_it_is_over_and_says_so() {
   const Folder folder;
   write_file(folder / "keys", "0.5 w\n5.0 w\n");
@@ -137,6 +140,7 @@ void virtual_time_ends_when_it_is_over_and_says_so() {
 
 // ---- the exit codes
 
+// [stop-72]
 void wrong_usage_is_1_and_names_the_nearest() {
   const Folder folder;
   const Ending unknown = run(folder, {application, "--virtual-tine", "2s"});
@@ -150,6 +154,7 @@ void wrong_usage_is_1_and_names_the_nearest() {
   CHECK_CONTAINS(no_file.errors, "not_there");
 }
 
+// [stop-17] [stop-75]
 void a_signal_lets_the_arm_come_to_rest() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const Folder folder;
@@ -202,6 +207,7 @@ void a_moving_arm_comes_to_rest_on_its_way() {
     CHECK(std::abs(error.get<double>()) < 2e-3);
 }
 
+// [stop-7] [stop-66] [stop-70] [stop-73]
 void a_second_start_names_the_holder() {
   const Folder folder;
   Process first(folder, {application, "--no-realtime", "--standstill-limit", "10min", "--panel", "off"});

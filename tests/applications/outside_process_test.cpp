@@ -59,6 +59,7 @@ class FullPipe {
   int ends_[2];
 };
 
+// [stop-56]
 void a_full_standard_error_holds_up_no_stop() {
   for (const int signal : {SIGTERM, SIGINT}) {
     const Folder folder;
@@ -71,6 +72,7 @@ void a_full_standard_error_holds_up_no_stop() {
   }
 }
 
+// [stop-56]
 void a_full_standard_error_hides_no_hang() {
   const Folder folder;
   const FullPipe pipe;
@@ -81,6 +83,7 @@ void a_full_standard_error_hides_no_hang() {
   CHECK_EQUAL(drive_log(folder), moving + last_gasp);
 }
 
+// [stop-56]
 void a_full_standard_error_holds_up_no_heartbeat() {
   const Folder folder;
   const FullPipe pipe;
@@ -97,6 +100,7 @@ void a_full_standard_error_holds_up_no_heartbeat() {
 }
 
 /// The guards of the checked build, too: what was prepared comes before what they say.
+// [stop-27]
 void a_full_standard_error_holds_up_no_last_gasp() {
   for (const char* const key : {"s", "a", "x", "k", "o"}) {
     const Folder folder;
@@ -112,6 +116,7 @@ void a_full_standard_error_holds_up_no_last_gasp() {
   }
 }
 
+// [stop-56]
 void a_full_standard_output_is_told_and_left() {
   const Folder folder;
   const FullPipe pipe;
@@ -132,6 +137,7 @@ void run_to_the_unread_report(const Folder& folder, Process& process) {
 }
 
 /// Whose input has ended waits for its reader, as every program does; whoever is tired of that says so.
+// [stop-59] [stop-60] [stop-72]
 void a_reader_that_is_slow_gets_the_report_and_a_signal_ends_the_wait() {
   const Folder folder;
   const FullPipe pipe;
@@ -144,6 +150,7 @@ void a_reader_that_is_slow_gets_the_report_and_a_signal_ends_the_wait() {
 }
 
 /// Wherever in the end it comes: whoever asks need not ask twice.
+// [stop-59] [stop-60]
 void a_signal_just_before_the_report_ends_the_wait_for_its_reader() {
   for (const useconds_t later : {0U, 500U, 2'000U, 8'000U, 30'000U}) {
     const Folder folder;
@@ -156,6 +163,7 @@ void a_signal_just_before_the_report_ends_the_wait_for_its_reader() {
   }
 }
 
+// [stop-60]
 void a_standard_output_that_fails_is_an_error() {
   const Folder folder;
   Process process(folder, words(), Input::pipe, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
@@ -166,6 +174,7 @@ void a_standard_output_that_fails_is_an_error() {
 }
 
 /// A service is always ended by a signal: what failed is not to hide behind that.
+// [stop-62]
 void a_standard_output_that_fails_is_seen_behind_a_signal() {
   const Folder folder;
   Process process(folder, words(), Input::pipe, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
@@ -187,6 +196,7 @@ void an_answer_that_is_not_written_is_an_error() {
 
 // ---- signals
 
+// [stop-47] [stop-49]
 void what_somebody_ends_it_with_is_a_controlled_stop() {
   for (const int signal : {SIGPWR, SIGQUIT}) {
     const Folder folder;
@@ -202,6 +212,7 @@ void what_somebody_ends_it_with_is_a_controlled_stop() {
   }
 }
 
+// [stop-22] [stop-50] [stop-51]
 void what_takes_the_process_away_is_preceded_by_the_last_gasp() {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP, SIGXCPU}) {
     const Folder folder;
@@ -215,6 +226,7 @@ void what_takes_the_process_away_is_preceded_by_the_last_gasp() {
   }
 }
 
+// [stop-54] [stop-55]
 void what_means_nothing_changes_nothing_and_is_told() {
   std::vector<int> signals{SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF,  SIGIO,  SIGSTKFLT,
                            SIGPIPE, SIGXFSZ, SIGCHLD, SIGURG,    SIGWINCH, SIGCONT};
@@ -230,6 +242,7 @@ void what_means_nothing_changes_nothing_and_is_told() {
   CHECK_EQUAL(drive_log(folder), moving + at_rest);
 }
 
+// [stop-48]
 void nohup_is_respected() {
   const Folder folder;
   Process process(folder, words(), Input::pipe, [] { std::signal(SIGHUP, SIG_IGN); });
@@ -241,6 +254,7 @@ void nohup_is_respected() {
   CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
 }
 
+// [stop-51]
 void a_real_time_thread_that_never_waits_is_ended_by_the_kernel_and_leaves_the_drive_safe() {
 #if FLEXRF_SANITIZER
   skip();
@@ -259,6 +273,7 @@ void a_real_time_thread_that_never_waits_is_ended_by_the_kernel_and_leaves_the_d
 
 // ---- stopped, and going on
 
+// [stop-52] [stop-53]
 void whoever_stops_it_finds_its_actuators_inhibited() {
   for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) {
     const Folder folder;
@@ -276,6 +291,7 @@ void whoever_stops_it_finds_its_actuators_inhibited() {
   }
 }
 
+// [stop-44] [stop-45]
 void a_process_that_stood_still_says_so_and_moves_nothing() {
   const Folder folder;
   Process process(folder, words({"--standstill-limit", "3s"}));
@@ -296,6 +312,7 @@ void a_process_that_stood_still_says_so_and_moves_nothing() {
   CHECK(report.row("threads", "sabotage").at("skipped_time_ns").get<std::int64_t>() > 1'000'000'000);
 }
 
+// [stop-46]
 void a_shorter_stop_is_a_warning() {
   const Folder folder;
   Process process(folder, words());
@@ -318,6 +335,7 @@ tcflag_t modes_of(const Process& process) {
   return settings.c_lflag & (ICANON | ECHO);
 }
 
+// [stop-25]
 void the_terminal_comes_back_from_every_signal() {
   for (const int signal : {SIGQUIT, SIGXCPU, SIGSYS, SIGTRAP, SIGPWR}) {
     const Folder folder;
@@ -330,6 +348,7 @@ void the_terminal_comes_back_from_every_signal() {
   }
 }
 
+// [stop-52]
 void control_z_lends_the_terminal_back_and_fg_takes_it() {
   const Folder folder;
   Process process(folder, words(), Input::terminal);
@@ -345,6 +364,7 @@ void control_z_lends_the_terminal_back_and_fg_takes_it() {
 }
 
 /// As by Ctrl-S, or behind a line that is cut: the terminal takes nothing any more.
+// [stop-56]
 void a_terminal_that_is_held_holds_up_no_stop() {
   const Folder folder;
   Process process(folder, words(), Input::terminal, [] {
@@ -365,6 +385,7 @@ void a_terminal_that_is_held_holds_up_no_stop() {
 
 /// A file that is opened takes the number of one that is closed: it must not be read as keys, or written
 /// over.
+// [stop-64]
 void closed_descriptors_are_nobodys() {
   for (const int closed : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     const Folder folder;

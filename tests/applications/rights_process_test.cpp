@@ -51,6 +51,7 @@ void without_rights_and_real_actuators_it_goes_on() {
   CHECK(!Report(folder / "report")["run"].at("realtime").get<bool>());
 }
 
+// [stop-74]
 void without_rights_a_real_actuator_is_refused() {
   const Folder folder;
   const Ending ending = run(folder, as_nobody(folder, place::crowd, {"--hardware", "press=real"}));
@@ -82,6 +83,7 @@ void a_kind_of_hardware_is_for_all_devices() {
 }
 
 /// Whoever starts it, in whatever environment: there is one press.
+// [stop-67] [stop-69]
 void a_real_actuator_is_run_once_on_the_machine() {
   if (geteuid() != 0) skip();  // only root may take the place as another user, too
   const Folder folder;

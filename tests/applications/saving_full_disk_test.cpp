@@ -98,6 +98,7 @@ void check_it_moves(Process& process, Operator& person) {
   CHECK(person.ask("GET", "components/robot").body.at("life") == "running");
 }
 
+// [stop-61] [stop-62] [stop-63]
 void a_disk_that_fills_up_disturbs_nobody_and_is_made_up_for() {
   const Folder folder;
   SmallDisk disk(folder);
@@ -160,6 +161,7 @@ std::vector<std::string> words_of_tuned(const std::vector<std::string>& more) {
 }
 
 /// Standard error as a service's file: what comes after a line that was cut off stands on a line of its own.
+// [stop-58] [stop-60]
 void a_log_that_finds_no_room_says_how_much_is_missing() {
   const Folder folder;
   SmallDisk disk(folder);

@@ -55,6 +55,7 @@ void where_nothing_is_set_nothing_is_written() {
   CHECK(access((folder / "cell.xml").c_str(), F_OK) != 0);
 }
 
+// [stop-73]
 void a_second_run_with_the_same_file_is_refused() {
   const Folder folder;
   CHECK(symlink("cell.xml", (folder / "other.xml").c_str()) == 0);
@@ -81,6 +82,7 @@ void obstruct(const Folder& folder) {
   CHECK(mkdir((folder / "cell.xml.new").c_str(), 0700) == 0);
 }
 
+// [stop-72]
 void a_save_that_fails_is_an_error_and_in_the_exit_code() {
   const Folder folder;
   obstruct(folder);
@@ -92,6 +94,7 @@ void a_save_that_fails_is_an_error_and_in_the_exit_code() {
 }
 
 /// A service is always ended by a signal: what failed is not to hide behind that.
+// [stop-72]
 void a_save_that_fails_is_seen_behind_a_signal() {
   const Folder folder;
   obstruct(folder);
@@ -102,6 +105,7 @@ void a_save_that_fails_is_seen_behind_a_signal() {
   CHECK_EQUAL(process.wait().exit_code, 1);
 }
 
+// [stop-62]
 void a_report_that_fails_is_seen_behind_a_signal() {
   const Folder folder;
   Process process(folder, words_with_file({"--report", "/dev/full"}));
@@ -123,6 +127,7 @@ void check_refused(const Folder& folder, const std::string& option, const std::s
   CHECK_EQUAL(ending.output, std::string{});
 }
 
+// [stop-72]
 void a_pipe_or_a_folder_is_told_at_the_start() {
   const Folder folder;
   CHECK(mkfifo((folder / "pipe").c_str(), 0600) == 0);
@@ -165,6 +170,7 @@ pid_t thread_named(pid_t process, const std::string& name) {
 }
 
 /// As on a disk that does not answer: units, supervision and log go on, and the end does not wait for ever.
+// [exec-35]
 void a_writing_that_hangs_holds_nobody_up() {
   const Folder folder;
   Process process(folder, words_with_file({"--report", "report"}));

@@ -69,6 +69,7 @@ void the_arm_holds_when_its_target_is_late() {
   CHECK_EQUAL(running.stop().exit_code, 0);
 }
 
+// [stop-35]
 void the_arm_holds_when_the_writer_is_in_fault() {
   Running running(trial);
   const double start = wait_for_start(running);
@@ -94,6 +95,7 @@ void the_arm_holds_when_the_writer_is_stopped() {
   CHECK_EQUAL(running.stop().exit_code, 0);
 }
 
+// [stop-3] [stop-5] [stop-8] [stop-11]
 void stop_motion_is_a_latch() {
   Running running(trial);
   const double start = wait_for_start(running);

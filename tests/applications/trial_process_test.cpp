@@ -64,6 +64,7 @@ void check_survived_fault(const std::string& keys, const std::string& cause) {
   CHECK_EQUAL(cause_of(report), "signal");
 }
 
+// [stop-36] [stop-37] [stop-73]
 void a_fault_makes_its_own_device_safe() {
   check_survived_fault("ddddddddddddf", "told to fail");
 }
@@ -79,6 +80,7 @@ void an_exception_is_a_fault_with_its_text() {
 #endif
 }
 
+// [stop-41]
 void a_hung_step_ends_in_the_last_gasp() {
   const Folder folder;
   const Ending ending = ending_in_motion(folder, "h");
@@ -94,6 +96,7 @@ void a_hung_step_ends_in_the_last_gasp() {
 
 // ---- signals
 
+// [stop-17] [stop-47] [stop-48] [stop-75]
 void a_signal_is_a_controlled_stop() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const Folder folder;
@@ -109,6 +112,7 @@ void a_signal_is_a_controlled_stop() {
   }
 }
 
+// [stop-18]
 void stop_timeout_ends_what_does_not_come_to_rest() {
   const Folder folder;
   Process process(folder, words());
@@ -122,6 +126,7 @@ void stop_timeout_ends_what_does_not_come_to_rest() {
   CHECK(Report(folder / "report")["run"].at("cut_short").get<bool>());
 }
 
+// [stop-47]
 void a_second_signal_does_not_wait() {
   const Folder folder;
   Process process(folder, words());
@@ -136,6 +141,7 @@ void a_second_signal_does_not_wait() {
   CHECK_EQUAL(drive_log(folder), moving + while_moving);
 }
 
+// [stop-22] [stop-50]
 void crash_signals_write_the_last_gasp() {
   struct Case {
     char key;
@@ -153,6 +159,7 @@ void crash_signals_write_the_last_gasp() {
   }
 }
 
+// [stop-23]
 void exit_from_a_unit_writes_the_last_gasp() {
   const Folder folder;
   const Ending ending = ending_in_motion(folder, "x");
@@ -164,6 +171,7 @@ void exit_from_a_unit_writes_the_last_gasp() {
 
 // ---- the end of the input
 
+// [stop-29] [stop-30] [stop-71]
 void the_end_of_input_is_the_gentlest() {
   const Folder folder;
   const Ending ending = run(folder, words(), "ddddm");
@@ -179,6 +187,7 @@ void the_end_of_input_is_the_gentlest() {
   CHECK(std::abs(off) < 1e-3);
 }
 
+// [stop-31]
 void finish_timeout_ends_what_does_not_finish() {
   const Folder folder;
   const Ending ending = run(folder, words(), "dn");
@@ -190,6 +199,7 @@ void finish_timeout_ends_what_does_not_finish() {
 // ---- what must not be done in a real-time thread
 
 /// Linked with the guard: the checked build ends with a trace, others count.
+// [exec-27] [exec-28] [exec-32]
 void an_allocation_is_caught() {
 #if FLEXRF_SANITIZER
   skip();  // the sanitizers' own allocator, and no guard
@@ -213,6 +223,7 @@ void an_allocation_is_caught() {
 }
 
 /// Only the checked build filters system calls.
+// [exec-30] [exec-31] [exec-32]
 void a_system_call_that_may_wait_is_caught() {
   const Folder folder;
   const Ending ending = ending_in_motion(folder, "oo", More::none);
@@ -238,6 +249,7 @@ termios settings_of(const Process& process) {
 }
 
 /// Raw while it runs, and afterwards as it was, however it ends.
+// [stop-25]
 void the_terminal_is_restored_on_every_exit() {
   struct Case {
     const char* keys;

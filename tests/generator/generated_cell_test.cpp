@@ -203,6 +203,7 @@ const FieldDescriptor& data_of(const SlotRecord& slot) {
   return slot.control->type()->fields.back();
 }
 
+// [board-10] [board-11]
 void items_are_as_large_as_their_slot_says(void**) {
   const SlotRecord& large = row(cell.slots, "picture");
   const SlotRecord& usual = row(cell.slots, "usual_picture");

@@ -93,6 +93,7 @@ const char* run_many_ringers() {
   return complaint.text();
 }
 
+// [board-36] [board-38]
 void no_wake_up_is_lost(void**) {
   const char* const complaints[] = {run_ping_pong(false), run_ping_pong(true), run_many_ringers()};
   for (const char* complaint : complaints) {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr Time for_ever = Time::max();
 
+// [board-36]
 void a_ring_after_listening_ends_the_wait_at_once(void**) {
   Doorbell bell;
   const std::uint32_t heard = bell.listen();
@@ -56,6 +57,7 @@ void the_count_wraps_around(void**) {
 
 Doorbell* rung_by_signal = nullptr;
 
+// [board-37]
 void a_signal_handler_may_ring_and_leaves_errno(void**) {
   static Doorbell bell;
   rung_by_signal = &bell;
@@ -78,6 +80,7 @@ bool is_readable(int descriptor) {
   return poll(&look, 1, 0) == 1;
 }
 
+// [board-38]
 void descriptor_mode_writes_only_to_a_sleeper(void**) {
   Doorbell bell;
   const int descriptor = eventfd(0, EFD_NONBLOCK);

@@ -26,6 +26,7 @@ struct Past {
   Sample value{};
 };
 
+// [board-19]
 void empty_history_has_nothing_yet(void**) {
   Past<4> past;
   assert_int_equal(past.ask(100), NullReason::nothing_yet);
@@ -34,6 +35,7 @@ void empty_history_has_nothing_yet(void**) {
   assert_int_equal(past.history.between(at(0), at(100), headers, values), 0);
 }
 
+// [board-2] [board-19]
 void at_gives_what_was_true_then(void**) {
   Past<4> past;
   past.append(1, 10);
@@ -52,6 +54,7 @@ void at_gives_what_was_true_then(void**) {
   assert_int_equal(past.value.number, 3);
 }
 
+// [board-2] [board-23]
 void only_the_last_k_are_kept(void**) {
   Past<3> past;
   for (std::uint32_t number = 1; number <= 1000; ++number) {
@@ -93,6 +96,7 @@ void between_gives_the_oldest_first_and_as_many_as_fit(void**) {
 
 /// A writer that was preempted in the middle of an append: the entry it is overwriting is given up, the
 /// others are not.
+// [board-23]
 void an_entry_that_is_being_overwritten_is_not_kept(void**) {
   Past<3> past;
   for (std::uint32_t number = 1; number <= 3; ++number) past.append(number, number * 10);

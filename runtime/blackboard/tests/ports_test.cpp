@@ -54,6 +54,7 @@ struct Cell {
   Input<Sample> input;
 };
 
+// [board-15]
 void a_step_sees_one_consistent_item(void**) {
   Cell cell;
   cell.publish(1);
@@ -66,6 +67,7 @@ void a_step_sees_one_consistent_item(void**) {
   assert_int_equal(cell.input.latest()->number, 2);
 }
 
+// [board-15]
 void nothing_at_the_first_call_stays_nothing_for_the_step(void**) {
   Cell cell;
   assert_false(bool{cell.input.latest()});
@@ -75,6 +77,7 @@ void nothing_at_the_first_call_stays_nothing_for_the_step(void**) {
   assert_true(bool{cell.input.latest()});
 }
 
+// [board-13] [board-17]
 void a_view_tells_new_from_old_sequence_missed_and_age(void**) {
   Cell cell;
   cell.output.publish({1, 0, 0}, at(700));
@@ -101,6 +104,7 @@ void a_view_tells_new_from_old_sequence_missed_and_age(void**) {
   assert_int_equal(cell.input.read(), 2);
 }
 
+// [board-18]
 void sixteen_units_of_a_thread_share_one_buffer_each_with_its_cursor(void**) {
   Cell cell;  // one reader: a triple buffer
   Input<Sample> members[16];
@@ -126,6 +130,7 @@ NullReason reason_with(WriterState state) {
   return cell.input.latest().reason();
 }
 
+// [board-21]
 void null_says_why_the_writer_is_silent(void**) {
   assert_int_equal(reason_with(WriterState::waiting), NullReason::none);
   assert_int_equal(reason_with(WriterState::running), NullReason::none);
@@ -147,11 +152,13 @@ void null_says_why_the_writer_is_silent(void**) {
   assert_true(bool{cell.input.latest()});
 }
 
+// [board-19]
 void null_says_nothing_yet(void**) {
   Cell cell;
   assert_int_equal(cell.input.latest().reason(), NullReason::nothing_yet);
 }
 
+// [board-20]
 void null_says_too_old(void**) {
   Cell cell{Duration{100}};
   cell.publish(1);
@@ -164,6 +171,7 @@ void null_says_too_old(void**) {
   assert_int_equal(cell.input.latest()->number, 2);
 }
 
+// [board-22]
 void null_says_not_registered(void**) {
   Input<Sample> never_connected;
   assert_int_equal(never_connected.latest().reason(), NullReason::not_registered);
@@ -179,6 +187,7 @@ void null_says_not_registered(void**) {
   assert_int_equal(optional.between(at(0), at(1), {}, nullptr), 0);
 }
 
+// [board-23]
 void null_says_no_longer_kept(void**) {
   static HistoryMemory<Sample, 3> memory;
   History history{&test::sample_type, memory.words, 3};
@@ -204,6 +213,7 @@ void every_reason_has_a_name(void**) {
   assert_string_equal(name_of(static_cast<NullReason>(200)), "unknown");
 }
 
+// [board-16]
 void a_hold_keeps_the_view_across_steps(void**) {
   Cell<1, 1, 1> cell;
   assert_false(bool{cell.input.kept()});
@@ -260,6 +270,7 @@ void a_range_reads_all_members_and_may_be_reconnected(void**) {
   }
 }
 
+// [board-8] [board-9] [board-13]
 void an_unpublished_loan_is_discarded(void**) {
   Cell<1, 2> cell;
   {
@@ -287,6 +298,7 @@ void an_unpublished_loan_is_discarded(void**) {
   assert_int_equal(nanoseconds(cell.input.latest().sampled_at()), 1000);
 }
 
+// [board-12]
 void an_unconnected_output_accepts_and_forgets(void**) {
   Output<Sample> output;
   assert_true(output.publish({}));
@@ -301,6 +313,7 @@ void an_unconnected_output_accepts_and_forgets(void**) {
   assert_true(input.is_empty());
 }
 
+// [board-26]
 void a_queue_output_feeds_every_audience_its_own_queue(void**) {
   static QueueRingMemory<Sample, 2> memory[2];
   QueueRing one{&test::sample_type, memory[0].view(), DropPolicy::drop_newest};
@@ -327,6 +340,7 @@ void a_queue_output_feeds_every_audience_its_own_queue(void**) {
   assert_int_equal(two.counters().dropped, 0);
 }
 
+// [board-4]
 void ports_allocate_nothing(void**) {
   Cell<2, 2, 1> cell{Duration{500}};
   const int before = allocations;

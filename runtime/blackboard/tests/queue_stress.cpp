@@ -74,6 +74,7 @@ const char* run_ring(DropPolicy policy) {
   return complaint.text();
 }
 
+// [board-25] [board-27]
 void rings(void**) {
   for (const DropPolicy policy : {DropPolicy::drop_newest, DropPolicy::drop_oldest}) {
     const char* const complaints[] = {run_ring<1>(policy), run_ring<3>(policy), run_ring<64>(policy)};
@@ -161,6 +162,7 @@ const char* run_jobs(DropPolicy policy, JobOrder order) {
   return complaint.text();
 }
 
+// [board-25] [board-27] [board-31]
 void jobs(void**) {
   const JobOrder by_score{true, Scalar::u64, 16};
   const char* const complaints[] = {run_jobs(DropPolicy::drop_newest, {}),
@@ -220,6 +222,7 @@ const char* run_history() {
   return complaint.text();
 }
 
+// [board-2]
 void histories(void**) {
   const char* complaint = run_history();
   if (complaint != nullptr) fail_msg("%s", complaint);

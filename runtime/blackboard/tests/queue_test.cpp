@@ -46,6 +46,7 @@ void assert_counters(const QueueSink& sink, std::uint64_t pushed, std::uint64_t 
   assert_int_equal(sink.counters().dropped, dropped);
 }
 
+// [board-25]
 void items_come_out_once_and_in_order(void**) {
   Ring<10> ring{DropPolicy::drop_newest};
   std::uint32_t next_in = 1;
@@ -66,6 +67,7 @@ void items_come_out_once_and_in_order(void**) {
   assert_counters(ring.ring, next_in - 1, next_in - 1, 0);
 }
 
+// [board-27] [board-28] [board-29]
 void drop_newest_refuses_what_comes(void**) {
   Ring<3> ring{DropPolicy::drop_newest};
   for (std::uint32_t number = 1; number < 4; ++number) {
@@ -99,6 +101,7 @@ void check_drop_oldest() {
   assert_counters(ring.ring, 2 * Capacity + 5, Capacity, Capacity + 5);
 }
 
+// [board-27] [board-30]
 void drop_oldest_lets_the_reader_skip_what_was_overwritten(void**) {
   check_drop_oldest<1>();
   check_drop_oldest<3>();
@@ -121,6 +124,7 @@ void ring_positions_wrap_around(void**) {
   }
 }
 
+// [board-39]
 void pushing_rings_and_virtual_time_waits_for_commit(void**) {
   Doorbell bell;
   Doorbell* const bells[] = {&bell};
@@ -145,6 +149,7 @@ void pushing_rings_and_virtual_time_waits_for_commit(void**) {
   assert_int_equal(bell.listen(), heard);
 }
 
+// [board-3]
 void rings_are_drained_in_table_order(void**) {
   Ring<4> first{DropPolicy::drop_newest};
   Ring<4> second{DropPolicy::drop_newest};
@@ -183,6 +188,7 @@ struct Jobs {
 
 constexpr JobOrder by_value{true, Scalar::f64, offsetof(Sample, value)};
 
+// [board-31]
 void jobs_of_several_writers_come_out_in_order_of_arrival(void**) {
   Jobs<7> jobs{DropPolicy::drop_newest};
   jobs.queue.start_tickets_at((std::uint64_t{1} << 62) - 20);  // wraps around in the cells' words
@@ -207,6 +213,7 @@ void jobs_of_several_writers_come_out_in_order_of_arrival(void**) {
   assert_int_equal(jobs.one.counters().popped + jobs.two.counters().popped, expected - 1);
 }
 
+// [board-27] [board-32]
 void full_job_queue_refuses_the_newest_or_gives_up_the_oldest(void**) {
   Jobs<2> newest{DropPolicy::drop_newest};
   assert_true(Jobs<2>::push(newest.one, 1));
@@ -227,6 +234,7 @@ void full_job_queue_refuses_the_newest_or_gives_up_the_oldest(void**) {
   assert_int_equal(pop(oldest.queue), 3);
 }
 
+// [board-33]
 void highest_score_comes_out_first_and_equals_by_arrival(void**) {
   Jobs<6> jobs{DropPolicy::drop_newest, by_value};
   const double scores[] = {-1, 3, 0, 3, -1e300, 1e-300};
@@ -234,6 +242,7 @@ void highest_score_comes_out_first_and_equals_by_arrival(void**) {
   for (const std::uint32_t expected : {2U, 4U, 6U, 3U, 1U, 5U}) assert_int_equal(pop(jobs.queue), expected);
 }
 
+// [board-27] [board-34]
 void full_job_queue_by_score_drops_the_lowest(void**) {
   Jobs<3> jobs{DropPolicy::drop_newest, by_value};
   Jobs<3>::push(jobs.one, 1, 5);
@@ -280,6 +289,7 @@ void check_integers(Scalar scalar) {
   }
 }
 
+// [board-35]
 void a_score_may_be_any_number(void**) {
   using Double = std::numeric_limits<double>;
   using Float = std::numeric_limits<float>;
@@ -303,6 +313,7 @@ void a_score_may_be_any_number(void**) {
   assert_int_equal(pop(zeros.queue), 1);
 }
 
+// [board-39]
 void jobs_wait_for_commit_in_virtual_time(void**) {
   Doorbell bell;
   Doorbell* const bells[] = {&bell};

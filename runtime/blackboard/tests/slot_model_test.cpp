@@ -347,6 +347,7 @@ struct Bell {
   Ringer ringers[2];
 };
 
+// [board-1]
 void counted_slot(void**) {
   assert_holds(CountedSlot{CountedSlot::no_mistake});
 }
@@ -358,6 +359,7 @@ void counted_slot_broken(void**) {
   assert_refused(CountedSlot{CountedSlot::one_buffer_less}, "no buffer free");
 }
 
+// [board-1]
 void triple_buffer(void**) {
   assert_holds(TripleBuffer{TripleBuffer::no_mistake});
 }
@@ -367,6 +369,7 @@ void triple_buffer_broken(void**) {
   assert_refused(TripleBuffer{TripleBuffer::takes_in_two_steps}, "writes what the reader holds");
 }
 
+// [board-36]
 void doorbell(void**) {
   assert_holds(Bell{Bell::no_mistake});
 }

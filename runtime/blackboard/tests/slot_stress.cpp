@@ -100,6 +100,7 @@ const char* run() {
   return complaint.text();
 }
 
+// [board-1]
 template <std::size_t Readers>
 void readers(void**) {
   const char* const complaints[] = {run<Readers, 1, 0>(), run<Readers, 1, 1>(), run<Readers, 1, 2>(),

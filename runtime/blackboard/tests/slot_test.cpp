@@ -63,6 +63,7 @@ void check_reads(SlotType& slot) {
   assert_int_equal(sample(control, held).number, 19);
 }
 
+// [board-1]
 void reader_gets_the_latest_complete_value_or_nothing(void**) {
   Slot<Sample, 1> triple;
   Slot<Sample, 1, 2> two_loans;
@@ -72,12 +73,14 @@ void reader_gets_the_latest_complete_value_or_nothing(void**) {
   check_reads(eight_readers);
 }
 
+// [board-24]
 void one_reader_and_one_loan_make_a_triple_buffer(void**) {
   assert_int_equal((Slot<Sample, 1>::buffers), 3);
   assert_int_equal((Slot<Sample, 4, 2>::buffers), 7);
   assert_int_equal((Slot<Sample, 4, 2, 1>::buffers), 8);
 }
 
+// [board-7]
 void loans_are_published_or_abandoned_in_any_order(void**) {
   int order[] = {0, 1, 2};
   do {
@@ -117,6 +120,7 @@ void loans_are_published_or_abandoned_in_any_order(void**) {
   } while (std::next_permutation(std::begin(order), std::end(order)));
 }
 
+// [board-9]
 void abandoned_loan_changes_nothing(void**) {
   Slot<Sample, 1> slot;
   SlotControl& control = slot.control();
@@ -158,6 +162,7 @@ void check_loan_last(SlotType& slot) {
   }
 }
 
+// [board-6]
 void loan_last_starts_as_the_last_value(void**) {
   Slot<Sample, 1> triple;
   Slot<Sample, 2, 2> two_loans;
@@ -236,6 +241,7 @@ void check_random_walks() {
   check_random_walk<Readers, Loans, 2>(3);
 }
 
+// [board-1] [board-16]
 void held_and_loaned_buffers_are_never_handed_out(void**) {
   check_random_walks<1, 1>();
   check_random_walks<1, 2>();
@@ -283,6 +289,7 @@ void check_sequence_wrap(SlotType& slot) {
   assert_int_equal(control.published(), 3);
 }
 
+// [board-14]
 void sequences_wrap_around(void**) {
   Slot<Sample, 1> triple;
   Slot<Sample, 3> counted;
@@ -310,6 +317,7 @@ void counts_of_takes_wrap_around(void**) {
   }
 }
 
+// [board-39] [board-40] [exec-57]
 void publication_waits_for_commit_in_virtual_time(void**) {
   Doorbell bell;
   Doorbell* const bells[] = {&bell};
@@ -377,6 +385,7 @@ std::uint64_t digest_after(std::uint32_t number, Time sampled_at, std::uint8_t p
   return control.digest();
 }
 
+// [exec-55]
 void digest_covers_time_sequence_and_fields(void**) {
   const std::uint64_t digest = digest_after(1, at(1), 0, 2, true);
   assert_int_equal(digest, digest_after(1, at(1), 0, 2, true));
@@ -400,6 +409,7 @@ void large_payload_is_page_aligned_and_apart_from_headers(void**) {
   assert_ptr_equal(small.control().payload(1) + sizeof(Block<2>), &small.control().header(1));
 }
 
+// [board-5]
 void loans_are_poisoned_in_checked_builds(void**) {
 #if FLEXRF_CHECKED
   Slot<Sample, 1> slot;
@@ -452,6 +462,7 @@ void check_items_of(SlotControl& control, std::size_t elements) {
   }
 }
 
+// [board-10]
 void items_are_as_large_as_their_slot_says(void**) {
   Slot<Cloud, 2> usual;
   SizedSlot<Cloud, 2> large{1000};

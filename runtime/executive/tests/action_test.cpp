@@ -43,6 +43,7 @@ struct Machine {
   std::optional<RunningCell> running;
 };
 
+// [exec-44] [exec-49]
 void a_unit_that_owns_an_actuator_comes_to_rest_before_it_is_stopped() {
   std::atomic<int> steps_to_rest{0};
   std::atomic<bool> inhibited_on_the_way{false};
@@ -66,6 +67,7 @@ void a_unit_that_owns_an_actuator_comes_to_rest_before_it_is_stopped() {
   CHECK_EQUAL(machine.running->finish().exit_code, 0);
 }
 
+// [exec-45]
 void who_does_not_come_to_rest_has_its_devices_made_safe() {
   Machine machine([](Cell& cell) {
     cell.unit(Cell::consumer).stop_timeout = milliseconds{30};
@@ -79,6 +81,7 @@ void who_does_not_come_to_rest_has_its_devices_made_safe() {
   CHECK(!machine.executive().control().may_move());
 }
 
+// [exec-49]
 void what_is_started_again_waits_for_start() {
   Machine machine;
   CHECK(machine.act(ComponentAction::stop, Cell::consumer).is_ok());
@@ -145,6 +148,7 @@ void a_unit_is_waited_for_as_long_as_its_step_does_not_hang() {
   CHECK_EQUAL(machine.cell.unit_state(Cell::producer).life.load(), Life::stopped);
 }
 
+// [exec-43] [exec-46] [exec-47]
 void a_device_stops_after_its_unit_and_starts_before_it() {
   Machine machine;
   const Events& events = machine.cell.events();
@@ -160,6 +164,7 @@ void a_device_stops_after_its_unit_and_starts_before_it() {
   CHECK_EQUAL(events.count_of("consumer: initialise"), 3U);
 }
 
+// [exec-48] [exec-49]
 void after_a_fault_initialise_constructs_it_anew() {
   std::atomic<bool> fails{true};
   Machine machine([&](Cell& cell) {
@@ -189,6 +194,7 @@ void what_fails_says_why() {
   CHECK_EQUAL(machine.act(ComponentAction::stop, 99).code(), StatusCode::not_found);
 }
 
+// [exec-50]
 void what_moves_is_named() {
   std::atomic<bool> idle{false};
   Machine machine([&](Cell& cell) {
@@ -212,6 +218,7 @@ void what_a_change_initialises_again_is_known_before() {
         (std::vector<ComponentIndex>{Cell::consumer, Cell::producer, actuator}));
 }
 
+// [exec-42]
 void a_reconfiguration_answers_later() {
   Machine machine;
   std::atomic<bool> answered{false};
@@ -232,6 +239,7 @@ void a_reconfiguration_answers_later() {
   CHECK_EQUAL(values.offset, 0.75);
 }
 
+// [exec-51]
 void after_the_end_everything_is_refused() {
   Machine machine;
   machine.executive().request_end();

@@ -97,6 +97,7 @@ void check_against_fixed(Arrivals arrivals) {
   }
 }
 
+// [exec-12]
 void periodic_source(void**) {
   const Arrivals arrivals = arrivals_with([](int) { return 0.010; });
   for (const bool knows_arrival : {true, false}) {
@@ -136,6 +137,7 @@ void bursty_source(void**) {
   check_against_fixed(arrivals_with([](int i) { return i % 4 == 0 ? 0.040 : 0.0; }));
 }
 
+// [exec-12]
 void follows_a_change_of_pace(void**) {
   const Arrivals arrivals = arrivals_with([](int i) { return i < items / 2 ? 0.010 : 0.025; });
   Backoff backoff(limits);

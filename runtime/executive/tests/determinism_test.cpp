@@ -56,6 +56,7 @@ Outcome run_with_seed(std::uint64_t seed, bool busy_host = false) {
   return {*summary.digest, position};
 }
 
+// [exec-54]
 void two_runs_have_the_same_digest() {
   const Outcome first = run_with_seed(1);
   const Outcome second = run_with_seed(1);
@@ -63,6 +64,7 @@ void two_runs_have_the_same_digest() {
   CHECK_EQUAL(first.position, second.position);
 }
 
+// [exec-52] [exec-54]
 void however_long_steps_take_on_this_machine() {
   CHECK_EQUAL(run_with_seed(1).digest, run_with_seed(1, true).digest);
 }
@@ -88,11 +90,13 @@ std::uint64_t digest_with(std::int64_t number, bool wall) {
   return *summary.digest;
 }
 
+// [exec-55]
 void one_value_changes_the_digest() {
   CHECK_EQUAL(digest_with(1, false), digest_with(1, false));
   CHECK(digest_with(1, false) != digest_with(2, false));
 }
 
+// [exec-55]
 void what_is_marked_wall_does_not() {
   CHECK_EQUAL(digest_with(1, true), digest_with(2, true));
 }

@@ -79,10 +79,12 @@ void pressed_and_released(std::uint16_t in_thread) {
   CHECK_EQUAL(cell.moved[51], 51.0);
 }
 
+// [stop-12] [stop-13] [stop-14] [stop-16]
 void it_is_safe_within_a_cycle_and_stays_so_until_cleared_and_started() {
   pressed_and_released(Cell::consuming);
 }
 
+// [stop-12] [stop-13] [stop-16]
 void another_threads_actuators_are_safe_within_their_cycle() {
   pressed_and_released(Cell::producing);
 }
@@ -96,6 +98,7 @@ void pressed_from_the_start_nothing_ever_moves() {
 }
 
 /// An input in fault says nothing any more, so it permits nothing.
+// [stop-12] [stop-16]
 void an_input_in_fault_stops_all() {
   GuardedCell cell(Cell::producing, 1000, 1000);
   cell.device(cell.guard_device).script.receive = [&cell](TestDevice& device, const Tick&) {
@@ -113,6 +116,7 @@ void an_input_in_fault_stops_all() {
   for (std::size_t i = 11; i < 30; ++i) CHECK_EQUAL(cell.moved[i], safe_position);
 }
 
+// [stop-12] [stop-15]
 void a_sleeping_threads_actuators_are_made_safe_too() {
   Cell cell;
   cell.unit(Cell::producer).script.step = {};  // the consumer, and with it the actuator, sleeps

@@ -55,6 +55,7 @@ void it_is_met_while_every_thread_turns() {
   }
 }
 
+// [exec-34]
 void a_silent_thread_is_rung_then_named_and_comes_back() {
   Watched cell;
   cell.heartbeat().watch();
@@ -98,6 +99,7 @@ void what_is_given_up_misses_it() {
   CHECK(!cell.is_met());
 }
 
+// [exec-34]
 void a_thread_with_nothing_to_do_answers() {
   Plan plan;
   plan.unit(Plan::producer).script.step = [](TestUnit&, const Tick&) {};
@@ -158,6 +160,7 @@ void the_manager_is_told_how_it_stands() {
   CHECK(!heartbeat.is_watched());
 }
 
+// [exec-34]
 void the_manager_hears_the_heartbeat_twice_in_its_interval_and_only_while_it_is_met() {
   NotifyListener listener;
   Heartbeat heartbeat;
@@ -218,6 +221,7 @@ void the_environment_says_who_listens() {
   CHECK(ServiceManagerAddress::of_environment()->watchdog == Duration{0});
 }
 
+// [exec-34]
 void a_running_application_tells_of_itself() {
   NotifyListener listener;
   const Environment environment;

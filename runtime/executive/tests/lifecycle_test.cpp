@@ -20,6 +20,7 @@ void check_order(Cell& cell) {
   }
 }
 
+// [exec-36]
 void initialised_in_table_order_stopped_in_reverse() {
   Cell simulated;
   Executive executive(simulated.application(), in_virtual_time(milliseconds{10}));
@@ -63,6 +64,7 @@ void check_failed_start(Cell& cell, const RunSummary& summary, const char* cause
   CHECK_EQUAL(cell.unit_state(Cell::consumer).steps.load(), 0U);
 }
 
+// [stop-32]
 void a_unit_that_cannot_be_initialised_ends_the_start() {
   for (const bool simulated : {true, false}) {
     Cell cell;
@@ -75,6 +77,7 @@ void a_unit_that_cannot_be_initialised_ends_the_start() {
   }
 }
 
+// [stop-33]
 void an_exception_in_initialise_is_a_fault_with_its_text() {
   Cell cell;
   cell.unit(Cell::consumer).script.initialise = [](TestUnit&) -> Status {
@@ -96,6 +99,7 @@ void a_device_that_cannot_be_initialised_ends_the_start() {
   CHECK_EQUAL(cell.events().count_of("producer: initialise"), 0U);
 }
 
+// [exec-6] [stop-33] [stop-37]
 void an_exception_in_a_step_is_that_units_fault() {
   for (const bool simulated : {true, false}) {
     Cell cell;
@@ -123,6 +127,7 @@ void an_exception_in_a_step_is_that_units_fault() {
   }
 }
 
+// [stop-33]
 void what_is_no_exception_of_the_library_too() {
   Cell cell;
   cell.unit(Cell::producer).script.step = [](TestUnit&, const Tick&) { throw 42; };
@@ -163,6 +168,7 @@ void never_is_never() {
   CHECK_EQUAL(restarts.life, Life::fault);
 }
 
+// [stop-6] [stop-38]
 void once_is_once() {
   const Restarts restarts = restarts_with(RestartPolicy::once, DriverKind::simulated);
   CHECK_EQUAL(restarts.initialised, 2U);
@@ -170,18 +176,21 @@ void once_is_once() {
   CHECK(!restarts.may_move);
 }
 
+// [stop-6] [stop-38]
 void always_is_as_often_as_it_takes() {
   const Restarts restarts = restarts_with(RestartPolicy::always, DriverKind::simulated);
   CHECK(restarts.initialised >= 18U);
   CHECK(!restarts.may_move);
 }
 
+// [stop-39]
 void who_owns_a_real_actuator_is_never_restarted() {
   const Restarts restarts = restarts_with(RestartPolicy::always, DriverKind::real);
   CHECK_EQUAL(restarts.initialised, 1U);
   CHECK_EQUAL(restarts.life, Life::fault);
 }
 
+// [stop-38]
 void a_restart_constructs_anew_and_keeps_the_settings() {
   Cell cell;
   cell.unit(Cell::producer).restart = RestartPolicy::once;
@@ -210,6 +219,7 @@ void a_restart_constructs_anew_and_keeps_the_settings() {
   CHECK_EQUAL(cell.unit_state(Cell::producer).life.load(), Life::stopped);
 }
 
+// [stop-6] [stop-38]
 void a_restart_on_the_wall_clock() {
   Cell cell;
   cell.unit(Cell::producer).restart = RestartPolicy::once;
@@ -247,6 +257,7 @@ std::vector<NullReason> reasons_seen(Cell& cell) {
   return reasons;
 }
 
+// [stop-35]
 void readers_of_a_faulted_unit_see_why() {
   Cell cell;
   cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
@@ -272,6 +283,7 @@ void readers_of_a_restarted_unit_see_it_again() {
   CHECK_EQUAL(reasons.back(), NullReason::none);
 }
 
+// [board-20]
 void readers_of_a_late_unit_see_that_it_is_too_old() {
   Cell cell;
   cell.unit(Cell::consumer).inputs[0].max_age = milliseconds{5};
@@ -282,12 +294,14 @@ void readers_of_a_late_unit_see_that_it_is_too_old() {
          std::vector<NullReason>{NullReason::none, NullReason::too_old, NullReason::none}));
 }
 
+// [board-22]
 void an_input_that_is_not_connected_says_so() {
   Cell cell;
   cell.unit(Cell::consumer).inputs[0].slot = no_index;
   CHECK((reasons_seen(cell) == std::vector<NullReason>{NullReason::not_registered}));
 }
 
+// [stop-36]
 void readers_of_a_faulted_device_see_why() {
   Cell cell;
   const std::uint16_t measured = cell.add(SlotPlan{.name = "measured"});

@@ -50,6 +50,7 @@ struct Machine {
   int exit_code = -1;
 };
 
+// [stop-1] [stop-2]
 void nothing_moves_before_start() {
   Machine machine(false, milliseconds{50}, [](Machine&, std::uint64_t) {});
   CHECK_EQUAL(machine.exit_code, 0);
@@ -58,12 +59,14 @@ void nothing_moves_before_start() {
   for (const bool inhibited : machine.inhibited) CHECK(inhibited);
 }
 
+// [stop-7]
 void autostart_lifts_it_at_power_on() {
   Machine machine(true, milliseconds{50}, [](Machine&, std::uint64_t) {});
   CHECK_EQUAL(machine.moved.back(), 49.0);
   for (const bool inhibited : machine.inhibited) CHECK(!inhibited);
 }
 
+// [stop-4] [stop-5] [stop-8] [stop-9] [stop-11]
 void start_lets_move_and_stop_motion_ends_it_in_the_next_period() {
   Machine machine(false, milliseconds{60}, [](Machine& self, std::uint64_t number) {
     if (number == 10 && !self.control().start_motion()) throw CheckFailed{"Start was refused"};
@@ -87,6 +90,7 @@ void start_lets_move_and_stop_motion_ends_it_in_the_next_period() {
 }
 
 /// The device was initialised while motion was permitted, and its thread has not looked yet.
+// [stop-9]
 void stop_motion_counts_before_the_first_step() {
   Cell cell;
   cell.autostart = true;
@@ -130,6 +134,7 @@ void a_lease_counts_from_the_persons_act() {
   for (std::size_t i = 0; i < machine.held.size(); ++i) CHECK_EQUAL(machine.held[i], i >= 110 && i < 260);
 }
 
+// [stop-10]
 void stop_motion_ends_holds_for_good() {
   const std::uint64_t lease = new_lease_number();
   Machine machine(true, milliseconds{100}, [lease](Machine& self, std::uint64_t number) {
@@ -151,6 +156,7 @@ void a_hold_is_refused_while_motion_is_inhibited() {
   for (const bool held : machine.held) CHECK(!held);
 }
 
+// [stop-6]
 void a_restart_needs_a_new_start() {
   bool failed = false;
   Cell cell;
@@ -172,6 +178,7 @@ void a_restart_needs_a_new_start() {
   for (std::size_t i = 0; i < inhibited.size(); ++i) CHECK_EQUAL(inhibited[i], i >= 10);
 }
 
+// [exec-2] [stop-9]
 void stop_motion_is_seen_by_sleeping_threads_on_the_wall_clock() {
   Cell cell;
   cell.unit(Cell::producer).script.step = {};  // the consumer, and with it the actuator, sleeps

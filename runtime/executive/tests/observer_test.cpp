@@ -87,6 +87,7 @@ int run(Record& wanted, Cell& cell, std::vector<const char*> more, MakeObserver 
 
 using Calls = std::vector<std::string>;
 
+// [exec-39] [exec-40]
 void it_lives_as_long_as_the_application_runs() {
   Cell cell;
   Record seen;
@@ -120,6 +121,7 @@ void what_it_cannot_start_ends_the_start() {
   CHECK_EQUAL(cell.events().count_of("actuator: initialise"), 0U);
 }
 
+// [exec-41]
 void nobody_observes_with_panel_off_or_in_virtual_time() {
   for (const std::vector<const char*>& more :
        {std::vector<const char*>{"--virtual-time", "20ms"}, {"--virtual-time", "20ms", "--panel", "off"}}) {

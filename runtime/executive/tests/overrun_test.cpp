@@ -21,6 +21,7 @@ void make_slow(Cell& cell, OverrunPolicy policy, std::vector<Tick>& ticks) {
   };
 }
 
+// [exec-17] [exec-19]
 void skipped_releases_are_left_out() {
   Cell cell;
   std::vector<Tick> ticks;
@@ -43,6 +44,7 @@ void skipped_releases_are_left_out() {
   CHECK(state.skipped + state.cycles + 3 >= releases && state.skipped + state.cycles <= releases + 3);
 }
 
+// [exec-20] [exec-52]
 void every_release_is_caught_up_with() {
   Cell cell;
   std::vector<Tick> ticks;
@@ -57,6 +59,7 @@ void every_release_is_caught_up_with() {
   CHECK_EQUAL(cell.thread_state(Cell::producing).skipped.load(), 0U);
 }
 
+// [exec-21] [stop-34]
 void an_overrun_may_be_a_fault() {
   Cell cell;
   std::vector<Tick> ticks;
@@ -71,6 +74,7 @@ void an_overrun_may_be_a_fault() {
   CHECK_EQUAL(cell.unit_state(Cell::consumer).life.load(), Life::stopped);
 }
 
+// [exec-22] [exec-23] [stop-34]
 void so_many_in_a_row_are_a_fault() {
   Cell cell;
   std::vector<Tick> ticks;
@@ -104,6 +108,7 @@ struct Counting {
   Time at = beginning;
 };
 
+// [exec-22]
 void consecutive_overruns_are_forgotten_by_one_good_cycle() {
   Counting counting(OverrunPolicy::skip, OverrunLimit{false, 3, 0});
   for (int i = 0; i < 10; ++i) CHECK(!counting.bad() && !counting.bad() && !counting.good());
@@ -125,6 +130,7 @@ void a_limit_that_was_reached_is_counted_anew() {
   for (int i = 0; i < 4; ++i) CHECK(strict.bad());
 }
 
+// [exec-22]
 void a_leaky_limit_drains_by_good_cycles() {
   // Rises by one per overrun, falls by one per 4 good cycles, faults at 3.
   Counting steady(OverrunPolicy::skip, OverrunLimit{true, 3, 4});
@@ -142,6 +148,7 @@ void a_leaky_limit_drains_by_good_cycles() {
   CHECK(faults_after >= 4 && faults_after < 20);
 }
 
+// [exec-17]
 void without_a_limit_overruns_are_only_counted() {
   Counting counting(OverrunPolicy::skip, OverrunLimit{});
   for (int i = 0; i < 1000; ++i) CHECK(!counting.cycle(milliseconds{2}, 3));
@@ -150,6 +157,7 @@ void without_a_limit_overruns_are_only_counted() {
 }
 
 /// What was left out is time that was missed: 712 releases are no single overrun.
+// [exec-23]
 void a_limit_counts_every_release_that_was_left_out() {
   Counting counting(OverrunPolicy::skip, OverrunLimit{false, 700, 0});
   counting.record.trigger.period = milliseconds{7};
@@ -163,6 +171,7 @@ void a_limit_counts_every_release_that_was_left_out() {
   CHECK(patient.cycle(milliseconds{50}, 2));
 }
 
+// [stop-46]
 void overruns_are_said_at_once_and_then_as_a_sum() {
   LogEar ear;
   Counting counting(OverrunPolicy::skip, OverrunLimit{});
@@ -185,6 +194,7 @@ void overruns_are_said_at_once_and_then_as_a_sum() {
   CHECK(ear.has_heard("control: overruns since then: 1,"));
 }
 
+// [exec-18]
 void a_late_beginning_counts_too() {
   Counting counting(OverrunPolicy::skip, OverrunLimit{});
   const Time due = beginning;
@@ -194,6 +204,7 @@ void a_late_beginning_counts_too() {
   CHECK_EQUAL(counting.state.execution.maximum().count(), 200'000);
 }
 
+// [exec-17] [exec-21] [stop-34]
 void a_real_overrun_is_noticed_on_the_wall_clock() {
   Cell cell;
   cell.thread(Cell::producing).overrun = OverrunPolicy::fault;

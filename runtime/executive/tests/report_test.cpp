@@ -28,6 +28,7 @@ Report report_of(TestApplication& cell, const Options& options) {
 }
 
 /// Less than was commanded: told in the log once while it lasts, counted, and read by whoever looks.
+// [exec-24] [exec-26]
 void a_restraint_is_told_once_while_it_lasts() {
   ProducerAndConsumer cell;
   const LogEar ear;
@@ -67,6 +68,7 @@ void an_ordinary_run_tells_all_and_ends_in_a_sentence() {
 }
 
 /// Its steps take no time that a machine could keep, so whoever reads the run's times has to know.
+// [exec-56]
 void a_thread_without_a_budget_is_told_in_virtual_time() {
   ProducerAndConsumer with;
   const LogEar before;

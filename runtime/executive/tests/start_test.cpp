@@ -72,6 +72,7 @@ void a_driver_is_told_how_long_a_step_may_take() {
   CHECK(longest_step_told(in_virtual_time(std::chrono::seconds{1})) == Duration{});
 }
 
+// [exec-8]
 void a_thread_that_waits_for_too_much_is_refused() {
   Cell cell;
   cell.thread(Cell::consuming).trigger = TriggerPlan::on_slots(std::vector<std::uint16_t>(33, Cell::values));

@@ -9,6 +9,7 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using Cell = ProducerAndConsumer;
 
+// [exec-1]
 void units_step_in_the_order_of_the_thread() {
   TestApplication cell;
   std::vector<int> order;
@@ -32,6 +33,7 @@ void units_step_in_the_order_of_the_thread() {
   for (std::size_t i = 0; i < order.size(); ++i) CHECK_EQUAL(order[i], (std::array{3, 0, 4, 1, 2}[i % 5]));
 }
 
+// [exec-3]
 void a_step_sees_one_input_however_often_it_looks() {
   Cell cell;
   // The writer is much faster than the reader's step.
@@ -93,6 +95,7 @@ ParameterRequest set_gain(std::uint16_t component, double gain) {
   return request;
 }
 
+// [exec-2]
 void requests_are_applied_between_steps_and_answered() {
   Cell cell;
   std::atomic<int> changed_within{0};
@@ -140,6 +143,7 @@ void requests_are_applied_between_steps_and_answered() {
   CHECK_EQUAL(changed_within.load(), 0);
 }
 
+// [exec-2]
 void a_sleeping_thread_serves_requests_without_a_step() {
   Cell cell;
   cell.unit(Cell::producer).script.step = {};  // so that the consumer is never released
@@ -154,6 +158,7 @@ void a_sleeping_thread_serves_requests_without_a_step() {
   CHECK_EQUAL(running.finish().exit_code, 0);
 }
 
+// [exec-5]
 void a_button_counts_presses_since_the_last_step() {
   Cell cell;
   Executive executive(cell.application(), in_virtual_time(milliseconds{20}));
@@ -172,6 +177,7 @@ void a_button_counts_presses_since_the_last_step() {
   for (std::size_t i = 0; i < presses.size(); ++i) CHECK_EQUAL(presses[i], i == 0 ? 0 : (i - 1) % 3);
 }
 
+// [exec-4]
 void feedback_is_published_after_the_step() {
   Cell cell;
   Executive executive(cell.application(), in_virtual_time(milliseconds{20}));

@@ -12,6 +12,7 @@ using Cell = ProducerAndConsumer;
 
 constexpr Time beginning{std::chrono::seconds{1}};
 
+// [stop-17]
 void a_controlled_stop_lets_units_come_to_rest() {
   Cell cell;
   std::int64_t steps_to_rest = 30;
@@ -35,6 +36,7 @@ void a_controlled_stop_lets_units_come_to_rest() {
   CHECK(summary.run_time >= milliseconds{130} && summary.run_time < milliseconds{200});
 }
 
+// [stop-18]
 void who_does_not_come_to_rest_is_cut_short() {
   Cell cell;
   cell.stop_timeout = milliseconds{300};
@@ -47,6 +49,7 @@ void who_does_not_come_to_rest_is_cut_short() {
   CHECK(summary.run_time >= milliseconds{400} && summary.run_time < milliseconds{450});
 }
 
+// [stop-47] [stop-75]
 void signals_stop_it_and_give_the_exit_code() {
   for (const int signal : {SIGINT, SIGTERM}) {
     Cell cell;
@@ -65,6 +68,7 @@ void signals_stop_it_and_give_the_exit_code() {
   }
 }
 
+// [stop-47]
 void a_second_signal_does_not_wait() {
   Cell cell;
   cell.stop_timeout = std::chrono::hours{1};
@@ -80,6 +84,7 @@ void a_second_signal_does_not_wait() {
 }
 
 /// A bus in the tables after what it carries, and an arm that needs three calls.
+// [stop-19] [stop-20]
 void children_are_made_safe_before_their_bus() {
   for (const bool simulated : {true, false}) {
     Cell cell;
@@ -104,6 +109,7 @@ void children_are_made_safe_before_their_bus() {
   }
 }
 
+// [stop-32] [stop-36] [stop-37]
 void a_fault_makes_the_units_own_devices_safe_and_no_others() {
   Cell cell;
   const std::uint16_t gripper = cell.add(DevicePlan{.name = "gripper", .script = {}});
@@ -125,6 +131,7 @@ void a_fault_makes_the_units_own_devices_safe_and_no_others() {
   CHECK_EQUAL(cell.unit_state(Cell::consumer).life.load(), Life::stopped);
 }
 
+// [stop-21]
 void a_device_that_does_not_become_safe_is_a_fault() {
   Cell cell;
   cell.thread(Cell::producing).deadline = strict_deadline;
@@ -137,6 +144,7 @@ void a_device_that_does_not_become_safe_is_a_fault() {
 }
 
 /// A step of its thread that takes as long would not hang yet.
+// [stop-21]
 void a_slow_threads_devices_have_as_long_as_its_steps() {
   Cell cell;
   Time now{};
@@ -150,6 +158,7 @@ void a_slow_threads_devices_have_as_long_as_its_steps() {
 }
 
 /// Input that ends after ten jobs, which are left in a queue that is emptied slowly.
+// [stop-29] [stop-71]
 void at_the_end_of_input_queues_are_drained() {
   for (const bool simulated : {true, false}) {
     Cell cell;
@@ -177,6 +186,7 @@ void at_the_end_of_input_queues_are_drained() {
   }
 }
 
+// [stop-30]
 void a_unit_finishes_what_it_has_begun() {
   Cell cell;
   cell.device(Cell::actuator).script.is_closed = [] { return true; };
@@ -194,6 +204,7 @@ void a_unit_finishes_what_it_has_begun() {
   CHECK(summary.run_time < milliseconds{800});
 }
 
+// [stop-31]
 void finishing_has_its_timeout() {
   Cell cell;
   cell.finish_timeout = milliseconds{500};
@@ -218,6 +229,7 @@ struct Hook {
   }
 };
 
+// [stop-41]
 void a_step_that_hangs_brings_the_safe_state() {
   Hook hook;
   Cell cell;

@@ -49,6 +49,7 @@ struct Hanging : Looked {
   }
 };
 
+// [stop-40]
 void a_step_that_is_watched_all_the_time_hangs_after_its_time_out() {
   Hanging step;
   for (int i = 0; i < 100; ++i) step.look(milliseconds{5});
@@ -57,6 +58,7 @@ void a_step_that_is_watched_all_the_time_hangs_after_its_time_out() {
   CHECK(step.supervision.is_stuck());
 }
 
+// [stop-42]
 void of_a_time_in_which_nobody_watched_the_longest_pause_counts() {
   Hanging step;
   step.look(seconds{10});
@@ -67,6 +69,7 @@ void of_a_time_in_which_nobody_watched_the_longest_pause_counts() {
   CHECK(step.supervision.is_stuck());
 }
 
+// [stop-43]
 void who_seldom_watches_finds_what_hangs_all_the_same() {
   Hanging step;
   for (int i = 0; i < 6; ++i) step.look(seconds{1});

@@ -32,6 +32,7 @@ std::vector<Tick> ticks_of_consumer(Cell& cell, Duration duration) {
   return ticks;
 }
 
+// [exec-7] [exec-16]
 void a_period_has_its_phase_and_no_drift() {
   Cell cell;
   cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{7}, milliseconds{2});
@@ -49,6 +50,7 @@ void a_period_has_its_phase_and_no_drift() {
   }
 }
 
+// [exec-8] [exec-53]
 void a_publication_releases_when_it_becomes_visible() {
   Cell cell;
   const std::vector<Tick> ticks = ticks_of_consumer(cell, milliseconds{10});
@@ -60,6 +62,7 @@ void a_publication_releases_when_it_becomes_visible() {
   }
 }
 
+// [exec-8] [exec-16]
 void the_tick_says_which_source_fired() {
   Cell cell;
   cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
@@ -73,6 +76,7 @@ void the_tick_says_which_source_fired() {
   CHECK_EQUAL(ticks[1].elapsed.count(), 2'000'000);
 }
 
+// [exec-8] [exec-16]
 void as_many_sources_as_there_may_be_have_a_bit_each() {
   Cell cell;
   cell.thread(Cell::consuming).trigger =
@@ -106,6 +110,7 @@ void a_publication_between_the_look_and_the_release_fires_the_next() {
   CHECK_EQUAL(trigger.due(now, false).fired, 0U);
 }
 
+// [exec-9] [exec-15]
 void publications_in_between_make_one_release() {
   Cell cell;
   cell.thread(Cell::consuming).trigger.min_interval = milliseconds{5};
@@ -125,6 +130,7 @@ void publications_in_between_make_one_release() {
   }
 }
 
+// [exec-10] [exec-16]
 void a_timeout_is_a_release_of_its_own() {
   Cell cell;
   cell.thread(Cell::consuming).trigger.timeout = milliseconds{10};
@@ -141,6 +147,7 @@ void a_timeout_is_a_release_of_its_own() {
   CHECK((timeouts == std::vector<std::int64_t>{12'050, 22'050, 32'050, 50'050}));
 }
 
+// [exec-11]
 void a_device_releases_its_thread_in_virtual_time() {
   Cell cell;
   cell.thread(Cell::consuming).trigger = TriggerPlan::on_device(Cell::actuator);
@@ -157,6 +164,7 @@ void a_device_releases_its_thread_in_virtual_time() {
   }
 }
 
+// [exec-11]
 void before_a_device_has_something_it_is_the_timeout() {
   Cell cell;
   cell.thread(Cell::consuming).trigger = TriggerPlan::on_device(Cell::actuator);
@@ -176,6 +184,7 @@ void before_a_device_has_something_it_is_the_timeout() {
   CHECK((events == std::vector<std::int64_t>{3500, 7500}));
 }
 
+// [exec-11]
 void a_device_releases_its_thread_on_the_wall_clock() {
   Cell cell;
   cell.thread(Cell::consuming).trigger = TriggerPlan::on_device(Cell::actuator);
@@ -225,6 +234,7 @@ void a_flood_does_not_turn_a_thread_in_circles() {
   close(descriptor);
 }
 
+// [exec-12]
 void back_off_finds_every_item_of_a_steady_source_soon() {
   Cell cell;
   cell.thread(Cell::producing).trigger = TriggerPlan::periodic(milliseconds{10});
@@ -247,6 +257,7 @@ void back_off_finds_every_item_of_a_steady_source_soon() {
   CHECK(ages[ages.size() / 2] < milliseconds{1});
 }
 
+// [exec-13]
 void a_free_thread_steps_without_a_reason() {
   Cell cell;
   cell.thread(Cell::consuming).trigger = TriggerPlan::free_running();

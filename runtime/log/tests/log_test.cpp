@@ -236,6 +236,7 @@ struct FullPipe {
   int ends[2] = {-1, -1};
 };
 
+// [stop-57] [stop-58]
 void a_reader_that_takes_nothing_holds_up_nobody_else(void**) {
   static std::string written;
   static std::size_t relieved;
@@ -269,6 +270,7 @@ void a_reader_that_takes_nothing_holds_up_nobody_else(void**) {
   assert_true(written.find("a: last\n") != std::string::npos);
 }
 
+// [stop-57] [stop-58]
 void lines_that_cannot_be_written_are_counted(void**) {
   const int full = open("/dev/full", O_WRONLY);
   const std::uint64_t before = unwritten_log_lines();

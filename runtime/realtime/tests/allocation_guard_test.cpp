@@ -79,6 +79,7 @@ void run_in_child(const Call& call, Outcome& outcome) {
   outcome.signal = WIFSIGNALED(result) ? WTERMSIG(result) : 0;
 }
 
+// [exec-28]
 void a_forbidden_call_aborts_with_a_trace(void**) {
   static Outcome outcome;
   for (const Call& call : calls) {
@@ -95,6 +96,7 @@ void a_forbidden_call_aborts_with_a_trace(void**) {
 
 #else
 
+// [exec-27]
 void forbidden_calls_are_counted(void**) {
   for (const Call& call : calls) {
     AllocationCounter counter{0};

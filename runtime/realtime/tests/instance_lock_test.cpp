@@ -30,6 +30,7 @@ int remove_directory(void**) {
   return rmdir(directory);
 }
 
+// [stop-66]
 void one_holder_per_cell(void**) {
   static InstanceLock first;
   static InstanceLock second;
@@ -76,6 +77,7 @@ bool holder_dies() {
   return told && busy && lock.acquire("one", directory).is_ok();
 }
 
+// [stop-65]
 void a_dead_holder_holds_nothing(void**) {
   assert_true(holder_dies());
 }
@@ -114,6 +116,7 @@ void a_directory_that_is_not_there_is_named(void**) {
 
 // ---- where it belongs
 
+// [stop-68]
 void a_user_has_a_place_of_its_own(void**) {
   char place[lock_directory_size];
   setenv("XDG_RUNTIME_DIR", directory, 1);
@@ -161,6 +164,7 @@ void somebody_elses_folder_is_not_taken(void**) {
   assert_int_equal(answer, 1);
 }
 
+// [stop-67]
 void the_machines_place_is_roots_to_make(void**) {
   if (geteuid() != 0) skip();
   char place[lock_directory_size];

@@ -117,6 +117,7 @@ void check_outcome(const Outcome& outcome, int signal, const char* message) {
   assert_int_equal(outcome.signal, signal);
 }
 
+// [stop-22] [stop-25]
 void invalid_memory_access(void**) {
   const Outcome outcome = run_and_crash([] {
     void* const nowhere = mmap(nullptr, 4096, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -126,6 +127,7 @@ void invalid_memory_access(void**) {
   assert_non_null(strstr(outcome.message, " while stepping jog;"));
 }
 
+// [stop-22]
 void memory_that_is_not_there(void**) {
   const Outcome outcome = run_and_crash([] {
     const int file = memfd_create("empty", MFD_CLOEXEC);
@@ -135,14 +137,17 @@ void memory_that_is_not_there(void**) {
   check_outcome(outcome, SIGBUS, "flexrf: SIGBUS (memory not there) at 0x");
 }
 
+// [stop-22]
 void arithmetic_error(void**) {
   check_outcome(run_and_crash([] { raise(SIGFPE); }), SIGFPE, "flexrf: SIGFPE (arithmetic error) while");
 }
 
+// [stop-22]
 void invalid_instruction(void**) {
   check_outcome(run_and_crash([] { raise(SIGILL); }), SIGILL, "flexrf: SIGILL (invalid instruction) while");
 }
 
+// [stop-22]
 void abort_called(void**) {
   check_outcome(run_and_crash([] { abort(); }), SIGABRT, "flexrf: SIGABRT (abort) while");
 }
@@ -158,6 +163,7 @@ alignas(16) std::byte handler_stack[last_gasp::handler_stack_size];
   return use_up_the_stack(depth) + frame[0];
 }
 
+// [stop-22]
 void stack_overflow_in_a_thread(void**) {
 #if FLEXRF_SANITIZER
   skip();  // sanitizers do not survive a stack that is used up
@@ -215,6 +221,7 @@ void fires_for_an_owner_that_does_not_answer(void**) {
 }
 
 /// In the order of their turns, not of their slots.
+// [stop-24]
 void what_is_last_comes_after_all_others(void**) {
   const Pipe pipe;
   const int last = last_gasp::claim_slot(last_gasp::Turn::last);

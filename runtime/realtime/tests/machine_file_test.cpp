@@ -53,6 +53,7 @@ struct Defaults {
   const char* rest;
 };
 
+// [exec-38]
 void default_roles(void**) {
   const Defaults cases[] = {
       {"0", "", "0", "0", "0", "0"},             // nothing to choose
@@ -71,6 +72,7 @@ void default_roles(void**) {
   }
 }
 
+// [exec-37]
 void the_file_overrides_the_defaults(void**) {
   const auto machine = MachineFile::parse(
       "# roles of this cell's computer\n\ncontrol = 1\n  io=0   # beside the network card\n", "machine.conf",

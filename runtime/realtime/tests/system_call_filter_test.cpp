@@ -122,6 +122,7 @@ void run_in_child(Body body, Outcome& outcome, bool has_filters = true) {
 
 const Call* current;
 
+// [exec-30] [exec-31]
 void what_may_wait_is_caught_and_named(void**) {
   static Outcome outcome;
   for (const Call& call : caught) {
@@ -179,6 +180,7 @@ int do_what_is_allowed() {
   return 0;
 }
 
+// [exec-29]
 void what_a_thread_needs_is_let_through_to_its_end(void**) {
   static Outcome outcome;
   run_in_child(&do_what_is_allowed, outcome);
@@ -186,6 +188,7 @@ void what_a_thread_needs_is_let_through_to_its_end(void**) {
   assert_int_equal(outcome.exit_code, 0);
 }
 
+// [exec-29]
 void a_crash_of_a_filtered_thread_has_its_last_gasp(void**) {
   static Outcome outcome;
   run_in_child(
@@ -203,6 +206,7 @@ void a_crash_of_a_filtered_thread_has_its_last_gasp(void**) {
 }
 
 /// Injected: a filter of the test's keeps the call that makes filters from the kernel.
+// [exec-33]
 void without_filters_it_says_so_and_goes_on(void**) {
   static Outcome outcome;
   run_in_child([] { return nanosleep(&moment, nullptr); }, outcome, false);

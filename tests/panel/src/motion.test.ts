@@ -194,6 +194,7 @@ describe('a hold', () => {
     await viewer.page.getByText('Nobody has control').waitFor();
   });
 
+  // [stop-10]
   it('ends with Stop motion by somebody who only looks', async () => {
     const other = await Viewer.open(browser(), running.base);
     await hold();
@@ -302,6 +303,7 @@ describe('Stop motion', () => {
     await viewer.close();
   });
 
+  // [stop-11]
   it('stops, and after it come Clear and Start, one after the other', async () => {
     const { page } = viewer;
     await page.getByRole('switch', { name: 'Run' }).click();

@@ -83,6 +83,7 @@ bool refuses_and_comes_back() {
          world.bench.feedback().refusals == 1;
 }
 
+// [stop-3]
 bool keys_while_inhibited_are_forgotten() {
   World world;
   world.arm.driver().set_inhibited(true);

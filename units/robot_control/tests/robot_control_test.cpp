@@ -188,6 +188,7 @@ bool a_stop_request_brings_it_to_rest() {
 }
 
 // A target from before the Start is not followed after it.
+// [stop-3]
 bool starts_from_where_the_arm_is() {
   World world;
   world.bench.tick().motion_inhibited = true;

@@ -240,6 +240,7 @@ void check_last_words(const Outcome& outcome, int signal) {
               outcome.prompt_state.c_str());
 }
 
+// [stop-24]
 void a_crash_stops_the_axis_long_before_its_heartbeat_is_missed(void**) {
   const Outcome outcome = die({.die = access_nothing});
   check_last_words(outcome, SIGSEGV);
@@ -247,6 +248,7 @@ void a_crash_stops_the_axis_long_before_its_heartbeat_is_missed(void**) {
   assert_true(*outcome.missed - outcome.end > before_heartbeat_is_missed);
 }
 
+// [stop-24]
 void a_crash_stops_an_axis_that_does_not_look_for_us(void**) {
   const Outcome outcome =
       die({.mode = ServoMode::profile_velocity, .is_supervised = false, .die = access_nothing});
@@ -254,6 +256,7 @@ void a_crash_stops_an_axis_that_does_not_look_for_us(void**) {
   assert_false(outcome.missed.has_value());
 }
 
+// [stop-26]
 void so_does_one_of_another_thread(void**) {
   for (int i = 0; i < 5; ++i) {
     check_last_words(die({.mode = ServoMode::cyclic_velocity, .is_supervised = false, .die = abort_beside}),
@@ -262,6 +265,7 @@ void so_does_one_of_another_thread(void**) {
 }
 
 // What the others are told apart from.
+// [stop-28]
 void who_is_killed_says_nothing_and_the_drive_has_to_notice(void**) {
   const Outcome watched = die({.mode = ServoMode::profile_velocity, .die = be_killed});
   assert_true(watched.came_to_move);
@@ -277,6 +281,7 @@ void who_is_killed_says_nothing_and_the_drive_has_to_notice(void**) {
   assert_non_null(std::strstr(alone.last_state.c_str(), " with 5000/s"));
 }
 
+// [stop-27]
 void an_interface_that_is_down_holds_no_death_up(void**) {
   const Outcome outcome = die({.die = access_nothing, .cable_is_out = true});
   assert_true(outcome.came_to_move);

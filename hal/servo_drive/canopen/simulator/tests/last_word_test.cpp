@@ -56,6 +56,7 @@ void its_bytes_are_the_last_process_data_with_quick_stop(void**) {
   assert_int_equal(word->data[6], 8);
 }
 
+// [stop-24]
 void it_stops_what_moves_in_each_mode(void**) {
   for (const Mode mode : {Mode::cyclic_position, Mode::cyclic_velocity, Mode::profile_velocity}) {
     Cell cell(plan_with(mode));

@@ -108,6 +108,7 @@ describe('the page of a unit', () => {
     expect(page().shadowRoot!.querySelector('[role=alert]')!.textContent!.replace(/\s+/g, ' ')).toContain('Cause too hot Remedy Let it cool.');
   });
 
+  // [exec-25]
   it('says what holds it back, and that something did', async () => {
     const text = (): string => page().shadowRoot!.textContent!.replace(/\s+/g, ' ');
     fake.topic('components', [alive('axis[0]', { restraint: 'a velocity above `fastest` is not taken: 3 asked for, 1 done', restraints: 1 })]);
