@@ -121,6 +121,7 @@ void on_the_simulator_an_unplugged_chip_stops_too() {
   a_chip_that_is_unplugged_stops_too<SimulatedGpioChip>("simulated");
 }
 
+// [watchdog-3] [watchdog-4]
 void the_watchdog_is_fed_and_let_go_at_the_end() {
   Guarded<MockGpioChip> cell("mock");
   CHECK(wait_until([&] { return cell.watchdog().resets_at() != Time::max(); }));

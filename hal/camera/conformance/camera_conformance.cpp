@@ -72,10 +72,12 @@ Verdict pictures_are_as_asked(CameraWorld& world, bool into_slot) {
   return Verdict::passed;
 }
 
+// [camera-3]
 Verdict a_unit_sees_pictures_as_it_asked(CameraWorld& world) {
   return pictures_are_as_asked(world, false);
 }
 
+// [camera-2]
 Verdict a_slot_gets_pictures_as_asked(CameraWorld& world) {
   return pictures_are_as_asked(world, true);
 }
@@ -102,14 +104,17 @@ Verdict times_and_sequences_rise(CameraWorld& world, bool into_slot) {
   return verdict(changes && world.feedback().frames >= 10);
 }
 
+// [camera-1]
 Verdict a_units_pictures_are_in_order(CameraWorld& world) {
   return times_and_sequences_rise(world, false);
 }
 
+// [camera-1]
 Verdict a_slots_pictures_are_in_order(CameraWorld& world) {
   return times_and_sequences_rise(world, true);
 }
 
+// [camera-5]
 Verdict a_picture_is_given_for_one_cycle(CameraWorld& world) {
   if (!world.start({})) return Verdict::failed;
   CameraEye eye(world);
@@ -119,6 +124,7 @@ Verdict a_picture_is_given_for_one_cycle(CameraWorld& world) {
   return verdict(eye.until([&] { return !world.camera().frame(); }));
 }
 
+// [camera-2]
 Verdict a_picture_that_is_held_does_not_change(CameraWorld& world) {
   if (!world.start({.into_slot = true})) return Verdict::failed;
   CameraEye eye(world);
@@ -270,14 +276,17 @@ Verdict it_comes_back(CameraWorld& world, bool into_slot) {
                  brightness_of(world) == 20);
 }
 
+// [camera-4]
 Verdict a_camera_of_a_unit_that_went_away_comes_back(CameraWorld& world) {
   return it_comes_back(world, false);
 }
 
+// [camera-4]
 Verdict a_camera_with_a_slot_that_went_away_comes_back(CameraWorld& world) {
   return it_comes_back(world, true);
 }
 
+// [camera-4]
 Verdict a_camera_that_is_missing_at_the_start_may_come_later(CameraWorld& world) {
   if (!world.unplug()) return Verdict::skipped;
   if (!world.start({.into_slot = true})) return Verdict::failed;
@@ -306,6 +315,7 @@ Verdict a_missing_right_is_told(CameraWorld& world) {
   return verdict(eye.next().has_value());
 }
 
+// [camera-4]
 Verdict a_silent_camera_is_told_and_begun_anew(CameraWorld& world) {
   if (!world.start({.silence = 1})) return Verdict::failed;
   CameraEye eye(world);

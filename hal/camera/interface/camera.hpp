@@ -19,18 +19,20 @@ struct CameraImage {
   std::uint32_t stride = 0;            ///< bytes from one row to the next; 0 in mjpeg
   PixelFormat format = PixelFormat::none;
   Time time{};                 ///< when it was taken, as the kernel says
-  std::uint64_t sequence = 0;  ///< the camera's count: rises, what is left out was lost
+  std::uint64_t sequence = 0;  ///< the camera's count: rises, what is left out was lost [camera-1]
 };
 
 /// Two ways to the pictures, and on neither does a processor copy one unless feedback.copied_bytes says so:
-///  - with an IO thread each is an item of the slot `frames`, and stays for as long as its reader looks;
-///  - a camera that belongs to a unit gives the newest by frame().
+///  - with an IO thread each is an item of the slot `frames`, and stays for as long as its reader looks
+///    [camera-2];
+///  - a camera that belongs to a unit gives the newest by frame() [camera-3].
 /// A camera that is not there or goes away is no fault: feedback says what the trouble is, no pictures come,
-/// and they come again when it does. Everything but initialise and stop: the thread the camera lives in.
+/// and they come again when it does [camera-4]. Everything but initialise and stop: the thread the camera
+/// lives in.
 class Camera : public CameraInterface {
  public:
   /// The newest picture, if one came since the cycle before; the same all through a cycle, valid until the
-  /// next receive(). Nothing while the slot `frames` is connected: they go there instead.
+  /// next receive() [camera-5]. Nothing while the slot `frames` is connected: they go there instead.
   virtual std::optional<CameraImage> frame() const noexcept = 0;
 };
 

@@ -49,13 +49,16 @@ Verdict comes_back(CanBusWorld& world, CanBusState lost, bool (CanBusWorld::*los
 
 }  // namespace
 
+// [can-bus-2] [can-bus-8]
 Verdict comes_back_after_it_was_down(CanBusWorld& world) {
   return comes_back(world, CanBusState::down, &CanBusWorld::set_down, &CanBusWorld::set_up);
 }
+// [can-bus-2] [can-bus-8]
 Verdict comes_back_after_it_was_gone(CanBusWorld& world) {
   return comes_back(world, CanBusState::gone, &CanBusWorld::take_away, &CanBusWorld::put_back);
 }
 
+// [can-bus-2] [can-bus-8]
 Verdict comes_back_after_bus_off(CanBusWorld& world) {
   CanInbox inbox;
   if (!opens(world, inbox, {{0x181}})) return Verdict::failed;

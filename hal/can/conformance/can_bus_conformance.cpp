@@ -10,6 +10,7 @@ using namespace can_bus_cases;
 
 MakeCanBusWorld make_world = nullptr;
 
+// [can-bus-3]
 Verdict delivers_what_is_wanted_and_nothing_else(CanBusWorld& world) {
   CanInbox inbox;
   if (!opens(world, inbox, {{0x181}, {0x7FF}})) return Verdict::failed;
@@ -23,6 +24,7 @@ Verdict delivers_what_is_wanted_and_nothing_else(CanBusWorld& world) {
                  world.bus().counters().frames_received == 2);
 }
 
+// [can-bus-5]
 Verdict two_devices_may_want_the_same(CanBusWorld& world) {
   CanInbox one;
   CanInbox other;
@@ -36,6 +38,7 @@ Verdict two_devices_may_want_the_same(CanBusWorld& world) {
                  is_same(*third, frame_of(0x702, 2)) && one.is_empty());
 }
 
+// [can-bus-3]
 Verdict tells_long_identifiers_from_short_ones(CanBusWorld& world) {
   CanInbox shorter;
   CanInbox longer;
@@ -67,6 +70,7 @@ Verdict stamps_with_the_time_of_reception(CanBusWorld& world) {
                  second->time >= between && second->time <= after);
 }
 
+// [can-bus-3]
 Verdict takes_a_burst(CanBusWorld& world) {
   constexpr int count = 250;
   CanInbox inbox;
@@ -79,6 +83,7 @@ Verdict takes_a_burst(CanBusWorld& world) {
   return verdict(inbox.missed() == 0 && world.bus().counters().frames_missed == 0);
 }
 
+// [can-bus-4]
 Verdict a_full_inbox_keeps_the_newest(CanBusWorld& world) {
   CanInbox small;
   CanInbox all;
@@ -94,6 +99,7 @@ Verdict a_full_inbox_keeps_the_newest(CanBusWorld& world) {
   return verdict(small.is_empty() && small.missed() == 6 && world.bus().counters().frames_missed == 6);
 }
 
+// [can-bus-7]
 Verdict a_closed_inbox_gets_nothing(CanBusWorld& world) {
   CanInbox closed;
   CanInbox open;
@@ -103,12 +109,14 @@ Verdict a_closed_inbox_gets_nothing(CanBusWorld& world) {
   return verdict(next_of(world, open).has_value() && closed.is_empty());
 }
 
+// [can-bus-6]
 Verdict refuses_identifiers_that_cannot_be(CanBusWorld& world) {
   CanInbox inbox;
   return verdict(!opens(world, inbox, {{0x800}}) && !opens(world, inbox, {{0x2000'0000, true}}) &&
                  !opens(world, inbox, {}) && opens(world, inbox, {{0x7FF}}));
 }
 
+// [can-bus-1] [can-bus-9]
 Verdict sends_the_most_urgent_first(CanBusWorld& world) {
   world.receive();
   // As devices do it: the process data first, and SYNC by the one that comes last.
@@ -123,6 +131,7 @@ Verdict sends_the_most_urgent_first(CanBusWorld& world) {
   return verdict(queued && in_order && world.bus().counters().frames_sent == 5);
 }
 
+// [can-bus-10]
 Verdict what_is_posted_twice_is_said_once(CanBusWorld& world) {
   world.receive();
   const bool posted = world.bus().post(frame_of(0x201, 1)) && world.bus().post(frame_of(0x080, 2)) &&
@@ -151,6 +160,7 @@ Verdict sends_every_kind_of_frame(CanBusWorld& world) {
                  is_same(frames[2], request));
 }
 
+// [can-bus-8]
 Verdict refuses_frames_that_cannot_be(CanBusWorld& world) {
   CanFrame long_one = frame_of(0x100);
   long_one.length = 9;
@@ -160,6 +170,7 @@ Verdict refuses_frames_that_cannot_be(CanBusWorld& world) {
   return verdict(refused && world.bus().counters().frames_refused == 3);
 }
 
+// [can-bus-8] [can-bus-9]
 Verdict a_full_queue_says_so_and_empties(CanBusWorld& world) {
   constexpr std::size_t count = CanSendQueue::capacity;
   world.receive();

@@ -19,27 +19,29 @@ class CanWire;
 
 /// A cycle is: the bus receives everything that came, at once, and puts it into its devices' inboxes; they
 /// take it in their receive(); they queue what they have to say in their send(), in any order; the bus sends
-/// it at once, in the order of priority. So SYNC leaves before the process data, whichever device says it.
+/// it at once, in the order of priority. So SYNC leaves before the process data, whichever device says
+/// it [can-bus-1].
 ///
 /// The bus and the devices on it live in one thread, without an IO thread: nothing here waits.
 ///
 /// A bus that is off, down or gone is no fault of this device: state() says so, it comes back by itself, and
-/// feedback.recoveries counts it. What a device does meanwhile is for the device to say.
+/// feedback.recoveries counts it [can-bus-2]. What a device does meanwhile is for the device to say.
 class CanBus : public CanBusInterface {
  public:
   static constexpr int no_last_word = -1;
 
   // ---- for devices on the bus: in initialise() and stop(), the lifecycle thread
 
-  /// From now on frames with these identifiers go into `inbox`, which keeps the newest `capacity` (rounded up
-  /// to a power of two). Several inboxes may want the same identifier. An inbox that is open is opened anew.
-  /// Error: an identifier has too many bits, or none was named.
+  /// From now on frames with these identifiers go into `inbox` [can-bus-3], which keeps the newest `capacity`
+  /// (rounded up to a power of two) [can-bus-4]. Several inboxes may want the same identifier [can-bus-5]. An
+  /// inbox that is open is opened anew. Error: an identifier has too many bits, or none was
+  /// named [can-bus-6].
   Status open(CanInbox& inbox, std::span<const CanIdentifier> identifiers, std::uint32_t capacity = 32);
   Status open(CanInbox& inbox, std::initializer_list<CanIdentifier> identifiers,
               std::uint32_t capacity = 32) {
     return open(inbox, std::span(identifiers.begin(), identifiers.size()), capacity);
   }
-  /// Before the inbox goes; nothing when it is not open.
+  /// From now on nothing comes into the inbox [can-bus-7]. Before it goes; nothing when it is not open.
   void close(CanInbox& inbox);
 
   /// A place for a device's last word, see prepare_last_word(). Below 0: this bus says nothing then, or has
@@ -52,16 +54,16 @@ class CanBus : public CanBusInterface {
 
   /// Sends this frame at the end of the cycle; what does not fit into the controller's queue then waits for
   /// the next one. False, counted in feedback.frames_refused: this queue is full, the bus is not usable, or
-  /// the frame is not valid. Frames of one identifier keep their order.
+  /// the frame is not valid [can-bus-8]. Frames of one identifier keep their order [can-bus-9].
   bool queue(const CanFrame& frame) noexcept { return put(frame, false); }
-  /// As queue(), but takes the place of a frame with this identifier that was posted and has not left: for
-  /// what is said in every cycle, where only the newest counts (set-points), and for what several devices
-  /// may say and is to be said once (SYNC).
+  /// As queue(), but takes the place of a frame with this identifier that was posted and has not
+  /// left [can-bus-10]: for what is said in every cycle, where only the newest counts (set-points), and for
+  /// what several devices may say and is to be said once (SYNC).
   bool post(const CanFrame& frame) noexcept { return put(frame, true); }
 
   /// Should this process crash from now on, or its thread hang, `word` is said for this device; then, once
-  /// the words of all devices on the bus have been, `all`: the same for all of them, as SYNC. In each cycle,
-  /// if need be; no system call. `place`: of claim_last_word(), not below 0.
+  /// the words of all devices on the bus have been, `all`: the same for all of them, as SYNC [can-bus-11]. In
+  /// each cycle, if need be; no system call. `place`: of claim_last_word(), not below 0.
   virtual void prepare_last_word(int /*place*/, const CanFrame& /*word*/, const CanFrame& /*all*/) noexcept {}
 
   CanBusState state() const noexcept { return feedback.state; }

@@ -6,6 +6,7 @@
 namespace flexrf {
 namespace force_torque_cases {
 
+// [force-torque-sensor-3]
 Verdict measures_what_loads_it(ForceTorqueWorld& world) {
   if (!world.start({})) return Verdict::failed;
   if (world.sensor().state()) return Verdict::failed;  // nothing came yet
@@ -17,6 +18,7 @@ Verdict measures_what_loads_it(ForceTorqueWorld& world) {
       !world.sensor().state()->overload && world.feedback().trouble_view().empty());
 }
 
+// [force-torque-sensor-5]
 Verdict measurements_follow_each_other(ForceTorqueWorld& world) {
   if (!world.start({}) || !is_heard(world)) return Verdict::failed;
   for (int i = 0; i < 10; ++i) {
@@ -46,6 +48,7 @@ Verdict publishes_what_it_measures(ForceTorqueWorld& world) {
 
 /// A quarter turn about z, and the sensor sits above: what pulls along its x pulls along y, and turns about
 /// x.
+// [force-torque-sensor-2]
 Verdict gives_it_in_the_configured_frame(ForceTorqueWorld& world) {
   const double half = std::sqrt(0.5);
   if (!world.start({.position = {0, 0, 0.1}, .orientation = {0, 0, half, half}}) || !is_heard(world))
@@ -56,6 +59,7 @@ Verdict gives_it_in_the_configured_frame(ForceTorqueWorld& world) {
   return verdict(measures(world, {-10, 0, 5}, {0, 0, 0}));
 }
 
+// [force-torque-sensor-2] [force-torque-sensor-7] [force-torque-sensor-8]
 Verdict takes_off_a_tare(ForceTorqueWorld& world) {
   if (!world.start({}) || !is_heard(world)) return Verdict::failed;
   world.load(some_force, some_torque);

@@ -40,6 +40,7 @@ constexpr const char* name_of(SensorFarEnd behaviour) {
 
 }  // namespace
 
+// [force-torque-sensor-4] [force-torque-sensor-6]
 Verdict tells_a_force_beyond_its_limit(ForceTorqueWorld& world) {
   if (!world.start({.force_limit = 100}) || !is_heard(world)) return Verdict::failed;
   world.load({0, 0, 99.5}, {30, 0, 0});
@@ -52,6 +53,7 @@ Verdict tells_a_force_beyond_its_limit(ForceTorqueWorld& world) {
   return verdict(measures(world, {0, 0, 0}, {0, 0, 0}) && is_well_again(world));
 }
 
+// [force-torque-sensor-4] [force-torque-sensor-6]
 Verdict tells_a_torque_beyond_its_limit(ForceTorqueWorld& world) {
   if (!world.start({.torque_limit = 10}) || !is_heard(world)) return Verdict::failed;
   world.load({0, 0, 250}, {0, 0, 10.5});
@@ -68,6 +70,7 @@ Verdict judges_its_limits_before_any_tare(ForceTorqueWorld& world) {
   return verdict(becomes_overloaded(world));
 }
 
+// [force-torque-sensor-4] [force-torque-sensor-6]
 Verdict tells_an_overload_of_the_sensors_own(ForceTorqueWorld& world) {
   if (!world.start({}) || !is_heard(world)) return Verdict::failed;
   if (!world.make(SensorFarEnd::saturated)) return Verdict::skipped;
@@ -77,6 +80,7 @@ Verdict tells_an_overload_of_the_sensors_own(ForceTorqueWorld& world) {
 }
 
 /// What it sends then is no measurement.
+// [force-torque-sensor-3] [force-torque-sensor-6]
 Verdict tells_a_fault_of_the_sensors_own(ForceTorqueWorld& world) {
   if (!world.start({}) || !is_heard(world)) return Verdict::failed;
   if (!world.make(SensorFarEnd::faulty)) return Verdict::skipped;
@@ -113,6 +117,7 @@ Verdict counts_what_is_lost(ForceTorqueWorld& world) {
 }
 
 // It is noticed, told and counted; once the cause is gone it measures again, in 2 s at most.
+// [force-torque-sensor-1] [force-torque-sensor-6]
 template <SensorFarEnd Behaviour>
 Verdict is_heard_again(ForceTorqueWorld& world) {
   if (!world.start({}) || !is_heard(world)) return Verdict::failed;

@@ -27,6 +27,7 @@ const GripperFeedback& feedback(GripperWorld& world) {
 
 // It is noticed, told and counted; once the cause is gone it is known again how it is, in 2 s at most, and
 // follows.
+// [gripper-4] [gripper-5]
 template <GripperFarEnd Behaviour>
 Verdict is_heard_again(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
@@ -47,6 +48,7 @@ Verdict is_heard_again(GripperWorld& world) {
                  world.gripper().trouble().is_ok() && feedback(world).recoveries > 0);
 }
 
+// [gripper-6]
 Verdict without_power_it_is_no_longer_activated(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, closed)) return Verdict::failed;
   if (!world.make(GripperFarEnd::off)) return Verdict::skipped;
@@ -58,6 +60,7 @@ Verdict without_power_it_is_no_longer_activated(GripperWorld& world) {
                  goes_to(world, opened) && fingers_at(world, opened));
 }
 
+// [gripper-5] [gripper-6]
 Verdict its_own_fault_is_told_and_ended_by_activation(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
   act(world, [](Gripper& gripper) { gripper.close(); });
@@ -73,6 +76,7 @@ Verdict its_own_fault_is_told_and_ended_by_activation(GripperWorld& world) {
                  fingers_at(world, closed));
 }
 
+// [gripper-5]
 Verdict switches_that_contradict_are_told(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
   if (!world.make(GripperFarEnd::switch_broken)) return Verdict::skipped;

@@ -12,6 +12,7 @@ Verdict does_nothing_by_itself(GripperWorld& world) {
   return verdict(world.fingers() == before && rests(world) && world.gripper().trouble().is_ok());
 }
 
+// [gripper-6] [gripper-8]
 Verdict follows_once_it_is_activated(GripperWorld& world) {
   if (!world.start({})) return Verdict::failed;
   if (!until(world, [&] { return world.gripper().state().has_value(); })) return Verdict::failed;
@@ -36,6 +37,7 @@ Verdict opens_and_closes(GripperWorld& world) {
   return verdict(world.gripper().trouble().is_ok());
 }
 
+// [gripper-4]
 Verdict moves_from_the_command_on(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
   world.receive();
@@ -45,6 +47,7 @@ Verdict moves_from_the_command_on(GripperWorld& world) {
   return verdict(state && state->moving && state->object == GripperObject::unknown);
 }
 
+// [gripper-1] [gripper-9]
 Verdict goes_in_between_or_refuses(GripperWorld& world) {
   if (!starts_active(world)) return Verdict::failed;
   if (world.gripper().capabilities().positions)
@@ -75,11 +78,13 @@ Verdict says_what_it_does_not_do(GripperWorld& world) {
   return verdict((tells || !has_limits) && is_quiet && world.gripper().fault().is_ok());
 }
 
+// [gripper-2]
 Verdict keeps_to_its_reach(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, -1) || !fingers_at(world, closed)) return Verdict::failed;
   return verdict(goes_to(world, 1) && fingers_at(world, opened) && world.gripper().fault().is_ok());
 }
 
+// [gripper-9]
 template <int Which>
 Verdict nonsense_is_a_fault_and_never_followed(GripperWorld& world) {
   if (!starts_active(world)) return Verdict::failed;
@@ -102,6 +107,7 @@ Verdict slower_takes_longer(GripperWorld& world) {
   return verdict(comes_to_rest(world) && seconds(world.now() - start) >= opened / 0.03 * 0.8);
 }
 
+// [gripper-1] [gripper-7]
 Verdict tells_an_object_it_gripped(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
   const GripperCapabilities can = world.gripper().capabilities();
@@ -151,10 +157,12 @@ Verdict ends_its_motion(GripperWorld& world, const Stop& stop) {
 
 }  // namespace
 
+// [gripper-10]
 Verdict halts_or_goes_on_to_its_end(GripperWorld& world) {
   return ends_its_motion(world, [](Gripper& gripper) { gripper.halt(); });
 }
 
+// [gripper-3]
 Verdict inhibited_it_ends_its_motion_and_forgets(GripperWorld& world) {
   const Verdict ended = ends_its_motion(world, [](Gripper& gripper) { gripper.set_inhibited(true); });
   if (ended != Verdict::passed) return ended;

@@ -10,7 +10,7 @@
 namespace flexrf {
 
 /// What a gripper can do. What it cannot is not pretended: it does not exist in its state, and a command that
-/// needs it is refused.
+/// needs it is refused [gripper-1].
 struct GripperCapabilities {
   double open_width = 0;          ///< m between the fingertips when fully open
   double closed_width = 0;        ///< m, when fully closed
@@ -29,6 +29,7 @@ struct GripperCapabilities {
 
 struct GripperGoal {
   double opening = 0;             ///< m between the fingertips; kept within closed_width and open_width
+                                  ///< [gripper-2]
   std::optional<double> speed{};  ///< m/s, kept within what it can; nothing: as configured
   std::optional<double> force{};  ///< N, likewise
 };
@@ -45,27 +46,29 @@ struct GripperState {
 };
 
 /// Everything: the thread the gripper lives in. Commands are sent at the end of the cycle; without effect
-/// while is_inhibited(), and not remembered: what it was at is ended, and the fingers stay as they are.
+/// while is_inhibited(), and not remembered: what it was at is ended, and the fingers stay as they
+/// are [gripper-3].
 class Gripper : public GripperInterface {
  public:
   /// From initialise() on, always the same.
   virtual GripperCapabilities capabilities() const noexcept = 0;
 
-  /// What it said last, with what was commanded since; nothing while it says nothing.
+  /// What it said last, with what was commanded since; nothing while it says nothing [gripper-4].
   virtual std::optional<GripperState> state() const noexcept = 0;
   /// What is wrong, and what a person can do; ok while nothing is. device_fault, timeout, unavailable. It
-  /// goes when the cause has gone, what it reports as its own fault with activate().
+  /// goes when the cause has gone, what it reports as its own fault with activate() [gripper-5].
   virtual const Status& trouble() const noexcept = 0;
 
-  /// Makes it follow commands, after power-on and after a fault: the fingers may go all their way to both
-  /// ends, and drop what they hold. Without effect while it is activated and nothing is wrong, so a unit may
-  /// call it whenever a person starts it.
+  /// Makes it follow commands, after power-on and after a fault [gripper-6]: the fingers may go all their way
+  /// to both ends, and drop what they hold. Without effect while it is activated and nothing is wrong, so a
+  /// unit may call it whenever a person starts it.
   virtual void activate() noexcept = 0;
-  /// Towards an opening, gripping what is in the way. Without effect while it is not activated. Replaces the
-  /// goal before. Not a finite number, or an opening that it cannot go to: fault.
+  /// Towards an opening, gripping what is in the way [gripper-7]. Without effect while it is not
+  /// activated [gripper-8]. Replaces the goal before. Not a finite number, or an opening that it cannot go
+  /// to: fault [gripper-9].
   virtual void command(const GripperGoal& goal) noexcept = 0;
-  /// Ends the motion where the fingers are, and holds what they hold; else, as capabilities() say, at the
-  /// end.
+  /// Ends the motion where the fingers are [gripper-10], and holds what they hold; else, as capabilities()
+  /// say, at the end.
   virtual void halt() noexcept = 0;
 
   void open() noexcept { command({.opening = capabilities().open_width}); }

@@ -33,6 +33,7 @@ bool stays(World& world, Condition is_true) {
 inline constexpr auto is_there = [](const auto& state) { return state.present; };
 inline constexpr auto is_away = [](const auto& state) { return !state.present; };
 
+// [joystick-2] [pointer-1]
 template <class World>
 Verdict a_press_shorter_than_a_cycle_counts(World& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;

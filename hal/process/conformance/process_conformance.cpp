@@ -51,6 +51,7 @@ bool hears(ProcessWorld& world, Heard& heard, std::size_t count) {
   });
 }
 
+// [process-4] [process-8]
 Verdict each_line_that_it_is_fed_comes_back(ProcessWorld& world) {
   if (!world.start(ProgramPart::echoes, {})) return Verdict::failed;
   Heard heard;
@@ -63,6 +64,7 @@ Verdict each_line_that_it_is_fed_comes_back(ProcessWorld& world) {
   return verdict(hears(world, heard, said.size()) && heard.lines == said && world.feedback().lines == 20);
 }
 
+// [process-6] [process-7]
 Verdict its_input_ends_after_what_was_written(ProcessWorld& world) {
   if (!world.start(ProgramPart::echoes, {})) return Verdict::failed;
   if (!world.process().write("a\nb") || !world.process().write_line("c")) return Verdict::failed;
@@ -75,6 +77,7 @@ Verdict its_input_ends_after_what_was_written(ProcessWorld& world) {
                  state.exit_code == 0 && world.feedback().refused_writes == 1);
 }
 
+// [process-1] [process-8]
 Verdict its_last_line_comes_before_its_end(ProcessWorld& world) {
   if (!world.start(ProgramPart::speaks_and_exits, {})) return Verdict::failed;
   Heard heard;
@@ -91,6 +94,7 @@ Verdict its_last_line_comes_before_its_end(ProcessWorld& world) {
                  state.ended_at <= state.since && !world.feedback().trouble_view().empty());
 }
 
+// [process-9]
 Verdict lines_go_to_the_queue_where_one_is_connected(ProcessWorld& world) {
   QueueBench<ProcessLine, 4> queue;
   if (!world.start(ProgramPart::speaks_and_exits, {}, queue.sinks())) return Verdict::failed;
@@ -125,6 +129,7 @@ Verdict what_is_missing_is_told_at_the_start(ProcessWorld& world) {
   return verdict(status.code() == StatusCode::not_found && status.cause()[0] != '\0');
 }
 
+// [process-2] [process-5]
 Verdict it_waits_for_its_unit_if_it_is_told_to(ProcessWorld& world) {
   if (!world.start(ProgramPart::echoes, {.start = false})) return Verdict::failed;
   world.receive();
@@ -143,6 +148,7 @@ Verdict it_waits_for_its_unit_if_it_is_told_to(ProcessWorld& world) {
                  world.feedback().trouble_view().empty());
 }
 
+// [process-2]
 Verdict a_start_that_is_asked_for_while_it_ends_comes_after(ProcessWorld& world) {
   if (!world.start(ProgramPart::echoes, {})) return Verdict::failed;
   Heard heard;
@@ -155,6 +161,7 @@ Verdict a_start_that_is_asked_for_while_it_ends_comes_after(ProcessWorld& world)
   }));
 }
 
+// [process-3]
 Verdict what_does_not_end_is_killed(ProcessWorld& world) {
   if (!world.start(ProgramPart::disobeys, {.stop_timeout = std::chrono::milliseconds(100)}))
     return Verdict::failed;
@@ -204,6 +211,7 @@ Verdict what_ended_well_is_left_so(ProcessWorld& world) {
   return verdict(world.process().state().runs == 1 && world.feedback().trouble_view().empty());
 }
 
+// [process-10]
 Verdict lines_that_nobody_takes_are_counted(ProcessWorld& world) {
   if (!world.start(ProgramPart::floods, {})) return Verdict::failed;
   // Not taken at all: the program ends all the same.
@@ -216,6 +224,7 @@ Verdict lines_that_nobody_takes_are_counted(ProcessWorld& world) {
                  world.feedback().dropped_lines == 1000 - taken);
 }
 
+// [process-5]
 Verdict what_it_does_not_read_is_refused(ProcessWorld& world) {
   if (!world.start(ProgramPart::reads_nothing, {})) return Verdict::failed;
   Heard heard;

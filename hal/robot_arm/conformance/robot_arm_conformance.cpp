@@ -62,6 +62,7 @@ JointVector beside(RobotArmWorld& world, double offset) {
   return within_limits(world.arm().kinematic_chain(), joints);
 }
 
+// [robot-arm-1]
 Verdict tells_a_sane_state(RobotArmWorld& world) {
   idle_for(world, 0.05);
   const auto state = world.arm().state();
@@ -78,6 +79,7 @@ Verdict stays_where_it_is_without_a_command(RobotArmWorld& world) {
   return verdict(distance(world, start) <= tolerance + 2 * world.noise());
 }
 
+// [robot-arm-2]
 Verdict follows_commands_and_holds(RobotArmWorld& world) {
   const JointVector goal = beside(world, 0.1);
   command_for(world, goal, 2.0);
@@ -86,6 +88,7 @@ Verdict follows_commands_and_holds(RobotArmWorld& world) {
   return verdict(distance(world, goal) <= tolerance + world.noise());
 }
 
+// [robot-arm-3]
 Verdict keeps_to_its_limits(RobotArmWorld& world) {
   const KinematicChain& chain = world.arm().kinematic_chain();
   JointVector far = JointVector::Zero();
@@ -99,6 +102,7 @@ Verdict keeps_to_its_limits(RobotArmWorld& world) {
   return Verdict::passed;
 }
 
+// [robot-arm-6]
 Verdict an_inhibited_arm_holds(RobotArmWorld& world) {
   const JointVector start = beside(world, 0);
   world.arm().set_inhibited(true);
@@ -111,6 +115,7 @@ Verdict an_inhibited_arm_holds(RobotArmWorld& world) {
   return verdict(distance(world, start) <= tolerance + 2 * world.noise());
 }
 
+// [robot-arm-6]
 Verdict inhibiting_ends_a_motion(RobotArmWorld& world) {
   const JointVector goal = beside(world, 0.5);
   command_for(world, goal, 0.1);
@@ -122,6 +127,7 @@ Verdict inhibiting_ends_a_motion(RobotArmWorld& world) {
 }
 
 /// A command that the inhibition overtook.
+// [robot-arm-6]
 Verdict a_command_from_before_is_forgotten(RobotArmWorld& world) {
   idle_for(world, 0.05);
   const JointVector start = beside(world, 0);
@@ -133,6 +139,7 @@ Verdict a_command_from_before_is_forgotten(RobotArmWorld& world) {
   return verdict(distance(world, start) <= tolerance + 2 * world.noise());
 }
 
+// [robot-arm-5]
 Verdict nonsense_is_a_fault_and_never_followed(RobotArmWorld& world) {
   const JointVector start = beside(world, 0);
   JointVector bad = start;
@@ -158,6 +165,7 @@ Verdict can_be_made_safe(RobotArmWorld& world) {
   return Verdict::failed;
 }
 
+// [robot-arm-1]
 Verdict says_nothing_when_its_sensors_are_lost(RobotArmWorld& world) {
   idle_for(world, 0.05);
   if (!world.lose_sensors()) return Verdict::skipped;
@@ -167,6 +175,7 @@ Verdict says_nothing_when_its_sensors_are_lost(RobotArmWorld& world) {
 
 /// Half a second may pass, or less where the driver has a limit of its own; then nobody knows where it is,
 /// and that is no reason to go on.
+// [robot-arm-7]
 Verdict silence_in_operation_is_a_fault(RobotArmWorld& world) {
   const JointVector goal = beside(world, 0.02);
   command_for(world, goal, 0.1);
@@ -185,6 +194,7 @@ Verdict silence_while_inhibited_is_none(RobotArmWorld& world) {
   return verdict(world.arm().fault().is_ok());
 }
 
+// [robot-arm-7]
 Verdict a_joint_that_sticks_is_a_fault(RobotArmWorld& world) {
   idle_for(world, 0.05);
   if (!world.stick_joint()) return Verdict::skipped;
@@ -217,6 +227,7 @@ Restraint said_while(RobotArmWorld& world, const JointVector& to, double duratio
 }
 
 /// It falls behind, as long as it lasts; a motion that its joints can follow is none of that.
+// [robot-arm-4]
 Verdict says_that_it_is_led_too_fast(RobotArmWorld& world) {
   const JointVector start = beside(world, 0);
   said_while(world, start, 0.1);

@@ -18,13 +18,13 @@ class RobotArm : public RobotArmInterface {
  public:
   const KinematicChain& kinematic_chain() const noexcept { return *chain; }
 
-  /// What the sensors said last, as of this cycle; nothing while they say nothing.
+  /// What the sensors said last, as of this cycle; nothing while they say nothing [robot-arm-1].
   virtual std::optional<JointState> state() const noexcept = 0;
 
   /// Where the joints shall be (rad, or m where one slides), sent at the end of the cycle and held until the
-  /// next command. An arm keeps to its own limits whatever it is commanded, and tells it
-  /// (Component::restrain()) while it does; what is not finite puts it in fault. Without effect while
-  /// is_inhibited(), and not remembered.
+  /// next command [robot-arm-2]. An arm keeps to its own limits whatever it is commanded [robot-arm-3], and
+  /// tells it (Component::restrain()) while it does [robot-arm-4]; what is not finite puts it in
+  /// fault [robot-arm-5]. Without effect while is_inhibited(), and not remembered [robot-arm-6].
   virtual void command(const JointPositions& set_points) noexcept = 0;
 
  protected:
@@ -46,7 +46,7 @@ class RobotArm : public RobotArmInterface {
     pace_.forget();
   }
   /// At the end of receive(), by every driver: an arm that does not follow what its drives are asked to
-  /// (feedback.following_error), or does not say where it is, is in fault.
+  /// (feedback.following_error), or does not say where it is, is in fault [robot-arm-7].
   void supervise(Time now) noexcept {
     const bool may_move = !is_inhibited() && fault().is_ok();
     if (const Status found = supervision_.look(state(), feedback.following_error, may_move, now); !found)

@@ -34,6 +34,7 @@ Verdict needs_no_home_with_method_0(ServoDriveWorld& world) {
   return verdict(state_of(world).homing == ServoHoming::homed && holds(world) && is_at(world, start));
 }
 
+// [servo-drive-14] [servo-drive-15]
 Verdict finds_its_home_and_goes_on_in_its_mode(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (state_of(world).homing != ServoHoming::not_homed) return Verdict::failed;
@@ -43,6 +44,7 @@ Verdict finds_its_home_and_goes_on_in_its_mode(ServoDriveWorld& world) {
   return verdict(moves(world) && state_of(world).homing == ServoHoming::homed);
 }
 
+// [servo-drive-4]
 Verdict ignores_commands_while_it_homes(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world) || !starts_to_home(world)) return Verdict::failed;
   for (int cycles = 0; cycles < most_cycles && state_of(world).homing == ServoHoming::running; ++cycles) {
@@ -61,6 +63,7 @@ Verdict ignores_commands_while_it_homes(ServoDriveWorld& world) {
   return verdict(holds(world) && is_at(world, 0));
 }
 
+// [servo-drive-14]
 Verdict can_be_homed_again_out_of_a_motion(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   do_once(world, [](ServoDrive& drive) {
@@ -75,6 +78,7 @@ Verdict can_be_homed_again_out_of_a_motion(ServoDriveWorld& world) {
   return verdict(holds(world) && is_at(world, 0));
 }
 
+// [servo-drive-14] [servo-drive-16] [servo-drive-18]
 Verdict a_halted_homing_has_failed(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world) || !starts_to_home(world)) return Verdict::failed;
   idle_for(world, 0.2);
@@ -85,6 +89,7 @@ Verdict a_halted_homing_has_failed(ServoDriveWorld& world) {
   return verdict(starts_to_home(world) && is_homed_in_time(world) && is_at(world, 0));
 }
 
+// [servo-drive-14]
 Verdict a_homing_without_permission_has_failed(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world) || !starts_to_home(world)) return Verdict::failed;
   idle_for(world, 0.2);
@@ -97,6 +102,7 @@ Verdict a_homing_without_permission_has_failed(ServoDriveWorld& world) {
   return verdict(world.drive().fault().is_ok() && moves(world));
 }
 
+// [servo-drive-14] [servo-drive-15] [servo-drive-16]
 Verdict tells_why_it_found_no_home(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (!starts_to_home(world)) return Verdict::failed;

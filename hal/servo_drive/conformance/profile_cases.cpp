@@ -34,6 +34,7 @@ bool came_to_rest(ServoDriveWorld& world) {
 
 }  // namespace
 
+// [servo-drive-1]
 Verdict goes_to_targets_and_says_when_it_is_there(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   idle_for(world, 0.3);
@@ -44,6 +45,7 @@ Verdict goes_to_targets_and_says_when_it_is_there(ServoDriveWorld& world) {
   return verdict(holds(world) && state_of(world).target_reached);
 }
 
+// [servo-drive-19]
 Verdict an_axis_that_sticks_on_its_way_is_a_fault(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   do_once(world, [](ServoDrive& drive) { drive.move_to(9, 4); });
@@ -53,6 +55,7 @@ Verdict an_axis_that_sticks_on_its_way_is_a_fault(ServoDriveWorld& world) {
 }
 
 // Far less than it may be behind in other modes.
+// [servo-drive-19]
 Verdict an_axis_that_sticks_on_a_short_way_is_a_fault(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (!world.stick_axis()) return Verdict::skipped;
@@ -76,6 +79,7 @@ Verdict an_axis_that_takes_its_time_is_none(ServoDriveWorld& world) {
   return verdict(world.drive().fault().is_ok() && goes_to(world, 9));
 }
 
+// [servo-drive-13]
 Verdict goes_as_fast_as_it_was_told(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   do_once(world, [](ServoDrive& drive) { drive.move_to(4, 2); });
@@ -87,6 +91,7 @@ Verdict goes_as_fast_as_it_was_told(ServoDriveWorld& world) {
   return verdict(reached && is_at(world, 4) && fastest > 1 && fastest <= 2 + tolerance);
 }
 
+// [servo-drive-12]
 Verdict a_new_target_replaces_the_one_before(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   do_once(world, [](ServoDrive& drive) { drive.move_to(9, 4); });
@@ -103,6 +108,7 @@ Verdict keeps_targets_to_its_range(ServoDriveWorld& world) {
   return verdict(is_reached_in_time(world) && is_at(world, -10) && world.drive().fault().is_ok());
 }
 
+// [servo-drive-4]
 Verdict has_no_target_after_it_was_off(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   do_once(world, [](ServoDrive& drive) { drive.move_to(9, 4); });
@@ -118,6 +124,7 @@ Verdict has_no_target_after_it_was_off(ServoDriveWorld& world) {
 }
 
 // In mode profile_position.
+// [servo-drive-4]
 Verdict follows_only_what_its_mode_takes(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   do_for(world, 0.3, [](ServoDrive& drive) {
@@ -127,6 +134,7 @@ Verdict follows_only_what_its_mode_takes(ServoDriveWorld& world) {
   return verdict(is_at(world, start) && world.drive().fault().is_ok() && goes_to(world, 4));
 }
 
+// [servo-drive-1]
 Verdict comes_to_velocities_and_says_when_it_has_them(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   for (const double velocity : {2.0, -4.0, 0.0}) {
@@ -145,6 +153,7 @@ Verdict comes_to_velocities_and_says_when_it_has_them(ServoDriveWorld& world) {
   return verdict(holds(world));
 }
 
+// [servo-drive-6]
 Verdict a_speed_that_is_not_above_zero_is_a_fault(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   do_once(world, [](ServoDrive& drive) { drive.move_to(4, 0); });
@@ -152,6 +161,7 @@ Verdict a_speed_that_is_not_above_zero_is_a_fault(ServoDriveWorld& world) {
   return verdict(world.drive().fault().code() == StatusCode::invalid_argument && is_at(world, start));
 }
 
+// [servo-drive-17]
 Verdict halts_on_its_way_to_a_position(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   command_for(world, 9, 0.1);
@@ -161,6 +171,7 @@ Verdict halts_on_its_way_to_a_position(ServoDriveWorld& world) {
   return verdict(is_at(world, -2));
 }
 
+// [servo-drive-1] [servo-drive-17]
 Verdict halts_on_its_way_to_a_target(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   do_once(world, [](ServoDrive& drive) { drive.move_to(9, 4); });
@@ -172,6 +183,7 @@ Verdict halts_on_its_way_to_a_target(ServoDriveWorld& world) {
 }
 
 // In both modes that take velocities.
+// [servo-drive-17]
 Verdict halts_from_a_velocity(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   drive_for(world, -4, 0.3);

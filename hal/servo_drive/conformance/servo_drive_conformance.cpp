@@ -39,6 +39,7 @@ void judged(void**) {
   conclude(result);
 }
 
+// [servo-drive-2]
 Verdict enables_itself_where_it_is(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   idle_for(world, 0.5);
@@ -46,6 +47,7 @@ Verdict enables_itself_where_it_is(ServoDriveWorld& world) {
                  world.drive().fault().is_ok());
 }
 
+// [servo-drive-8]
 Verdict follows_positions_and_holds(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   command_for(world, 4, 1);
@@ -54,6 +56,7 @@ Verdict follows_positions_and_holds(ServoDriveWorld& world) {
   return verdict(is_at(world, 4) && std::abs(world.drive().state()->following_error) <= tolerance);
 }
 
+// [servo-drive-9]
 Verdict goes_no_faster_than_it_may(ServoDriveWorld& world) {
   if (!world.shares_its_cycle()) return Verdict::skipped;
   if (!is_enabled_in_time(world)) return Verdict::failed;
@@ -67,6 +70,7 @@ Verdict goes_no_faster_than_it_may(ServoDriveWorld& world) {
   return verdict(is_at(world, -9));
 }
 
+// [servo-drive-9]
 Verdict keeps_to_its_range(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   command_for(world, 1e9, 2);
@@ -75,6 +79,7 @@ Verdict keeps_to_its_range(ServoDriveWorld& world) {
   return verdict(is_at(world, -10) && world.drive().fault().is_ok());
 }
 
+// [servo-drive-11]
 Verdict follows_velocities(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   drive_for(world, -2, 1);
@@ -86,6 +91,7 @@ Verdict follows_velocities(ServoDriveWorld& world) {
   return verdict(is_at(world, rest) && world.drive().state()->velocity == 0);
 }
 
+// [servo-drive-11]
 Verdict ends_velocities_beyond_its_range(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   drive_for(world, 4, 5);
@@ -93,6 +99,7 @@ Verdict ends_velocities_beyond_its_range(ServoDriveWorld& world) {
   return verdict(state && state->velocity == 0 && state->position >= 10 - tolerance && state->position < 11);
 }
 
+// [servo-drive-3] [servo-drive-4]
 Verdict an_inhibited_drive_is_off_and_forgets(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   command_for(world, 9, 0.1);
@@ -107,6 +114,7 @@ Verdict an_inhibited_drive_is_off_and_forgets(ServoDriveWorld& world) {
   return verdict(rest < 9 - tolerance && is_at(world, rest));
 }
 
+// [servo-drive-6]
 template <int Which>
 Verdict nonsense_is_a_fault_and_never_followed(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
@@ -132,6 +140,7 @@ Verdict can_be_made_safe(ServoDriveWorld& world) {
   return Verdict::failed;
 }
 
+// [servo-drive-7]
 Verdict says_nothing_when_it_is_not_heard(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (!world.lose_drive()) return Verdict::skipped;
@@ -153,6 +162,7 @@ const char* reason_in_force(ServoDriveWorld& world) {
   return reason_after(world, [](ServoDrive&) {});
 }
 
+// [servo-drive-5]
 Verdict says_what_it_holds_back(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   using namespace servo_restraints;
@@ -165,6 +175,7 @@ Verdict says_what_it_holds_back(ServoDriveWorld& world) {
 }
 
 // At 20 a second it may go 0.14 in a cycle.
+// [servo-drive-5]
 Verdict says_that_it_is_led_too_fast(ServoDriveWorld& world) {
   if (!world.shares_its_cycle()) return Verdict::skipped;
   if (!is_enabled_in_time(world)) return Verdict::failed;
@@ -190,6 +201,7 @@ Verdict says_that_it_is_led_too_fast(ServoDriveWorld& world) {
   return verdict(lead(0, 20).reason == nullptr && is_at(world, wanted) && world.drive().fault().is_ok());
 }
 
+// [servo-drive-5]
 Verdict says_as_long_as_it_lasts_that_it_turns_no_faster(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   using namespace servo_restraints;
@@ -206,6 +218,7 @@ Verdict says_as_long_as_it_lasts_that_it_turns_no_faster(ServoDriveWorld& world)
                  reason_in_force(world) == nullptr);
 }
 
+// [servo-drive-5] [servo-drive-13]
 Verdict says_that_it_goes_no_faster(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   using namespace servo_restraints;
@@ -227,6 +240,7 @@ void send_to(ServoDriveWorld& world, double position, bool cyclic) {
   }
 }
 
+// [servo-drive-10]
 template <bool Cyclic>
 Verdict an_endless_axis_goes_anywhere(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
@@ -238,6 +252,7 @@ Verdict an_endless_axis_goes_anywhere(ServoDriveWorld& world) {
 }
 
 // From 1 to 5 it is nearer through 0, which is 6 as well; and 13 is 1.
+// [servo-drive-10]
 template <bool Cyclic>
 Verdict a_modulo_axis_goes_the_shorter_way(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
@@ -255,6 +270,7 @@ Verdict a_modulo_axis_goes_the_shorter_way(ServoDriveWorld& world) {
   return verdict(world.drive().fault().is_ok());
 }
 
+// [servo-drive-19]
 Verdict an_axis_that_sticks_is_a_fault(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (!world.stick_axis()) return Verdict::skipped;
@@ -265,6 +281,7 @@ Verdict an_axis_that_sticks_is_a_fault(ServoDriveWorld& world) {
                  !state_of(world).enabled);
 }
 
+// [servo-drive-19]
 Verdict a_jam_while_it_turns_is_a_fault(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   drive_for(world, 2, 0.5);

@@ -21,56 +21,62 @@ struct ServoState {
   double following_error = 0;  ///< cyclic set-point less position; 0 in other modes than cyclic_position
   bool enabled = false;        ///< it follows; else it is off, or on its way to either
   bool at_internal_limit = false;
-  /// In profile modes: the drive took the last command and has done it. False from the command on, after a
-  /// halt, while it homes, and in cyclic modes.
+  /// In profile modes: the drive took the last command and has done it [servo-drive-1]. False from the
+  /// command on, after a halt, while it homes, and in cyclic modes.
   bool target_reached = false;
   ServoHoming homing = ServoHoming::not_homed;
 };
 
 /// Everything: the thread the drive lives in. With the permission to move, the drive enables itself, with its
-/// set-point where it is; that takes as long as the drive takes. Without it, it stops and is off.
+/// set-point where it is [servo-drive-2]; that takes as long as the drive takes. Without it, it stops and is
+/// off [servo-drive-3].
 ///
 /// configuration.mode says which of the commands it takes. The others are without effect, as are all of them
-/// while the drive is not enabled or is homing; none of those is remembered. What is kept to a limit or is
-/// without effect for another reason than these two is told (Component::restrain()). What is not finite, or a
-/// speed that is not above 0, puts the drive in fault.
+/// while the drive is not enabled or is homing; none of those is remembered [servo-drive-4]. What is kept to
+/// a limit or is without effect for another reason than these two is told
+/// (Component::restrain()) [servo-drive-5]. What is not finite, or a speed that is not above 0, puts the
+/// drive in fault [servo-drive-6].
 class ServoDrive : public ServoDriveInterface {
  public:
   /// The speed of move_to() that is the greatest of the configuration.
   static constexpr double full_speed = std::numeric_limits<double>::max();
 
   /// What the drive said last, as of this cycle, with what was commanded since; nothing while it says
-  /// nothing.
+  /// nothing [servo-drive-7].
   virtual std::optional<ServoState> state() const noexcept = 0;
 
   /// In mode cyclic_position: where the axis shall be, sent at the end of the cycle and held until the next
-  /// command. Kept to the range and the velocity of the configuration; an endless axis has no range, and with
-  /// a modulo goes the shorter way from the command before.
+  /// command [servo-drive-8]. Kept to the range and the velocity of the configuration [servo-drive-9]; an
+  /// endless axis has no range, and with a modulo goes the shorter way from the command
+  /// before [servo-drive-10].
   virtual void command_position(double position) noexcept = 0;
   /// In mode cyclic_velocity or profile_velocity: how fast it shall be, kept to the velocity of the
-  /// configuration; zero once the axis is beyond its range and would go on, unless it is endless.
+  /// configuration; zero once the axis is beyond its range and would go on, unless it is
+  /// endless [servo-drive-11].
   virtual void command_velocity(double velocity) noexcept = 0;
   /// In mode profile_position: where it shall go, once for each target and not in each cycle; kept to the
   /// range; an endless axis has none, and with a modulo goes the shorter way from where it is. It gives up
-  /// the target before. `speed`: above 0, kept to the velocity of the configuration.
+  /// the target before [servo-drive-12]. `speed`: above 0, kept to the velocity of the
+  /// configuration [servo-drive-13].
   virtual void move_to(double position, double speed = full_speed) noexcept = 0;
 
   /// Begins to find its home with the configured method, whatever the mode; homing is `running` from this
-  /// call on, then `homed` or `failed`. When it is over the drive is in its mode again and holds. Without
-  /// effect while it is not enabled or is homing, and with method 0.
+  /// call on, then `homed` or `failed` [servo-drive-14]. When it is over the drive is in its mode again and
+  /// holds [servo-drive-15]. Without effect while it is not enabled or is homing, and with method 0.
   virtual void home() noexcept = 0;
-  /// Why homing is `failed`; else ok.
+  /// Why homing is `failed`; else ok [servo-drive-16].
   virtual const Status& homing_problem() const noexcept = 0;
 
   /// Comes to rest with the configured acceleration and holds, enabled, until the next command; what was
-  /// commanded is given up. A homing has failed then.
+  /// commanded is given up [servo-drive-17]. A homing has failed then [servo-drive-18].
   virtual void halt() noexcept = 0;
 
  protected:
   /// At the end of receive(), by every driver: an axis that does not follow its set-points, does not go as
-  /// fast as it is told, or does not come nearer to its target, is in fault. `configuration`: the driver's.
-  /// `asked`: the velocity that the drive is told, unit/s; 0 in other modes than those that are led by
-  /// velocities. `target`: of a drive that is on its way to one with its own profile; else nothing.
+  /// fast as it is told, or does not come nearer to its target, is in fault [servo-drive-19].
+  /// `configuration`: the driver's. `asked`: the velocity that the drive is told, unit/s; 0 in other modes
+  /// than those that are led by velocities. `target`: of a drive that is on its way to one with its own
+  /// profile; else nothing.
   void supervise(const auto& configuration, double asked, const std::optional<ProfileTarget>& target,
                  Time now) noexcept {
     const auto told = state();

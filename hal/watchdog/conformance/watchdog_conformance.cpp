@@ -32,11 +32,13 @@ bool is_refused(const Status& status, StatusCode code) {
   return status.code() == code && status.cause()[0] != '\0';
 }
 
+// [watchdog-3]
 Verdict it_is_armed_from_the_start_with_the_time_out_it_is_given(WatchdogWorld& world) {
   if (world.counts() || world.feedback().armed || !world.start({.timeout = 20})) return Verdict::failed;
   return verdict(world.counts() && world.feedback().armed && world.feedback().timeout == 20);
 }
 
+// [watchdog-1]
 Verdict it_is_fed_at_once_and_four_times_within_its_time_out(WatchdogWorld& world) {
   if (!world.start({.timeout = 8})) return Verdict::failed;
   world.cycle(moment, nullptr);
@@ -57,6 +59,7 @@ Verdict its_thread_is_released_when_it_is_to_be_fed(WatchdogWorld& world) {
                  world.watchdog().next_event() == next + std::chrono::seconds{2});
 }
 
+// [watchdog-1] [watchdog-2]
 Verdict it_is_not_fed_while_a_thread_is_silent(WatchdogWorld& world) {
   if (!world.start({.timeout = 20})) return Verdict::failed;
   live(world, std::chrono::seconds{10});
@@ -66,6 +69,7 @@ Verdict it_is_not_fed_while_a_thread_is_silent(WatchdogWorld& world) {
                  text_view(world.feedback().missed_by) == "control");
 }
 
+// [watchdog-1] [watchdog-2]
 Verdict it_is_fed_again_when_the_thread_is_back(WatchdogWorld& world) {
   if (!world.start({.timeout = 20})) return Verdict::failed;
   live(world, std::chrono::seconds{10});
@@ -82,6 +86,7 @@ Verdict the_shortest_time_out_is_fed_twice_a_second(WatchdogWorld& world) {
   return verdict(world.feedback().fed == 20);
 }
 
+// [watchdog-4]
 Verdict an_orderly_end_disarms_it(WatchdogWorld& world) {
   if (!world.start({})) return Verdict::failed;
   live(world, std::chrono::seconds{1});
@@ -89,6 +94,7 @@ Verdict an_orderly_end_disarms_it(WatchdogWorld& world) {
   return verdict(!world.counts() && !world.feedback().armed);
 }
 
+// [watchdog-4]
 Verdict it_is_left_armed_if_it_is_to_be(WatchdogWorld& world) {
   if (!world.start({.timeout = 30, .leave_armed = true})) return Verdict::failed;
   live(world, std::chrono::seconds{1});

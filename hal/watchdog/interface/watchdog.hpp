@@ -6,8 +6,9 @@
 namespace flexrf {
 
 /// Belongs to no unit: it has an IO thread of its own, feeds by itself while the application's heartbeat is
-/// met, and says in its feedback how that goes. initialise() arms it, stop() disarms it unless it is to be
-/// left armed. Whatever ends the application otherwise leaves it armed.
+/// met [watchdog-1], and says in its feedback how that goes [watchdog-2]. initialise() arms it [watchdog-3],
+/// stop() disarms it unless it is to be left armed [watchdog-4]. Whatever ends the application otherwise
+/// leaves it armed.
 class Watchdog : public WatchdogInterface {};
 
 }  // namespace flexrf

@@ -17,6 +17,7 @@ bool begun(WrenchMeter& meter, std::uint32_t tare_samples = 4) {
       .is_ok();
 }
 
+// [force-torque-sensor-3]
 void a_measurement_that_is_too_old_is_nothing(void**) {
   WrenchMeter meter;
   assert_true(begun(meter));
@@ -65,6 +66,7 @@ void a_measurement_that_no_longer_changes_is_not_believed(void**) {
 }
 
 /// Loads differ while it is taken.
+// [force-torque-sensor-7]
 void a_tare_is_a_mean(void**) {
   WrenchMeter meter;
   assert_true(begun(meter));
@@ -84,6 +86,7 @@ void a_tare_is_a_mean(void**) {
   assert_true(meter.state()->torque[1] == 1.5);
 }
 
+// [force-torque-sensor-9]
 void a_tare_that_is_given_up_leaves_the_one_before(void**) {
   WrenchMeter meter;
   assert_true(begun(meter, 2));

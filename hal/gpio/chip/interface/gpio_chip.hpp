@@ -13,7 +13,7 @@ struct GpioLineSettings {
   const char* name = "";  ///< as the chip calls the line
   LineDirection direction = LineDirection::input;
   LineBias bias = LineBias::as_is;
-  bool active_low = false;    ///< on is 0 V, everywhere below
+  bool active_low = false;    ///< on is 0 V, everywhere below [gpio-chip-1]
   bool initially_on = false;  ///< an output: from when it is ours
 };
 
@@ -28,12 +28,13 @@ class GpioLine {
   /// Once in each cycle, before anything else: takes in what the line is now, and notices a chip that went
   /// away or came back.
   virtual void receive(Time now) noexcept = 0;
-  /// As of receive(); nothing while the chip is away.
+  /// As of receive(); nothing while the chip is away [gpio-chip-2].
   virtual std::optional<bool> level() const noexcept = 0;
-  /// The next change of an input, oldest first. What came and went between two cycles is two edges.
+  /// The next change of an input, oldest first. What came and went between two cycles is two
+  /// edges [gpio-chip-3].
   virtual std::optional<GpioEdge> next_edge() noexcept = 0;
   /// An output. False: it is as it was, as the chip did not take it or is away. After it came back the line
-  /// is as `initially_on` says.
+  /// is as `initially_on` says [gpio-chip-4].
   virtual bool set(bool on) noexcept = 0;
   /// Readable when an edge has come; −1: none, or away.
   virtual int descriptor() const noexcept { return -1; }
@@ -47,7 +48,8 @@ class GpioLine {
 class GpioChip : public GpioChipInterface {
  public:
   /// From initialise() of the device that will use the line; valid until release(). Fails with a cause for
-  /// the operator: no such line, in use by somebody else, no permission, no chip. Lifecycle thread.
+  /// the operator: no such line, in use by somebody else, no permission, no chip [gpio-chip-5]. Lifecycle
+  /// thread.
   virtual Result<GpioLine*> request(const GpioLineSettings& settings) = 0;
   /// From its stop(). Lifecycle thread.
   virtual void release(GpioLine* line) noexcept = 0;

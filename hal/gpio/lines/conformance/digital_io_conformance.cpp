@@ -64,6 +64,7 @@ DigitalLineSettings output() {
   return {.direction = LineDirection::output};
 }
 
+// [digital-io-1]
 Verdict an_input_is_what_the_far_end_drives(DigitalIoWorld& world) {
   world.drive(true);
   if (!world.start({}) || !becomes(world, true)) return Verdict::failed;
@@ -73,6 +74,7 @@ Verdict an_input_is_what_the_far_end_drives(DigitalIoWorld& world) {
   return verdict(becomes(world, true));
 }
 
+// [gpio-chip-1]
 Verdict active_low_turns_it_round(DigitalIoWorld& world) {
   world.drive(true);
   if (!world.start({.active_low = true}) || !becomes(world, false)) return Verdict::failed;
@@ -81,6 +83,7 @@ Verdict active_low_turns_it_round(DigitalIoWorld& world) {
   return verdict(edge && edge->on && becomes(world, true));
 }
 
+// [digital-io-2] [gpio-chip-3]
 Verdict each_change_is_an_edge_with_its_time(DigitalIoWorld& world) {
   world.drive(false);
   if (!world.start({})) return Verdict::failed;
@@ -96,6 +99,7 @@ Verdict each_change_is_an_edge_with_its_time(DigitalIoWorld& world) {
   return verdict(!world.io().read_edge());
 }
 
+// [digital-io-1] [digital-io-2]
 Verdict a_level_shorter_than_debounce_is_an_edge_and_no_state(DigitalIoWorld& world) {
   world.drive(false);
   if (!world.start({.debounce = long_debounce})) return Verdict::failed;
@@ -122,6 +126,7 @@ Verdict a_level_longer_than_debounce_is_a_state_since_its_edge(DigitalIoWorld& w
                  state->since <= nanoseconds(world.now() - debounce));
 }
 
+// [digital-io-1] [digital-io-3]
 Verdict an_output_begins_safe_and_follows_its_commands(DigitalIoWorld& world) {
   if (!world.start(output())) return Verdict::failed;
   one_cycle(world);
@@ -133,6 +138,7 @@ Verdict an_output_begins_safe_and_follows_its_commands(DigitalIoWorld& world) {
   return verdict(world.sees_high() && becomes(world, true));
 }
 
+// [gpio-chip-1]
 Verdict an_active_low_output_is_safe_at_its_safe_value(DigitalIoWorld& world) {
   if (!world.start({.direction = LineDirection::output, .active_low = true, .safe_value = true}))
     return Verdict::failed;
@@ -144,6 +150,7 @@ Verdict an_active_low_output_is_safe_at_its_safe_value(DigitalIoWorld& world) {
   return verdict(world.sees_high());
 }
 
+// [digital-io-4]
 Verdict an_inhibited_output_holds_and_forgets(DigitalIoWorld& world) {
   if (!world.start(output())) return Verdict::failed;
   one_cycle(world);
@@ -157,6 +164,7 @@ Verdict an_inhibited_output_holds_and_forgets(DigitalIoWorld& world) {
   return verdict(!world.sees_high());
 }
 
+// [digital-io-4]
 Verdict a_signal_is_not_inhibited(DigitalIoWorld& world) {
   if (!world.start({.direction = LineDirection::output, .signal = true})) return Verdict::failed;
   one_cycle(world);
@@ -193,6 +201,7 @@ Verdict an_emergency_stop_permits_only_while_it_is_on(DigitalIoWorld& world) {
   return verdict(until(world, [&] { return !world.io().demands_safe_state(); }));
 }
 
+// [gpio-chip-3]
 Verdict an_emergency_stop_shorter_than_a_cycle_counts(DigitalIoWorld& world) {
   world.drive(true);
   if (!world.start({.emergency_stop = true})) return Verdict::failed;
@@ -216,6 +225,7 @@ Verdict an_output_is_no_emergency_stop(DigitalIoWorld& world) {
   return verdict(status.code() == StatusCode::invalid_argument && status.cause()[0] != '\0');
 }
 
+// [gpio-chip-5]
 Verdict a_line_in_use_is_refused_with_its_cause(DigitalIoWorld& world) {
   if (!world.occupy()) return Verdict::skipped;
   const Status status = world.start({});
@@ -224,6 +234,7 @@ Verdict a_line_in_use_is_refused_with_its_cause(DigitalIoWorld& world) {
   return verdict(starts(world) && is_back(world, "another user of the line"));
 }
 
+// [gpio-chip-5]
 Verdict a_chip_that_is_missing_at_the_start_is_told(DigitalIoWorld& world) {
   if (!world.unplug()) return Verdict::skipped;
   const Status status = world.start({});
@@ -231,6 +242,7 @@ Verdict a_chip_that_is_missing_at_the_start_is_told(DigitalIoWorld& world) {
   return verdict(world.plug_in() && starts(world) && is_back(world, "a chip that was missing"));
 }
 
+// [gpio-chip-5]
 Verdict a_missing_right_is_told(DigitalIoWorld& world) {
   if (!world.forbid()) return Verdict::skipped;
   const Status status = world.start({});
@@ -239,6 +251,7 @@ Verdict a_missing_right_is_told(DigitalIoWorld& world) {
   return verdict(starts(world) && is_back(world, "a missing right"));
 }
 
+// [digital-io-1] [gpio-chip-2]
 Verdict an_input_survives_its_chip(DigitalIoWorld& world) {
   world.drive(true);
   if (!world.start({.emergency_stop = true})) return Verdict::failed;
@@ -254,6 +267,7 @@ Verdict an_input_survives_its_chip(DigitalIoWorld& world) {
                  world.io().fault().is_ok());
 }
 
+// [gpio-chip-2] [gpio-chip-4]
 Verdict an_output_comes_back_safe(DigitalIoWorld& world) {
   if (!world.start(output())) return Verdict::failed;
   one_cycle(world);

@@ -15,8 +15,8 @@ class ModbusLink : public ModbusLinkInterface {
   virtual Result<ModbusExchange*> attach(const ModbusStationSetup& setup) { return master_.attach(setup); }
   static void detach(ModbusExchange& exchange) noexcept { ModbusMaster::detach(exchange); }
 
-  /// Asks and writes what is due. With a driver that waits: at most as long as one response timeout, or as
-  /// many answers as there are due requests.
+  /// Asks and writes what is due. With a driver that waits: at most as long as one response
+  /// timeout [modbus-link-1], or as many answers as there are due requests.
   void receive(const Tick& tick) noexcept override;
   /// True when every station that is written to has confirmed its safe values.
   bool make_safe() noexcept override { return master_.is_safe(); }

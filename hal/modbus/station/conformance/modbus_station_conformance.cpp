@@ -105,6 +105,7 @@ bool starts_well(ModbusStationWorld& world) {
   return until(world, [&] { return reads(world, pressure, 1.25) && holds(world, lamp, 1); });
 }
 
+// [modbus-station-1]
 Verdict nothing_is_known_before_the_first_answer(ModbusStationWorld& world) {
   if (!world.start(map)) return Verdict::failed;
   const ModbusValue value = world.station().read(pressure);
@@ -134,6 +135,7 @@ Verdict values_carry_their_age(ModbusStationWorld& world) {
   return verdict(value && value.age >= Duration{} && value.age < patience);
 }
 
+// [modbus-station-3]
 Verdict what_is_set_is_written_and_read_back(ModbusStationWorld& world) {
   if (!starts_well(world)) return Verdict::failed;
   world.station().set(speed, -3.4);
@@ -156,6 +158,7 @@ Verdict bits_of_a_register_are_written_together(ModbusStationWorld& world) {
   return verdict(until(world, [&] { return reads(world, clutch, 1) && reads(world, brake, 0); }));
 }
 
+// [modbus-station-6]
 Verdict safe_values_are_written_while_it_may_not_move(ModbusStationWorld& world) {
   if (!world.start(map)) return Verdict::failed;
   world.station().set(speed, 5);  // not remembered
@@ -180,6 +183,7 @@ Verdict made_safe_it_says_so_when_the_station_has_the_values(ModbusStationWorld&
   return Verdict::failed;
 }
 
+// [modbus-station-5]
 Verdict not_a_number_puts_it_in_fault_with_safe_values(ModbusStationWorld& world) {
   if (!starts_well(world)) return Verdict::failed;
   world.station().set(speed, 4);
@@ -189,6 +193,7 @@ Verdict not_a_number_puts_it_in_fault_with_safe_values(ModbusStationWorld& world
   return verdict(until(world, [&] { return holds(world, speed, 0); }));
 }
 
+// [modbus-station-2]
 Verdict unknown_names_are_refused_with_the_nearest(ModbusStationWorld& world) {
   if (!world.start(map)) return Verdict::failed;
   const auto found = world.station().input("level");
@@ -239,6 +244,7 @@ Verdict is_noticed_and_survived(ModbusStationWorld& world, ModbusFarEnd behaviou
   return verdict(said && back && (!world.has_counted_time() || world.now() - gone <= recovery_limit));
 }
 
+// [modbus-station-1]
 template <ModbusFarEnd Behaviour, NullReason Reason = NullReason::writer_stopped>
 Verdict survives(ModbusStationWorld& world) {
   return is_noticed_and_survived(world, Behaviour, Reason);

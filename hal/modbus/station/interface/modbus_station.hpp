@@ -16,7 +16,8 @@ struct ModbusValue {
   double value = 0;  ///< scaled, in the register's unit; 0 or 1 for a bool
   Duration age{};    ///< since the answer came that it was in
   /// none: valid. nothing_yet: never read. Older than its poll group's period and max_age: writer_faulted
-  /// when the station refuses to tell it, writer_stopped when the station does not answer, else too_old.
+  /// when the station refuses to tell it, writer_stopped when the station does not answer, else
+  /// too_old [modbus-station-1].
   NullReason reason = NullReason::nothing_yet;
 
   explicit operator bool() const noexcept { return reason == NullReason::none; }
@@ -27,17 +28,19 @@ class ModbusStation : public ModbusStationInterface {
  public:
   const ModbusRegisterMap& register_map() const noexcept { return *registers; }
 
-  /// The index of the register of this name, for read() or set(); to be asked once, in initialise(). It is
-  /// an error when there is none, or when its access is not such.
+  /// The index of the register of this name, for read() or set(); to be asked once, in initialise(). It is an
+  /// error when there is none, or when its access is not such [modbus-station-2].
   Result<std::size_t> input(std::string_view name) const noexcept;
   Result<std::size_t> output(std::string_view name) const noexcept;
 
   /// Never waits. An index that is no input: not_registered.
   virtual ModbusValue read(std::size_t index) const noexcept = 0;
 
-  /// What the register shall hold from the end of this cycle on, in its unit, until set() again. What does
-  /// not fit the register becomes the nearest that does; what is not a number puts the station in fault.
-  /// Without effect while is_inhibited(): the safe values are written then, and what was set is forgotten.
+  /// What the register shall hold from the end of this cycle on, in its unit, until set()
+  /// again [modbus-station-3]. What does not fit the register becomes the nearest that
+  /// does [modbus-station-4]; what is not a number puts the station in fault [modbus-station-5]. Without
+  /// effect while is_inhibited(): the safe values are written then, and what was set is
+  /// forgotten [modbus-station-6].
   virtual void set(std::size_t index, double value) noexcept = 0;
 };
 

@@ -28,6 +28,7 @@ Verdict it_is_at_rest_at_first(JoystickWorld& world) {
   return verdict(stays(world, at_rest));
 }
 
+// [joystick-1]
 Verdict an_axis_goes_from_end_to_end(JoystickWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
   for (const std::size_t axis : {0U, 1U, 3U}) {
@@ -58,6 +59,7 @@ Verdict the_dead_zone_is_rest(JoystickWorld& world) {
   return Verdict::passed;
 }
 
+// [joystick-1]
 Verdict a_button_is_down_until_it_is_let_go(JoystickWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
   world.press(1);
@@ -70,6 +72,7 @@ Verdict a_button_is_down_until_it_is_let_go(JoystickWorld& world) {
   return verdict(until(world, at_rest));
 }
 
+// [joystick-2]
 Verdict it_is_at_rest_once_it_is_unplugged(JoystickWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
   world.deflect(1, -1);

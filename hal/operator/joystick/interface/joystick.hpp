@@ -9,7 +9,7 @@ namespace flexrf {
 /// Everything: the thread the joystick lives in.
 class Joystick : public JoystickInterface {
  public:
-  /// As of the last receive(). Presses are totals that never go back.
+  /// As of the last receive() [joystick-1]. Presses are totals that never go back [joystick-2].
   virtual const JoystickState& state() const noexcept = 0;
 };
 

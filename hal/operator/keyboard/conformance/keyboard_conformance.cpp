@@ -43,6 +43,7 @@ Verdict nothing_is_pressed_nothing_is_read(KeyboardWorld& world) {
   return verdict(read(world, 1).empty());
 }
 
+// [keyboard-2]
 Verdict each_press_is_read_once_in_order(KeyboardWorld& world) {
   const std::vector<KeyEvent> pressed = letters(40);
   world.will_press(pressed, false);
@@ -59,6 +60,7 @@ Verdict arrows_are_keys(KeyboardWorld& world) {
   return verdict(equal(read(world, pressed.size()), pressed));
 }
 
+// [keyboard-1]
 Verdict closes_after_its_last_key(KeyboardWorld& world) {
   if (!world.can_end()) return Verdict::skipped;
   const std::vector<KeyEvent> pressed = letters(3);
@@ -72,6 +74,7 @@ Verdict closes_after_its_last_key(KeyboardWorld& world) {
   return verdict(got == pressed.size() && world.keyboard().is_closed() && !world.keyboard().read());
 }
 
+// [keyboard-1]
 Verdict stays_open_while_keys_may_come(KeyboardWorld& world) {
   world.will_press(letters(3), true);
   if (!world.start({})) return Verdict::failed;
@@ -83,6 +86,7 @@ Verdict stays_open_while_keys_may_come(KeyboardWorld& world) {
 }
 
 // The reader takes one key in a cycle: the queue is full nearly always, and none may be lost.
+// [keyboard-1] [keyboard-4]
 Verdict a_full_queue_loses_nothing(KeyboardWorld& world) {
   const std::vector<KeyEvent> pressed = letters(40);
   world.will_press(pressed, true);
@@ -124,6 +128,7 @@ constexpr KeyEvent letter_w{Key::character, 'w'};
 constexpr KeyEvent letter_d{Key::character, 'd'};
 constexpr KeyEvent arrow{Key::up, 0};
 
+// [keyboard-3]
 Verdict a_key_is_held_until_it_is_let_go(KeyboardWorld& world) {
   world.will_press({}, false);
   if (!world.start({})) return Verdict::failed;

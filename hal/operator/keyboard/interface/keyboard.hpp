@@ -9,16 +9,17 @@
 
 namespace flexrf {
 
-/// Everything: the thread the keyboard lives in. is_closed() is true once no key will come and all were read.
+/// Everything: the thread the keyboard lives in. is_closed() is true once no key will come and all were
+/// read [keyboard-1].
 class Keyboard : public KeyboardInterface {
  public:
-  /// The next key press, if there is one. Never blocks.
+  /// The next key press, if there is one [keyboard-2]. Never blocks.
   virtual std::optional<KeyEvent> read() noexcept = 0;
-  /// Which keys are down, as of the last receive(); nothing where only presses are known.
+  /// Which keys are down, as of the last receive(); nothing where only presses are known [keyboard-3].
   virtual std::optional<HeldKeys> held_keys() const noexcept { return std::nullopt; }
 
   /// With an IO thread: publishes what is down, and what was pressed, as much as the queue has room for. The
-  /// rest waits where it is, so that no key press is lost however fast they come.
+  /// rest waits where it is, so that no key press is lost however fast they come [keyboard-4].
   void receive(const Tick& tick) noexcept override {
     now_ = tick.now;
     for (int n = 0; n < most_keys_per_cycle && keys.is_connected() && keys.has_room(); ++n) {

@@ -17,6 +17,7 @@ Verdict nothing_is_moved_nothing_is_told(PointerWorld& world) {
   }));
 }
 
+// [pointer-1]
 Verdict motion_adds_up(PointerWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
   for (int i = 0; i < 10; ++i) {
@@ -36,6 +37,7 @@ Verdict the_wheel_turns_by_detents(PointerWorld& world) {
   return verdict(until(world, [](const PointerState& state) { return state.wheel == -120; }));
 }
 
+// [pointer-1]
 Verdict a_button_is_down_until_it_is_let_go(PointerWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
   world.press(0);
@@ -49,6 +51,7 @@ Verdict a_button_is_down_until_it_is_let_go(PointerWorld& world) {
   return verdict(until(world, [](const PointerState& state) { return state.buttons == 0; }));
 }
 
+// [pointer-2]
 Verdict a_button_is_not_down_once_it_is_unplugged(PointerWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
   world.move(5, 5);

@@ -9,8 +9,9 @@ namespace flexrf {
 /// Everything: the thread the pointer lives in.
 class Pointer : public PointerInterface {
  public:
-  /// As of the last receive(). Motion and presses are totals that never go back, also when the pointer was
-  /// away: who wants to know what came since takes the difference to what it saw before.
+  /// As of the last receive() [pointer-1]. Motion and presses are totals that never go back, also when the
+  /// pointer was away [pointer-2]: who wants to know what came since takes the difference to what it saw
+  /// before.
   virtual const PointerState& state() const noexcept = 0;
 };
 

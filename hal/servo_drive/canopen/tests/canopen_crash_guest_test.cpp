@@ -240,7 +240,7 @@ void check_last_words(const Outcome& outcome, int signal) {
               outcome.prompt_state.c_str());
 }
 
-// [stop-24]
+// [can-bus-11] [stop-24]
 void a_crash_stops_the_axis_long_before_its_heartbeat_is_missed(void**) {
   const Outcome outcome = die({.die = access_nothing});
   check_last_words(outcome, SIGSEGV);

@@ -39,6 +39,7 @@ bool hears(DatagramSocketWorld& world, Texts& texts, std::size_t count) {
   });
 }
 
+// [datagram-socket-2] [datagram-socket-3]
 Verdict datagrams_go_both_ways_whole(DatagramSocketWorld& world) {
   if (!world.start({})) return Verdict::failed;
   if (!world.socket().write(bytes_of("one")) || !world.socket().write(bytes_of("")) ||
@@ -53,6 +54,7 @@ Verdict datagrams_go_both_ways_whole(DatagramSocketWorld& world) {
                  world.feedback().received == 3 && world.feedback().trouble_view().empty());
 }
 
+// [datagram-socket-1]
 Verdict a_datagram_keeps_its_bytes_until_the_cycle_ends(DatagramSocketWorld& world) {
   if (!world.start({})) return Verdict::failed;
   for (const char* const text : {"a", "b", "c", "d"}) world.give(FarEnd::peer, text);
@@ -71,6 +73,7 @@ Verdict what_others_send_is_dropped(DatagramSocketWorld& world) {
                  until(world, [&] { return world.feedback().foreign == 1; }));
 }
 
+// [datagram-socket-4] [datagram-socket-5]
 Verdict who_sent_it_can_be_answered(DatagramSocketWorld& world) {
   if (!world.start({.has_remote = false})) return Verdict::failed;
   if (world.socket().write(bytes_of("to whom"))) return Verdict::failed;
@@ -99,6 +102,7 @@ Verdict with_a_peer_others_can_be_let_in(DatagramSocketWorld& world) {
   return verdict(hears(world, texts, 1) && texts == Texts{"hello"} && world.feedback().foreign == 0);
 }
 
+// [datagram-socket-4]
 Verdict what_is_too_long_is_dropped_and_refused(DatagramSocketWorld& world) {
   if (!world.start({.size = 8})) return Verdict::failed;
   world.give(FarEnd::peer, "123456789");
@@ -109,6 +113,7 @@ Verdict what_is_too_long_is_dropped_and_refused(DatagramSocketWorld& world) {
                  world.socket().write(bytes_of("12345678")));
 }
 
+// [datagram-socket-2]
 Verdict what_nobody_takes_is_counted(DatagramSocketWorld& world) {
   if (!world.start({.waiting = 4})) return Verdict::failed;
   for (int i = 0; i < 10; ++i) world.give(FarEnd::peer, std::to_string(i));
@@ -119,6 +124,7 @@ Verdict what_nobody_takes_is_counted(DatagramSocketWorld& world) {
                  world.feedback().dropped == 6);
 }
 
+// [datagram-socket-3] [datagram-socket-4]
 Verdict more_than_wait_are_not_written(DatagramSocketWorld& world) {
   if (!world.start({.waiting = 4})) return Verdict::failed;
   for (int i = 0; i < 4; ++i) {

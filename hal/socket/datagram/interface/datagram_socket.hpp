@@ -22,7 +22,7 @@ struct DatagramPeer {
 };
 
 struct Datagram {
-  std::span<const std::byte> bytes;  ///< valid until the cycle ends
+  std::span<const std::byte> bytes;  ///< valid until the cycle ends [datagram-socket-1]
   DatagramPeer from;
   Time at{};  ///< when it was taken in: the cycle's time
 };
@@ -31,13 +31,14 @@ struct Datagram {
 /// overtaken on their way: what matters needs numbers of its own.
 class DatagramSocket : public DatagramSocketInterface {
  public:
-  /// The next datagram that came, oldest first.
+  /// The next datagram that came, oldest first [datagram-socket-2].
   virtual std::optional<Datagram> read() noexcept = 0;
 
-  /// To the peer of the configuration, at the end of the cycle. False, and nothing is sent: it is longer than
-  /// `configuration.size`, `configuration.waiting` wait already, or there is no peer.
+  /// To the peer of the configuration, at the end of the cycle [datagram-socket-3]. False, and nothing is
+  /// sent: it is longer than `configuration.size`, `configuration.waiting` wait already, or there is no
+  /// peer [datagram-socket-4].
   virtual bool write(std::span<const std::byte> bytes) noexcept = 0;
-  /// The same, to whose datagram came.
+  /// The same, to whose datagram came [datagram-socket-5].
   virtual bool write_to(const DatagramPeer& peer, std::span<const std::byte> bytes) noexcept = 0;
 };
 

@@ -71,6 +71,7 @@ bool hears(StreamSocketWorld& world, SocketSession session, std::vector<std::str
 
 using Lines = std::vector<std::string>;
 
+// [stream-socket-4] [stream-socket-6]
 Verdict lines_go_both_ways(StreamSocketWorld& world) {
   if (!connected(world)) return Verdict::failed;
   const SocketSession session = world.socket().sessions()[0];
@@ -85,6 +86,7 @@ Verdict lines_go_both_ways(StreamSocketWorld& world) {
                  world.feedback().sent_bytes == 13 && world.feedback().trouble_view().empty());
 }
 
+// [stream-socket-9]
 Verdict bytes_are_taken_as_many_as_are_wanted(StreamSocketWorld& world) {
   if (!connected(world)) return Verdict::failed;
   const SocketSession session = world.socket().sessions()[0];
@@ -106,6 +108,7 @@ Verdict a_peer_that_comes_later_is_found(StreamSocketWorld& world) {
                  world.feedback().trouble_view().empty());
 }
 
+// [stream-socket-1] [stream-socket-5]
 Verdict a_peer_that_ended_is_connected_to_again(StreamSocketWorld& world) {
   if (!connected(world)) return Verdict::failed;
   const SocketSession first = world.socket().sessions()[0];
@@ -142,6 +145,7 @@ Verdict a_cable_that_is_in_again_connects_again(StreamSocketWorld& world) {
                  world.feedback().trouble_view().empty());
 }
 
+// [stream-socket-3]
 Verdict what_came_before_its_end_is_read(StreamSocketWorld& world) {
   if (!listening(world, {.listen = true}, 1)) return Verdict::failed;
   const SocketSession session = world.socket().sessions()[0];
@@ -169,6 +173,7 @@ Verdict peers_are_told_apart(StreamSocketWorld& world) {
   }));
 }
 
+// [stream-socket-2]
 Verdict one_peer_too_many_is_refused(StreamSocketWorld& world) {
   if (!listening(world, {.listen = true, .sessions = 2}, 2)) return Verdict::failed;
   const SocketSession second = world.socket().sessions()[1];
@@ -190,6 +195,7 @@ Verdict a_line_that_is_too_long_is_left_out(StreamSocketWorld& world) {
                  world.feedback().long_lines == 1);
 }
 
+// [stream-socket-5]
 Verdict who_does_not_read_holds_up_nobody_else(StreamSocketWorld& world) {
   if (!listening(world, {.listen = true, .sessions = 2, .buffer = 65536}, 2)) return Verdict::failed;
   const SocketSession slow = world.socket().sessions()[0];
@@ -202,6 +208,7 @@ Verdict who_does_not_read_holds_up_nobody_else(StreamSocketWorld& world) {
                  world.feedback().refused_writes >= 1 && world.socket().sessions().size() == 2);
 }
 
+// [stream-socket-7]
 Verdict what_is_not_read_waits_and_is_not_lost(StreamSocketWorld& world) {
   if (!connected(world, {.buffer = 256})) return Verdict::failed;
   const SocketSession session = world.socket().sessions()[0];
@@ -221,6 +228,7 @@ Verdict what_is_not_read_waits_and_is_not_lost(StreamSocketWorld& world) {
   return Verdict::passed;
 }
 
+// [stream-socket-10]
 Verdict what_was_written_is_sent_before_it_is_closed(StreamSocketWorld& world) {
   if (!listening(world, {.listen = true}, 1)) return Verdict::failed;
   const SocketSession session = world.socket().sessions()[0];
@@ -230,6 +238,7 @@ Verdict what_was_written_is_sent_before_it_is_closed(StreamSocketWorld& world) {
   return verdict(until(world, [&] { return world.got(0) == "bye\n" && world.is_ended(0); }) && has(world, 0));
 }
 
+// [stream-socket-8]
 Verdict lines_go_to_the_queue_where_one_is_connected(StreamSocketWorld& world) {
   QueueBench<SocketLine, 4> queue;
   if (!world.start({.listen = true, .sessions = 2}, queue.sinks())) return Verdict::failed;
@@ -258,6 +267,7 @@ Verdict an_address_in_use_is_refused_with_its_cause(StreamSocketWorld& world) {
   return verdict(status.code() == StatusCode::busy && status.cause()[0] != '\0');
 }
 
+// [stream-socket-1]
 Verdict after_a_stop_it_begins_anew(StreamSocketWorld& world) {
   if (!connected(world)) return Verdict::failed;
   const SocketSession session = world.socket().sessions()[0];

@@ -8,6 +8,7 @@
 namespace flexrf {
 namespace {
 
+// [watchdog-1]
 void while_a_thread_is_silent_the_machine_is_not_kept_alive(void**) {
   std::uint64_t fed = 0;
   {

@@ -90,6 +90,7 @@ Status request(const char* chip, const char* line) {
   return requested ? Status{} : requested.status();
 }
 
+// [gpio-chip-5]
 void a_line_in_use_names_its_user(void**) {
   Status status;
   {
@@ -104,6 +105,7 @@ void a_line_in_use_names_its_user(void**) {
   assert_int_equal(status.code(), StatusCode::ok);
 }
 
+// [gpio-chip-5]
 void a_line_that_is_not_there_is_told(void**) {
   const Status status = request(GpioSim::label, "NO_SUCH_LINE");
   assert_int_equal(status.code(), StatusCode::not_found);

@@ -125,6 +125,7 @@ void a_wire_that_is_none_is_told(void**) {
   assert_int_equal(code, StatusCode::invalid_argument);
 }
 
+// [gpio-chip-5]
 void a_line_is_one_devices(void**) {
   StatusCode code = StatusCode::ok;
   {

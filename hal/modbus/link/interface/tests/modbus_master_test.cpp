@@ -129,6 +129,7 @@ struct Line {
 };
 
 // More silent ones than there are time-outs in the longest pause: one of them is always due again.
+// [modbus-link-1]
 void silent_stations_do_not_keep_the_last_one_from_its_turn() {
   constexpr std::size_t count = 12;
   Line world(count);

@@ -91,6 +91,7 @@ void signs_and_scales_are_kept(void**) {
   }
 }
 
+// [modbus-station-4]
 void what_does_not_fit_becomes_the_nearest(void**) {
   std::uint16_t words[4] = {};
   encode_register(of(ModbusType::u16), 70000, words);
