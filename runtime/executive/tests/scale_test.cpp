@@ -62,6 +62,7 @@ void check(Chain& cell) {
   }
 }
 
+// [exec-1] [exec-58]
 void in_virtual_time_all_units_step() {
   Chain cell;
   Executive executive(cell.application(), in_virtual_time(milliseconds{200}));
@@ -69,6 +70,7 @@ void in_virtual_time_all_units_step() {
   check(cell);
 }
 
+// [exec-1] [exec-58]
 void on_the_wall_clock_too() {
   Chain cell;
   RunningCell running(cell);
