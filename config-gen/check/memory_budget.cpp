@@ -14,8 +14,8 @@ void check_memory(const Model& model, Diagnostics& diagnostics) {
   std::vector<MemoryItem> items = memory_map(model);
   const std::size_t needed = total(items);
   if (needed <= budget) return;
-  constexpr std::array<const char*, 5> kinds{"slot", "history of slot", "queue", "stack of thread",
-                                             "parameters of"};
+  constexpr std::array<const char*, 6> kinds{
+      "slot", "history of slot", "queue", "stack of thread", "a driver's helper thread of", "parameters of"};
   std::stable_sort(items.begin(), items.end(),
                    [](const MemoryItem& a, const MemoryItem& b) { return a.bytes > b.bytes; });
   constexpr std::size_t most_shown = 4;

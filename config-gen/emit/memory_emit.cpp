@@ -21,6 +21,8 @@ const char* kind_text(MemoryItem::Kind kind) {
       return "queues";
     case MemoryItem::Kind::stack:
       return "stacks";
+    case MemoryItem::Kind::helper:
+      return "stacks of drivers' helper threads";
     case MemoryItem::Kind::parameters:
       return "parameters";
   }

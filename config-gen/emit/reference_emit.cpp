@@ -117,7 +117,8 @@ void driver_section(const Model& model, const Driver& driver, std::string_view h
       << driver.summary << "\n\nA " << kinds[static_cast<std::size_t>(driver.kind)] << " driver that "
       << (driver.actuates ? "moves something" : "only senses") << "; "
       << (driver.virtual_time ? "can live in virtual time" : "only in real time")
-      << (driver.waits ? "; needs an IO thread" : "") << ".\n";
+      << (driver.waits ? "; needs an IO thread" : "")
+      << (driver.helper_threads > 0 ? "; has a thread of its own that may wait" : "") << ".\n";
   parameters(model,
              "Configuration, read at `initialise()`:", {&interface.configuration, &driver.configuration},
              out);

@@ -24,6 +24,7 @@ constexpr std::size_t ring_set = 32;  // of a queue with several writers' rings
 constexpr std::size_t job_control = 192;
 constexpr std::size_t job_sink = 128;  // one per writer
 constexpr std::size_t job_cell = 48;
+constexpr std::size_t helper_stack = 256 * 1024;  // guard page included
 
 // Bytes of one buffer of a slot: payload and header rounded up to cache lines, or apart and to pages.
 constexpr std::size_t buffer_size(std::size_t payload) {

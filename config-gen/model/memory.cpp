@@ -44,6 +44,14 @@ std::vector<MemoryItem> memory_map(const Model& model) {
   for (const Thread& thread : model.threads)
     items.push_back({MemoryItem::Kind::stack, thread.name, round_up(thread.stack, page) + page,
                      size_text(thread.stack) + " and a guard page", thread.position});
+  for (const Device& device : model.devices) {
+    std::size_t helpers = 0;
+    for (const DriverChoice& choice : device.drivers)
+      helpers = std::max(helpers, model.drivers[choice.driver].helper_threads);
+    if (helpers > 0)
+      items.push_back({MemoryItem::Kind::helper, device.name, helpers * helper_stack,
+                       times(helpers, "stack", helper_stack), device.position});
+  }
   for (const Unit& unit : model.units) {
     const UnitType& type = model.unit_types[unit.type];
     const std::size_t bytes = type.configuration.size + type.runtime.size + type.feedback.size;

@@ -10,7 +10,7 @@
 namespace flexrf::config_gen {
 
 struct MemoryItem {
-  enum class Kind { slot, history, queue, stack, parameters };
+  enum class Kind { slot, history, queue, stack, helper, parameters };
   Kind kind = Kind::slot;
   std::string name;
   std::size_t bytes = 0;
@@ -19,7 +19,8 @@ struct MemoryItem {
 };
 
 // Control blocks and buffers as config-gen lays them out; units and drivers themselves are sized by the
-// compiler and judged there. In the order slots, histories, queues, stacks, parameters.
+// compiler and judged there. In the order slots, histories, queues,
+// stacks, stacks of drivers' helper threads, parameters.
 std::vector<MemoryItem> memory_map(const Model& model);
 std::size_t total(const std::vector<MemoryItem>& items);
 

@@ -251,6 +251,7 @@ struct Driver {
   bool actuates = false;
   bool virtual_time = false;
   bool waits = false;
+  std::size_t helper_threads = 0;      // of its own, which may wait
   std::optional<Index> bus_interface;  // the device must be on a bus with this interface
   ParameterBlock configuration;        // the driver's own; the interface's come before
   bool takes_eds = false;              // a device may name its EDS file, which is checked against:

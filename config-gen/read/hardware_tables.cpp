@@ -10,6 +10,8 @@
 namespace flexrf::config_gen {
 namespace {
 
+constexpr std::int64_t most_helper_threads = 8;
+
 std::string read_class(Row& row, const std::string& stem, Diagnostics& diagnostics) {
   const std::string name = row.text("class").value_or(camel_case(stem));
   check_class_name(name, row.position("class"), camel_case(stem), diagnostics);
@@ -187,6 +189,8 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
   driver.actuates = row.boolean("actuates").value_or(false);
   driver.virtual_time = row.boolean("virtual_time").value_or(false);
   driver.waits = row.boolean("waits").value_or(false);
+  driver.helper_threads =
+      static_cast<std::size_t>(row.integer("helper_threads", 0, most_helper_threads).value_or(0));
   const auto interface =
       row.required_text("interface", "add interface = \"RobotArm\", the interface that it implements");
   std::optional<Index> index;

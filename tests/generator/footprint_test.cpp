@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "config-gen/model/limits.hpp"
+#include "hal/driver/helper_thread.hpp"
 #include "runtime/blackboard/history.hpp"
 #include "runtime/blackboard/job_queue.hpp"
 #include "runtime/blackboard/queue_ring.hpp"
@@ -33,6 +34,7 @@ static_assert(config_gen::ring_set == sizeof(RingSet));
 static_assert(config_gen::job_control == sizeof(JobQueue));
 static_assert(config_gen::job_sink == sizeof(JobSink));
 static_assert(config_gen::job_cell == sizeof(JobQueue::Cell));
+static_assert(config_gen::helper_stack == HelperThread::stack_size);
 
 // A payload of `Size` bytes, aligned as a struct of doubles or of bytes.
 template <std::size_t Size, std::size_t Alignment>

@@ -1,10 +1,8 @@
 // The keeper of V4l2Camera: the thread that may wait for the camera.
-#include <pthread.h>
 #include <unistd.h>
 
 #include "hal/camera/v4l2/v4l2_camera.hpp"
 #include "runtime/log/log.hpp"
-#include "runtime/realtime/signals.hpp"
 
 namespace flexrf {
 namespace {
@@ -14,30 +12,9 @@ constexpr std::chrono::milliseconds keeping_interval{50};
 
 }  // namespace
 
-void V4l2Camera::start_keeper() {
-  stopping_ = false;
-  // The signals that end the application are for others to take.
-  const signals::Blocked blocked;
-  keeper_ = std::thread([this] { keep(); });
-}
-
-void V4l2Camera::end_keeper() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  stopped_.notify_all();
-  if (keeper_.joinable()) keeper_.join();
-}
-
 /// A camera that is lost says so by a word of its own: a cycle must not wait to wake somebody.
 void V4l2Camera::keep() {
-  std::unique_lock lock(mutex_);
-  while (!stopped_.wait_for(lock, keeping_interval, [this] { return stopping_; })) {
-    lock.unlock();
-    look_after();
-    lock.lock();
-  }
+  while (keeper_.wait(keeping_interval)) look_after();
 }
 
 void V4l2Camera::look_after() {

@@ -62,12 +62,13 @@ Status V4l2Camera::initialise() {
     V4l2Camera::stop();
     return trouble_;
   }
-  start_keeper();
-  return {};
+  const Status status = keeper_.begin<V4l2Camera, &V4l2Camera::keep>(name(), *this);
+  if (!status) V4l2Camera::stop();
+  return status;
 }
 
 void V4l2Camera::stop() {
-  end_keeper();
+  keeper_.end();
   session_ = nullptr;
   image_.reset();
   shown_.reset();

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
 
 #include "hal/camera/interface/camera_journal.hpp"
 #include "hal/camera/v4l2/video_session.hpp"
+#include "hal/driver/helper_thread.hpp"
 #include "types/camera_report.hpp"
 #include "types/camera_wishes.hpp"
 #include "v4l2_camera_driver.hpp"
@@ -37,9 +35,6 @@ class V4l2Camera final : public V4l2CameraDriver {
   static constexpr std::size_t most_loans = 8;
 
   // ---- the lifecycle thread's
-  void start_keeper();
-  void end_keeper();
-
   // ---- the keeper's
   void keep();
   void look_after();
@@ -83,10 +78,7 @@ class V4l2Camera final : public V4l2CameraDriver {
   std::uint64_t wish_seen_ = 0;
   Output<CameraReport> reports_;
   SlotReader wishes_reader_{&wishes_slot_.control()};
-  std::mutex mutex_;  // of stopping_; never taken in a cycle
-  std::condition_variable stopped_;
-  bool stopping_ = false;
-  std::thread keeper_;
+  HelperThread keeper_;
 
   // The camera's thread's.
   VideoSession* session_ = nullptr;

@@ -5,21 +5,17 @@
 #include <net/if.h>
 #include <net/if_arp.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <system_error>
-
-#include "runtime/realtime/signals.hpp"
 
 namespace flexrf {
 namespace {
 
-constexpr int longest_pause_milliseconds = 200;
+constexpr std::chrono::milliseconds longest_pause{200};
 
 int open_link_events() noexcept {
   const int descriptor = socket(AF_NETLINK, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, NETLINK_ROUTE);
@@ -40,40 +36,23 @@ Status CanLinkWatch::start(const char* interface, CanSocket& socket) {
   socket_ = &socket;
   bound_ = 0;
   events_ = open_link_events();
-  wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (events_ < 0 || wake_ < 0)
+  if (events_ < 0)
     return Status::error(StatusCode::unavailable, "%s cannot be watched: %s", interface,
                          std::strerror(errno));
   look();
-  try {
-    // The signals that end the application are for others to take.
-    const signals::Blocked blocked;
-    thread_ = std::thread([this] { run(); });
-  } catch (const std::system_error& error) {
-    return Status::error(StatusCode::unavailable, "%s cannot be watched: %s", interface, error.what());
-  }
-  return {};
+  return thread_.begin<CanLinkWatch, &CanLinkWatch::run>(interface, *this);
 }
 
 void CanLinkWatch::stop() noexcept {
-  if (thread_.joinable()) {
-    constexpr std::uint64_t one = 1;
-    // An eventfd that counts one takes it.
-    static_cast<void>(!write(wake_, &one, sizeof(one)));
-    thread_.join();
-  }
-  for (int* descriptor : {&events_, &wake_}) {
-    if (*descriptor >= 0) close(*descriptor);
-    *descriptor = -1;
-  }
+  thread_.end();
+  if (events_ >= 0) close(events_);
+  events_ = -1;
   view_.store(0, std::memory_order_release);
 }
 
-void CanLinkWatch::run() noexcept {
-  std::array<pollfd, 2> sources{{{events_, POLLIN, 0}, {wake_, POLLIN, 0}}};
-  while (true) {
-    const int ready = poll(sources.data(), sources.size(), longest_pause_milliseconds);
-    if (ready > 0 && sources[1].revents != 0) return;
+void CanLinkWatch::run() {
+  pollfd source{events_, POLLIN, 0};
+  while (thread_.wait(longest_pause, {&source, 1})) {
     // What changed does not matter: it is asked for anyway.
     std::array<char, 4096> message{};
     while (recv(events_, message.data(), message.size(), MSG_DONTWAIT) > 0) {

@@ -5,9 +5,9 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
-#include <thread>
 
 #include "hal/can/socket_can/can_socket.hpp"
+#include "hal/driver/helper_thread.hpp"
 #include "runtime/core/status.hpp"
 
 namespace flexrf {
@@ -47,15 +47,14 @@ class CanLinkWatch {
   }
 
  private:
-  void run() noexcept;
+  void run();
   void look() noexcept;
 
   std::string interface_;
   CanSocket* socket_ = nullptr;
-  std::thread thread_;
+  HelperThread thread_;
   int events_ = -1;  // rtnetlink
-  int wake_ = -1;
-  int bound_ = 0;  // the interface's index; 0: to none
+  int bound_ = 0;    // the interface's index; 0: to none
   std::uint64_t looks_ = 0;
   std::atomic<std::uint64_t> view_{0};
 };

@@ -1,7 +1,6 @@
 #include "hal/force_torque/ft300/ft300_line.hpp"
 
 #include <poll.h>
-#include <pthread.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
@@ -9,7 +8,6 @@
 #include <cstring>
 
 #include "runtime/core/text.hpp"
-#include "runtime/realtime/signals.hpp"
 
 namespace flexrf {
 namespace {
@@ -17,7 +15,7 @@ namespace {
 using std::chrono::milliseconds;
 
 /// How often a line that is not there is looked for.
-constexpr int looking_interval = 200;  // ms
+constexpr Duration looking_interval = milliseconds(200);
 /// A sensor may send already, as it was left; it is asked when it does not.
 constexpr Duration listening_time = milliseconds(100);
 /// A frame comes every 10 ms.
@@ -27,7 +25,7 @@ constexpr int most_endings = 5;
 
 }  // namespace
 
-Status Ft300Line::start(const std::string& device, std::uint8_t unit_id) {
+Status Ft300Line::start(const char* name, const std::string& device, std::uint8_t unit_id) {
   stop();
   device_ = device;
   unit_id_ = unit_id;
@@ -35,9 +33,8 @@ Status Ft300Line::start(const std::string& device, std::uint8_t unit_id) {
   damaged_before_ = 0;
   decoder_ = {};
   static_cast<void>(take_news());  // of the run before
-  wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   news_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (wake_ < 0 || news_ < 0)
+  if (news_ < 0)
     return Status::error(StatusCode::internal, "the line cannot be waited for: %s", std::strerror(errno));
   reports_.connect(&context_, &slot_.control());
   open_line();
@@ -47,22 +44,16 @@ Status Ft300Line::start(const std::string& device, std::uint8_t unit_id) {
     stop();
     return why;
   }
-  // The signals that end the application are for others to take.
-  const signals::Blocked blocked;
-  thread_ = std::thread([this] { run(); });
-  return {};
+  const Status status = thread_.begin<Ft300Line, &Ft300Line::run>(name, *this);
+  if (!status) stop();
+  return status;
 }
 
 void Ft300Line::stop() {
-  if (thread_.joinable()) {
-    eventfd_write(wake_, 1);
-    thread_.join();
-  }
+  thread_.end();
   port_.close();
-  for (int* descriptor : {&wake_, &news_}) {
-    if (*descriptor >= 0) close(*descriptor);
-    *descriptor = -1;
-  }
+  if (news_ >= 0) close(news_);
+  news_ = -1;
 }
 
 const Ft300Report* Ft300Line::take_news() noexcept {
@@ -78,16 +69,11 @@ const Ft300Report* Ft300Line::take_news() noexcept {
 
 void Ft300Line::run() {
   while (true) {
-    pollfd wake{wake_, POLLIN, 0};
     if (!port_.is_open() && !open_line()) {
-      if (poll(&wake, 1, looking_interval) > 0) return;
+      if (!thread_.wait(looking_interval)) return;
       continue;
     }
-    listen(static_cast<int>(listening_time / milliseconds(1)));
-    if (poll(&wake, 1, 0) > 0) {
-      end_stream();
-      return;
-    }
+    if (!listen(listening_time)) return end_stream();
     ask(MonotonicClock::now());
   }
 }
@@ -122,13 +108,15 @@ void Ft300Line::ask(Time now) {
   quiet_since_ = MonotonicClock::now();
 }
 
-void Ft300Line::listen(int most_milliseconds) {
-  pollfd both[2] = {{wake_, POLLIN, 0}, {port_.descriptor(), POLLIN, 0}};
-  if (poll(both, 2, most_milliseconds) <= 0 || both[1].revents == 0) return;
-  if (read_line()) return;
+/// False: the thread is to end.
+bool Ft300Line::listen(Duration longest) {
+  pollfd line{port_.descriptor(), POLLIN, 0};
+  const bool goes_on = thread_.wait(longest, {&line, 1});
+  if (line.revents == 0 || read_line()) return goes_on;
   port_.close();
   tell(Status::error(StatusCode::unavailable, "the serial line %s was lost; is the adapter plugged in?",
                      device_.c_str()));
+  return goes_on;
 }
 
 /// False: the line is lost.

@@ -3,8 +3,8 @@
 
 #include <atomic>
 #include <string>
-#include <thread>
 
+#include "hal/driver/helper_thread.hpp"
 #include "hal/force_torque/ft300/ft300_stream.hpp"
 #include "hal/force_torque/ft300/serial_port.hpp"
 #include "runtime/blackboard/ports.hpp"
@@ -23,8 +23,9 @@ class Ft300Line {
 
   // ---- the lifecycle thread's
 
-  /// Error: what a person has to mend; a line that is not there or in use is waited for.
-  Status start(const std::string& device, std::uint8_t unit_id);
+  /// `name`: the sensor's, which lives for ever. Error: what a person has to mend; a line that is not there
+  /// or in use is waited for.
+  Status start(const char* name, const std::string& device, std::uint8_t unit_id);
   /// Ends the sensor's stream, which may take half a second.
   void stop();
 
@@ -39,7 +40,7 @@ class Ft300Line {
   void run();
   bool open_line();
   void ask(Time now);
-  void listen(int most_milliseconds);
+  bool listen(Duration longest);
   bool read_line();
   void end_stream();
   void tell(const Status& trouble);
@@ -55,8 +56,7 @@ class Ft300Line {
   Ft300Report report_{};
   StepContext context_;
   Output<Ft300Report> reports_;
-  int wake_ = -1;  // readable when the thread is to end
-  std::thread thread_;
+  HelperThread thread_;
 
   // Between the two.
   Slot<Ft300Report, 1> slot_;

@@ -6,7 +6,7 @@ Status Ft300Sensor::initialise() {
   line_.stop();
   frames_ = damaged_ = 0;
   if (Status status = begin_measuring(); !status) return status;
-  return line_.start(std::string(configuration.device_view()), configuration.unit_id);
+  return line_.start(name(), std::string(configuration.device_view()), configuration.unit_id);
 }
 
 /// A stream without numbers: what is lost on the line is not known but by what is damaged.

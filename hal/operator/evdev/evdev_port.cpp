@@ -1,6 +1,5 @@
 #include "hal/operator/evdev/evdev_port.hpp"
 
-#include <pthread.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
@@ -10,7 +9,6 @@
 #include <string_view>
 
 #include "runtime/log/log.hpp"
-#include "runtime/realtime/signals.hpp"
 
 namespace flexrf {
 namespace {
@@ -27,7 +25,6 @@ Status EvdevPort::begin(const EvdevRequest& request) {
   request_ = request;
   losses_ = overflows_ = 0;
   trouble_ = StatusCode::ok;
-  stopping_ = false;
   news_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   if (news_ < 0)
     return Status::error(StatusCode::internal, "no event descriptor for an input device: %s",
@@ -37,19 +34,13 @@ Status EvdevPort::begin(const EvdevRequest& request) {
   kept_ = std::move(*device);
   given_.store(kept_.get(), std::memory_order_release);
   ring();
-  // The signals that end the application are for others to take.
-  const signals::Blocked blocked;
-  keeper_ = std::thread([this] { keep(); });
-  return {};
+  const Status status = keeper_.begin<EvdevPort, &EvdevPort::keep>(request_.owner, *this);
+  if (!status) end();
+  return status;
 }
 
 void EvdevPort::end() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  stopped_.notify_all();
-  if (keeper_.joinable()) keeper_.join();
+  keeper_.end();
   device_ = nullptr;
   given_.store(nullptr, std::memory_order_relaxed);
   returned_.store(false, std::memory_order_relaxed);
@@ -101,12 +92,7 @@ void EvdevPort::lose(int error) noexcept {
 
 /// A device that is lost says so by a word of its own: a cycle must not wait to wake somebody.
 void EvdevPort::keep() {
-  std::unique_lock lock(mutex_);
-  while (!stopped_.wait_for(lock, keeping_interval, [this] { return stopping_; })) {
-    lock.unlock();
-    look_after();
-    lock.lock();
-  }
+  while (keeper_.wait(keeping_interval)) look_after();
 }
 
 void EvdevPort::look_after() {

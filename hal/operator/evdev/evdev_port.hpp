@@ -3,11 +3,9 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
-#include <thread>
 
+#include "hal/driver/helper_thread.hpp"
 #include "hal/operator/evdev/evdev_device.hpp"
 
 namespace flexrf {
@@ -59,10 +57,7 @@ class EvdevPort {
   // The keeper's, and the lifecycle thread's while it does not run.
   std::unique_ptr<EvdevDevice> kept_;
   StatusCode trouble_ = StatusCode::ok;
-  std::thread keeper_;
-  std::mutex mutex_;  // of what follows; never taken in a cycle
-  std::condition_variable stopped_;
-  bool stopping_ = false;
+  HelperThread keeper_;
 };
 
 }  // namespace flexrf

@@ -1,13 +1,10 @@
 #include "hal/gpio/chip/linux/linux_gpio_chip.hpp"
 
-#include <pthread.h>
-
 #include <chrono>
 #include <string_view>
 
 #include "runtime/core/text.hpp"
 #include "runtime/log/log.hpp"
-#include "runtime/realtime/signals.hpp"
 
 namespace flexrf {
 namespace {
@@ -29,21 +26,12 @@ Status LinuxGpioChip::initialise() {
     const std::lock_guard lock(mutex_);
     chip_ = chip;
     trouble_ = {};
-    stopping_ = false;
   }
-  // The signals that end the application are for others to take.
-  const signals::Blocked blocked;
-  keeper_ = std::thread([this] { keep(); });
-  return {};
+  return keeper_.begin<LinuxGpioChip, &LinuxGpioChip::keep>(name(), *this);
 }
 
 void LinuxGpioChip::stop() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  stopped_.notify_all();
-  if (keeper_.joinable()) keeper_.join();
+  keeper_.end();
 }
 
 void LinuxGpioChip::receive(const Tick& /*tick*/) noexcept {
@@ -67,10 +55,9 @@ void LinuxGpioChip::release(GpioLine* line) noexcept {
 
 /// A line that is lost says so by a word of its own: a cycle must not wait to wake somebody.
 void LinuxGpioChip::keep() {
-  std::unique_lock lock(mutex_);
-  while (!stopping_) {
+  while (keeper_.wait(keeping_interval)) {
+    const std::lock_guard lock(mutex_);
     look_after_lines();
-    stopped_.wait_for(lock, keeping_interval);
   }
 }
 

@@ -1,13 +1,12 @@
 // LinuxGpioChip: a chip of the machine, through the kernel's GPIO interface (libgpiod).
 #pragma once
 
-#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "hal/driver/helper_thread.hpp"
 #include "hal/gpio/chip/linux/linux_gpio_line.hpp"
 #include "linux_gpio_chip_driver.hpp"
 
@@ -33,11 +32,9 @@ class LinuxGpioChip final : public LinuxGpioChipDriver {
   GpioLineCounters counters_;
   std::string chip_;
   std::mutex mutex_;  // of what follows; never taken in a cycle
-  std::condition_variable stopped_;
-  bool stopping_ = false;
   std::vector<std::unique_ptr<LinuxGpioLine>> lines_;
   Status trouble_;  // why a line that was lost cannot be had, as last told
-  std::thread keeper_;
+  HelperThread keeper_;
 };
 
 }  // namespace flexrf
