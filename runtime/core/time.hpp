@@ -34,5 +34,14 @@ constexpr std::int64_t nanoseconds(Time time) noexcept {
 constexpr double seconds(Duration duration) noexcept {
   return static_cast<double>(duration.count()) * 1e-9;
 }
+/// Of so many seconds, to the nearest nanosecond; the most or the least that there is where it does not fit,
+/// 0 of what is not a number.
+constexpr Duration duration_of(double seconds) noexcept {
+  constexpr double fits = 9.2e9;  // 292 years
+  if (seconds != seconds) return Duration{};
+  if (seconds >= fits) return Duration::max();
+  if (seconds <= -fits) return Duration::min();
+  return Duration{static_cast<Duration::rep>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5))};
+}
 
 }  // namespace flexrf

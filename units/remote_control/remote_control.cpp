@@ -97,7 +97,7 @@ void RemoteControl::meet_clients() {
     client.session = session;
     client.since = now_;
   }
-  const Duration patience{static_cast<Duration::rep>(configuration.token_timeout * 1e9)};
+  const Duration patience = duration_of(configuration.token_timeout);
   for (Client& client : clients_) {
     if (exposed_ && !client.authenticated && !client.leaving && now_ - client.since > patience)
       send_away(client, "gave no token in time");

@@ -196,7 +196,7 @@ RemoteControl::Problem RemoteControl::read_subscription(JsonElement json, Subscr
     return RpcProblem{RpcError::too_large, "'" + std::string{slot_name} + "' holds a picture, or too much",
                       "look at it in the panel"};
   }
-  subscription.interval = Duration{static_cast<Duration::rep>(1e9 / rate)};
+  subscription.interval = duration_of(1.0 / rate);
   subscription.next = now_;
   return std::nullopt;
 }

@@ -135,9 +135,7 @@ class VirtualCamera : public Base {
     one.read_only = read_only;
   }
   std::int32_t value_of(std::size_t index) const noexcept { return controls_[index].value; }
-  Duration period() const noexcept {
-    return Duration{static_cast<Duration::rep>(1e9 / this->configuration.frame_rate)};
-  }
+  Duration period() const noexcept { return duration_of(1.0 / this->configuration.frame_rate); }
 
  private:
   /// A thread that comes late must not be held for ever by what it missed.
@@ -156,9 +154,7 @@ class VirtualCamera : public Base {
                : std::size_t{3} * set.width * set.height + most_of_a_jpeg_without_picture;
   }
 
-  Duration silence() const noexcept {
-    return Duration{static_cast<Duration::rep>(this->configuration.silence * 1e9)};
-  }
+  Duration silence() const noexcept { return duration_of(this->configuration.silence); }
 
   void set_controls() noexcept {
     const auto& wanted = this->runtime.controls;

@@ -50,7 +50,7 @@ Status V4l2Camera::initialise() {
               .controls = std::string(text_view(runtime.controls)),
               .buffers = {lent_.data(), set.user_pointers ? loan_count_ : 0},
               .room = frames.elements()};
-  silence_ = Duration{static_cast<Duration::rep>(set.silence * 1e9)};
+  silence_ = duration_of(set.silence);
   reports_.connect(nullptr, &report_slot_.control());
   wishes_.connect(nullptr, &wishes_slot_.control());
   wished_ = runtime.controls;

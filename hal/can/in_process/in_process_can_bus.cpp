@@ -7,7 +7,7 @@ namespace flexrf {
 Status InProcessCanBus::initialise() {
   restart();
   wire_.reset({.bit_rate = configuration.bit_rate,
-               .restart_after = Duration(std::llround(configuration.restart_after * 1e9)),
+               .restart_after = duration_of(configuration.restart_after),
                .corrupted_share = configuration.corrupted_share,
                .seed = environment().seed});
   station_ = wire_.attach(end_);

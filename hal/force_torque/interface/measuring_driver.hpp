@@ -39,17 +39,13 @@ class MeasuringDriver : public Base {
     published_ = 0;
     return meter_.begin(this->name(),
                         {set.position, set.orientation, set.force_limit, set.torque_limit, set.tare_samples,
-                         in_nanoseconds(set.max_age), in_nanoseconds(set.frozen_after)});
+                         duration_of(set.max_age), duration_of(set.frozen_after)});
   }
 
   /// Takes in what came since the cycle before.
   virtual void listen(WrenchMeter& meter, Time now) noexcept = 0;
 
  private:
-  static Duration in_nanoseconds(double seconds) noexcept {
-    return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-  }
-
   WrenchMeter meter_;
   TroubleLog log_;
   std::uint64_t published_ = 0;

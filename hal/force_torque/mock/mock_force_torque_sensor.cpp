@@ -10,7 +10,7 @@ Status MockForceTorqueSensor::initialise() {
 }
 
 void MockForceTorqueSensor::listen(WrenchMeter& meter, Time now) noexcept {
-  const Duration period{static_cast<Duration::rep>(1e9 / configuration.rate)};
+  const Duration period = duration_of(1.0 / configuration.rate);
   if (due_ == Time{}) due_ = now;
   while (due_ + delay_ <= now) {
     measure(meter, due_ + delay_);

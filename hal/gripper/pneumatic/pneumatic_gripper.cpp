@@ -5,13 +5,6 @@
 #include "runtime/core/text.hpp"
 
 namespace flexrf {
-namespace {
-
-Duration in_nanoseconds(double seconds) {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-}
-
-}  // namespace
 
 Status PneumaticGripper::initialise() {
   stop();
@@ -19,8 +12,8 @@ Status PneumaticGripper::initialise() {
     return status;
   control_.begin({.open_width = configuration.open_width,
                   .closed_width = configuration.closed_width,
-                  .travel_timeout = in_nanoseconds(configuration.travel_timeout),
-                  .dead_time = in_nanoseconds(configuration.dead_time),
+                  .travel_timeout = duration_of(configuration.travel_timeout),
+                  .dead_time = duration_of(configuration.dead_time),
                   .closed_centre = configuration.closed_centre,
                   .object_between = configuration.object_between});
   report_.reset();
@@ -37,7 +30,7 @@ Status PneumaticGripper::initialise() {
     return DigitalLineSettings{.name = line,
                                .bias = configuration.reed_bias,
                                .active_low = configuration.reeds_active_low,
-                               .debounce = in_nanoseconds(configuration.debounce)};
+                               .debounce = duration_of(configuration.debounce)};
   };
   Status status = reed_open_.open(*bus, reed(text_view(configuration.reed_open)));
   if (status) status = reed_closed_.open(*bus, reed(text_view(configuration.reed_closed)));
@@ -77,7 +70,7 @@ void PneumaticGripper::send(const Tick& tick) noexcept {
 /// is off, and for the dead time from then.
 void PneumaticGripper::switch_valves() noexcept {
   const pneumatic::End on = control_.valve();
-  const Duration dead_time = in_nanoseconds(configuration.dead_time);
+  const Duration dead_time = duration_of(configuration.dead_time);
   const auto set = [&](DigitalLine& valve, bool value) {
     valve.command(value, false);
     valve.send(now_, false);

@@ -27,10 +27,6 @@ class RobotiqEnd {
 /// Error: the configuration makes no sense.
 Status check(const ControlPlan& plan) noexcept;
 
-inline Duration in_nanoseconds(double seconds) noexcept {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-}
-
 template <class Base>
 class RobotiqDriver : public Base {
  public:
@@ -47,13 +43,13 @@ class RobotiqDriver : public Base {
     plan.strongest = set.strongest;
     plan.speed = set.speed;
     plan.force = set.force;
-    plan.travel_timeout = in_nanoseconds(set.travel_timeout);
-    plan.activation_timeout = in_nanoseconds(set.activation_timeout);
+    plan.travel_timeout = duration_of(set.travel_timeout);
+    plan.activation_timeout = duration_of(set.activation_timeout);
     if (const Status status = check(plan); !status) return status;
     control_.begin(plan);
     report_.reset();
     releasing_ = false;
-    return end_.attach(*this->bus, this->name(), set.unit_id, in_nanoseconds(set.max_age));
+    return end_.attach(*this->bus, this->name(), set.unit_id, duration_of(set.max_age));
   }
   void stop() override { end_.detach(); }
 

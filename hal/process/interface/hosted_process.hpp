@@ -22,14 +22,13 @@ class HostedProcess : public Base {
         set.executable_view(), set.arguments_view(), set.environment_view(), set.working_directory_view());
     if (!program) return program.status();
     if (const Status status = host_.open(*program); !status) return status;
-    const auto duration = [](double value) { return Duration{static_cast<Duration::rep>(value * 1e9)}; };
     return run_.begin(this->name(), host_,
                       {.start = set.start,
                        .restart = set.restart,
-                       .restart_shortest = duration(set.restart_shortest),
-                       .restart_longest = duration(set.restart_longest),
-                       .start_timeout = duration(set.start_timeout),
-                       .stop_timeout = duration(set.stop_timeout)});
+                       .restart_shortest = duration_of(set.restart_shortest),
+                       .restart_longest = duration_of(set.restart_longest),
+                       .start_timeout = duration_of(set.start_timeout),
+                       .stop_timeout = duration_of(set.stop_timeout)});
   }
   void stop() override { run_.stop(); }
 

@@ -10,10 +10,6 @@
 
 namespace flexrf::melfa {
 
-inline Duration in_nanoseconds(double seconds) noexcept {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-}
-
 /// `where`: the controller, for a person.
 Status lost_controller(const char* where, double silence_limit, const PacingCounters& counters) noexcept;
 Status no_number(std::size_t joint) noexcept;
@@ -25,9 +21,9 @@ class MxtArm : public Base {
     const auto& set = this->configuration;
     DialoguePlan plan;
     plan.cycle = set.cycle;
-    plan.pacing.answer = in_nanoseconds(set.answer_timeout);
-    plan.pacing.silence = in_nanoseconds(set.silence_limit);
-    plan.pacing.search = in_nanoseconds(set.search_interval);
+    plan.pacing.answer = duration_of(set.answer_timeout);
+    plan.pacing.silence = duration_of(set.silence_limit);
+    plan.pacing.search = duration_of(set.search_interval);
     made_safe_ = false;
     state_.reset();
     this->begin_supervision(this->configuration);

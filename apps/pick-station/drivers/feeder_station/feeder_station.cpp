@@ -12,8 +12,8 @@ Status FeederStation::initialise() {
   }
   // Initialised again it is the same feeder, with what is left in it.
   if (feeder_ == nullptr) {
-    const auto travel = static_cast<Duration::rep>(configuration.travel * 1e9);
-    feeder_ = std::make_shared<Feeder>(Feeder::Settings{Duration{travel}, configuration.stock});
+    feeder_ =
+        std::make_shared<Feeder>(Feeder::Settings{duration_of(configuration.travel), configuration.stock});
     link->registers().set_model(configuration.unit_id, feeder_);
   }
   return LinkedStation::initialise();

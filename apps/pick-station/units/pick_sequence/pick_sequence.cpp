@@ -5,13 +5,6 @@
 #include "hal/modbus/station/interface/modbus_station.hpp"
 
 namespace flexrf::user {
-namespace {
-
-Duration duration_of(double time) {
-  return Duration{static_cast<Duration::rep>(time * 1e9)};
-}
-
-}  // namespace
 
 Status PickSequence::initialise() {
   const auto present = station->input("part_present");

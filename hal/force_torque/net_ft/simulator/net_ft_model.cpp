@@ -17,7 +17,7 @@ std::int32_t counts_of(double value, double counts) noexcept {
 
 }  // namespace
 
-NetFtModel::NetFtModel(double rate) noexcept : period_{static_cast<Duration::rep>(1e9 / rate)} {}
+NetFtModel::NetFtModel(double rate) noexcept : period_{duration_of(1.0 / rate)} {}
 
 void NetFtModel::switch_off_and_on() noexcept {
   streams_ = false;

@@ -7,10 +7,6 @@
 namespace flexrf {
 namespace {
 
-Duration in_nanoseconds(double seconds) {
-  return Duration{static_cast<Duration::rep>(seconds * 1e9)};
-}
-
 /// Calls use(word) for each word between spaces, until one fails.
 template <class Use>
 Status each_word(std::string_view text, Use use) {
@@ -62,7 +58,7 @@ Status SimulatedGpioChip::initialise() {
     const VirtualLine* const output = chip_.line(word.substr(0, arrow));
     VirtualLine* const input = chip_.line(word.substr(arrow + 1));
     if (output == nullptr || input == nullptr) return unusable(word);
-    input->wire(*output, in_nanoseconds(configuration.wire_delay));
+    input->wire(*output, duration_of(configuration.wire_delay));
     return Status{};
   });
 }
@@ -78,7 +74,7 @@ Result<GpioLine*> SimulatedGpioChip::request(const GpioLineSettings& settings) {
   Result<GpioLine*> line = chip_.request(settings, name());
   if (line) {
     chip_.line(settings.name)
-        ->bounce(in_nanoseconds(configuration.bounce), environment().seed ^ hash_of(settings.name));
+        ->bounce(duration_of(configuration.bounce), environment().seed ^ hash_of(settings.name));
   }
   return line;
 }

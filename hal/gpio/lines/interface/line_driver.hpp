@@ -16,7 +16,7 @@ class LineDriver : public Base {
                                    .direction = set.direction,
                                    .bias = set.bias,
                                    .active_low = set.active_low,
-                                   .debounce = Duration{static_cast<Duration::rep>(set.debounce * 1e9)},
+                                   .debounce = duration_of(set.debounce),
                                    .emergency_stop = set.emergency_stop,
                                    .safe_value = set.safe_value,
                                    .signal = set.signal});

@@ -80,7 +80,7 @@ bool parse(int count, char** words, Options& options) {
 robotiq::ModelPlan plan_of(const Options& options) {
   robotiq::ModelPlan plan;
   plan.open_width = options.width;
-  if (options.longest_step > 0) plan.longest_step = Duration{std::llround(options.longest_step * 1e9)};
+  if (options.longest_step > 0) plan.longest_step = duration_of(options.longest_step);
   return plan;
 }
 

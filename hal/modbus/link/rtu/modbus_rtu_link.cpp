@@ -5,10 +5,6 @@
 namespace flexrf {
 namespace {
 
-Duration duration_of(double seconds) {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-}
-
 char letter_of(ModbusParity parity) {
   switch (parity) {
     case ModbusParity::even:

@@ -1,13 +1,6 @@
 #include "hal/modbus/link/simulated/simulated_modbus_link.hpp"
 
 namespace flexrf {
-namespace {
-
-Duration duration_of(double seconds) {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-}
-
-}  // namespace
 
 Status SimulatedModbusLink::initialise() {
   started_ = Time{};

@@ -3,13 +3,6 @@
 #include <string>
 
 namespace flexrf {
-namespace {
-
-Duration duration_of(double seconds) {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-}
-
-}  // namespace
 
 Status ModbusTcpLink::initialise() {
   const std::string address(configuration.address_view());

@@ -42,19 +42,16 @@ template <class Base>
 class LinkedStation : public Base {
  public:
   Status initialise() override {
-    const auto duration = [](double seconds) {
-      return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-    };
     const auto& settings = this->configuration;
     ModbusStationSetup setup;
     setup.name = this->name();
     setup.map = this->registers;
     setup.unit_id = settings.unit_id;
-    setup.poll_periods = {duration(settings.fast_period), duration(settings.normal_period),
-                          duration(settings.slow_period)};
-    setup.refresh_period = duration(settings.refresh_period);
+    setup.poll_periods = {duration_of(settings.fast_period), duration_of(settings.normal_period),
+                          duration_of(settings.slow_period)};
+    setup.refresh_period = duration_of(settings.refresh_period);
     outputs_.reset(*this->registers);
-    return end_.attach(*this->bus, setup, duration(settings.max_age));
+    return end_.attach(*this->bus, setup, duration_of(settings.max_age));
   }
   void stop() override { end_.detach(); }
 
@@ -67,7 +64,7 @@ class LinkedStation : public Base {
     told.exceptions = image.exceptions;
     told.bad_replies = image.bad_replies;
     told.lost = image.lost;
-    told.round_trip = static_cast<double>(image.round_trip) * 1e-9;
+    told.round_trip = seconds(Duration{image.round_trip});
     told.last_error = image.last_error;
     if (this->is_inhibited()) outputs_.make_safe();
   }

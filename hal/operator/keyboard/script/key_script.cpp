@@ -58,7 +58,7 @@ bool parse_seconds(std::string_view word, Duration& after) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) return false;
   if (!(value >= 0) || value > longest_script) return false;
-  after = Duration(std::llround(value * 1e9));
+  after = duration_of(value);
   return true;
 }
 

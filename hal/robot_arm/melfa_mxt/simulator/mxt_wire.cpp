@@ -19,7 +19,7 @@ std::uint64_t MxtWire::cycles_until(Time now) {
     return 1;
   }
   if (began_ == Time{}) began_ = now;
-  const auto length = static_cast<std::int64_t>(plan_.cycle * 1e9);
+  const auto length = duration_of(plan_.cycle).count();
   const auto cycle = static_cast<std::uint64_t>((now - began_).count() / length) + 1;
   const std::uint64_t cycles = cycle - cycle_;
   cycle_ = cycle;

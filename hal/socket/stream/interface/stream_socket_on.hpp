@@ -14,8 +14,7 @@ class StreamSocketOn : public Base {
   Status initialise() override {
     const auto& set = this->configuration;
     stop();
-    const auto duration = [](double value) { return Duration{static_cast<Duration::rep>(value * 1e9)}; };
-    if (const Status status = transport_.open(set.address_view(), set.listen, duration(set.peer_timeout));
+    if (const Status status = transport_.open(set.address_view(), set.listen, duration_of(set.peer_timeout));
         !status) {
       return status;
     }
@@ -23,9 +22,9 @@ class StreamSocketOn : public Base {
                  {.listen = set.listen,
                   .sessions = set.sessions,
                   .buffer = set.buffer,
-                  .connect_timeout = duration(set.connect_timeout),
-                  .reconnect_shortest = duration(set.reconnect_shortest),
-                  .reconnect_longest = duration(set.reconnect_longest)});
+                  .connect_timeout = duration_of(set.connect_timeout),
+                  .reconnect_shortest = duration_of(set.reconnect_shortest),
+                  .reconnect_longest = duration_of(set.reconnect_longest)});
     this->feedback.port = transport_.port();
     return {};
   }
