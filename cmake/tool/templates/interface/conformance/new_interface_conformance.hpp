@@ -1,5 +1,5 @@
-// What every driver of NewInterface must do. A driver's test makes a world, which is the driver and what it switches, and runs the
-// cases in it.
+// What every driver of NewInterface must do. A driver's test makes a world, which is the driver and what it
+// switches, and runs the cases in it.
 #pragma once
 
 #include <memory>

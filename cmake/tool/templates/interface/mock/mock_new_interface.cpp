@@ -9,7 +9,9 @@ Status MockNewInterface::initialise() {
   return {};
 }
 
-void MockNewInterface::receive(const Tick& /*tick*/) noexcept { feedback.on = on_; }
+void MockNewInterface::receive(const Tick& /*tick*/) noexcept {
+  feedback.on = on_;
+}
 
 void MockNewInterface::send(const Tick& /*tick*/) noexcept {
   if (is_inhibited() || !fault().is_ok()) commanded_ = false;
