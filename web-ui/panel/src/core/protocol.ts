@@ -47,8 +47,6 @@ export interface Fault {
   readonly cause: string;
   /** When it was seen first, CLOCK_MONOTONIC of the application; a longer standstill is a new one. */
   readonly since_ns: number;
-  /** What to do about it, where the component says so. */
-  readonly remedy?: string;
 }
 
 export interface ControlSession {

@@ -82,9 +82,9 @@ export function titleOf(application: string, known: Known): string {
   return state && state.faults.length > 0 ? `✕ ${faultCount(state.faults.length)} · ${name}` : name;
 }
 
-/** What to do about a fault, when it does not say so itself. */
+/** What to do about a fault, beside what its cause says. */
 export function remedyOf(fault: Omit<Fault, 'since_ns'>): string {
   if (fault.kind === 'thread' || fault.kind === 'process')
     return 'Find out what kept it from its work: a debugger, another program of high priority, a machine without real time. Then clear the stop and give Start.';
-  return fault.remedy ?? `Remove the cause, then initialise ${fault.component} on its page. What it moves waits for the next Start motion.`;
+  return `Remove the cause, then initialise ${fault.component} on its page. What it moves waits for the next Start motion.`;
 }

@@ -102,10 +102,10 @@ describe('the page of a unit', () => {
   });
 
   it('shows cause and remedy of a fault', async () => {
-    fake.says({ faults: [{ component: 'axis[0]', kind: 'unit', since_ns: 1, cause: 'too hot', remedy: 'Let it cool.' }] });
+    fake.says({ faults: [{ component: 'axis[0]', kind: 'unit', since_ns: 1, cause: 'too hot' }] });
     fake.topic('components', [alive('axis[0]', { life: 'fault', fault: 'too hot' })]);
     await settled();
-    expect(page().shadowRoot!.querySelector('[role=alert]')!.textContent!.replace(/\s+/g, ' ')).toContain('Cause too hot Remedy Let it cool.');
+    expect(page().shadowRoot!.querySelector('[role=alert]')!.textContent!.replace(/\s+/g, ' ')).toContain('Cause too hot Remedy Remove the cause, then initialise axis[0]');
   });
 
   // [exec-25]
