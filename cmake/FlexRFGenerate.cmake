@@ -8,7 +8,8 @@
 #   flexrf_add_application([NAME name] [SOURCES ...] [LIBRARIES ...] [WITHOUT_PANEL])
 #                                                                    NAME.toml, types/, units/*/, widgets/ of its own
 #
-# NAME is the folder's name unless given; an interface's and a driver's is that of the folder's only table. A unit `jog` is the target FlexRF::unit_jog, an interface FlexRF::interface_NAME,
+# NAME is the folder's name unless given; an interface's and a driver's is that of the folder's only table. A unit `jog` is the
+# target FlexRF::unit_jog, an interface FlexRF::interface_NAME,
 # a driver FlexRF::driver_NAME; an application is the executable NAME, and NAME_application is all of it but main().
 # Where the panel was built, an application carries it, unless WITHOUT_PANEL.
 # LIBRARIES are what the author's sources need beyond the runtime, the types and the interfaces that the table names; a driver's can

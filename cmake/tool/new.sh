@@ -115,8 +115,10 @@ find_interfaces() {
 
 new_driver() {
   local interface=$1 name=$2 family mock old class stem
+  local -a known
   find_interfaces
-  known_word interface "$interface" "${!tables[@]}"
+  mapfile -t known < <(printf '%s\n' "${!tables[@]}" | sort)
+  known_word interface "$interface" "${known[@]}"
   need_snake_case "$name" "a driver" schunk
   family=hal/$(dirname "$(dirname "${tables[$interface]}")")
   need_free_folder "$name" "$family/$name"

@@ -35,6 +35,9 @@ may hal/gripper/canopen/tests/canopen_gripper_test.cpp hal/servo_drive/canopen/t
 may hal/gripper/conformance/gripper_cases.hpp tests/conformance.hpp
 may units/jog/jog.cpp hal/operator/keyboard/interface/key_tracker.hpp
 may units/jog/tests/jog_test.cpp hal/operator/keyboard/mock/mock_keyboard.hpp
+may units/jog/tests/jog_test.cpp hal/robot_arm/simulated/simulated_arm.hpp
+may units/jog/tests/jog_test.cpp hal/driver/device_bench.hpp
+may units/jog/tests/jog_test.cpp tests/cmocka.hpp
 may web-ui/server/panel.cpp runtime/face/face.hpp
 may apps/keyboard/main.cpp hal/camera/v4l2/v4l2_camera.hpp
 
@@ -48,6 +51,8 @@ may_not hal/gripper/mock/mock_gripper.cpp hal/camera/v4l2/v4l2_camera.hpp "of an
 may_not hal/gripper/robotiq/robotiq_gripper.cpp hal/modbus/link/simulated/simulated_modbus_link.hpp "of another family only its interface/"
 may_not hal/robot_arm/mock/mock_arm.hpp hal/servo_drive/canopen/canopen_servo_drive.hpp "of another family only its interface/"
 may_not units/jog/jog.cpp hal/operator/keyboard/mock/mock_keyboard.hpp "a unit knows interfaces only"
+may_not units/jog/tests/jog_test.cpp hal/robot_arm/melfa_mxt/mxt_arm.hpp "its tests also mocks and what is simulated"
+may_not units/jog/tests/jog_test.cpp apps/keyboard/world.hpp "units/ may include only"
 may_not units/jog/jog.cpp apps/keyboard/world.hpp "units/ may include only"
 
 finish

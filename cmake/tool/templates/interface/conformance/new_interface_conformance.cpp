@@ -19,25 +19,19 @@ bool command(NewInterfaceWorld& world, bool on) {
 }
 
 Verdict it_follows_what_it_is_commanded(NewInterfaceWorld& world) {
-  if (!world.start({})) return Verdict::failed;
+  if (!world.start()) return Verdict::failed;
   return verdict(command(world, true) && command(world, false) && command(world, true) &&
                  world.feedback().switched == 3);
 }
 
 Verdict it_is_off_until_it_is_commanded(NewInterfaceWorld& world) {
-  if (!world.start({})) return Verdict::failed;
+  if (!world.start()) return Verdict::failed;
   world.cycle(nullptr);
   return verdict(!world.is_on() && !world.feedback().on);
 }
 
-Verdict it_is_on_from_the_start_if_it_is_to_be(NewInterfaceWorld& world) {
-  if (!world.start({.on_at_start = true})) return Verdict::failed;
-  world.cycle(nullptr);
-  return verdict(world.is_on());
-}
-
 Verdict while_inhibited_it_is_off_and_remembers_no_command(NewInterfaceWorld& world) {
-  if (!world.start({}) || !command(world, true)) return Verdict::failed;
+  if (!world.start() || !command(world, true)) return Verdict::failed;
   world.device().set_inhibited(true);
   const bool on = true;
   world.cycle(&on);
@@ -48,7 +42,7 @@ Verdict while_inhibited_it_is_off_and_remembers_no_command(NewInterfaceWorld& wo
 }
 
 Verdict its_safe_state_is_off(NewInterfaceWorld& world) {
-  if (!world.start({}) || !command(world, true)) return Verdict::failed;
+  if (!world.start() || !command(world, true)) return Verdict::failed;
   return verdict(world.device().make_safe() && !world.is_on());
 }
 
@@ -59,7 +53,6 @@ int run_new_interface_conformance(const char* driver, MakeNewInterfaceWorld make
   const CMUnitTest tests[] = {
       cmocka_unit_test(judged<it_follows_what_it_is_commanded>),
       cmocka_unit_test(judged<it_is_off_until_it_is_commanded>),
-      cmocka_unit_test(judged<it_is_on_from_the_start_if_it_is_to_be>),
       cmocka_unit_test(judged<while_inhibited_it_is_off_and_remembers_no_command>),
       cmocka_unit_test(judged<its_safe_state_is_off>),
   };

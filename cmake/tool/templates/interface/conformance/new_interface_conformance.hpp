@@ -8,15 +8,11 @@
 
 namespace flexrf {
 
-struct NewInterfaceSettings {
-  bool on_at_start = false;
-};
-
 class NewInterfaceWorld {
  public:
   virtual ~NewInterfaceWorld() = default;
 
-  virtual Status start(const NewInterfaceSettings& settings) = 0;
+  virtual Status start() = 0;
   virtual NewInterface& device() = 0;
   virtual const NewInterfaceInterface::Feedback& feedback() = 0;
   /// A cycle of its thread: receive, then what the unit commands, then send.

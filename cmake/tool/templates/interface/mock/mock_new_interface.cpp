@@ -4,8 +4,7 @@ namespace flexrf {
 
 Status MockNewInterface::initialise() {
   feedback = {};
-  on_ = false;
-  commanded_ = configuration.on_at_start;
+  on_ = commanded_ = false;
   return {};
 }
 

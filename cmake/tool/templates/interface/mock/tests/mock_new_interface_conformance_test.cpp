@@ -7,10 +7,7 @@ namespace {
 
 class MockWorld final : public NewInterfaceWorld {
  public:
-  Status start(const NewInterfaceSettings& settings) override {
-    bench_.configuration().on_at_start = settings.on_at_start;
-    return bench_.driver().initialise();
-  }
+  Status start() override { return bench_.driver().initialise(); }
   NewInterface& device() override { return bench_.driver(); }
   const NewInterfaceInterface::Feedback& feedback() override { return bench_.feedback(); }
   void cycle(const bool* command) override {
