@@ -12,12 +12,19 @@ count() { printf '%d %d\n' "$1" "$2" >>"$counts"; } # count TESTS FAILED: what a
 
 apart() ("$@") # in a shell of its own
 
+# In one whose children alone count: those that run behind, and end meanwhile, are the caller's. The shell tells the times on
+# its own standard error, which is not the command's.
+timed_apart() (
+  TIMEFORMAT='%3R %3U %3S'
+  time apart "$@" 2>&1
+  exit "$?" # as what comes last would have the shell's standard error, too
+)
+
 measure() {  # measure NAME COMMAND...: leaves time, time on all CPUs and result; a failure does not stop the next stage
-  local name=$1 result=passed wall user system counts=$stages/$1.counts TIMEFORMAT='%3R %3U %3S'
+  local name=$1 result=passed wall user system counts=$stages/$1.counts
   shift
   : >"$counts"
-  # The shell tells the times on its own standard error, which is not the command's.
-  { time apart "$@" 2>&1 || result=FAILED; } 2>"$stages/$name.times"
+  { timed_apart "$@" || result=FAILED; } 2>"$stages/$name.times"
   # No failure is lost in the sum.
   [[ $result == passed ]] || grep -q -v ' 0$' "$counts" || count 1 1
   read -r wall user system <<<"$(tail -n 1 "$stages/$name.times" | tr -d .,)"

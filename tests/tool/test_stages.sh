@@ -6,6 +6,10 @@ shopt -s extglob
 
 stand_in ctest <<'BODY'
 echo "long: ${FLEXRF_LONG-unset}" >>"$STAND_IN/calls"
+if [[ $2 == */tsan && -e $STAND_IN/busy ]]; then # until the build of asan behind is over, and its shell
+  until [[ -s $STAND_IN/tree/build/.stages/build\ asan.result ]]; do sleep 0.1; done
+  sleep 0.5
+fi
 [[ $2 == */checked && -e $STAND_IN/failing ]] && { echo "75% tests passed, 1 tests failed out of 4"; exit 8; }
 echo "100% tests passed, 0 tests failed out of 4"
 BODY
@@ -48,6 +52,13 @@ flexrf test tsan debug </dev/null
 expect "exit code of two presets" "$status" 0
 expect "presets" "$(grep '^ctest' "$calls" | sed 's|.*/build/\([a-z]*\) .*|\1|')" "tsan"$'\n'"debug"
 expect "last line of two presets" "$(last_line)" "100% tests passed, 0 tests failed out of 10"
+
+# What builds behind ends while the tests of asan wait.
+touch "$work/busy"
+flexrf test tsan asan </dev/null
+expect "processor time of a build" "$output" "*"$'\n'"build asan +([^s])s +( )[1-9]* s   passed*"
+expect "processor time of tests that wait" "$output" "*"$'\n'"test tsan +([^s])s +( )0.? s   passed*"
+rm "$work/busy"
 
 touch "$work/failing"
 : >"$calls"
