@@ -275,6 +275,9 @@ guest_test() {  # guest_test NAME: sets result, taken (microseconds) and told, w
     result="Failed: $lost" taken=0
   fi
   [[ $result == Passed ]] || told=$(printf 'The console of the guest during %s:\n' "$1" && show_console "$offset" "$mark")
+  # QEMU's CAN controllers are read from another place than they are written at once the machine was reset: they would tell
+  # frames of before.
+  if [[ $1 == *_reset_guest_test ]]; then stop_guest; fi
 }
 
 next_test() {  # prints the number of the one that is nobody's yet; fails when there is none

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # `guest` runs a command in the machine; `test --guest` runs the tests in it, shows the console of what fails, gives the next
-# test a machine of its own when one takes the machine down, and says when there can be no machine.
+# test a machine of its own when one takes the machine down, or has it reset, and says when there can be no machine.
 source "$(dirname "$0")/stand_in.sh"
 source "$(dirname "$0")/stand_in_guest.sh"
 
@@ -51,6 +51,15 @@ expect "exit code when the machine ends" "$status" 1
 expect "the next one" "$output" "*hello from first*the machine ended by itself*second*Passed*"
 expect "machines when one ends" "$(boots)" 2
 rm "$work/guest/first"
+
+: >"$calls"
+printf '%s\n' dog_reset_guest_test second >"$tree/build/release/guest_tests.txt"
+echo resets >"$work/guest/dog_reset_guest_test"
+flexrf test --guest </dev/null
+expect "exit code when the machine is reset" "$status" 0
+expect "what has it reset" "$output" "*dog_reset_guest_test *Passed*second *Passed*"
+expect "machines when one was reset" "$(boots)" 2
+printf '%s\n' first second >"$tree/build/release/guest_tests.txt"
 
 : >"$calls"
 touch "$work/guest/broken"

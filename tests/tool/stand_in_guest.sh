@@ -1,7 +1,7 @@
 # Sourced after stand_in.sh: a stand-in for QEMU and what is in it, which answers as image/guest/init does. The tests `first`
 # and `second` are in it. What a test does there is in $work/guest/NAME: nothing (it passes), `ends STATUS`, `takes the
-# machine down`, or `meets NAME` (it passes when that one has begun too). What does not boot is told by $work/guest/broken.
-# The host has as many CPUs as $work/guest/cpus says, or one.
+# machine down`, `meets NAME` (it passes when that one has begun too), or `resets` (its watchdog resets the machine). What
+# does not boot is told by $work/guest/broken. The host has as many CPUs as $work/guest/cpus says, or one.
 # shellcheck shell=bash disable=SC2154 # tree and work are stand_in.sh's
 
 mkdir -p "$tree/image/guest" "$tree/build/release" "$work/guest"
@@ -20,12 +20,13 @@ stand_in qemu-system-x86_64 <<'BODY'
 for word; do
   case $word in
     pipe,id=control,path=*) control=${word#pipe,id=control,path=} ;;
+    pipe,id=monitor,path=*) monitor=${word#pipe,id=monitor,path=} ;;
     file,id=console,path=*) console=${word#file,id=console,path=} console=${console%,append=on} ;;
     file,id=output,path=*) output=${word#file,id=output,path=} ;;
     file,id=errors,path=*) errors=${word#file,id=errors,path=} ;;
   esac
 done
-exec 8<>"$control.in" 9<>"$control.out"
+exec 7<>"$monitor.out" 8<>"$control.in" 9<>"$control.out"
 [[ -e $STAND_IN/guest/broken ]] && { echo "Kernel panic" >>"$console"; exit 0; }
 mount_repository() { echo mounted >&9; }
 run_test() {
@@ -35,6 +36,11 @@ run_test() {
   read -r word status <<<"$does"
   : >"$STAND_IN/guest/${4##*/}.begun"
   [[ $word == takes ]] && exit 0
+  if [[ $word == resets && $3 != FLEXRF_AFTER_RESET=1 ]]; then
+    echo '{"event": "WATCHDOG"}' >&7
+    echo ready >&9
+    return
+  fi
   if [[ $word == meets ]]; then
     until [[ -e $STAND_IN/guest/$status.begun ]]; do sleep 0.01; done
     status=0
