@@ -2,6 +2,7 @@
 // program: what is told at the start, a second run, values that survive, a save that fails.
 #include <sys/ptrace.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -169,6 +170,51 @@ pid_t thread_named(pid_t process, const std::string& name) {
   return 0;
 }
 
+/// A thread that does nothing any more, from a moment on in which it sleeps: whoever is stopped elsewhere may
+/// hold a lock that all need, of the library or of a sanitizer.
+class StoppedThread {
+ public:
+  StoppedThread(pid_t process, const std::string& name) : thread_(thread_named(process, name)) {
+    CHECK(thread_ > 0);
+    const std::string call =
+        "/proc/" + std::to_string(process) + "/task/" + std::to_string(thread_) + "/syscall";
+    const std::string sleeps = std::to_string(SYS_clock_nanosleep) + " ";
+    CHECK(wait_until([&] {
+      if (!contents_of(call).starts_with(sleeps)) return false;
+      stop();
+      if (contents_of(call).starts_with(sleeps)) return true;
+      go_on();
+      return false;
+    }));
+  }
+  StoppedThread(const StoppedThread&) = delete;
+  StoppedThread& operator=(const StoppedThread&) = delete;
+  ~StoppedThread() {
+    if (is_stopped_) go_on();
+  }
+
+  /// It is this process's until its end was seen.
+  void wait_for_end() {
+    CHECK(waitpid(thread_, nullptr, __WALL) == thread_);
+    is_stopped_ = false;
+  }
+
+ private:
+  void stop() {
+    CHECK(ptrace(PTRACE_SEIZE, thread_, nullptr, nullptr) == 0);
+    is_stopped_ = true;
+    CHECK(ptrace(PTRACE_INTERRUPT, thread_, nullptr, nullptr) == 0);
+    CHECK(waitpid(thread_, nullptr, __WALL) == thread_);
+  }
+  void go_on() noexcept {
+    ptrace(PTRACE_DETACH, thread_, nullptr, nullptr);
+    is_stopped_ = false;
+  }
+
+  pid_t thread_;
+  bool is_stopped_ = false;
+};
+
 /// As on a disk that does not answer: units, supervision and log go on, and the end does not wait for ever.
 // [exec-35]
 void a_writing_that_hangs_holds_nobody_up() {
@@ -176,17 +222,12 @@ void a_writing_that_hangs_holds_nobody_up() {
   Process process(folder, words_with_file({"--report", "report"}));
   process.type("g");
   CHECK(is_saved(folder, "<gain>3</gain>"));
-  const pid_t saver = thread_named(process.id(), "saver");
-  CHECK(saver > 0);
-  CHECK(ptrace(PTRACE_SEIZE, saver, nullptr, nullptr) == 0);
-  CHECK(ptrace(PTRACE_INTERRUPT, saver, nullptr, nullptr) == 0);
-  CHECK(waitpid(saver, nullptr, __WALL) == saver);
+  StoppedThread saver(process.id(), "saver");
   process.type("dn");
   process.wait_for_error("it changed its own values, and they are refused: gain: nan");
   process.send(SIGTERM);
   process.wait_for_error("the values were not saved: 'cell.xml': its file system does not answer");
-  // It is this process's until the end of it was seen.
-  CHECK(waitpid(saver, nullptr, __WALL) == saver);
+  saver.wait_for_end();
   CHECK_EQUAL(process.wait().exit_code, 2);  // for the fault
   CHECK_EQUAL(Report(folder / "report").last("tuner.values").at("gain"), 1.0);
   CHECK_CONTAINS(contents_of(folder / "cell.xml"), "<gain>3</gain>");
