@@ -37,7 +37,7 @@ std::string interface_base_header(const Model& model, const Interface& interface
 std::string interface_base_source(const Model& model, const Interface& interface);
 std::string driver_base_header(const Model& model, const Driver& driver);
 std::string driver_base_source(const Model& model, const Driver& driver);
-std::string driver_construct_source(const Driver& driver);
+std::string driver_construct_source(const Model& model, const Driver& driver);
 
 // Names that the generated code gives.
 std::string unit_component_name(const UnitType& unit);    // jog_unit_component

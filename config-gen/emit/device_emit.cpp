@@ -29,6 +29,25 @@ std::string block_initialiser(const BlockText& block, const Space& space, const 
          space.of(interface, block.plain.identifier) + "_parameters}";
 }
 
+// What moves something is led by the guard, and what is led by it says so in its table. A bus has what it
+// carries do it.
+std::string guard_check(const Interface& interface, const Driver& driver, const std::string& row) {
+  if (interface.bus) return "";
+  const std::string guarded =
+      std::string(Space(driver.space).runtime()) + "GuardedDriver<" + driver.class_name + ">";
+  if (driver.actuates) {
+    return "static_assert(" + guarded + ",\n              " +
+           string_literal(row + " actuates, so " + interface.class_name + " has to derive from Actuator<" +
+                          base_of(interface) + "> (hal/driver/actuator.hpp)") +
+           ");\n";
+  }
+  return "static_assert(!" + guarded + ",\n              " +
+         string_literal(row +
+                        " is led by the guard of what moves something: its table has to say "
+                        "actuates = true") +
+         ");\n";
+}
+
 bool connects(const Interface& interface) {
   return !interface.outputs.empty() || !interface.resources.empty();
 }
@@ -198,7 +217,7 @@ std::string driver_base_source(const Model& model, const Driver& driver) {
   return out.take();
 }
 
-std::string driver_construct_source(const Driver& driver) {
+std::string driver_construct_source(const Model& model, const Driver& driver) {
   const std::string row = short_path(driver.file) + ": class " + driver.class_name;
   const Space space(driver.space);
   Text out;
@@ -208,7 +227,8 @@ std::string driver_construct_source(const Driver& driver) {
       << "static_assert(std::is_base_of_v<" << driver.base_class << ", " << driver.class_name
       << ">,\n              " << string_literal(row + " must derive from " + driver.base_class) << ");\n"
       << "static_assert(!std::is_abstract_v<" << driver.class_name << ">,\n              "
-      << string_literal(row + " must have every function of its interface") << ");\n\n"
+      << string_literal(row + " must have every function of its interface") << ");\n"
+      << guard_check(model.interfaces[driver.interface], driver, row) << "\n"
       << space.runtime() << "Device* " << driver_construct_name(driver)
       << "(void* storage) { return new (storage) " << driver.class_name << "; }\n\n"
       << space.close();

@@ -52,7 +52,7 @@ void emit_interface(const Model& model, const Interface& interface, Files& files
 void emit_driver(const Model& model, const Driver& driver, Files& files) {
   files.push_back({driver.base_header, driver_base_header(model, driver)});
   files.push_back({driver.stem + "_driver.cpp", driver_base_source(model, driver)});
-  files.push_back({driver.stem + "_construct.cpp", driver_construct_source(driver)});
+  files.push_back({driver.stem + "_construct.cpp", driver_construct_source(model, driver)});
   files.push_back({"reference.md", driver_reference(model, driver)});
 }
 

@@ -12,7 +12,31 @@ class CanopenDrive : public Base {
  public:
   void stop() override { link_.close(); }
 
-  void receive(const Tick& tick) noexcept override {
+  std::optional<ServoState> state() const noexcept override { return link_.state(); }
+  const Status& homing_problem() const noexcept override { return link_.axis().homing_problem(); }
+  void halt() noexcept override { link_.axis().halt(); }
+
+ protected:
+  /// What the interface's configuration says.
+  canopen::cia402::AxisPlan plan_from_interface() const noexcept {
+    const auto& from = this->configuration;
+    canopen::cia402::AxisPlan plan;
+    plan.mode = canopen::mode_of(from.mode);
+    plan.lowest = from.lowest;
+    plan.highest = from.highest;
+    plan.endless = from.endless;
+    plan.modulo = from.modulo;
+    plan.fastest = from.fastest;
+    plan.acceleration = from.acceleration;
+    plan.homing_method = from.homing_method;
+    plan.homing_speed = from.homing_speed;
+    plan.homing_timeout = canopen::whole_milliseconds(from.homing_timeout);
+    return plan;
+  }
+  Status open(const canopen::cia402::AxisPlan& plan) { return link_.open(plan, *this->bus); }
+
+ private:
+  void take_in(const Tick& tick) noexcept override {
     link_.receive(tick);
     link_.tell_own_ramps(this->name());
     auto& told = this->feedback;
@@ -37,62 +61,25 @@ class CanopenDrive : public Base {
                     tick.now);
   }
 
-  void send(const Tick& tick) noexcept override {
-    if (this->is_inhibited()) made_safe_ = false;
-    link_.send(tick, takes_commands() && this->fault().is_ok());
+  // An axis that may not move forgets by itself what it was commanded.
+  void forget() noexcept override {}
+  void act(const Tick& tick) noexcept override { exchange(tick, true); }
+  void rest(const Tick& tick) noexcept override { exchange(tick, false); }
+  void exchange(const Tick& tick, bool may_move) noexcept {
+    link_.send(tick, may_move);
     if (const Restraint held = link_.axis().take_restraint(); held.reason != nullptr)
       this->restrain(held.reason, held.asked, held.given);
     if (!link_.axis().fault().is_ok()) this->fail(link_.axis().fault());
   }
 
-  bool make_safe() noexcept override {
-    made_safe_ = true;
-    return link_.axis().is_off();
-  }
+  bool become_safe() noexcept override { return link_.axis().is_off(); }
 
-  std::optional<ServoState> state() const noexcept override { return link_.state(); }
-  void command_position(double position) noexcept override {
-    if (takes_commands()) link_.axis().command_position(position);
-  }
-  void command_velocity(double velocity) noexcept override {
-    if (takes_commands()) link_.axis().command_velocity(velocity);
-  }
-  void move_to(double position, double speed) noexcept override {
-    if (takes_commands()) link_.axis().move_to(position, speed);
-  }
-  void home() noexcept override {
-    if (takes_commands()) link_.axis().home();
-  }
-  const Status& homing_problem() const noexcept override { return link_.axis().homing_problem(); }
-  void halt() noexcept override { link_.axis().halt(); }
-
- protected:
-  /// What the interface's configuration says.
-  canopen::cia402::AxisPlan plan_from_interface() const noexcept {
-    const auto& from = this->configuration;
-    canopen::cia402::AxisPlan plan;
-    plan.mode = canopen::mode_of(from.mode);
-    plan.lowest = from.lowest;
-    plan.highest = from.highest;
-    plan.endless = from.endless;
-    plan.modulo = from.modulo;
-    plan.fastest = from.fastest;
-    plan.acceleration = from.acceleration;
-    plan.homing_method = from.homing_method;
-    plan.homing_speed = from.homing_speed;
-    plan.homing_timeout = canopen::whole_milliseconds(from.homing_timeout);
-    return plan;
-  }
-  Status open(const canopen::cia402::AxisPlan& plan) {
-    made_safe_ = false;
-    return link_.open(plan, *this->bus);
-  }
-
- private:
-  bool takes_commands() const noexcept { return !this->is_inhibited() && !made_safe_; }
+  void follow_position(double position) noexcept override { link_.axis().command_position(position); }
+  void follow_velocity(double velocity) noexcept override { link_.axis().command_velocity(velocity); }
+  void begin_move(double position, double speed) noexcept override { link_.axis().move_to(position, speed); }
+  void begin_homing() noexcept override { link_.axis().home(); }
 
   canopen::AxisOnBus link_;
-  bool made_safe_ = false;  // until the permission to move was withdrawn
 };
 
 }  // namespace flexrf

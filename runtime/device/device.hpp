@@ -77,4 +77,10 @@ class Device : public Component {
   std::atomic<bool> inhibited_{true};
 };
 
+/// A driver whose interface is an Actuator (hal/driver/actuator.hpp): it acts only while it may.
+template <class Driver>
+concept GuardedDriver = requires {
+  typename Driver::Guard;
+};
+
 }  // namespace flexrf

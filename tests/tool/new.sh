@@ -53,7 +53,7 @@ flexrf new interface lamp_post </dev/null
 expect "exit code of an interface" "$status" 0
 expect "files of an interface" "$(made "$tree/hal/lamp_post")" \
   "./conformance/lamp_post_conformance.cpp ./conformance/lamp_post_conformance.hpp ./interface/lamp_post.hpp ./interface/lamp_post.toml *"
-expect "class of an interface" "$(<"$tree/hal/lamp_post/interface/lamp_post.hpp")" "*class LampPost : public LampPostInterface {*"
+expect "class of an interface" "$(<"$tree/hal/lamp_post/interface/lamp_post.hpp")" "*class LampPost : public Actuator<LampPostInterface> {*"
 expect "next steps" "$output" "*./flexrf new driver LampPost NAME *"
 
 expect "names left from the template" "$(grep -r -i -E 'new.?(unit|app|interface)' "$tree/units" "$tree/apps" "$tree/hal")" ""

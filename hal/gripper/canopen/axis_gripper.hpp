@@ -2,8 +2,7 @@
 #pragma once
 
 #include "hal/gripper/canopen/gripper_axis.hpp"
-#include "hal/gripper/interface/gripper_report.hpp"
-#include "types/gripper_safe_state.hpp"
+#include "hal/gripper/interface/gripper.hpp"
 
 namespace flexrf {
 
@@ -13,29 +12,6 @@ template <class Base>
 class AxisGripper : public Base {
  public:
   void stop() override { control_.close(); }
-
-  void receive(const Tick& tick) noexcept override {
-    control_.receive(tick);
-    control_.tell_own_ramps(this->name());
-    report_.fill(this->name(), this->feedback, control_.state(), control_.trouble());
-  }
-
-  void send(const Tick& tick) noexcept override {
-    const bool safe = this->is_inhibited() || !this->fault().is_ok();
-    if (!safe) releasing_ = false;
-    if (safe && !releasing_) control_.halt();
-    control_.send(tick);
-  }
-
-  bool make_safe() noexcept override {
-    if (this->configuration.safe_state == GripperSafeState::hold || !(releasing_ || control_.is_active())) {
-      control_.halt();
-    } else if (!releasing_) {
-      control_.command({.opening = this->configuration.open_width});
-      releasing_ = true;
-    }
-    return control_.is_at_rest();
-  }
 
   GripperCapabilities capabilities() const noexcept override {
     return {.open_width = this->configuration.open_width,
@@ -53,15 +29,6 @@ class AxisGripper : public Base {
   std::optional<GripperState> state() const noexcept override { return control_.state(); }
   const Status& trouble() const noexcept override { return control_.trouble(); }
 
-  void activate() noexcept override {
-    if (!this->is_inhibited()) control_.activate();
-  }
-  void command(const GripperGoal& goal) noexcept override {
-    if (this->is_inhibited()) return;
-    if (const Status status = check_goal(goal, capabilities()); !status) return this->fail(status);
-    this->restrain(restraint_of(goal, capabilities()));
-    control_.command({within_reach(goal.opening, capabilities()), goal.speed, goal.force});
-  }
   void halt() noexcept override { control_.halt(); }
 
  protected:
@@ -78,8 +45,7 @@ class AxisGripper : public Base {
     return plan;
   }
   Status open(const canopen::GripperAxisPlan& plan, const canopen::cia402::AxisPlan& axis) {
-    report_.reset();
-    releasing_ = false;
+    this->begin(this->configuration);
     limits_force_ = axis.limits_torque;
     tells_speed_ = axis.tells_speed;
     fastest_ = axis.fastest;
@@ -89,9 +55,17 @@ class AxisGripper : public Base {
   }
 
  private:
+  void hear(const Tick& tick) noexcept override {
+    control_.receive(tick);
+    control_.tell_own_ramps(this->name());
+  }
+  void begin_activation() noexcept override { control_.activate(); }
+  void go(const GripperGoal& goal) noexcept override { control_.command(goal); }
+  bool is_ready() const noexcept override { return control_.is_active(); }
+  bool is_at_rest() const noexcept override { return control_.is_at_rest(); }
+  void tell(const Tick& tick, bool /*safe*/) noexcept override { control_.send(tick); }
+
   canopen::GripperAxis control_;
-  GripperReport report_;
-  bool releasing_ = false;  // on account of make_safe(), until it may move again
   bool limits_force_ = false;
   bool tells_speed_ = true;
   double fastest_ = 0;  // m/s

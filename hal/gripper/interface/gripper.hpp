@@ -5,7 +5,10 @@
 #include <optional>
 
 #include "gripper_interface.hpp"
+#include "hal/driver/actuator.hpp"
+#include "hal/gripper/interface/gripper_report.hpp"
 #include "types/gripper_object.hpp"
+#include "types/gripper_safe_state.hpp"
 
 namespace flexrf {
 
@@ -48,7 +51,7 @@ struct GripperState {
 /// Everything: the thread the gripper lives in. Commands are sent at the end of the cycle; without effect
 /// while is_inhibited(), and not remembered: what it was at is ended, and the fingers stay as they
 /// are [gripper-3].
-class Gripper : public GripperInterface {
+class Gripper : public Actuator<GripperInterface> {
  public:
   /// From initialise() on, always the same.
   virtual GripperCapabilities capabilities() const noexcept = 0;
@@ -62,17 +65,56 @@ class Gripper : public GripperInterface {
   /// Makes it follow commands, after power-on and after a fault [gripper-6]: the fingers may go all their way
   /// to both ends, and drop what they hold. Without effect while it is activated and nothing is wrong, so a
   /// unit may call it whenever a person starts it.
-  virtual void activate() noexcept = 0;
+  void activate() noexcept {
+    if (may_act()) begin_activation();
+  }
   /// Towards an opening, gripping what is in the way [gripper-7]. Without effect while it is not
   /// activated [gripper-8]. Replaces the goal before. Not a finite number, or an opening that it cannot go
   /// to: fault [gripper-9].
-  virtual void command(const GripperGoal& goal) noexcept = 0;
+  void command(const GripperGoal& goal) noexcept;
   /// Ends the motion where the fingers are [gripper-10], and holds what they hold; else, as capabilities()
   /// say, at the end.
   virtual void halt() noexcept = 0;
 
   void open() noexcept { command({.opening = capabilities().open_width}); }
   void close() noexcept { command({.opening = capabilities().closed_width}); }
+
+ protected:
+  /// In initialise(), by every driver, with its configuration.
+  void begin(const auto& configuration) noexcept {
+    safe_state_ = configuration.safe_state;
+    releasing_ = false;
+    report_.reset();
+  }
+
+ private:
+  /// In receive(): what arrived.
+  virtual void hear(const Tick& tick) noexcept = 0;
+  /// A command that is taken.
+  virtual void begin_activation() noexcept = 0;
+  /// Likewise: a goal within what it can. Without effect unless is_ready().
+  virtual void go(const GripperGoal& goal) noexcept = 0;
+  /// It is heard and activated: a goal is followed.
+  virtual bool is_ready() const noexcept = 0;
+  virtual bool is_at_rest() const noexcept = 0;
+  /// The end of the cycle. `safe`: it may not act.
+  virtual void tell(const Tick& tick, bool safe) noexcept = 0;
+
+  void take_in(const Tick& tick) noexcept final;
+  // To release is under way, or done, on account of make_safe(): only what it was commanded is given up.
+  void forget() noexcept final {
+    if (!releasing_) halt();
+  }
+  void act(const Tick& tick) noexcept final {
+    releasing_ = false;
+    tell(tick, false);
+  }
+  void rest(const Tick& tick) noexcept final { tell(tick, true); }
+  bool become_safe() noexcept final;
+
+  GripperReport report_;
+  GripperSafeState safe_state_ = GripperSafeState::hold;
+  bool releasing_ = false;  // until it may act again
 };
 
 }  // namespace flexrf

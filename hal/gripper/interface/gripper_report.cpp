@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/gripper/interface/gripper.hpp"
+
 namespace flexrf {
 
 Status check_widths(double closed_width, double open_width) noexcept {

@@ -1,10 +1,16 @@
 // What all drivers of Gripper have in common: goals are checked, and what happens is counted.
 #pragma once
 
+#include <optional>
+
+#include "gripper_interface.hpp"
 #include "hal/driver/trouble_log.hpp"
-#include "hal/gripper/interface/gripper.hpp"
 
 namespace flexrf {
+
+struct GripperCapabilities;
+struct GripperGoal;
+struct GripperState;
 
 /// Why this gripper cannot go there: not a finite number, a speed or force that is not above 0, or an opening
 /// between the ends of one that knows the ends alone.

@@ -12,11 +12,11 @@ Status MockGripper::initialise() {
   state_.reset();
   trouble_ = {};
   goal_.reset();
-  activating_ = releasing_ = false;
+  activating_ = false;
   last_cycle_ = Time{};
   noise_.seed(environment().seed);
   delay_.clear();
-  report_.reset();
+  begin(configuration);
   return {};
 }
 
@@ -32,7 +32,7 @@ GripperCapabilities MockGripper::capabilities() const noexcept {
           .halts = all};
 }
 
-void MockGripper::receive(const Tick& tick) noexcept {
+void MockGripper::hear(const Tick& tick) noexcept {
   const Duration elapsed = last_cycle_ == Time{} ? Duration{} : tick.now - last_cycle_;
   last_cycle_ = tick.now;
   if (fault_ != Fault::off) move(elapsed);
@@ -44,7 +44,6 @@ void MockGripper::receive(const Tick& tick) noexcept {
   if (!configuration.two_state) known_.opening = measured;
   state_.reset();
   if (is_heard()) state_ = known_;
-  report_.fill(name(), feedback, state_, trouble_);
 }
 
 void MockGripper::move(Duration elapsed) noexcept {
@@ -53,7 +52,7 @@ void MockGripper::move(Duration elapsed) noexcept {
     if (seconds(spent_) < configuration.activation) return;
     activating_ = false;
     known_.activated = true;
-    return rest(GripperObject::unknown);
+    return stand_still(GripperObject::unknown);
   }
   if (!goal_) return;
   const FingerModel::Outcome outcome =
@@ -61,12 +60,12 @@ void MockGripper::move(Duration elapsed) noexcept {
   switch (outcome) {
     case FingerModel::Outcome::arrived:
       // Without a new command, what was between the fingers is gone.
-      return rest(known_.holds_object() || known_.object == GripperObject::lost ? GripperObject::lost
-                                                                                : GripperObject::none);
+      return stand_still(known_.holds_object() || known_.object == GripperObject::lost ? GripperObject::lost
+                                                                                       : GripperObject::none);
     case FingerModel::Outcome::stopped_closing:
-      return rest(GripperObject::gripped);
+      return stand_still(GripperObject::gripped);
     case FingerModel::Outcome::stopped_opening:
-      return rest(GripperObject::gripped_inside);
+      return stand_still(GripperObject::gripped_inside);
     case FingerModel::Outcome::moves:
       break;
   }
@@ -74,18 +73,18 @@ void MockGripper::move(Duration elapsed) noexcept {
   trouble_ = Status::error(StatusCode::timeout, "the mock's fingers did not come to rest within %g s",
                            configuration.travel_timeout);
   goal_.reset();
-  rest(GripperObject::unknown);
+  stand_still(GripperObject::unknown);
 }
 
-void MockGripper::rest(GripperObject object) noexcept {
+void MockGripper::stand_still(GripperObject object) noexcept {
   known_.moving = false;
   known_.object = object;
 }
 
 void MockGripper::go(const GripperGoal& goal) noexcept {
+  if (!is_ready()) return;
   goal_ = goal;
-  goal_->opening = within_reach(goal.opening, capabilities());
-  if (configuration.object_width > 0 && goal_->opening < fingers_.opening() && !known_.holds_object())
+  if (configuration.object_width > 0 && goal.opening < fingers_.opening() && !known_.holds_object())
     fingers_.put_object(configuration.object_width);
   spent_ = {};
   known_.moving = true;
@@ -94,8 +93,8 @@ void MockGripper::go(const GripperGoal& goal) noexcept {
   if (state_) state_ = known_;
 }
 
-void MockGripper::activate() noexcept {
-  if (is_inhibited() || !is_heard() || activating_ || (known_.activated && trouble_.is_ok())) return;
+void MockGripper::begin_activation() noexcept {
+  if (!is_heard() || activating_ || (known_.activated && trouble_.is_ok())) return;
   if (fault_ == Fault::tripped) fault_ = Fault::none;
   trouble_ = {};
   goal_.reset();
@@ -107,40 +106,15 @@ void MockGripper::activate() noexcept {
   if (state_) state_ = known_;
 }
 
-void MockGripper::command(const GripperGoal& goal) noexcept {
-  if (is_inhibited()) return;
-  if (const Status status = check_goal(goal, capabilities()); !status) return fail(status);
-  restrain(restraint_of(goal, capabilities()));
-  if (is_heard() && known_.activated) go(goal);
-}
-
 void MockGripper::halt() noexcept {
   if (activating_) {
     activating_ = false;
-    rest(GripperObject::unknown);
+    stand_still(GripperObject::unknown);
   } else if (known_.moving && !configuration.two_state) {
     goal_.reset();
-    rest(GripperObject::unknown);
+    stand_still(GripperObject::unknown);
   }
   if (state_) state_ = known_;
-}
-
-void MockGripper::send(const Tick& /*tick*/) noexcept {
-  if (!is_inhibited() && fault().is_ok()) {
-    releasing_ = false;
-  } else if (!releasing_) {
-    halt();
-  }
-}
-
-bool MockGripper::make_safe() noexcept {
-  if (configuration.safe_state == GripperSafeState::hold || !known_.activated) {
-    halt();
-    return !known_.moving;
-  }
-  if (!releasing_) go({.opening = configuration.open_width});
-  releasing_ = true;
-  return !known_.moving;
 }
 
 void MockGripper::set_fault(Fault which) noexcept {
@@ -166,7 +140,7 @@ void MockGripper::set_fault(Fault which) noexcept {
   if (which != Fault::silent) known_.activated = false;
   goal_.reset();
   activating_ = false;
-  rest(GripperObject::unknown);
+  stand_still(GripperObject::unknown);
 }
 
 }  // namespace flexrf

@@ -4,7 +4,6 @@
 #include "hal/driver/mock/mock_delay.hpp"
 #include "hal/driver/mock/mock_noise.hpp"
 #include "hal/gripper/interface/finger_model.hpp"
-#include "hal/gripper/interface/gripper_report.hpp"
 #include "mock_gripper_driver.hpp"
 
 namespace flexrf {
@@ -22,15 +21,10 @@ class MockGripper final : public MockGripperDriver {
   };
 
   Status initialise() override;
-  void receive(const Tick& tick) noexcept override;
-  void send(const Tick& tick) noexcept override;
-  bool make_safe() noexcept override;
 
   GripperCapabilities capabilities() const noexcept override;
   std::optional<GripperState> state() const noexcept override { return state_; }
   const Status& trouble() const noexcept override { return trouble_; }
-  void activate() noexcept override;
-  void command(const GripperGoal& goal) noexcept override;
   void halt() noexcept override;
 
   // ---- for tests
@@ -43,9 +37,15 @@ class MockGripper final : public MockGripperDriver {
   const std::optional<GripperGoal>& goal() const noexcept { return goal_; }
 
  private:
+  void hear(const Tick& tick) noexcept override;
+  void begin_activation() noexcept override;
+  void go(const GripperGoal& goal) noexcept override;
+  bool is_ready() const noexcept override { return is_heard() && known_.activated; }
+  bool is_at_rest() const noexcept override { return !known_.moving; }
+  void tell(const Tick& /*tick*/, bool /*safe*/) noexcept override {}
+
   void move(Duration elapsed) noexcept;
-  void rest(GripperObject object) noexcept;
-  void go(const GripperGoal& goal) noexcept;
+  void stand_still(GripperObject object) noexcept;
   bool is_heard() const noexcept { return fault_ != Fault::silent && fault_ != Fault::off; }
 
   FingerModel fingers_{0, 1};
@@ -56,11 +56,9 @@ class MockGripper final : public MockGripperDriver {
   std::optional<GripperGoal> goal_;
   Duration spent_{};  // on what it is at
   bool activating_ = false;
-  bool releasing_ = false;  // on account of make_safe()
   Time last_cycle_{};
   MockNoise noise_;
   MockDelay<double> delay_;
-  GripperReport report_;
 };
 
 }  // namespace flexrf

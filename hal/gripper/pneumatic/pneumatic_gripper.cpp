@@ -16,15 +16,10 @@ Status PneumaticGripper::initialise() {
                   .dead_time = duration_of(configuration.dead_time),
                   .closed_centre = configuration.closed_centre,
                   .object_between = configuration.object_between});
-  report_.reset();
-  releasing_ = false;
-  // Whether a valve may be on is the control's to say, also while motion is inhibited: to open is safe for
-  // some, to stay closed for others.
+  begin(configuration);
   const auto valve = [&](std::string_view line) {
-    return DigitalLineSettings{.name = line,
-                               .direction = LineDirection::output,
-                               .active_low = configuration.valves_active_low,
-                               .signal = true};
+    return DigitalLineSettings{
+        .name = line, .direction = LineDirection::output, .active_low = configuration.valves_active_low};
   };
   const auto reed = [&](std::string_view line) {
     return DigitalLineSettings{.name = line,
@@ -51,49 +46,31 @@ std::optional<pneumatic::Reeds> PneumaticGripper::reeds() const noexcept {
   return pneumatic::Reeds{open->on, closed->on};
 }
 
-void PneumaticGripper::receive(const Tick& tick) noexcept {
-  now_ = tick.now;
+void PneumaticGripper::hear(const Tick& tick) noexcept {
   for (DigitalLine* line : {&reed_open_, &reed_closed_, &valve_open_, &valve_close_}) line->receive(tick.now);
   control_.receive(reeds(), tick.now);
-  report_.fill(name(), feedback, control_.state(), control_.trouble());
 }
 
-void PneumaticGripper::send(const Tick& tick) noexcept {
-  now_ = tick.now;
-  const bool safe = is_inhibited() || !fault().is_ok();
-  if (!safe) releasing_ = false;
-  if (safe && !releasing_) control_.halt();
-  switch_valves();
-}
-
+/// Whether a valve may be on is the control's to say, also while motion is inhibited: to open is safe for
+/// some, to stay closed for others.
+///
 /// The one that is to be off first. A chip that does not take that leaves it on: the other one waits until it
 /// is off, and for the dead time from then.
-void PneumaticGripper::switch_valves() noexcept {
+void PneumaticGripper::tell(const Tick& tick, bool /*safe*/) noexcept {
   const pneumatic::End on = control_.valve();
   const Duration dead_time = duration_of(configuration.dead_time);
   const auto set = [&](DigitalLine& valve, bool value) {
-    valve.command(value, false);
-    valve.send(now_, false);
+    valve.command(value);
+    valve.send(tick.now);
   };
   const auto is_vented = [&](const DigitalLine& valve) {
     const auto state = valve.state();
-    return state && !state->on && now_ - Time{Duration{state->since}} >= dead_time;
+    return state && !state->on && tick.now - Time{Duration{state->since}} >= dead_time;
   };
   if (on != pneumatic::End::open) set(valve_open_, false);
   if (on != pneumatic::End::closed) set(valve_close_, false);
   if (on == pneumatic::End::open && is_vented(valve_close_)) set(valve_open_, true);
   if (on == pneumatic::End::closed && is_vented(valve_open_)) set(valve_close_, true);
-}
-
-bool PneumaticGripper::make_safe() noexcept {
-  if (configuration.safe_state == GripperSafeState::hold || !control_.follows()) {
-    control_.halt();
-  } else if (!releasing_) {
-    control_.go(pneumatic::End::open);
-    releasing_ = true;
-  }
-  switch_valves();
-  return !control_.is_moving();
 }
 
 Time PneumaticGripper::next_event() const noexcept {
@@ -107,15 +84,8 @@ GripperCapabilities PneumaticGripper::capabilities() const noexcept {
           .halts = configuration.closed_centre};
 }
 
-void PneumaticGripper::activate() noexcept {
-  if (!is_inhibited()) control_.forgive();
-}
-
-void PneumaticGripper::command(const GripperGoal& goal) noexcept {
-  if (is_inhibited()) return;
-  if (const Status status = check_goal(goal, capabilities()); !status) return fail(status);
-  restrain(restraint_of(goal, capabilities()));
-  const bool to_open = within_reach(goal.opening, capabilities()) == configuration.open_width;
+void PneumaticGripper::go(const GripperGoal& goal) noexcept {
+  const bool to_open = goal.opening == configuration.open_width;
   control_.go(to_open ? pneumatic::End::open : pneumatic::End::closed);
 }
 

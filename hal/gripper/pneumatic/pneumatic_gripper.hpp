@@ -2,7 +2,6 @@
 #pragma once
 
 #include "hal/gpio/lines/interface/digital_line.hpp"
-#include "hal/gripper/interface/gripper_report.hpp"
 #include "hal/gripper/pneumatic/pneumatic_control.hpp"
 #include "pneumatic_gripper_driver.hpp"
 
@@ -13,30 +12,28 @@ class PneumaticGripper final : public PneumaticGripperDriver {
  public:
   Status initialise() override;
   void stop() override;
-  void receive(const Tick& tick) noexcept override;
-  void send(const Tick& tick) noexcept override;
-  bool make_safe() noexcept override;
   Time next_event() const noexcept override;
 
   GripperCapabilities capabilities() const noexcept override;
   std::optional<GripperState> state() const noexcept override { return control_.state(); }
   const Status& trouble() const noexcept override { return control_.trouble(); }
-  void activate() noexcept override;
-  void command(const GripperGoal& goal) noexcept override;
   void halt() noexcept override { control_.halt(); }
 
  private:
+  void hear(const Tick& tick) noexcept override;
+  void begin_activation() noexcept override { control_.forgive(); }
+  void go(const GripperGoal& goal) noexcept override;
+  bool is_ready() const noexcept override { return control_.follows(); }
+  bool is_at_rest() const noexcept override { return !control_.is_moving(); }
+  void tell(const Tick& tick, bool safe) noexcept override;
+
   std::optional<pneumatic::Reeds> reeds() const noexcept;
-  void switch_valves() noexcept;
 
   pneumatic::Control control_;
   DigitalLine valve_open_;
   DigitalLine valve_close_;
   DigitalLine reed_open_;
   DigitalLine reed_closed_;
-  GripperReport report_;
-  Time now_{};
-  bool releasing_ = false;  // on account of make_safe(), until it may move again
 };
 
 }  // namespace flexrf

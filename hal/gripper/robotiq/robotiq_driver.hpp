@@ -2,10 +2,9 @@
 // the link they are on.
 #pragma once
 
-#include "hal/gripper/interface/gripper_report.hpp"
+#include "hal/gripper/interface/gripper.hpp"
 #include "hal/gripper/robotiq/robotiq_control.hpp"
 #include "hal/modbus/station/interface/linked_station.hpp"
-#include "types/gripper_safe_state.hpp"
 
 namespace flexrf::robotiq {
 
@@ -47,34 +46,10 @@ class RobotiqDriver : public Base {
     plan.activation_timeout = duration_of(set.activation_timeout);
     if (const Status status = check(plan); !status) return status;
     control_.begin(plan);
-    report_.reset();
-    releasing_ = false;
+    this->begin(set);
     return end_.attach(*this->bus, this->name(), set.unit_id, duration_of(set.max_age));
   }
   void stop() override { end_.detach(); }
-
-  void receive(const Tick& tick) noexcept override {
-    end_.receive(control_, tick.now);
-    report_.fill(this->name(), this->feedback, control_.state(), control_.trouble());
-  }
-
-  void send(const Tick& /*tick*/) noexcept override {
-    const bool safe = this->is_inhibited() || !this->fault().is_ok();
-    if (!safe) releasing_ = false;
-    if (safe && !releasing_) control_.halt();
-    end_.send(control_, safe);
-  }
-
-  bool make_safe() noexcept override {
-    if (this->configuration.safe_state == GripperSafeState::hold || !(releasing_ || control_.is_active())) {
-      control_.halt();
-    } else if (!releasing_) {
-      control_.command({.opening = this->configuration.open_width});
-      releasing_ = true;
-    }
-    end_.send(control_, true);
-    return control_.is_at_rest();
-  }
 
   GripperCapabilities capabilities() const noexcept override {
     return {.open_width = this->configuration.open_width,
@@ -93,22 +68,18 @@ class RobotiqDriver : public Base {
   std::optional<GripperState> state() const noexcept override { return control_.state(); }
   const Status& trouble() const noexcept override { return control_.trouble(); }
 
-  void activate() noexcept override {
-    if (!this->is_inhibited()) control_.activate();
-  }
-  void command(const GripperGoal& goal) noexcept override {
-    if (this->is_inhibited()) return;
-    if (const Status status = check_goal(goal, capabilities()); !status) return this->fail(status);
-    this->restrain(restraint_of(goal, capabilities()));
-    control_.command({within_reach(goal.opening, capabilities()), goal.speed, goal.force});
-  }
   void halt() noexcept override { control_.halt(); }
 
  private:
+  void hear(const Tick& tick) noexcept override { end_.receive(control_, tick.now); }
+  void begin_activation() noexcept override { control_.activate(); }
+  void go(const GripperGoal& goal) noexcept override { control_.command(goal); }
+  bool is_ready() const noexcept override { return control_.is_active(); }
+  bool is_at_rest() const noexcept override { return control_.is_at_rest(); }
+  void tell(const Tick& /*tick*/, bool safe) noexcept override { end_.send(control_, safe); }
+
   Control control_;
   RobotiqEnd end_;
-  GripperReport report_;
-  bool releasing_ = false;  // on account of make_safe(), until it may move again
 };
 
 }  // namespace flexrf::robotiq

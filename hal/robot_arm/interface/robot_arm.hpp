@@ -1,8 +1,10 @@
 // RobotArm: an arm that follows joint positions cyclically.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
+#include "hal/driver/actuator.hpp"
 #include "hal/robot_arm/interface/arm_supervision.hpp"
 #include "motion/joint_pace.hpp"
 #include "motion/kinematic_chain.hpp"
@@ -14,7 +16,7 @@
 namespace flexrf {
 
 /// Everything: the thread the arm lives in.
-class RobotArm : public RobotArmInterface {
+class RobotArm : public Actuator<RobotArmInterface> {
  public:
   const KinematicChain& kinematic_chain() const noexcept { return *chain; }
 
@@ -25,11 +27,21 @@ class RobotArm : public RobotArmInterface {
   /// next command [robot-arm-2]. An arm keeps to its own limits whatever it is commanded [robot-arm-3], and
   /// tells it (Component::restrain()) while it does [robot-arm-4]; what is not finite puts it in
   /// fault [robot-arm-5]. Without effect while is_inhibited(), and not remembered [robot-arm-6].
-  virtual void command(const JointPositions& set_points) noexcept = 0;
+  void command(const JointPositions& set_points) noexcept {
+    if (!may_act()) return;
+    for (std::size_t i = 0; i < chain->joint_count; ++i) {
+      if (std::isfinite(set_points.position[i])) continue;
+      const std::string_view joint = chain->joints[i].name;
+      return fail(Status::error(StatusCode::invalid_argument,
+                                "joint %.*s was commanded to a position that is not a number",
+                                static_cast<int>(joint.size()), joint.data()));
+    }
+    follow(set_points);
+  }
 
  protected:
-  /// In command(), by every driver, with what it follows from now on, finite: what of it is beyond a joint's
-  /// range is told.
+  /// In follow(), by every driver, with what it follows from now on: what of it is beyond a joint's range is
+  /// told.
   void tell_limits(const JointPositions& set_points) noexcept {
     restrain(restraint_of(*chain, set_points.position));
   }
@@ -48,15 +60,17 @@ class RobotArm : public RobotArmInterface {
   /// At the end of receive(), by every driver: an arm that does not follow what its drives are asked to
   /// (feedback.following_error), or does not say where it is, is in fault [robot-arm-7].
   void supervise(Time now) noexcept {
-    const bool may_move = !is_inhibited() && fault().is_ok();
-    if (const Status found = supervision_.look(state(), feedback.following_error, may_move, now); !found)
+    if (const Status found = supervision_.look(state(), feedback.following_error, may_act(), now); !found)
       set_fault(found);
-    if (!may_move) pace_.forget();
+    if (!may_act()) pace_.forget();
     restrain(pace_.look(*chain, looked_at_ == Time{} ? 0 : seconds(now - looked_at_)));
     looked_at_ = now;
   }
 
  private:
+  /// A command that is taken, finite.
+  virtual void follow(const JointPositions& set_points) noexcept = 0;
+
   ArmSupervision supervision_;
   JointPace pace_;
   Time looked_at_{};

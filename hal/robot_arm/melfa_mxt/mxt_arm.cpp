@@ -11,9 +11,4 @@ Status lost_controller(const char* where, double silence_limit, const PacingCoun
       static_cast<unsigned long long>(counters.foreign));
 }
 
-Status no_number(std::size_t joint) noexcept {
-  return Status::error(StatusCode::invalid_argument,
-                       "joint %zu was commanded to an angle that is not a number", joint + 1);
-}
-
 }  // namespace flexrf::melfa

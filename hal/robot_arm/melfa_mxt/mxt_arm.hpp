@@ -2,8 +2,6 @@
 // What differs between drivers is the link to the controller.
 #pragma once
 
-#include <cmath>
-
 #include "hal/robot_arm/interface/robot_arm.hpp"
 #include "hal/robot_arm/melfa_mxt/mxt_dialogue.hpp"
 #include "motion/kinematics.hpp"
@@ -12,7 +10,6 @@ namespace flexrf::melfa {
 
 /// `where`: the controller, for a person.
 Status lost_controller(const char* where, double silence_limit, const PacingCounters& counters) noexcept;
-Status no_number(std::size_t joint) noexcept;
 
 template <class Base>
 class MxtArm : public Base {
@@ -24,7 +21,7 @@ class MxtArm : public Base {
     plan.pacing.answer = duration_of(set.answer_timeout);
     plan.pacing.silence = duration_of(set.silence_limit);
     plan.pacing.search = duration_of(set.search_interval);
-    made_safe_ = false;
+    ended_ = false;
     state_.reset();
     this->begin_supervision(this->configuration);
     if (const Status status = open_link(); !status) return status;
@@ -37,36 +34,7 @@ class MxtArm : public Base {
     close_link();
   }
 
-  void receive(const Tick& tick) noexcept override {
-    dialogue_.receive(tick.now);
-    if (dialogue_.has_lost_it() && this->fault().is_ok())
-      this->fail(lost_controller(where(), this->configuration.silence_limit, dialogue_.counters()));
-    tell_state();
-    this->supervise(tick.now);
-  }
-  void send(const Tick& tick) noexcept override {
-    if (this->is_inhibited() && made_safe_ && dialogue_.has_ended()) {
-      made_safe_ = false;
-      dialogue_.reopen();  // to see where the arm is
-    }
-    dialogue_.send(!this->is_inhibited() && this->fault().is_ok(), tick.now);
-    if (dialogue_.is_leading()) this->restrain(dialogue_.restraint());
-  }
-  bool make_safe() noexcept override {
-    dialogue_.end();
-    made_safe_ = dialogue_.has_ended();
-    return made_safe_;
-  }
-
   std::optional<JointState> state() const noexcept override { return state_; }
-  void command(const JointPositions& set_points) noexcept override {
-    if (this->is_inhibited() || !dialogue_.is_leading()) return;
-    for (std::size_t i = 0; i < this->chain->joint_count; ++i) {
-      if (!std::isfinite(set_points.position[i])) return this->fail(no_number(i));
-    }
-    this->tell_limits(set_points);
-    dialogue_.command(set_points.position);
-  }
 
   /// Commands are followed.
   bool is_leading() const noexcept { return dialogue_.is_leading(); }
@@ -80,6 +48,38 @@ class MxtArm : public Base {
   virtual const char* where() const noexcept = 0;
 
  private:
+  void take_in(const Tick& tick) noexcept override {
+    dialogue_.receive(tick.now);
+    if (dialogue_.has_lost_it() && this->fault().is_ok())
+      this->fail(lost_controller(where(), this->configuration.silence_limit, dialogue_.counters()));
+    tell_state();
+    this->supervise(tick.now);
+  }
+  // A dialogue that may not lead forgets by itself what it was commanded.
+  void forget() noexcept override {}
+  void act(const Tick& tick) noexcept override { exchange(tick, true); }
+  void rest(const Tick& tick) noexcept override {
+    if (ended_ && this->is_inhibited()) {
+      ended_ = false;
+      dialogue_.reopen();  // to see where the arm is
+    }
+    exchange(tick, false);
+  }
+  void exchange(const Tick& tick, bool may_lead) noexcept {
+    dialogue_.send(may_lead, tick.now);
+    if (dialogue_.is_leading()) this->restrain(dialogue_.restraint());
+  }
+  bool become_safe() noexcept override {
+    dialogue_.end();
+    ended_ = dialogue_.has_ended();
+    return ended_;
+  }
+  void follow(const JointPositions& set_points) noexcept override {
+    if (!dialogue_.is_leading()) return;
+    this->tell_limits(set_points);
+    dialogue_.command(set_points.position);
+  }
+
   void tell_state() noexcept {
     this->feedback.late = dialogue_.counters().late;
     this->feedback.lost = dialogue_.counters().lost;
@@ -98,7 +98,7 @@ class MxtArm : public Base {
 
   MxtDialogue dialogue_;
   std::optional<JointState> state_;
-  bool made_safe_ = false;  // until the permission to move was withdrawn
+  bool ended_ = false;  // the dialogue, so that the arm is safe; until its end was seen
 };
 
 }  // namespace flexrf::melfa

@@ -1,7 +1,6 @@
 // MockArm: gives the states that a test put in and records what is commanded.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "hal/driver/mock/mock_delay.hpp"
@@ -28,31 +27,6 @@ class MockArm final : public MockArmDriver {
 
   std::optional<JointState> state() const noexcept override { return told_; }
 
-  void command(const JointPositions& set_points) noexcept override {
-    if (is_inhibited()) return;
-    if (!set_points.position_map().allFinite()) {
-      fail(Status::error(StatusCode::invalid_argument,
-                         "a joint was commanded to a position that is not a number"));
-      return;
-    }
-    tell_limits_and_pace(set_points);
-    commanded_ = set_points;
-    ++commands_;
-  }
-
-  void receive(const Tick& tick) noexcept override {
-    if (is_inhibited()) commanded_.reset();
-    follow(tick);
-    last_cycle_ = tick.now;
-    tell(tick.now);
-    supervise(tick.now);
-  }
-
-  bool make_safe() noexcept override {
-    commanded_.reset();
-    return true;
-  }
-
   // ---- for tests
 
   /// Nothing: the sensors are silent.
@@ -68,8 +42,27 @@ class MockArm final : public MockArmDriver {
   std::uint64_t commands() const noexcept { return commands_; }
 
  private:
-  void follow(const Tick& tick) noexcept {
-    if (!commanded_ || !follows_ || !state_ || is_inhibited() || !fault().is_ok()) return;
+  void take_in(const Tick& tick) noexcept override {
+    move(tick);
+    last_cycle_ = tick.now;
+    tell(tick.now);
+    supervise(tick.now);
+  }
+  void forget() noexcept override { commanded_.reset(); }
+  void act(const Tick& /*tick*/) noexcept override {}
+  void rest(const Tick& /*tick*/) noexcept override {}
+  bool become_safe() noexcept override {
+    commanded_.reset();
+    return true;
+  }
+  void follow(const JointPositions& set_points) noexcept override {
+    tell_limits_and_pace(set_points);
+    commanded_ = set_points;
+    ++commands_;
+  }
+
+  void move(const Tick& tick) noexcept {
+    if (!commanded_ || !follows_ || !state_) return;
     const JointVector next = within_limits(*chain, commanded_->position_map());
     const double elapsed = last_cycle_ == Time{} ? 0 : seconds(tick.now - last_cycle_);
     if (elapsed > 0) state_->velocity_map() = (next - state_->position_map()) / elapsed;
@@ -77,7 +70,7 @@ class MockArm final : public MockArmDriver {
   }
   void tell(Time now) noexcept {
     std::optional<JointState> measured = state_;
-    if (state_ && commanded_ && !is_inhibited()) {
+    if (state_ && commanded_) {
       feedback.following_error_map() =
           within_limits(*chain, commanded_->position_map()) - state_->position_map();
     } else {

@@ -20,7 +20,6 @@ class ArmOfDrives : public Base {
 
   Status initialise() override {
     const std::size_t joints = this->chain->joint_count;
-    made_safe_ = false;
     for (std::size_t i = 0; i < joints; ++i) {
       if (const Status status = initialise_drive(i); !status.is_ok()) {
         stop_first(i);
@@ -33,39 +32,7 @@ class ArmOfDrives : public Base {
   }
   void stop() override { stop_first(this->chain->joint_count); }
 
-  void receive(const Tick& tick) noexcept override {
-    // Before the drives act on a command that the inhibition overtook.
-    if (this->is_inhibited()) group_.lead(false);
-    for (Drive& drive : drives()) drive.receive(tick);
-    group_.watch();
-    const auto state = group_.state();
-    if (state) this->feedback.position = state->position;
-    group_.following_error(this->feedback.following_error);
-    this->supervise(tick.now);
-  }
-  void send(const Tick& tick) noexcept override {
-    if (this->is_inhibited()) made_safe_ = false;
-    group_.lead(!this->is_inhibited() && !made_safe_ && this->fault().is_ok());
-    for (Drive& drive : drives()) {
-      drive.send(tick);
-      // That it is led too fast the arm says itself, with the joint's name.
-      if (const Restraint held = drive.take_restraint(); held.reason != servo_restraints::led_too_fast)
-        this->restrain(held);
-    }
-    group_.watch();
-    if (!group_.fault().is_ok()) this->fail(group_.fault());
-  }
-  bool make_safe() noexcept override {
-    made_safe_ = true;
-    return group_.make_safe();
-  }
-
   std::optional<JointState> state() const noexcept override { return group_.state(); }
-  void command(const JointPositions& set_points) noexcept override {
-    if (this->is_inhibited() || made_safe_) return;
-    group_.command(set_points);
-    if (group_.is_ready()) this->tell_limits_and_pace(set_points);
-  }
   /// All drives are enabled and know where they are: commands are followed.
   bool is_ready() const noexcept { return group_.is_ready(); }
   /// For faults on purpose; of the drive with this joint.
@@ -76,6 +43,36 @@ class ArmOfDrives : public Base {
   virtual Status configure(std::size_t joint, DriveConfiguration& configuration) = 0;
 
  private:
+  void take_in(const Tick& tick) noexcept override {
+    for (Drive& drive : drives()) drive.receive(tick);
+    group_.watch();
+    const auto state = group_.state();
+    if (state) this->feedback.position = state->position;
+    group_.following_error(this->feedback.following_error);
+    this->supervise(tick.now);
+  }
+  void forget() noexcept override { group_.lead(false); }
+  void act(const Tick& tick) noexcept override {
+    group_.lead(true);
+    exchange(tick);
+  }
+  void rest(const Tick& tick) noexcept override { exchange(tick); }
+  void exchange(const Tick& tick) noexcept {
+    for (Drive& drive : drives()) {
+      drive.send(tick);
+      // That it is led too fast the arm says itself, with the joint's name.
+      if (const Restraint held = drive.take_restraint(); held.reason != servo_restraints::led_too_fast)
+        this->restrain(held);
+    }
+    group_.watch();
+    if (!group_.fault().is_ok()) this->fail(group_.fault());
+  }
+  bool become_safe() noexcept override { return group_.make_safe(); }
+  void follow(const JointPositions& set_points) noexcept override {
+    group_.command(set_points);
+    if (group_.is_ready()) this->tell_limits_and_pace(set_points);
+  }
+
   std::span<Drive> drives() noexcept { return std::span(drives_).first(this->chain->joint_count); }
 
   Status initialise_drive(std::size_t i) {
@@ -118,7 +115,6 @@ class ArmOfDrives : public Base {
   std::array<ServoDrive*, max_joints> members_{};
   std::array<std::array<char, 64>, max_joints> names_{};
   ServoGroup group_;
-  bool made_safe_ = false;  // until the permission to move was withdrawn
 };
 
 }  // namespace flexrf

@@ -1,7 +1,6 @@
 #include "hal/robot_arm/of_drives/servo_group.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace flexrf {
 
@@ -55,13 +54,6 @@ void ServoGroup::following_error(std::array<double, max_joints>& error) const no
 
 void ServoGroup::command(const JointPositions& set_points) noexcept {
   if (!ready_) return;
-  // All or none: a joint that is asked for nonsense keeps the others from moving too.
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (std::isfinite(set_points.position[i])) continue;
-    fail(i,
-         Status::error(StatusCode::invalid_argument, "it was commanded to a position that is not a number"));
-    return;
-  }
   for (std::size_t i = 0; i < count_; ++i) {
     const ChainJoint& joint = chain_->joints[i];
     drives_[i]->command_position(std::clamp(set_points.position[i], joint.lower, joint.upper));

@@ -30,8 +30,7 @@ class ServoGroup {
   void following_error(std::array<double, max_joints>& error) const noexcept;
   /// All drives are enabled and know where they are: commands are followed.
   bool is_ready() const noexcept { return ready_; }
-  /// Kept to the chain's limits. Without effect while it is not ready, and not remembered. What is not finite
-  /// is a fault.
+  /// Finite; kept to the chain's limits. Without effect while it is not ready, and not remembered.
   void command(const JointPositions& set_points) noexcept;
   /// True: all drives are where make_safe() leads them.
   bool make_safe() noexcept;

@@ -1,7 +1,5 @@
 #include "hal/robot_arm/simulated/simulated_arm.hpp"
 
-#include <cmath>
-
 #include "motion/kinematics.hpp"
 
 namespace flexrf {
@@ -26,40 +24,32 @@ Status SimulatedArm::initialise() {
   return {};
 }
 
-void SimulatedArm::receive(const Tick& tick) noexcept {
+void SimulatedArm::take_in(const Tick& tick) noexcept {
   if (started_ == Time{}) started_ = tick.now;
   inject_scheduled(tick.now);
-  if (is_inhibited() || !fault().is_ok()) {
-    commanded_.reset();
-    model_.hold();
-  }
+  if (!may_act()) forget();
   model_.advance(tick.now);
   sense();
   supervise(tick.now);
 }
 
-void SimulatedArm::command(const JointPositions& set_points) noexcept {
-  if (is_inhibited()) return;
-  for (std::size_t i = 0; i < max_joints; ++i) {
-    if (std::isfinite(set_points.position[i])) continue;
-    fail(Status::error(StatusCode::invalid_argument,
-                       "joint %zu was commanded to a position that is not a number", i + 1));
-    commanded_.reset();
-    return;
-  }
+void SimulatedArm::follow(const JointPositions& set_points) noexcept {
   tell_limits_and_pace(set_points);
   commanded_ = set_points;
 }
 
-void SimulatedArm::send(const Tick& /*tick*/) noexcept {
-  if (is_inhibited() || !fault().is_ok()) return;
+void SimulatedArm::forget() noexcept {
+  commanded_.reset();
+  model_.hold();
+}
+
+void SimulatedArm::act(const Tick& /*tick*/) noexcept {
   if (commanded_) model_.follow(commanded_->position_map());
   commanded_.reset();
 }
 
-bool SimulatedArm::make_safe() noexcept {
-  commanded_.reset();
-  model_.hold();
+bool SimulatedArm::become_safe() noexcept {
+  forget();
   return model_.is_at_rest();
 }
 

@@ -18,17 +18,20 @@ class SimulatedArm final : public SimulatedArmDriver {
   };
 
   Status initialise() override;
-  void receive(const Tick& tick) noexcept override;
-  void send(const Tick& tick) noexcept override;
-  bool make_safe() noexcept override;
 
   std::optional<JointState> state() const noexcept override { return state_; }
-  void command(const JointPositions& set_points) noexcept override;
 
   /// For tests: as the configuration's faults, at the next cycle.
   void inject(Fault fault) noexcept;
 
  private:
+  void take_in(const Tick& tick) noexcept override;
+  void forget() noexcept override;
+  void act(const Tick& tick) noexcept override;
+  void rest(const Tick& /*tick*/) noexcept override {}
+  bool become_safe() noexcept override;
+  void follow(const JointPositions& set_points) noexcept override;
+
   void inject_scheduled(Time now) noexcept;
   void sense() noexcept;
 

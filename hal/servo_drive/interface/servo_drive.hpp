@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "hal/driver/actuator.hpp"
 #include "hal/servo_drive/interface/profile_progress.hpp"
 #include "hal/servo_drive/interface/velocity_lag.hpp"
 #include "servo_drive_interface.hpp"
@@ -36,7 +37,7 @@ struct ServoState {
 /// a limit or is without effect for another reason than these two is told
 /// (Component::restrain()) [servo-drive-5]. What is not finite, or a speed that is not above 0, puts the
 /// drive in fault [servo-drive-6].
-class ServoDrive : public ServoDriveInterface {
+class ServoDrive : public Actuator<ServoDriveInterface> {
  public:
   /// The speed of move_to() that is the greatest of the configuration.
   static constexpr double full_speed = std::numeric_limits<double>::max();
@@ -49,21 +50,29 @@ class ServoDrive : public ServoDriveInterface {
   /// command [servo-drive-8]. Kept to the range and the velocity of the configuration [servo-drive-9]; an
   /// endless axis has no range, and with a modulo goes the shorter way from the command
   /// before [servo-drive-10].
-  virtual void command_position(double position) noexcept = 0;
+  void command_position(double position) noexcept {
+    if (may_act()) follow_position(position);
+  }
   /// In mode cyclic_velocity or profile_velocity: how fast it shall be, kept to the velocity of the
   /// configuration; zero once the axis is beyond its range and would go on, unless it is
   /// endless [servo-drive-11].
-  virtual void command_velocity(double velocity) noexcept = 0;
+  void command_velocity(double velocity) noexcept {
+    if (may_act()) follow_velocity(velocity);
+  }
   /// In mode profile_position: where it shall go, once for each target and not in each cycle; kept to the
   /// range; an endless axis has none, and with a modulo goes the shorter way from where it is. It gives up
   /// the target before [servo-drive-12]. `speed`: above 0, kept to the velocity of the
   /// configuration [servo-drive-13].
-  virtual void move_to(double position, double speed = full_speed) noexcept = 0;
+  void move_to(double position, double speed = full_speed) noexcept {
+    if (may_act()) begin_move(position, speed);
+  }
 
   /// Begins to find its home with the configured method, whatever the mode; homing is `running` from this
   /// call on, then `homed` or `failed` [servo-drive-14]. When it is over the drive is in its mode again and
   /// holds [servo-drive-15]. Without effect while it is not enabled or is homing, and with method 0.
-  virtual void home() noexcept = 0;
+  void home() noexcept {
+    if (may_act()) begin_homing();
+  }
   /// Why homing is `failed`; else ok [servo-drive-16].
   virtual const Status& homing_problem() const noexcept = 0;
 
@@ -80,7 +89,7 @@ class ServoDrive : public ServoDriveInterface {
   void supervise(const auto& configuration, double asked, const std::optional<ProfileTarget>& target,
                  Time now) noexcept {
     const auto told = state();
-    if (!told || !told->enabled || is_inhibited() || !fault().is_ok() || configuration.following_time == 0) {
+    if (!told || !told->enabled || !may_act() || configuration.following_time == 0) {
       lag_.forget();
       progress_.forget();
       return;
@@ -101,6 +110,12 @@ class ServoDrive : public ServoDriveInterface {
   }
 
  private:
+  // What a driver does with a command that is taken; as the function of the command says.
+  virtual void follow_position(double position) noexcept = 0;
+  virtual void follow_velocity(double velocity) noexcept = 0;
+  virtual void begin_move(double position, double speed) noexcept = 0;
+  virtual void begin_homing() noexcept = 0;
+
   void supervise_profile(const auto& configuration, double most, const std::optional<ProfileTarget>& target,
                          Time now) noexcept {
     // A drive may need some time to begin, and the time of its ramps to turn round before that.

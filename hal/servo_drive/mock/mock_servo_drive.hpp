@@ -40,39 +40,6 @@ class MockServoDrive final : public MockServoDriveDriver {
     return told;
   }
 
-  void command_position(double position) noexcept override {
-    if (!takes(ServoMode::cyclic_position, ServoMode::cyclic_position)) return;
-    hold({});
-    take_position(position);
-  }
-  void command_velocity(double velocity) noexcept override {
-    if (!takes(ServoMode::cyclic_velocity, ServoMode::profile_velocity) || !is_number(velocity)) return;
-    const double kept = std::clamp(velocity, -configuration.fastest, configuration.fastest);
-    hold(kept != velocity ? Restraint{servo_restraints::too_fast, velocity, kept} : Restraint{});
-    if (commanded_ != kept) state_->target_reached = false;
-    take(kept);
-  }
-  void move_to(double position, double speed) noexcept override {
-    if (!takes(ServoMode::profile_position, ServoMode::profile_position) || !is_number(speed)) return;
-    if (!(speed > 0)) {
-      fail(Status::error(StatusCode::invalid_argument, "the drive was commanded to move with a speed of %g",
-                         speed));
-      return;
-    }
-    speed_ = std::min(speed, configuration.fastest);
-    hold(speed_ != speed && speed != full_speed ? Restraint{servo_restraints::too_fast, speed, speed_}
-                                                : Restraint{});
-    take_position(position);
-  }
-  void home() noexcept override {
-    if (!may_be_commanded()) return;
-    if (configuration.homing_method == 0) return restrain(servo_restraints::no_homing);
-    forget();
-    homing_ = ServoHoming::running;
-    homing_problem_ = {};
-    ++homings_;
-    tell();
-  }
   const Status& homing_problem() const noexcept override { return homing_problem_; }
   void halt() noexcept override {
     if (!may_follow()) return;
@@ -80,29 +47,6 @@ class MockServoDrive final : public MockServoDriveDriver {
     forget();
     end_homing("the homing was halted");
     tell();
-  }
-
-  void receive(const Tick& tick) noexcept override {
-    const double elapsed = last_cycle_ == Time{} ? 0 : seconds(tick.now - last_cycle_);
-    last_cycle_ = tick.now;
-    if (!state_) return;
-    if (!may_follow()) end_homing("the homing was interrupted: the drive is not enabled any more");
-    const double before = state_->position;
-    if (elapsed > 0 && may_follow()) move(elapsed);
-    state_->velocity = elapsed > 0 ? (state_->position - before) / elapsed : 0;
-    measure();
-    tell();
-    supervise(configuration, asked_velocity(), profile_target(), tick.now);
-  }
-  void send(const Tick& /*tick*/) noexcept override {
-    if (state_) state_->enabled = !is_inhibited() && fault().is_ok();
-    if (is_inhibited()) forget();
-    if (may_follow()) tell_restraint();
-  }
-  bool make_safe() noexcept override {
-    forget();
-    end_homing("the homing was interrupted: the drive was made safe");
-    return true;
   }
 
   // ---- for tests
@@ -136,6 +80,71 @@ class MockServoDrive final : public MockServoDriveDriver {
     double velocity = 0;
   };
 
+  void take_in(const Tick& tick) noexcept override {
+    const double elapsed = last_cycle_ == Time{} ? 0 : seconds(tick.now - last_cycle_);
+    last_cycle_ = tick.now;
+    if (!state_) return;
+    if (!may_follow()) end_homing("the homing was interrupted: the drive is not enabled any more");
+    const double before = state_->position;
+    if (elapsed > 0 && may_follow()) move(elapsed);
+    state_->velocity = elapsed > 0 ? (state_->position - before) / elapsed : 0;
+    measure();
+    tell();
+    supervise(configuration, asked_velocity(), profile_target(), tick.now);
+  }
+  void forget() noexcept override {
+    commanded_.reset();
+    is_outpaced_ = is_at_its_end_ = false;
+    held_ = {};
+  }
+  void act(const Tick& /*tick*/) noexcept override {
+    if (!state_) return;
+    state_->enabled = true;
+    tell_restraint();
+  }
+  void rest(const Tick& /*tick*/) noexcept override {
+    if (state_) state_->enabled = false;
+  }
+  bool become_safe() noexcept override {
+    forget();
+    end_homing("the homing was interrupted: the drive was made safe");
+    return true;
+  }
+
+  void follow_position(double position) noexcept override {
+    if (!takes(ServoMode::cyclic_position, ServoMode::cyclic_position)) return;
+    hold({});
+    take_position(position);
+  }
+  void follow_velocity(double velocity) noexcept override {
+    if (!takes(ServoMode::cyclic_velocity, ServoMode::profile_velocity) || !is_number(velocity)) return;
+    const double kept = std::clamp(velocity, -configuration.fastest, configuration.fastest);
+    hold(kept != velocity ? Restraint{servo_restraints::too_fast, velocity, kept} : Restraint{});
+    if (commanded_ != kept) state_->target_reached = false;
+    take(kept);
+  }
+  void begin_move(double position, double speed) noexcept override {
+    if (!takes(ServoMode::profile_position, ServoMode::profile_position) || !is_number(speed)) return;
+    if (!(speed > 0)) {
+      fail(Status::error(StatusCode::invalid_argument, "the drive was commanded to move with a speed of %g",
+                         speed));
+      return;
+    }
+    speed_ = std::min(speed, configuration.fastest);
+    hold(speed_ != speed && speed != full_speed ? Restraint{servo_restraints::too_fast, speed, speed_}
+                                                : Restraint{});
+    take_position(position);
+  }
+  void begin_homing() noexcept override {
+    if (!may_be_commanded()) return;
+    if (configuration.homing_method == 0) return restrain(servo_restraints::no_homing);
+    forget();
+    homing_ = ServoHoming::running;
+    homing_problem_ = {};
+    ++homings_;
+    tell();
+  }
+
   bool takes_positions() const noexcept {
     return configuration.mode == ServoMode::cyclic_position ||
            configuration.mode == ServoMode::profile_position;
@@ -149,7 +158,7 @@ class MockServoDrive final : public MockServoDriveDriver {
     if (!is_on_its_way) return std::nullopt;
     return ProfileTarget{.position = *commanded_, .left = *commanded_ - way_, .speed = speed_};
   }
-  bool may_follow() const noexcept { return state_ && state_->enabled && !is_inhibited() && fault().is_ok(); }
+  bool may_follow() const noexcept { return state_ && state_->enabled && may_act(); }
   bool takes(ServoMode one, ServoMode other) noexcept {
     if (!may_be_commanded()) return false;
     if (configuration.mode == one || configuration.mode == other) return true;
@@ -175,11 +184,6 @@ class MockServoDrive final : public MockServoDriveDriver {
     state_->target_reached = false;
   }
   void hold(const Restraint& restraint) noexcept { held_ = restraint; }
-  void forget() noexcept {
-    commanded_.reset();
-    is_outpaced_ = is_at_its_end_ = false;
-    held_ = {};
-  }
   // What was said in this cycle goes before what stands since the command, and that before its consequence.
   void tell_restraint() noexcept {
     if (state_->target_reached && held_.reason == servo_restraints::too_fast && takes_positions()) held_ = {};

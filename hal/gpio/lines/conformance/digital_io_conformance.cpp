@@ -166,7 +166,7 @@ Verdict an_inhibited_output_holds_and_forgets(DigitalIoWorld& world) {
 
 // [digital-io-4]
 Verdict a_signal_is_not_inhibited(DigitalIoWorld& world) {
-  if (!world.start({.direction = LineDirection::output, .signal = true})) return Verdict::failed;
+  if (!world.start(output(), true)) return Verdict::failed;
   one_cycle(world);
   world.io().set_inhibited(true);
   world.receive(cycle);
@@ -276,9 +276,12 @@ Verdict an_output_comes_back_safe(DigitalIoWorld& world) {
   world.send();
   if (!world.sees_high()) return Verdict::failed;
   if (!world.unplug()) return Verdict::skipped;
-  if (!until(world, [&] { return !world.io().state(); }) || !world.io().make_safe()) return Verdict::failed;
+  if (!until(world, [&] { return !world.io().state(); })) return Verdict::failed;
+  world.io().set_inhibited(true);
+  if (!world.io().make_safe()) return Verdict::failed;
   if (!world.plug_in() || !is_back(world, "an output's chip that was gone") || world.sees_high())
     return Verdict::failed;
+  world.io().set_inhibited(false);
   world.receive(cycle);
   world.io().command(true);
   world.send();

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "hal/gpio/lines/interface/digital_io.hpp"
 #include "hal/gpio/lines/interface/digital_line.hpp"
 
 namespace flexrf {
@@ -13,7 +14,9 @@ class DigitalIoWorld {
   virtual ~DigitalIoWorld() = default;
 
   /// Configures (but for the name, which is the world's) and initialises the line; permitted to move.
-  virtual Status start(const DigitalLineSettings& settings) = 0;
+  /// `signal`: as an output that is one.
+  virtual Status start(const DigitalLineSettings& settings, bool signal) = 0;
+  Status start(const DigitalLineSettings& settings) { return start(settings, false); }
   virtual DigitalIo& io() = 0;
   /// The thread's cycle: receive, then what the unit does, then send; `elapsed` or more after the last one.
   virtual void receive(Duration elapsed) = 0;

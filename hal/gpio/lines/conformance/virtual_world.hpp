@@ -10,7 +10,8 @@
 namespace flexrf {
 
 template <class Driver>
-void configure_line(DeviceBench<Driver>& bench, const DigitalLineSettings& settings, std::string_view name) {
+void configure_line(DeviceBench<Driver>& bench, const DigitalLineSettings& settings, std::string_view name,
+                    bool signal = false) {
   auto& configuration = bench.configuration();
   set_text(configuration.line, name);
   configuration.direction = settings.direction;
@@ -19,16 +20,17 @@ void configure_line(DeviceBench<Driver>& bench, const DigitalLineSettings& setti
   configuration.debounce = seconds(settings.debounce);
   configuration.emergency_stop = settings.emergency_stop;
   configuration.safe_value = settings.safe_value;
-  configuration.signal = settings.signal;
+  configuration.signal = signal;
 }
 
 template <class Chip, class Driver>
 class VirtualDigitalIoWorld : public DigitalIoWorld {
  public:
-  Status start(const DigitalLineSettings& settings) override {
+  using DigitalIoWorld::start;
+  Status start(const DigitalLineSettings& settings, bool signal) override {
     if (const Status status = chip_.driver().initialise(); !status) return status;
     line_.emplace(nullptr, std::span<QueueSink* const>{}, &chip_.driver());
-    configure_line(*line_, settings, name);
+    configure_line(*line_, settings, name, signal);
     return line_->driver().initialise();
   }
   DigitalIo& io() override { return line_->driver(); }

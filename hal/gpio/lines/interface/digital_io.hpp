@@ -4,13 +4,14 @@
 #include <optional>
 
 #include "digital_io_interface.hpp"
+#include "hal/driver/actuator.hpp"
 #include "types/digital_edge.hpp"
 #include "types/digital_state.hpp"
 
 namespace flexrf {
 
 /// Everything: the thread the line lives in.
-class DigitalIo : public DigitalIoInterface {
+class DigitalIo : public Actuator<DigitalIoInterface> {
  public:
   /// What the line is as of this cycle, bounces left out; an output: what it was told. Nothing while its chip
   /// is away [digital-io-1].
@@ -23,7 +24,26 @@ class DigitalIo : public DigitalIoInterface {
   /// What an output shall be, from the end of the cycle until the next command [digital-io-3]. Without effect
   /// while is_inhibited() (unless configured as a signal) [digital-io-4] or while its chip is away, and not
   /// remembered.
-  virtual void command(bool on) noexcept = 0;
+  void command(bool on) noexcept {
+    if (may_act() || is_signal()) set(on);
+  }
+
+ private:
+  /// It is configured as a signal: an output that moves nothing, such as a lamp, and says what is so also
+  /// while nothing may move.
+  virtual bool is_signal() const noexcept = 0;
+  /// A command that is taken.
+  virtual void set(bool on) noexcept = 0;
+  /// What was commanded and has not left is given up.
+  virtual void drop() noexcept = 0;
+  /// The end of the cycle: what was commanded leaves.
+  virtual void drive(const Tick& tick) noexcept = 0;
+
+  void forget() noexcept final {
+    if (!is_signal()) drop();
+  }
+  void act(const Tick& tick) noexcept final { drive(tick); }
+  void rest(const Tick& tick) noexcept final { drive(tick); }
 };
 
 }  // namespace flexrf

@@ -109,12 +109,12 @@ std::optional<DigitalEdge> DigitalLine::read_edge() noexcept {
   return edge;
 }
 
-void DigitalLine::command(bool on, bool inhibited) noexcept {
-  if (is_output() && present_ && (!inhibited || settings_.signal)) commanded_ = on;
+void DigitalLine::command(bool on) noexcept {
+  if (is_output() && present_) commanded_ = on;
 }
 
-void DigitalLine::send(Time now, bool inhibited) noexcept {
-  if (commanded_ && (!inhibited || settings_.signal) && *commanded_ != on_ && line_->set(*commanded_)) {
+void DigitalLine::send(Time now) noexcept {
+  if (commanded_ && *commanded_ != on_ && line_->set(*commanded_)) {
     on_ = *commanded_;
     since_ = now;
   }

@@ -19,10 +19,10 @@ struct DigitalLineSettings {
   Duration debounce{};
   bool emergency_stop = false;
   bool safe_value = false;
-  bool signal = false;
 };
 
-/// open, close: the lifecycle thread. Everything else: the thread of the device.
+/// Does what it is told: whether something may move is for its driver to know. open, close: the lifecycle
+/// thread. Everything else: the thread of the device.
 class DigitalLine {
  public:
   Status open(GpioChip& chip, const DigitalLineSettings& settings);
@@ -31,8 +31,9 @@ class DigitalLine {
   void receive(Time now) noexcept;
   std::optional<DigitalState> state() const noexcept;
   std::optional<DigitalEdge> read_edge() noexcept;
-  void command(bool on, bool inhibited) noexcept;
-  void send(Time now, bool inhibited) noexcept;
+  void command(bool on) noexcept;
+  void forget() noexcept { commanded_.reset(); }
+  void send(Time now) noexcept;
   bool make_safe() noexcept;
   /// Unless it is there, was on throughout this cycle, and has been for as long as its debouncing asks.
   bool demands_safe_state() const noexcept { return settings_.emergency_stop && !permits_; }

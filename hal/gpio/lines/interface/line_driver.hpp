@@ -18,12 +18,20 @@ class LineDriver : public Base {
                                    .active_low = set.active_low,
                                    .debounce = duration_of(set.debounce),
                                    .emergency_stop = set.emergency_stop,
-                                   .safe_value = set.safe_value,
-                                   .signal = set.signal});
+                                   .safe_value = set.safe_value});
   }
   void stop() override { line_.close(); }
 
-  void receive(const Tick& tick) noexcept override {
+  bool guards_motion() const noexcept override { return this->configuration.emergency_stop; }
+  bool demands_safe_state() const noexcept override { return line_.demands_safe_state(); }
+  int descriptor() const noexcept override { return line_.descriptor(); }
+  Time next_event() const noexcept override { return line_.next_event(); }
+
+  std::optional<DigitalState> state() const noexcept override { return line_.state(); }
+  std::optional<DigitalEdge> read_edge() noexcept override { return line_.read_edge(); }
+
+ private:
+  void take_in(const Tick& tick) noexcept override {
     line_.receive(tick.now);
     if (const auto now = line_.state()) this->level.publish(*now);
     while (this->edges.is_connected() && this->edges.has_room()) {
@@ -33,22 +41,15 @@ class LineDriver : public Base {
     }
     line_.fill(this->feedback);
   }
-  void send(const Tick& tick) noexcept override {
-    line_.send(tick.now, this->is_inhibited());
+  bool is_signal() const noexcept override { return this->configuration.signal; }
+  void set(bool on) noexcept override { line_.command(on); }
+  void drop() noexcept override { line_.forget(); }
+  void drive(const Tick& tick) noexcept override {
+    line_.send(tick.now);
     line_.fill(this->feedback);
   }
-  bool make_safe() noexcept override { return line_.make_safe(); }
+  bool become_safe() noexcept override { return line_.make_safe(); }
 
-  bool guards_motion() const noexcept override { return this->configuration.emergency_stop; }
-  bool demands_safe_state() const noexcept override { return line_.demands_safe_state(); }
-  int descriptor() const noexcept override { return line_.descriptor(); }
-  Time next_event() const noexcept override { return line_.next_event(); }
-
-  std::optional<DigitalState> state() const noexcept override { return line_.state(); }
-  std::optional<DigitalEdge> read_edge() noexcept override { return line_.read_edge(); }
-  void command(bool on) noexcept override { line_.command(on, this->is_inhibited()); }
-
- private:
   DigitalLine line_;
 };
 

@@ -1,11 +1,8 @@
 // A station behind a link: what its drivers, real and simulated, have in common.
 #pragma once
 
-#include <cmath>
-
 #include "hal/modbus/link/interface/modbus_link.hpp"
 #include "hal/modbus/station/interface/modbus_station.hpp"
-#include "hal/modbus/station/interface/station_outputs.hpp"
 
 namespace flexrf {
 
@@ -50,12 +47,15 @@ class LinkedStation : public Base {
     setup.poll_periods = {duration_of(settings.fast_period), duration_of(settings.normal_period),
                           duration_of(settings.slow_period)};
     setup.refresh_period = duration_of(settings.refresh_period);
-    outputs_.reset(*this->registers);
+    this->begin_outputs();
     return end_.attach(*this->bus, setup, duration_of(settings.max_age));
   }
   void stop() override { end_.detach(); }
 
-  void receive(const Tick& tick) noexcept override {
+  ModbusValue read(std::size_t index) const noexcept override { return end_.read(index); }
+
+ private:
+  void take_in(const Tick& tick) noexcept override {
     const ModbusImage& image = end_.update(tick.now);
     auto& told = this->feedback;
     told.online = image.online;
@@ -66,39 +66,11 @@ class LinkedStation : public Base {
     told.lost = image.lost;
     told.round_trip = seconds(Duration{image.round_trip});
     told.last_error = image.last_error;
-    if (this->is_inhibited()) outputs_.make_safe();
   }
+  void write(bool safe) noexcept override { end_.send(this->outputs(), safe); }
+  bool is_written() const noexcept override { return end_.is_written(); }
 
-  void send(const Tick& /*tick*/) noexcept override {
-    const bool safe = this->is_inhibited() || !this->fault().is_ok();
-    if (safe) outputs_.make_safe();
-    end_.send(outputs_, safe);
-  }
-
-  bool make_safe() noexcept override {
-    outputs_.make_safe();
-    end_.send(outputs_, true);
-    return end_.is_written();
-  }
-
-  ModbusValue read(std::size_t index) const noexcept override { return end_.read(index); }
-
-  void set(std::size_t index, double value) noexcept override {
-    if (this->is_inhibited()) return;
-    if (!std::isfinite(value)) {
-      this->fail(
-          Status::error(StatusCode::invalid_argument, "register %zu was set to what is not a number", index));
-    } else if (!outputs_.set(index, value)) {
-      this->fail(Status::error(StatusCode::invalid_argument,
-                               "%zu is no output: ask output(name) for its index", index));
-    } else {
-      this->restrain(outputs_.restraint_of(index));
-    }
-  }
-
- private:
   StationEnd end_;
-  StationOutputs outputs_;
 };
 
 }  // namespace flexrf

@@ -1,5 +1,7 @@
 #include "hal/modbus/station/interface/modbus_station.hpp"
 
+#include <cmath>
+
 #include "runtime/core/nearest_name.hpp"
 
 namespace flexrf {
@@ -33,6 +35,18 @@ Result<std::size_t> ModbusStation::input(std::string_view name) const noexcept {
 
 Result<std::size_t> ModbusStation::output(std::string_view name) const noexcept {
   return find(*registers, name, true);
+}
+
+void ModbusStation::set(std::size_t index, double value) noexcept {
+  if (!may_act()) return;
+  if (!std::isfinite(value)) {
+    fail(Status::error(StatusCode::invalid_argument, "register %zu was set to what is not a number", index));
+  } else if (!outputs_.set(index, value)) {
+    fail(Status::error(StatusCode::invalid_argument, "%zu is no output: ask output(name) for its index",
+                       index));
+  } else {
+    restrain(outputs_.restraint_of(index));
+  }
 }
 
 }  // namespace flexrf

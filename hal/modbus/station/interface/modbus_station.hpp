@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <string_view>
 
+#include "hal/driver/actuator.hpp"
 #include "hal/modbus/link/interface/register_map.hpp"
+#include "hal/modbus/station/interface/station_outputs.hpp"
 #include "modbus_station_interface.hpp"
 #include "runtime/blackboard/item.hpp"
 #include "runtime/core/status.hpp"
@@ -24,7 +26,7 @@ struct ModbusValue {
 };
 
 /// input, output: any thread, from connect() on. All else: the thread the station lives in.
-class ModbusStation : public ModbusStationInterface {
+class ModbusStation : public Actuator<ModbusStationInterface> {
  public:
   const ModbusRegisterMap& register_map() const noexcept { return *registers; }
 
@@ -41,7 +43,30 @@ class ModbusStation : public ModbusStationInterface {
   /// does [modbus-station-4]; what is not a number puts the station in fault [modbus-station-5]. Without
   /// effect while is_inhibited(): the safe values are written then, and what was set is
   /// forgotten [modbus-station-6].
-  virtual void set(std::size_t index, double value) noexcept = 0;
+  void set(std::size_t index, double value) noexcept;
+
+ protected:
+  /// In initialise(), by every driver: the safe values are to be written.
+  void begin_outputs() noexcept { outputs_.reset(*registers); }
+  /// What is to be in the station: what was set, or the safe values.
+  const StationOutputs& outputs() const noexcept { return outputs_; }
+
+ private:
+  /// The outputs leave, if they are others than before. `safe`: they are the safe values.
+  virtual void write(bool safe) noexcept = 0;
+  /// What was written last is in the station, as far as its driver can know.
+  virtual bool is_written() const noexcept = 0;
+
+  void forget() noexcept final { outputs_.make_safe(); }
+  void act(const Tick& /*tick*/) noexcept final { write(false); }
+  void rest(const Tick& /*tick*/) noexcept final { write(true); }
+  bool become_safe() noexcept final {
+    outputs_.make_safe();
+    write(true);
+    return is_written();
+  }
+
+  StationOutputs outputs_;
 };
 
 }  // namespace flexrf

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include "hal/driver/mock/mock_noise.hpp"
 #include "hal/modbus/station/interface/modbus_station.hpp"
-#include "hal/modbus/station/interface/station_outputs.hpp"
 #include "mock_modbus_station_driver.hpp"
 
 namespace flexrf {
@@ -28,38 +26,11 @@ class MockModbusStation final : public MockModbusStationDriver {
                            "the register map has %zu registers, at most %zu fit", registers->registers.size(),
                            max_modbus_registers);
     }
-    outputs_.reset(*registers);
+    begin_outputs();
     cells_ = {};
     noise_.seed(environment().seed);
     behaviour_ = Fault::none;
     return {};
-  }
-
-  void receive(const Tick& tick) noexcept override {
-    now_ = tick.now;
-    feedback.online = behaviour_ == Fault::none || behaviour_ == Fault::refused;
-    ++feedback.requests;
-    note_failure();
-    if (behaviour_ != Fault::none) return;
-    for (std::size_t i = 0; i < registers->registers.size(); ++i) {
-      Cell& cell = cells_[i];
-      if (now_ < cell.visible_at) continue;
-      cell.told = cell.held;
-      cell.told_at = now_;
-      if (cell.noise > 0)
-        encode_register(registers->registers[i], held(i) + noise_.around_zero(cell.noise), cell.told.data());
-    }
-  }
-
-  void send(const Tick& /*tick*/) noexcept override {
-    if (is_inhibited() || !fault().is_ok()) outputs_.make_safe();
-    write();
-  }
-
-  bool make_safe() noexcept override {
-    outputs_.make_safe();
-    write();
-    return behaviour_ == Fault::none;
   }
 
   ModbusValue read(std::size_t index) const noexcept override {
@@ -81,19 +52,6 @@ class MockModbusStation final : public MockModbusStationDriver {
                     : behaviour_ == Fault::none    ? NullReason::too_old
                                                    : NullReason::writer_stopped;
     return result;
-  }
-
-  void set(std::size_t index, double value) noexcept override {
-    if (is_inhibited()) return;
-    if (!std::isfinite(value)) {
-      fail(
-          Status::error(StatusCode::invalid_argument, "register %zu was set to what is not a number", index));
-    } else if (!outputs_.set(index, value)) {
-      fail(Status::error(StatusCode::invalid_argument, "%zu is no output: ask output(name) for its index",
-                         index));
-    } else {
-      restrain(outputs_.restraint_of(index));
-    }
   }
 
   // ---- for tests
@@ -125,13 +83,29 @@ class MockModbusStation final : public MockModbusStationDriver {
     double noise = 0;
   };
 
-  void write() noexcept {
+  void take_in(const Tick& tick) noexcept override {
+    now_ = tick.now;
+    feedback.online = behaviour_ == Fault::none || behaviour_ == Fault::refused;
+    ++feedback.requests;
+    note_failure();
+    if (behaviour_ != Fault::none) return;
+    for (std::size_t i = 0; i < registers->registers.size(); ++i) {
+      Cell& cell = cells_[i];
+      if (now_ < cell.visible_at) continue;
+      cell.told = cell.held;
+      cell.told_at = now_;
+      if (cell.noise > 0)
+        encode_register(registers->registers[i], held(i) + noise_.around_zero(cell.noise), cell.told.data());
+    }
+  }
+  void write(bool /*safe*/) noexcept override {
     if (behaviour_ != Fault::none) return;
     for (std::size_t i = 0; i < registers->registers.size(); ++i) {
       if (registers->registers[i].is_written())
-        encode_register(registers->registers[i], outputs_[i], cells_[i].held.data());
+        encode_register(registers->registers[i], outputs()[i], cells_[i].held.data());
     }
   }
+  bool is_written() const noexcept override { return behaviour_ == Fault::none; }
 
   void note_failure() noexcept {
     const char* cause = "";
@@ -166,7 +140,6 @@ class MockModbusStation final : public MockModbusStationDriver {
     return configuration.slow_period;
   }
 
-  StationOutputs outputs_;
   std::array<Cell, max_modbus_registers> cells_{};
   Fault behaviour_ = Fault::none;
   Time now_{};

@@ -34,21 +34,25 @@ void SimulatedDrive::stop() {
   log_ = -1;
 }
 
-void SimulatedDrive::send(const Tick& /*tick*/) noexcept {
+void SimulatedDrive::act(const Tick& /*tick*/) noexcept {
+  held_ = false;
+  approach();
+}
+
+void SimulatedDrive::rest(const Tick& /*tick*/) noexcept {
   if (making_safe_) return;
-  if (is_inhibited()) {
-    if (moves_ && !held_) write_down("inhibited\n");
-    held_ = true;
-    commanded_ = 0;
-  } else {
-    held_ = false;
-  }
+  if (moves_ && !held_) write_down("inhibited\n");
+  held_ = true;
+  approach();
+}
+
+void SimulatedDrive::approach() noexcept {
   speed_ += std::clamp(commanded_ - speed_, -change_per_cycle, change_per_cycle);
   if (speed_ > 0.4 && !moves_) write_down("moving\n");
   moves_ = moves_ || speed_ > 0.4;
 }
 
-bool SimulatedDrive::make_safe() noexcept {
+bool SimulatedDrive::become_safe() noexcept {
   if (!making_safe_) write_down(speed_ > 0 ? "made safe while moving\n" : "made safe at rest\n");
   making_safe_ = true;
   speed_ = std::max(0.0, speed_ - change_per_cycle);

@@ -9,12 +9,15 @@ class SimulatedDrive final : public SimulatedDriveDriver {
   ~SimulatedDrive() override { stop(); }
   Status initialise() override;
   void stop() override;
-  void command(double speed) noexcept override { commanded_ = speed; }
   double speed() const noexcept override { return speed_; }
-  void send(const Tick& tick) noexcept override;
-  bool make_safe() noexcept override;
 
  private:
+  void follow(double speed) noexcept override { commanded_ = speed; }
+  void forget() noexcept override { commanded_ = 0; }
+  void act(const Tick& tick) noexcept override;
+  void rest(const Tick& tick) noexcept override;
+  bool become_safe() noexcept override;
+  void approach() noexcept;
   void write_down(const char* text) noexcept;
 
   double commanded_ = 0;

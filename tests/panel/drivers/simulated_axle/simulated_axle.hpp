@@ -10,19 +10,23 @@ class SimulatedAxle final : public SimulatedAxleDriver {
     speed_ = 0;
     return {};
   }
-  void command(double speed) noexcept override { commanded_ = speed; }
   double speed() const noexcept override { return speed_; }
-  void send(const Tick& /*tick*/) noexcept override {
-    speed_ = is_inhibited() ? 0 : commanded_;
+
+ private:
+  void follow(double speed) noexcept override { commanded_ = speed; }
+  void forget() noexcept override { commanded_ = 0; }
+  void act(const Tick& /*tick*/) noexcept override { turn(commanded_); }
+  void rest(const Tick& /*tick*/) noexcept override { turn(0); }
+  bool become_safe() noexcept override {
+    turn(0);
+    return true;
+  }
+  void turn(double speed) noexcept {
+    speed_ = speed;
     feedback.speed = speed_;
     feedback.temperature = configuration.warmth + speed_;
   }
-  bool make_safe() noexcept override {
-    speed_ = 0;
-    return true;
-  }
 
- private:
   double commanded_ = 0;
   double speed_ = 0;
 };

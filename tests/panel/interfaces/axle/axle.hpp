@@ -1,13 +1,20 @@
 #pragma once
 
 #include "axle_interface.hpp"
+#include "hal/driver/actuator.hpp"
 
 namespace flexrf::user {
 
-class Axle : public AxleInterface {
+class Axle : public Actuator<AxleInterface> {
  public:
-  virtual void command(double speed) noexcept = 0;  ///< rad/s
-  virtual double speed() const noexcept = 0;        ///< rad/s
+  /// rad/s
+  void command(double speed) noexcept {
+    if (may_act()) follow(speed);
+  }
+  virtual double speed() const noexcept = 0;  ///< rad/s
+
+ private:
+  virtual void follow(double speed) noexcept = 0;
 };
 
 }  // namespace flexrf::user

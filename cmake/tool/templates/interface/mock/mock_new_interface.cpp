@@ -8,23 +8,22 @@ Status MockNewInterface::initialise() {
   return {};
 }
 
-void MockNewInterface::receive(const Tick& /*tick*/) noexcept {
+void MockNewInterface::take_in(const Tick& /*tick*/) noexcept {
   feedback.on = on_;
 }
 
-void MockNewInterface::send(const Tick& /*tick*/) noexcept {
-  if (is_inhibited() || !fault().is_ok()) commanded_ = false;
+void MockNewInterface::act(const Tick& /*tick*/) noexcept {
   switch_to(commanded_);
 }
 
-bool MockNewInterface::make_safe() noexcept {
+void MockNewInterface::rest(const Tick& /*tick*/) noexcept {
+  switch_to(false);
+}
+
+bool MockNewInterface::become_safe() noexcept {
   commanded_ = false;
   switch_to(false);
   return true;
-}
-
-void MockNewInterface::command(bool on) noexcept {
-  if (!is_inhibited()) commanded_ = on;
 }
 
 void MockNewInterface::switch_to(bool on) noexcept {

@@ -8,16 +8,18 @@ namespace flexrf {
 class MockNewInterface final : public MockNewInterfaceDriver {
  public:
   Status initialise() override;
-  void receive(const Tick& tick) noexcept override;
-  void send(const Tick& tick) noexcept override;
-  bool make_safe() noexcept override;
-  void command(bool on) noexcept override;
 
   // ---- for tests
 
   bool is_on() const noexcept { return on_; }
 
  private:
+  void take_in(const Tick& tick) noexcept override;
+  void set(bool on) noexcept override { commanded_ = on; }
+  void forget() noexcept override { commanded_ = false; }
+  void act(const Tick& tick) noexcept override;
+  void rest(const Tick& tick) noexcept override;
+  bool become_safe() noexcept override;
   void switch_to(bool on) noexcept;
 
   bool commanded_ = false;

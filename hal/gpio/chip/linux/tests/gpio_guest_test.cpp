@@ -29,11 +29,12 @@ class GpioSimWorld final : public DigitalIoWorld {
     chip_.driver().stop();
   }
 
-  Status start(const DigitalLineSettings& settings) override {
+  using DigitalIoWorld::start;
+  Status start(const DigitalLineSettings& settings, bool signal) override {
     if (forbidden_ && seteuid(nobody) != 0) return Status::error(StatusCode::internal, "seteuid");
     if (const Status status = chip_.driver().initialise(); !status) return status;
     line_.emplace(nullptr, std::span<QueueSink* const>{}, &chip_.driver());
-    configure_line(*line_, settings, settings.direction == LineDirection::input ? input : output);
+    configure_line(*line_, settings, settings.direction == LineDirection::input ? input : output, signal);
     return line_->driver().initialise();
   }
   DigitalIo& io() override { return line_->driver(); }

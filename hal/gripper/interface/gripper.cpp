@@ -1,0 +1,28 @@
+#include "hal/gripper/interface/gripper.hpp"
+
+namespace flexrf {
+
+void Gripper::command(const GripperGoal& goal) noexcept {
+  if (!may_act()) return;
+  const GripperCapabilities can = capabilities();
+  if (const Status status = check_goal(goal, can); !status) return fail(status);
+  restrain(restraint_of(goal, can));
+  go({within_reach(goal.opening, can), goal.speed, goal.force});
+}
+
+void Gripper::take_in(const Tick& tick) noexcept {
+  hear(tick);
+  report_.fill(name(), feedback, state(), trouble());
+}
+
+bool Gripper::become_safe() noexcept {
+  if (safe_state_ == GripperSafeState::hold || !(releasing_ || is_ready())) {
+    halt();
+  } else if (!releasing_) {
+    go({.opening = capabilities().open_width});
+    releasing_ = true;
+  }
+  return is_at_rest();
+}
+
+}  // namespace flexrf
