@@ -10,31 +10,31 @@
 namespace flexrf::config_gen {
 namespace {
 
-enum Column {
-  index,
-  subindex,
-  name,
-  type,
-  access,
-  pdo,
-  presence,
-  when,
-  value,
-  mask,
-  without,
-  helps,
-  columns
-};
-constexpr std::array<const char*, columns> column_names = {"index",  "subindex", "name",     "type",
-                                                           "access", "pdo",      "presence", "when",
-                                                           "value",  "mask",     "without",  "helps"};
-
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(' ');
   return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
 
 class ListReader : CsvRowReader {
+  enum Column {
+    index,
+    subindex,
+    name,
+    type,
+    access,
+    pdo,
+    presence,
+    when,
+    value,
+    mask,
+    without,
+    helps,
+    columns
+  };
+  static constexpr std::array<const char*, columns> column_names = {
+      "index",    "subindex", "name",  "type", "access",  "pdo",
+      "presence", "when",     "value", "mask", "without", "helps"};
+
  public:
   ListReader(const CsvTable& table, const std::vector<ListParameter>& parameters, Diagnostics& diagnostics)
       : CsvRowReader(table, column_names, "a list of objects", " of an object", diagnostics),

@@ -13,24 +13,6 @@
 namespace flexrf::config_gen {
 namespace {
 
-enum Column {
-  name,
-  address,
-  bit,
-  type,
-  area,
-  word_order,
-  scale,
-  unit,
-  access,
-  poll_group,
-  safe_value,
-  columns
-};
-constexpr std::array<const char*, columns> column_names = {"name",   "address",    "bit",       "type",
-                                                           "area",   "word_order", "scale",     "unit",
-                                                           "access", "poll_group", "safe_value"};
-
 enum Area : std::size_t { coil, discrete_input, holding_register, input_register };
 constexpr std::size_t boolean = 0;       // in register_types
 constexpr std::size_t read_only = 0;     // in register_accesses
@@ -65,6 +47,24 @@ struct Taken {
 };
 
 class MapReader : CsvRowReader {
+  enum Column {
+    name,
+    address,
+    bit,
+    type,
+    area,
+    word_order,
+    scale,
+    unit,
+    access,
+    poll_group,
+    safe_value,
+    columns
+  };
+  static constexpr std::array<const char*, columns> column_names = {
+      "name",  "address", "bit",    "type",       "area",      "word_order",
+      "scale", "unit",    "access", "poll_group", "safe_value"};
+
  public:
   MapReader(const CsvTable& table, Diagnostics& diagnostics)
       : CsvRowReader(table, column_names, "a register map", "", diagnostics) {}
