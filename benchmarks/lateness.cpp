@@ -77,7 +77,6 @@ class OurBlocks {
   int run_application() {
     user::lateness_record = {samples(), &shared_->count};
     Options options;
-    options.panel = "off";
     Executive executive(application::application, options);
     if (const Status status = executive.prepare(); !status) {
       std::fprintf(stderr, "lateness: %s\n", status.cause());

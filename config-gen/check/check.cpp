@@ -13,6 +13,7 @@ void check_all(Model& model, Diagnostics& diagnostics) {
   check_slots(model, diagnostics);
   check_queues(model, diagnostics);
   check_devices(model, diagnostics);
+  check_options(model, diagnostics);
   check_threads(model, diagnostics);
   check_triggers(model, diagnostics);
   check_schedule(model, diagnostics);

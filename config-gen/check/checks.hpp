@@ -13,6 +13,7 @@ void check_slots(const Model& model, Diagnostics& diagnostics);
 void check_queues(const Model& model, Diagnostics& diagnostics);
 void check_inputs(const Model& model, Diagnostics& diagnostics);
 void check_devices(const Model& model, Diagnostics& diagnostics);
+void check_options(const Model& model, Diagnostics& diagnostics);
 void check_threads(const Model& model, Diagnostics& diagnostics);
 void check_triggers(const Model& model, Diagnostics& diagnostics);
 void check_cycles(const Model& model, Diagnostics& diagnostics);

@@ -113,7 +113,10 @@ std::string emit_drivers(const Model& model, const Device& device, const std::st
             << ", " << bool_literal(driver.virtual_time) << ", " << size_name(driver) << ", &"
             << application_space.of(driver, driver_construct_name(driver)) << ", &"
             << application_space.of(driver, driver_component_name(driver)) << ", " << configuration << ", "
-            << runtime << "},\n";
+            << runtime
+            << (driver.options.empty() ? ""
+                                       : ", " + application_space.of(driver, driver_options_name(driver)))
+            << "},\n";
   }
   out << "constexpr DriverRecord " << prefix << "_drivers[] = {\n" << records.str() << "};\n";
   return prefix + "_drivers";

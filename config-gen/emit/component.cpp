@@ -147,6 +147,9 @@ std::string driver_component_name(const Driver& driver) {
 std::string driver_construct_name(const Driver& driver) {
   return "construct_" + driver.stem + "_driver";
 }
+std::string driver_options_name(const Driver& driver) {
+  return driver.stem + "_driver_options";
+}
 std::string size_name(const UnitType& unit) {
   return unit.space == user_space ? std::string(user_space) + "::" + unit.name + "_unit_size"
                                   : "sizeof(" + unit.class_name + ")";

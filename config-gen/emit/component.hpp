@@ -29,6 +29,10 @@ std::string block_initialiser(const BlockText& block);
 void define_ports(const Model& model, const UnitType& unit, Text& out);
 void define_ports(const Model& model, const Interface& interface, const Space& space, Text& out);
 
+// Of a driver: the struct Options of its base; the table, and the function that fills the struct.
+void declare_options(const Driver& driver, const std::string& prefix, Text& out);
+void define_options(const Driver& driver, const std::string& prefix, Text& out);
+
 // The generated base classes and their sources, as files of a target.
 std::string unit_base_header(const Model& model, const UnitType& unit);
 std::string unit_base_source(const Model& model, const UnitType& unit);
@@ -44,6 +48,7 @@ std::string unit_component_name(const UnitType& unit);    // jog_unit_component
 std::string unit_construct_name(const UnitType& unit);    // construct_jog_unit
 std::string driver_component_name(const Driver& driver);  // simulated_arm_driver_component
 std::string driver_construct_name(const Driver& driver);  // construct_simulated_arm_driver
+std::string driver_options_name(const Driver& driver);    // simulated_arm_driver_options
 // The bytes of the author's class, as the application says it. The class may be outside of the namespace,
 // where only the rules of look-up find it: of those of flexrf::user define_size() names the size there.
 std::string size_name(const UnitType& unit);

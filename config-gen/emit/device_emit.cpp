@@ -153,6 +153,7 @@ std::string driver_base_header(const Model& model, const Driver& driver) {
   std::set<std::string> system, own{interface.header};
   if (!configuration.empty()) add_includes(model, configuration.plain, system, own);
   if (driver.bus_interface) own.insert(model.interfaces[*driver.bus_interface].header);
+  if (!driver.options.empty()) own.insert("runtime/core/option.hpp");
 
   Text out;
   out << generated_note(driver.file) << "#pragma once\n\n"
@@ -162,18 +163,24 @@ std::string driver_base_header(const Model& model, const Driver& driver) {
   out << "/// " << comment_text(driver.summary) << "\nclass " << driver.base_class << " : public "
       << space.of(interface, interface.class_name) << " {\n public:\n";
   if (!configuration.empty()) out << "  using Configuration = " << configuration.plain.name << ";\n\n";
+  declare_options(driver, prefix, out);
   if (driver.bus_interface)
     out << "  void connect(const " << prefix << "DeviceBinding& binding) noexcept final;\n";
   out << "  const " << prefix << "ComponentType& component_type() const noexcept final;\n"
       << "  " << prefix << "ParameterMemory parameter_memory() noexcept final;\n";
-  if (driver.bus_interface || !configuration.empty()) out << "\n protected:\n";
+  if (driver.bus_interface || !configuration.empty() || !driver.options.empty()) out << "\n protected:\n";
   if (driver.bus_interface) {
     const Interface& bus = model.interfaces[*driver.bus_interface];
     out << "  " << space.of(bus, bus.class_name)
         << "* bus = nullptr;  ///< What this device is reached through.\n";
   }
   if (!configuration.empty()) out << "  Configuration configuration;\n";
-  out << "};\n\nextern const " << prefix << "ComponentType " << driver_component_name(driver) << ";\n"
+  if (!driver.options.empty()) out << "  Options options() const noexcept;\n";
+  out << "};\n\n";
+  if (!driver.options.empty())
+    out << "extern const " << prefix << "Option " << driver_options_name(driver) << "["
+        << driver.options.size() << "];\n";
+  out << "extern const " << prefix << "ComponentType " << driver_component_name(driver) << ";\n"
       << prefix << "Device* " << driver_construct_name(driver) << "(void* storage);\n\n"
       << space.close();
   return out.take();
@@ -200,6 +207,7 @@ std::string driver_base_source(const Model& model, const Driver& driver) {
       << block_initialiser(configuration) << ",\n    " << block_initialiser(runtime, space, interface)
       << ",\n    " << block_initialiser(feedback, space, interface) << ",\n    "
       << (interface.outputs.empty() ? "{}" : interface.name + "_ports") << "};\n\n";
+  define_options(driver, prefix, out);
   if (driver.bus_interface) {
     const Interface& bus_interface = model.interfaces[*driver.bus_interface];
     const std::string bus = space.of(bus_interface, bus_interface.class_name);

@@ -122,6 +122,15 @@ void driver_section(const Model& model, const Driver& driver, std::string_view h
   parameters(model,
              "Configuration, read at `initialise()`:", {&interface.configuration, &driver.configuration},
              out);
+  if (driver.options.empty()) return;
+  out << "\nOptions of the command line:\n\n| option | unit | range | |\n| --- | --- | --- | --- |\n";
+  for (const DriverOption& option : driver.options) {
+    out << "| `" << option.flag() << (option.value.empty() ? "" : " ") << cell(option.value) << "` | "
+        << cell(option.unit) << " | ";
+    if (option.range) out << number_text(option.range->first) << " to " << number_text(option.range->second);
+    out << " | " << cell(option.summary)
+        << (option.chooses ? " It chooses this driver where a device permits it. |\n" : " |\n");
+  }
 }
 
 void interface_section(const Model& model, const Interface& interface, std::string_view heading, Text& out) {

@@ -6,6 +6,7 @@
 // sizes bytes. Every vector is in table order, which is source order.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -234,6 +235,31 @@ struct Interface {
   ParameterBlock feedback;
 };
 
+// An option of the command line that a driver reads.
+struct DriverOption {
+  enum class Kind { flag, text, number, duration, file, output_file, folder };  // order of option_words
+  std::string name;
+  Position position;
+  Kind kind = Kind::flag;
+  std::string value;  // how --help calls what follows: "FILE"; of a flag empty
+  std::string unit;   // of measure, of a number; empty for what has none
+  std::optional<std::pair<double, double>> range;
+  std::string summary;
+  bool chooses = false;  // given, it chooses this driver where a device permits it
+
+  std::string flag() const {  // as it is given: "--edit-timeout" of edit_timeout
+    std::string text = "--" + name;
+    std::replace(text.begin(), text.end(), '_', '-');
+    return text;
+  }
+  bool means_the_same(const DriverOption& other) const {
+    return kind == other.kind && value == other.value && unit == other.unit && range == other.range &&
+           summary == other.summary;
+  }
+};
+constexpr std::array<std::string_view, 7> option_words = {"flag", "text",        "number", "duration",
+                                                          "file", "output_file", "folder"};
+
 struct Driver {
   enum class Kind { mock, simulated, real };
   std::string name;         // as in drivers = [...] and --hardware
@@ -254,7 +280,8 @@ struct Driver {
   std::size_t helper_threads = 0;      // of its own, which may wait
   std::optional<Index> bus_interface;  // the device must be on a bus with this interface
   ParameterBlock configuration;        // the driver's own; the interface's come before
-  bool takes_eds = false;              // a device may name its EDS file, which is checked against:
+  std::vector<DriverOption> options;
+  bool takes_eds = false;  // a device may name its EDS file, which is checked against:
   std::vector<NeededObject> objects;
 };
 

@@ -316,6 +316,15 @@ std::optional<Field> read_field(Library& library, Row& row, const std::vector<st
   return field;
 }
 
+Parameter read_number(Library& library, Row& row) {
+  Parameter number;
+  number.field.name = row.node().key;
+  number.field.type.scalar = Scalar::f64;
+  read_unit_of_measure(row, number.field, {}, library.diagnostics());
+  read_range(library, row, number, true);
+  return number;
+}
+
 void read_parameters(Library& library, const Node& root, Parameter::Kind kind, ParameterBlock& block,
                      const std::vector<UnitChoice>& choices) {
   const std::string section = kind == Parameter::Kind::configuration ? "configuration"

@@ -202,11 +202,13 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
                         "name an interface whose table says bus = true");
   }
   row.also("configuration");
+  row.also("option");
   check_build_words(row, "libraries", "a target of the build, as \"FlexRF::can_wire\"", diagnostics);
   check_build_words(row, "packages", "what pkg-config calls a library, as \"libgpiod\"", diagnostics);
   const auto objects = row.text("objects");
   refuse_sections_of_interface(row, interface.value_or(""), diagnostics);
   row.finish();
+  driver.options = read_driver_options(library, root, driver.kind);
   // A copy: further tables may be read meanwhile, and the interfaces move.
   std::vector<UnitChoice> choices;
   if (index) {

@@ -96,6 +96,10 @@ std::optional<Field> read_field(Library& library, Row& row, const std::vector<st
                                 std::string* word = nullptr, const std::vector<UnitChoice>& choices = {});
 void read_parameters(Library& library, const Node& table, Parameter::Kind kind, ParameterBlock& block,
                      const std::vector<UnitChoice>& choices = {});
+// Unit of measure and range of a number that is no parameter.
+Parameter read_number(Library& library, Row& row);
+// All of `[option.N]` under `table`, of a driver of this kind.
+std::vector<DriverOption> read_driver_options(Library& library, const Node& table, Driver::Kind kind);
 // All of `[output.N]` under `table`.
 std::vector<OutputPort> read_outputs(Library& library, const Node& table, bool with_loans);
 

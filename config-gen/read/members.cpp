@@ -23,7 +23,7 @@ const std::vector<std::string>& inherited_by(Heir heir) {
       with({"cell", "cell_access", "input_counters", "is_idle", "reset", "step"});
   static const std::vector<std::string> device =
       with({"bus", "descriptor", "environment", "is_closed", "is_inhibited", "make_safe", "next_event",
-            "receive", "send", "set_environment", "set_inhibited"});
+            "options", "receive", "send", "set_environment", "set_inhibited"});
   return heir == Heir::unit ? unit : device;
 }
 

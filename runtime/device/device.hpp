@@ -7,6 +7,7 @@
 
 #include "runtime/blackboard/queue.hpp"
 #include "runtime/blackboard/slot.hpp"
+#include "runtime/core/option.hpp"
 #include "runtime/device/heartbeat.hpp"
 #include "runtime/unit/component.hpp"
 #include "runtime/unit/tick.hpp"
@@ -28,8 +29,8 @@ struct DeviceBinding : PortBinding {
 struct DeviceEnvironment {
   std::uint64_t seed = 1;  ///< of this device's random numbers: from --seed and the device's name
   bool virtual_time = false;
-  const char* keys_file = nullptr;  ///< --keys FILE, else null
-  Heartbeat* heartbeat = nullptr;   ///< of the application; null: nobody judges, as in virtual time
+  OptionValues options = {};       ///< of the command line; a driver asks its generated base
+  Heartbeat* heartbeat = nullptr;  ///< of the application; null: nobody judges, as in virtual time
   Duration longest_step{};  ///< a step that keeps its thread for longer hangs; 0: nobody judges, likewise
 };
 

@@ -65,6 +65,7 @@ struct DriverRecord {
   const ComponentType* type;
   const void* configuration;  ///< initial values from the tables; null where it has none
   const void* runtime;
+  std::span<const Option> options = {};  ///< of the command line, that its table declares
 };
 
 inline constexpr std::uint8_t no_driver = 0xFF;
@@ -233,8 +234,8 @@ inline const char* kind_of(const Application& application, ComponentIndex compon
 
 /// The main function of every application: reads the command line, runs to the end, returns the exit code
 /// (0 finished, 1 usage or table, 2 fault, 3 right missing, 128+n signal).
-/// `make`: of whoever observes it, as the panel; not called with `--panel off` and in virtual time.
+/// `observer`: who observes it, as the panel; null: nobody.
 int run_application(const Application& application, int argument_count, char** arguments,
-                    MakeObserver make = nullptr);
+                    const ObserverPart* observer = nullptr);
 
 }  // namespace flexrf

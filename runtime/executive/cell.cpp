@@ -86,6 +86,11 @@ std::optional<std::uint16_t> find_driver(const DeviceRecord& device, std::string
   return std::nullopt;
 }
 
+bool is_chosen_by_option(const DriverRecord& driver, const OptionValues& values) noexcept {
+  return std::any_of(driver.options.begin(), driver.options.end(),
+                     [&](const Option& option) { return option.chooses && values.has(option.name); });
+}
+
 }  // namespace
 
 Status Cell::choose_drivers() {
@@ -105,8 +110,10 @@ Status Cell::choose_drivers() {
         lacks = wanted;
       }
     };
-    // A file of key presses implies the driver that reads it; what --hardware says comes after and wins.
-    if (!options_->keys_file.empty() && std::strcmp(device.interface, "Keyboard") == 0) choose("script");
+    // An option may imply the driver that reads it; what --hardware says comes after and wins.
+    for (const DriverRecord& driver : device.drivers) {
+      if (is_chosen_by_option(driver, options_->values())) choose(driver.name);
+    }
     for (const HardwareChoice& choice : options_->hardware) {
       if (choice.device.empty() || choice.device == device.name) choose(choice.driver);
     }
@@ -190,8 +197,7 @@ Status Cell::construct_device(std::uint16_t index) {
   state.device = driver.construct(record.storage);
   *record.instance = state.device;
   state.environment = {seed_of(options_->seed, record.name), options_->virtual_time.has_value(),
-                       options_->keys_file.empty() ? nullptr : options_->keys_file.c_str(),
-                       options_->virtual_time ? nullptr : &heartbeat_};
+                       options_->values(), options_->virtual_time ? nullptr : &heartbeat_};
   if (!options_->virtual_time && record.thread != no_index)
     state.environment.longest_step = longest_step_of(application_->threads[record.thread]);
   state.device->set_name(record.name);

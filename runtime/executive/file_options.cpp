@@ -21,7 +21,6 @@ Status wrong_kind(const char* option, const std::string& path, mode_t mode) {
 }
 
 Status check_input(const char* option, const std::string& path) {
-  if (path.empty()) return {};
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) return refused(option, path, strerrordesc_np(errno));
   if (!S_ISREG(found.st_mode)) return wrong_kind(option, path, found.st_mode);
@@ -29,8 +28,8 @@ Status check_input(const char* option, const std::string& path) {
   return {};
 }
 
-Status check_folder(const char* option, const std::string& path) {
-  const std::string folder = folder_of(resolved_path(path));
+/// `folder` is there, which `path` names, or is in.
+Status check_folder(const char* option, const std::string& path, const std::string& folder) {
   struct stat found {};
   if (stat(folder.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) return {};
   return Status::error(StatusCode::invalid_argument, "%s %s: there is no folder '%s'; make it first", option,
@@ -39,11 +38,11 @@ Status check_folder(const char* option, const std::string& path) {
 
 /// It need not be there. `kept`: it is read, too, and replaced as a whole.
 Status check_output(const char* option, const std::string& path, bool kept) {
-  if (path.empty()) return {};
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) {
     const int cause = errno;
-    if (const Status status = check_folder(option, path); !status) return status;
+    if (const Status status = check_folder(option, path, folder_of(resolved_path(path))); !status)
+      return status;
     if (cause != ENOENT) return refused(option, path, strerrordesc_np(cause));
     if (!kept && access(folder_of(path).c_str(), W_OK | X_OK) != 0)
       return refused(option, path, strerrordesc_np(errno));
@@ -65,7 +64,7 @@ Status check_output(const char* option, const std::string& path, bool kept) {
 
 /// A report in the place of something else would be its end.
 Status check_apart(const std::string& report, const char* option, const std::string& path) {
-  if (report.empty() || path.empty()) return {};
+  if (report.empty()) return {};
   struct stat one {};
   struct stat other {};
   const bool are_there = stat(report.c_str(), &one) == 0 && stat(path.c_str(), &other) == 0;
@@ -76,21 +75,36 @@ Status check_apart(const std::string& report, const char* option, const std::str
                        report.c_str(), option);
 }
 
+Status check_kind(const Option& option, const char* value) {
+  switch (option.kind) {
+    case OptionKind::file:
+      return check_input(option.name, value);
+    case OptionKind::output_file:
+    case OptionKind::kept_file:
+      return check_output(option.name, value, option.kind == OptionKind::kept_file);
+    case OptionKind::folder:
+      return check_folder(option.name, value, value);
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 Status check_file_options(const Options& options) {
-  Status status = check_input("--keys", options.keys_file);
-  if (status) status = check_input("--panel-users", options.panel_users);
-  if (status) status = check_input("--tls-certificate", options.tls_certificate);
-  if (status) status = check_input("--tls-key", options.tls_key);
-  if (status) status = check_output("--config", options.configuration_file, true);
-  if (status) status = check_output("--report", options.report_file, false);
-  if (status) status = check_apart(options.report_file, "--config", options.configuration_file);
-  if (status) status = check_apart(options.report_file, "--keys", options.keys_file);
-  if (status) status = check_apart(options.report_file, "--panel-users", options.panel_users);
-  if (status) status = check_apart(options.report_file, "--tls-certificate", options.tls_certificate);
-  if (status) status = check_apart(options.report_file, "--tls-key", options.tls_key);
-  return status;
+  for (const GivenOption& given : options.given) {
+    const Status status = check_kind(*given.option, given.value);
+    if (!status) return status;
+  }
+  for (const GivenOption& given : options.given) {
+    const OptionKind kind = given.option->kind;
+    const bool is_file =
+        kind == OptionKind::file || kind == OptionKind::kept_file || kind == OptionKind::output_file;
+    if (!is_file || given.option->name == std::string_view{"--report"}) continue;
+    const Status status = check_apart(options.report_file, given.option->name, given.value);
+    if (!status) return status;
+  }
+  return {};
 }
 
 }  // namespace flexrf

@@ -3,12 +3,15 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 
+#include "runtime/core/option.hpp"
 #include "runtime/core/status.hpp"
 
 namespace flexrf {
 
 class Executive;
+struct Options;
 
 /// The executive knows no panel; an application's main function brings one along.
 class Observer {
@@ -31,7 +34,15 @@ class Observer {
 /// Bytes of the stack of each thread that an observer starts.
 inline constexpr std::size_t observer_stack_size = 512U << 10;
 
-/// Makes what observes an application that was prepared; never null.
-using MakeObserver = std::unique_ptr<Observer> (*)(Executive& executive);
+/// What an application's main function brings along, so that somebody observes.
+struct ObserverPart {
+  const char* name;                 ///< "Panel", above its options in --help
+  std::span<const Option> options;  ///< of the command line, which it reads itself
+  /// Whether it is to be made at all in such a run; an error refuses the start. The main thread, before
+  /// anything else.
+  Result<bool> (*is_wanted)(const Options& options);
+  /// For an application that was prepared; never null.
+  std::unique_ptr<Observer> (*make)(Executive& executive);
+};
 
 }  // namespace flexrf

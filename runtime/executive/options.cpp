@@ -1,8 +1,8 @@
 #include "runtime/executive/options.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstring>
 #include <string_view>
 
 #include "runtime/core/nearest_name.hpp"
@@ -10,35 +10,56 @@
 namespace flexrf {
 namespace {
 
-struct Flag {
-  const char* name;
-  const char* value;  // what follows, or null
-  const char* meaning;
+constexpr std::array own_options{
+    Option{"--hardware", OptionKind::text, "CHOICE", "drivers: `mock`, or `arm=simulated,camera=real`"},
+    Option{"--virtual-time", OptionKind::duration, "DURATION",
+           "run on a simulated clock, as fast as it goes: `60s`, `500ms`"},
+    Option{"--seed", OptionKind::text, "N", "of all random numbers (default 1)"},
+    Option{"--digest", OptionKind::flag, nullptr,
+           "last line of the output: digest of everything that was published"},
+    Option{"--config", OptionKind::kept_file, "FILE",
+           "configuration file (XML): read at the start, written when values are saved"},
+    Option{"--report", OptionKind::output_file, "FILE", "write the final report as JSON too"},
+    Option{"--audit", OptionKind::text, "FILE|off",
+           "who did what (default: FILE.audit beside --config FILE)"},
+    Option{"--standstill-limit", OptionKind::duration, "DURATION",
+           "instead of the application's: what is a fault of time missed at a stretch"},
+    Option{"--no-realtime", OptionKind::flag, nullptr, "ordinary priorities; refused with a real actuator"},
+    Option{"--descriptor", OptionKind::flag, nullptr, "print descriptor.json and end"},
+    Option{"--version", OptionKind::flag, nullptr, "which application of which FlexRF this is"},
+    Option{"--help", OptionKind::flag, nullptr, "this text"},
 };
 
-constexpr std::array flags{
-    Flag{"--hardware", "CHOICE", "drivers: `mock`, or `arm=simulated,camera=real`"},
-    Flag{"--virtual-time", "DURATION", "run on a simulated clock, as fast as it goes: `60s`, `500ms`"},
-    Flag{"--keys", "FILE", "key presses from a file: a line each, seconds and key, as `0.5 w`"},
-    Flag{"--seed", "N", "of all random numbers (default 1)"},
-    Flag{"--digest", nullptr, "last line of the output: digest of everything that was published"},
-    Flag{"--config", "FILE", "configuration file (XML): read at the start, written when values are saved"},
-    Flag{"--report", "FILE", "write the final report as JSON too"},
-    Flag{"--audit", "FILE|off", "who did what (default: FILE.audit beside --config FILE)"},
-    Flag{"--panel", "ADDRESS:PORT|off", "where the panel listens (default 127.0.0.1:8080)"},
-    Flag{"--panel-users", "FILE", "who may log in to the panel (`./flexrf password` writes it)"},
-    Flag{"--panel-host", "NAME", "another name of this machine in the panel's address"},
-    Flag{"--panel-edit-timeout", "DURATION", "how long an edit may be left open (default `5min`)"},
-    Flag{"--tls-certificate", "FILE", "serve the panel by TLS: certificate (PEM)"},
-    Flag{"--tls-key", "FILE", "and its key (PEM)"},
-    Flag{"--insecure-http", nullptr, "let other machines use the panel without TLS"},
-    Flag{"--standstill-limit", "DURATION",
-         "instead of the application's: what is a fault of time missed at a stretch"},
-    Flag{"--no-realtime", nullptr, "ordinary priorities; refused with a real actuator"},
-    Flag{"--descriptor", nullptr, "print descriptor.json and end"},
-    Flag{"--version", nullptr, "which application of which FlexRF this is"},
-    Flag{"--help", nullptr, "this text"},
+/// Options of one part, under its name in --help.
+struct OptionGroup {
+  std::string name;
+  std::span<const Option> options;
 };
+
+std::vector<OptionGroup> groups_of(const Application& application, const ObserverPart* observer) {
+  std::vector<OptionGroup> groups{{"Application", own_options}};
+  if (observer != nullptr) groups.push_back({observer->name, observer->options});
+  for (const DeviceRecord& device : application.devices) {
+    for (const DriverRecord& driver : device.drivers) {
+      // Several devices permit the same driver.
+      const bool is_known = std::any_of(groups.begin(), groups.end(), [&](const OptionGroup& group) {
+        return group.options.data() == driver.options.data();
+      });
+      if (driver.options.empty() || is_known) continue;
+      groups.push_back({std::string{"Driver `"} + driver.name + "` of " + device.interface, driver.options});
+    }
+  }
+  return groups;
+}
+
+const Option* find_option(const std::vector<OptionGroup>& groups, std::string_view name) {
+  for (const OptionGroup& group : groups) {
+    for (const Option& option : group.options) {
+      if (name == option.name) return &option;
+    }
+  }
+  return nullptr;
+}
 
 /// "; did you mean `x`?", or nothing when no known word is near.
 std::string did_you_mean(const NearestName& nearest) {
@@ -46,33 +67,14 @@ std::string did_you_mean(const NearestName& nearest) {
   return "; did you mean `" + std::string{nearest.best()} + "`?";
 }
 
-Status unknown_flag(const std::string& argument) {
+Status unknown_option(const std::vector<OptionGroup>& groups, const std::string& argument) {
   NearestName nearest(argument);
-  for (const Flag& flag : flags) nearest.offer(flag.name);
+  for (const OptionGroup& group : groups) {
+    for (const Option& option : group.options) nearest.offer(option.name);
+  }
   const std::string hint = nearest.best().empty() ? "; --help lists what there is" : did_you_mean(nearest);
   return Status::error(StatusCode::invalid_argument, "unknown argument `%s`%s", argument.c_str(),
                        hint.c_str());
-}
-
-std::optional<Duration> parse_duration(std::string_view text) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || !(number > 0)) return std::nullopt;
-  const std::string_view unit{end, static_cast<std::size_t>(text.data() + text.size() - end)};
-  double scale = 0;
-  if (unit == "h") scale = 3600e9;
-  if (unit == "min") scale = 60e9;
-  if (unit == "s") scale = 1e9;
-  if (unit == "ms") scale = 1e6;
-  if (unit == "us") scale = 1e3;
-  if (scale == 0 || number * scale > 9e18 || number * scale < 1) return std::nullopt;
-  return Duration{static_cast<std::int64_t>(number * scale)};
-}
-
-Status no_duration(std::string_view name, std::string_view value) {
-  return Status::error(
-      StatusCode::invalid_argument, "%.*s %.*s: give a duration with its unit (us, ms, s, min, h), as `60s`",
-      static_cast<int>(name.size()), name.data(), static_cast<int>(value.size()), value.data());
 }
 
 const DeviceRecord* find_device(const Application& application, std::string_view name) {
@@ -115,16 +117,6 @@ Status check_choice(const Application& application, const HardwareChoice& choice
                        choice.driver.c_str(), drivers_of(*device).c_str());
 }
 
-bool has_keyboard_with_script(const Application& application) {
-  for (const DeviceRecord& device : application.devices) {
-    if (std::strcmp(device.interface, "Keyboard") != 0) continue;
-    for (const DriverRecord& driver : device.drivers) {
-      if (std::strcmp(driver.name, "script") == 0) return true;
-    }
-  }
-  return false;
-}
-
 Status parse_hardware(const Application& application, std::string_view text,
                       std::vector<HardwareChoice>& choices) {
   while (!text.empty()) {
@@ -145,115 +137,87 @@ Status parse_hardware(const Application& application, std::string_view text,
   return {};
 }
 
-Status take(const Application& application, std::string_view name, std::string_view value, Options& options) {
-  if (name == "--hardware") return parse_hardware(application, value, options.hardware);
-  if (name == "--keys") {
-    options.keys_file = value;
-  } else if (name == "--config") {
-    options.configuration_file = value;
-  } else if (name == "--report") {
-    options.report_file = value;
-  } else if (name == "--audit") {
-    options.audit_file = value;
-  } else if (name == "--panel") {
-    if (value != "off" && value.find(':') == std::string_view::npos) {
-      return Status::error(StatusCode::invalid_argument, "--panel %.*s: give ADDRESS:PORT or off",
-                           static_cast<int>(value.size()), value.data());
-    }
-    options.panel = value;
-    options.panel_given = value != "off";
-  } else if (name == "--panel-users") {
-    options.panel_users = value;
-  } else if (name == "--panel-host") {
-    options.panel_hosts.emplace_back(value);
-  } else if (name == "--tls-certificate") {
-    options.tls_certificate = value;
-  } else if (name == "--tls-key") {
-    options.tls_key = value;
-  } else if (name == "--panel-edit-timeout") {
-    const std::optional<Duration> timeout = parse_duration(value);
-    if (!timeout) return no_duration(name, value);
-    options.panel_edit_timeout = *timeout;
-  } else if (name == "--standstill-limit") {
-    options.standstill_limit = parse_duration(value);
-    if (!options.standstill_limit) return no_duration(name, value);
-  } else if (name == "--virtual-time") {
-    options.virtual_time = parse_duration(value);
-    if (!options.virtual_time) return no_duration(name, value);
-  } else if (name == "--seed") {
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), options.seed);
-    if (error != std::errc{} || end != value.data() + value.size()) {
-      return Status::error(StatusCode::invalid_argument, "--seed %.*s: give a whole number from 0 to 2^64-1",
-                           static_cast<int>(value.size()), value.data());
-    }
+/// Adds to what is given, with a value that is as its option asks for.
+Status take_argument(const std::vector<OptionGroup>& groups, char** arguments, int count, int& i,
+                     std::vector<GivenOption>& given) {
+  const std::string_view argument = arguments[i];
+  const std::size_t equals = argument.starts_with("--") ? argument.find('=') : std::string_view::npos;
+  const Option* const option = find_option(groups, argument.substr(0, equals));
+  if (option == nullptr) return unknown_option(groups, std::string{argument});
+  const char* value = nullptr;
+  if (option->kind == OptionKind::flag) {
+    if (equals != std::string_view::npos)
+      return Status::error(StatusCode::invalid_argument, "%s takes no value", option->name);
+  } else {
+    value = equals != std::string_view::npos ? arguments[i] + equals + 1
+            : i + 1 < count                  ? arguments[++i]
+                                             : "";
+    if (value[0] == '\0')
+      return Status::error(StatusCode::invalid_argument, "%s needs a value: %s", option->name, option->value);
+    if (const Status status = check_value(*option, value); !status) return status;
+  }
+  given.push_back({option, value});
+  return {};
+}
+
+/// What the executive itself is told.
+Status read_own(const Application& application, Options& options) {
+  for (const GivenOption& given : options.given) {
+    if (given.option->name != std::string_view{"--hardware"}) continue;
+    if (const Status status = parse_hardware(application, given.value, options.hardware); !status)
+      return status;
+  }
+  const OptionValues values = options.values();
+  options.virtual_time = values.duration("--virtual-time");
+  options.configuration_file = values.text("--config", "");
+  options.report_file = values.text("--report", "");
+  options.audit_file = values.text("--audit", "");
+  options.standstill_limit = values.duration("--standstill-limit");
+  options.digest = values.has("--digest");
+  options.realtime = !values.has("--no-realtime");
+  options.status_view = true;
+  const std::string_view seed = values.text("--seed", "1");
+  const auto [end, error] = std::from_chars(seed.data(), seed.data() + seed.size(), options.seed);
+  if (error != std::errc{} || end != seed.data() + seed.size()) {
+    return Status::error(StatusCode::invalid_argument, "--seed %s: give a whole number from 0 to 2^64-1",
+                         seed.data());
+  }
+  if (options.digest && !options.virtual_time) {
+    return Status::error(StatusCode::invalid_argument,
+                         "--digest needs --virtual-time: on the wall clock no two runs are the same");
   }
   return {};
 }
 
 }  // namespace
 
-Result<Options> parse_options(const Application& application, int argument_count, char** arguments) {
+Result<Options> parse_options(const Application& application, const ObserverPart* observer,
+                              int argument_count, char** arguments) {
   Options options;
+  const std::vector<OptionGroup> groups = groups_of(application, observer);
   for (int i = 1; i < argument_count; ++i) {
-    const std::string_view argument = arguments[i];
-    const std::size_t equals = argument.starts_with("--") ? argument.find('=') : std::string_view::npos;
-    const std::string_view name = argument.substr(0, equals);
-    const Flag* flag = nullptr;
-    for (const Flag& known : flags) {
-      if (name == known.name) flag = &known;
-    }
-    if (flag == nullptr) return unknown_flag(std::string{argument});
-    if (flag->value == nullptr) {
-      if (equals != std::string_view::npos) {
-        return Status::error(StatusCode::invalid_argument, "%s takes no value", flag->name);
-      }
-      options.digest |= name == "--digest";
-      options.help |= name == "--help";
-      options.version |= name == "--version";
-      options.insecure_http |= name == "--insecure-http";
-      options.descriptor |= name == "--descriptor";
-      if (name == "--no-realtime") options.realtime = false;
-      continue;
-    }
-    std::string_view value;
-    if (equals != std::string_view::npos) {
-      value = argument.substr(equals + 1);
-    } else if (i + 1 < argument_count) {
-      value = arguments[++i];
-    }
-    if (value.empty())
-      return Status::error(StatusCode::invalid_argument, "%s needs a value: %s", flag->name, flag->value);
-    if (const Status status = take(application, name, value, options); !status) return status;
+    if (const Status status = take_argument(groups, arguments, argument_count, i, options.given); !status)
+      return status;
   }
-  if (options.digest && !options.virtual_time) {
-    return Status::error(StatusCode::invalid_argument,
-                         "--digest needs --virtual-time: on the wall clock no two runs are the same");
+  if (const Status status = read_own(application, options); !status) return status;
+  if (observer != nullptr) {
+    const Result<bool> wanted = observer->is_wanted(options);
+    if (!wanted) return wanted.status();
+    options.observed = *wanted;
   }
-  if (!options.keys_file.empty() && !has_keyboard_with_script(application)) {
-    return Status::error(
-        StatusCode::invalid_argument,
-        "--keys %s: no Keyboard of this application has the driver `script`, which reads it; "
-        "leave --keys away, or add the driver to the device's table",
-        options.keys_file.c_str());
-  }
-  if (options.panel_given && options.virtual_time) {
-    return Status::error(
-        StatusCode::invalid_argument,
-        "--panel %s with --virtual-time: there is no panel on a simulated clock; leave one of "
-        "them away",
-        options.panel.c_str());
-  }
-  options.status_view = true;
   return options;
 }
 
-std::string usage(const Application& application) {
-  std::string text = std::string{application.name} + ": " + application.summary + "\n\n";
-  for (const Flag& flag : flags) {
-    std::string left =
-        "  " + std::string{flag.name} + (flag.value == nullptr ? "" : " " + std::string{flag.value});
-    left.resize(left.size() < 30 ? 30 : left.size() + 1, ' ');
-    text += left + flag.meaning + "\n";
+std::string usage(const Application& application, const ObserverPart* observer) {
+  std::string text = std::string{application.name} + ": " + application.summary + "\n";
+  for (const OptionGroup& group : groups_of(application, observer)) {
+    text += "\n" + group.name + ":\n";
+    for (const Option& option : group.options) {
+      std::string left =
+          "  " + std::string{option.name} + (option.value == nullptr ? "" : " " + std::string{option.value});
+      left.resize(left.size() < 30 ? 30 : left.size() + 1, ' ');
+      text += left + option.summary + "\n";
+    }
   }
   text += "\nDevices and their drivers (the first is the default):\n";
   for (const DeviceRecord& device : application.devices) {

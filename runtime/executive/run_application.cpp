@@ -101,21 +101,15 @@ Status lock_cell(const Cell& cell, const Options& options, InstanceLock& lock) {
 
 }  // namespace
 
-int run_application(const Application& application, int argument_count, char** arguments, MakeObserver make) {
+int run_application(const Application& application, int argument_count, char** arguments,
+                    const ObserverPart* part) {
   hold_standard_descriptors();
-  Result<Options> options = parse_options(application, argument_count, arguments);
+  Result<Options> options = parse_options(application, part, argument_count, arguments);
   if (!options) return refuse(application, options.status());
-  if (options->help) return answer(application, usage(application));
-  if (options->version) return answer(application, version_line(application));
-  if (options->descriptor) return answer(application, std::string{application.descriptor_json} + "\n");
-  if (make == nullptr && options->panel_given) {
-    return refuse(
-        application,
-        Status::error(StatusCode::invalid_argument,
-                      "--panel %s: this application was built without the panel; leave --panel away",
-                      options->panel.c_str()));
-  }
-  options->observed = make != nullptr && options->panel != "off" && !options->virtual_time;
+  const OptionValues asked = options->values();
+  if (asked.has("--help")) return answer(application, usage(application, part));
+  if (asked.has("--version")) return answer(application, version_line(application));
+  if (asked.has("--descriptor")) return answer(application, std::string{application.descriptor_json} + "\n");
   if (const Status status = check_file_options(*options); !status) return refuse(application, status);
   InstanceLock lock;
   Executive executive(application, *options);
@@ -127,7 +121,7 @@ int run_application(const Application& application, int argument_count, char** a
     // From here on somebody may know that it runs: who ends it gets a report, as later.
     const sigset_t awaited = signals::supervised_set();
     pthread_sigmask(SIG_BLOCK, &awaited, nullptr);
-    observer = make(executive);
+    observer = part->make(executive);
     if (const Status status = observer->prepare(); !status) {
       observer->stop();
       std::fprintf(stderr, "%s: %s\n", application.name, status.cause());

@@ -84,7 +84,6 @@ class HandCell {
     write_file(folder_ / "cell.xml", text + "</flexrf>\n");
     Options options;
     options.configuration_file = folder_ / "cell.xml";
-    options.panel = "off";
     return options;
   }
 

@@ -154,8 +154,7 @@ void a_disk_that_fills_up_disturbs_nobody_and_is_made_up_for() {
 }
 
 std::vector<std::string> words_of_tuned(const std::vector<std::string>& more) {
-  std::vector<std::string> all{place::tuned,         "--panel", "off", "--no-realtime",
-                               "--standstill-limit", "10min"};
+  std::vector<std::string> all{place::tuned, "--no-realtime", "--standstill-limit", "10min"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }

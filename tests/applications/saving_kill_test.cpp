@@ -65,8 +65,8 @@ void killed_while_saving_it_starts_with_what_was_saved() {
   std::uint64_t known = 0;
   int left_behind = 0;
   for (int kill = 0; kill < kills; ++kill) {
-    Process process(folder, {place::application, "--config", "cell.xml", "--panel", "off", "--no-realtime",
-                             "--standstill-limit", "10min"});
+    Process process(
+        folder, {place::application, "--config", "cell.xml", "--no-realtime", "--standstill-limit", "10min"});
     process.type("l");
     const std::string before = text_of(folder, "cell.xml");
     CHECK(wait_until([&] { return text_of(folder, "cell.xml") != before || process.has_ended(); }));
@@ -94,8 +94,8 @@ void killed_while_saving_it_starts_with_what_was_saved() {
   CHECK(left_behind > 0);
   print_message("%d of %d kills left a file half written beside the whole one\n", left_behind, kills);
   // One that goes on to its end.
-  const Ending last = run(folder, {place::application, "--config", "cell.xml", "--panel", "off",
-                                   "--no-realtime", "--standstill-limit", "10min", "--report", "report"});
+  const Ending last = run(folder, {place::application, "--config", "cell.xml", "--no-realtime",
+                                   "--standstill-limit", "10min", "--report", "report"});
   CHECK_EQUAL(last.exit_code, 0);
   CHECK_EQUAL(Report(folder / "report").last("tuner.values").at("learned"), known);
 }

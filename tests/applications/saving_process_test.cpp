@@ -17,8 +17,7 @@ namespace flexrf::whole {
 namespace {
 
 std::vector<std::string> words(const std::vector<std::string>& more = {}) {
-  std::vector<std::string> all{place::application,   "--panel", "off", "--no-realtime",
-                               "--standstill-limit", "10min"};
+  std::vector<std::string> all{place::application, "--no-realtime", "--standstill-limit", "10min"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
@@ -120,11 +119,14 @@ void a_report_that_fails_is_seen_behind_a_signal() {
 
 void check_refused(const Folder& folder, const std::string& option, const std::string& value,
                    const std::string& why) {
-  std::vector<std::string> given{option, value};
+  const bool is_of_panel = option.starts_with("--panel") || option.starts_with("--tls");
+  std::vector<std::string> given = words({option, value});
+  if (is_of_panel) given[0] = place::keyboard;  // which has one
   if (option == "--tls-key") given.insert(given.end(), {"--tls-certificate", "file"});
-  const Ending ending = run(folder, words(given));
+  const Ending ending = run(folder, given);
   CHECK_EQUAL(ending.exit_code, 1);
-  CHECK_CONTAINS(ending.errors, "tuned: " + option + " " + value + ": " + why);
+  const std::string name = is_of_panel ? "keyboard" : "tuned";
+  CHECK_CONTAINS(ending.errors, name + ": " + option + " " + value + ": " + why);
   CHECK_EQUAL(ending.output, std::string{});
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "drivers/mock_station/mock_station.hpp"
 #include "places.hpp"
 #include "runtime/core/digest.hpp"
 #include "runtime/executive/application.hpp"
@@ -321,6 +322,32 @@ void the_descriptor_is_embedded(void**) {
       "eight ch");
 }
 
+void a_driver_reads_the_options_of_its_table(void**) {
+  const DriverRecord& driver = row(cell.devices, "station").drivers[0];
+  assert_int_equal(driver.options.size(), 7);
+  const Option& gain = driver.options[2];
+  assert_string_equal(gain.name, "--output-gain");
+  assert_string_equal(gain.value, "NUMBER");
+  assert_true(gain.kind == OptionKind::number && gain.least == 0.5 && gain.most == 2.0 && !gain.chooses);
+  assert_string_equal(driver.options[1].value, "WORD");
+  assert_true(driver.options[4].kind == OptionKind::file && driver.options[4].chooses);
+  assert_string_equal(driver.options[4].summary, "What to put out, \"as it is\".");
+
+  MockStation station;
+  DeviceEnvironment environment;
+  station.set_environment(&environment);
+  assert_false(station.told().echo || station.told().output_gain || station.told().traces != nullptr);
+  const GivenOption given[] = {{&driver.options[0], nullptr},
+                               {&driver.options[2], "1.5"},
+                               {&driver.options[3], "20ms"},
+                               {&driver.options[6], "/tmp"}};
+  environment.options = OptionValues{given};
+  const auto told = station.told();
+  assert_true(told.echo && told.output_gain == 1.5 && told.warm_up == std::chrono::milliseconds{20});
+  assert_string_equal(told.traces, "/tmp");
+  assert_null(told.samples);
+}
+
 void it_runs(void**) {
   const char* words[] = {"generated_cell", "--virtual-time", "1s"};
   assert_int_equal(run_application(cell, 3, const_cast<char**>(words)), 0);
@@ -352,6 +379,7 @@ int main() {
                               cmocka_unit_test(the_descriptor_tells_what_a_page_needs),
                               cmocka_unit_test(the_panel_has_its_settings_and_files),
                               cmocka_unit_test(ranges_that_rows_narrow_are_told),
+                              cmocka_unit_test(a_driver_reads_the_options_of_its_table),
                               cmocka_unit_test(it_runs),
                               cmocka_unit_test(items_are_as_large_as_their_slot_says),
                               cmocka_unit_test(an_image_is_read_as_any_slot)};

@@ -15,6 +15,7 @@
 
 #include "motion/pose_conversion.hpp"
 #include "runtime/executive/executive.hpp"
+#include "script_keyboard_driver.hpp"
 #include "six_axis.hpp"
 #include "tests/cmocka.hpp"
 
@@ -33,7 +34,7 @@ const std::string script = "/tmp/flexrf_keyboard_" + std::to_string(getpid()) + 
 Options in_virtual_time() {
   Options options;
   options.virtual_time = std::chrono::seconds(60);
-  options.keys_file = script;
+  options.given.push_back({script_keyboard_driver_options, script.c_str()});
   options.hardware = {{"keyboard", "script"}};
   options.digest = true;
   return options;

@@ -108,7 +108,6 @@ class LedCell {
     Options options;
     options.hardware.push_back({"", "real"});
     options.configuration_file = folder_ / "cell.xml";
-    options.panel = "off";
     return options;
   }
 

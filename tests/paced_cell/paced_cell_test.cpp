@@ -9,6 +9,7 @@
 
 #include "motion/pose_conversion.hpp"
 #include "runtime/executive/executive.hpp"
+#include "script_keyboard_driver.hpp"
 #include "six_axis.hpp"
 #include "tests/cmocka.hpp"
 
@@ -45,7 +46,7 @@ double off_by(double x) {
 Ending run(const std::string& keys) {
   Options options;
   options.virtual_time = std::chrono::seconds(60);
-  options.keys_file = keys;
+  options.given.push_back({script_keyboard_driver_options, keys.c_str()});
   Executive executive(application, options);
   if (const Status status = executive.prepare(); !status) {
     std::fprintf(stderr, "%s\n", status.cause());

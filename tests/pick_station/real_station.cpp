@@ -27,7 +27,6 @@ constexpr std::int32_t darkest = 0;
 Options real_hardware() {
   Options options;
   options.hardware.push_back({"", "real"});
-  options.panel = "off";
   return options;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "web-ui/server/files.hpp"
 #include "web-ui/server/listen_address.hpp"
 #include "web-ui/server/ordinary_memory.hpp"
+#include "web-ui/server/panel_options.hpp"
 #include "web-ui/server/panel_routes.hpp"
 #include "web-ui/server/server.hpp"
 
@@ -62,6 +64,7 @@ class Panel final : public Observer {
   UserFileWatch user_watch_;
   std::unique_ptr<net::ssl::context> encryption_;
   bool is_secure_ = false;
+  std::vector<std::string> host_names_;
   PanelRoutes routes_;
   std::optional<Server> server_;
   std::optional<PanelAccess> access_;
@@ -90,23 +93,25 @@ Status Panel::prepare() {
 }
 
 Status Panel::read_options() {
-  const Options& options = executive_.options();
-  const Result<ListenAddress> address = parse_listen_address(options.panel);
+  const OptionValues given = executive_.options().values();
+  const Result<ListenAddress> address = parse_listen_address(given.text("--panel", default_listen_address));
   if (!address) return address.status();
   address_ = *address;
-  for (const std::string& name : options.panel_hosts) {
-    if (const Status status = HostRules::check_name(name); !status) return status;
+  for (const GivenOption& option : executive_.options().given) {
+    if (option.option->name != std::string_view{"--panel-host"}) continue;
+    if (const Status status = HostRules::check_name(option.value); !status) return status;
+    host_names_.push_back(option.value);
   }
-  if (options.tls_certificate.empty() != options.tls_key.empty()) {
+  is_secure_ = given.has("--tls-certificate");
+  if (is_secure_ != given.has("--tls-key")) {
     return Status::error(StatusCode::invalid_argument,
                          "--tls-certificate and --tls-key go together; one of them is missing");
   }
-  is_secure_ = !options.tls_certificate.empty();
   Exposure exposure;
   exposure.address = Address::parse(address_.address).value_or(Address{});
-  exposure.has_users = !options.panel_users.empty();
+  exposure.has_users = given.has("--panel-users");
   exposure.secure = is_secure_;
-  exposure.insecure_http = options.insecure_http;
+  exposure.insecure_http = given.has("--insecure-http");
   if (const Status status = check_exposure(exposure); !status) {
     if (!is_secure_) {
       std::fprintf(stderr, "A certificate of your own:\n  %s\n",
@@ -115,14 +120,15 @@ Status Panel::read_options() {
     return status;
   }
   if (exposure.has_users) {
-    user_watch_ = UserFileWatch{options.panel_users};
-    Result<Users> users = users_to_start_with(options.panel_users);
+    const std::string file = given.text("--panel-users");
+    user_watch_ = UserFileWatch{file};
+    Result<Users> users = users_to_start_with(file);
     if (!users) return users.status();
     users_ = std::move(*users);
   }
   if (!is_secure_) return {};
   Result<std::unique_ptr<net::ssl::context>> encryption =
-      make_encryption(options.tls_certificate, options.tls_key);
+      make_encryption(given.text("--tls-certificate"), given.text("--tls-key"));
   if (!encryption) {
     print_certificate_command();
     return encryption.status();
@@ -139,7 +145,7 @@ Status Panel::listen() {
   server_.emplace(settings, std::move(encryption_), routes_);
   Status status = server_->listen(address_);
   // Nobody asked for the default address: another application's panel is no reason not to start.
-  if (status.code() == StatusCode::busy && !executive_.options().panel_given) {
+  if (status.code() == StatusCode::busy && !executive_.options().values().has("--panel")) {
     const std::string taken = address_.text();
     address_.port = 0;
     status = server_->listen(address_);
@@ -174,7 +180,7 @@ void Panel::make_access() {
   settings.loopback_is_local = record_.loopback_is_local;
   access_.emplace(settings);
   std::vector<std::string> names = HostRules::names_of_machine();
-  for (const std::string& name : executive_.options().panel_hosts) names.push_back(name);
+  names.insert(names.end(), host_names_.begin(), host_names_.end());
   rules_.emplace(is_secure_, std::move(names));
   entrance_.emplace(*access_, limits_, *rules_, record_.connections);
   endpoints_.emplace(*access_, limits_, users_, user_watch_, password_check_, *server_);
@@ -182,7 +188,9 @@ void Panel::make_access() {
 
 Status Panel::make_api() {
   files_.emplace(page_files(), record_.files);
-  api_.emplace(executive_, *access_, *server_, record_.connections, ApiTimeouts{}, &server_->bell());
+  ApiTimeouts timeouts;
+  timeouts.edit = executive_.options().values().duration("--panel-edit-timeout").value_or(timeouts.edit);
+  api_.emplace(executive_, *access_, *server_, record_.connections, timeouts, &server_->bell());
   routes_.connect({*server_, *access_, *entrance_, *endpoints_, *api_, *files_}, record_.connections);
   return api_->prepare();
 }
@@ -247,11 +255,13 @@ void Panel::stop() noexcept {
   address_file_.clear();
 }
 
-}  // namespace
-
 std::unique_ptr<Observer> make_panel(Executive& executive) {
   return std::make_unique<Panel>(executive);
 }
+
+}  // namespace
+
+constinit const ObserverPart observer{"Panel", panel_options, &is_panel_wanted, &make_panel};
 
 std::optional<int> run_helper(int argument_count, char** arguments) {
   return run_password_helper(argument_count, arguments);

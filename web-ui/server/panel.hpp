@@ -1,16 +1,15 @@
 // The panel of an application: what its main function brings along.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "runtime/executive/observer.hpp"
 
 namespace flexrf::panel {
 
-/// Serves the panel of this executive's application where its options say. Prints the address to standard
-/// error. Fits MakeObserver.
-std::unique_ptr<Observer> make_panel(Executive& executive);
+/// Serves the panel of an executive's application where its options say. Prints the address to standard
+/// error.
+extern const ObserverPart observer;
 
 /// For main(), before anything else: the exit code, where this process was started to be a helper of the
 /// panel (it checks one password and ends); null: this is an ordinary start.

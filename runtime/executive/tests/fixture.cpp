@@ -299,7 +299,7 @@ void TestApplication::make_devices() {
     if (plan.pushes != no_index) sinks.push_back(made_->sink(plan.pushes, next[plan.pushes]));
     const DriverRecord& driver = made_->drivers.emplace_back(
         DriverRecord{name_of(plan.kind), plan.kind, plan.actuates, plan.virtual_time, sizeof(TestDevice),
-                     &DevicePlace::construct<Device>, &TestDevice::type, nullptr, nullptr});
+                     &DevicePlace::construct<Device>, &TestDevice::type, nullptr, nullptr, plan.options});
     DeviceRecord record{};
     record.name = plan.name.c_str();
     record.summary = "";

@@ -89,6 +89,7 @@ struct DevicePlan {
   std::uint16_t output = no_index;  ///< slot
   std::uint16_t pushes = no_index;  ///< queue
   Duration initialise_timeout = patience;
+  std::span<const Option> options = {};  ///< of the command line
 };
 
 struct ThreadPlan {
@@ -213,7 +214,7 @@ class StrictProducerAndConsumer : public ProducerAndConsumer {
 };
 
 Options in_virtual_time(Duration duration, std::uint64_t seed = 1);
-/// Ordinary priorities, no panel.
+/// Ordinary priorities.
 Options on_the_wall_clock();
 
 }  // namespace flexrf::fixture

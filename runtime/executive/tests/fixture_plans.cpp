@@ -94,7 +94,6 @@ Options in_virtual_time(Duration duration, std::uint64_t seed) {
 Options on_the_wall_clock() {
   Options options;
   options.realtime = false;
-  options.panel = "off";
   return options;
 }
 

@@ -75,14 +75,27 @@ std::unique_ptr<Observer> make_observer(Executive& executive) {
   return std::make_unique<TestObserver>(executive);
 }
 
-int run(Record& wanted, Cell& cell, std::vector<const char*> more, MakeObserver make = make_observer) {
+constexpr Option watch{
+    .name = "--watch", .kind = OptionKind::text, .value = "on|off", .summary = "Whether to observe."};
+
+Result<bool> is_wanted(const Options& options) {
+  const std::string_view how = options.values().text("--watch", "on");
+  if (how != "on" && how != "off")
+    return Status::error(StatusCode::invalid_argument, "--watch: give on or off");
+  return how == "on";
+}
+
+constexpr ObserverPart test_observer{"Test", {&watch, 1}, &is_wanted, &make_observer};
+
+int run(Record& wanted, Cell& cell, std::vector<const char*> more,
+        const ObserverPart* part = &test_observer) {
   record = &wanted;
   wanted.cell = &cell;
   std::vector<std::string> words{"test_cell", "--no-realtime"};
   words.insert(words.end(), more.begin(), more.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
-  return run_application(cell.application(), static_cast<int>(arguments.size()), arguments.data(), make);
+  return run_application(cell.application(), static_cast<int>(arguments.size()), arguments.data(), part);
 }
 
 using Calls = std::vector<std::string>;
@@ -121,22 +134,18 @@ void what_it_cannot_start_ends_the_start() {
   CHECK_EQUAL(cell.events().count_of("actuator: initialise"), 0U);
 }
 
-// [exec-41]
-void nobody_observes_with_panel_off_or_in_virtual_time() {
-  for (const std::vector<const char*>& more :
-       {std::vector<const char*>{"--virtual-time", "20ms"}, {"--virtual-time", "20ms", "--panel", "off"}}) {
-    Cell cell;
-    Record seen;
-    CHECK_EQUAL(run(seen, cell, more), 0);
-    CHECK(seen.calls.empty());
-  }
-}
-
-void a_panel_that_is_asked_for_and_cannot_be_is_an_error() {
+void nobody_observes_who_is_not_wanted() {
   Cell cell;
   Record seen;
-  CHECK_EQUAL(run(seen, cell, {"--panel", "127.0.0.1:0"}, nullptr), 1);
-  CHECK_EQUAL(run(seen, cell, {"--panel", "127.0.0.1:0", "--virtual-time", "20ms"}), 1);
+  CHECK_EQUAL(run(seen, cell, {"--watch", "off", "--virtual-time", "20ms"}), 0);
+  CHECK(seen.calls.empty());
+}
+
+void what_it_refuses_or_nobody_knows_is_an_error() {
+  Cell cell;
+  Record seen;
+  CHECK_EQUAL(run(seen, cell, {"--watch", "off"}, nullptr), 1);
+  CHECK_EQUAL(run(seen, cell, {"--watch", "perhaps"}), 1);
   CHECK(seen.calls.empty());
   CHECK_EQUAL(cell.events().all().size(), 0U);
 }
@@ -150,8 +159,8 @@ int main() {
       CONTAINED_TEST(it_lives_as_long_as_the_application_runs),
       CONTAINED_TEST(what_it_cannot_prepare_refuses_the_start),
       CONTAINED_TEST(what_it_cannot_start_ends_the_start),
-      CONTAINED_TEST(nobody_observes_with_panel_off_or_in_virtual_time),
-      CONTAINED_TEST(a_panel_that_is_asked_for_and_cannot_be_is_an_error),
+      CONTAINED_TEST(nobody_observes_who_is_not_wanted),
+      CONTAINED_TEST(what_it_refuses_or_nobody_knows_is_an_error),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

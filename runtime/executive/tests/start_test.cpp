@@ -82,16 +82,6 @@ void a_thread_that_waits_for_too_much_is_refused() {
   CHECK_CONTAINS(status.cause(), "thread consuming waits for 33 slots and queues, more than 32");
 }
 
-void keys_that_nobody_reads_are_refused() {
-  Cell cell;
-  std::string words[] = {"cell", "--keys", "keys.txt"};
-  char* arguments[] = {words[0].data(), words[1].data(), words[2].data()};
-  const Result<Options> options = parse_options(cell.application(), 3, arguments);
-  CHECK(!options);
-  CHECK_CONTAINS(options.status().cause(), "--keys keys.txt: no Keyboard of this application");
-  CHECK_CONTAINS(options.status().cause(), "leave --keys away");
-}
-
 }  // namespace
 }  // namespace flexrf::fixture
 
@@ -101,7 +91,6 @@ int main() {
       CONTAINED_TEST(a_right_lost_before_the_start_is_named),
       CONTAINED_TEST(a_driver_is_told_how_long_a_step_may_take),
       CONTAINED_TEST(a_thread_that_waits_for_too_much_is_refused),
-      CONTAINED_TEST(keys_that_nobody_reads_are_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

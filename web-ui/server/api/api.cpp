@@ -86,7 +86,7 @@ Api::Parts::Made::Made(Parts& parts, Executive& executive, AccessControl& access
       pictures(images, parts.answers, parts.timeouts.picture),
       parameters(executive.cell(), directory, slots, values, parts.answers, parts.permission, parts.boot,
                  parts.timeouts.answer),
-      edits(executive, parts.bell, directory, values, parts.answers, parts.permission),
+      edits(executive, parts.bell, directory, values, parts.answers, parts.permission, parts.timeouts.edit),
       motion(executive, access, parts.answers, parts.permission, parameters, edits),
       lifecycle(executive, parts.bell, directory, parts.answers, parts.permission),
       saving(executive, parts.answers, parts.permission),

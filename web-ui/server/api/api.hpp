@@ -18,10 +18,11 @@ class Executive;
 
 namespace flexrf::panel {
 
-/// How long others may take before who asked is told that they do not answer.
+/// How long others may take: before who asked is told that they do not answer, before an edit is discarded.
 struct ApiTimeouts {
   Duration answer = std::chrono::seconds{1};   ///< of a component's thread
   Duration picture = std::chrono::seconds{2};  ///< of the worker that encodes pictures
+  Duration edit = std::chrono::minutes{5};     ///< of who began it, and neither applies nor discards it
 };
 
 /// All functions but those that say otherwise: the server's thread. None takes longer than 5 ms, none

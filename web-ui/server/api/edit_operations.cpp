@@ -34,7 +34,7 @@ bool EditOperations::is_at_rest(const Caller& caller) {
 }
 
 void EditOperations::count_anew(Time now) noexcept {
-  ends_at_ = now + executive_->options().panel_edit_timeout;
+  ends_at_ = now + timeout_;
 }
 
 bool EditOperations::is_mine(const Caller& caller, std::string_view edit) {

@@ -18,13 +18,14 @@ namespace flexrf::panel {
 class EditOperations {
  public:
   EditOperations(Executive& executive, Doorbell* bell, const Directory& directory, ComponentValues& values,
-                 Answers& answers, Permission& permission)
+                 Answers& answers, Permission& permission, Duration timeout)
       : executive_(&executive),
         results_(std::make_shared<Mailbox<ReconfigureResult>>(bell)),
         directory_(&directory),
         values_(&values),
         answers_(&answers),
-        permission_(&permission) {}
+        permission_(&permission),
+        timeout_(timeout) {}
 
   void begin(const Caller& caller, JsonArray components, Time now);
   void apply(const Caller& caller, std::string_view edit, JsonArray changes, Time now);
@@ -58,6 +59,7 @@ class EditOperations {
   ComponentValues* values_;
   Answers* answers_;
   Permission* permission_;
+  Duration timeout_;
   std::uint64_t number_ = 0;  // of the open edit; 0: none
   std::uint64_t last_number_ = 0;
   std::uint64_t revision_ = 1;

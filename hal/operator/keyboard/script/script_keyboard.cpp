@@ -15,7 +15,7 @@ ScriptKeyboard::~ScriptKeyboard() {
 
 Status ScriptKeyboard::initialise() {
   stop();
-  const char* file = environment().keys_file;
+  const char* file = options().keys;
   if (file == nullptr) {
     return Status::error(StatusCode::invalid_argument,
                          "the script keyboard has no script; name one with --keys FILE");

@@ -10,6 +10,7 @@ class MockStation final : public MockStationDriver {
     bus->transfer();
     ++feedback.transfers;
   }
+  Options told() const noexcept { return options(); }
   double output() const noexcept override { return runtime.setpoint; }
 };
 

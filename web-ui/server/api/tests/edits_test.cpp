@@ -114,6 +114,22 @@ void one_edit_at_a_time_and_none_for_ever() {
   CHECK(rig.get("state").body.at("edit").is_null());
 }
 
+void an_edit_may_be_left_open_for_as_long_as_is_said() {
+  ProducerAndConsumer cell;
+  ApiTimeouts timeouts = Rig::patient;
+  timeouts.edit = std::chrono::minutes{15};
+  Rig rig(cell, timeouts);
+  rig.start();
+  rig.access().give(an_engineer);
+  PlayedLink& link = rig.connect(an_engineer);
+  stop_motion(rig, link);
+  CHECK(rig.ask(link, edit_consumer).at("ok") == true);
+  rig.tick(MonotonicClock::now() + std::chrono::minutes{14});
+  CHECK(!rig.get("state").body.at("edit").is_null());
+  rig.tick(MonotonicClock::now() + std::chrono::minutes{16});
+  CHECK(rig.get("state").body.at("edit").is_null());
+}
+
 void a_reconfiguration_in_one_request() {
   ProducerAndConsumer cell;
   Rig rig(cell);
@@ -196,9 +212,13 @@ void members_come_and_go() {
 int main() {
   using namespace flexrf::panel;
   const CMUnitTest tests[] = {
-      CONTAINED_TEST(an_edit_is_applied_and_ends_inhibited), CONTAINED_TEST(a_failed_initialise_rolls_back),
-      CONTAINED_TEST(one_edit_at_a_time_and_none_for_ever),  CONTAINED_TEST(a_reconfiguration_in_one_request),
-      CONTAINED_TEST(components_are_stopped_and_started),    CONTAINED_TEST(members_come_and_go),
+      CONTAINED_TEST(an_edit_is_applied_and_ends_inhibited),
+      CONTAINED_TEST(a_failed_initialise_rolls_back),
+      CONTAINED_TEST(one_edit_at_a_time_and_none_for_ever),
+      CONTAINED_TEST(an_edit_may_be_left_open_for_as_long_as_is_said),
+      CONTAINED_TEST(a_reconfiguration_in_one_request),
+      CONTAINED_TEST(components_are_stopped_and_started),
+      CONTAINED_TEST(members_come_and_go),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -49,7 +49,8 @@ void errors_cite_their_line(void**) {
 bool driver_says_what_is_missing() {
   DeviceBench<ScriptKeyboard> bench(nullptr);
   const Status without = bench.driver().initialise();
-  bench.environment().keys_file = "/nowhere/keys.txt";
+  const GivenOption keys{script_keyboard_driver_options, "/nowhere/keys.txt"};
+  bench.environment().options = OptionValues{{&keys, 1}};
   const Status absent = bench.driver().initialise();
   return without.code() == StatusCode::invalid_argument &&
          std::strstr(without.cause(), "--keys FILE") != nullptr && absent.code() == StatusCode::not_found &&

@@ -22,7 +22,7 @@ class ScriptWorld final : public KeyboardWorld {
   }
   Status start(std::span<QueueSink* const> sinks) override {
     bench_.emplace(nullptr, sinks);
-    bench_->environment().keys_file = file_.c_str();
+    bench_->environment().options = OptionValues{{&keys_, 1}};
     return bench_->driver().initialise();
   }
   Keyboard& keyboard() override { return bench_->driver(); }
@@ -45,6 +45,7 @@ class ScriptWorld final : public KeyboardWorld {
   }
 
   std::string file_ = "/tmp/flexrf_script_" + std::to_string(getpid()) + ".keys";
+  const GivenOption keys_{script_keyboard_driver_options, file_.c_str()};
   std::optional<DeviceBench<ScriptKeyboard>> bench_;
 };
 
