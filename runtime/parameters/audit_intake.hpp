@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string_view>
 
+#include "runtime/core/parameter_descriptor.hpp"
 #include "runtime/core/time.hpp"
 #include "runtime/parameters/intake.hpp"
-#include "runtime/parameters/parameter_descriptor.hpp"
 
 namespace flexrf {
 

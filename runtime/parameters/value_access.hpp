@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/core/parameter_descriptor.hpp"
 #include "runtime/core/status.hpp"
 #include "runtime/core/type_descriptor.hpp"
-#include "runtime/parameters/parameter_descriptor.hpp"
 
 namespace flexrf {
 

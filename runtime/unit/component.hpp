@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "runtime/blackboard/item.hpp"
+#include "runtime/core/parameter_descriptor.hpp"
 #include "runtime/core/status.hpp"
-#include "runtime/parameters/parameter_descriptor.hpp"
 #include "runtime/unit/restraint.hpp"
 
 namespace flexrf {

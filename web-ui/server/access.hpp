@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <string_view>
 
+#include "runtime/core/parameter_descriptor.hpp"
 #include "runtime/core/time.hpp"
 #include "runtime/parameters/audit_intake.hpp"
-#include "runtime/parameters/parameter_descriptor.hpp"
 #include "web-ui/server/exchange.hpp"
 
 namespace flexrf::panel {

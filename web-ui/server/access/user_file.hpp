@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/core/parameter_descriptor.hpp"
 #include "runtime/core/status.hpp"
-#include "runtime/parameters/parameter_descriptor.hpp"
 
 namespace flexrf::panel {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/parameters/parameter_descriptor.hpp"
+#include "runtime/core/parameter_descriptor.hpp"
 #include "web-ui/server/exchange.hpp"
 
 namespace flexrf::panel {
