@@ -88,7 +88,7 @@ install(TARGETS ${needed} config-gen EXPORT FlexRFTargets
 get_property(parts GLOBAL PROPERTY FLEXRF_PARTS)
 install(PROGRAMS "${parts}" DESTINATION bin)
 install(EXPORT FlexRFTargets NAMESPACE FlexRF:: DESTINATION ${package})
-install(DIRECTORY runtime motion hal units DESTINATION ${headers} FILES_MATCHING PATTERN "*.hpp"
+install(DIRECTORY base runtime motion hal units DESTINATION ${headers} FILES_MATCHING PATTERN "*.hpp"
         PATTERN tests EXCLUDE PATTERN conformance EXCLUDE)
 include(CMakePackageConfigHelpers)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/FlexRFConfigVersion.cmake" COMPATIBILITY SameMinorVersion)

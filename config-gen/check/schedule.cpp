@@ -1,7 +1,6 @@
 // Whether the threads of each CPU role meet their deadlines, judged by declared budgets. Each role is one CPU
 // here; at start the same is asked for the CPUs that the machine really gives it.
 #include <algorithm>
-#include <array>
 
 #include "base/response_time.hpp"
 #include "config-gen/check/checks.hpp"
@@ -9,8 +8,6 @@
 
 namespace flexrf::config_gen {
 namespace {
-
-constexpr std::array<const char*, 3> role_names{"control", "io", "any"};
 
 struct Member {
   Index thread = 0;
@@ -37,14 +34,14 @@ std::string load_text(const Model& model, const std::vector<Member>& members, co
 }  // namespace
 
 void check_schedule(Model& model, Diagnostics& diagnostics) {
-  for (std::size_t role = 0; role < role_names.size(); ++role) {
+  for (const CpuRole role : {CpuRole::control, CpuRole::io, CpuRole::any}) {
     std::vector<Member> members;
     std::vector<PeriodicTask> tasks;
     for (Index index = 0; index < model.threads.size(); ++index) {
       const Thread& thread = model.threads[index];
       const Nanoseconds interval = interval_of(thread);
-      if (thread.priority == 0 || thread.partial || static_cast<std::size_t>(thread.role) != role ||
-          interval == 0 || thread.demand == 0)
+      if (thread.priority == 0 || thread.partial || thread.role != role || interval == 0 ||
+          thread.demand == 0)
         continue;
       const PeriodicTask task{0, thread.priority, thread.demand, interval, 0};
       members.push_back({index, task, std::min(thread.deadline.value_or(interval), interval)});
@@ -62,7 +59,7 @@ void check_schedule(Model& model, Diagnostics& diagnostics) {
           "thread " + quote(thread.name) + " can miss its deadline: response time " +
               (response ? duration_text(*response) : "without bound") + ", deadline " +
               duration_text(members[i].deadline),
-          std::string("role '") + role_names[role] + "' carries " + load_text(model, members, members[i]) +
+          std::string("role '") + name_of(role) + "' carries " + load_text(model, members, members[i]) +
               " (by declared budgets): lower a budget, lengthen a period, or move a thread to another role");
     }
   }

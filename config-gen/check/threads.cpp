@@ -48,7 +48,7 @@ void check_priority(const Thread& thread, Diagnostics& diagnostics) {
         "thread " + quote(thread.name) + " has priority " + std::to_string(thread.priority) + ", above " +
             std::to_string(highest_below_interrupts),
         "interrupt threads live at 50 and above: choose 1 to 49, or say above_interrupts = true");
-  if (thread.rest && thread.priority > 0)
+  if (thread.role == CpuRole::rest && thread.priority > 0)
     diagnostics.error(
         thread.position, "thread " + quote(thread.name) + " has cpu = \"rest\" and a real-time priority",
         "the rest is what real-time threads leave over: set priority = 0, or name a role in place of 'cpu'");

@@ -64,19 +64,6 @@ Nanoseconds deadline_of(const Thread& thread) {
   return 0;
 }
 
-std::string role_of(const Thread& thread) {
-  if (thread.rest) return "rest";
-  switch (thread.role) {
-    case CpuRole::control:
-      return "control";
-    case CpuRole::io:
-      return "io";
-    case CpuRole::any:
-      break;
-  }
-  return "any";
-}
-
 std::string overrun_policy(const Overrun& overrun) {
   switch (overrun.policy) {
     case Overrun::Policy::skip:
@@ -132,7 +119,7 @@ void emit_thread_records(const Model& model, const ApplicationNames& names, Text
     records << "    {.name = \"" << thread.name << "\",\n     .summary = " << string_literal(thread.summary)
             << ",\n     .trigger = " << trigger << ",\n     .priority = " << thread.priority
             << ",\n     .above_interrupts = " << bool_literal(thread.above_interrupts)
-            << ",\n     .role = CpuRole::" << role_of(thread)
+            << ",\n     .role = CpuRole::" << name_of(thread.role)
             << ",\n     .overrun = OverrunPolicy::" << overrun_policy(thread.overrun)
             << ",\n     .limit = " << overrun_limit(thread.overrun)
             << ",\n     .budget = " << duration_literal(thread.demand)

@@ -430,8 +430,7 @@ Json thread_json(const Model& model, const Thread& thread) {
   Json json = {{"name", thread.name},
                {"trigger", std::visit(TriggerJson{model}, thread.trigger)},
                {"priority", thread.priority}};
-  constexpr const char* roles[] = {"control", "io", "any"};
-  json["role"] = thread.rest ? "rest" : roles[static_cast<std::size_t>(thread.role)];
+  json["role"] = name_of(thread.role);
   json["units"] = Json::array();
   for (const Index unit : thread.units) json["units"].push_back(model.units[unit].name);
   json["devices"] = Json::array();

@@ -178,13 +178,12 @@ void application_tables(const Model& model, Text& out) {
   out << "\n## Threads\n\n| thread | released | priority | role | units | budget |\n"
          "| --- | --- | --- | --- | --- | --- |\n";
   for (const Thread& thread : model.threads) {
-    constexpr const char* roles[] = {"control", "io", "any"};
     std::string units;
     for (const Index unit : thread.units)
       units += (units.empty() ? "`" : ", `") + model.units[unit].name + "`";
     out << "| `" << thread.name << "` | " << trigger_text(model, thread.trigger) << " | "
         << (thread.priority == 0 ? "not real-time" : std::to_string(thread.priority)) << " | "
-        << (thread.rest ? "rest" : roles[static_cast<std::size_t>(thread.role)]) << " | " << units << " | "
+        << name_of(thread.role) << " | " << units << " | "
         << (thread.demand == 0 ? "" : duration_text(thread.demand)) << " |\n";
   }
   out << "\n## Slots\n\n| slot | type | written by | read by | |\n| --- | --- | --- | --- | --- |\n";

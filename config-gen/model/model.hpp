@@ -17,6 +17,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/cpu_role.hpp"
 #include "config-gen/model/object_list.hpp"
 #include "config-gen/model/position.hpp"
 #include "config-gen/model/register_map.hpp"
@@ -410,8 +411,6 @@ struct Overrun {
   std::size_t leaky_drain = 0;
 };
 
-enum class CpuRole { control, io, any };
-
 struct Thread {
   std::string name;  // an IO thread has its device's name
   Position position;
@@ -419,7 +418,6 @@ struct Thread {
   Position trigger_position;
   int priority = 0;  // 0: not real-time
   CpuRole role = CpuRole::any;
-  bool rest = false;               // cpu = "rest": every CPU that no real-time thread claims
   std::optional<Index> io_device;  // an IO thread: the device that it serves (and, of a bus, all on it)
   std::vector<Index> units;        // step order
   std::vector<Index> devices;      // that live in it, buses before what they carry: the order of receive()

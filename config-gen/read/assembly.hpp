@@ -84,6 +84,8 @@ std::vector<ParameterOverride> read_overrides(Assembly& assembly, const Node* ta
 void check_narrowed(Assembly& assembly, const std::vector<ParameterOverride>& changes,
                     const ParameterBlock& block, const std::vector<Literal>& values);
 
+// The key `role` of a thread's row.
+std::optional<CpuRole> read_role(Row& row);
 // The key `stack` of a thread's row; what is less than any thread needs is reported.
 std::optional<std::size_t> read_stack(Row& row, Diagnostics& diagnostics);
 

@@ -28,8 +28,7 @@ void read_io_thread(Assembly& assembly, Row& row, Index device) {
     Row io(*value, "'io_thread' of " + row.name(), assembly.diagnostics);
     thread.priority = static_cast<int>(io.integer("priority", 0, 98).value_or(0));
     thread.above_interrupts = io.boolean("above_interrupts").value_or(false);
-    if (const auto role = io.word("role", {"control", "io", "any"}))
-      thread.role = static_cast<CpuRole>(*role);
+    thread.role = read_role(io).value_or(thread.role);
     const auto period = io.positive_duration("period");
     trigger.min_interval = io.positive_duration("min_interval");
     thread.trigger = trigger;

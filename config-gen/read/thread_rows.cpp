@@ -277,8 +277,8 @@ void read_thread_row(Assembly& assembly, const FlatRow& flat) {
   thread.position = flat.node->key_position;
   thread.trigger_position = row.position("trigger");
   thread.priority = static_cast<int>(row.integer("priority", 0, 98).value_or(0));
-  if (const auto role = row.word("role", {"control", "io", "any"})) thread.role = static_cast<CpuRole>(*role);
-  thread.rest = row.word("cpu", {"rest"}).has_value();
+  thread.role = read_role(row).value_or(thread.role);
+  if (row.word("cpu", {"rest"})) thread.role = CpuRole::rest;
   thread.above_interrupts = row.boolean("above_interrupts").value_or(false);
   thread.deadline = row.positive_duration("deadline");
   thread.hang_timeout = row.positive_duration("hang_timeout");
@@ -301,6 +301,11 @@ void check_number(Assembly& assembly, const Position& position) {
 }
 
 }  // namespace
+
+std::optional<CpuRole> read_role(Row& row) {
+  const auto role = row.word("role", {cpu_role_names.begin(), cpu_role_names.begin() + 3});
+  return role ? std::optional(static_cast<CpuRole>(*role)) : std::nullopt;
+}
 
 std::optional<std::size_t> read_stack(Row& row, Diagnostics& diagnostics) {
   const auto stack = row.size("stack");

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/cpu_role.hpp"
 #include "runtime/blackboard/queue.hpp"
 #include "runtime/blackboard/slot.hpp"
 #include "runtime/executive/observer.hpp"
@@ -129,7 +130,6 @@ struct TriggerRecord {
 };
 
 enum class OverrunPolicy : std::uint8_t { skip, catch_up, fault };
-enum class CpuRole : std::uint8_t { any, control, io, rest };
 
 /// When overruns become a fault. Consecutive: `limit` in a row. Leaky: a counter rises by one per overrun,
 /// falls by one each `drain` good cycles, and faults at `limit`. limit 0: never.

@@ -132,20 +132,6 @@ Status log_file_failure() {
                        cause_of(error).c_str(), static_cast<unsigned long long>(unwritten_log_lines()));
 }
 
-const char* name_of_role(CpuRole role) noexcept {
-  switch (role) {
-    case CpuRole::any:
-      return "any";
-    case CpuRole::control:
-      return "control";
-    case CpuRole::io:
-      return "io";
-    case CpuRole::rest:
-      return "rest";
-  }
-  return "unknown";
-}
-
 }  // namespace
 
 Executive::Executive(const Application& application, Options options)
@@ -440,7 +426,7 @@ Status Executive::start_threads(RunSummary& summary) {
     const Status status = threads_.emplace_back().start(
         settings, [](void* loop) { static_cast<ThreadLoop*>(loop)->run(); }, &loops_[i]);
     if (!status) {
-      return Status::error(status.code(), "thread %s (role %s): %s", record.name, name_of_role(record.role),
+      return Status::error(status.code(), "thread %s (role %s): %s", record.name, name_of(record.role),
                            status.cause());
     }
     application.thread_states[i].thread_id.store(threads_.back().id());

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "runtime/executive/application.hpp"
+#include "base/cpu_role.hpp"
 #include "runtime/realtime/cpu_set.hpp"
 
 namespace flexrf {
