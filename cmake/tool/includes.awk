@@ -10,6 +10,15 @@ BEGIN {
   may["units"] = "base runtime motion units hal"
   may["config-gen"] = "base config-gen"
   may["web-ui"] = "base runtime web-ui"
+  # Of runtime/, from below; executive and face stand above these.
+  within["core"] = "core"
+  within["log"] = "core log"
+  within["realtime"] = "core realtime"
+  within["blackboard"] = "core blackboard"
+  within["unit"] = "core blackboard unit"
+  within["device"] = "core blackboard unit device"
+  within["parameters"] = "core blackboard unit parameters"
+  within["json"] = "core parameters json"
 }
 
 FNR == 1 {
@@ -29,6 +38,9 @@ is_free { next }
   if (used !~ "^(base|runtime|motion|hal|units|config-gen|web-ui|apps|tests|benchmarks)$") next  # generated
   if (index(" " may[part] " ", " " used " ") == 0)
     refuse(part "/ may include only " may[part])
+  else if (used == "runtime" && part == "runtime" && (folder(file) in within) &&
+           index(" " within[folder(file)] " ", " " folder(included) " ") == 0)
+    refuse("runtime/" folder(file) "/ may include of runtime/ only " within[folder(file)])
   else if (used == "hal" && part == "units" && included !~ "/interface/")
     refuse("a unit knows interfaces only, hal/<family>/interface/; its tests also mocks and what is simulated")
   else if (used == "hal" && part == "hal" && !within_hal())
@@ -40,10 +52,9 @@ END { exit failed }
 
 function first(path) { return substr(path, 1, index(path, "/") - 1) }
 
-function family(path) {
-  sub("^hal/", "", path)
-  return first(path)
-}
+function folder(path) { return first(substr(path, length(first(path)) + 2)) }
+
+function family(path) { return folder(path) }
 
 function is_imagined(path) { return path ~ "/(mock|simulated[a-z_]*|simulator|in_process)/" }
 

@@ -10,6 +10,7 @@
 #include "base/cpu_role.hpp"
 #include "runtime/blackboard/queue.hpp"
 #include "runtime/blackboard/slot.hpp"
+#include "runtime/device/device.hpp"
 #include "runtime/executive/observer.hpp"
 #include "runtime/executive/panel_record.hpp"
 #include "runtime/executive/state.hpp"

@@ -4,13 +4,13 @@
 #include <span>
 
 #include "runtime/blackboard/ports.hpp"
-#include "runtime/device/device.hpp"
 #include "runtime/unit/component.hpp"
 #include "runtime/unit/tick.hpp"
 
 namespace flexrf {
 
 class CellAccess;
+class Device;
 
 /// How the generated application connects a unit: each kind of port in the order of the unit's table.
 struct UnitBinding : PortBinding {
