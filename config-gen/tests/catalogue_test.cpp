@@ -112,7 +112,7 @@ Tally judge_all() {
   return tally;
 }
 
-// [exec-14]
+// [exec-14] [board-42]
 void broken_tables_give_their_messages(void**) {
   const Tally tally = judge_all();
   assert_true(tally.cases >= 288);

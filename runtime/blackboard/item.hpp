@@ -17,7 +17,7 @@ enum class NullReason : std::uint8_t {
   writer_faulted,  ///< the unit that writes it is in fault
   writer_retired,  ///< the member of a population that writes it was retired
   not_registered,  ///< no slot of this name, or the input is not connected
-  wrong_type,      ///< the slot's type is another
+  wrong_type,      ///< the slot's type is another than the input's
   no_longer_kept,  ///< a history no longer keeps that time
 };
 const char* name_of(NullReason reason) noexcept;

@@ -135,11 +135,16 @@ struct InputCounters {
 /// Untyped half of an input: the cursor of one unit in one slot.
 class InputCursor {
  public:
-  void connect(const StepContext* context, SlotReader* reader, Duration max_age) noexcept {
+  /// `type`: what is read; a slot of another is as good as none.
+  void connect(const StepContext* context, SlotReader* reader, const TypeDescriptor& type,
+               Duration max_age) noexcept {
+    const bool fits = reader != nullptr && reader->slot()->type()->hash == type.hash;
     context_ = context;
-    reader_ = reader;
+    reader_ = fits ? reader : nullptr;
     max_age_ = max_age;
-    reason_ = reader == nullptr ? NullReason::not_registered : NullReason::nothing_yet;
+    reason_ = fits                ? NullReason::nothing_yet
+              : reader == nullptr ? NullReason::not_registered
+                                  : NullReason::wrong_type;
   }
   bool is_connected() const noexcept { return reader_ != nullptr; }
   /// Counters for reports; relaxed, any thread.
@@ -211,7 +216,8 @@ template <class T>
 class Input : public InputCursor {
  public:
   void connect(const StepContext* context, const InputBinding& binding) noexcept {
-    InputCursor::connect(context, binding.count == 0 ? nullptr : binding.readers, binding.max_age);
+    InputCursor::connect(context, binding.count == 0 ? nullptr : binding.readers, *descriptor_of<T>,
+                         binding.max_age);
   }
 
   /// The newest item at the first call in a step; the same item at later calls in that step.
@@ -227,7 +233,7 @@ class Input : public InputCursor {
   }
   View<T> kept() const noexcept {
     const ItemHeader* header = reader_ == nullptr ? nullptr : reader_->kept();
-    if (header == nullptr) return View<T>{NullReason::nothing_yet};
+    if (header == nullptr) return View<T>{reader_ == nullptr ? reason_ : NullReason::nothing_yet};
     return View<T>{static_cast<const T*>(reader_->kept_payload()), *header, 0, age(*header),
                    Freshness::old_item};
   }
@@ -235,7 +241,8 @@ class Input : public InputCursor {
   /// history = true: what the slot held at `time`, by value; the reason when it is no longer (or not yet)
   /// known.
   NullReason at(Time time, T& value, Time* sampled_at = nullptr) const noexcept requires(!SizedBySlot<T>) {
-    if (reader_ == nullptr || reader_->slot()->history() == nullptr) return NullReason::not_registered;
+    if (reader_ == nullptr) return reason_;
+    if (reader_->slot()->history() == nullptr) return NullReason::not_registered;
     ItemHeader header{};
     const NullReason reason = reader_->slot()->history()->at(time, header, &value);
     if (sampled_at != nullptr) *sampled_at = header.sampled_at;

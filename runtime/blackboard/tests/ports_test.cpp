@@ -187,6 +187,23 @@ void null_says_not_registered(void**) {
   assert_int_equal(optional.between(at(0), at(1), {}, nullptr), 0);
 }
 
+/// Of the same size, so that nothing but its type tells it from what is wanted.
+// [board-41]
+void null_says_wrong_type(void**) {
+  static_assert(sizeof(test::Block<3>) == sizeof(Sample));
+  Cell cell;
+  cell.publish(1);
+  Input<test::Block<3>> other;
+  other.connect(&cell.context, InputBinding{&cell.reader, 1, {}, nullptr});
+  assert_false(other.is_connected());
+  assert_int_equal(other.latest().reason(), NullReason::wrong_type);
+  other.keep();
+  assert_int_equal(other.kept().reason(), NullReason::wrong_type);
+  test::Block<3> value{};
+  assert_int_equal(other.at(at(1), value), NullReason::wrong_type);
+  assert_int_equal(other.between(at(0), at(1), {}, nullptr), 0);
+}
+
 // [board-23]
 void null_says_no_longer_kept(void**) {
   static HistoryMemory<Sample, 3> memory;
@@ -369,6 +386,7 @@ int main() {
       cmocka_unit_test(null_says_nothing_yet),
       cmocka_unit_test(null_says_too_old),
       cmocka_unit_test(null_says_not_registered),
+      cmocka_unit_test(null_says_wrong_type),
       cmocka_unit_test(null_says_no_longer_kept),
       cmocka_unit_test(every_reason_has_a_name),
       cmocka_unit_test(a_hold_keeps_the_view_across_steps),

@@ -162,7 +162,7 @@ const char* run_jobs(DropPolicy policy, JobOrder order) {
   return complaint.text();
 }
 
-// [board-25] [board-27] [board-31]
+// [board-25] [board-27] [board-31] [board-43]
 void jobs(void**) {
   const JobOrder by_score{true, Scalar::u64, 16};
   const char* const complaints[] = {run_jobs(DropPolicy::drop_newest, {}),

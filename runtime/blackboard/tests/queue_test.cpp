@@ -338,6 +338,24 @@ void jobs_wait_for_commit_in_virtual_time(void**) {
   assert_int_equal(jobs.queue.arrivals(), 3);
 }
 
+/// Its place is taken before what takes it can be seen.
+// [board-44]
+void what_is_pushed_displaces_its_victim_before_commit(void**) {
+  Ring<2> ring{DropPolicy::drop_oldest};
+  Jobs<2> jobs{DropPolicy::drop_oldest};
+  for (std::uint32_t number = 1; number < 4; ++number) {
+    ring.ring.set_deferred(number == 3);
+    jobs.one.set_deferred(number == 3);
+    assert_true(ring.push(number) && Jobs<2>::push(jobs.one, number));
+  }
+  for (const std::uint32_t seen : {2U, 0U}) assert_true(pop(ring.ring) == seen && pop(jobs.queue) == seen);
+  ring.ring.commit();
+  jobs.one.commit();
+  assert_true(pop(ring.ring) == 3 && pop(jobs.queue) == 3);
+  assert_counters(ring.ring, 3, 2, 1);
+  assert_counters(jobs.one, 3, 2, 1);
+}
+
 std::uint64_t digest_of(QueueSink& sink, std::uint32_t first) {
   sink.set_digested(true);
   for (std::uint32_t i = 0; i < 3; ++i) {
@@ -378,6 +396,7 @@ int main() {
       cmocka_unit_test(full_job_queue_by_score_drops_the_lowest),
       cmocka_unit_test(a_score_may_be_any_number),
       cmocka_unit_test(jobs_wait_for_commit_in_virtual_time),
+      cmocka_unit_test(what_is_pushed_displaces_its_victim_before_commit),
       cmocka_unit_test(digest_covers_what_was_accepted),
   };
   return cmocka_run_group_tests_name("queue", tests, nullptr, nullptr);
