@@ -173,6 +173,24 @@ void a_standard_output_that_fails_is_an_error() {
   CHECK_CONTAINS(ending.errors, "standard output: No space left on device");
 }
 
+/// SIGPIPE and SIGXFSZ would have ended it without a word.
+// [stop-82]
+void a_write_that_fails_says_why() {
+  const Folder folder;
+  Process unread(folder, words(), Input::pipe, [] {
+    int ends[2];
+    if (pipe(ends) == 0 && close(ends[0]) == 0) dup2(ends[1], STDOUT_FILENO);
+  });
+  unread.end_input();
+  const Ending broken = unread.wait();
+  CHECK_EQUAL(broken.exit_code, 1);
+  CHECK_CONTAINS(broken.errors, "standard output: Broken pipe");
+  const Folder small;
+  const Ending large = run(small, {"prlimit", "--fsize=2000", application, "--report", "report"});
+  CHECK_EQUAL(large.exit_code, 1);
+  CHECK_CONTAINS(large.errors, "File too large");
+}
+
 /// A service is always ended by a signal: what failed is not to hide behind that.
 // [stop-62]
 void a_standard_output_that_fails_is_seen_behind_a_signal() {
@@ -273,7 +291,7 @@ void a_real_time_thread_that_never_waits_is_ended_by_the_kernel_and_leaves_the_d
 
 // ---- stopped, and going on
 
-// [stop-52] [stop-53]
+// [stop-52] [stop-53] [stop-83]
 void whoever_stops_it_finds_its_actuators_inhibited() {
   for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) {
     const Folder folder;
@@ -285,6 +303,11 @@ void whoever_stops_it_finds_its_actuators_inhibited() {
     usleep(3'500'000);
     process.send(SIGCONT);
     process.wait_for_error("nothing moves before a Start");
+    // Had it been let go of in between, its drive would say again that it is inhibited.
+    process.send(signal);
+    process.wait_until_stopped();
+    CHECK_EQUAL(drive_log(folder), moving + "inhibited\n");
+    process.send(SIGCONT);
     process.send(SIGTERM);
     // Somebody wanted it so: no fault.
     CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
@@ -434,6 +457,7 @@ int main() {
       CONTAINED_TEST(a_reader_that_is_slow_gets_the_report_and_a_signal_ends_the_wait),
       CONTAINED_TEST(a_signal_just_before_the_report_ends_the_wait_for_its_reader),
       CONTAINED_TEST(a_standard_output_that_fails_is_an_error),
+      CONTAINED_TEST(a_write_that_fails_says_why),
       CONTAINED_TEST(a_standard_output_that_fails_is_seen_behind_a_signal),
       CONTAINED_TEST(an_answer_that_is_not_written_is_an_error),
       CONTAINED_TEST(what_somebody_ends_it_with_is_a_controlled_stop),

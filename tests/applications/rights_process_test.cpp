@@ -1,9 +1,11 @@
 // A start without the rights that real time needs.
+#include <sched.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
@@ -112,6 +114,57 @@ void a_real_actuator_is_run_once_on_the_machine() {
   }
 }
 
+/// Those that are always there, too.
+// [exec-70]
+void who_is_not_real_time_keeps_off_its_cpus() {
+  if (geteuid() != 0) skip();                           // without the rights nobody is real-time
+  if (std::thread::hardware_concurrency() < 2) skip();  // there is one for all
+  const Folder folder;
+  Process process(folder, {place::keyboard, "--panel", "127.0.0.1:0", "--standstill-limit", "10min"});
+  process.wait_for_error("autostart");
+  cpu_set_t claimed;
+  CPU_ZERO(&claimed);
+  std::vector<cpu_set_t> others;
+  for (const auto& task :
+       std::filesystem::directory_iterator("/proc/" + std::to_string(process.id()) + "/task")) {
+    const pid_t thread = std::stoi(task.path().filename());
+    cpu_set_t cpus;
+    CHECK(sched_getaffinity(thread, sizeof(cpus), &cpus) == 0);
+    if (sched_getscheduler(thread) == SCHED_FIFO) {
+      CPU_OR(&claimed, &claimed, &cpus);
+    } else {
+      others.push_back(cpus);
+    }
+  }
+  CHECK(CPU_COUNT(&claimed) > 0);
+  // The supervising, the output's, the lifecycle's, the panel's.
+  CHECK(others.size() >= 4);
+  for (const cpu_set_t& cpus : others) {
+    cpu_set_t both;
+    CPU_AND(&both, &cpus, &claimed);
+    CHECK_EQUAL(CPU_COUNT(&both), 0);
+  }
+  process.end_input();
+  CHECK_EQUAL(process.wait().exit_code, 0);
+}
+
+// [exec-69]
+void a_machine_file_that_makes_no_sense_keeps_it_from_starting() {
+  if (geteuid() != 0) skip();  // only root may have an /etc of its own
+  for (const char* const line : {"control = somewhere", "control = 1000"}) {
+    const Folder folder;
+    const Ending ending =
+        run(folder,
+            {"unshare", "-m", "bash", "-c",
+             "mount -t tmpfs tmpfs /etc && mkdir /etc/flexrf && echo \"$1\" > /etc/flexrf/machine.conf && "
+             "exec \"$0\" --panel off --no-realtime --standstill-limit 10min",
+             place::keyboard, std::string{"# roles\n"} + line});
+    CHECK_EQUAL(ending.exit_code, 2);
+    CHECK_CONTAINS(ending.errors, "/etc/flexrf/machine.conf:2: ");
+    CHECK_EQUAL(ending.errors.find("autostart"), std::string::npos);
+  }
+}
+
 /// Enough for the table's budget, too little for all that is mapped: this is known before anything starts.
 void a_limit_between_budget_and_need_is_noticed() {
   if (geteuid() != 0) skip();  // only root can keep the priorities and give up the capability
@@ -137,6 +190,8 @@ int main() {
       CONTAINED_TEST(a_real_actuator_is_refused_with_no_realtime),
       CONTAINED_TEST(a_kind_of_hardware_is_for_all_devices),
       CONTAINED_TEST(a_real_actuator_is_run_once_on_the_machine),
+      CONTAINED_TEST(who_is_not_real_time_keeps_off_its_cpus),
+      CONTAINED_TEST(a_machine_file_that_makes_no_sense_keeps_it_from_starting),
       CONTAINED_TEST(a_limit_between_budget_and_need_is_noticed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

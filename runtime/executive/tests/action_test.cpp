@@ -27,7 +27,7 @@ struct Machine {
   std::uint64_t steps() { return cell.unit_state(Cell::consumer).steps; }
   Life life() { return cell.unit_state(Cell::consumer).life; }
 
-  /// Waits for the answer.
+  // Each waits for the answer.
   Status act(ComponentAction action, ComponentIndex component) {
     std::atomic<bool> answered{false};
     Status answer;
@@ -37,6 +37,17 @@ struct Machine {
     });
     CHECK(RunningCell::wait_until([&] { return answered.load(); }));
     return answer;
+  }
+
+  ReconfigureResult reconfigure(ComponentIndex component) {
+    std::atomic<bool> answered{false};
+    ReconfigureResult result;
+    executive().reconfigure({{component, "offset", "0.75"}}, [&](const ReconfigureResult& outcome) {
+      result = outcome;
+      answered = true;
+    });
+    CHECK(RunningCell::wait_until([&] { return answered.load(); }));
+    return result;
   }
 
   Cell cell;
@@ -134,18 +145,25 @@ void a_unit_without_an_actuator_stops_alone() {
   CHECK_EQUAL(machine.cell.events().count_of("producer: stop"), 1U);
 }
 
+// [exec-74]
 void a_unit_is_waited_for_as_long_as_its_step_does_not_hang() {
   std::atomic<bool> is_long{false};
+  std::atomic<bool> steps{false};
+  std::atomic<bool> stopped_within_a_step{false};
   Machine machine([&](Cell& cell) {
     cell.unit(Cell::producer).script.step = [&](TestUnit&, const Tick&) {
       if (!is_long) return;
+      steps = true;
       while (cell.unit_state(Cell::producer).ownership != Ownership::asked_back) usleep(1000);
       usleep(1'200'000);
+      steps = false;
     };
+    cell.unit(Cell::producer).script.stop = [&](TestUnit&) { stopped_within_a_step = steps.load(); };
   });
   is_long = true;
   CHECK(machine.act(ComponentAction::stop, Cell::producer).is_ok());
   CHECK_EQUAL(machine.cell.unit_state(Cell::producer).life.load(), Life::stopped);
+  CHECK(!stopped_within_a_step);
 }
 
 // [exec-43] [exec-46] [exec-47]
@@ -164,6 +182,26 @@ void a_device_stops_after_its_unit_and_starts_before_it() {
   CHECK_EQUAL(events.count_of("consumer: initialise"), 3U);
 }
 
+// [exec-62]
+void a_bus_stops_after_what_it_carries_and_starts_before_it() {
+  constexpr ComponentIndex bus = 3;
+  Machine machine([](Cell& cell) {
+    cell.device(Cell::actuator).bus = cell.add(DevicePlan{.name = "bus", .script = {}, .actuates = false});
+    cell.thread(Cell::consuming).devices = {1, Cell::actuator};
+  });
+  const auto events_of = [&](ComponentAction action, ComponentIndex component) {
+    const std::size_t before = machine.cell.events().all().size();
+    CHECK(machine.act(action, component).is_ok());
+    std::vector<std::string> events = machine.cell.events().all();
+    events.erase(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(before));
+    return events;
+  };
+  CHECK(events_of(ComponentAction::stop, bus) ==
+        (std::vector<std::string>{"consumer: stop", "actuator: stop", "bus: stop"}));
+  CHECK(events_of(ComponentAction::start, Cell::consumer) ==
+        (std::vector<std::string>{"bus: initialise", "actuator: initialise", "consumer: initialise"}));
+}
+
 // [exec-48] [exec-49]
 void after_a_fault_initialise_constructs_it_anew() {
   std::atomic<bool> fails{true};
@@ -178,6 +216,35 @@ void after_a_fault_initialise_constructs_it_anew() {
   CHECK_EQUAL(machine.life(), Life::running);
   CHECK_EQUAL(machine.cell.events().count_of("consumer: destroy"), 1U);
   CHECK(!machine.executive().control().may_move());
+}
+
+/// Whoever asks goes on, also where what he asked for takes its time.
+// [exec-72]
+void nobody_waits_for_what_he_asked_for() {
+  std::atomic<bool> is_long{false};
+  std::atomic<bool> let_go{false};
+  Machine machine([&](Cell& cell) {
+    cell.unit(Cell::producer).script.initialise = [&](TestUnit&) {
+      while (is_long && !let_go) usleep(1000);
+      return Status{};
+    };
+  });
+  is_long = true;
+  std::vector<std::string> threads;
+  std::atomic<int> answers{0};
+  const auto note = [&] {
+    char name[16] = "";
+    pthread_getname_np(pthread_self(), name, sizeof(name));
+    threads.emplace_back(name);
+    ++answers;
+  };
+  machine.executive().act(ComponentAction::initialise, Cell::producer, [&](const Status&) { note(); });
+  machine.executive().reconfigure({{Cell::producer, "offset", "0.75"}},
+                                  [&](const ReconfigureResult&) { note(); });
+  CHECK_EQUAL(answers.load(), 0);
+  let_go = true;
+  CHECK(RunningCell::wait_until([&] { return answers == 2; }));
+  CHECK(threads == (std::vector<std::string>{"lifecycle", "lifecycle"}));
 }
 
 void what_fails_says_why() {
@@ -211,6 +278,22 @@ void what_moves_is_named() {
   CHECK(RunningCell::wait_until([&] { return executive.moving().empty(); }));
 }
 
+/// Nobody commands it any more, and it is not at rest yet.
+// [exec-63]
+void what_a_fault_has_not_made_safe_moves() {
+  std::atomic<bool> is_safe{false};
+  Machine machine([&](Cell& cell) {
+    cell.device(Cell::actuator).script.make_safe = [&](TestDevice&) { return is_safe.load(); };
+    cell.unit(Cell::consumer).script.step = [](TestUnit& unit, const Tick& tick) {
+      if (tick.number == 10) unit.give_up(Status::error(StatusCode::device_fault, "slipped"));
+    };
+  });
+  CHECK(RunningCell::wait_until([&] { return machine.cell.events().count_of("actuator: make_safe") > 0; }));
+  CHECK(machine.executive().moving() == std::vector<ComponentIndex>{actuator});
+  is_safe = true;
+  CHECK(RunningCell::wait_until([&] { return machine.executive().moving().empty(); }));
+}
+
 void what_a_change_initialises_again_is_known_before() {
   Machine machine;
   const ComponentIndex changed[] = {actuator, Cell::producer};
@@ -221,15 +304,8 @@ void what_a_change_initialises_again_is_known_before() {
 // [exec-42]
 void a_reconfiguration_answers_later() {
   Machine machine;
-  std::atomic<bool> answered{false};
-  ReconfigureResult result;
   const std::uint64_t before = machine.executive().cell().configuration_revision();
-  machine.executive().reconfigure({{Cell::consumer, "offset", "0.75"}},
-                                  [&](const ReconfigureResult& outcome) {
-                                    result = outcome;
-                                    answered = true;
-                                  });
-  CHECK(RunningCell::wait_until([&] { return answered.load(); }));
+  const ReconfigureResult result = machine.reconfigure(Cell::consumer);
   CHECK_EQUAL(result.outcome, ReconfigureOutcome::done);
   CHECK(result.owners == std::vector<std::uint16_t>{Cell::consumer});
   CHECK(machine.executive().cell().configuration_revision() > before);
@@ -237,6 +313,19 @@ void a_reconfiguration_answers_later() {
   CHECK_EQUAL(machine.executive().cell().copy_configuration(Cell::consumer, &values, sizeof(values)),
               sizeof(values));
   CHECK_EQUAL(values.offset, 0.75);
+}
+
+/// Whoever commands an actuator may follow from afar what was initialised anew.
+// [exec-61] [stop-76]
+void after_a_reconfiguration_nothing_moves_before_start() {
+  for (const ComponentIndex component : {Cell::consumer, Cell::producer}) {
+    Machine machine;
+    CHECK(machine.executive().control().may_move());
+    CHECK_EQUAL(machine.reconfigure(component).outcome, ReconfigureOutcome::done);
+    CHECK_EQUAL(machine.life(), Life::running);
+    CHECK(!machine.executive().control().may_move());
+    CHECK(machine.executive().control().start_motion().is_ok());
+  }
 }
 
 // [exec-51]
@@ -288,11 +377,15 @@ int main() {
       CONTAINED_TEST(a_unit_without_an_actuator_stops_alone),
       CONTAINED_TEST(a_unit_is_waited_for_as_long_as_its_step_does_not_hang),
       CONTAINED_TEST(a_device_stops_after_its_unit_and_starts_before_it),
+      CONTAINED_TEST(a_bus_stops_after_what_it_carries_and_starts_before_it),
       CONTAINED_TEST(after_a_fault_initialise_constructs_it_anew),
+      CONTAINED_TEST(nobody_waits_for_what_he_asked_for),
       CONTAINED_TEST(what_fails_says_why),
       CONTAINED_TEST(what_moves_is_named),
+      CONTAINED_TEST(what_a_fault_has_not_made_safe_moves),
       CONTAINED_TEST(what_a_change_initialises_again_is_known_before),
       CONTAINED_TEST(a_reconfiguration_answers_later),
+      CONTAINED_TEST(after_a_reconfiguration_nothing_moves_before_start),
       CONTAINED_TEST(after_the_end_everything_is_refused),
       CONTAINED_TEST(a_narrowed_range_is_enforced),
   };

@@ -1,6 +1,7 @@
 // A run in virtual time depends on nothing but tables, seed and input.
 #include <random>
 #include <string>
+#include <utility>
 
 #include "runtime/executive/tests/running_cell.hpp"
 #include "runtime/log/log.hpp"
@@ -101,6 +102,80 @@ void what_is_marked_wall_does_not() {
   CHECK_EQUAL(digest_with(1, true), digest_with(2, true));
 }
 
+/// A cell of periodic threads with one unit each, whose steps tell who began when.
+struct Rivals : TestApplication {
+  struct Begun {
+    std::string who;
+    Duration at;
+  };
+  void add_thread(std::string name, std::uint8_t priority, std::vector<Duration> budgets) {
+    ThreadPlan thread;
+    thread.name = name;
+    thread.trigger = TriggerPlan::periodic(milliseconds{1});
+    thread.priority = priority;
+    for (const Duration budget : budgets) {
+      UnitPlan unit;
+      unit.name = name + std::to_string(thread.units.size());
+      unit.budget = budget;
+      unit.parameters = false;
+      unit.script.step = [this, who = unit.name](TestUnit&, const Tick& tick) {
+        if (!tick.stop_requested) begun.push_back({who, tick.now - Time{std::chrono::seconds{1}}});
+      };
+      thread.units.push_back(TestApplication::add(std::move(unit)));
+    }
+    TestApplication::add(std::move(thread));
+  }
+  /// In the first three milliseconds.
+  std::string all() {
+    Executive executive(application(), in_virtual_time(milliseconds{3}));
+    CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+    std::string text;
+    for (const Begun& one : begun) text += one.who + "@" + std::to_string(one.at / microseconds{1}) + " ";
+    return text;
+  }
+  std::vector<Begun> begun;
+};
+
+// [exec-64]
+void at_one_instant_priority_counts_and_then_the_order_of_the_table() {
+  Rivals cell;
+  cell.add_thread("low", 10, {microseconds{50}});
+  cell.add_thread("high", 20, {microseconds{50}});
+  cell.add_thread("other", 20, {microseconds{50}});
+  CHECK_EQUAL(cell.all(),
+              "high0@0 other0@0 low0@0 high0@1000 other0@1000 low0@1000 high0@2000 other0@2000 low0@2000 ");
+}
+
+/// Whoever is released when a step's budget is over sees what it published.
+// [exec-53] [exec-64]
+void what_is_completed_at_an_instant_is_there_for_who_is_released_in_it() {
+  Cell cell;
+  cell.thread(Cell::producing).priority = 1;
+  cell.thread(Cell::consuming).priority = 40;
+  cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{1});
+  // By the table, too, it is the reader's turn first.
+  std::swap(cell.thread(Cell::producing), cell.thread(Cell::consuming));
+  cell.unit(Cell::producer).budget = milliseconds{1};
+  std::vector<std::int64_t> seen;
+  cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
+    const View<Item> view = unit.inputs[0].latest();
+    if (!tick.stop_requested) seen.push_back(view ? view->number : -1);
+  };
+  Executive executive(cell.application(), in_virtual_time(milliseconds{4}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  CHECK((seen == std::vector<std::int64_t>{-1, 0, 1, 2}));
+}
+
+// [exec-65]
+void units_of_a_thread_take_turns_and_threads_have_a_cpu_each() {
+  Rivals cell;
+  cell.add_thread("first", 20, {microseconds{300}, microseconds{400}});
+  cell.add_thread("second", 10, {microseconds{900}});
+  CHECK_EQUAL(cell.all(),
+              "first0@0 second0@0 first1@300 first0@1000 second0@1000 first1@1300 first0@2000 second0@2000 "
+              "first1@2300 ");
+}
+
 void observing_changes_nothing() {
   const auto digest = [](bool observe) {
     Cell cell;
@@ -163,6 +238,9 @@ int main() {
       CONTAINED_TEST(another_seed_changes_a_value_not_just_the_digest),
       CONTAINED_TEST(one_value_changes_the_digest),
       CONTAINED_TEST(what_is_marked_wall_does_not),
+      CONTAINED_TEST(at_one_instant_priority_counts_and_then_the_order_of_the_table),
+      CONTAINED_TEST(what_is_completed_at_an_instant_is_there_for_who_is_released_in_it),
+      CONTAINED_TEST(units_of_a_thread_take_turns_and_threads_have_a_cpu_each),
       CONTAINED_TEST(observing_changes_nothing),
       CONTAINED_TEST(two_runs_say_the_same),
   };

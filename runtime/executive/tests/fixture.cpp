@@ -400,6 +400,7 @@ void TestApplication::make_threads() {
     record.limit = plan.limit;
     for (const std::uint16_t unit : plan.units) record.budget += units_[unit].budget;
     record.deadline = plan.deadline;
+    record.hang_timeout = plan.hang_timeout;
     record.units = plan.units;
     record.devices = plan.devices;
     record.stack = stack;

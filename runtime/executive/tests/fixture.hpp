@@ -101,6 +101,7 @@ struct ThreadPlan {
   OverrunPolicy overrun = OverrunPolicy::skip;
   OverrunLimit limit{};
   Duration deadline = patient_deadline;
+  Duration hang_timeout{};
 };
 
 struct PopulationPlan {

@@ -1,6 +1,7 @@
 // Who observes a running application: when it is started and stopped, and what its threads inherit.
 #include <pthread.h>
 #include <sched.h>
+#include <unistd.h>
 
 #include <array>
 #include <thread>
@@ -15,11 +16,14 @@ using Cell = ProducerAndConsumer;
 /// What a test wants of the observer, and what became of it. One test at a time.
 struct Record {
   Cell* cell = nullptr;
+  std::string report;
   Status prepared;
   Status started;
   std::vector<std::string> calls;
   std::uint64_t steps_at_start = 1;
   bool running_was_seen = false;
+  bool threads_had_ended = false;
+  bool report_was_written = true;
   bool ending_signals_are_blocked = false;
   int policy = -1;
   std::size_t stack = 0;
@@ -47,6 +51,9 @@ class TestObserver final : public Observer {
   void stop() noexcept override {
     record->calls.push_back("stop");
     if (thread_.joinable()) thread_.join();
+    record->threads_had_ended = executive_->control().mode() == Mode::ended &&
+                                record->cell->unit_state(Cell::consumer).life == Life::stopped;
+    record->report_was_written = access(record->report.c_str(), F_OK) == 0;
     // The objects still stand.
     record->calls.push_back(executive_->cell().component(Cell::consumer).name());
   }
@@ -100,11 +107,15 @@ int run(Record& wanted, Cell& cell, std::vector<const char*> more,
 
 using Calls = std::vector<std::string>;
 
-// [exec-39] [exec-40]
+// [exec-39] [exec-40] [exec-67]
 void it_lives_as_long_as_the_application_runs() {
   Cell cell;
   Record seen;
-  CHECK_EQUAL(run(seen, cell, {}), 0);
+  seen.report = "/tmp/flexrf-observer-" + std::to_string(getpid());
+  CHECK_EQUAL(run(seen, cell, {"--report", seen.report.c_str()}), 0);
+  CHECK(seen.threads_had_ended);
+  CHECK(!seen.report_was_written);
+  CHECK_EQUAL(unlink(seen.report.c_str()), 0);
   CHECK(seen.calls == (Calls{"make", "prepare", "start", "stop", "consumer", "destroy"}));
   CHECK_EQUAL(seen.steps_at_start, 0U);
   CHECK(seen.running_was_seen);

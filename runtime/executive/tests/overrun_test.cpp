@@ -21,7 +21,7 @@ void make_slow(Cell& cell, OverrunPolicy policy, std::vector<Tick>& ticks) {
   };
 }
 
-// [exec-17] [exec-19]
+// [exec-19] [exec-66]
 void skipped_releases_are_left_out() {
   Cell cell;
   std::vector<Tick> ticks;

@@ -4,6 +4,7 @@
 
 #include "runtime/executive/report.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
+#include "tests/log_ear.hpp"
 
 namespace flexrf::fixture {
 namespace {
@@ -72,6 +73,20 @@ void a_driver_is_told_how_long_a_step_may_take() {
   CHECK(longest_step_told(in_virtual_time(std::chrono::seconds{1})) == Duration{});
 }
 
+/// As its tables were when they were generated, and this machine's roles are now.
+// [exec-68]
+void a_deadline_that_may_be_missed_is_told() {
+  Cell cell;
+  const LogEar ear;
+  cell.thread(Cell::producing).priority = 20;
+  cell.thread(Cell::producing).deadline = std::chrono::milliseconds{1};
+  cell.unit(Cell::producer).budget = std::chrono::microseconds{1500};
+  Executive executive(cell.application(), on_the_wall_clock());
+  cell.unit(Cell::producer).script.step = [&](TestUnit&, const Tick&) { executive.request_end(); };
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  CHECK(ear.has_heard("producing: response without bound, deadline 1.000 ms: missed"));
+}
+
 // [exec-8]
 void a_thread_that_waits_for_too_much_is_refused() {
   Cell cell;
@@ -90,6 +105,7 @@ int main() {
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_right_lost_before_the_start_is_named),
       CONTAINED_TEST(a_driver_is_told_how_long_a_step_may_take),
+      CONTAINED_TEST(a_deadline_that_may_be_missed_is_told),
       CONTAINED_TEST(a_thread_that_waits_for_too_much_is_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

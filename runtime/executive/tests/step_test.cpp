@@ -33,6 +33,36 @@ void units_step_in_the_order_of_the_thread() {
   for (std::size_t i = 0; i < order.size(); ++i) CHECK_EQUAL(order[i], (std::array{3, 0, 4, 1, 2}[i % 5]));
 }
 
+// [exec-59] [exec-60]
+void a_bus_receives_before_what_it_carries_and_sends_after_it() {
+  Cell cell;
+  const std::uint16_t bus = cell.add(DevicePlan{.name = "bus", .script = {}, .actuates = false});
+  cell.device(Cell::actuator).bus = bus;
+  cell.thread(Cell::consuming).devices = {bus, Cell::actuator};
+  cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{1});
+  std::vector<std::string> acts;
+  for (const std::uint16_t device : {bus, std::uint16_t{Cell::actuator}}) {
+    DeviceScript& script = cell.device(device).script;
+    script.receive = [&](TestDevice& self, const Tick&) {
+      acts.push_back(self.name() + std::string{": receive"});
+    };
+    script.send = [&](TestDevice& self, const Tick&) { acts.push_back(self.name() + std::string{": send"}); };
+    script.make_safe = [&](TestDevice& self) {
+      acts.push_back(self.name() + std::string{": make_safe"});
+      return true;
+    };
+  }
+  cell.unit(Cell::consumer).script.step = [&](TestUnit&, const Tick&) { acts.push_back("step"); };
+  Executive executive(cell.application(), in_virtual_time(milliseconds{10}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  using Acts = std::vector<std::string>;
+  const Acts ordinary{"bus: receive", "actuator: receive", "step", "actuator: send", "bus: send"};
+  const Acts safe{"bus: receive",   "actuator: receive", "actuator: make_safe",
+                  "bus: make_safe", "actuator: send",    "bus: send"};
+  CHECK(Acts(acts.begin(), acts.begin() + 5) == ordinary);
+  CHECK(Acts(acts.end() - 6, acts.end()) == safe);
+}
+
 // [exec-3]
 void a_step_sees_one_input_however_often_it_looks() {
   Cell cell;
@@ -200,6 +230,7 @@ int main() {
   using namespace flexrf::fixture;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(units_step_in_the_order_of_the_thread),
+      CONTAINED_TEST(a_bus_receives_before_what_it_carries_and_sends_after_it),
       CONTAINED_TEST(a_step_sees_one_input_however_often_it_looks),
       CONTAINED_TEST(units_of_one_thread_share_the_latch_of_their_own_steps),
       CONTAINED_TEST(requests_are_applied_between_steps_and_answered),

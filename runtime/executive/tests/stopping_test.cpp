@@ -1,6 +1,9 @@
 // How an application comes to its end: controlled stop, safe state, end of input, a step that hangs.
 #include <unistd.h>
 
+#include <csignal>
+#include <thread>
+
 #include "runtime/executive/report.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
 
@@ -83,18 +86,84 @@ void a_second_signal_does_not_wait() {
   CHECK_EQUAL(cell.events().count_of("actuator: make_safe"), 1U);
 }
 
+volatile std::sig_atomic_t heard = 0;
+
+/// As a library does that is told something by it.
+// [stop-84]
+void a_signal_that_somebody_handles_is_left_to_him() {
+  Cell cell;
+  std::optional<Executive> executive;
+  bool handled_at_once = false;
+  cell.unit(Cell::producer).script.step = [&](TestUnit&, const Tick& tick) {
+    if (tick.number != 5) return;
+    raise(SIGUSR2);  // to this thread: where it is blocked, it is for somebody else
+    handled_at_once = heard == SIGUSR2;
+    executive->request_end();
+  };
+  std::signal(SIGUSR2, [](int signal) { heard = signal; });
+  executive.emplace(cell.application(), on_the_wall_clock());
+  const RunSummary summary = run_to_the_end(*executive);
+  std::signal(SIGUSR2, SIG_DFL);
+  CHECK_EQUAL(summary.exit_code, 0);
+  CHECK(handled_at_once);
+}
+
+bool is_by_default(int signal) {
+  struct sigaction present {};
+  sigset_t blocked;
+  return sigaction(signal, nullptr, &present) == 0 && present.sa_handler == SIG_DFL &&
+         pthread_sigmask(SIG_SETMASK, nullptr, &blocked) == 0 && sigismember(&blocked, signal) == 0;
+}
+
+/// In a thread that an application on the wall clock has not used: that one waits for its signals.
+// [stop-85]
+void in_virtual_time_a_signal_ends_it_and_the_second_does_what_it_does() {
+  std::string failure;
+  std::thread([&] {
+    try {
+      sigset_t all;
+      sigfillset(&all);
+      pthread_sigmask(SIG_UNBLOCK, &all, nullptr);
+      for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPWR, SIGQUIT}) {
+        Cell cell;
+        bool others_by_default = false;
+        bool second_by_default = false;
+        cell.unit(Cell::producer).script.step = [&](TestUnit&, const Tick& tick) {
+          if (tick.number != 5) return;
+          others_by_default = is_by_default(SIGUSR1) && is_by_default(SIGTSTP);
+          raise(signal);
+          second_by_default = is_by_default(signal);
+        };
+        Executive executive(cell.application(), in_virtual_time(std::chrono::hours{1}));
+        const RunSummary summary = run_to_the_end(executive);
+        CHECK_EQUAL(summary.exit_code, 128 + signal);
+        CHECK_EQUAL(summary.cause, EndCause::signal);
+        CHECK_CONTAINS(report_text(executive.cell(), summary), "\nStopped by SIG");
+        CHECK(others_by_default);
+        CHECK(second_by_default);
+      }
+    } catch (const CheckFailed& failed) {
+      failure = failed.message;
+    }
+  }).join();
+  CHECK_EQUAL(failure, "");
+}
+
 /// A bus in the tables after what it carries, and an arm that needs three calls.
-// [stop-19] [stop-20]
-void children_are_made_safe_before_their_bus() {
+// [stop-19] [stop-20] [stop-77]
+void children_are_made_safe_before_their_bus_and_no_unit_steps() {
   for (const bool simulated : {true, false}) {
     Cell cell;
     const std::uint16_t bus = cell.add(DevicePlan{.name = "bus", .script = {}, .actuates = false});
     cell.device(Cell::actuator).bus = bus;
     cell.thread(Cell::consuming).devices = {bus, Cell::actuator};
-    cell.device(Cell::actuator).script.make_safe = [calls = 0](TestDevice&) mutable { return ++calls == 3; };
+    int calls = 0;
+    int steps_between = 0;
+    cell.device(Cell::actuator).script.make_safe = [&](TestDevice&) { return ++calls == 3; };
     Executive executive(cell.application(),
                         simulated ? in_virtual_time(milliseconds{20}) : on_the_wall_clock());
     cell.unit(Cell::consumer).script.step = [&](TestUnit&, const Tick& tick) {
+      if (calls > 0) ++steps_between;
       if (tick.number < 20) return;
       executive.control().set_cause(EndCause::requested);
       executive.control().rise_to(Mode::stopping);
@@ -104,6 +173,7 @@ void children_are_made_safe_before_their_bus() {
     CHECK(events.place_of("bus: initialise") < events.place_of("actuator: initialise"));
     CHECK_EQUAL(events.count_of("actuator: make_safe"), 3U);
     CHECK_EQUAL(events.count_of("bus: make_safe"), 1U);
+    CHECK_EQUAL(steps_between, 0);
     CHECK(events.place_of("actuator: make_safe") < events.place_of("bus: make_safe"));
     CHECK(events.place_of("actuator: stop") < events.place_of("bus: stop"));
   }
@@ -305,7 +375,9 @@ int main() {
       CONTAINED_TEST(who_does_not_come_to_rest_is_cut_short),
       CONTAINED_TEST(signals_stop_it_and_give_the_exit_code),
       CONTAINED_TEST(a_second_signal_does_not_wait),
-      CONTAINED_TEST(children_are_made_safe_before_their_bus),
+      CONTAINED_TEST(a_signal_that_somebody_handles_is_left_to_him),
+      CONTAINED_TEST(in_virtual_time_a_signal_ends_it_and_the_second_does_what_it_does),
+      CONTAINED_TEST(children_are_made_safe_before_their_bus_and_no_unit_steps),
       CONTAINED_TEST(a_fault_makes_the_units_own_devices_safe_and_no_others),
       CONTAINED_TEST(a_device_that_does_not_become_safe_is_a_fault),
       CONTAINED_TEST(a_slow_threads_devices_have_as_long_as_its_steps),

@@ -1,5 +1,7 @@
 #include "runtime/realtime/instance_lock.hpp"
 
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -173,6 +175,31 @@ void the_machines_place_is_roots_to_make(void**) {
   assert_int_equal(stranger_asks(LockScope::machine), 1);
 }
 
+/// Where nothing was set up yet, as after a boot.
+int makes_the_machines_place() {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        mount("tmpfs", "/run", "tmpfs", 0, nullptr) != 0)
+      _exit(10);
+    umask(0);
+    char place[lock_directory_size];
+    struct stat found {};
+    const bool made = find_lock_directory(LockScope::machine, place).is_ok() && stat(place, &found) == 0;
+    _exit(made && S_ISDIR(found.st_mode) && (found.st_mode & 07777) == 0755 ? 0 : 1);
+  }
+  int result = 0;
+  waitpid(child, &result, 0);
+  return WIFEXITED(result) ? WEXITSTATUS(result) : -1;
+}
+
+// [stop-86]
+void root_makes_the_machines_place_for_itself_alone(void**) {
+  const int answer = makes_the_machines_place();
+  if (answer == 10) skip();  // without the rights of root, or where mounting is not for anybody
+  assert_int_equal(answer, 0);
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -186,6 +213,7 @@ int main() {
       cmocka_unit_test(a_user_has_a_place_of_its_own),
       cmocka_unit_test(somebody_elses_folder_is_not_taken),
       cmocka_unit_test(the_machines_place_is_roots_to_make),
+      cmocka_unit_test(root_makes_the_machines_place_for_itself_alone),
   };
   return cmocka_run_group_tests(tests, make_directory, remove_directory);
 }

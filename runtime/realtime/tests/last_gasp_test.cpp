@@ -245,6 +245,13 @@ void what_is_last_comes_after_all_others(void**) {
   assert_string_equal(text, "one other all; again in order");
 }
 
+/// How often this process gave up its CPU, which it does in each attempt that it waits for.
+long times_waited() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_nvcsw;
+}
+
 /// From now on, as of a network interface whose queue is full, of which the socket, ready to be written,
 /// knows nothing.
 bool leave_no_room(int descriptor) {
@@ -261,6 +268,8 @@ bool leave_no_room(int descriptor) {
          prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }
 
+/// Ten attempts for all that is prepared for the one that is full, not for each.
+// [stop-87]
 void a_full_queue_holds_up_no_other(void**) {
   const Pipe full;
   const Pipe other;
@@ -271,7 +280,9 @@ void a_full_queue_holds_up_no_other(void**) {
       last_gasp::prepare_write(last_gasp::claim_slot(), full.ends[1], bytes_of("no"));
       last_gasp::prepare_write(last_gasp::claim_slot(), other.ends[1], bytes_of("stop;"));
     }
-    _exit(last_gasp::fire() == 30 ? 0 : 1);
+    const long before = times_waited();
+    if (last_gasp::fire() != 30) _exit(1);
+    _exit(times_waited() - before < 100 ? 0 : 2);
   }
   int result = 0;
   waitpid(child, &result, 0);
