@@ -96,6 +96,7 @@ Verdict times_and_sequences_rise(CameraWorld& world, bool into_slot) {
     const auto image = eye.next();
     if (!image || image->time <= before || image->time > world.now() + ahead || image->sequence <= sequence)
       return Verdict::failed;
+    if (into_slot && world.camera().frame()) return Verdict::failed;
     changes = changes || (i > 0 && checksum(*image) != sum);
     sum = checksum(*image);
     before = image->time;
@@ -109,7 +110,7 @@ Verdict a_units_pictures_are_in_order(CameraWorld& world) {
   return times_and_sequences_rise(world, false);
 }
 
-// [camera-1]
+// [camera-1] [camera-6]
 Verdict a_slots_pictures_are_in_order(CameraWorld& world) {
   return times_and_sequences_rise(world, true);
 }
@@ -139,6 +140,7 @@ Verdict a_picture_that_is_held_does_not_change(CameraWorld& world) {
   return verdict(newer && newer->sequence >= sequence + 12);
 }
 
+// [camera-7]
 Verdict no_byte_is_copied(CameraWorld& world) {
   for (const bool into_slot : {false, true}) {
     if (!world.start({.into_slot = into_slot})) return Verdict::failed;

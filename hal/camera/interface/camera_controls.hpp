@@ -17,7 +17,8 @@ struct CameraSetting {
   std::int32_t value = 0;
 };
 
-/// What a text as "brightness=100 gain=3" sets, in its order. Any thread; never allocates.
+/// What a text as "brightness=100 gain=3" sets, in its order [camera-controls-2]. Any thread; never
+/// allocates.
 class CameraSettings {
  public:
   static constexpr std::size_t capacity = 32;
@@ -31,7 +32,7 @@ class CameraSettings {
   std::size_t count_ = 0;
 };
 
-/// Ok, or why the camera cannot be set so: the cause names what it offers instead.
+/// Ok, or why the camera cannot be set so: the cause names what it offers instead [camera-controls-1].
 Status check_setting(std::span<const CameraControl> offered, const CameraSetting& setting) noexcept;
 /// All of a text.
 Status check_settings(std::span<const CameraControl> offered, std::string_view text) noexcept;
@@ -39,7 +40,7 @@ Status check_settings(std::span<const CameraControl> offered, std::string_view t
 /// The one of this name, else null. Those behind the first without a name do not exist.
 const CameraControl* find_control(std::span<const CameraControl> offered, std::string_view name) noexcept;
 
-/// "White Balance, Automatic" is white_balance_automatic.
+/// "White Balance, Automatic" is white_balance_automatic [camera-controls-3].
 std::array<char, 32> control_name(std::string_view shown) noexcept;
 
 }  // namespace flexrf

@@ -17,13 +17,13 @@ class CameraJournal {
   /// The camera begins to count its pictures anew.
   void begin_stream() noexcept { first_ = true; }
   /// A picture came whole, `sequence` in the camera's own count, which may wrap around. Returns its sequence
-  /// as readers see it, which never does.
+  /// as readers see it, which never does [camera-journal-1].
   std::uint64_t note_whole(std::uint32_t sequence) noexcept;
   /// One came that is not given on; `why` is logged when it is another reason than the last.
   void note_damaged(std::uint32_t sequence, std::string_view why) noexcept;
 
   /// No pictures come from now on, or since the start; `why` is what the operator reads, there and in the
-  /// log. Told again while they are away, it only changes the reason.
+  /// log. Told again while they are away, it only changes the reason [camera-journal-2].
   void note_away(std::string_view why) noexcept;
   /// Of one that is there: what else is wrong with it; empty: nothing.
   void note_trouble(std::string_view what) noexcept { set_text(trouble_, what); }

@@ -60,8 +60,8 @@ constexpr std::size_t picture_bytes(PixelFormat format, std::uint32_t stride, st
   return std::size_t{stride} * data_rows(format, height);
 }
 
-/// Whether a camera may be asked for this at all. `room`: bytes that an item of its slot holds; 0: it has no
-/// slot, and no limit. Any thread.
+/// Whether a camera may be asked for this at all [picture-size-1]. `room`: bytes that an item of its slot
+/// holds; 0: it has no slot, and no limit. Any thread.
 Status check_picture(std::uint32_t width, std::uint32_t height, PixelFormat format,
                      std::size_t room) noexcept;
 

@@ -55,6 +55,7 @@ Verdict tells_long_identifiers_from_short_ones(CanBusWorld& world) {
                  is_same(*second, frame_of(0x1FFF'FFFF, 2, true)) && shorter.is_empty() && longer.is_empty());
 }
 
+// [can-frame-1]
 Verdict stamps_with_the_time_of_reception(CanBusWorld& world) {
   CanInbox inbox;
   if (!opens(world, inbox, {{0x181}})) return Verdict::failed;
@@ -70,7 +71,7 @@ Verdict stamps_with_the_time_of_reception(CanBusWorld& world) {
                  second->time >= between && second->time <= after);
 }
 
-// [can-bus-3]
+// [can-bus-3] [can-inbox-1]
 Verdict takes_a_burst(CanBusWorld& world) {
   constexpr int count = 250;
   CanInbox inbox;
@@ -83,7 +84,7 @@ Verdict takes_a_burst(CanBusWorld& world) {
   return verdict(inbox.missed() == 0 && world.bus().counters().frames_missed == 0);
 }
 
-// [can-bus-4]
+// [can-bus-4] [can-inbox-2]
 Verdict a_full_inbox_keeps_the_newest(CanBusWorld& world) {
   CanInbox small;
   CanInbox all;
@@ -109,6 +110,23 @@ Verdict a_closed_inbox_gets_nothing(CanBusWorld& world) {
   return verdict(next_of(world, open).has_value() && closed.is_empty());
 }
 
+// [can-bus-12]
+Verdict an_inbox_that_is_open_is_opened_anew(CanBusWorld& world) {
+  CanInbox inbox;
+  CanInbox all;
+  if (!opens(world, inbox, {{0x181}}, 2) || !opens(world, all, {{0x181}, {0x182}})) return Verdict::failed;
+  for (std::uint8_t i = 0; i < 3; ++i) world.say(frame_of(0x181, i));
+  for (int i = 0; i < 3; ++i) {
+    if (!next_of(world, all)) return Verdict::failed;
+  }
+  if (inbox.is_empty() || inbox.missed() != 1) return Verdict::failed;
+  if (!opens(world, inbox, {{0x182}}) || !inbox.is_empty() || inbox.missed() != 0) return Verdict::failed;
+  world.say(frame_of(0x181, 4));
+  world.say(frame_of(0x182, 5));
+  const auto frame = next_of(world, inbox);
+  return verdict(frame && is_same(*frame, frame_of(0x182, 5)) && inbox.is_empty());
+}
+
 // [can-bus-6]
 Verdict refuses_identifiers_that_cannot_be(CanBusWorld& world) {
   CanInbox inbox;
@@ -116,7 +134,7 @@ Verdict refuses_identifiers_that_cannot_be(CanBusWorld& world) {
                  !opens(world, inbox, {}) && opens(world, inbox, {{0x7FF}}));
 }
 
-// [can-bus-1] [can-bus-9]
+// [can-bus-1] [can-bus-9] [can-send-queue-1]
 Verdict sends_the_most_urgent_first(CanBusWorld& world) {
   world.receive();
   // As devices do it: the process data first, and SYNC by the one that comes last.
@@ -209,6 +227,8 @@ int run_can_bus_conformance(const char* driver, MakeCanBusWorld make) {
       {"takes a burst", judged<takes_a_burst>, nullptr, nullptr, nullptr},
       {"a full inbox keeps the newest", judged<a_full_inbox_keeps_the_newest>, nullptr, nullptr, nullptr},
       {"a closed inbox gets nothing", judged<a_closed_inbox_gets_nothing>, nullptr, nullptr, nullptr},
+      {"an inbox that is open is opened anew", judged<an_inbox_that_is_open_is_opened_anew>, nullptr, nullptr,
+       nullptr},
       {"refuses identifiers that cannot be", judged<refuses_identifiers_that_cannot_be>, nullptr, nullptr,
        nullptr},
       {"sends the most urgent first", judged<sends_the_most_urgent_first>, nullptr, nullptr, nullptr},

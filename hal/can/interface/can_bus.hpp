@@ -34,7 +34,7 @@ class CanBus : public CanBusInterface {
 
   /// From now on frames with these identifiers go into `inbox` [can-bus-3], which keeps the newest `capacity`
   /// (rounded up to a power of two) [can-bus-4]. Several inboxes may want the same identifier [can-bus-5]. An
-  /// inbox that is open is opened anew. Error: an identifier has too many bits, or none was
+  /// inbox that is open is opened anew [can-bus-12]. Error: an identifier has too many bits, or none was
   /// named [can-bus-6].
   Status open(CanInbox& inbox, std::span<const CanIdentifier> identifiers, std::uint32_t capacity = 32);
   Status open(CanInbox& inbox, std::initializer_list<CanIdentifier> identifiers,

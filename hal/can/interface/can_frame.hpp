@@ -12,7 +12,8 @@ namespace flexrf {
 struct CanFrame {
   static constexpr std::uint8_t most_bytes = 8;
 
-  Time time{};  ///< of a received frame: when it had come, on the clock of Tick::now; to send: not looked at
+  Time time{};  ///< of a received frame: when it had come, on the clock of Tick::now
+                ///< [can-frame-1]; to send: not looked at
   std::array<std::uint8_t, 8> data{};
   std::uint32_t identifier = 0;  ///< 11 bits, or 29 when extended
   std::uint8_t length = 0;       ///< bytes of data, 0 to 8
@@ -35,7 +36,8 @@ struct CanIdentifier {
   constexpr bool is_valid() const noexcept { return value <= (extended ? 0x1FFF'FFFFU : 0x7FFU); }
 };
 
-/// The bits that the wire arbitrates by, in their order: the lower value is sent first. Of a valid frame.
+/// The bits that the wire arbitrates by, in their order: the lower value is sent first [can-frame-2]. Of a
+/// valid frame.
 constexpr std::uint32_t arbitration_key(const CanFrame& frame) noexcept {
   const std::uint32_t remote = frame.remote ? 1U : 0U;
   if (!frame.extended) return frame.identifier << 21U | remote << 20U;

@@ -13,7 +13,7 @@ namespace flexrf {
 /// the thread that the device and its bus live in, while the device does; else the lifecycle thread.
 class CanInbox {
  public:
-  /// The oldest frame not yet taken, in the order in which they were on the bus.
+  /// The oldest frame not yet taken, in the order in which they were on the bus [can-inbox-1].
   std::optional<CanFrame> pop() noexcept {
     const CanFrame* frame = take();
     return frame == nullptr ? std::nullopt : std::optional{*frame};
@@ -21,7 +21,7 @@ class CanInbox {
   /// The same without a copy, to be used before the bus receives again; null: there is none.
   const CanFrame* take() noexcept { return taken_ == put_ ? nullptr : &frames_[taken_++ & (capacity_ - 1)]; }
   bool is_empty() const noexcept { return taken_ == put_; }
-  /// How many were overwritten by newer ones before they were taken, since open().
+  /// How many were overwritten by newer ones before they were taken, since open() [can-inbox-2].
   std::uint32_t missed() const noexcept { return missed_; }
 
  private:

@@ -9,7 +9,8 @@
 
 namespace flexrf {
 
-/// The lowest arbitration key first, and those of one key in the order in which they came. Never allocates.
+/// The lowest arbitration key first, and those of one key in the order in which they came [can-send-queue-1].
+/// Never allocates.
 class CanSendQueue {
  public:
   static constexpr std::size_t capacity = 128;

@@ -27,7 +27,8 @@ class ForceTorqueSensor : public ForceTorqueSensorInterface {
   /// nothing [force-torque-sensor-7]: the load is to rest meanwhile. Replaces the tare
   /// before [force-torque-sensor-8]. Given up, which the log says, when they cease to come, or one of them is
   /// an overload or a fault; the tare before then stays [force-torque-sensor-9]. A sensor that was away may
-  /// have another offset: its tare is kept, and whether it still holds is the unit's to know.
+  /// have another offset: its tare is kept [force-torque-sensor-10], and whether it still holds is the unit's
+  /// to know.
   virtual void tare() noexcept = 0;
   virtual void clear_tare() noexcept = 0;
   virtual bool is_taring() const noexcept = 0;

@@ -85,6 +85,7 @@ inline bool goes_to(GripperWorld& world, double opening) {
 
 Verdict does_nothing_by_itself(GripperWorld& world);
 Verdict follows_once_it_is_activated(GripperWorld& world);
+Verdict activated_again_it_stays_as_it_is(GripperWorld& world);
 Verdict opens_and_closes(GripperWorld& world);
 Verdict moves_from_the_command_on(GripperWorld& world);
 Verdict goes_in_between_or_refuses(GripperWorld& world);
@@ -96,7 +97,9 @@ Verdict slower_takes_longer(GripperWorld& world);
 Verdict tells_an_object_it_gripped(GripperWorld& world);
 Verdict tells_a_hollow_object(GripperWorld& world);
 Verdict tells_an_object_that_is_lost(GripperWorld& world);
+Verdict a_new_goal_replaces_the_one_before(GripperWorld& world);
 Verdict halts_or_goes_on_to_its_end(GripperWorld& world);
+Verdict halted_it_holds_what_it_holds(GripperWorld& world);
 Verdict inhibited_it_ends_its_motion_and_forgets(GripperWorld& world);
 Verdict made_safe_it_holds_what_it_holds(GripperWorld& world);
 Verdict made_safe_it_releases_where_it_shall(GripperWorld& world);

@@ -27,6 +27,7 @@ int run_gripper_conformance(const char* driver, MakeGripperWorld make) {
   const CMUnitTest tests[] = {
       test("does nothing by itself", judged<does_nothing_by_itself>),
       test("follows once it is activated", judged<follows_once_it_is_activated>),
+      test("activated again, it stays as it is", judged<activated_again_it_stays_as_it_is>),
       test("opens and closes", judged<opens_and_closes>),
       test("moves from the command on", judged<moves_from_the_command_on>),
       test("goes in between, or refuses", judged<goes_in_between_or_refuses>),
@@ -39,7 +40,9 @@ int run_gripper_conformance(const char* driver, MakeGripperWorld make) {
       test("object in between", judged<tells_an_object_it_gripped>),
       test("hollow object, gripped from inside", judged<tells_a_hollow_object>),
       test("object lost", judged<tells_an_object_that_is_lost>),
+      test("a new goal replaces the one before", judged<a_new_goal_replaces_the_one_before>),
       test("halts, or goes on to its end", judged<halts_or_goes_on_to_its_end>),
+      test("halted it holds what it holds", judged<halted_it_holds_what_it_holds>),
       test("inhibited it ends its motion and forgets", judged<inhibited_it_ends_its_motion_and_forgets>),
       test("made safe it holds what it holds", judged<made_safe_it_holds_what_it_holds>),
       test("made safe it releases, where it shall", judged<made_safe_it_releases_where_it_shall>),

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <limits>
 
 #include "hal/gripper/conformance/gripper_cases.hpp"
 
 namespace flexrf::gripper_cases {
 
+// [gripper-12]
 Verdict does_nothing_by_itself(GripperWorld& world) {
   if (!world.start({})) return Verdict::failed;
   const double before = world.fingers();
@@ -23,6 +25,21 @@ Verdict follows_once_it_is_activated(GripperWorld& world) {
     if (world.fingers() != before) return Verdict::failed;
   }
   return verdict(becomes_active(world) && goes_to(world, closed) && fingers_at(world, closed));
+}
+
+// Its fingers would go all their way, and drop what they hold.
+// [gripper-17]
+Verdict activated_again_it_stays_as_it_is(GripperWorld& world) {
+  if (!starts_active(world) || !goes_to(world, closed)) return Verdict::failed;
+  const double before = world.fingers();
+  act(world, [](Gripper& gripper) { gripper.activate(); });
+  bool stays = is_activated(world);
+  for (const Time start = world.now(); world.now() - start < std::chrono::milliseconds(300);) {
+    world.receive();
+    stays = stays && world.fingers() == before && is_activated(world);
+    world.send();
+  }
+  return verdict(stays && world.gripper().trouble().is_ok());
 }
 
 Verdict opens_and_closes(GripperWorld& world) {
@@ -59,6 +76,7 @@ Verdict goes_in_between_or_refuses(GripperWorld& world) {
   return verdict(world.gripper().fault().code() == StatusCode::invalid_argument && world.fingers() == before);
 }
 
+// [gripper-15]
 Verdict says_what_it_does_not_do(GripperWorld& world) {
   if (!starts_active(world)) return Verdict::failed;
   const GripperCapabilities can = world.gripper().capabilities();
@@ -99,6 +117,7 @@ Verdict nonsense_is_a_fault_and_never_followed(GripperWorld& world) {
   return verdict(world.gripper().fault().code() == StatusCode::invalid_argument && world.fingers() == before);
 }
 
+// [gripper-11]
 Verdict slower_takes_longer(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
   if (!world.gripper().capabilities().speed) return Verdict::skipped;
@@ -157,18 +176,48 @@ Verdict ends_its_motion(GripperWorld& world, const Stop& stop) {
 
 }  // namespace
 
+// On its way to the other end.
+// [gripper-18]
+Verdict a_new_goal_replaces_the_one_before(GripperWorld& world) {
+  if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
+  act(world, [](Gripper& gripper) { gripper.close(); });
+  if (!until(world, [&] { return world.fingers() < opened - 0.005; })) return Verdict::failed;
+  double least = world.fingers();
+  act(world, [](Gripper& gripper) { gripper.open(); });
+  if (!until(world, [&] {
+        least = std::min(least, world.fingers());
+        return rests(world);
+      }))
+    return Verdict::failed;
+  return verdict(fingers_at(world, opened) && least > closed + 0.005 && world.gripper().trouble().is_ok());
+}
+
 // [gripper-10]
 Verdict halts_or_goes_on_to_its_end(GripperWorld& world) {
   return ends_its_motion(world, [](Gripper& gripper) { gripper.halt(); });
 }
 
-// [gripper-3]
+// [gripper-19]
+Verdict halted_it_holds_what_it_holds(GripperWorld& world) {
+  if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
+  if (!world.put_object(0.03)) return Verdict::skipped;
+  if (!goes_to(world, closed)) return Verdict::failed;
+  act(world, [](Gripper& gripper) { gripper.halt(); });
+  idle_for(world, std::chrono::milliseconds(300));
+  const bool tells = world.gripper().capabilities().detects_object;
+  return verdict(rests(world) && fingers_at(world, 0.03) &&
+                 (!tells || object(world) == GripperObject::gripped));
+}
+
+// [gripper-3] [exec-73]
 Verdict inhibited_it_ends_its_motion_and_forgets(GripperWorld& world) {
   const Verdict ended = ends_its_motion(world, [](Gripper& gripper) { gripper.set_inhibited(true); });
   if (ended != Verdict::passed) return ended;
   const double rest = world.fingers();
+  static_cast<void>(world.gripper().take_restraint());
   act(world, [](Gripper& gripper) { gripper.open(); });
   act(world, [](Gripper& gripper) { gripper.activate(); });
+  if (world.gripper().take_restraint().reason != nullptr) return Verdict::failed;
   world.gripper().set_inhibited(false);
   idle_for(world, std::chrono::milliseconds(300));
   return verdict(world.fingers() == rest && goes_to(world, opened) && fingers_at(world, opened));
@@ -189,6 +238,7 @@ bool is_made_safe(GripperWorld& world) {
 
 }  // namespace
 
+// [gripper-13]
 Verdict made_safe_it_holds_what_it_holds(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
   if (!world.put_object(0.03)) return Verdict::skipped;
@@ -201,6 +251,7 @@ Verdict made_safe_it_holds_what_it_holds(GripperWorld& world) {
                  fingers_at(world, opened));
 }
 
+// [gripper-14]
 Verdict made_safe_it_releases_where_it_shall(GripperWorld& world) {
   if (!starts_active(world, {.safe_state = GripperSafeState::release}) || !goes_to(world, closed))
     return Verdict::failed;

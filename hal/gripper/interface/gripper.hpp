@@ -19,7 +19,7 @@ struct GripperCapabilities {
   double closed_width = 0;        ///< m, when fully closed
   bool positions = false;         ///< goes to any opening; else to fully open and fully closed alone
   bool measures_opening = false;  ///< everywhere; else the opening is known at the two ends alone
-  bool speed = false;             ///< of a goal is followed; else without effect
+  bool speed = false;             ///< of a goal is followed [gripper-11]; else without effect
   bool force = false;             ///< likewise
   bool detects_object = false;    ///< else `object` is never gripped, gripped_inside or lost
   bool halts = false;             ///< the fingers can stop anywhere; else they go on to the end
@@ -50,7 +50,9 @@ struct GripperState {
 
 /// Everything: the thread the gripper lives in. Commands are sent at the end of the cycle; without effect
 /// while is_inhibited(), and not remembered: what it was at is ended, and the fingers stay as they
-/// are [gripper-3].
+/// are [gripper-3]. By itself it does nothing [gripper-12]. Made safe, it holds what it holds [gripper-13],
+/// or opens, as configured [gripper-14], and stays so until it is commanded. What of a command is kept to a
+/// limit or is without effect is told (Component::restrain()) [gripper-15].
 class Gripper : public Actuator<GripperInterface> {
  public:
   /// From initialise() on, always the same.
@@ -58,22 +60,23 @@ class Gripper : public Actuator<GripperInterface> {
 
   /// What it said last, with what was commanded since; nothing while it says nothing [gripper-4].
   virtual std::optional<GripperState> state() const noexcept = 0;
-  /// What is wrong, and what a person can do; ok while nothing is. device_fault, timeout, unavailable. It
+  /// What is wrong, and what a person can do; ok while nothing is. device_fault, unavailable, and timeout:
+  /// the fingers did not come to rest in their time [gripper-16], and go on only when they are told again. It
   /// goes when the cause has gone, what it reports as its own fault with activate() [gripper-5].
   virtual const Status& trouble() const noexcept = 0;
 
   /// Makes it follow commands, after power-on and after a fault [gripper-6]: the fingers may go all their way
-  /// to both ends, and drop what they hold. Without effect while it is activated and nothing is wrong, so a
-  /// unit may call it whenever a person starts it.
+  /// to both ends, and drop what they hold. Without effect while it is activated and nothing is
+  /// wrong [gripper-17], so a unit may call it whenever a person starts it.
   void activate() noexcept {
     if (may_act()) begin_activation();
   }
   /// Towards an opening, gripping what is in the way [gripper-7]. Without effect while it is not
-  /// activated [gripper-8]. Replaces the goal before. Not a finite number, or an opening that it cannot go
-  /// to: fault [gripper-9].
+  /// activated [gripper-8]. Replaces the goal before [gripper-18]. Not a finite number, or an opening that it
+  /// cannot go to: fault [gripper-9].
   void command(const GripperGoal& goal) noexcept;
-  /// Ends the motion where the fingers are [gripper-10], and holds what they hold; else, as capabilities()
-  /// say, at the end.
+  /// Ends the motion where the fingers are [gripper-10], and holds what they hold [gripper-19]; else, as
+  /// capabilities() say, at the end.
   virtual void halt() noexcept = 0;
 
   void open() noexcept { command({.opening = capabilities().open_width}); }

@@ -175,6 +175,7 @@ Verdict what_does_not_end_is_killed(ProcessWorld& world) {
                  !world.is_there(id));
 }
 
+// [process-run-1]
 Verdict nothing_is_left_after_the_device_stopped(ProcessWorld& world) {
   if (!world.start(ProgramPart::disobeys, {.stop_timeout = std::chrono::milliseconds(50)}))
     return Verdict::failed;
@@ -199,6 +200,20 @@ Verdict it_is_started_again_after_a_growing_pause(ProcessWorld& world) {
     return heard.lines.size() >= 12;
   });
   return verdict(again && world.process().state().runs >= 4 && world.process().fault().is_ok());
+}
+
+// [process-11]
+Verdict what_was_asked_to_end_is_left_so(ProcessWorld& world) {
+  if (!world.start(ProgramPart::echoes, {.restart = ProcessRestart::always})) return Verdict::failed;
+  Heard heard;
+  world.process().request_stop();
+  if (!reaches(world, ProcessPhase::idle, heard)) return Verdict::failed;
+  for (int cycles = 0; cycles < 200; ++cycles) {
+    world.receive();
+    if (world.process().state().phase != ProcessPhase::idle) return Verdict::failed;
+    world.send();
+  }
+  return verdict(world.process().state().runs == 1);
 }
 
 Verdict what_ended_well_is_left_so(ProcessWorld& world) {
@@ -276,6 +291,7 @@ int run_process_conformance(const char* driver, MakeProcessWorld make) {
       CASE(what_does_not_end_is_killed),
       CASE(nothing_is_left_after_the_device_stopped),
       CASE(it_is_started_again_after_a_growing_pause),
+      CASE(what_was_asked_to_end_is_left_so),
       CASE(what_ended_well_is_left_so),
       CASE(lines_that_nobody_takes_are_counted),
       CASE(what_it_does_not_read_is_refused),

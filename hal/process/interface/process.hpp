@@ -20,7 +20,7 @@ class Process : public ProcessInterface {
   /// after [process-2].
   virtual void request_start() noexcept = 0;
   /// Has it end: asked first, killed after `stop_timeout` [process-3]. It is not started again by itself
-  /// then.
+  /// then [process-11].
   virtual void request_stop() noexcept = 0;
 
   /// For its standard input, with an end of line [process-4]. False, and nothing is written: it does not run,

@@ -9,7 +9,7 @@
 
 namespace flexrf {
 
-/// Lines made of the bytes that a program prints, bounded in number and length. One thread.
+/// Lines made of the bytes that a program prints, bounded in number and length [process-lines-2]. One thread.
 class ProcessLines {
  public:
   /// Forgets all, the counters too.
@@ -17,7 +17,7 @@ class ProcessLines {
   void begin_run(std::uint64_t run) noexcept { run_ = run; }
 
   void put(ProcessSource source, std::string_view bytes, Time now) noexcept;
-  /// What was printed without an end of line is a line once no more can come.
+  /// What was printed without an end of line is a line once no more can come [process-lines-1].
   void finish(Time now) noexcept;
   bool take(ProcessLine& line) noexcept;
 

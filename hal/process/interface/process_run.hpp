@@ -25,7 +25,7 @@ class ProcessRun {
  public:
   /// Starts it, if that is set, and waits until its own code begins. `name`: the device's; both outlive this.
   Status begin(const char* name, ProcessHost& host, const ProcessSettings& settings);
-  /// Returns when the program has ended, or cannot be ended.
+  /// Returns when the program has ended, or cannot be ended [process-run-1].
   void stop() noexcept;
 
   void receive(Time now) noexcept;

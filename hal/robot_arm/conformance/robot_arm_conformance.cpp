@@ -51,6 +51,18 @@ void idle_for(RobotArmWorld& world, double duration) {
   }
 }
 
+// What it said in so long, led to `to` in each cycle.
+Restraint said_while(RobotArmWorld& world, const JointVector& to, double duration) {
+  Restraint said;
+  for (double time = 0; time < duration; time += cycle_seconds) {
+    world.receive(cycle);
+    world.arm().command(positions_of(to));
+    world.send();
+    if (const Restraint now = world.arm().take_restraint(); now.reason != nullptr) said = now;
+  }
+  return said;
+}
+
 // A posture beside the present one, inside the limits.
 JointVector beside(RobotArmWorld& world, double offset) {
   world.receive(cycle);
@@ -73,6 +85,7 @@ Verdict tells_a_sane_state(RobotArmWorld& world) {
   return verdict(at.allFinite() && inside && state->velocity_map().isZero(tolerance));
 }
 
+// [robot-arm-10]
 Verdict stays_where_it_is_without_a_command(RobotArmWorld& world) {
   const JointVector start = beside(world, 0);
   idle_for(world, 0.5);
@@ -102,12 +115,14 @@ Verdict keeps_to_its_limits(RobotArmWorld& world) {
   return Verdict::passed;
 }
 
-// [robot-arm-6]
+// [robot-arm-6] [exec-73]
 Verdict an_inhibited_arm_holds(RobotArmWorld& world) {
   const JointVector start = beside(world, 0);
   world.arm().set_inhibited(true);
   const JointVector goal = beside(world, 0.2);
-  command_for(world, goal, 0.5);
+  command_for(world, goal, 0.25);
+  static_cast<void>(world.arm().take_restraint());
+  if (said_while(world, goal, 0.25).reason != nullptr) return Verdict::failed;
   if (distance(world, start) > tolerance + 2 * world.noise()) return Verdict::failed;
   // What was commanded meanwhile is forgotten.
   world.arm().set_inhibited(false);
@@ -150,6 +165,7 @@ Verdict nonsense_is_a_fault_and_never_followed(RobotArmWorld& world) {
                  distance(world, start) <= tolerance + 2 * world.noise());
 }
 
+// [robot-arm-8]
 Verdict can_be_made_safe(RobotArmWorld& world) {
   const JointVector goal = beside(world, 0.5);
   command_for(world, goal, 0.1);
@@ -185,6 +201,7 @@ Verdict silence_in_operation_is_a_fault(RobotArmWorld& world) {
 }
 
 /// Without the permission to move nobody needs to know.
+// [robot-arm-11]
 Verdict silence_while_inhibited_is_none(RobotArmWorld& world) {
   idle_for(world, 0.05);
   world.arm().set_inhibited(true);
@@ -212,18 +229,6 @@ Verdict a_joint_that_sticks_is_a_fault(RobotArmWorld& world) {
   const Status& fault = world.arm().fault();
   return verdict(fault.code() == StatusCode::device_fault &&
                  std::string_view{fault.cause()}.find("behind") != std::string_view::npos);
-}
-
-// What it said in so long, led to `to` in each cycle.
-Restraint said_while(RobotArmWorld& world, const JointVector& to, double duration) {
-  Restraint said;
-  for (double time = 0; time < duration; time += cycle_seconds) {
-    world.receive(cycle);
-    world.arm().command(positions_of(to));
-    world.send();
-    if (const Restraint now = world.arm().take_restraint(); now.reason != nullptr) said = now;
-  }
-  return said;
 }
 
 /// It falls behind, as long as it lasts; a motion that its joints can follow is none of that.
@@ -255,6 +260,7 @@ Verdict says_that_it_is_led_too_fast(RobotArmWorld& world) {
   return verdict(counts && said_while(world, goal, 0.1).reason == nullptr && world.arm().fault().is_ok());
 }
 
+// [robot-arm-9]
 Verdict reports_tripped_drives(RobotArmWorld& world) {
   idle_for(world, 0.05);
   if (!world.trip_drives()) return Verdict::skipped;

@@ -15,7 +15,8 @@
 
 namespace flexrf {
 
-/// Everything: the thread the arm lives in.
+/// Everything: the thread the arm lives in. Made safe, it comes to rest, says so, and stays
+/// there [robot-arm-8]. What its drives report as a fault is the arm's [robot-arm-9].
 class RobotArm : public Actuator<RobotArmInterface> {
  public:
   const KinematicChain& kinematic_chain() const noexcept { return *chain; }
@@ -24,9 +25,10 @@ class RobotArm : public Actuator<RobotArmInterface> {
   virtual std::optional<JointState> state() const noexcept = 0;
 
   /// Where the joints shall be (rad, or m where one slides), sent at the end of the cycle and held until the
-  /// next command [robot-arm-2]. An arm keeps to its own limits whatever it is commanded [robot-arm-3], and
-  /// tells it (Component::restrain()) while it does [robot-arm-4]; what is not finite puts it in
-  /// fault [robot-arm-5]. Without effect while is_inhibited(), and not remembered [robot-arm-6].
+  /// next command [robot-arm-2]; before the first it stays where it is [robot-arm-10]. An arm keeps to its
+  /// own limits whatever it is commanded [robot-arm-3], and tells it (Component::restrain()) while it does
+  /// [robot-arm-4]; what is not finite puts it in fault [robot-arm-5]. Without effect while is_inhibited(),
+  /// and not remembered [robot-arm-6].
   void command(const JointPositions& set_points) noexcept {
     if (!may_act()) return;
     for (std::size_t i = 0; i < chain->joint_count; ++i) {
@@ -58,7 +60,8 @@ class RobotArm : public Actuator<RobotArmInterface> {
     pace_.forget();
   }
   /// At the end of receive(), by every driver: an arm that does not follow what its drives are asked to
-  /// (feedback.following_error), or does not say where it is, is in fault [robot-arm-7].
+  /// (feedback.following_error), or does not say where it is, is in fault [robot-arm-7]; nothing is expected
+  /// of one that may not move [robot-arm-11].
   void supervise(Time now) noexcept {
     if (const Status found = supervision_.look(state(), feedback.following_error, may_act(), now); !found)
       set_fault(found);

@@ -27,6 +27,7 @@ bool starts_to_home(ServoDriveWorld& world) {
 
 }  // namespace
 
+// [servo-drive-23]
 Verdict needs_no_home_with_method_0(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (state_of(world).homing != ServoHoming::homed) return Verdict::failed;
@@ -42,6 +43,22 @@ Verdict finds_its_home_and_goes_on_in_its_mode(ServoDriveWorld& world) {
   if (!is_at(world, 0) || !holds(world) || !is_at(world, 0)) return Verdict::failed;
   if (!world.drive().homing_problem().is_ok()) return Verdict::failed;
   return verdict(moves(world) && state_of(world).homing == ServoHoming::homed);
+}
+
+// Neither without the permission to move nor while it is on its way to it; and none of it is remembered.
+// [servo-drive-4] [servo-drive-22]
+Verdict is_not_sent_home_while_it_is_off(ServoDriveWorld& world) {
+  world.drive().set_inhibited(true);
+  idle_for(world, 0.5);
+  if (state_of(world).enabled) return Verdict::failed;
+  do_once(world, [](ServoDrive& drive) { drive.home(); });
+  if (state_of(world).homing != ServoHoming::not_homed) return Verdict::failed;
+  world.drive().set_inhibited(false);
+  do_once(world, [](ServoDrive& drive) {
+    if (const auto state = drive.state(); state && !state->enabled) drive.home();
+  });
+  return verdict(is_enabled_in_time(world) && holds(world) && is_at(world, start) &&
+                 state_of(world).homing == ServoHoming::not_homed);
 }
 
 // [servo-drive-4]

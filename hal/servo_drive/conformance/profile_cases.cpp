@@ -65,6 +65,7 @@ Verdict an_axis_that_sticks_on_a_short_way_is_a_fault(ServoDriveWorld& world) {
 
 // A creeping one, one that turns round at its full speed, one that is where it is sent, and one that was
 // halted.
+// [servo-drive-24]
 Verdict an_axis_that_takes_its_time_is_none(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (!goes_to(world, start + 1, 0.2)) return Verdict::failed;
@@ -77,6 +78,17 @@ Verdict an_axis_that_takes_its_time_is_none(ServoDriveWorld& world) {
   do_once(world, [](ServoDrive& drive) { drive.halt(); });
   idle_for(world, 5);
   return verdict(world.drive().fault().is_ok() && goes_to(world, 9));
+}
+
+// However long it turns, and however often the other way.
+// [servo-drive-24]
+Verdict an_axis_that_turns_is_not_behind(ServoDriveWorld& world) {
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  for (const double velocity : {20.0, -20.0, 3.0, 0.0, -20.0}) {
+    drive_for(world, velocity, 3);
+    if (!world.drive().fault().is_ok()) return Verdict::failed;
+  }
+  return Verdict::passed;
 }
 
 // [servo-drive-13]

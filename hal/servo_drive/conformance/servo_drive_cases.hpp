@@ -84,6 +84,7 @@ Verdict goes_to_targets_and_says_when_it_is_there(ServoDriveWorld& world);
 Verdict an_axis_that_sticks_on_its_way_is_a_fault(ServoDriveWorld& world);
 Verdict an_axis_that_sticks_on_a_short_way_is_a_fault(ServoDriveWorld& world);
 Verdict an_axis_that_takes_its_time_is_none(ServoDriveWorld& world);
+Verdict an_axis_that_turns_is_not_behind(ServoDriveWorld& world);
 Verdict goes_as_fast_as_it_was_told(ServoDriveWorld& world);
 Verdict a_new_target_replaces_the_one_before(ServoDriveWorld& world);
 Verdict keeps_targets_to_its_range(ServoDriveWorld& world);
@@ -99,6 +100,7 @@ Verdict halts_from_a_velocity(ServoDriveWorld& world);
 
 Verdict needs_no_home_with_method_0(ServoDriveWorld& world);
 Verdict finds_its_home_and_goes_on_in_its_mode(ServoDriveWorld& world);
+Verdict is_not_sent_home_while_it_is_off(ServoDriveWorld& world);
 Verdict ignores_commands_while_it_homes(ServoDriveWorld& world);
 Verdict can_be_homed_again_out_of_a_motion(ServoDriveWorld& world);
 Verdict a_halted_homing_has_failed(ServoDriveWorld& world);

@@ -99,12 +99,15 @@ Verdict ends_velocities_beyond_its_range(ServoDriveWorld& world) {
   return verdict(state && state->velocity == 0 && state->position >= 10 - tolerance && state->position < 11);
 }
 
-// [servo-drive-3] [servo-drive-4]
+// [servo-drive-3] [servo-drive-4] [exec-73]
 Verdict an_inhibited_drive_is_off_and_forgets(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   command_for(world, 9, 0.1);
   world.drive().set_inhibited(true);
-  command_for(world, 9, 1);
+  command_for(world, 9, 0.5);
+  static_cast<void>(world.drive().take_restraint());
+  command_for(world, 11, 0.5);
+  if (world.drive().take_restraint().reason != nullptr) return Verdict::failed;
   const auto state = world.drive().state();
   if (!state || state->enabled || state->velocity != 0) return Verdict::failed;
   const double rest = state->position;
@@ -124,6 +127,7 @@ Verdict nonsense_is_a_fault_and_never_followed(ServoDriveWorld& world) {
   return verdict(world.drive().fault().code() == StatusCode::invalid_argument && is_at(world, start));
 }
 
+// [servo-drive-20]
 Verdict can_be_made_safe(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   command_for(world, 9, 0.1);
@@ -294,16 +298,7 @@ Verdict a_jam_while_it_turns_is_a_fault(ServoDriveWorld& world) {
                  !state_of(world).enabled);
 }
 
-// However long it turns, and however often the other way.
-Verdict an_axis_that_turns_is_not_behind(ServoDriveWorld& world) {
-  if (!is_enabled_in_time(world)) return Verdict::failed;
-  for (const double velocity : {20.0, -20.0, 3.0, 0.0, -20.0}) {
-    drive_for(world, velocity, 3);
-    if (!world.drive().fault().is_ok()) return Verdict::failed;
-  }
-  return Verdict::passed;
-}
-
+// [servo-drive-21]
 Verdict reports_a_tripped_drive(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (!world.trip_drive()) return Verdict::skipped;
@@ -382,6 +377,8 @@ int run_servo_drive_conformance(const char* driver, MakeServoDriveWorld make) {
       test("homes, cyclic velocity", judged<finds_its_home_and_goes_on_in_its_mode, cyclic_velocity, true>),
       test("homes, profile position", judged<finds_its_home_and_goes_on_in_its_mode, profile_position, true>),
       test("homes, profile velocity", judged<finds_its_home_and_goes_on_in_its_mode, profile_velocity, true>),
+      test("is not sent home while it is off",
+           judged<is_not_sent_home_while_it_is_off, cyclic_position, true>),
       test("ignores commands while it homes",
            judged<ignores_commands_while_it_homes, profile_position, true>),
       test("homes again, positions", judged<can_be_homed_again_out_of_a_motion, cyclic_position, true>),

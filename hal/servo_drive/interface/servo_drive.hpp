@@ -30,7 +30,8 @@ struct ServoState {
 
 /// Everything: the thread the drive lives in. With the permission to move, the drive enables itself, with its
 /// set-point where it is [servo-drive-2]; that takes as long as the drive takes. Without it, it stops and is
-/// off [servo-drive-3].
+/// off [servo-drive-3]. Made safe, it comes to rest, is off and stays where it is [servo-drive-20]. One that
+/// trips is in fault, and says why [servo-drive-21].
 ///
 /// configuration.mode says which of the commands it takes. The others are without effect, as are all of them
 /// while the drive is not enabled or is homing; none of those is remembered [servo-drive-4]. What is kept to
@@ -69,7 +70,8 @@ class ServoDrive : public Actuator<ServoDriveInterface> {
 
   /// Begins to find its home with the configured method, whatever the mode; homing is `running` from this
   /// call on, then `homed` or `failed` [servo-drive-14]. When it is over the drive is in its mode again and
-  /// holds [servo-drive-15]. Without effect while it is not enabled or is homing, and with method 0.
+  /// holds [servo-drive-15]. Without effect while it is not enabled [servo-drive-22]
+  /// or is homing, and with method 0 [servo-drive-23].
   void home() noexcept {
     if (may_act()) begin_homing();
   }
@@ -82,10 +84,10 @@ class ServoDrive : public Actuator<ServoDriveInterface> {
 
  protected:
   /// At the end of receive(), by every driver: an axis that does not follow its set-points, does not go as
-  /// fast as it is told, or does not come nearer to its target, is in fault [servo-drive-19].
-  /// `configuration`: the driver's. `asked`: the velocity that the drive is told, unit/s; 0 in other modes
-  /// than those that are led by velocities. `target`: of a drive that is on its way to one with its own
-  /// profile; else nothing.
+  /// fast as it is told, or does not come nearer to its target, is in fault [servo-drive-19]; one that only
+  /// takes its time, or turns for long, is not [servo-drive-24]. `configuration`: the driver's. `asked`: the
+  /// velocity that the drive is told, unit/s; 0 in other modes than those that are led by velocities.
+  /// `target`: of a drive that is on its way to one with its own profile; else nothing.
   void supervise(const auto& configuration, double asked, const std::optional<ProfileTarget>& target,
                  Time now) noexcept {
     const auto told = state();

@@ -17,6 +17,7 @@ CameraFeedback told(const CameraJournal& journal) {
   return feedback;
 }
 
+// [camera-1]
 void gaps_in_the_cameras_count_are_lost_pictures(void**) {
   CameraJournal journal;
   journal.restart("test");
@@ -33,6 +34,7 @@ void gaps_in_the_cameras_count_are_lost_pictures(void**) {
   assert_string_equal(feedback.damage.data(), "too short");
 }
 
+// [camera-journal-1]
 void a_count_that_wraps_around_loses_nothing(void**) {
   CameraJournal journal;
   journal.restart("test");
@@ -43,6 +45,7 @@ void a_count_that_wraps_around_loses_nothing(void**) {
   assert_int_equal(told(journal).lost_frames, 1);
 }
 
+// [camera-1]
 void a_count_that_begins_anew_goes_on_for_readers(void**) {
   CameraJournal journal;
   journal.restart("test");
@@ -55,6 +58,7 @@ void a_count_that_begins_anew_goes_on_for_readers(void**) {
   assert_int_equal(told(journal).lost_frames, 0);
 }
 
+// [camera-journal-2]
 void what_went_away_and_came_back_is_counted_once(void**) {
   CameraJournal journal;
   journal.restart("test");
@@ -75,6 +79,7 @@ void what_went_away_and_came_back_is_counted_once(void**) {
   assert_string_equal(feedback.trouble.data(), "a control was refused");
 }
 
+// [camera-controls-3]
 void names_of_controls_are_words(void**) {
   assert_string_equal(control_name("White Balance, Automatic").data(), "white_balance_automatic");
   assert_string_equal(control_name("  Gain (dB) ").data(), "gain_db");
@@ -95,6 +100,7 @@ bool refuses(const char* text, StatusCode code, const char* part) {
   return false;
 }
 
+// [camera-controls-1]
 void settings_are_checked_against_what_is_offered(void**) {
   assert_true(refuses("gain=10, gain=0", StatusCode::ok, ""));
   assert_true(refuses("  ", StatusCode::ok, ""));
@@ -105,6 +111,7 @@ void settings_are_checked_against_what_is_offered(void**) {
     assert_true(refuses(text, StatusCode::invalid_argument, "NAME=VALUE"));
 }
 
+// [camera-controls-2]
 void settings_keep_their_order(void**) {
   const auto settings = CameraSettings::parse("exposure_auto=1,exposure=-250");
   assert_true(static_cast<bool>(settings));
@@ -123,6 +130,7 @@ void as_many_names_as_fit_are_told(void**) {
   assert_non_null(std::strstr(status.cause(), " ..."));
 }
 
+// [picture-size-1]
 void pictures_that_do_not_fit_are_refused(void**) {
   assert_int_equal(check_picture(1280, 720, PixelFormat::yuyv, usual_picture_bytes).code(), StatusCode::ok);
   assert_int_equal(check_picture(1280, 720, PixelFormat::rgb24, usual_picture_bytes).code(),
@@ -200,6 +208,7 @@ void whole_jpegs_end_at_their_end(void**) {
   assert_int_equal(whole_size_of(jpeg_around(scan)), jpeg_around(scan).size());
 }
 
+// [jpeg-check-1] [jpeg-check-2] [jpeg-check-3]
 void damage_shows_at_the_markers(void**) {
   const Bytes whole = jpeg_around({1, 0xFF, 0xD0, 2, 3, 0xFF, 0xD9});
   for (std::size_t size = 2; size < whole.size(); ++size)

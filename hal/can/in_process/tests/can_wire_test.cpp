@@ -27,6 +27,7 @@ static_assert(bit_count({.identifier = 0x201, .length = 8, .extended = true}) + 
 static_assert(bit_count({.identifier = 0x201, .length = 8, .remote = true}) == bit_count(frame_of(0x201, 0)));
 // ISO 11898-1: the base frame before the extended one with the same eleven bits, data before a request for
 // it.
+// [can-frame-2]
 static_assert(arbitration_key({.identifier = 0x123}) <
               arbitration_key({.identifier = 0x123, .remote = true}));
 static_assert(arbitration_key({.identifier = 0x123, .remote = true}) <

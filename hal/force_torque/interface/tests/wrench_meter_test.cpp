@@ -104,6 +104,23 @@ void a_tare_that_is_given_up_leaves_the_one_before(void**) {
   assert_true(meter.state()->force[0] == 0);
 }
 
+// [force-torque-sensor-10]
+void a_tare_stays_while_the_sensor_is_away(void**) {
+  WrenchMeter meter;
+  assert_true(begun(meter, 2));
+  meter.take({}, origin);
+  meter.close(origin);
+  meter.tare();
+  for (int i = 0; i < 2; ++i) meter.take({{10, 0, 0}, {}}, origin);
+  meter.note_away(Status::error(StatusCode::unavailable, "unplugged"));
+  meter.close(origin + std::chrono::minutes(1));
+  assert_false(meter.state().has_value());
+  meter.take({{12, 0, 0}, {}}, origin + std::chrono::minutes(2));
+  meter.close(origin + std::chrono::minutes(2));
+  assert_true(meter.state()->tared);
+  assert_true(meter.state()->force[0] == 2);
+}
+
 void what_is_beyond_is_said_with_its_axis(void**) {
   WrenchMeter meter;
   assert_true(begun(meter));
@@ -137,6 +154,7 @@ int main() {
       cmocka_unit_test(a_measurement_that_no_longer_changes_is_not_believed),
       cmocka_unit_test(a_tare_is_a_mean),
       cmocka_unit_test(a_tare_that_is_given_up_leaves_the_one_before),
+      cmocka_unit_test(a_tare_stays_while_the_sensor_is_away),
       cmocka_unit_test(what_is_beyond_is_said_with_its_axis),
       cmocka_unit_test(what_was_missed_has_its_numbers),
   };

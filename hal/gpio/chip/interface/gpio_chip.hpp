@@ -38,7 +38,7 @@ class GpioLine {
   virtual bool set(bool on) noexcept = 0;
   /// Readable when an edge has come; −1: none, or away.
   virtual int descriptor() const noexcept { return -1; }
-  /// In virtual time: when the next edge will come, as far as known.
+  /// In virtual time: when the next edge will come, as far as known [gpio-chip-6].
   virtual Time next_event() const noexcept { return Time::max(); }
 
  protected:

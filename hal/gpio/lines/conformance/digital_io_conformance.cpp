@@ -175,6 +175,7 @@ Verdict a_signal_is_not_inhibited(DigitalIoWorld& world) {
   return verdict(world.sees_high());
 }
 
+// [digital-io-5]
 Verdict an_output_can_be_made_safe(DigitalIoWorld& world) {
   if (!world.start(output())) return Verdict::failed;
   one_cycle(world);
@@ -190,6 +191,7 @@ Verdict an_output_can_be_made_safe(DigitalIoWorld& world) {
   return verdict(safe && !world.sees_high());
 }
 
+// [digital-line-1] [digital-line-2]
 Verdict an_emergency_stop_permits_only_while_it_is_on(DigitalIoWorld& world) {
   world.drive(true);
   if (!world.start({.emergency_stop = true}) || !world.io().guards_motion()) return Verdict::failed;
@@ -201,7 +203,7 @@ Verdict an_emergency_stop_permits_only_while_it_is_on(DigitalIoWorld& world) {
   return verdict(until(world, [&] { return !world.io().demands_safe_state(); }));
 }
 
-// [gpio-chip-3]
+// [digital-line-2] [gpio-chip-3]
 Verdict an_emergency_stop_shorter_than_a_cycle_counts(DigitalIoWorld& world) {
   world.drive(true);
   if (!world.start({.emergency_stop = true})) return Verdict::failed;
@@ -212,6 +214,7 @@ Verdict an_emergency_stop_shorter_than_a_cycle_counts(DigitalIoWorld& world) {
   return verdict(until(world, [&] { return !world.io().demands_safe_state(); }));
 }
 
+// [digital-line-3]
 Verdict a_released_emergency_stop_is_debounced(DigitalIoWorld& world) {
   world.drive(false);
   if (!world.start({.debounce = long_debounce, .emergency_stop = true})) return Verdict::failed;
@@ -220,6 +223,7 @@ Verdict a_released_emergency_stop_is_debounced(DigitalIoWorld& world) {
   return verdict(wait_for_edge(world) && world.io().demands_safe_state());
 }
 
+// [digital-line-4]
 Verdict an_output_is_no_emergency_stop(DigitalIoWorld& world) {
   const Status status = world.start({.direction = LineDirection::output, .emergency_stop = true});
   return verdict(status.code() == StatusCode::invalid_argument && status.cause()[0] != '\0');
@@ -251,7 +255,7 @@ Verdict a_missing_right_is_told(DigitalIoWorld& world) {
   return verdict(starts(world) && is_back(world, "a missing right"));
 }
 
-// [digital-io-1] [gpio-chip-2]
+// [digital-io-1] [digital-line-1] [gpio-chip-2]
 Verdict an_input_survives_its_chip(DigitalIoWorld& world) {
   world.drive(true);
   if (!world.start({.emergency_stop = true})) return Verdict::failed;
@@ -267,7 +271,7 @@ Verdict an_input_survives_its_chip(DigitalIoWorld& world) {
                  world.io().fault().is_ok());
 }
 
-// [gpio-chip-2] [gpio-chip-4]
+// [digital-io-7] [gpio-chip-2] [gpio-chip-4]
 Verdict an_output_comes_back_safe(DigitalIoWorld& world) {
   if (!world.start(output())) return Verdict::failed;
   one_cycle(world);
@@ -277,6 +281,9 @@ Verdict an_output_comes_back_safe(DigitalIoWorld& world) {
   if (!world.sees_high()) return Verdict::failed;
   if (!world.unplug()) return Verdict::skipped;
   if (!until(world, [&] { return !world.io().state(); })) return Verdict::failed;
+  world.receive(cycle);
+  world.io().command(true);  // to nobody
+  world.send();
   world.io().set_inhibited(true);
   if (!world.io().make_safe()) return Verdict::failed;
   if (!world.plug_in() || !is_back(world, "an output's chip that was gone") || world.sees_high())

@@ -10,7 +10,7 @@
 
 namespace flexrf {
 
-/// Everything: the thread the line lives in.
+/// Everything: the thread the line lives in. Made safe, an output has its safe value at once [digital-io-5].
 class DigitalIo : public Actuator<DigitalIoInterface> {
  public:
   /// What the line is as of this cycle, bounces left out; an output: what it was told. Nothing while its chip
@@ -18,12 +18,12 @@ class DigitalIo : public Actuator<DigitalIoInterface> {
   virtual std::optional<DigitalState> state() const noexcept = 0;
 
   /// The next change of an input, oldest first, bounces too [digital-io-2]. With the queue `edges` connected
-  /// they go there instead.
+  /// they go there instead [digital-io-6].
   virtual std::optional<DigitalEdge> read_edge() noexcept = 0;
 
   /// What an output shall be, from the end of the cycle until the next command [digital-io-3]. Without effect
   /// while is_inhibited() (unless configured as a signal) [digital-io-4] or while its chip is away, and not
-  /// remembered.
+  /// remembered [digital-io-7].
   void command(bool on) noexcept {
     if (may_act() || is_signal()) set(on);
   }

@@ -25,6 +25,7 @@ struct DigitalLineSettings {
 /// thread. Everything else: the thread of the device.
 class DigitalLine {
  public:
+  /// Error: it has no name, it is an output and an emergency stop [digital-line-4], or the chip refuses.
   Status open(GpioChip& chip, const DigitalLineSettings& settings);
   void close() noexcept;
 
@@ -35,7 +36,8 @@ class DigitalLine {
   void forget() noexcept { commanded_.reset(); }
   void send(Time now) noexcept;
   bool make_safe() noexcept;
-  /// Unless it is there, was on throughout this cycle, and has been for as long as its debouncing asks.
+  /// Of an emergency stop: unless it is there [digital-line-1], was on throughout this cycle
+  /// [digital-line-2], and has been for as long as its debouncing asks [digital-line-3].
   bool demands_safe_state() const noexcept { return settings_.emergency_stop && !permits_; }
   int descriptor() const noexcept { return line_ == nullptr ? -1 : line_->descriptor(); }
   Time next_event() const noexcept;

@@ -5,10 +5,11 @@
 
 namespace flexrf {
 
-/// A level counts once it has lasted for the whole of `debounce`, judged by the times of the edges.
+/// A level counts once it has lasted for the whole of `debounce` [line-filter-1], judged by the times of the
+/// edges [line-filter-2].
 class LineFilter {
  public:
-  /// Forgets all: the next level counts at once.
+  /// Forgets all: the next level counts at once [line-filter-3].
   void reset(Duration debounce) noexcept {
     debounce_ = debounce;
     seen_ = false;

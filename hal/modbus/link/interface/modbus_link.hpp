@@ -18,7 +18,7 @@ class ModbusLink : public ModbusLinkInterface {
   /// Asks and writes what is due. With a driver that waits: at most as long as one response
   /// timeout [modbus-link-1], or as many answers as there are due requests.
   void receive(const Tick& tick) noexcept override;
-  /// True when every station that is written to has confirmed its safe values.
+  /// True when every station that is written to has confirmed its safe values [modbus-link-2].
   bool make_safe() noexcept override { return master_.is_safe(); }
 
  protected:

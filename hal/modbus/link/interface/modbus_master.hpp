@@ -32,14 +32,16 @@ class ModbusMaster {
     Duration longest{};   ///< after many
   };
   /// Lifecycle thread. `name` is the link's, for messages; all outlive the last serve(). `longest_step`: of
-  /// the link's thread; 0: nobody judges. Error, as of attach(): a station's request may take longer.
+  /// the link's thread; 0: nobody judges. Error, as of attach(): a station's request may take
+  /// longer [modbus-master-1].
   Status start(const char* name, ModbusTransport& transport, Pauses pauses, Duration longest_step) noexcept;
   void stop() noexcept;
 
   /// The link's thread: everything that is due, one request after the other; of stations whose last request
-  /// failed after that of the others. A request that fails ends it, so that one call waits for at most one of
-  /// them; the next begins behind that station. So does the lack of time for the next request, in what a step
-  /// of its thread may take; then the next begins with that request.
+  /// failed after that of the others [modbus-master-2]. A request that fails ends it, so that one call waits
+  /// for at most one of them; the next begins behind that station [modbus-master-3]. So does the lack of time
+  /// for the next request, in what a step of its thread may take; then the next begins with that request
+  /// [modbus-master-4].
   void serve() noexcept;
   /// Every station has its safe values, as of its last answer; but for those that know that themselves.
   bool is_safe() const noexcept;

@@ -36,10 +36,11 @@ struct ModbusPlan {
   std::vector<ModbusPlace> places;  ///< in the order of the map
 };
 
-/// Registers with consecutive addresses of one area (and, read, of one poll group) share a request, up to the
-/// protocol's 125 registers or 2000 bits to read and 123 or 1968 to write (Modbus Application Protocol
-/// V1.1b3, 6.1 to 6.4, 6.11, 6.12). No address is asked for that the map does not have: a station may refuse
-/// it. Lifecycle thread; allocates.
+/// Registers with consecutive addresses of one area (and, read, of one poll group) share a
+/// request [modbus-plan-1], up to the protocol's 125 registers or 2000 bits to read and 123 or 1968 to
+/// write [modbus-plan-2] (Modbus Application Protocol V1.1b3, 6.1 to 6.4, 6.11, 6.12). No address is asked
+/// for that the map does not have: a station may refuse it [modbus-plan-3]. Error: it takes too many requests
+/// [modbus-plan-4]. Lifecycle thread; allocates.
 Status plan_requests(const ModbusRegisterMap& map, ModbusPlan& plan);
 
 }  // namespace flexrf

@@ -11,9 +11,9 @@ namespace flexrf {
 // In the order of config-gen's words for them (config-gen/model/register_map.hpp).
 enum class ModbusArea : std::uint8_t { coil, discrete_input, holding_register, input_register };
 enum class ModbusType : std::uint8_t { boolean, i16, u16, i32, u32, f32, i64, u64, f64 };
-/// How the bytes of a 32-bit value come over the wire; A is the most significant. Of a 64-bit one likewise:
-/// its registers from the most significant on, or (cdab, dcba) from the least; their bytes swapped in badc
-/// and dcba.
+/// How the bytes of a 32-bit value come over the wire; A is the most significant [register-map-1]. Of a
+/// 64-bit one likewise: its registers from the most significant on, or (cdab, dcba) from the least; their
+/// bytes swapped in badc and dcba [register-map-2].
 enum class ModbusWordOrder : std::uint8_t { abcd, cdab, badc, dcba };
 enum class ModbusAccess : std::uint8_t { read, write, read_write };
 /// Which of the station's periods it is read with.
@@ -35,7 +35,7 @@ struct ModbusRegister {
   std::string_view unit;  ///< unit of measure of the scaled value
   double safe_value = 0;  ///< scaled; of what is written
   /// Of a boolean in a register: its bit, 0 the least significant. Bits of one register are read and written
-  /// together; those that no row writes are written as 0.
+  /// together [register-map-6]; those that no row writes are written as 0.
   std::uint8_t bit = whole;
 
   constexpr bool is_read() const noexcept { return access != ModbusAccess::write; }
@@ -58,8 +58,9 @@ const char* name_of(ModbusArea area) noexcept;
 
 /// The scaled value in the register's words.
 double decode_register(const ModbusRegister& meaning, const std::uint16_t* words) noexcept;
-/// The words of a scaled value: rounded to the nearest count, what does not fit becomes the nearest that
-/// does; not a number becomes the safe value. Of a bit the register's others stay as they are.
+/// The words of a scaled value: rounded to the nearest count [register-map-3], what does not fit becomes the
+/// nearest that does; not a number becomes the safe value [register-map-4]. Of a bit the register's others
+/// stay as they are [register-map-5].
 void encode_register(const ModbusRegister& meaning, double value, std::uint16_t* words) noexcept;
 
 }  // namespace flexrf

@@ -147,6 +147,7 @@ Verdict what_is_set_is_written_and_read_back(ModbusStationWorld& world) {
   }));
 }
 
+// [register-map-6]
 Verdict bits_of_a_register_are_written_together(ModbusStationWorld& world) {
   if (!starts_well(world)) return Verdict::failed;
   if (!until(world, [&] { return holds(world, clutch, 0) && holds(world, brake, 1); }))
@@ -171,6 +172,7 @@ Verdict safe_values_are_written_while_it_may_not_move(ModbusStationWorld& world)
   return verdict(until(world, [&] { return reads(world, pressure, 3); }) && holds(world, speed, 0));
 }
 
+// [modbus-station-7]
 Verdict made_safe_it_says_so_when_the_station_has_the_values(ModbusStationWorld& world) {
   if (!starts_well(world)) return Verdict::failed;
   world.station().set(speed, 4);
@@ -191,6 +193,16 @@ Verdict not_a_number_puts_it_in_fault_with_safe_values(ModbusStationWorld& world
   world.station().set(speed, std::numeric_limits<double>::quiet_NaN());
   if (world.station().fault().is_ok()) return Verdict::failed;
   return verdict(until(world, [&] { return holds(world, speed, 0); }));
+}
+
+// [modbus-station-8]
+Verdict what_is_no_input_is_never_known(ModbusStationWorld& world) {
+  if (!starts_well(world)) return Verdict::failed;
+  for (const std::size_t index : {std::size_t{ramp}, std::size_t{places}, ~std::size_t{0}}) {
+    const ModbusValue value = world.station().read(index);
+    if (value || value.reason != NullReason::not_registered) return Verdict::failed;
+  }
+  return Verdict::passed;
 }
 
 // [modbus-station-2]
@@ -289,6 +301,7 @@ int run_modbus_station_conformance(const char* driver, MakeModbusStationWorld ma
            judged<made_safe_it_says_so_when_the_station_has_the_values>),
       test("not a number puts it in fault, with safe values",
            judged<not_a_number_puts_it_in_fault_with_safe_values>),
+      test("what is no input is never known", judged<what_is_no_input_is_never_known>),
       test("unknown names are refused with the nearest", judged<unknown_names_are_refused_with_the_nearest>),
       test("120 registers in three blocks take three requests",
            judged<a_hundred_and_twenty_registers_in_three_blocks_take_three_requests>),

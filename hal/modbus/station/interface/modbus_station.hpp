@@ -25,7 +25,8 @@ struct ModbusValue {
   explicit operator bool() const noexcept { return reason == NullReason::none; }
 };
 
-/// input, output: any thread, from connect() on. All else: the thread the station lives in.
+/// input, output: any thread, from connect() on. All else: the thread the station lives in. Made safe, it has
+/// its safe values written, and says so once the station has confirmed them [modbus-station-7].
 class ModbusStation : public Actuator<ModbusStationInterface> {
  public:
   const ModbusRegisterMap& register_map() const noexcept { return *registers; }
@@ -35,7 +36,7 @@ class ModbusStation : public Actuator<ModbusStationInterface> {
   Result<std::size_t> input(std::string_view name) const noexcept;
   Result<std::size_t> output(std::string_view name) const noexcept;
 
-  /// Never waits. An index that is no input: not_registered.
+  /// Never waits. An index that is no input: not_registered [modbus-station-8].
   virtual ModbusValue read(std::size_t index) const noexcept = 0;
 
   /// What the register shall hold from the end of this cycle on, in its unit, until set()

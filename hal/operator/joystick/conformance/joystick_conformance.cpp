@@ -46,6 +46,7 @@ Verdict an_axis_goes_from_end_to_end(JoystickWorld& world) {
   return Verdict::passed;
 }
 
+// [joystick-tracker-3]
 Verdict the_dead_zone_is_rest(JoystickWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
   for (const double part : {0.18, -0.18}) {
@@ -72,7 +73,7 @@ Verdict a_button_is_down_until_it_is_let_go(JoystickWorld& world) {
   return verdict(until(world, at_rest));
 }
 
-// [joystick-2]
+// [joystick-2] [joystick-tracker-5]
 Verdict it_is_at_rest_once_it_is_unplugged(JoystickWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
   world.deflect(1, -1);

@@ -15,9 +15,10 @@ struct JoystickRange {
   double flat = 0;
 };
 
-/// From -1 to 1. The dead zone, a part (at most 0.9) of the way from the centre to either end, or what the
-/// maker says if that is more, is 0; what is outside it begins at 0, so that nothing jumps. A range without
-/// extent, or a value that is no number, is 0.
+/// From -1 to 1 [joystick-tracker-1]. The dead zone, a part (at most 0.9) of the way from the centre to
+/// either end, or what the maker says if that is more [joystick-tracker-2], is 0; what is outside it begins
+/// at 0, so that nothing jumps [joystick-tracker-3]. A range without extent, or a value that is no number, is
+/// 0 [joystick-tracker-4].
 inline double deflection(double value, const JoystickRange& range, double dead_zone) noexcept {
   const double half = (range.highest - range.lowest) / 2;
   if (!(half > 0)) return 0;
@@ -35,7 +36,7 @@ class JoystickTracker {
 
   /// The joystick is there, at rest: what is deflected or down counts when it is moved or pressed anew.
   void appear() noexcept { begin(true); }
-  /// It is gone, and with it every deflection and every button that was down.
+  /// It is gone, and with it every deflection and every button that was down [joystick-tracker-5].
   void vanish() noexcept { begin(false); }
 
   /// What it lacks a place for is passed over.

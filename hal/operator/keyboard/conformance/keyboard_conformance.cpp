@@ -146,6 +146,7 @@ Verdict a_key_is_held_until_it_is_let_go(KeyboardWorld& world) {
   return verdict(equal(read(world, 4), {letter_w, arrow, letter_d}));
 }
 
+// [key-tracker-1]
 Verdict no_key_is_held_once_it_is_unplugged(KeyboardWorld& world) {
   world.will_press({}, false);
   if (!world.start({})) return Verdict::failed;

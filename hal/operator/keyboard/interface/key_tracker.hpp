@@ -26,7 +26,7 @@ class KeyTracker {
     held_ = {};
     held_.present = true;
   }
-  /// It is gone, and with it everything that was down.
+  /// It is gone, and with it everything that was down [key-tracker-1].
   void vanish() noexcept { held_ = {}; }
 
   void press(const KeyEvent& key) noexcept {

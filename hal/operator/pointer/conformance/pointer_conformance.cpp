@@ -51,7 +51,7 @@ Verdict a_button_is_down_until_it_is_let_go(PointerWorld& world) {
   return verdict(until(world, [](const PointerState& state) { return state.buttons == 0; }));
 }
 
-// [pointer-2]
+// [pointer-2] [pointer-tracker-1]
 Verdict a_button_is_not_down_once_it_is_unplugged(PointerWorld& world) {
   if (!world.start() || !until(world, is_there)) return Verdict::failed;
   world.move(5, 5);

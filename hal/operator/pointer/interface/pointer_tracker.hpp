@@ -17,7 +17,7 @@ class PointerTracker {
     state_.present = true;
     state_.buttons = 0;
   }
-  /// It is gone, and with it every button that was down.
+  /// It is gone, and with it every button that was down [pointer-tracker-1].
   void vanish() noexcept {
     state_.present = false;
     state_.buttons = 0;

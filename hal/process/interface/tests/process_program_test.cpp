@@ -17,6 +17,7 @@ std::string joined(std::string_view text) {
   return all;
 }
 
+// [word-list-1]
 void blanks_part_words_and_quotes_keep_them(void**) {
   assert_true(joined("") == "");
   assert_true(joined("  ") == "");
@@ -27,6 +28,7 @@ void blanks_part_words_and_quotes_keep_them(void**) {
   assert_true(joined("$HOME *") == "<$HOME><*>");
 }
 
+// [word-list-2]
 void what_is_not_closed_is_refused(void**) {
   assert_true(joined("'a") == "refused");
   assert_true(joined("\"a'") == "refused");
@@ -66,6 +68,7 @@ std::string taken(ProcessLines& lines) {
 
 ProcessLines lines;
 
+// [process-lines-1]
 void lines_come_in_pieces(void**) {
   lines.restart();
   lines.put(ProcessSource::output, "on", Time{});
@@ -79,6 +82,7 @@ void lines_come_in_pieces(void**) {
   assert_int_equal(lines.lines(), 5);
 }
 
+// [process-lines-2]
 void long_lines_are_cut_and_many_are_dropped(void**) {
   lines.restart();
   const std::string longest(sizeof(ProcessLine::content), 'x');

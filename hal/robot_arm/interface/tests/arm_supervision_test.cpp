@@ -46,6 +46,7 @@ void a_joint_may_be_behind_for_its_time_and_no_more(void**) {
   assert_true(watch.behind(-1.01) == StatusCode::device_fault);
 }
 
+// [robot-arm-11]
 void nothing_is_expected_of_an_arm_that_may_not_move(void**) {
   Watch watch;
   watch.behind(0);

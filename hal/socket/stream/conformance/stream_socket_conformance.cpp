@@ -155,6 +155,16 @@ Verdict what_came_before_its_end_is_read(StreamSocketWorld& world) {
   return verdict(hears(world, session, lines, 2) && lines == Lines{"one", "rest"} && has(world, 0));
 }
 
+// [stream-socket-11]
+Verdict what_nobody_reads_does_not_keep_what_ended(StreamSocketWorld& world) {
+  if (!listening(world, {.listen = true}, 1)) return Verdict::failed;
+  const SocketSession session = world.socket().sessions()[0];
+  if (!world.give(0, "rest\n")) return Verdict::failed;
+  if (!until(world, [&] { return world.socket().peek(session) == "rest\n"; })) return Verdict::failed;
+  world.end(0);
+  return verdict(has(world, 0) && world.socket().peek(session).empty());
+}
+
 Verdict peers_are_told_apart(StreamSocketWorld& world) {
   if (!listening(world, {.listen = true, .sessions = 3}, 3)) return Verdict::failed;
   const std::span<const SocketSession> sessions = world.socket().sessions();
@@ -238,6 +248,25 @@ Verdict what_was_written_is_sent_before_it_is_closed(StreamSocketWorld& world) {
   return verdict(until(world, [&] { return world.got(0) == "bye\n" && world.is_ended(0); }) && has(world, 0));
 }
 
+// [stream-socket-12]
+Verdict who_does_not_read_is_closed_all_the_same(StreamSocketWorld& world) {
+  if (!listening(world, {.listen = true, .buffer = 65536}, 1)) return Verdict::failed;
+  const SocketSession session = world.socket().sessions()[0];
+  const std::string text(65000, 'x');
+  if (!until(world, [&] { return !world.socket().write_line(session, text); })) return Verdict::failed;
+  world.socket().close(session);
+  return verdict(has(world, 0));
+}
+
+// [stream-socket-13]
+Verdict what_was_closed_is_connected_anew(StreamSocketWorld& world) {
+  if (!connected(world)) return Verdict::failed;
+  const SocketSession session = world.socket().sessions()[0];
+  world.socket().close(session);
+  return verdict(until(world, [&] { return world.connections() == 2; }) && has(world, 1) &&
+                 world.socket().sessions()[0] != session);
+}
+
 // [stream-socket-8]
 Verdict lines_go_to_the_queue_where_one_is_connected(StreamSocketWorld& world) {
   QueueBench<SocketLine, 4> queue;
@@ -296,12 +325,15 @@ int run_stream_socket_conformance(const char* driver, MakeStreamSocketWorld make
       CASE(a_connection_that_breaks_comes_again),
       CASE(a_cable_that_is_in_again_connects_again),
       CASE(what_came_before_its_end_is_read),
+      CASE(what_nobody_reads_does_not_keep_what_ended),
       CASE(peers_are_told_apart),
       CASE(one_peer_too_many_is_refused),
       CASE(a_line_that_is_too_long_is_left_out),
       CASE(who_does_not_read_holds_up_nobody_else),
       CASE(what_is_not_read_waits_and_is_not_lost),
       CASE(what_was_written_is_sent_before_it_is_closed),
+      CASE(who_does_not_read_is_closed_all_the_same),
+      CASE(what_was_closed_is_connected_anew),
       CASE(lines_go_to_the_queue_where_one_is_connected),
       CASE(an_address_in_use_is_refused_with_its_cause),
       CASE(after_a_stop_it_begins_anew),

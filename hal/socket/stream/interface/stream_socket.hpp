@@ -18,7 +18,7 @@ class StreamSocket : public StreamSocketInterface {
  public:
   /// Connections as of this cycle, oldest first; at most `configuration.sessions` [stream-socket-2]. One that
   /// the peer has ended is among them until what came before has been read [stream-socket-3], for a second at
-  /// most.
+  /// most [stream-socket-11].
   virtual std::span<const SocketSession> sessions() const noexcept = 0;
 
   /// Sent at the end of the cycle [stream-socket-4]. False, and nothing is sent: the connection is gone, or
@@ -37,7 +37,7 @@ class StreamSocket : public StreamSocketInterface {
   virtual void take(SocketSession session, std::size_t count) noexcept = 0;
 
   /// Ends the connection once what was written has been sent [stream-socket-10], after a second at the
-  /// latest. What connects, connects anew after its pause.
+  /// latest [stream-socket-12]. What connects, connects anew after its pause [stream-socket-13].
   virtual void close(SocketSession session) noexcept = 0;
 };
 

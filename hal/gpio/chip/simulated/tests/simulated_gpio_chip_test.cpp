@@ -80,9 +80,11 @@ void a_contact_bounces_as_its_seed_says(void**) {
   assert_false(flickered);  // debounced
 }
 
+// [gpio-chip-6]
 void an_input_follows_its_wire_after_its_delay(void**) {
   int after = -1;
   bool before = true;
+  bool is_known = false;
   {
     Rig rig;
     set_text(rig.chip.configuration().wires, "VALVE>REED");
@@ -94,11 +96,14 @@ void an_input_follows_its_wire_after_its_delay(void**) {
       rig.valve.send();
       for (int i = 1; i < 30 && after < 0; ++i) {
         rig.receive();
+        const Time next = rig.reed.driver().next_event();
+        if (i == 1) is_known = next == rig.reed.now() + 10 * cycle;
         if (rig.reed_is_on()) after = i;
       }
     }
   }
   assert_false(before);
+  assert_true(is_known);
   assert_int_equal(after, 11);  // seen by the reed in the first cycle, 10 ms later there
 }
 
@@ -125,6 +130,31 @@ void a_wire_that_is_none_is_told(void**) {
   assert_int_equal(code, StatusCode::invalid_argument);
 }
 
+// [digital-io-6]
+void edges_go_to_the_queue_where_one_is_connected(void**) {
+  bool read = false;
+  int count = 0;
+  bool in_order = true;
+  {
+    QueueBench<DigitalEdge> queue;
+    DeviceBench<SimulatedGpioChip> chip{nullptr};
+    DeviceBench<SimulatedDigitalIo> reed{nullptr, queue.sinks(), &chip.driver()};
+    configure_line(reed, {}, "REED");
+    if (chip.driver().initialise() && reed.driver().initialise()) {
+      for (int i = 0; i < 4; ++i) {
+        chip.receive(cycle);
+        reed.receive(cycle);
+        read = read || reed.driver().read_edge();
+        chip.driver().line("REED").drive(i % 2 == 0);
+      }
+      while (const auto edge = queue.pop()) in_order = in_order && edge->on == (count++ % 2 == 0);
+    }
+  }
+  assert_int_equal(count, 3);
+  assert_true(in_order);
+  assert_false(read);
+}
+
 // [gpio-chip-5]
 void a_line_is_one_devices(void**) {
   StatusCode code = StatusCode::ok;
@@ -147,6 +177,7 @@ int main() {
       cmocka_unit_test(an_input_follows_its_wire_after_its_delay),
       cmocka_unit_test(inputs_that_are_high_from_the_start),
       cmocka_unit_test(a_wire_that_is_none_is_told),
+      cmocka_unit_test(edges_go_to_the_queue_where_one_is_connected),
       cmocka_unit_test(a_line_is_one_devices),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

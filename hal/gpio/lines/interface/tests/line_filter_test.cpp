@@ -9,6 +9,7 @@ constexpr Time at(std::int64_t milliseconds) {
   return Time{std::chrono::milliseconds{1000 + milliseconds}};
 }
 
+// [line-filter-3]
 void the_first_level_counts_at_once(void**) {
   LineFilter filter;
   filter.reset(std::chrono::milliseconds{5});
@@ -18,6 +19,7 @@ void the_first_level_counts_at_once(void**) {
   assert_true(filter.settles_at() == Time::max());
 }
 
+// [line-filter-1]
 void bounces_count_for_nothing(void**) {
   LineFilter filter;
   filter.reset(std::chrono::milliseconds{5});
@@ -36,7 +38,8 @@ void bounces_count_for_nothing(void**) {
   assert_true(filter.since() == at(20));
 }
 
-/// Edges are judged by their times, however late a cycle learns of them.
+/// However late a cycle learns of them.
+// [line-filter-2]
 void a_level_that_lasted_counts_though_it_is_over(void**) {
   LineFilter filter;
   filter.reset(std::chrono::milliseconds{5});

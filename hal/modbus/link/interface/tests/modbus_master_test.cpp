@@ -129,7 +129,7 @@ struct Line {
 };
 
 // More silent ones than there are time-outs in the longest pause: one of them is always due again.
-// [modbus-link-1]
+// [modbus-link-1] [modbus-master-2]
 void silent_stations_do_not_keep_the_last_one_from_its_turn() {
   constexpr std::size_t count = 12;
   Line world(count);
@@ -156,6 +156,36 @@ void what_is_written_has_its_turn_likewise() {
   world.turn();
   CHECK_EQUAL(world.line.station(count).written, 0);
   CHECK_EQUAL(world.image(count).written, 2U);
+}
+
+// [modbus-link-2]
+void a_line_is_safe_when_each_station_that_is_written_to_has_said_so() {
+  Line world(2);
+  for (const std::size_t unit : {1, 2}) world.command(unit, 7, 1, false);
+  world.turn();
+  CHECK(!world.master.is_safe());
+  world.make(2, 2, ModbusOutcome::timeout);
+  for (const std::size_t unit : {1, 2}) world.command(unit, 0, 2, true);
+  for (int turn = 0; turn < 10; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(1).written, 0);
+  CHECK(!world.master.is_safe());
+  world.make(2, 2, ModbusOutcome::answered);
+  for (int turn = 0; turn < 200 && world.line.station(2).written != 0; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(2).written, 0);
+  CHECK(world.master.is_safe());
+}
+
+// Also where the one that failed may be asked again at once.
+// [modbus-master-3]
+void the_next_turn_begins_behind_who_failed() {
+  constexpr std::size_t count = 3;
+  Line world(count);
+  CHECK(world.master.start("line", world.line, {}, Duration{}));
+  world.make(1, count, ModbusOutcome::timeout);
+  for (int round = 1; round <= 4; ++round) {
+    for (std::size_t turn = 0; turn < count; ++turn) world.turn();
+    for (std::size_t unit = 1; unit <= count; ++unit) CHECK_EQUAL(world.line.station(unit).reads, round);
+  }
 }
 
 // Also while others do not come back, each of the silent ones is asked again.
@@ -221,6 +251,7 @@ constexpr ModbusRegisterMap scattered_map{scattered};
 
 // A slow line with more to do than a step may take: each turn ends in time, and nothing has to wait for ever,
 // also not behind what is written anew in each turn, or for who answers while another does not.
+// [modbus-master-4]
 void turns_end_in_time_and_go_on_where_they_ended() {
   constexpr Duration longest_step = std::chrono::milliseconds(500);
   constexpr std::size_t count = 3;
@@ -245,6 +276,7 @@ void turns_end_in_time_and_go_on_where_they_ended() {
   CHECK(world.line.station(2).reads + world.line.station(2).writes >= 5);
 }
 
+// [modbus-master-1]
 void what_a_step_cannot_wait_for_is_refused_with_the_least_that_can() {
   Line world(0, map, std::chrono::milliseconds(500));
   world.line.set_times(answer_time, std::chrono::milliseconds(460));
@@ -274,6 +306,8 @@ int main() {
   const CMUnitTest tests[] = {
       CONTAINED_TEST(silent_stations_do_not_keep_the_last_one_from_its_turn),
       CONTAINED_TEST(what_is_written_has_its_turn_likewise),
+      CONTAINED_TEST(a_line_is_safe_when_each_station_that_is_written_to_has_said_so),
+      CONTAINED_TEST(the_next_turn_begins_behind_who_failed),
       CONTAINED_TEST(every_silent_station_is_asked_again_and_found),
       CONTAINED_TEST(stations_that_fail_now_and_then_do_not_starve_the_last_one),
       CONTAINED_TEST(who_is_not_reached_behind_a_gateway_is_not_online),

@@ -27,6 +27,7 @@ std::size_t reads_of(const std::vector<ModbusRegister>& registers) {
   return plan.reads.size();
 }
 
+// [modbus-plan-1]
 void a_hundred_and_twenty_registers_in_three_blocks_take_three_requests(void**) {
   std::size_t reads = 0;
   {
@@ -38,6 +39,25 @@ void a_hundred_and_twenty_registers_in_three_blocks_take_three_requests(void**) 
   assert_int_equal(reads, 3);
 }
 
+std::size_t requests_of(ModbusAccess access, int count) {
+  std::vector<ModbusRegister> registers;
+  for (int i = 0; i < count; ++i) {
+    registers.push_back(at(i));
+    registers.back().access = access;
+  }
+  ModbusPlan plan;
+  if (!plan_requests({registers}, plan)) return 0;
+  return access == ModbusAccess::read ? plan.reads.size() : plan.writes.size();
+}
+
+// [modbus-plan-2]
+void less_fits_into_what_is_written(void**) {
+  assert_int_equal(requests_of(ModbusAccess::read, 125), 1);
+  assert_int_equal(requests_of(ModbusAccess::write, 123), 1);
+  assert_int_equal(requests_of(ModbusAccess::write, 124), 2);
+}
+
+// [modbus-plan-2]
 void the_protocol_s_limits_are_kept(void**) {
   std::size_t fits = 0, over = 0, pairs = 0;
   {
@@ -56,6 +76,7 @@ void the_protocol_s_limits_are_kept(void**) {
   assert_int_equal(pairs, 2);
 }
 
+// [modbus-plan-1] [modbus-plan-3]
 void areas_groups_and_gaps_are_apart_and_the_list_s_order_is_free(void**) {
   std::size_t reads = 0, contiguous = 0;
   {
@@ -78,6 +99,7 @@ ModbusRegister bit_of(int address, int bit, ModbusAccess access) {
   return entry;
 }
 
+// [register-map-6]
 void bits_of_a_register_share_its_word(void**) {
   ModbusPlace places[5];
   std::size_t reads = 0, writes = 0, registers_read = 0, registers_written = 0;
@@ -127,6 +149,7 @@ void written_and_read_lie_in_their_own_words(void**) {
   assert_int_equal(place.output, 0);
 }
 
+// [modbus-plan-4]
 void scattered_registers_are_refused_with_a_hint(void**) {
   char cause[Status::cause_capacity] = "";
   {
@@ -147,6 +170,7 @@ int main() {
   using namespace flexrf;
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_hundred_and_twenty_registers_in_three_blocks_take_three_requests),
+      cmocka_unit_test(less_fits_into_what_is_written),
       cmocka_unit_test(the_protocol_s_limits_are_kept),
       cmocka_unit_test(areas_groups_and_gaps_are_apart_and_the_list_s_order_is_free),
       cmocka_unit_test(bits_of_a_register_share_its_word),

@@ -23,6 +23,7 @@ ModbusRegister of(ModbusType type, ModbusWordOrder order = ModbusWordOrder::abcd
           3};
 }
 
+// [register-map-1]
 void words_are_in_each_order(void**) {
   struct Case {
     ModbusWordOrder order;
@@ -50,6 +51,7 @@ void floats_are_those_of_ieee_754(void**) {
   assert_true(decode_register(of(ModbusType::f64), as_double) == 1.5);
 }
 
+// [register-map-2]
 void the_four_words_of_a_long_value_too(void**) {
   struct Case {
     ModbusWordOrder order;
@@ -68,6 +70,7 @@ void the_four_words_of_a_long_value_too(void**) {
   }
 }
 
+// [register-map-5]
 void a_bit_leaves_the_others_of_its_register(void**) {
   ModbusRegister meaning = of(ModbusType::boolean);
   meaning.bit = 15;
@@ -112,6 +115,19 @@ void what_does_not_fit_becomes_the_nearest(void**) {
   assert_true(decode_register(of(ModbusType::f64), words) == std::numeric_limits<double>::max());
 }
 
+// [register-map-3]
+void what_lies_between_two_counts_becomes_the_nearer(void**) {
+  for (const double sign : {1.0, -1.0}) {
+    const ModbusRegister meaning = of(ModbusType::i16, ModbusWordOrder::abcd, 0.1);
+    std::uint16_t word = 0;
+    encode_register(meaning, sign * 1.24, &word);
+    assert_int_equal(static_cast<std::int16_t>(word), static_cast<int>(sign) * 12);
+    encode_register(meaning, sign * 1.26, &word);
+    assert_int_equal(static_cast<std::int16_t>(word), static_cast<int>(sign) * 13);
+  }
+}
+
+// [register-map-4]
 void no_number_becomes_the_safe_value(void**) {
   std::uint16_t words[2] = {};
   encode_register(of(ModbusType::u16), std::nan(""), words);
@@ -129,6 +145,7 @@ int main() {
                               cmocka_unit_test(floats_are_those_of_ieee_754),
                               cmocka_unit_test(signs_and_scales_are_kept),
                               cmocka_unit_test(what_does_not_fit_becomes_the_nearest),
+                              cmocka_unit_test(what_lies_between_two_counts_becomes_the_nearer),
                               cmocka_unit_test(no_number_becomes_the_safe_value)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
