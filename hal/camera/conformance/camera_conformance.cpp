@@ -140,7 +140,6 @@ Verdict a_picture_that_is_held_does_not_change(CameraWorld& world) {
   return verdict(newer && newer->sequence >= sequence + 12);
 }
 
-// [camera-7]
 Verdict no_byte_is_copied(CameraWorld& world) {
   for (const bool into_slot : {false, true}) {
     if (!world.start({.into_slot = into_slot})) return Verdict::failed;

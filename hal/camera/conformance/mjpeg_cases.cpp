@@ -31,17 +31,17 @@ Verdict pictures_are_whole_jpegs(CameraWorld& world, bool into_slot) {
 
 }  // namespace
 
-// [camera-8]
+// [camera-7]
 Verdict a_unit_sees_compressed_pictures(CameraWorld& world) {
   return pictures_are_whole_jpegs(world, false);
 }
 
-// [camera-8]
+// [camera-7]
 Verdict a_slot_gets_compressed_pictures(CameraWorld& world) {
   return pictures_are_whole_jpegs(world, true);
 }
 
-// [camera-8]
+// [camera-7]
 Verdict half_a_compressed_picture_is_counted_and_not_shown(CameraWorld& world) {
   if (!world.compresses()) return Verdict::skipped;
   const CameraRequest request{.format = PixelFormat::mjpeg, .into_slot = true};

@@ -13,7 +13,7 @@ namespace flexrf {
 /// A picture where it lies, in memory that is the driver's.
 struct CameraImage {
   std::span<const std::uint8_t> data;  ///< its rows as in CameraFrame, the last perhaps without its padding;
-                                       ///< in mjpeg a JPEG, whole as its markers tell [camera-8]
+                                       ///< in mjpeg a JPEG, whole as its markers tell [camera-7]
   std::uint32_t width = 0;             ///< pixels
   std::uint32_t height = 0;            ///< rows
   std::uint32_t stride = 0;            ///< bytes from one row to the next; 0 in mjpeg
@@ -22,8 +22,7 @@ struct CameraImage {
   std::uint64_t sequence = 0;  ///< the camera's count: rises, what is left out was lost [camera-1]
 };
 
-/// Two ways to the pictures, and on neither does a processor copy one unless feedback.copied_bytes says
-/// so [camera-7]:
+/// Two ways to the pictures, and on neither does a processor copy one unless feedback.copied_bytes says so:
 ///  - with an IO thread each is an item of the slot `frames`, and stays for as long as its reader looks
 ///    [camera-2];
 ///  - a camera that belongs to a unit gives the newest by frame() [camera-3].
