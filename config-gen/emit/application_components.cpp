@@ -63,16 +63,26 @@ std::string port_binding(const ApplicationNames& names, const std::optional<Inde
          array_or_none(prefix + "_queue_outputs", outputs.queues) + "}";
 }
 
+// What differs in the records of units and devices without being of one of them alone.
+struct Common {
+  Index index;
+  const char* kind;
+  const char* level;
+  Nanoseconds stop_timeout;
+};
+
 // What the records of units and devices have in common; either is told by its row.
 template <class Row>
-std::string common_part(const ApplicationNames& names, const Row& row, const std::string& summary,
-                        const std::string& prefix) {
-  return "{.name = \"" + row.name + "\",\n      .summary = " + string_literal(summary) +
-         ",\n      .storage = " + prefix + ",\n      .storage_size = sizeof(" + prefix +
-         "),\n      .thread = " + index_or_none(row.thread) +
+std::string common_part(const ApplicationNames& names, const Row& row, const Common& common,
+                        const std::string& summary, const std::string& prefix) {
+  return "{.index = " + std::to_string(common.index) + ",\n      .kind = \"" + common.kind +
+         "\",\n      .name = \"" + row.name + "\",\n      .summary = " + string_literal(summary) +
+         ",\n      .level = " + common.level + ",\n      .storage = " + prefix +
+         ",\n      .storage_size = sizeof(" + prefix + "),\n      .thread = " + index_or_none(row.thread) +
          ",\n      .runtime_slot = " + slot_or_null(names, row.values_slot) +
          ",\n      .feedback_slot = " + slot_or_null(names, row.feedback_slot) +
-         ",\n      .initialise_timeout = " + duration_literal(row.initialise_timeout) + "}";
+         ",\n      .initialise_timeout = " + duration_literal(row.initialise_timeout) +
+         ",\n      .stop_timeout = " + duration_literal(common.stop_timeout);
 }
 
 std::string emit_resources(const Model& model, const Device& device, const std::string& prefix, Text& out) {
@@ -209,11 +219,13 @@ void emit_devices(const Model& model, const ApplicationNames& names, Text& out,
         emit_outputs(names, interface.outputs, device.outputs, Writer::Kind::device_output, i, prefix, out);
     const std::string resources = emit_resources(model, device, prefix, out);
     const std::string drivers = emit_drivers(model, device, prefix, out);
-    records << "    {" << common_part(names, device, interface.summary, prefix) << ",\n     {.interface = \""
-            << interface.class_name << "\",\n      .drivers = " << drivers << instead_of(device)
-            << ",\n      .instance = &constructed_devices[" << i << "],\n      .binding = {"
-            << port_binding(names, device.thread, prefix, outputs) << ", " << resources
-            << ", nullptr},\n      .bus = " << index_or_none(device.bus)
+    const Common common{static_cast<Index>(model.units.size() + i), "device",
+                        device.bus ? "level_carried" : "level_base", device.initialise_timeout};
+    records << "    {" << common_part(names, device, common, interface.summary, prefix)
+            << "},\n     {.interface = \"" << interface.class_name << "\",\n      .drivers = " << drivers
+            << instead_of(device) << ",\n      .instance = &constructed_devices[" << i
+            << "],\n      .binding = {" << port_binding(names, device.thread, prefix, outputs) << ", "
+            << resources << ", nullptr},\n      .bus = " << index_or_none(device.bus)
             << ",\n      .unit = " << index_or_none(device.owner_unit) << "}},\n";
   }
   out << "\nconstexpr DeviceRecord devices_table[] = {\n" << records.str() << "};\n";
@@ -237,16 +249,15 @@ void emit_units(const Model& model, const ApplicationNames& names, Text& out,
         emit_values(model, application_space.of(type, block_struct_name(type.class_name, "Runtime")),
                     prefix + "_runtime", {{&type.runtime, &unit.runtime}}, out);
     const std::string binding = emit_binding(model, names, i, prefix, out);
-    records << "    {" << common_part(names, unit, type.summary, prefix) << ",\n     {.type = &"
+    const Common common{i, "unit", "level_unit", unit.stop_timeout.value_or(model.application->stop_timeout)};
+    records << "    {" << common_part(names, unit, common, type.summary, prefix)
+            << ",\n      .population = " << index_or_none(unit.population)
+            << ",\n      .member = " << unit.member
+            << ",\n      .budget = " << duration_literal(unit.budget.value_or(0)) << "},\n     {.type = &"
             << application_space.of(type, unit_component_name(type)) << ",\n      .construct = &"
             << application_space.of(type, unit_construct_name(type)) << ",\n      .binding = " << binding
             << ",\n      .configuration = " << configuration << ",\n      .runtime = " << runtime
-            << ",\n      .population = " << index_or_none(unit.population)
-            << ",\n      .member = " << unit.member
-            << ",\n      .restart = RestartPolicy::" << restart_policy(unit.restart)
-            << ",\n      .budget = " << duration_literal(unit.budget.value_or(0))
-            << ",\n      .stop_timeout = "
-            << duration_literal(unit.stop_timeout.value_or(model.application->stop_timeout)) << "}},\n";
+            << ",\n      .restart = RestartPolicy::" << restart_policy(unit.restart) << "}},\n";
   }
   out << "\nconstexpr UnitRecord units_table[] = {\n" << records.str() << "};\n";
   if (model.populations.empty()) return;

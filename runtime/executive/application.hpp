@@ -45,16 +45,27 @@ struct QueueRecord {
   bool wall;
 };
 
+/// Levels on which a component may stand: a device that nothing carries, a device on a bus, a unit. What it
+/// stands on is started before it, and stopped after it.
+enum : std::uint8_t { level_base, level_carried, level_unit };
+
 /// What the tables say of a unit and of a device alike.
 struct ComponentRecord {
+  ComponentIndex index;  ///< its own
+  const char* kind;      ///< the word for it, for people and in files: "unit", "device"
   const char* name;
   const char* summary;
+  std::uint8_t level;
   void* storage;  ///< of the object; of a device: of the largest of its drivers
   std::size_t storage_size;
   std::uint16_t thread;        ///< index of the thread it lives in
   SlotControl* runtime_slot;   ///< runtime parameters in force, sized for the largest driver; null: none
   SlotControl* feedback_slot;  ///< published after each step; null: none
   Duration initialise_timeout;
+  Duration stop_timeout;
+  std::uint16_t population = no_index;  ///< that it is a member of, or no_index
+  std::uint16_t member = 0;             ///< index within the population
+  Duration budget{};                    ///< declared execution time of one step; a device takes none
 };
 
 struct DriverRecord {
@@ -94,11 +105,7 @@ struct UnitPart {
   UnitBinding binding;
   const void* configuration;  ///< initial values from the tables; null where it has none
   const void* runtime;
-  std::uint16_t population;  ///< index, or no_index
-  std::uint16_t member;      ///< index within the population
   RestartPolicy restart;
-  Duration budget;  ///< declared execution time of one step
-  Duration stop_timeout;
 };
 struct UnitRecord : ComponentRecord, UnitPart {};
 
@@ -206,32 +213,29 @@ struct Application {
   ComponentIndex component_count() const noexcept {
     return static_cast<ComponentIndex>(units.size() + devices.size());
   }
-  bool is_unit(ComponentIndex component) const noexcept { return component < units.size(); }
-  ComponentIndex component_of_device(std::uint16_t device) const noexcept {
-    return static_cast<ComponentIndex>(units.size() + device);
+  const ComponentRecord& component(ComponentIndex component) const noexcept {
+    return one_of<const ComponentRecord>(units, devices, component);
   }
+  ComponentState& component_state(ComponentIndex component) const noexcept {
+    return one_of<ComponentState>(unit_states, device_states, component);
+  }
+
+  // Who needs these two does something to the one that there is no word for with the other. Everybody else
+  // asks the record, or the state.
+
+  bool is_unit(ComponentIndex component) const noexcept { return component < units.size(); }
   /// Of a component that is no unit.
   std::uint16_t device_of(ComponentIndex component) const noexcept {
     return static_cast<std::uint16_t>(component - units.size());
   }
-  const ComponentRecord& component(ComponentIndex component) const noexcept {
-    if (is_unit(component)) return units[component];
-    return devices[device_of(component)];
-  }
-  ComponentState& component_state(ComponentIndex component) const noexcept {
-    if (is_unit(component)) return unit_states[component];
-    return device_states[device_of(component)];
-  }
-  const PortBinding& ports(ComponentIndex component) const noexcept {
-    if (is_unit(component)) return units[component].binding;
-    return devices[device_of(component)].binding;
+
+ private:
+  template <class Common, class OfUnits, class OfDevices>
+  Common& one_of(OfUnits of_units, OfDevices of_devices, ComponentIndex component) const noexcept {
+    if (is_unit(component)) return of_units[component];
+    return of_devices[device_of(component)];
   }
 };
-
-/// "unit" or "device".
-inline const char* kind_of(const Application& application, ComponentIndex component) noexcept {
-  return application.is_unit(component) ? "unit" : "device";
-}
 
 /// The main function of every application: reads the command line, runs to the end, returns the exit code
 /// (0 finished, 1 usage or table, 2 fault, 3 right missing, 128+n signal).

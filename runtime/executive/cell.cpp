@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <string>
 
 #include "runtime/core/digest.hpp"
@@ -23,13 +24,31 @@ void fill(void* memory, const ParameterBlock& block, const void* initial) noexce
   }
 }
 
-std::vector<std::vector<std::uint16_t>> devices_by_unit(const Application& application) {
-  std::vector<std::vector<std::uint16_t>> devices(application.units.size());
+std::vector<std::vector<std::uint16_t>> devices_by_component(const Application& application) {
+  std::vector<std::vector<std::uint16_t>> devices(application.component_count());
   for (std::size_t i = 0; i < application.devices.size(); ++i) {
-    if (const std::uint16_t unit = application.devices[i].unit; unit != no_index)
-      devices[unit].push_back(static_cast<std::uint16_t>(i));
+    const DeviceRecord& device = application.devices[i];
+    for (const ComponentIndex component : {device.index, device.unit}) {
+      if (component != no_index) devices[component].push_back(static_cast<std::uint16_t>(i));
+    }
   }
   return devices;
+}
+
+std::vector<const PortBinding*> ports_by_component(const Application& application) {
+  std::vector<const PortBinding*> ports;
+  for (const UnitRecord& unit : application.units) ports.push_back(&unit.binding);
+  for (const DeviceRecord& device : application.devices) ports.push_back(&device.binding);
+  return ports;
+}
+
+std::vector<ComponentIndex> sorted_by_level(const Application& application) {
+  std::vector<ComponentIndex> order(application.component_count());
+  std::iota(order.begin(), order.end(), ComponentIndex{0});
+  std::stable_sort(order.begin(), order.end(), [&application](ComponentIndex a, ComponentIndex b) {
+    return application.component(a).level < application.component(b).level;
+  });
+  return order;
 }
 
 std::uint64_t seed_of(std::uint64_t seed, const char* name) noexcept {
@@ -44,7 +63,10 @@ Cell::Cell(const Application& application, const Options& options)
     : application_(&application),
       options_(&options),
       bells_(bells_of(application)),
-      devices_of_units_(devices_by_unit(application)),
+      other_drivers_(application.component_count()),
+      devices_of_(devices_by_component(application)),
+      ports_(ports_by_component(application)),
+      starting_order_(sorted_by_level(application)),
       control_(bells_),
       audit_(std::make_unique<AuditIntake>()),
       parameters_(std::make_unique<RuntimeParameters[]>(application.component_count())),
@@ -100,11 +122,11 @@ Status Cell::choose_drivers() {
   for (std::size_t i = 0; i < application_->devices.size(); ++i) {
     const DeviceRecord& device = application_->devices[i];
     DeviceState& state = application_->device_states[i];
-    state.driver = 0;
+    std::uint16_t chosen = 0;
     std::string lacks;
     const auto choose = [&](std::string_view wanted) {
       if (const auto found = find_driver(device, wanted); found) {
-        state.driver = *found;
+        chosen = *found;
         lacks.clear();
       } else if (kind_named(wanted)) {
         lacks = wanted;
@@ -121,10 +143,11 @@ Status Cell::choose_drivers() {
       kind = lacks;
       without += (without.empty() ? "" : ", ") + std::string{device.name};
     }
-    const DriverRecord& driver = device.drivers[state.driver];
-    std::vector<const char*>& others = other_drivers_.emplace_back();
+    const DriverRecord& driver = device.drivers[chosen];
+    state.driver = &driver;
+    state.type = driver.type;
     for (const DriverRecord& other : device.drivers) {
-      if (&other != &driver) others.push_back(other.name);
+      if (&other != &driver) other_drivers_[device.index].push_back(other.name);
     }
     if (options_->virtual_time && !driver.virtual_time) {
       std::string able;
@@ -148,17 +171,12 @@ Status Cell::choose_drivers() {
 }
 
 void Cell::narrow_ranges() {
-  for (const NarrowedRange& range : application_->ranges) {
-    if (narrowed_type(range.component) != nullptr) continue;
-    narrowed_.emplace_back(component_type(range.component), range.component, application_->ranges);
+  for (ComponentIndex i = 0; i < component_count(); ++i) {
+    const auto is_of_it = [i](const NarrowedRange& range) { return range.component == i; };
+    if (std::none_of(application_->ranges.begin(), application_->ranges.end(), is_of_it)) continue;
+    const ComponentType*& type = application_->component_state(i).type;
+    type = &narrowed_.emplace_back(*type, i, application_->ranges).type();
   }
-}
-
-const NarrowedType* Cell::narrowed_type(ComponentIndex component) const noexcept {
-  for (const NarrowedType& narrowed : narrowed_) {
-    if (narrowed.component() == component) return &narrowed;
-  }
-  return nullptr;
 }
 
 void Cell::stop_motion(std::string_view who) noexcept {
@@ -177,12 +195,6 @@ Status Cell::start_motion(std::string_view who) noexcept {
   return status;
 }
 
-const ComponentType& Cell::component_type(ComponentIndex component) const noexcept {
-  if (const NarrowedType* narrowed = narrowed_type(component); narrowed != nullptr) return narrowed->type();
-  return application_->is_unit(component) ? *application_->units[component].type
-                                          : *driver(application_->device_of(component)).type;
-}
-
 /// Shorter than what is taken for a standstill or a hang.
 Duration Cell::longest_step_of(const ThreadRecord& thread) const noexcept {
   const Duration hangs = Supervision::hang_timeout(thread);
@@ -193,7 +205,7 @@ Duration Cell::longest_step_of(const ThreadRecord& thread) const noexcept {
 Status Cell::construct_device(std::uint16_t index) {
   const DeviceRecord& record = application_->devices[index];
   DeviceState& state = application_->device_states[index];
-  const DriverRecord& driver = record.drivers[state.driver];
+  const DriverRecord& driver = *state.driver;
   state.device = driver.construct(record.storage);
   *record.instance = state.device;
   state.environment = {seed_of(options_->seed, record.name), options_->virtual_time.has_value(),
@@ -201,8 +213,7 @@ Status Cell::construct_device(std::uint16_t index) {
   if (!options_->virtual_time && record.thread != no_index)
     state.environment.longest_step = longest_step_of(application_->threads[record.thread]);
   state.device->set_name(record.name);
-  const ComponentIndex component = application_->component_of_device(index);
-  state.device->set_type_in_force(component_type(component));
+  state.device->set_type_in_force(*state.type);
   state.device->set_environment(&state.environment);
   DeviceBinding binding = record.binding;
   if (record.bus != no_index) binding.bus = application_->device_states[record.bus].device;
@@ -210,8 +221,8 @@ Status Cell::construct_device(std::uint16_t index) {
   const ParameterMemory memory = state.device->parameter_memory();
   fill(memory.configuration, driver.type->configuration, driver.configuration);
   fill(memory.runtime, driver.type->runtime, driver.runtime);
-  return parameters_[component].connect(*state.device, record.runtime_slot, driver.runtime,
-                                        scratch_[record.thread]);
+  return parameters_[record.index].connect(*state.device, record.runtime_slot, driver.runtime,
+                                           scratch_[record.thread]);
 }
 
 Status Cell::construct_unit(std::uint16_t index) {
@@ -219,7 +230,7 @@ Status Cell::construct_unit(std::uint16_t index) {
   UnitState& state = application_->unit_states[index];
   state.unit = record.construct(record.storage);
   state.unit->set_name(record.name);
-  state.unit->set_type_in_force(component_type(index));
+  state.unit->set_type_in_force(*state.type);
   state.unit->connect(record.binding);
   const ParameterMemory memory = state.unit->parameter_memory();
   fill(memory.configuration, record.type->configuration, record.configuration);
@@ -259,21 +270,21 @@ Status Cell::give_access(std::uint16_t unit, CellAccess& access) {
 
 Status Cell::construct() {
   if (const Status status = choose_drivers(); !status) return status;
+  for (std::size_t i = 0; i < application_->units.size(); ++i)
+    application_->unit_states[i].type = application_->units[i].type;
   narrow_ranges();
-  // A bus may stand after what it carries in the tables; it is constructed before.
-  for (const bool carried : {false, true}) {
-    for (std::size_t i = 0; i < application_->devices.size(); ++i) {
-      if ((application_->devices[i].bus != no_index) != carried) continue;
-      if (const Status status = construct_device(static_cast<std::uint16_t>(i)); !status) return status;
-    }
-  }
-  for (std::size_t i = 0; i < application_->units.size(); ++i) {
-    const UnitRecord& record = application_->units[i];
-    application_->unit_states[i].active.store(
+  for (const ComponentIndex component : starting_order_) {
+    const ComponentRecord& record = application_->component(component);
+    application_->component_state(component).active.store(
         record.population == no_index || record.member < application_->populations[record.population].active);
-    if (const Status status = construct_unit(static_cast<std::uint16_t>(i)); !status) return status;
+    if (const Status status = construct(component); !status) return status;
   }
   return {};
+}
+
+Status Cell::construct(ComponentIndex component) {
+  return application_->is_unit(component) ? construct_unit(component)
+                                          : construct_device(application_->device_of(component));
 }
 
 void Cell::destroy() noexcept {
@@ -290,7 +301,8 @@ void Cell::destroy() noexcept {
   }
 }
 
-Status Cell::reconstruct_unit(std::uint16_t index) noexcept {
+Status Cell::renew(ComponentIndex index) noexcept {
+  if (!application_->is_unit(index)) return {};
   UnitState& state = application_->unit_states[index];
   const ComponentType& type = *application_->units[index].type;
   const auto copy = [](const ParameterBlock& block, const void* from) {
@@ -309,9 +321,14 @@ Status Cell::reconstruct_unit(std::uint16_t index) noexcept {
   return {};
 }
 
+const char* Cell::driver_name(ComponentIndex component) const noexcept {
+  const DriverRecord* const driver = application_->component_state(component).driver;
+  return driver == nullptr ? "" : driver->name;
+}
+
 std::string Cell::driver_text(ComponentIndex component) const {
-  if (application_->is_unit(component)) return {};
-  return std::string{" (driver "} + driver(application_->device_of(component)).name + ")";
+  const std::string driver = driver_name(component);
+  return driver.empty() ? driver : " (driver " + driver + ")";
 }
 
 void Cell::note_configuration(ComponentIndex index) {
@@ -368,11 +385,6 @@ void Cell::copy_settings(ComponentIndex index, ComponentSettings& settings) cons
   parameters_[index].settings().read(settings.runtime, settings.runtime_marks);
 }
 
-Component& Cell::component(ComponentIndex component) const noexcept {
-  if (application_->is_unit(component)) return *application_->unit_states[component].unit;
-  return *application_->device_states[application_->device_of(component)].device;
-}
-
 void Cell::send(const ParameterRequest& request) noexcept {
   if (request.component >= application_->component_count()) {
     answer(request.requester,
@@ -409,14 +421,13 @@ const char* Cell::real_actuator() const noexcept {
 }
 
 bool Cell::moves_something(ComponentIndex component) const noexcept {
-  if (!application_->is_unit(component)) return driver(application_->device_of(component)).actuates;
   const std::span<const std::uint16_t> devices = devices_of(component);
   return std::any_of(devices.begin(), devices.end(),
                      [this](std::uint16_t device) { return driver(device).actuates; });
 }
 
 void Cell::set_writer_state(ComponentIndex component, WriterState state) noexcept {
-  for (SlotControl* slot : application_->ports(component).outputs) {
+  for (SlotControl* slot : ports_[component]->outputs) {
     if (slot != nullptr) slot->set_writer_state(state);
   }
 }
@@ -429,7 +440,7 @@ void Cell::set_fault(ComponentIndex component, const Status& cause) noexcept {
 }
 
 void Cell::commit(ComponentIndex component) noexcept {
-  const PortBinding& ports = application_->ports(component);
+  const PortBinding& ports = *ports_[component];
   for (SlotControl* slot : ports.outputs) {
     if (slot != nullptr) slot->commit();
   }
@@ -456,7 +467,7 @@ void Cell::prepare_virtual_time(bool digest) noexcept {
     if (slot != nullptr) slot->set_deferred(true);
   };
   for (ComponentIndex i = 0; i < application_->component_count(); ++i) {
-    for (SlotControl* slot : application_->ports(i).outputs) defer(slot);
+    for (SlotControl* slot : ports_[i]->outputs) defer(slot);
     defer(application_->component(i).feedback_slot);
   }
 }

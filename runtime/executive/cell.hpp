@@ -47,9 +47,9 @@ class Cell {
   Status construct();
   /// Units in reverse order, then devices.
   void destroy() noexcept;
-  /// Restart in place: destroys and constructs one unit with the values it had. Lifecycle thread, owning the
-  /// unit.
-  Status reconstruct_unit(std::uint16_t unit) noexcept;
+  /// For a restart in place: destroys and constructs a unit with the values it had; a device stays as it is.
+  /// Lifecycle thread, owning the component.
+  Status renew(ComponentIndex component) noexcept;
 
   const Application& application() const noexcept { return *application_; }
   const Options& options() const noexcept { return *options_; }
@@ -64,19 +64,24 @@ class Cell {
   Heartbeat& heartbeat() noexcept { return heartbeat_; }
 
   const DriverRecord& driver(std::uint16_t device) const noexcept {
-    return application_->devices[device].drivers[application_->device_states[device].driver];
+    return *application_->device_states[device].driver;
   }
-  /// Names of the drivers that a device's row permits and that were not chosen.
-  std::span<const char* const> other_drivers(std::uint16_t device) const noexcept {
-    return other_drivers_[device];
+  /// Of a component that has none "".
+  const char* driver_name(ComponentIndex component) const noexcept;
+  /// Names of the drivers that the component's row permits and that were not chosen.
+  std::span<const char* const> other_drivers(ComponentIndex component) const noexcept {
+    return other_drivers_[component];
   }
   ComponentIndex component_count() const noexcept { return application_->component_count(); }
-  /// Of a unit "", of a device " (driver NAME)": for messages, behind its name.
+  /// " (driver NAME)", or "" where there is none: for messages, behind its name.
   std::string driver_text(ComponentIndex component) const;
-  /// The devices that belong to the unit.
-  std::span<const std::uint16_t> devices_of(std::uint16_t unit) const noexcept {
-    return devices_of_units_[unit];
+  /// The devices that move where this component does: those that belong to the unit; of a device itself.
+  std::span<const std::uint16_t> devices_of(ComponentIndex component) const noexcept {
+    return devices_of_[component];
   }
+  /// All components, each after those that it stands on, else in the order of the tables: devices that
+  /// nothing carries, devices on buses, units.
+  std::span<const ComponentIndex> in_starting_order() const noexcept { return starting_order_; }
   /// How long a thread or the process may do nothing before that is a fault; 0: as long as it likes.
   Duration standstill_limit() const noexcept {
     return options_->standstill_limit.value_or(application_->standstill_limit);
@@ -85,10 +90,11 @@ class Cell {
     return application_->component(component).name;
   }
   /// The object: its owning thread, and whoever knows that nobody restarts it. Others ask component_type().
-  Component& component(ComponentIndex component) const noexcept;
-  /// What is declared of it: of a device by the chosen driver, with ranges as the application narrows them.
-  /// Any thread, from construct() on.
-  const ComponentType& component_type(ComponentIndex component) const noexcept;
+  Component& component(ComponentIndex component) const noexcept { return parameters_[component].component(); }
+  /// ComponentState::type. Any thread, from construct() on.
+  const ComponentType& component_type(ComponentIndex component) const noexcept {
+    return *application_->component_state(component).type;
+  }
   /// Copies the configuration values of the component as they were set last, at most `size` bytes; the object
   /// itself may be under restart. How many there are, 0: none. Any non-real-time thread.
   std::size_t copy_configuration(ComponentIndex component, void* to, std::size_t size) const;
@@ -153,17 +159,19 @@ class Cell {
  private:
   Status choose_drivers();
   void narrow_ranges();
-  const NarrowedType* narrowed_type(ComponentIndex component) const noexcept;
   Duration longest_step_of(const ThreadRecord& thread) const noexcept;
   Status construct_device(std::uint16_t device);
   Status construct_unit(std::uint16_t unit);
+  Status construct(ComponentIndex component);
   Status give_access(std::uint16_t unit, CellAccess& access);
 
   const Application* application_;
   const Options* options_;
   std::vector<Doorbell*> bells_;
-  std::vector<std::vector<const char*>> other_drivers_;       // per device
-  std::vector<std::vector<std::uint16_t>> devices_of_units_;  // per unit
+  std::vector<std::vector<const char*>> other_drivers_;  // per component, as the next three
+  std::vector<std::vector<std::uint16_t>> devices_of_;
+  std::vector<const PortBinding*> ports_;
+  std::vector<ComponentIndex> starting_order_;
   Control control_;
   std::unique_ptr<AuditIntake> audit_;
   Heartbeat heartbeat_;

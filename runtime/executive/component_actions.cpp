@@ -69,18 +69,15 @@ Status ComponentActions::initialise(ComponentIndex component) {
 }
 
 Status ComponentActions::stop_one(ComponentIndex component) {
-  const bool moves = cell_->moves_something(component);
-  // A unit brings its devices to rest first, which it could not once they are inhibited.
-  if (moves && !cell_->application().is_unit(component)) cell_->control().require_start();
   const Status status = lifecycle_->stop(component);
-  if (moves) cell_->control().require_start();
+  if (cell_->moves_something(component)) cell_->control().require_start();
   return status;
 }
 
 Status ComponentActions::start_one(ComponentIndex component) {
   // What it was in the middle of when it failed is nobody's to know.
-  if (cell_->application().is_unit(component) && life(component) == Life::fault) {
-    if (const Status status = cell_->reconstruct_unit(component); !status) return status;
+  if (life(component) == Life::fault) {
+    if (const Status status = cell_->renew(component); !status) return status;
   }
   return lifecycle_->start(component);
 }
@@ -89,16 +86,10 @@ Status ComponentActions::start_one(ComponentIndex component) {
 std::vector<ComponentIndex> ComponentActions::stands_on(ComponentIndex component) const {
   const Application& application = cell_->application();
   std::vector<ComponentIndex> below;
-  const auto add = [&](std::uint16_t device) {
-    if (const std::uint16_t bus = application.devices[device].bus; bus != no_index)
-      below.insert(below.begin(), application.component_of_device(bus));
-    if (const ComponentIndex one = application.component_of_device(device); one != component)
-      below.push_back(one);
-  };
-  if (application.is_unit(component)) {
-    for (const std::uint16_t device : cell_->devices_of(component)) add(device);
-  } else {
-    add(application.device_of(component));
+  for (const std::uint16_t place : cell_->devices_of(component)) {
+    const DeviceRecord& device = application.devices[place];
+    if (device.bus != no_index) below.insert(below.begin(), application.devices[device.bus].index);
+    if (device.index != component) below.push_back(device.index);
   }
   return below;
 }
@@ -122,7 +113,7 @@ std::vector<ComponentIndex> moving_components(const Cell& cell) {
         state.life.load(std::memory_order_acquire) == Life::running && !state.device->is_inhibited();
     const bool comes_to_rest =
         state.make_safe.load(std::memory_order_acquire) && !state.safe.load(std::memory_order_acquire);
-    if (may_move || comes_to_rest) moving.push_back(application.component_of_device(device));
+    if (may_move || comes_to_rest) moving.push_back(application.devices[i].index);
   }
   return moving;
 }

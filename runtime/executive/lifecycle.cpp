@@ -58,34 +58,17 @@ Lifecycle::Operation Lifecycle::operation() const noexcept {
 // ---- all
 
 Status Lifecycle::start_all() noexcept {
-  const Application& application = cell_->application();
-  for (const bool carried : {false, true}) {
-    for (std::size_t i = 0; i < application.devices.size(); ++i) {
-      if ((application.devices[i].bus != no_index) != carried) continue;
-      if (const Status status = start(application.component_of_device(static_cast<std::uint16_t>(i)));
-          !status)
-        return status;
-    }
-  }
-  for (std::size_t i = 0; i < application.units.size(); ++i) {
-    if (const Status status = start(static_cast<ComponentIndex>(i)); !status) return status;
+  for (const ComponentIndex component : cell_->in_starting_order()) {
+    if (const Status status = start(component); !status) return status;
   }
   return {};
 }
 
 void Lifecycle::stop_all() noexcept {
-  const Application& application = cell_->application();
-  const auto stop_one = [this](std::size_t component) {
-    const auto index = static_cast<ComponentIndex>(component);
-    if (const Status status = stop(index); !status)
-      log_error(cell_->component_name(index), "cannot be stopped: {}", status.cause());
-  };
-  for (std::size_t i = application.units.size(); i-- > 0;) stop_one(i);
-  for (const bool carried : {true, false}) {
-    for (std::size_t i = application.devices.size(); i-- > 0;) {
-      if ((application.devices[i].bus != no_index) == carried)
-        stop_one(application.component_of_device(static_cast<std::uint16_t>(i)));
-    }
+  const std::span<const ComponentIndex> order = cell_->in_starting_order();
+  for (std::size_t place = order.size(); place-- > 0;) {
+    if (const Status status = stop(order[place]); !status)
+      log_error(cell_->component_name(order[place]), "cannot be stopped: {}", status.cause());
   }
 }
 
@@ -124,17 +107,13 @@ Status Lifecycle::start(ComponentIndex index) noexcept {
   const ComponentRecord& record = application.component(index);
   ComponentState& state = application.component_state(index);
   Component& component = cell_->component(index);
-  const bool is_unit = application.is_unit(index);
   if (state.ownership.load(std::memory_order_acquire) != Ownership::lifecycle) {
     return Status::error(StatusCode::not_permitted, "%s is %s already", record.name,
                          name_of(state.life.load()));
   }
   cell_->note_configuration(index);
-  if (is_unit) {
-    application.unit_states[index].stop_requested.store(false, std::memory_order_release);
-  } else {
-    prepare_device(application.device_of(index));
-  }
+  state.stop_requested.store(false, std::memory_order_release);
+  if (!application.is_unit(index)) prepare_device(application.device_of(index));
   begin_operation(record.name, record.initialise_timeout);
   component.clear_fault();
   Status status = guarded([&] { return component.initialise(); });
@@ -149,15 +128,11 @@ Status Lifecycle::start(ComponentIndex index) noexcept {
                          cell_->driver_text(index).c_str(), status.cause());
   }
   state.fault.publish({});
-  if (is_unit) {
-    begin_unit(index);
-  } else {
-    begin_device(application.device_of(index));
-  }
+  begin(index);
   state.life.store(Life::running, std::memory_order_release);
   state.ownership.store(Ownership::thread, std::memory_order_release);
-  // Of a device: its thread may sleep until something arrives on a descriptor that exists only now.
-  if (!is_unit) application.threads[record.thread].bell->ring();
+  // Its thread may sleep until something arrives on a device's descriptor that exists only now.
+  application.threads[record.thread].bell->ring();
   return {};
 }
 
@@ -166,27 +141,29 @@ Status Lifecycle::stop(ComponentIndex index) noexcept {
   const ComponentRecord& record = application.component(index);
   ComponentState& state = application.component_state(index);
   if (state.life.load() == Life::created || state.life.load() == Life::stopped) return {};
-  const bool is_unit = application.is_unit(index);
-  if (is_unit) bring_to_rest(index);
+  if (application.is_unit(index)) {
+    bring_to_rest(index);
+  } else if (cell_->moves_something(index)) {
+    // A unit brings its devices to rest first, which it could not once they are inhibited.
+    cell_->control().require_start();
+  }
   if (const Status status = take_back(index); !status) return status;
   cell_->set_writer_state(index, WriterState::stopped);
   // Nobody steps it, so nobody would end what is held.
   cell_->parameters(index).end_all_leases(stamp());
-  begin_operation(record.name, is_unit ? application.units[index].stop_timeout : record.initialise_timeout);
+  begin_operation(record.name, record.stop_timeout);
   const Status status = guarded([&] {
     cell_->component(index).stop();
     return Status{};
   });
   end_operation();
   if (state.life.load() != Life::fault) state.life.store(Life::stopped, std::memory_order_release);
-  if (is_unit) application.unit_states[index].idle.store(true, std::memory_order_relaxed);
+  state.idle.store(true, std::memory_order_relaxed);
   return status;
 }
 
-// ---- what differs
-
-void Lifecycle::begin_unit(std::uint16_t index) noexcept {
-  UnitState& state = cell_->application().unit_states[index];
+void Lifecycle::begin(ComponentIndex index) noexcept {
+  ComponentState& state = cell_->application().component_state(index);
   state.steps.store(0, std::memory_order_relaxed);
   state.idle.store(true, std::memory_order_relaxed);
   for (const std::uint16_t device : cell_->devices_of(index)) {
@@ -201,13 +178,6 @@ void Lifecycle::prepare_device(std::uint16_t index) noexcept {
   state.guards.store(state.device->guards_motion(), std::memory_order_release);
   // An actuator is inhibited until its thread has seen a Start.
   state.device->set_inhibited(!cell_->control().may_move());
-}
-
-void Lifecycle::begin_device(std::uint16_t index) noexcept {
-  DeviceState& state = cell_->application().device_states[index];
-  state.make_safe.store(false);
-  state.safe.store(false);
-  cell_->set_writer_state(cell_->application().component_of_device(index), WriterState::running);
 }
 
 bool Lifecycle::is_at_rest(std::uint16_t index) const noexcept {
@@ -263,7 +233,7 @@ Status Lifecycle::restart_unit(std::uint16_t index) noexcept {
   // Set-points are seeded anew; until a person says so, nothing follows them.
   cell_->control().require_start();
   if (const Status status = stop(index); !status) return status;
-  if (const Status status = cell_->reconstruct_unit(index); !status) return status;
+  if (const Status status = cell_->renew(index); !status) return status;
   return start(index);
 }
 

@@ -20,16 +20,16 @@ class Lifecycle {
   /// none.
   Lifecycle(Cell& cell, bool threads_run) noexcept : cell_(&cell), threads_run_(threads_run) {}
 
-  /// Devices (buses first), then units, in table order. The first failure ends it and is returned.
+  /// In the starting order. The first failure ends it and is returned.
   Status start_all() noexcept;
-  /// Takes back and stops everything: units in reverse order, then devices, what is carried before its bus.
+  /// Takes back and stops everything, in the reverse order.
   void stop_all() noexcept;
 
   /// Initialises it and hands it over to its thread.
   Status start(ComponentIndex component) noexcept;
   /// A running unit that owns an actuator is brought to rest first: it sees stop_requested and has its
   /// stop_timeout to become idle; then nothing moves before the next Start, and its devices are made safe if
-  /// it did not.
+  /// it did not. An actuator is inhibited first.
   Status stop(ComponentIndex component) noexcept;
   /// Stop, destroy, construct in place, initialise; motion needs a new Start.
   Status restart_unit(std::uint16_t unit) noexcept;
@@ -60,8 +60,7 @@ class Lifecycle {
  private:
   Status take_back(ComponentIndex component) noexcept;
   void prepare_device(std::uint16_t device) noexcept;
-  void begin_unit(std::uint16_t unit) noexcept;
-  void begin_device(std::uint16_t device) noexcept;
+  void begin(ComponentIndex component) noexcept;
   void bring_to_rest(std::uint16_t unit) noexcept;
   bool is_at_rest(std::uint16_t unit) const noexcept;
   bool devices_are_safe(std::uint16_t unit) const noexcept;

@@ -7,8 +7,7 @@ namespace flexrf {
 
 NarrowedType::NarrowedType(const ComponentType& type, std::uint16_t component,
                            std::span<const NarrowedRange> ranges)
-    : component_(component),
-      configuration_(type.configuration.parameters.begin(), type.configuration.parameters.end()),
+    : configuration_(type.configuration.parameters.begin(), type.configuration.parameters.end()),
       runtime_(type.runtime.parameters.begin(), type.runtime.parameters.end()),
       type_(type) {
   type_.configuration.parameters = configuration_;

@@ -18,11 +18,9 @@ class NarrowedType {
   NarrowedType(const NarrowedType&) = delete;
   NarrowedType& operator=(const NarrowedType&) = delete;
 
-  std::uint16_t component() const noexcept { return component_; }
   const ComponentType& type() const noexcept { return type_; }
 
  private:
-  std::uint16_t component_;
   std::vector<ParameterDescriptor> configuration_;
   std::vector<ParameterDescriptor> runtime_;
   ComponentType type_;

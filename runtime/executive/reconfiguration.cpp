@@ -15,12 +15,6 @@ bool Reconfiguration::is_initialised(std::uint16_t index) const {
   return life == Life::running || life == Life::initialised;
 }
 
-int Reconfiguration::stopping_rank(std::uint16_t index) const noexcept {
-  const Application& application = cell_->application();
-  if (application.is_unit(index)) return cell_->moves_something(index) ? 0 : 1;
-  return application.devices[application.device_of(index)].bus == no_index ? 3 : 2;
-}
-
 std::vector<std::uint16_t> Reconfiguration::owners_of(std::span<const std::uint16_t> changed) {
   const Application& application = cell_->application();
   std::vector<std::uint16_t> owners;
@@ -28,22 +22,24 @@ std::vector<std::uint16_t> Reconfiguration::owners_of(std::span<const std::uint1
     if (is_initialised(index) && std::find(owners.begin(), owners.end(), index) == owners.end())
       owners.push_back(index);
   };
-  const auto add_unit_of = [&](std::uint16_t device) {
-    if (application.devices[device].unit != no_index) add(application.devices[device].unit);
+  const auto add_unit_of = [&](const DeviceRecord& device) {
+    if (device.unit != no_index) add(device.unit);
   };
   for (const std::uint16_t index : changed) {
     add(index);
-    if (application.is_unit(index)) continue;
-    const std::uint16_t changed_device = application.device_of(index);
-    add_unit_of(changed_device);
-    for (std::size_t d = 0; d < application.devices.size(); ++d) {
-      if (application.devices[d].bus != changed_device) continue;
-      add(application.component_of_device(static_cast<std::uint16_t>(d)));
-      add_unit_of(static_cast<std::uint16_t>(d));
+    for (const std::uint16_t device : cell_->devices_of(index)) add_unit_of(application.devices[device]);
+    for (const DeviceRecord& device : application.devices) {
+      if (device.bus == no_index || application.devices[device.bus].index != index) continue;
+      add(device.index);
+      add_unit_of(device);
     }
   }
+  const auto rank = [&](std::uint16_t index) {
+    const std::uint8_t level = application.component(index).level;
+    return level * 2 + (level == level_unit && cell_->moves_something(index) ? 1 : 0);
+  };
   std::stable_sort(owners.begin(), owners.end(),
-                   [this](std::uint16_t a, std::uint16_t b) { return stopping_rank(a) < stopping_rank(b); });
+                   [&rank](std::uint16_t a, std::uint16_t b) { return rank(a) > rank(b); });
   return owners;
 }
 
@@ -78,12 +74,9 @@ std::vector<ConfigurationComponent> configuration_components(Cell& cell) {
     ConfigurationComponent& component = components[i];
     component.name = cell.component_name(i);
     component.type = &cell.component_type(i);
-    component.kind = ConfigurationComponent::Kind::unit;
-    if (application.is_unit(i)) continue;
-    const std::uint16_t device = application.device_of(i);
-    component.kind = ConfigurationComponent::Kind::device;
-    component.driver = cell.driver(device).name;
-    component.other_drivers = cell.other_drivers(device);
+    component.kind = application.component(i).kind;
+    component.driver = cell.driver_name(i);
+    component.other_drivers = cell.other_drivers(i);
   }
   return components;
 }

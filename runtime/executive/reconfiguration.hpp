@@ -23,8 +23,6 @@ class Reconfiguration final : public ReconfigureHost {
   void fault(std::uint16_t owner, const Status& cause) override;
 
  private:
-  int stopping_rank(std::uint16_t index) const noexcept;
-
   Cell* cell_;
   Lifecycle* lifecycle_;
 };

@@ -85,7 +85,7 @@ std::vector<ComponentReport> collect_devices(const Cell& cell) {
   std::vector<ComponentReport> devices;
   for (std::size_t i = 0; i < cell.application().devices.size(); ++i) {
     const auto device = static_cast<std::uint16_t>(i);
-    devices.push_back(collect_component(cell, cell.application().component_of_device(device)));
+    devices.push_back(collect_component(cell, cell.application().devices[i].index));
     devices.back().driver = cell.driver(device).name;
   }
   return devices;

@@ -13,6 +13,8 @@
 namespace flexrf {
 
 class Unit;
+struct ComponentType;
+struct DriverRecord;
 
 /// Life of a unit or device, as the lifecycle thread drives it and everybody may see it.
 enum class Life : std::uint8_t { created, initialised, running, stopped, fault };
@@ -28,10 +30,20 @@ enum class Ownership : std::uint8_t {
 
 /// Of a unit and of a device alike.
 struct ComponentState {
+  /// What is declared of it: of a device by the chosen driver, with ranges as the application narrows them.
+  const ComponentType* type = nullptr;
+  const DriverRecord* driver = nullptr;  ///< the chosen one; null: it has none, as a unit
   std::atomic<Life> life{Life::created};
   std::atomic<Ownership> ownership{Ownership::lifecycle};
   SharedStatus fault;  ///< why; published before life becomes fault
   SharedRestraint restraint;
+  std::atomic<bool> active{false};  ///< member of a population: stepped. Others: always true
+  std::atomic<bool> idle{true};     ///< what is_idle() said after the last step
+  std::atomic<bool> stop_requested{
+      false};                           ///< it alone is to come to rest: the lifecycle thread will stop it
+  std::atomic<std::uint64_t> steps{0};  ///< of its own: a device takes none
+  std::atomic<std::int64_t> execution_maximum{0};  ///< ns, longest step
+  std::atomic<std::int64_t> execution_total{0};    ///< ns, all steps
 
   bool is_owned_by_thread() const noexcept {
     return ownership.load(std::memory_order_acquire) == Ownership::thread;
@@ -41,19 +53,11 @@ struct ComponentState {
 
 struct UnitState : ComponentState {
   Unit* unit = nullptr;
-  std::atomic<bool> active{false};  ///< member of a population: stepped. Others: always true
-  std::atomic<bool> idle{true};     ///< what is_idle() said after the last step
-  std::atomic<bool> stop_requested{
-      false};  ///< it alone is to come to rest: the lifecycle thread will stop it
-  std::atomic<std::uint64_t> steps{0};
-  Time stepped_at{};                               ///< the unit's thread only
-  std::atomic<std::int64_t> execution_maximum{0};  ///< ns, longest step
-  std::atomic<std::int64_t> execution_total{0};    ///< ns, all steps
+  Time stepped_at{};  ///< the unit's thread only
 };
 
 struct DeviceState : ComponentState {
   Device* device = nullptr;
-  std::uint16_t driver = 0;            ///< index of the chosen driver
   std::atomic<bool> make_safe{false};  ///< its unit or itself is in fault: its thread makes it safe
   std::atomic<bool> safe{false};       ///< make_safe() said so
   std::atomic<bool> guards{false};     ///< guards_motion(), as it was or is to be initialised

@@ -151,7 +151,7 @@ StatusContent::Section StatusContent::feedback() const {
     }
   };
   for (ComponentIndex i = 0; i < application.component_count(); ++i) {
-    if (!application.is_unit(i) || application.unit_states[i].active.load(std::memory_order_relaxed))
+    if (application.component_state(i).active.load(std::memory_order_relaxed))
       add(application.component(i).name, application.component(i).feedback_slot);
   }
   if (table.is_empty()) return {};

@@ -99,9 +99,8 @@ void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t uni
     cell_->answer(request.requester,
                   ParameterAnswer::refused(request, parameters.sequence(), no_parameter, reason));
   };
-  if (!application_->is_unit(unit) || application_->units[unit].population == no_index) {
-    return refuse("it is not a member of a population");
-  }
+  const ComponentRecord& record = application_->component(unit);
+  if (record.population == no_index) return refuse("it is not a member of a population");
   UnitState& member = application_->unit_states[unit];
   const bool active = member.active.load(std::memory_order_relaxed);
   if (request.kind == RequestKind::retire) {
@@ -110,7 +109,7 @@ void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t uni
     member.active.store(false, std::memory_order_release);
     member.idle.store(true, std::memory_order_relaxed);
     cell_->set_writer_state(unit, WriterState::retired);
-    cell_->audit().note(request.who, "retired", application_->units[unit].name);
+    cell_->audit().note(request.who, "retired", record.name);
     cell_->answer(request.requester, ParameterAnswer::accepted(request, parameters.sequence()));
     return;
   }
@@ -118,13 +117,12 @@ void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t uni
   const void* base = nullptr;
   if (request.kind == RequestKind::clone) {
     const std::uint16_t source = request.source;
-    if (!application_->is_unit(source) ||
-        application_->units[source].population != application_->units[unit].population) {
+    if (source >= application_->component_count() ||
+        application_->component(source).population != record.population) {
       return refuse("a member can only be cloned from one of its own population");
     }
-    if (application_->units[source].thread != application_->units[unit].thread) {
+    if (application_->component(source).thread != record.thread)
       return refuse("the member to copy lives in another thread");
-    }
     base = cell_->parameters(source).values();
   }
   const ParameterAnswer answer =
@@ -136,7 +134,7 @@ void Stepper::apply_to_member(const ParameterRequest& request, std::uint16_t uni
     member.active.store(true, std::memory_order_release);
     cell_->set_writer_state(unit, WriterState::running);
     cell_->audit().note(request.who, request.kind == RequestKind::clone ? "cloned into" : "activated",
-                        application_->units[unit].name);
+                        record.name);
   }
   cell_->answer(request.requester, answer);
 }
@@ -164,7 +162,7 @@ void Stepper::follow_motion_permission(Time now) noexcept {
     if (application_->unit_states[unit].is_owned_by_thread()) cell_->parameters(unit).end_all_leases(now);
   }
   for (const std::uint16_t device : record_->devices) {
-    if (owns_device(device)) cell_->parameters(application_->component_of_device(device)).end_all_leases(now);
+    if (owns_device(device)) cell_->parameters(application_->devices[device].index).end_all_leases(now);
   }
 }
 
@@ -262,7 +260,7 @@ void Stepper::receive(Time now) noexcept {
     if (!owns_device(index)) continue;
     Device& device = *application_->device_states[index].device;
     note_stepped(application_->devices[index].name);
-    cell_->parameters(application_->component_of_device(index)).before_step(now);
+    cell_->parameters(application_->devices[index].index).before_step(now);
     device.receive(tick_);
     // What comes to its end before all is initialised is noticed afterwards: until then nothing can be
     // finished.
@@ -334,7 +332,7 @@ void Stepper::send(Time now) noexcept {
     note_stepped(application_->devices[index].name);
     state.device->send(tick_);
     note_restraint(application_->devices[index].name, *state.device, state.restraint, now);
-    if (const Status own = cell_->parameters(application_->component_of_device(index)).after_step(now); !own)
+    if (const Status own = cell_->parameters(application_->devices[index].index).after_step(now); !own)
         [[unlikely]]
       blame(*state.device, own);
     check_device(index);
@@ -412,7 +410,7 @@ void Stepper::check_device(std::uint16_t index) noexcept {
   if (state.device->fault().is_ok() || state.life.load(std::memory_order_relaxed) == Life::fault) return;
   const Status cause = state.device->fault();
   cell_->control().note_fault();
-  cell_->set_fault(application_->component_of_device(index), cause);
+  cell_->set_fault(application_->devices[index].index, cause);
   state.make_safe.store(true, std::memory_order_relaxed);
   state.device->set_inhibited(true);
   log_error(application_->devices[index].name, "fault: {}", cause.cause());

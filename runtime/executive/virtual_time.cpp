@@ -161,7 +161,7 @@ void VirtualTime::begin(Thread& thread) noexcept {
 
 void VirtualTime::commit_devices(const Thread& thread) noexcept {
   for (const std::uint16_t device : thread.stepper.record().devices)
-    cell_->commit(cell_->application().component_of_device(device));
+    cell_->commit(cell_->application().devices[device].index);
 }
 
 void VirtualTime::complete(Thread& thread) noexcept {

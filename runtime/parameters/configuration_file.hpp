@@ -28,11 +28,10 @@ namespace flexrf {
 
 /// One component's values: what loading writes and saving reads.
 struct ConfigurationComponent {
-  enum class Kind : std::uint8_t { unit, device };
-  Kind kind = Kind::unit;
+  const char* kind = "unit";  ///< or "device": its element in the file
   const char* name = "";
-  const char* driver = "";  ///< of a device: the chosen one
-  /// Of a device: the others its table permits. Their sections are neither read nor lost.
+  const char* driver = "";  ///< the chosen one; "": it has none, as a unit
+  /// The others that its table permits. Their sections are neither read nor lost.
   std::span<const char* const> other_drivers;
   const ComponentType* type = nullptr;
   void* configuration = nullptr;  ///< null where it has none

@@ -20,8 +20,6 @@
 namespace flexrf {
 namespace {
 
-using Kind = ConfigurationComponent::Kind;
-
 // No format before the first has been released.
 constexpr std::span<const FormatStep> format_steps;
 
@@ -87,7 +85,7 @@ class Reader {
          std::span<const ConfigurationComponent> components)
       : document_(document), identity_(identity), components_(components) {
     for (const ConfigurationComponent& component : components) {
-      by_name_[index_of(component.kind)].emplace(component.name, staged_.size());
+      by_name_.emplace(component.name, staged_.size());
       staged_.push_back({copy_of(component.type->configuration, component.configuration),
                          copy_of(component.type->runtime, component.runtime)});
     }
@@ -111,7 +109,6 @@ class Reader {
     StagedBlock& staged;
   };
 
-  static std::size_t index_of(Kind kind) noexcept { return kind == Kind::unit ? 0 : 1; }
   void read_root(pugi::xml_node root);
   void read_component(pugi::xml_node node);
   void read_driver(pugi::xml_node node, std::size_t index);
@@ -141,7 +138,7 @@ class Reader {
   const ConfigurationIdentity& identity_;
   std::span<const ConfigurationComponent> components_;
   std::vector<StagedComponent> staged_;
-  std::unordered_map<std::string_view, std::size_t> by_name_[2];  // units, devices
+  std::unordered_map<std::string_view, std::size_t> by_name_;
   std::unordered_map<std::string_view, const char*> renames_;
   bool is_ours_ = true;
 };
@@ -213,13 +210,13 @@ void Reader::read_component(pugi::xml_node node) {
   }
   check_attributes(node, {"name", "driver"});
   const std::string name = component_renamed(node.attribute("name").value());
-  const auto& known = by_name_[index_of(kind == "unit" ? Kind::unit : Kind::device)];
-  const auto found = known.find(name);
-  if (found != known.end()) return read_driver(node, found->second);
+  const auto found = by_name_.find(name);
+  if (found != by_name_.end() && components_[found->second].kind == kind)
+    return read_driver(node, found->second);
   unfit(node, [&] {
     return "there is no " + kind + " " + quoted(name) + nearest_of(name, [&](NearestName& nearest) {
              for (const ConfigurationComponent& component : components_)
-               if ((component.kind == Kind::unit) == (kind == "unit")) nearest.offer(component.name);
+               if (component.kind == kind) nearest.offer(component.name);
            });
   });
 }

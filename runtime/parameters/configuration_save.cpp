@@ -14,13 +14,7 @@
 namespace flexrf {
 namespace {
 
-using Kind = ConfigurationComponent::Kind;
-
-const char* element_of(Kind kind) {
-  return kind == Kind::unit ? "unit" : "device";
-}
-
-/// Former sections of devices, by the device's name; those of one device in their order.
+/// Former sections, by the component's name; those of one component in their order.
 using FormerSections = std::multimap<std::string_view, pugi::xml_node>;
 
 bool is_any_marked(const FieldDescriptor& field, std::size_t offset, const SetMarks& marks) {
@@ -63,14 +57,13 @@ void write_block(pugi::xml_node component, const char* section, const ParameterB
 
 void write_component(pugi::xml_node root, const ConfigurationComponent& component,
                      const FormerSections& former) {
-  pugi::xml_node node = root.append_child(element_of(component.kind));
+  pugi::xml_node node = root.append_child(component.kind);
   node.append_attribute("name").set_value(component.name);
   if (component.driver[0] != '\0') node.append_attribute("driver").set_value(component.driver);
   write_block(node, "configuration", component.type->configuration, component.configuration,
               component.configuration_marks);
   write_block(node, "runtime", component.type->runtime, component.runtime, component.runtime_marks);
   if (!node.first_child()) root.remove_child(node);
-  if (component.kind != Kind::device) return;
   // What was saved with another of its drivers stays.
   const auto [begin, end] = former.equal_range(component.name);
   for (auto section = begin; section != end; ++section) {
@@ -83,7 +76,7 @@ void write_component(pugi::xml_node root, const ConfigurationComponent& componen
 
 FormerSections sections_of(pugi::xml_node former) {
   FormerSections sections;
-  for (const pugi::xml_node section : former.children(element_of(Kind::device)))
+  for (const pugi::xml_node section : former.children())
     sections.emplace(section.attribute("name").value(), section);
   return sections;
 }

@@ -43,6 +43,8 @@ class RuntimeParameters {
   /// for a component that was constructed anew. Does not touch the component's values.
   Status connect(Component& component, SlotControl* slot, const void* defaults,
                  ParameterScratch& scratch) noexcept;
+  /// From connect() on.
+  Component& component() const noexcept { return *component_; }
   bool has_any() const noexcept { return values_ != nullptr; }
   /// Before the start: the values in the component's memory are those of the configuration file, which gives
   /// the marked ones.

@@ -53,6 +53,21 @@ void tables_hold_every_row_in_order(void**) {
   assert_true(row(cell.units, "overview").restart == RestartPolicy::once);
 }
 
+void what_units_and_devices_share_stands_in_their_records(void**) {
+  const ComponentRecord& source = cell.component(0);
+  assert_string_equal(source.kind, "unit");
+  assert_int_equal(source.level, level_unit);
+  assert_int_equal(source.population, no_index);
+  const DeviceRecord& station = row(cell.devices, "station");
+  assert_string_equal(station.kind, "device");
+  assert_int_equal(station.level, level_carried);
+  assert_int_equal(cell.devices[station.bus].level, level_base);
+  assert_true(station.stop_timeout == station.initialise_timeout);
+  assert_int_equal(station.population, no_index);
+  for (ComponentIndex i = 0; i < cell.component_count(); ++i) assert_int_equal(cell.component(i).index, i);
+  assert_ptr_equal(&cell.component(station.index), static_cast<const ComponentRecord*>(&station));
+}
+
 void a_thread_is_as_its_row_says(void**) {
   const ThreadRecord& control = row(cell.threads, "control");
   assert_true(control.trigger.kind == TriggerKind::period);
@@ -366,6 +381,7 @@ void it_runs(void**) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(tables_hold_every_row_in_order),
+                              cmocka_unit_test(what_units_and_devices_share_stands_in_their_records),
                               cmocka_unit_test(a_thread_is_as_its_row_says),
                               cmocka_unit_test(a_queue_of_jobs_has_one_source_for_all),
                               cmocka_unit_test(inputs_find_their_readers),

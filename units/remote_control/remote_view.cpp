@@ -73,7 +73,7 @@ std::optional<RpcProblem> RemoteView::list(Fields& params, JsonWriter& json, std
     } else if (of == "components") {
       const auto component = static_cast<ComponentIndex>(next);
       entry.member("name", cell_->component_name(component));
-      entry.member("kind", kind_of(application(), component));
+      entry.member("kind", application().component(component).kind);
       entry.member("type", cell_->component_type(component).name);
     } else {
       static constexpr const char* kinds[] = {"configuration", "runtime", "feedback"};

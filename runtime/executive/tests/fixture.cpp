@@ -301,6 +301,9 @@ void TestApplication::make_devices() {
         DriverRecord{name_of(plan.kind), plan.kind, plan.actuates, plan.virtual_time, sizeof(TestDevice),
                      &DevicePlace::construct<Device>, &TestDevice::type, nullptr, nullptr, plan.options});
     DeviceRecord record{};
+    record.index = static_cast<ComponentIndex>(units_.size() + i);
+    record.kind = "device";
+    record.level = plan.bus == no_index ? level_base : level_carried;
     record.name = plan.name.c_str();
     record.summary = "";
     record.interface = "Actuator";
@@ -315,6 +318,7 @@ void TestApplication::make_devices() {
     record.thread = thread;
     record.unit = owner;
     record.initialise_timeout = plan.initialise_timeout;
+    record.stop_timeout = plan.initialise_timeout;
     made_->device_records.push_back(record);
   }
 }
@@ -344,6 +348,9 @@ void TestApplication::make_units() {
     std::vector<Device* const*>& devices = made_->devices.emplace_back();
     if (plan.device != no_index) devices.push_back(&made_->instances[plan.device]);
     UnitRecord record{};
+    record.index = index;
+    record.kind = "unit";
+    record.level = level_unit;
     record.name = plan.name.c_str();
     record.summary = "";
     record.type = &TestUnit::type;
@@ -360,7 +367,6 @@ void TestApplication::make_units() {
                                        true, false, index, no_index);
     }
     record.thread = thread;
-    record.population = no_index;
     for (std::size_t p = 0; p < populations_.size(); ++p) {
       if (i < populations_[p].first_unit || i >= populations_[p].first_unit + populations_[p].capacity)
         continue;

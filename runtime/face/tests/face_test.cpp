@@ -45,7 +45,7 @@ struct Still {
 void things_are_found_by_name_and_the_nearest_is_named() {
   Still cell;
   CHECK_EQUAL(*cell.directory->component("producer"), Cell::producer);
-  CHECK_EQUAL(*cell.directory->component("actuator"), cell.cell.application().component_of_device(0));
+  CHECK_EQUAL(*cell.directory->component("actuator"), cell.cell.application().devices[0].index);
   CHECK(!cell.directory->component("produce"));
   CHECK_EQUAL(*cell.directory->slot("values"), Cell::values);
   CHECK(!cell.directory->slot(""));

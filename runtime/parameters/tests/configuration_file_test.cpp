@@ -59,7 +59,7 @@ int begin(void**) {
   world->folder = folder;
   reset_values();
   world->file = world->folder + "/config.xml";
-  world->components.push_back({ConfigurationComponent::Kind::unit,
+  world->components.push_back({"unit",
                                "jog",
                                "",
                                {},
@@ -68,9 +68,9 @@ int begin(void**) {
                                &world->unit.runtime,
                                &world->marks[0],
                                &world->marks[1]});
-  world->components.push_back({ConfigurationComponent::Kind::device, "arm", "simulated", other_drivers,
-                               &sample::component_type, &world->device.configuration, &world->device.runtime,
-                               &world->marks[2], &world->marks[3]});
+  world->components.push_back({"device", "arm", "simulated", other_drivers, &sample::component_type,
+                               &world->device.configuration, &world->device.runtime, &world->marks[2],
+                               &world->marks[3]});
   mark_all();
   return 0;
 }
@@ -212,7 +212,7 @@ void a_large_file_is_read_in_linear_time(void**) {
   world->components.clear();
   for (std::size_t i = 0; i < units.size(); ++i) {
     names[i] = "a_unit_with_a_long_name_" + std::to_string(i);
-    world->components.push_back({ConfigurationComponent::Kind::unit,
+    world->components.push_back({"unit",
                                  names[i].c_str(),
                                  "",
                                  {},

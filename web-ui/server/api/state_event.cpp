@@ -113,7 +113,7 @@ void StateEvent::write_faults(JsonWriter& json) const {
   };
   for (ComponentIndex i = 0; i < application.component_count(); ++i) {
     const ComponentState& state = application.component_state(i);
-    write(kind_of(application, i), application.component(i).name,
+    write(application.component(i).kind, application.component(i).name,
           [&state](std::int64_t) { return std::string{state.fault.read().cause()}; });
   }
   const auto standstill = [](std::int64_t longest) {

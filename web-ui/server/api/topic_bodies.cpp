@@ -120,17 +120,17 @@ void TopicBodies::write(JsonWriter& json, Topic topic, Time now) {
 }
 
 void TopicBodies::write_component(JsonWriter& json, ComponentIndex component) const {
+  const ComponentRecord& record = application_->component(component);
   const ComponentState& state = application_->component_state(component);
-  json.begin_object().member("name", application_->component(component).name);
-  json.member("kind", kind_of(*application_, component));
-  if (application_->is_unit(component)) {
-    json.member("type", application_->units[component].type->name);
+  json.begin_object().member("name", record.name).member("kind", record.kind);
+  if (state.driver == nullptr) {
+    json.member("type", state.type->name);
   } else {
-    json.member("driver", executive_->cell().driver(application_->device_of(component)).name);
+    json.member("driver", state.driver->name);
   }
   write_life(json, state);
   write_restraint(json, state.restraint);
-  write_steps(json, component);
+  write_steps(json, record, state);
   json.end_object();
 }
 
@@ -140,31 +140,20 @@ void TopicBodies::write_life(JsonWriter& json, const ComponentState& state) {
       .member("fault", life == Life::fault ? state.fault.read().cause() : "");
 }
 
-/// A device takes no steps of its own, and is no member of a population.
-void TopicBodies::write_steps(JsonWriter& json, ComponentIndex component) const {
-  bool active = true;
-  std::uint64_t steps = 0;
-  std::int64_t total = 0;
-  std::int64_t longest = 0;
-  std::uint16_t population = no_index;
-  if (application_->is_unit(component)) {
-    const UnitState& state = application_->unit_states[component];
-    active = state.active.load(std::memory_order_relaxed);
-    steps = state.steps.load(std::memory_order_relaxed);
-    total = state.execution_total.load(std::memory_order_relaxed);
-    longest = state.execution_maximum.load(std::memory_order_relaxed);
-    population = application_->units[component].population;
-  }
-  json.member("active", active).key("member");
-  if (population == no_index) {
+void TopicBodies::write_steps(JsonWriter& json, const ComponentRecord& record,
+                              const ComponentState& state) const {
+  const std::uint64_t steps = state.steps.load(std::memory_order_relaxed);
+  const std::int64_t total = state.execution_total.load(std::memory_order_relaxed);
+  json.member("active", state.active.load(std::memory_order_relaxed)).key("member");
+  if (record.population == no_index) {
     json.null();
   } else {
-    json.begin_object().member("population", application_->populations[population].name);
-    json.member("index", application_->units[component].member).end_object();
+    json.begin_object().member("population", application_->populations[record.population].name);
+    json.member("index", record.member).end_object();
   }
   json.member("steps", steps).key("execution").begin_object();
   json.member("mean_ns", steps == 0 ? 0 : total / static_cast<std::int64_t>(steps));
-  json.member("max_ns", longest).end_object();
+  json.member("max_ns", state.execution_maximum.load(std::memory_order_relaxed)).end_object();
 }
 
 void TopicBodies::write_devices(JsonWriter& json) const {

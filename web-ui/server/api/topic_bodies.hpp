@@ -55,7 +55,7 @@ class TopicBodies {
   void write(JsonWriter& json, Topic topic, Time now);
   static void write_restraint(JsonWriter& json, const SharedRestraint& shared);
   static void write_life(JsonWriter& json, const ComponentState& state);
-  void write_steps(JsonWriter& json, ComponentIndex component) const;
+  void write_steps(JsonWriter& json, const ComponentRecord& record, const ComponentState& state) const;
   void write_slots(JsonWriter& json) const;
   void write_queues(JsonWriter& json) const;
   void write_threads(JsonWriter& json, Time now);
