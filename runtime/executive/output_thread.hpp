@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/executive/status_view.hpp"
 #include "runtime/realtime/thread_setup.hpp"
+#include "runtime/run/status_view.hpp"
 
 namespace flexrf {
 

@@ -2,8 +2,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "runtime/executive/report.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
+#include "runtime/run/report.hpp"
 #include "tests/log_ear.hpp"
 
 namespace flexrf::fixture {

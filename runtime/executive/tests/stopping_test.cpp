@@ -4,8 +4,8 @@
 #include <csignal>
 #include <thread>
 
-#include "runtime/executive/report.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
+#include "runtime/run/report.hpp"
 
 namespace flexrf::fixture {
 namespace {

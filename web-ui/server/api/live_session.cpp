@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "runtime/core/nearest_name.hpp"
-#include "runtime/executive/report_data.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
+#include "runtime/run/report_data.hpp"
 #include "web-ui/server/api/log_lines.hpp"
 
 namespace flexrf::panel {

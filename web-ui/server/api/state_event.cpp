@@ -2,7 +2,7 @@
 
 #include "runtime/core/digest.hpp"
 #include "runtime/core/text_table.hpp"
-#include "runtime/executive/report_data.hpp"
+#include "runtime/run/report_data.hpp"
 
 namespace flexrf::panel {
 namespace {

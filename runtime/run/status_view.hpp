@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/executive/status_content.hpp"
+#include "runtime/run/status_content.hpp"
 
 namespace flexrf {
 

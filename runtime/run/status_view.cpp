@@ -1,4 +1,4 @@
-#include "runtime/executive/status_view.hpp"
+#include "runtime/run/status_view.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

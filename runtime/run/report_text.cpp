@@ -2,10 +2,10 @@
 #include <algorithm>
 
 #include "runtime/core/text_table.hpp"
-#include "runtime/executive/report.hpp"
-#include "runtime/executive/report_data.hpp"
 #include "runtime/executive/virtual_time.hpp"
 #include "runtime/realtime/response_time.hpp"
+#include "runtime/run/report.hpp"
+#include "runtime/run/report_data.hpp"
 
 namespace flexrf {
 namespace {

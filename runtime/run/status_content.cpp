@@ -1,4 +1,4 @@
-#include "runtime/executive/status_content.hpp"
+#include "runtime/run/status_content.hpp"
 
 #include <algorithm>
 #include <cstdio>

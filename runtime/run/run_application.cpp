@@ -14,11 +14,11 @@
 #include "base/standard_descriptors.hpp"
 #include "runtime/executive/executive.hpp"
 #include "runtime/executive/file_options.hpp"
-#include "runtime/executive/report.hpp"
 #include "runtime/log/log.hpp"
 #include "runtime/parameters/durable_file.hpp"
 #include "runtime/realtime/instance_lock.hpp"
 #include "runtime/realtime/signals.hpp"
+#include "runtime/run/report.hpp"
 
 namespace flexrf {
 namespace {

@@ -1,9 +1,9 @@
 // The final report for programs.
 #include "runtime/core/json_writer.hpp"
 #include "runtime/core/value_json.hpp"
-#include "runtime/executive/report.hpp"
-#include "runtime/executive/report_data.hpp"
 #include "runtime/realtime/response_time.hpp"
+#include "runtime/run/report.hpp"
+#include "runtime/run/report_data.hpp"
 
 namespace flexrf {
 namespace {

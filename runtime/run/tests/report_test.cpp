@@ -1,9 +1,9 @@
-#include "runtime/executive/report.hpp"
+#include "runtime/run/report.hpp"
 
 #include "runtime/executive/executive.hpp"
-#include "runtime/executive/report_data.hpp"
 #include "runtime/executive/tests/checks.hpp"
 #include "runtime/executive/tests/fixture.hpp"
+#include "runtime/run/report_data.hpp"
 #include "tests/log_ear.hpp"
 
 namespace flexrf::fixture {

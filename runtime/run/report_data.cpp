@@ -1,4 +1,4 @@
-#include "runtime/executive/report_data.hpp"
+#include "runtime/run/report_data.hpp"
 
 #include <csignal>
 #include <cstring>
