@@ -20,8 +20,7 @@ Status ComponentActions::run(ComponentAction action, ComponentIndex component) {
   if (component >= cell_->component_count())
     return Status::error(StatusCode::not_found, "there is no component number %u",
                          static_cast<unsigned>(component));
-  if (const Mode mode = cell_->control().mode(); mode != Mode::running)
-    return Status::error(StatusCode::not_permitted, "the application is %s, not running", name_of(mode));
+  if (const Status status = cell_->control().check_running(); !status) return status;
   switch (action) {
     case ComponentAction::start:
       return start(component);

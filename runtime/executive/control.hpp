@@ -20,7 +20,10 @@ enum class Mode : std::uint8_t {
   safe,       ///< every device is made safe; units no longer step
   ended,      ///< threads leave their loops
 };
+/// The word for it, in files and on the wire: "safe".
 const char* name_of(Mode mode) noexcept;
+/// As it stands in a sentence, after "is": "in its safe state".
+const char* phrase_of(Mode mode) noexcept;
 
 /// Why the application leaves `running`.
 enum class EndCause : std::uint8_t {
@@ -31,6 +34,8 @@ enum class EndCause : std::uint8_t {
   requested,  ///< panel, test
   fault,      ///< a thread hangs, a unit cannot be initialised
 };
+/// The word for it, in files and on the wire: "end of input".
+const char* name_of(EndCause cause) noexcept;
 
 class Control {
  public:
@@ -49,6 +54,12 @@ class Control {
   void set_cause(EndCause cause) noexcept {
     EndCause none = EndCause::none;
     cause_.compare_exchange_strong(none, cause, std::memory_order_acq_rel);
+  }
+  /// not_permitted in any other mode.
+  Status check_running() const noexcept {
+    const Mode now = mode();
+    if (now == Mode::running) return {};
+    return Status::error(StatusCode::not_permitted, "the application is %s, not running", phrase_of(now));
   }
   EndCause cause() const noexcept { return cause_.load(std::memory_order_acquire); }
 
@@ -93,9 +104,7 @@ class Control {
           StatusCode::not_permitted,
           "an emergency-stop input does not permit motion; release it, or see to its wiring");
     }
-    if (mode() != Mode::running) {
-      return Status::error(StatusCode::not_permitted, "the application is %s, not running", name_of(mode()));
-    }
+    if (const Status status = check_running(); !status) return status;
     started_.store(true, std::memory_order_seq_cst);
     // A stop that came in between wins.
     if (stop_motion_.load(std::memory_order_seq_cst) || demands_.load(std::memory_order_seq_cst) != 0)

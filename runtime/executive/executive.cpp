@@ -140,7 +140,7 @@ Executive::Executive(const Application& application, Options options)
       lifecycle_(cell_, !options_.virtual_time.has_value()),
       began_(MonotonicClock::now()),
       saver_(cell_),
-      output_(cell_, options_.status_view && !options_.virtual_time),
+      output_(cell_),
       audit_(cell_, options_) {}
 
 /// After a run that got stuck: whoever hung may have let go since, else this waits.
@@ -207,11 +207,9 @@ void Executive::reconfigure(std::vector<ConfigurationChange> changes, Reconfigur
                             std::string_view who) {
   const auto job = [this, changes = std::move(changes), done = std::move(done),
                     who = std::string{who}](bool ended) {
-    if (const Mode mode = cell_.control().mode(); ended || mode != Mode::running) {
-      return done({ReconfigureOutcome::refused,
-                   {std::string{"the application is "} + name_of(mode) + ", not running"},
-                   {}});
-    }
+    const Status running = ended ? Status::error(StatusCode::not_permitted, "the application has ended")
+                                 : cell_.control().check_running();
+    if (!running) return done({ReconfigureOutcome::refused, {running.cause()}, {}});
     Reconfiguration host(cell_, lifecycle_);
     const ConfigurationBefore before(cell_, changes);
     const ReconfigureResult result = flexrf::reconfigure(host, changes);

@@ -78,6 +78,9 @@ class Executive {
   /// Whom run() starts with the application's threads. Its maker stops it, after run(). Before run().
   void set_observer(Observer& observer) noexcept { observer_ = &observer; }
 
+  /// What the terminal shows meanwhile. Before run().
+  void set_view(MakeView make) noexcept { output_.set_view(make); }
+
   Cell& cell() noexcept { return cell_; }
   const Options& options() const noexcept { return options_; }
   Lifecycle& lifecycle() noexcept { return lifecycle_; }

@@ -31,9 +31,31 @@ const char* name_of(Mode mode) noexcept {
     case Mode::stopping:
       return "stopping";
     case Mode::safe:
-      return "in its safe state";
+      return "safe";
     case Mode::ended:
       return "ended";
+  }
+  return "unknown";
+}
+
+const char* phrase_of(Mode mode) noexcept {
+  return mode == Mode::safe ? "in its safe state" : name_of(mode);
+}
+
+const char* name_of(EndCause cause) noexcept {
+  switch (cause) {
+    case EndCause::none:
+      return "none";
+    case EndCause::end_of_input:
+      return "end of input";
+    case EndCause::virtual_time_over:
+      return "virtual time over";
+    case EndCause::signal:
+      return "signal";
+    case EndCause::requested:
+      return "requested";
+    case EndCause::fault:
+      return "fault";
   }
   return "unknown";
 }

@@ -31,8 +31,6 @@ Status write_text(int descriptor, std::string_view text) {
 
 }  // namespace
 
-OutputThread::OutputThread(Cell& cell, bool status_view) : cell_(&cell), status_view_(status_view) {}
-
 OutputThread::~OutputThread() {
   ends_.store(true, std::memory_order_release);
   thread_.join();
@@ -75,8 +73,8 @@ void OutputThread::begin_end(std::vector<std::string> texts) noexcept {
 }
 
 void OutputThread::run() noexcept {
-  std::optional<StatusView> view;
-  if (status_view_ && StatusView::is_possible()) view.emplace(*cell_);
+  std::unique_ptr<TerminalView> view;
+  if (make_view_ != nullptr) view = make_view_(*cell_);
   // Where the log would go to the terminal that the view is in, the view shows it.
   const int log = view && isatty(STDERR_FILENO) == 1 ? -1 : STDERR_FILENO;
   while (!ends_.load(std::memory_order_acquire)) {

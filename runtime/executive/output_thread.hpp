@@ -3,26 +3,38 @@
 
 #include <atomic>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "runtime/executive/cell.hpp"
 #include "runtime/realtime/thread_setup.hpp"
-#include "runtime/run/status_view.hpp"
 
 namespace flexrf {
 
-/// A thread that writes the log, the status view and at the end the report. It may wait for a reader that is
+/// What stands in the last lines of a terminal while the application runs. All functions: the thread that
+/// makes it.
+class TerminalView {
+ public:
+  virtual ~TerminalView() = default;
+  /// In every turn of the thread; it leaves out what would be too often.
+  virtual void draw(Time now) = 0;
+};
+/// Null: there is no terminal for it.
+using MakeView = std::unique_ptr<TerminalView> (*)(Cell& cell);
+
+/// A thread that writes the log, the view and at the end the report. It may wait for a reader that is
 /// slow, stopped or stuck, so that nobody who supervises does. All functions: one thread, not real-time.
 class OutputThread {
  public:
-  /// `status_view`: where standard output is a terminal, its last lines show the running application.
-  OutputThread(Cell& cell, bool status_view);
+  explicit OutputThread(Cell& cell) : cell_(&cell) {}
   OutputThread(const OutputThread&) = delete;
   OutputThread& operator=(const OutputThread&) = delete;
   /// Waits for the thread: not while is_ending() is true, which only leaving the process ends then.
   ~OutputThread();
 
+  /// Before start(); without it there is no view.
+  void set_view(MakeView make) noexcept { make_view_ = make; }
   Status start() noexcept;
   /// In every turn of the supervising thread: where the log's reader is stuck, the log goes to the panel all
   /// the same. Never waits.
@@ -32,7 +44,7 @@ class OutputThread {
   /// thread, not for its reader.
   void catch_up() noexcept;
 
-  /// Takes the status view away, then writes the rest of the log and these texts on standard output. Once;
+  /// Takes the view away, then writes the rest of the log and these texts on standard output. Once;
   /// does not wait.
   void begin_end(std::vector<std::string> texts) noexcept;
   /// Not all of it is written yet.
@@ -45,7 +57,7 @@ class OutputThread {
   void write_texts() noexcept;
 
   Cell* cell_;
-  bool status_view_;
+  MakeView make_view_ = nullptr;
   std::atomic<bool> ends_{false};
   std::atomic<bool> ended_{false};
   std::atomic<std::uint32_t> turns_{0};

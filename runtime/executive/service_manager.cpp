@@ -27,7 +27,7 @@ std::optional<std::int64_t> number_in_environment(const char* name) {
 }
 
 std::string words_of(const Control& control) {
-  std::string words = name_of(control.mode());
+  std::string words = phrase_of(control.mode());
   if (control.mode() == Mode::running) {
     if (control.motion_stopped()) {
       words += ", motion is stopped";

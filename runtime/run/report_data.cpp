@@ -175,24 +175,6 @@ std::string ending_of(const ReportData& data) {
 
 }  // namespace
 
-const char* name_of(EndCause cause) noexcept {
-  switch (cause) {
-    case EndCause::none:
-      return "none";
-    case EndCause::end_of_input:
-      return "end of input";
-    case EndCause::virtual_time_over:
-      return "virtual time over";
-    case EndCause::signal:
-      return "signal";
-    case EndCause::requested:
-      return "requested";
-    case EndCause::fault:
-      return "fault";
-  }
-  return "unknown";
-}
-
 ReportData collect_report(const Cell& cell, const RunSummary& summary) {
   const Application& application = cell.application();
   ReportData data;

@@ -91,7 +91,4 @@ struct ReportData {
 /// After the threads ended, or when one hangs. Allocates.
 ReportData collect_report(const Cell& cell, const RunSummary& summary);
 
-/// The word for it in files: "end of input".
-const char* name_of(EndCause cause) noexcept;
-
 }  // namespace flexrf

@@ -19,6 +19,7 @@
 #include "runtime/realtime/instance_lock.hpp"
 #include "runtime/realtime/signals.hpp"
 #include "runtime/run/report.hpp"
+#include "runtime/run/status_view.hpp"
 
 namespace flexrf {
 namespace {
@@ -129,6 +130,7 @@ int run_application(const Application& application, int argument_count, char** a
     }
     executive.set_observer(*observer);
   }
+  if (options->status_view && !options->virtual_time) executive.set_view(&StatusView::make);
   RunSummary summary = executive.run();
   // Whatever is left to be said may wait for its reader: nobody else does by then.
   if (!summary.stuck && observer != nullptr) observer->stop();

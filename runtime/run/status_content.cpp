@@ -67,7 +67,7 @@ StatusContent::StatusContent(Cell& cell) : cell_(&cell), cycles_(cell.applicatio
 
 StatusLine StatusContent::heading(Time now) const {
   const Control& control = cell_->control();
-  std::string text = std::string{cell_->application().name} + "  " + name_of(control.mode());
+  std::string text = std::string{cell_->application().name} + "  " + phrase_of(control.mode());
   if (begun_ != Time{}) text += "  " + duration_text(now - begun_);
   if (control.motion_stopped()) {
     text += "  motion: Stop is latched";

@@ -56,6 +56,10 @@ bool StatusView::is_possible(int descriptor) noexcept {
          std::strcmp(terminal, "dumb") != 0;
 }
 
+std::unique_ptr<TerminalView> StatusView::make(Cell& cell) {
+  return is_possible() ? std::make_unique<StatusView>(cell) : nullptr;
+}
+
 StatusView::StatusView(Cell& cell, int descriptor) : content_(cell), descriptor_(descriptor) {
   // What was logged before has been shown elsewhere.
   logged_ = visit_recent_log(~std::uint64_t{0}, nullptr, [](void*, std::uint64_t, std::string_view) {});

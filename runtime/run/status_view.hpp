@@ -7,26 +7,29 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/executive/output_thread.hpp"
 #include "runtime/run/status_content.hpp"
 
 namespace flexrf {
 
 /// All functions: one thread (not real-time), for which nothing waits. While the terminal does not take more,
 /// frames are left out; one that does not let itself be opened anew is waited for.
-class StatusView {
+class StatusView final : public TerminalView {
  public:
   /// `descriptor`: a terminal. While the view lives, the log is to be drained to nowhere (drain_log(-1))
   /// where it would go to a terminal too: the view shows it.
   explicit StatusView(Cell& cell, int descriptor = STDOUT_FILENO);
-  ~StatusView() { finish(); }
+  ~StatusView() override { finish(); }
   StatusView(const StatusView&) = delete;
   StatusView& operator=(const StatusView&) = delete;
 
   /// A terminal that understands control sequences (TERM is neither empty nor `dumb`).
   static bool is_possible(int descriptor = STDOUT_FILENO) noexcept;
+  /// On standard output; null when that is no such terminal.
+  static std::unique_ptr<TerminalView> make(Cell& cell);
 
   /// Draws when 200 ms have passed since the last frame, else does nothing.
-  void draw(Time now);
+  void draw(Time now) override;
   /// Shows the rest of the log, takes the view away, leaves the terminal as it was. No draw() after it.
   void finish();
 

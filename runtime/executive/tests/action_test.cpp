@@ -338,7 +338,7 @@ void after_the_end_everything_is_refused() {
   CHECK_EQUAL(machine.act(ComponentAction::start, Cell::consumer).code(), StatusCode::not_permitted);
   const ReconfigureResult result = machine.executive().reconfigure({{Cell::consumer, "offset", "0.75"}});
   CHECK_EQUAL(result.outcome, ReconfigureOutcome::refused);
-  CHECK_CONTAINS(result.causes.at(0), "the application is ended");
+  CHECK_CONTAINS(result.causes.at(0), "the application has ended");
 }
 
 void a_narrowed_range_is_enforced() {

@@ -20,7 +20,7 @@ bool EditOperations::is_at_rest(const Caller& caller) {
     answers_->refuse(caller,
                      Refusal::make(RefusalKind::wrong_state,
                                    "The application is %s; its configuration can be changed while it runs.",
-                                   name_of(executive_->control().mode())));
+                                   phrase_of(executive_->control().mode())));
     return false;
   }
   const std::vector<ComponentIndex> moving = executive_->moving();

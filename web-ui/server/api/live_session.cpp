@@ -5,7 +5,6 @@
 
 #include "runtime/core/nearest_name.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
-#include "runtime/run/report_data.hpp"
 #include "web-ui/server/api/log_lines.hpp"
 
 namespace flexrf::panel {

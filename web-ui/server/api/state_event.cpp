@@ -2,16 +2,11 @@
 
 #include "runtime/core/digest.hpp"
 #include "runtime/core/text_table.hpp"
-#include "runtime/run/report_data.hpp"
 
 namespace flexrf::panel {
 namespace {
 
 constexpr std::string_view event_head = R"({"event":"state",)";
-
-const char* word_of(Mode mode) noexcept {
-  return mode == Mode::safe ? "safe" : name_of(mode);
-}
 
 std::int64_t milliseconds(Duration duration) noexcept {
   return std::chrono::duration_cast<std::chrono::milliseconds>(duration).count();
@@ -144,7 +139,7 @@ void StateEvent::write(std::string& text, SessionIndex you, Time now) const {
   const std::size_t head = text.size();
   JsonWriter json(std::move(text));
   json.begin_object();
-  json.member("mode", word_of(control.mode())).member("cause", name_of(control.cause()));
+  json.member("mode", name_of(control.mode())).member("cause", name_of(control.cause()));
   json.key("motion").begin_object().member("stopped", control.motion_stopped());
   json.member("may_move", control.may_move()).key("stopped_by");
   if (const auto stop = executive_->audit().stopped_by(); stop && control.motion_stopped()) {
