@@ -3,15 +3,11 @@
 #include <cstring>
 
 namespace flexrf {
-namespace {
 
-/// Why an observed slot is NULL whose newest item has this header.
 NullReason reason_of(const SlotRecord& record, const ItemHeader& header) noexcept {
   const NullReason reason = null_reason_of(record.control->writer_state());
   return reason == NullReason::none && header.sequence == 0 ? NullReason::nothing_yet : reason;
 }
-
-}  // namespace
 
 const ObservedSlot& ObservedSlots::read(std::uint16_t slot) {
   Cached& cached = slots_[slot];
@@ -35,7 +31,8 @@ const ObservedSlot& ObservedSlots::read(std::uint16_t slot) {
     }
   }
   newest.reason = reason_of(record, newest.header);
-  if (newest.reason == NullReason::none) newest.value = cached.bytes.data();
+  if (newest.header.sequence != 0) newest.last = cached.bytes.data();
+  if (newest.reason == NullReason::none) newest.value = newest.last;
   return newest;
 }
 

@@ -14,7 +14,11 @@ struct ObservedSlot {
   ItemHeader header{};
   NullReason reason = NullReason::nothing_yet;
   const void* value = nullptr;  ///< null unless reason is none
+  const void* last = nullptr;   ///< of the newest item, whatever became of its writer; null: there is none
 };
+
+/// Why an observed slot is NULL whose newest item has this header.
+NullReason reason_of(const SlotRecord& record, const ItemHeader& header) noexcept;
 
 /// One thread's, which is not real-time. Memory for a slot's value is allocated when it is first asked for.
 class ObservedSlots {
@@ -26,7 +30,7 @@ class ObservedSlots {
   std::uint64_t turn() const noexcept { return turn_; }
   /// As of this turn. Not for slots of images. Valid until the slot is read in another turn.
   const ObservedSlot& read(std::uint16_t slot);
-  /// Of an observed slot whose value is had in another way, as a picture is: all but the value, as of now.
+  /// Of an observed slot whose value is had in another way, as a picture is: all but the values, as of now.
   ObservedSlot read_header(std::uint16_t slot);
   std::size_t size(std::uint16_t slot) const noexcept {
     return cell_->application().slots[slot].control->type()->size;

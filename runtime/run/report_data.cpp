@@ -4,8 +4,6 @@
 #include <cstring>
 
 #include "runtime/core/text_table.hpp"
-#include "runtime/executive/schedulability.hpp"
-#include "runtime/executive/slot_readers.hpp"
 #include "runtime/executive/supervision.hpp"
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
@@ -13,104 +11,29 @@
 namespace flexrf {
 namespace {
 
-MeasuredDurations measured(const Histogram& histogram) {
-  return {histogram.count(), histogram.quantile(0.5), histogram.quantile(0.99), histogram.quantile(0.999),
-          histogram.maximum()};
-}
-
 /// The others are still running when the application is given up: they are in a step now and then.
 bool hangs(const ThreadRecord& thread, const ThreadState& state, Time now) noexcept {
   const std::int64_t began = state.step_began.load();
   return began != 0 && now - Time{Duration{began}} > Supervision::hang_timeout(thread);
 }
 
-std::vector<ThreadReport> collect_threads(const Application& application, const RunSummary& summary) {
-  std::vector<ThreadReport> threads(application.threads.size());
-  for (std::size_t i = 0; i < threads.size(); ++i) {
-    const ThreadState& state = application.thread_states[i];
-    ThreadReport& thread = threads[i];
-    thread.record = &application.threads[i];
-    thread.cycles = state.cycles.load();
-    thread.overruns = state.overruns.load();
-    thread.skipped = state.skipped.load();
-    thread.skipped_time = Duration{state.skipped_time.load()};
-    thread.longest_standstill = Duration{state.longest_standstill.load()};
-    thread.allocations = state.allocations.load();
-    thread.minor_faults = state.minor_faults.load();
-    thread.major_faults = state.major_faults.load();
-    thread.voluntary_switches = state.voluntary_switches.load();
-    thread.involuntary_switches = state.involuntary_switches.load();
-    thread.lateness = measured(state.lateness);
-    thread.execution = measured(state.execution);
-    thread.hangs = summary.stuck && hangs(*thread.record, state, MonotonicClock::now());
-  }
-  // Simulated threads disturb nobody, ordinary ones are promised nothing.
-  if (!summary.realtime) return threads;
-  const Result<MachineFile> machine = MachineFile::of_this_machine();
-  if (!machine) return threads;
-  const auto estimates = estimate_response_times(application, *machine);
-  for (std::size_t i = 0; i < threads.size(); ++i) {
-    if (estimates[i]) threads[i].response_estimate = estimates[i]->result.response;
+std::vector<ThreadReport> collect_threads(const Application& application, const Statistics& statistics,
+                                          const RunSummary& summary) {
+  const std::vector<std::optional<Duration>> responses = response_estimates(application, summary.realtime);
+  std::vector<ThreadReport> threads;
+  for (std::size_t i = 0; i < application.threads.size(); ++i) {
+    ThreadReport& thread = threads.emplace_back(ThreadReport{statistics.thread(i), false, responses[i]});
+    thread.hangs =
+        summary.stuck && hangs(*thread.record, application.thread_states[i], MonotonicClock::now());
   }
   return threads;
 }
 
-ComponentReport collect_component(const Cell& cell, ComponentIndex index) {
-  const ComponentState& state = cell.application().component_state(index);
-  ComponentReport component;
-  component.name = cell.component_name(index);
-  component.life = state.life.load();
-  if (component.life == Life::fault) component.fault = state.fault.read().cause();
-  component.restraints = state.restraint.count();
-  return component;
-}
-
-std::vector<ComponentReport> collect_units(const Cell& cell) {
-  const Application& application = cell.application();
-  std::vector<ComponentReport> units;
-  for (std::size_t i = 0; i < application.units.size(); ++i) {
-    const UnitState& state = application.unit_states[i];
-    ComponentReport& unit = units.emplace_back(collect_component(cell, static_cast<ComponentIndex>(i)));
-    unit.active = state.active.load();
-    unit.steps = state.steps.load();
-    unit.budget = application.units[i].budget;
-    unit.execution_maximum = Duration{state.execution_maximum.load()};
-    if (unit.steps > 0)
-      unit.execution_mean = Duration{state.execution_total.load() / static_cast<std::int64_t>(unit.steps)};
-  }
-  return units;
-}
-
-std::vector<ComponentReport> collect_devices(const Cell& cell) {
-  std::vector<ComponentReport> devices;
-  for (std::size_t i = 0; i < cell.application().devices.size(); ++i) {
-    const auto device = static_cast<std::uint16_t>(i);
-    devices.push_back(collect_component(cell, cell.application().devices[i].index));
-    devices.back().driver = cell.driver(device).name;
-  }
-  return devices;
-}
-
-std::vector<SlotReport> collect_slots(const Application& application) {
-  const std::vector<std::vector<SlotInput>> readers = readers_of_slots(application);
-  std::vector<SlotReport> slots;
-  for (std::size_t i = 0; i < application.slots.size(); ++i) {
-    const SlotRecord& record = application.slots[i];
-    SlotReport& slot = slots.emplace_back(SlotReport{&record, record.control->published(), {}});
-    for (const SlotInput& input : readers[i])
-      slot.readers.push_back({input.name, input.counters(application)});
-  }
-  return slots;
-}
-
-std::vector<QueueReport> collect_queues(const Application& application) {
-  std::vector<QueueReport> queues;
-  for (const QueueRecord& record : application.queues) {
-    QueueReport queue{&record, {}};
-    for (const QueueSink* sink : record.sinks) queue.writers.push_back(sink->counters());
-    queues.push_back(std::move(queue));
-  }
-  return queues;
+template <class Records>
+std::vector<ComponentFigures> collect(const Statistics& statistics, const Records& records) {
+  std::vector<ComponentFigures> components;
+  for (const ComponentRecord& record : records) components.push_back(statistics.component(record.index));
+  return components;
 }
 
 std::string name_of_signal(int signal) {
@@ -122,21 +45,19 @@ std::string name_of_signal(int signal) {
 std::string blame(const ReportData& data) {
   if (!data.summary.start_failure) return std::string{"not started: "} + data.summary.start_failure.cause();
   for (const auto* components : {&data.devices, &data.units}) {
-    for (const ComponentReport& component : *components) {
-      if (!component.fault.empty()) return std::string{component.name} + ": " + component.fault;
+    for (const ComponentFigures& component : *components) {
+      if (!component.fault) return std::string{component.record->name} + ": " + component.fault.cause();
     }
   }
   for (const ThreadReport& thread : data.threads) {
     if (thread.hangs) return "thread " + std::string{thread.record->name} + ": its step does not return";
   }
-  for (const ThreadReport& thread : data.threads) {
-    if (thread.longest_standstill.count() > 0) {
-      return "thread " + std::string{thread.record->name} + " stood still for " +
-             duration_text(thread.longest_standstill);
-    }
+  for (std::size_t place = data.fault_places.thread(0); place < data.fault_places.count(); ++place) {
+    if (data.fault_places.extent(place) == 0) continue;
+    const FaultPlaces::Fault fault = data.fault_places.at(place);
+    if (place == data.fault_places.process()) return "the process " + fault.cause;
+    return std::string{fault.kind} + " " + fault.name + " " + fault.cause;
   }
-  if (data.longest_standstill.count() > 0)
-    return "the process stood still for " + duration_text(data.longest_standstill);
   if (data.faults > 0)
     return std::to_string(data.faults) +
            (data.faults == 1 ? " fault, restarted by policy" : " faults, restarted by policy");
@@ -175,25 +96,23 @@ std::string ending_of(const ReportData& data) {
 
 }  // namespace
 
-ReportData collect_report(const Cell& cell, const RunSummary& summary) {
-  const Application& application = cell.application();
-  ReportData data;
-  data.application = &application;
-  data.summary = summary;
-  data.threads = collect_threads(application, summary);
-  data.units = collect_units(cell);
-  data.devices = collect_devices(cell);
-  data.slots = collect_slots(application);
-  data.queues = collect_queues(application);
-  if (const Result<ProcessStatistics> process = read_process_statistics()) data.process = *process;
-  data.faults = cell.control().faults();
-  data.longest_standstill = cell.control().longest_standstill();
-  data.unwritten_log_lines = unwritten_log_lines();
-  data.warnings = logged_warnings();
-  data.dropped_log_messages = dropped_log_messages();
-  data.guarded = has_allocation_guard();
-  data.ending = ending_of(data);
-  return data;
+ReportData::ReportData(const Cell& cell, const RunSummary& run)
+    : application(&cell.application()),
+      summary(run),
+      statistics(cell),
+      fault_places(cell),
+      threads(collect_threads(*application, statistics, summary)),
+      units(collect(statistics, application->units)),
+      devices(collect(statistics, application->devices)),
+      faults(cell.control().faults()),
+      longest_standstill(cell.control().longest_standstill()),
+      dropped_log_messages(flexrf::dropped_log_messages()),
+      unwritten_log_lines(flexrf::unwritten_log_lines()),
+      warnings(logged_warnings()),
+      guarded(has_allocation_guard()) {
+  if (const Result<ProcessStatistics> statistics_of_it = read_process_statistics())
+    process = *statistics_of_it;
+  ending = ending_of(*this);
 }
 
 }  // namespace flexrf

@@ -1,6 +1,7 @@
 // The final report for programs.
 #include "runtime/core/json_writer.hpp"
 #include "runtime/core/value_json.hpp"
+#include "runtime/face/json_parts.hpp"
 #include "runtime/realtime/response_time.hpp"
 #include "runtime/run/report.hpp"
 #include "runtime/run/report_data.hpp"
@@ -8,11 +9,10 @@
 namespace flexrf {
 namespace {
 
-void write_durations(JsonWriter& json, const char* name, const MeasuredDurations& measured) {
+void write_durations(JsonWriter& json, const char* name, const Histogram& histogram) {
   json.key(name).begin_object();
-  json.member("count", measured.count).member("p50_ns", measured.p50.count());
-  json.member("p99_ns", measured.p99.count()).member("p99.9_ns", measured.p999.count());
-  json.member("max_ns", measured.maximum.count()).end_object();
+  write_quantiles(json, histogram);
+  json.end_object();
 }
 
 void write_run(JsonWriter& json, const ReportData& data) {
@@ -43,13 +43,9 @@ void write_threads(JsonWriter& json, const ReportData& data) {
   json.key("threads").begin_array();
   for (const ThreadReport& thread : data.threads) {
     json.begin_object().member("name", thread.record->name).member("priority", thread.record->priority);
-    json.member("cycles", thread.cycles)
-        .member("overruns", thread.overruns)
-        .member("skipped", thread.skipped)
-        .member("skipped_time_ns", thread.skipped_time.count())
-        .member("longest_standstill_ns", thread.longest_standstill.count());
-    write_durations(json, "lateness", thread.lateness);
-    write_durations(json, "execution", thread.execution);
+    write_cycles(json, thread);
+    write_durations(json, "lateness", *thread.lateness);
+    write_durations(json, "execution", *thread.execution);
     json.member("budget_ns", thread.record->budget.count());
     json.member("deadline_ns", thread.record->deadline.count());
     json.key("response_estimate_ns");
@@ -67,36 +63,31 @@ void write_threads(JsonWriter& json, const ReportData& data) {
   json.end_array().member("response_estimate_meaning", response_time_label);
 }
 
-void write_fault(JsonWriter& json, const std::string& fault) {
-  json.key("fault");
-  if (fault.empty()) {
+void write_end(JsonWriter& json, const ComponentFigures& component) {
+  json.member("restraints", component.restraints).key("fault");
+  if (component.fault) {
     json.null();
   } else {
-    json.value(fault);
+    json.value(component.fault.cause());
   }
+  json.end_object();
 }
 
 void write_components(JsonWriter& json, const ReportData& data) {
   json.key("units").begin_array();
-  for (const ComponentReport& unit : data.units) {
-    json.begin_object()
-        .member("name", unit.name)
-        .member("life", name_of(unit.life))
-        .member("active", unit.active);
-    json.member("steps", unit.steps).member("budget_ns", unit.budget.count());
+  for (const ComponentFigures& unit : data.units) {
+    json.begin_object().member("name", unit.record->name).member("life", name_of(unit.life));
+    json.member("active", unit.active).member("steps", unit.steps);
+    json.member("budget_ns", unit.record->budget.count());
     json.member("execution_mean_ns", unit.execution_mean.count());
     json.member("execution_max_ns", unit.execution_maximum.count());
-    json.member("restraints", unit.restraints);
-    write_fault(json, unit.fault);
-    json.end_object();
+    write_end(json, unit);
   }
   json.end_array().key("devices").begin_array();
-  for (const ComponentReport& device : data.devices) {
-    json.begin_object().member("name", device.name).member("driver", device.driver);
+  for (const ComponentFigures& device : data.devices) {
+    json.begin_object().member("name", device.record->name).member("driver", device.driver);
     json.member("life", name_of(device.life));
-    json.member("restraints", device.restraints);
-    write_fault(json, device.fault);
-    json.end_object();
+    write_end(json, device);
   }
   json.end_array();
 }
@@ -105,52 +96,41 @@ void write_components(JsonWriter& json, const ReportData& data) {
 constexpr std::uint32_t largest_value = 4096;
 
 /// What the slot held at the end, whatever became of its writer; null: nothing, not observed, or too large.
-void write_last_value(JsonWriter& json, const SlotRecord& slot) {
-  const TypeDescriptor& type = *slot.control->type();
+void write_last_value(JsonWriter& json, ObservedSlots& slots, std::size_t slot, const TypeDescriptor& type) {
   json.key("last");
-  const ItemHeader* item = nullptr;
-  if (slot.observer != nullptr && !type.is_image && type.size <= largest_value)
-    item = slot.observer->newest();
-  if (item == nullptr) {
+  const ObservedSlot* const newest =
+      type.is_image || type.size > largest_value ? nullptr : &slots.read(static_cast<std::uint16_t>(slot));
+  if (newest == nullptr || newest->last == nullptr) {
     json.null();
     return;
   }
-  json.begin_object().member("sequence", item->sequence).member("time_ns", nanoseconds(item->sampled_at));
-  json.key("value");
-  write_value(json, type, slot.observer->payload());
+  json.begin_object().member("sequence", newest->header.sequence);
+  json.member("time_ns", nanoseconds(newest->header.sampled_at)).key("value");
+  write_value(json, type, newest->last);
   json.end_object();
 }
 
 void write_slots(JsonWriter& json, const ReportData& data, const Cell& cell) {
-  const auto lock = cell.observe();
+  ObservedSlots newest(cell);
   json.key("slots").begin_array();
-  for (const SlotReport& slot : data.slots) {
-    json.begin_object().member("name", slot.record->name).member("writer", slot.record->writer);
-    json.member("type", slot.record->control->type()->name).member("published", slot.published);
-    write_last_value(json, *slot.record);
-    json.key("readers").begin_array();
-    for (const SlotReaderReport& reader : slot.readers) {
-      json.begin_object().member("name", reader.reader).member("read", reader.counters.read);
-      json.member("missed", reader.counters.missed).end_object();
-    }
-    json.end_array().end_object();
+  for (std::size_t i = 0; i < data.application->slots.size(); ++i) {
+    const SlotRecord& slot = data.application->slots[i];
+    const TypeDescriptor& type = *slot.control->type();
+    json.begin_object().member("name", slot.name).member("writer", slot.writer);
+    json.member("type", type.name).member("published", slot.control->published());
+    write_last_value(json, newest, i, type);
+    write_readers(json, data.statistics, i);
+    json.end_object();
   }
   json.end_array();
 }
 
 void write_queues(JsonWriter& json, const ReportData& data) {
   json.key("queues").begin_array();
-  for (const QueueReport& queue : data.queues) {
-    json.begin_object().member("name", queue.record->name).member("type", queue.record->type->name);
-    json.member("capacity", queue.record->capacity).key("writers").begin_array();
-    for (std::size_t i = 0; i < queue.writers.size(); ++i) {
-      json.begin_object().member("name", i < queue.record->writers.size() ? queue.record->writers[i] : "");
-      json.member("pushed", queue.writers[i].pushed).member("popped", queue.writers[i].popped);
-      json.member("dropped", queue.writers[i].dropped).end_object();
-    }
-    json.end_array().key("readers").begin_array();
-    for (const char* reader : queue.record->readers) json.value(reader);
-    json.end_array().end_object();
+  for (const QueueRecord& queue : data.application->queues) {
+    json.begin_object().member("name", queue.name).member("type", queue.type->name);
+    write_queue(json, queue);
+    json.end_object();
   }
   json.end_array();
 }
@@ -167,7 +147,7 @@ void write_memory(JsonWriter& json, const ReportData& data) {
 }  // namespace
 
 std::string report_json(const Cell& cell, const RunSummary& summary) {
-  const ReportData data = collect_report(cell, summary);
+  const ReportData data(cell, summary);
   char hash[20];
   std::snprintf(hash, sizeof(hash), "%016llx",
                 static_cast<unsigned long long>(data.application->descriptor_hash));

@@ -49,12 +49,13 @@ std::string threads_text(const ReportData& data) {
                 or_nothing(thread.minor_faults + thread.major_faults), or_nothing(thread.voluntary_switches),
                 or_nothing(thread.involuntary_switches), or_nothing(thread.allocations)});
     if (thread.cycles == 0) continue;
-    const auto row = [name](const MeasuredDurations& measured) {
-      return std::vector<std::string>{name, duration_text(measured.p50), duration_text(measured.p99),
-                                      duration_text(measured.p999), duration_text(measured.maximum)};
+    const auto row = [name](const Histogram& measured) {
+      return std::vector<std::string>{
+          name, duration_text(measured.quantile(0.5)), duration_text(measured.quantile(0.99)),
+          duration_text(measured.quantile(0.999)), duration_text(measured.maximum())};
     };
-    lateness.add(row(thread.lateness));
-    std::vector<std::string> cells = row(thread.execution);
+    lateness.add(row(*thread.lateness));
+    std::vector<std::string> cells = row(*thread.execution);
     cells.push_back(thread.record->budget.count() > 0 ? duration_text(thread.record->budget) : "");
     cells.push_back(thread.record->deadline.count() > 0 ? duration_text(thread.record->deadline) : "");
     if (thread.response_estimate) {
@@ -80,7 +81,7 @@ std::string threads_text(const ReportData& data) {
   return text;
 }
 
-std::string life_of(const ComponentReport& component) {
+std::string life_of(const ComponentFigures& component) {
   return component.active ? name_of(component.life) : "not active";
 }
 
@@ -88,16 +89,16 @@ std::string units_text(const ReportData& data) {
   if (data.units.empty()) return {};
   TextTable table({"unit", "<life", "steps", "mean", "max", "budget"});
   std::size_t idle = 0;
-  for (const ComponentReport& unit : data.units) {
+  for (const ComponentFigures& unit : data.units) {
     // A population of hundreds must not hide the rest.
-    if (!unit.active && unit.steps == 0 && unit.fault.empty()) {
+    if (!unit.active && unit.steps == 0 && unit.fault) {
       ++idle;
       continue;
     }
-    table.add({unit.name, life_of(unit), std::to_string(unit.steps),
+    table.add({unit.record->name, life_of(unit), std::to_string(unit.steps),
                data.summary.virtual_time ? "" : duration_text(unit.execution_mean),
                data.summary.virtual_time ? "" : duration_text(unit.execution_maximum),
-               unit.budget.count() > 0 ? duration_text(unit.budget) : ""});
+               unit.record->budget.count() > 0 ? duration_text(unit.record->budget) : ""});
   }
   std::string text = "\nUnits\n" + table.text("  ");
   if (idle > 0) text += "  and " + std::to_string(idle) + " members that were never active\n";
@@ -107,27 +108,29 @@ std::string units_text(const ReportData& data) {
 std::string devices_text(const ReportData& data) {
   if (data.devices.empty()) return {};
   TextTable table({"device", "<driver", "<life", "restrained"});
-  for (const ComponentReport& device : data.devices)
-    table.add({device.name, device.driver, life_of(device), or_nothing(device.restraints)});
+  for (const ComponentFigures& device : data.devices)
+    table.add({device.record->name, device.driver, life_of(device), or_nothing(device.restraints)});
   return "\nDevices\n" + table.text("  ");
 }
 
 std::string slots_text(const ReportData& data) {
   TextTable table({"slot", "published", "<writer", "<reader", "read", "missed"});
   std::uint64_t others = 0;
-  for (const SlotReport& slot : data.slots) {
-    if (*slot.record->writer == '\0') {
+  for (std::size_t i = 0; i < data.application->slots.size(); ++i) {
+    const SlotRecord& slot = data.application->slots[i];
+    if (*slot.writer == '\0') {
       ++others;
       continue;
     }
-    std::vector<std::string> cells{slot.record->name, std::to_string(slot.published), slot.record->writer};
-    for (const SlotReaderReport& reader : slot.readers) {
-      cells.insert(cells.end(), {reader.reader, std::to_string(reader.counters.read),
-                                 std::to_string(reader.counters.missed)});
+    std::vector<std::string> cells{slot.name, std::to_string(slot.control->published()), slot.writer};
+    for (const SlotInput& reader : data.statistics.readers(i)) {
+      const InputCounters counters = data.statistics.counters(reader);
+      cells.insert(cells.end(),
+                   {reader.name, std::to_string(counters.read), std::to_string(counters.missed)});
       table.add(std::move(cells));
       cells = {"", "", ""};
     }
-    if (slot.readers.empty()) table.add(std::move(cells));
+    if (data.statistics.readers(i).empty()) table.add(std::move(cells));
   }
   if (table.is_empty()) return {};
   std::string text = "\nSlots\n" + table.text("  ");
@@ -136,15 +139,13 @@ std::string slots_text(const ReportData& data) {
 }
 
 std::string queues_text(const ReportData& data) {
-  if (data.queues.empty()) return {};
   TextTable table({"queue", "capacity", "<writer", "pushed", "popped", "dropped"});
-  for (const QueueReport& queue : data.queues) {
-    std::string name = queue.record->name;
-    std::string capacity = std::to_string(queue.record->capacity);
-    for (std::size_t i = 0; i < queue.writers.size(); ++i) {
-      const QueueCounters& counters = queue.writers[i];
-      table.add({name, capacity, i < queue.record->writers.size() ? queue.record->writers[i] : "",
-                 std::to_string(counters.pushed), std::to_string(counters.popped),
+  for (const QueueRecord& queue : data.application->queues) {
+    std::string name = queue.name;
+    std::string capacity = std::to_string(queue.capacity);
+    for (std::size_t i = 0; i < queue.sinks.size(); ++i) {
+      const auto [writer, counters] = Statistics::writer(queue, i);
+      table.add({name, capacity, writer, std::to_string(counters.pushed), std::to_string(counters.popped),
                  std::to_string(counters.dropped)});
       name.clear();
       capacity.clear();
@@ -157,18 +158,19 @@ std::string faults_text(const ReportData& data) {
   if (data.faults == 0 && !data.summary.had_fault) return "\nFaults: none\n";
   TextTable table({"component", "<cause"});
   for (const auto* components : {&data.devices, &data.units}) {
-    for (const ComponentReport& component : *components) {
-      if (!component.fault.empty()) table.add({component.name, cut_text(component.fault, longest_cause)});
+    for (const ComponentFigures& component : *components) {
+      if (!component.fault)
+        table.add({component.record->name, cut_text(component.fault.cause(), longest_cause)});
     }
   }
-  for (const ThreadReport& thread : data.threads) {
-    if (thread.hangs) table.add({thread.record->name, "this thread's step does not return"});
-    if (thread.longest_standstill.count() > 0)
-      table.add({thread.record->name, "stood still for " + duration_text(thread.longest_standstill)});
+  const FaultPlaces& places = data.fault_places;
+  for (std::size_t i = 0; i < data.threads.size(); ++i) {
+    const char* const name = data.threads[i].record->name;
+    if (data.threads[i].hangs) table.add({name, "this thread's step does not return"});
+    if (places.extent(places.thread(i)) > 0) table.add({name, places.at(places.thread(i)).cause});
   }
-  if (data.longest_standstill.count() > 0)
-    table.add(
-        {data.application->name, "the process stood still for " + duration_text(data.longest_standstill)});
+  if (places.extent(places.process()) > 0)
+    table.add({data.application->name, "the process " + places.at(places.process()).cause});
   std::string text = "\nFaults: " + std::to_string(std::max<std::uint64_t>(data.faults, 1)) + " in all\n";
   return table.is_empty() ? text : text + table.text("  ");
 }
@@ -218,7 +220,7 @@ std::string guard_text(const ReportData& data) {
 }  // namespace
 
 std::string report_text(const Cell& cell, const RunSummary& summary) {
-  const ReportData data = collect_report(cell, summary);
+  const ReportData data(cell, summary);
   return heading(data) + threads_text(data) + units_text(data) + devices_text(data) + slots_text(data) +
          queues_text(data) + faults_text(data) + values_text(data) + memory_text(data) + guard_text(data) +
          "\n" + data.ending + "\n";

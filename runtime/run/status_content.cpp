@@ -31,6 +31,10 @@ std::string number_text(double number, bool whole) {
   return text;
 }
 
+std::string budget_text(Duration budget) {
+  return budget.count() > 0 ? duration_text(budget) : "";
+}
+
 /// Text for a glance: four digits, the unit of measure behind.
 std::string glance_at(const FieldDescriptor& field, const void* structure) {
   constexpr std::uint32_t most_elements = 8;
@@ -63,8 +67,6 @@ std::string feedback_text(const TypeDescriptor& type, const void* values) {
 
 }  // namespace
 
-StatusContent::StatusContent(Cell& cell) : cell_(&cell), cycles_(cell.application().threads.size()) {}
-
 StatusLine StatusContent::heading(Time now) const {
   const Control& control = cell_->control();
   std::string text = std::string{cell_->application().name} + "  " + phrase_of(control.mode());
@@ -77,38 +79,35 @@ StatusLine StatusContent::heading(Time now) const {
   return {control.motion_stopped() ? Style::alarm : Style::title, text};
 }
 
+/// Of components: what stood still is long past.
 std::vector<StatusLine> StatusContent::faults() const {
   std::vector<StatusLine> lines;
-  const Application& application = cell_->application();
-  for (ComponentIndex i = 0; i < application.component_count(); ++i) {
-    const ComponentState& state = application.component_state(i);
-    if (state.is_in_fault())
-      lines.push_back({Style::alarm, "fault: " + std::string{application.component(i).name} + ": " +
-                                         state.fault.read().cause()});
+  for (std::size_t place = 0; place < faults_.thread(0); ++place) {
+    if (faults_.extent(place) == 0) continue;
+    const FaultPlaces::Fault fault = faults_.at(place);
+    lines.push_back({Style::alarm, "fault: " + std::string{fault.name} + ": " + fault.cause});
   }
   return lines;
 }
 
 StatusContent::Section StatusContent::threads(Time now) {
-  const Application& application = cell_->application();
   TextTable table({"thread", "per second", "cycles", "overruns", "late p50", "late p99", "step p50",
                    "step p99", "budget"});
   const double elapsed = last_ == Time{} ? 0 : seconds(now - last_);
-  for (std::size_t i = 0; i < application.threads.size(); ++i) {
-    const ThreadState& state = application.thread_states[i];
-    const std::uint64_t cycles = state.cycles.load(std::memory_order_relaxed);
+  for (std::size_t i = 0; i < cycles_.size(); ++i) {
+    const ThreadFigures thread = statistics_.thread(i);
     const std::string rate =
-        elapsed > 0 ? number_text(static_cast<double>(cycles - cycles_[i]) / elapsed, true) : std::string{};
-    cycles_[i] = cycles;
-    std::vector<std::string> cells{application.threads[i].name, rate, std::to_string(cycles),
-                                   std::to_string(state.overruns.load(std::memory_order_relaxed))};
-    if (cycles > 0) {
-      for (const Histogram* histogram : {&state.lateness, &state.execution}) {
+        elapsed > 0 ? number_text(static_cast<double>(thread.cycles - cycles_[i]) / elapsed, true)
+                    : std::string{};
+    cycles_[i] = thread.cycles;
+    std::vector<std::string> cells{thread.record->name, rate, std::to_string(thread.cycles),
+                                   std::to_string(thread.overruns)};
+    if (thread.cycles > 0) {
+      for (const Histogram* histogram : {thread.lateness, thread.execution}) {
         cells.push_back(duration_text(histogram->quantile(0.5)));
         cells.push_back(duration_text(histogram->quantile(0.99)));
       }
-      const Duration budget = application.threads[i].budget;
-      cells.push_back(budget.count() > 0 ? duration_text(budget) : "");
+      cells.push_back(budget_text(thread.record->budget));
     }
     table.add(std::move(cells));
   }
@@ -116,43 +115,33 @@ StatusContent::Section StatusContent::threads(Time now) {
 }
 
 StatusContent::Section StatusContent::units() const {
-  const Application& application = cell_->application();
   TextTable table({"unit", "<life", "steps", "longest", "budget", "<device"});
-  for (std::size_t i = 0; i < application.units.size(); ++i) {
-    const UnitState& state = application.unit_states[i];
-    if (!state.active.load(std::memory_order_relaxed)) continue;
+  for (const UnitRecord& record : cell_->application().units) {
+    const ComponentFigures unit = statistics_.component(record.index);
+    if (!unit.active) continue;
     std::string devices;
-    for (const std::uint16_t device : cell_->devices_of(static_cast<std::uint16_t>(i))) {
-      devices += (devices.empty() ? "" : ", ") + std::string{application.devices[device].name} + " (" +
-                 cell_->driver(device).name + ")";
+    for (const std::uint16_t device : cell_->devices_of(record.index)) {
+      const ComponentIndex index = cell_->application().devices[device].index;
+      devices += (devices.empty() ? "" : ", ") + std::string{directory_.entry(index).name} + " (" +
+                 cell_->driver_name(index) + ")";
     }
-    const Duration budget = application.units[i].budget;
-    table.add({application.units[i].name, name_of(state.life.load(std::memory_order_acquire)),
-               std::to_string(state.steps.load(std::memory_order_relaxed)),
-               duration_text(Duration{state.execution_maximum.load(std::memory_order_relaxed)}),
-               budget.count() > 0 ? duration_text(budget) : "", devices});
+    table.add({record.name, name_of(unit.life), std::to_string(unit.steps),
+               duration_text(unit.execution_maximum), budget_text(record.budget), devices});
   }
   return {lines_of(table), "units"};
 }
 
-StatusContent::Section StatusContent::feedback() const {
-  const Application& application = cell_->application();
-  const auto lock = cell_->observe();
+StatusContent::Section StatusContent::feedback() {
+  slots_.begin_turn();
   TextTable table({"feedback", "<"});
-  const auto add = [&](const char* name, const SlotControl* control) {
-    if (control == nullptr) return;
-    for (const SlotRecord& slot : application.slots) {
-      if (slot.control != control || slot.observer == nullptr) continue;
-      // The writer's state is not asked: the last feedback of a unit in fault is what one wants to see.
-      if (slot.observer->newest() == nullptr) return;
-      const std::string text = feedback_text(*control->type(), slot.observer->payload());
-      if (!text.empty()) table.add({name, text});
-      return;
-    }
-  };
-  for (ComponentIndex i = 0; i < application.component_count(); ++i) {
-    if (application.component_state(i).active.load(std::memory_order_relaxed))
-      add(application.component(i).name, application.component(i).feedback_slot);
+  for (ComponentIndex i = 0; i < directory_.component_count(); ++i) {
+    const ComponentEntry& entry = directory_.entry(i);
+    if (entry.feedback_slot == no_index || !statistics_.component(i).active) continue;
+    // The last feedback of a unit in fault is what one wants to see.
+    const void* const last = slots_.read(entry.feedback_slot).last;
+    if (last == nullptr) continue;
+    const std::string text = feedback_text(*entry.type->feedback.type, last);
+    if (!text.empty()) table.add({entry.name, text});
   }
   if (table.is_empty()) return {};
   return {lines_of(table), "values"};
@@ -161,13 +150,14 @@ StatusContent::Section StatusContent::feedback() const {
 /// Who reads keys says in its summary what they do.
 StatusLine StatusContent::keys() const {
   std::string text = "Ctrl-C ends.";
-  for (const UnitRecord& unit : cell_->application().units) {
-    for (const PortDescriptor& port : unit.type->ports) {
+  for (ComponentIndex i = 0; i < directory_.component_count(); ++i) {
+    const ComponentEntry& entry = directory_.entry(i);
+    for (const PortDescriptor& port : entry.type->ports) {
       using Direction = PortDescriptor::Direction;
       if (port.direction == Direction::queue_input && std::strcmp(port.type, "KeyEvent") == 0) {
-        text += std::string{"  "} + unit.name + ": " + unit.summary;
+        text += std::string{"  "} + entry.name + ": " + entry.record->summary;
       } else if (port.direction == Direction::device && std::strcmp(port.type, "Keyboard") == 0) {
-        text += std::string{"  "} + unit.name + ": " + port.summary;
+        text += std::string{"  "} + entry.name + ": " + port.summary;
       }
     }
   }

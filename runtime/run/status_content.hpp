@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/executive/cell.hpp"
+#include "runtime/face/directory.hpp"
+#include "runtime/face/observed_slots.hpp"
+#include "runtime/face/statistics.hpp"
 
 namespace flexrf {
 
@@ -15,11 +17,16 @@ struct StatusLine {
   std::string text;
 };
 
-/// Reads what the threads publish of themselves, and feedback as the observer: the observer's thread only.
-/// Allocates.
+/// One thread, which is not real-time. Allocates.
 class StatusContent {
  public:
-  explicit StatusContent(Cell& cell);
+  explicit StatusContent(const Cell& cell)
+      : cell_(&cell),
+        directory_(cell),
+        slots_(cell),
+        statistics_(cell),
+        faults_(cell),
+        cycles_(cell.application().threads.size()) {}
 
   /// At most `rows` lines. What does not fit is left out from the least important on: feedback, then units,
   /// then threads; faults stay.
@@ -35,10 +42,14 @@ class StatusContent {
   std::vector<StatusLine> faults() const;
   Section threads(Time now);
   Section units() const;
-  Section feedback() const;
+  Section feedback();
   StatusLine keys() const;
 
-  Cell* cell_;
+  const Cell* cell_;
+  Directory directory_;
+  ObservedSlots slots_;
+  Statistics statistics_;
+  FaultPlaces faults_;
   Time begun_{};                       // when the mode was first seen to be running
   Time last_{};                        // of the call before
   std::vector<std::uint64_t> cycles_;  // of each thread, at the call before

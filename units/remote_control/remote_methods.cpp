@@ -186,16 +186,11 @@ RemoteControl::Problem RemoteControl::read_subscription(JsonElement json, Subscr
                       "from 0.01 to 60 values in a second"};
   }
   if (auto problem = view_->find_slot(slot_name, subscription.slot)) return problem;
-  const SlotRecord& record = cell.cell().application().slots[subscription.slot];
-  const TypeDescriptor& type = *record.control->type();
-  if (record.observer == nullptr) {
+  if (view_->slot(subscription.slot).observer == nullptr) {
     return RpcProblem{RpcError::refused, "'" + std::string{slot_name} + "' is not observed",
                       "its table says observe = false"};
   }
-  if (type.is_image || type.size > remote::RemoteView::largest_value) {
-    return RpcProblem{RpcError::too_large, "'" + std::string{slot_name} + "' holds a picture, or too much",
-                      "look at it in the panel"};
-  }
+  if (auto problem = view_->too_much(subscription.slot)) return problem;
   subscription.interval = duration_of(1.0 / rate);
   subscription.next = now_;
   return std::nullopt;
@@ -250,8 +245,7 @@ void RemoteControl::tell_subscriptions(Client& client, const RpcCall& call) {
   if (call.id.empty()) return;
   say(client, call.id, remote::result_line(call.id, [&](JsonWriter& json) {
         json.begin_object().key("slots").begin_array();
-        for (const Subscription& one : client.subscriptions)
-          json.value(cell.cell().application().slots[one.slot].name);
+        for (const Subscription& one : client.subscriptions) json.value(view_->slot(one.slot).name);
         json.end_array().end_object();
       }));
 }

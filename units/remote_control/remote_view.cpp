@@ -1,7 +1,7 @@
 #include "units/remote_control/remote_view.hpp"
 
 #include "runtime/core/nearest_name.hpp"
-#include "runtime/core/value_json.hpp"
+#include "runtime/face/json_parts.hpp"
 #include "units/remote_control/remote_change.hpp"
 
 namespace flexrf::remote {
@@ -33,6 +33,14 @@ std::optional<RpcProblem> RemoteView::find_component(std::string_view name, Comp
   return std::nullopt;
 }
 
+std::optional<RpcProblem> RemoteView::too_much(std::uint16_t slot) const {
+  const SlotRecord& record = application().slots[slot];
+  const TypeDescriptor& type = *record.control->type();
+  if (!type.is_image && type.size <= largest_value) return std::nullopt;
+  return RpcProblem{RpcError::too_large, "'" + std::string{record.name} + "' holds a picture, or too much",
+                    "look at it in the panel"};
+}
+
 // ---- list
 
 std::optional<RpcProblem> RemoteView::list(Fields& params, JsonWriter& json, std::size_t room) {
@@ -46,11 +54,11 @@ std::optional<RpcProblem> RemoteView::list(Fields& params, JsonWriter& json, std
   if (of == "slots") {
     count = application().slots.size();
   } else if (of == "components") {
-    count = cell_->component_count();
+    count = directory_.component_count();
   } else if (of == "parameters") {
     ComponentIndex component = 0;
     if (auto problem = find_component(name, component)) return problem;
-    const ComponentType& type = cell_->component_type(component);
+    const ComponentType& type = *directory_.entry(component).type;
     blocks[0] = &type.configuration, blocks[1] = &type.runtime, blocks[2] = &type.feedback;
     for (const ParameterBlock* block : blocks) count += block->parameters.size();
   } else {
@@ -72,9 +80,8 @@ std::optional<RpcProblem> RemoteView::list(Fields& params, JsonWriter& json, std
       entry.member("observed", slot.observer != nullptr);
     } else if (of == "components") {
       const auto component = static_cast<ComponentIndex>(next);
-      entry.member("name", cell_->component_name(component));
-      entry.member("kind", application().component(component).kind);
-      entry.member("type", cell_->component_type(component).name);
+      const ComponentEntry& known = directory_.entry(component);
+      entry.member("name", known.name).member("kind", known.record->kind).member("type", known.type->name);
     } else {
       static constexpr const char* kinds[] = {"configuration", "runtime", "feedback"};
       std::size_t kind = 0;
@@ -114,14 +121,7 @@ void RemoteView::list_parameter(JsonWriter& json, const char* kind,
 void RemoteView::write_slot(JsonWriter& json, std::uint16_t slot, const ObservedSlot& seen) const {
   const SlotRecord& record = application().slots[slot];
   json.member("name", record.name).member("type", record.control->type()->name);
-  json.member("reason", seen.reason == NullReason::none ? "" : name_of(seen.reason));
-  json.member("sequence", seen.header.sequence);
-  json.member("sampled_at_ns", nanoseconds(seen.header.sampled_at)).key("value");
-  if (seen.value == nullptr) {
-    json.null();
-  } else {
-    write_value(json, *record.control->type(), seen.value);
-  }
+  write_observed(json, *record.control->type(), seen);
 }
 
 std::optional<RpcProblem> RemoteView::read(Fields& params, JsonWriter& json) {
@@ -140,11 +140,7 @@ std::optional<RpcProblem> RemoteView::read(Fields& params, JsonWriter& json) {
   }
   std::uint16_t slot = 0;
   if (auto problem = find_slot(name, slot)) return problem;
-  const TypeDescriptor& type = *application().slots[slot].control->type();
-  if (type.is_image || type.size > largest_value) {
-    return RpcProblem{RpcError::too_large, "'" + std::string{name} + "' holds a picture, or too much",
-                      "look at it in the panel"};
-  }
+  if (auto problem = too_much(slot)) return problem;
   const ObservedSlot& seen = look(slot);
   json.begin_object();
   write_slot(json, slot, seen);

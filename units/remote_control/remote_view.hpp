@@ -30,6 +30,9 @@ class RemoteView {
 
   std::optional<RpcProblem> find_slot(std::string_view name, std::uint16_t& slot) const;
   std::optional<RpcProblem> find_component(std::string_view name, ComponentIndex& component) const;
+  /// A slot whose values are for the panel.
+  std::optional<RpcProblem> too_much(std::uint16_t slot) const;
+  const SlotRecord& slot(std::uint16_t slot) const noexcept { return application().slots[slot]; }
   const ComponentEntry& entry(ComponentIndex component) const noexcept { return directory_.entry(component); }
 
   const ObservedSlot& look(std::uint16_t slot) { return slots_.read(slot); }

@@ -1,10 +1,13 @@
 // What every outsider of a cell shares: finding by name, looking at slots, making requests of what is
 // written.
 #include <cstring>
+#include <functional>
 #include <optional>
 
+#include "runtime/core/text_table.hpp"
 #include "runtime/face/change.hpp"
 #include "runtime/face/component_values.hpp"
+#include "runtime/face/statistics.hpp"
 
 // CMocka's macros would change what the headers above declare.
 #include "runtime/executive/tests/running_cell.hpp"
@@ -56,12 +59,19 @@ void things_are_found_by_name_and_the_nearest_is_named() {
   CHECK_EQUAL(std::string{refusal.detail()}, "There is no slot 'valeus'; did you mean 'values'?");
   CHECK_EQUAL(std::string{cell.directory->no_component("x").detail()},
               "There is no unit or device 'x'; descriptor.json has the names.");
+  CHECK_EQUAL(*cell.directory->find(Part::queue, "jobs"), Cell::jobs);
+  CHECK_EQUAL(*cell.directory->find(Part::thread, "consuming"), Cell::consuming);
+  CHECK(!cell.directory->find(Part::thread, "jobs"));
+  CHECK_EQUAL(std::string{cell.directory->unknown(Part::thread, "consumin").detail()},
+              "There is no thread 'consumin'; did you mean 'consuming'?");
+  CHECK_EQUAL(std::string{cell.directory->unknown(Part::queue, "consuming").detail()},
+              "There is no queue 'consuming'; descriptor.json has the names.");
 }
 
 void a_slot_is_read_once_in_a_turn_with_the_reason_when_there_is_nothing() {
   Still cell;
   CHECK_EQUAL(cell.look().reason, NullReason::nothing_yet);
-  CHECK(cell.look().value == nullptr);
+  CHECK(cell.look().value == nullptr && cell.look().last == nullptr);
   cell.publish(5);
   CHECK_EQUAL(cell.look().reason, NullReason::nothing_yet);  // in this turn
   for (std::int64_t number = 6; number < 20; ++number) {
@@ -76,7 +86,8 @@ void a_slot_is_read_once_in_a_turn_with_the_reason_when_there_is_nothing() {
   cell.slots->begin_turn();
   CHECK_EQUAL(cell.look().reason, NullReason::writer_faulted);
   CHECK(cell.look().value == nullptr);
-  CHECK_EQUAL(cell.look().header.sequence, 15U);  // when it was last is still known
+  CHECK_EQUAL(cell.look().header.sequence, 15U);  // when it was last, and what, is still known
+  CHECK_EQUAL(static_cast<const Item*>(cell.look().last)->number, 19);
 }
 
 void a_slot_that_is_not_observed_says_so() {
@@ -86,6 +97,83 @@ void a_slot_that_is_not_observed_says_so() {
   ObservedSlots slots(running.executive().cell());
   CHECK_EQUAL(slots.read(Cell::values).reason, NullReason::not_registered);
   CHECK(slots.read(Cell::values).value == nullptr);
+}
+
+/// A cell that has run: its producer failed, its consumer did not empty the queue.
+struct Ended {
+  Ended() {
+    cell.queue(Cell::jobs).capacity = 4;
+    cell.unit(Cell::producer).script.step = [this](TestUnit& unit, const Tick& tick) {
+      make_and_push(unit, tick);
+      unit.restrain("slippery", 3, 2);
+      if (tick.number == 9) unit.give_up(Status::error(StatusCode::device_fault, "slipped"));
+    };
+    cell.unit(Cell::consumer).script.step = [](TestUnit& unit, const Tick&) { unit.inputs[0].latest(); };
+    executive.emplace(cell.application(), in_virtual_time(std::chrono::milliseconds{50}));
+    CHECK(executive->prepare().is_ok());
+    executive->run();
+  }
+  flexrf::Cell& inside() { return executive->cell(); }
+
+  Cell cell;
+  std::function<void(TestUnit&, const Tick&)> make_and_push = cell.unit(Cell::producer).script.step;
+  std::optional<Executive> executive;
+};
+
+void what_is_counted_is_had_of_each_part() {
+  Ended ended;
+  const Statistics statistics(ended.inside());
+  const ComponentFigures producer = statistics.component(Cell::producer);
+  CHECK_EQUAL(producer.life, Life::fault);
+  CHECK_EQUAL(std::string{producer.fault.cause()}, "slipped");
+  CHECK_EQUAL(producer.steps, 10U);
+  CHECK_EQUAL(producer.restraints, 1U);
+  CHECK_EQUAL(producer.restraint.asked, 3.0);
+  CHECK_EQUAL(std::string{producer.driver}, "");
+  CHECK_EQUAL(std::string{producer.record->kind}, "unit");
+  const ComponentFigures actuator =
+      statistics.component(ended.cell.application().devices[Cell::actuator].index);
+  CHECK_EQUAL(std::string{actuator.driver}, "mock");
+  CHECK_EQUAL(std::string{actuator.record->kind}, "device");
+  CHECK(actuator.fault.is_ok() && actuator.active);
+  CHECK_EQUAL(actuator.steps, 0U);
+
+  const ThreadFigures producing = statistics.thread(Cell::producing);
+  CHECK_EQUAL(std::string{producing.record->name}, "producing");
+  CHECK(producing.cycles >= producer.steps);
+
+  CHECK_EQUAL(statistics.readers(Cell::values).size(), 1U);
+  const SlotInput& reader = statistics.readers(Cell::values)[0];
+  CHECK_EQUAL(reader.name, "consumer.first");
+  // But for the last, which came from a step that failed.
+  CHECK_EQUAL(statistics.counters(reader).read, 9U);
+  CHECK_EQUAL(statistics.counters(reader).missed, 0U);
+
+  const auto [name, counters] = Statistics::writer(ended.cell.application().queues[Cell::jobs], 0);
+  CHECK_EQUAL(std::string{name}, "producer.orders");
+  CHECK_EQUAL(counters.pushed, 4U);
+  CHECK_EQUAL(counters.dropped, 6U);
+  CHECK_EQUAL(counters.popped, 0U);
+}
+
+void what_is_in_fault_has_its_place() {
+  Ended ended;
+  const FaultPlaces places(ended.inside());
+  CHECK_EQUAL(places.count(), 3U + 2U + 1U);
+  for (std::size_t place = 0; place < places.count(); ++place)
+    CHECK_EQUAL(places.extent(place) != 0, place == Cell::producer);
+  const FaultPlaces::Fault fault = places.at(Cell::producer);
+  CHECK_EQUAL(std::string{fault.kind} + " " + fault.name + ": " + fault.cause, "unit producer: slipped");
+
+  ended.cell.application().thread_states[Cell::consuming].longest_standstill = 2'000'000;
+  ended.inside().control().note_standstill(std::chrono::seconds{3});
+  CHECK_EQUAL(places.extent(places.thread(Cell::consuming)), 2'000'000);
+  const FaultPlaces::Fault thread = places.at(places.thread(Cell::consuming));
+  CHECK_EQUAL(std::string{thread.kind} + " " + thread.name + ": " + thread.cause,
+              "thread consuming: stood still for " + duration_text(std::chrono::milliseconds{2}));
+  const FaultPlaces::Fault process = places.at(places.process());
+  CHECK_EQUAL(std::string{process.kind} + " " + process.name + ": " + process.cause,
+              "process test_cell: stood still for " + duration_text(std::chrono::seconds{3}));
 }
 
 void configuration_is_known_before_anything_runs() {
@@ -148,6 +236,8 @@ int main() {
       CONTAINED_TEST(things_are_found_by_name_and_the_nearest_is_named),
       CONTAINED_TEST(a_slot_is_read_once_in_a_turn_with_the_reason_when_there_is_nothing),
       CONTAINED_TEST(a_slot_that_is_not_observed_says_so),
+      CONTAINED_TEST(what_is_counted_is_had_of_each_part),
+      CONTAINED_TEST(what_is_in_fault_has_its_place),
       CONTAINED_TEST(configuration_is_known_before_anything_runs),
       CONTAINED_TEST(what_is_written_becomes_a_request_or_is_refused_in_one_wording),
   };

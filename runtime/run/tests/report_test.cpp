@@ -98,7 +98,7 @@ void a_thread_that_is_in_a_step_does_not_hang() {
   threads[ProducerAndConsumer::producing].step_began = nanoseconds(now - std::chrono::minutes{1});
   // As it will be for longer than any standstill of this test.
   threads[ProducerAndConsumer::consuming].step_began = nanoseconds(now + std::chrono::minutes{1});
-  const ReportData data = collect_report(executive.cell(), summary);
+  const ReportData data(executive.cell(), summary);
   CHECK(data.threads[ProducerAndConsumer::producing].hangs);
   CHECK(!data.threads[ProducerAndConsumer::consuming].hangs);
 }
@@ -111,15 +111,16 @@ void readers_are_counted() {
   Executive executive(cell.application(), in_virtual_time(milliseconds{300}));
   CHECK(executive.prepare().is_ok());
   const RunSummary summary = executive.run();
-  const ReportData data = collect_report(executive.cell(), summary);
-  const SlotReport& slot = data.slots[ProducerAndConsumer::values];
-  CHECK_EQUAL(slot.readers.size(), 1U);
-  CHECK_EQUAL(slot.readers[0].reader, "consumer.first");
-  const InputCounters seen = slot.readers[0].counters;
+  const ReportData data(executive.cell(), summary);
+  const std::span<const SlotInput> readers = data.statistics.readers(ProducerAndConsumer::values);
+  const std::uint64_t published = cell.slot_control(ProducerAndConsumer::values).published();
+  CHECK_EQUAL(readers.size(), 1U);
+  CHECK_EQUAL(readers[0].name, "consumer.first");
+  const InputCounters seen = data.statistics.counters(readers[0]);
   CHECK(seen.read >= 100 && seen.read <= data.units[ProducerAndConsumer::consumer].steps);
   // All but what came before the first and after the last reading.
-  CHECK(seen.read + seen.missed <= slot.published);
-  CHECK(seen.read + seen.missed + 3 >= slot.published);
+  CHECK(seen.read + seen.missed <= published);
+  CHECK(seen.read + seen.missed + 3 >= published);
   CHECK_CONTAINS(report_text(executive.cell(), summary),
                  "producer.out_first  consumer.first   " + std::to_string(seen.read));
 }

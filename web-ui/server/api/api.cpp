@@ -92,7 +92,7 @@ Api::Parts::Made::Made(Parts& parts, Executive& executive, AccessControl& access
       saving(executive, parts.answers, parts.permission),
       operations{directory, parts.answers, parameters, motion, edits, lifecycle, saving},
       state(executive, directory, access, edits),
-      topics(executive),
+      topics(executive.cell()),
       frames(executive.cell(), slots, images),
       subscriptions(parts.clients, directory, executive.cell().application(), images, parts.answers),
       live({executive, access, parts.clients, parts.reader, operations, subscriptions, state, topics, frames,

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "runtime/face/observed_slots.hpp"
 #include "runtime/realtime/signals.hpp"
 
 namespace flexrf::panel {
@@ -125,8 +126,7 @@ void ImageWorker::encode(std::uint16_t index, Slot& slot, std::uint32_t width) {
       if (copied) std::memcpy(slot.raw.data(), record.observer->payload(), size);
     }
   }
-  NullReason reason = null_reason_of(record.control->writer_state());
-  if (reason == NullReason::none && header.sequence == 0) reason = NullReason::nothing_yet;
+  const NullReason reason = reason_of(record, header);
   const std::string_view jpeg =
       copied ? slot.encoder.encode(slot.layout, slot.raw.data(), width) : std::string_view{};
   if (copied) tell(record, slot);

@@ -4,7 +4,7 @@
 #include <charconv>
 
 #include "runtime/core/digest.hpp"
-#include "runtime/core/value_json.hpp"
+#include "runtime/face/json_parts.hpp"
 #include "web-ui/server/api/log_lines.hpp"
 #include "web-ui/server/gzip.hpp"
 
@@ -238,16 +238,8 @@ void RestHandler::write_slot(JsonWriter& json, std::uint16_t slot) {
   json.member("published", record.control->published());
   // A picture is asked for as such; its bytes are no JSON.
   const ObservedSlot newest = is_picture ? parts_.slots.read_header(slot) : parts_.slots.read(slot);
-  json.member("reason", newest.reason == NullReason::none ? "" : name_of(newest.reason));
-  json.member("sequence", newest.header.sequence);
-  json.member("sampled_at_ns", nanoseconds(newest.header.sampled_at)).key("value");
-  if (newest.value == nullptr) {
-    json.null();
-  } else {
-    write_value(json, *record.control->type(), newest.value);
-  }
-  json.key("readers");
-  parts_.topics.write_readers(json, slot);
+  write_observed(json, *record.control->type(), newest);
+  write_readers(json, parts_.topics.statistics(), slot);
   json.end_object();
 }
 

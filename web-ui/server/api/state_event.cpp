@@ -1,7 +1,6 @@
 #include "web-ui/server/api/state_event.hpp"
 
 #include "runtime/core/digest.hpp"
-#include "runtime/core/text_table.hpp"
 
 namespace flexrf::panel {
 namespace {
@@ -20,18 +19,12 @@ double microseconds(Duration duration) noexcept {
 
 std::uint64_t StateEvent::signature() const noexcept {
   const Control& control = executive_->control();
-  const Application& application = executive_->cell().application();
   Digest digest;
   digest.add(static_cast<std::uint64_t>(control.mode()));
   digest.add((control.motion_stopped() ? 2U : 0U) + (control.may_move() ? 1U : 0U));
   digest.add(control.faults());
-  std::uint64_t in_fault = 0;
-  for (ComponentIndex i = 0; i < application.component_count(); ++i)
-    in_fault += application.component_state(i).is_in_fault() ? 1U : 0U;
-  digest.add(in_fault);
-  for (const ThreadState& thread : application.thread_states)
-    digest.add(static_cast<std::uint64_t>(thread.longest_standstill.load(std::memory_order_relaxed)));
-  digest.add(static_cast<std::uint64_t>(control.longest_standstill().count()));
+  for (std::size_t place = 0; place < places_.count(); ++place)
+    digest.add(static_cast<std::uint64_t>(places_.extent(place)));
   digest.add(access_->revision());
   digest.add(edits_->revision());
   digest.add(executive_->saver().revision());
@@ -39,23 +32,12 @@ std::uint64_t StateEvent::signature() const noexcept {
   return digest.value();
 }
 
-std::size_t StateEvent::fault_places(const Application& application) noexcept {
-  return application.component_count() + application.threads.size() + 1;
-}
-
 /// A standstill that was longer than those before is a new one.
 void StateEvent::note_faults(Time now) noexcept {
-  const Application& application = executive_->cell().application();
-  std::size_t place = 0;
-  const auto note = [this, now, &place](std::int64_t extent) {
-    Fault& fault = faults_[place++];
-    if (extent != fault.extent) fault = {extent, now};
-  };
-  for (ComponentIndex i = 0; i < application.component_count(); ++i)
-    note(application.component_state(i).is_in_fault() ? 1 : 0);
-  for (std::size_t i = 0; i < application.threads.size(); ++i)
-    note(application.thread_states[i].longest_standstill.load(std::memory_order_relaxed));
-  note(executive_->control().longest_standstill().count());
+  for (std::size_t place = 0; place < places_.count(); ++place) {
+    if (const std::int64_t extent = places_.extent(place); extent != faults_[place].extent)
+      faults_[place] = {extent, now};
+  }
 }
 
 void StateEvent::update(Time now) {
@@ -95,27 +77,15 @@ void StateEvent::write_session(JsonWriter& json, SessionIndex session, SessionIn
   json.member("local", info->local).member("you", session == you).end_object();
 }
 
+/// As note_faults() saw them: each has the time since when it is there.
 void StateEvent::write_faults(JsonWriter& json) const {
-  const Application& application = executive_->cell().application();
   json.key("faults").begin_array();
-  std::size_t place = 0;
-  // As note_faults() saw them: each has the time since when it is there.
-  const auto write = [this, &json, &place](const char* kind, const char* name, const auto& cause) {
-    const Fault& fault = faults_[place++];
-    if (fault.extent == 0) return;
-    json.begin_object().member("component", name).member("kind", kind).member("cause", cause(fault.extent));
-    json.member("since_ns", fault.since.time_since_epoch().count()).end_object();
-  };
-  for (ComponentIndex i = 0; i < application.component_count(); ++i) {
-    const ComponentState& state = application.component_state(i);
-    write(application.component(i).kind, application.component(i).name,
-          [&state](std::int64_t) { return std::string{state.fault.read().cause()}; });
+  for (std::size_t place = 0; place < places_.count(); ++place) {
+    if (faults_[place].extent == 0) continue;
+    const FaultPlaces::Fault fault = places_.at(place);
+    json.begin_object().member("component", fault.name).member("kind", fault.kind);
+    json.member("cause", fault.cause).member("since_ns", nanoseconds(faults_[place].since)).end_object();
   }
-  const auto standstill = [](std::int64_t longest) {
-    return "stood still for " + duration_text(Duration{longest});
-  };
-  for (const ThreadRecord& thread : application.threads) write("thread", thread.name, standstill);
-  write("process", application.name, standstill);
   json.end_array();
 }
 

@@ -9,6 +9,7 @@
 
 #include "runtime/executive/executive.hpp"
 #include "runtime/face/directory.hpp"
+#include "runtime/face/statistics.hpp"
 #include "web-ui/server/access.hpp"
 #include "web-ui/server/api/edit_operations.hpp"
 #include "web-ui/server/server_figures.hpp"
@@ -27,7 +28,8 @@ class StateEvent {
         directory_(&directory),
         access_(&access),
         edits_(&edits),
-        faults_(fault_places(executive.cell().application())) {
+        places_(executive.cell()),
+        faults_(places_.count()) {
     for (std::string& text : texts_) text.reserve(usual_size);
   }
 
@@ -46,13 +48,11 @@ class StateEvent {
   /// Bytes of a text in which much is told.
   static constexpr std::size_t usual_size = 4U << 10;
 
-  /// What can be in fault: each unit, device and thread, in this order, and the process.
   struct Fault {
     std::int64_t extent = 0;  ///< 0: none; of a standstill, ns
     Time since{};
   };
 
-  static std::size_t fault_places(const Application& application) noexcept;
   void note_faults(Time now) noexcept;
   std::uint64_t signature() const noexcept;
   void write(std::string& text, SessionIndex you, Time now) const;
@@ -73,7 +73,8 @@ class StateEvent {
   SessionIndex editor_ = no_session;
   // For the holder, for who asks for control, for everybody else.
   std::array<std::string, 3> texts_;
-  std::vector<Fault> faults_;
+  FaultPlaces places_;
+  std::vector<Fault> faults_;  // in each place
 };
 
 }  // namespace flexrf::panel

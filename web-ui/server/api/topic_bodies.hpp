@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "runtime/core/json_writer.hpp"
-#include "runtime/executive/executive.hpp"
-#include "runtime/executive/slot_readers.hpp"
+#include "runtime/face/statistics.hpp"
 #include "web-ui/server/api/clients.hpp"
 
 namespace flexrf::panel {
@@ -21,7 +20,7 @@ class TopicBodies {
   static constexpr Duration shortest_interval = std::chrono::milliseconds{100};
 
   /// When everything is constructed.
-  explicit TopicBodies(Executive& executive);
+  explicit TopicBodies(const Cell& cell);
 
   /// Not for the log. Made anew when it is older than shortest_interval.
   std::string_view body(Topic topic, Time now);
@@ -36,8 +35,7 @@ class TopicBodies {
   /// One entry of the list of components.
   void write_component(JsonWriter& json, ComponentIndex component) const;
   void write_devices(JsonWriter& json) const;
-  /// Readers of one slot with their counters, a list.
-  void write_readers(JsonWriter& json, std::uint16_t slot) const;
+  const Statistics& statistics() const noexcept { return statistics_; }
 
  private:
   struct Body {
@@ -46,26 +44,23 @@ class TopicBodies {
     Time made_at{};
     std::uint64_t version = 0;
   };
-  struct ThreadFigures {
+  struct KernelFigures {
     int cpu = -1;
     std::uint64_t minor_faults = 0;
     std::uint64_t major_faults = 0;
   };
 
   void write(JsonWriter& json, Topic topic, Time now);
-  static void write_restraint(JsonWriter& json, const SharedRestraint& shared);
-  static void write_life(JsonWriter& json, const ComponentState& state);
-  void write_steps(JsonWriter& json, const ComponentRecord& record, const ComponentState& state) const;
   void write_slots(JsonWriter& json) const;
   void write_queues(JsonWriter& json) const;
   void write_threads(JsonWriter& json, Time now);
 
-  Executive* executive_;
+  const Cell* cell_;
   const Application* application_;
+  Statistics statistics_;
   std::array<Body, topic_count> bodies_;
-  std::vector<std::vector<SlotInput>> readers_;              // per slot
   std::vector<std::optional<Duration>> response_estimates_;  // per thread
-  std::vector<ThreadFigures> figures_;                       // per thread, looked up once a second
+  std::vector<KernelFigures> figures_;                       // per thread, looked up once a second
   Time figures_at_{};
 };
 

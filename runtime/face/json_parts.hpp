@@ -1,0 +1,23 @@
+// Parts of JSON that several ways in write alike.
+#pragma once
+
+#include "runtime/core/json_writer.hpp"
+#include "runtime/face/observed_slots.hpp"
+#include "runtime/face/statistics.hpp"
+
+namespace flexrf {
+
+// Each writes members of an open object.
+
+/// "count", "p50_ns", "p99_ns", "p99.9_ns", "max_ns"
+void write_quantiles(JsonWriter& json, const Histogram& histogram);
+/// "cycles", "overruns", "skipped", "skipped_time_ns", "longest_standstill_ns"
+void write_cycles(JsonWriter& json, const ThreadFigures& thread);
+/// "readers": a list of {"name", "read", "missed"}
+void write_readers(JsonWriter& json, const Statistics& statistics, std::size_t slot);
+/// "capacity", "writers": a list of {"name", "pushed", "popped", "dropped"}, "readers": a list of names
+void write_queue(JsonWriter& json, const QueueRecord& queue);
+/// "reason", which is "" unless the slot is NULL, "sequence", "sampled_at_ns", "value"
+void write_observed(JsonWriter& json, const TypeDescriptor& type, const ObservedSlot& newest);
+
+}  // namespace flexrf
