@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "runtime/executive/cell.hpp"
-#include "runtime/executive/slot_readers.hpp"
+#include "runtime/face/slot_readers.hpp"
 
 namespace flexrf {
 

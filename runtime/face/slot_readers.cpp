@@ -1,4 +1,4 @@
-#include "runtime/executive/slot_readers.hpp"
+#include "runtime/face/slot_readers.hpp"
 
 #include <algorithm>
 
