@@ -180,10 +180,10 @@ void RemoteControl::take_saves() {
                  "the method state says when the values are saved"});
     } else if (!state.failure) {
       say_error(*client, save.id, not_saved(state.failure));
-    } else if (!save.id.empty()) {
-      say(*client, save.id, remote::result_line(save.id, [&](JsonWriter& json) {
+    } else {
+      reply(*client, save.id, [&](JsonWriter& json) {
         json.begin_object().member("saved_at_ms", state.saved_at).end_object();
-      }));
+      });
     }
     return true;
   });
@@ -196,13 +196,12 @@ void RemoteControl::answer(const Waiting& waiting, const ParameterAnswer& given)
     const Refusal refusal = refusal_of(given, view_->entry(waiting.component));
     return say_error(*client, waiting.id, remote::problem_of(refusal));
   }
-  if (waiting.id.empty()) return;
-  say(*client, waiting.id, remote::result_line(waiting.id, [&](JsonWriter& json) {
+  reply(*client, waiting.id, [&](JsonWriter& json) {
     // What was published before this answer came is what the answer speaks of.
     view_->begin_turn();
     if (waiting.wants_values) return view_->write_runtime(json, waiting.component);
     json.begin_object().end_object();
-  }));
+  });
 }
 
 // ---- what is said

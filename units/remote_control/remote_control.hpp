@@ -93,6 +93,11 @@ class RemoteControl final : public RemoteControlUnit {
   void count();
 
   void say(Client& client, std::string_view id, std::string line);
+  /// A notification, which has no id, is not answered. `write(JsonWriter&)` writes the result, one value.
+  template <class Write>
+  void reply(Client& client, std::string_view id, Write&& write) {
+    if (!id.empty()) say(client, id, remote::result_line(id, write));
+  }
   void say_error(Client& client, std::string_view id, const remote::RpcProblem& problem);
   void send_unread(Client& client);
   void send_away(Client& client, const char* why);

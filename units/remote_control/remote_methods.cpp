@@ -68,11 +68,8 @@ RemoteControl::Problem RemoteControl::authenticate(Client& client, const RpcCall
   }
   client.authenticated = true;
   cell.note(who(client), "gave the token");
-  if (!call.id.empty()) {
-    say(client, call.id, remote::result_line(call.id, [](JsonWriter& json) {
-          json.begin_object().member("role", "operator").end_object();
-        }));
-  }
+  reply(client, call.id,
+        [](JsonWriter& json) { json.begin_object().member("role", "operator").end_object(); });
   return std::nullopt;
 }
 
@@ -94,26 +91,22 @@ RemoteControl::Problem RemoteControl::read(Client& client, const RpcCall& call, 
 }
 
 RemoteControl::Problem RemoteControl::state(Client& client, const RpcCall& call, Fields& /*params*/) {
-  if (call.id.empty()) return std::nullopt;
-  say(client, call.id, remote::result_line(call.id, [this](JsonWriter& json) {
-        const Control& control = cell.cell().control();
-        json.begin_object().member("application", cell.cell().application().name);
-        json.member("mode", name_of(control.mode())).key("motion").begin_object();
-        json.member("stopped", control.motion_stopped()).member("may_move", control.may_move()).end_object();
-        json.member("remote", runtime.remote);
-        const SaveState values = cell.save_state();
-        json.key("values").begin_object().member("file", values.has_file).member("unsaved", values.unsaved);
-        json.member("failure", values.failure.cause()).end_object().end_object();
-      }));
+  reply(client, call.id, [this](JsonWriter& json) {
+    const Control& control = cell.cell().control();
+    json.begin_object().member("application", cell.cell().application().name);
+    json.member("mode", name_of(control.mode())).key("motion").begin_object();
+    json.member("stopped", control.motion_stopped()).member("may_move", control.may_move()).end_object();
+    json.member("remote", runtime.remote);
+    const SaveState values = cell.save_state();
+    json.key("values").begin_object().member("file", values.has_file).member("unsaved", values.unsaved);
+    json.member("failure", values.failure.cause()).end_object().end_object();
+  });
   return std::nullopt;
 }
 
 RemoteControl::Problem RemoteControl::stop_motion(Client& client, const RpcCall& call, Fields& /*params*/) {
   cell.stop_motion(who(client));
-  if (!call.id.empty()) {
-    say(client, call.id,
-        remote::result_line(call.id, [](JsonWriter& json) { json.begin_object().end_object(); }));
-  }
+  reply(client, call.id, [](JsonWriter& json) { json.begin_object().end_object(); });
   return std::nullopt;
 }
 
@@ -242,12 +235,11 @@ RemoteControl::Problem RemoteControl::unsubscribe(Client& client, const RpcCall&
 }
 
 void RemoteControl::tell_subscriptions(Client& client, const RpcCall& call) {
-  if (call.id.empty()) return;
-  say(client, call.id, remote::result_line(call.id, [&](JsonWriter& json) {
-        json.begin_object().key("slots").begin_array();
-        for (const Subscription& one : client.subscriptions) json.value(view_->slot(one.slot).name);
-        json.end_array().end_object();
-      }));
+  reply(client, call.id, [&](JsonWriter& json) {
+    json.begin_object().key("slots").begin_array();
+    for (const Subscription& one : client.subscriptions) json.value(view_->slot(one.slot).name);
+    json.end_array().end_object();
+  });
 }
 
 }  // namespace flexrf::user

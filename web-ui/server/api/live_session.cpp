@@ -167,8 +167,8 @@ void LiveSession::operate_on_component(const Caller& caller, std::string_view op
   const auto is_right = [&] { return LiveSession::is_right(caller, op, fields); };
   const std::string_view name = fields.text("component");
   if (!is_right()) return;
-  const auto component = operations.directory.component(name);
-  if (!component) return operations.answers.refuse(caller, operations.directory.no_component(name));
+  const auto component = operations.component(caller, name);
+  if (!component) return;
   if (op == "set") return set(caller, *component, fields, now);
   if (op == "reset") {
     std::optional<JsonArray> parameters;

@@ -4,6 +4,12 @@
 
 namespace flexrf::panel {
 
+std::optional<ComponentIndex> Operations::component(const Caller& caller, std::string_view name) {
+  const std::optional<ComponentIndex> found = directory.component(name);
+  if (!found) answers.refuse(caller, directory.no_component(name));
+  return found;
+}
+
 void Operations::act(const Caller& caller, ComponentIndex component, std::string_view action,
                      std::string_view source, Time now) {
   if (action == "start") return lifecycle.act(caller, component, ComponentAction::start);

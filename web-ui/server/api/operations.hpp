@@ -18,6 +18,8 @@ struct Operations {
   LifecycleOperations& lifecycle;
   SaveOperations& saving;
 
+  /// None: who asks is refused, and told which name may have been meant.
+  std::optional<ComponentIndex> component(const Caller& caller, std::string_view name);
   /// start, stop, initialise, activate, retire, clone (of the member `source`).
   void act(const Caller& caller, ComponentIndex component, std::string_view action, std::string_view source,
            Time now);

@@ -148,11 +148,16 @@ void RestHandler::read(const Match& found, const Request& request, Reply& reply,
       write_slot(json, *slot);
       return finish_json(request, reply, json);
     }
-    case Resource::component:
-      return write_component(request, reply, name, caller);
+    case Resource::component: {
+      const auto component = parts_.operations.component(caller, name);
+      if (!component) return;
+      JsonWriter json(std::move(reply.text));
+      parts_.topics.write_component(json, *component);
+      return finish_json(request, reply, json);
+    }
     case Resource::get_parameters: {
-      const auto component = directory.component(name);
-      if (!component) return answers.refuse(caller, directory.no_component(name));
+      const auto component = parts_.operations.component(caller, name);
+      if (!component) return;
       JsonWriter json(std::move(reply.text));
       json.begin_object();
       parts_.values.write_all(json, *component);
@@ -221,16 +226,6 @@ void RestHandler::write_audit(const Request& request, Reply& reply, const Caller
   finish_json(request, reply, json);
 }
 
-void RestHandler::write_component(const Request& request, Reply& reply, std::string_view name,
-                                  const Caller& caller) {
-  const Directory& directory = parts_.operations.directory;
-  const auto component = directory.component(name);
-  if (!component) return parts_.operations.answers.refuse(caller, directory.no_component(name));
-  JsonWriter json(std::move(reply.text));
-  parts_.topics.write_component(json, *component);
-  finish_json(request, reply, json);
-}
-
 void RestHandler::write_slot(JsonWriter& json, std::uint16_t slot) {
   const SlotRecord& record = parts_.executive.cell().application().slots[slot];
   const bool is_picture = parts_.images.is_image(slot);
@@ -274,12 +269,7 @@ void RestHandler::act(const Match& found, const Request& request, const Caller& 
                                                 "The body: %s.", body.status().cause()));
   }
   Fields fields(*body);
-  const auto is_right = [&] {
-    if (!fields.status())
-      answers.refuse(caller,
-                     Refusal::make(RefusalKind::bad_request, "The body: %s.", fields.status().cause()));
-    return fields.status().is_ok();
-  };
+  const auto is_right = [&] { return RestHandler::is_right(caller, fields); };
   switch (found.route->resource) {
     case Resource::put_parameters:
       return put_parameters(found, request, *body, caller, now);
@@ -310,12 +300,18 @@ void RestHandler::act(const Match& found, const Request& request, const Caller& 
   }
 }
 
+bool RestHandler::is_right(const Caller& caller, const Fields& fields) {
+  if (fields.status()) return true;
+  parts_.operations.answers.refuse(
+      caller, Refusal::make(RefusalKind::bad_request, "The body: %s.", fields.status().cause()));
+  return false;
+}
+
 void RestHandler::put_parameters(const Match& found, const Request& request, JsonObject values,
                                  const Caller& caller, Time now) {
   Operations& operations = parts_.operations;
-  const auto component = operations.directory.component(found.segments[0]);
-  if (!component)
-    return operations.answers.refuse(caller, operations.directory.no_component(found.segments[0]));
+  const auto component = operations.component(caller, found.segments[0]);
+  if (!component) return;
   std::optional<std::uint64_t> expected;
   if (!request.if_match.empty() && request.if_match != "*") {
     std::string_view tag = request.if_match;
@@ -339,9 +335,8 @@ void RestHandler::put_parameters(const Match& found, const Request& request, Jso
 
 void RestHandler::act_on_component(const Match& found, Fields& fields, const Caller& caller, Time now) {
   Operations& operations = parts_.operations;
-  const auto component = operations.directory.component(found.segments[0]);
-  if (!component)
-    return operations.answers.refuse(caller, operations.directory.no_component(found.segments[0]));
+  const auto component = operations.component(caller, found.segments[0]);
+  if (!component) return;
   const std::string_view action = found.segments[1];
   std::optional<JsonArray> parameters;
   std::string_view parameter;
@@ -349,10 +344,7 @@ void RestHandler::act_on_component(const Match& found, Fields& fields, const Cal
   if (action == "press") parameter = fields.text("parameter");
   const std::uint64_t count = action == "press" ? fields.integer_or("count", 1) : 1;
   const std::string_view source = action == "clone" ? fields.text("source") : "";
-  if (!fields.status()) {
-    return operations.answers.refuse(
-        caller, Refusal::make(RefusalKind::bad_request, "The body: %s.", fields.status().cause()));
-  }
+  if (!is_right(caller, fields)) return;
   if (action == "reset") return operations.parameters.reset(caller, *component, parameters, now);
   if (action == "press") return operations.parameters.press(caller, *component, parameter, count, now);
   operations.act(caller, *component, action, source, now);

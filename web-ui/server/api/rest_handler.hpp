@@ -48,11 +48,12 @@ class RestHandler {
   void serve(const Request& request, Reply& reply, const Caller& caller, Time now);
   void read(const Match& match, const Request& request, Reply& reply, const Caller& caller, Time now);
   void act(const Match& match, const Request& request, const Caller& caller, Time now);
+  /// What the body has is there and of its type; else who asks is refused.
+  bool is_right(const Caller& caller, const Fields& fields);
   void act_on_component(const Match& match, Fields& fields, const Caller& caller, Time now);
   void put_parameters(const Match& match, const Request& request, JsonObject values, const Caller& caller,
                       Time now);
   void write_audit(const Request& request, Reply& reply, const Caller& caller);
-  void write_component(const Request& request, Reply& reply, std::string_view name, const Caller& caller);
   void write_slot(JsonWriter& json, std::uint16_t slot);
   void ask_picture(std::uint16_t slot, const Request& request, const Caller& caller, Time now);
   /// Makes the text the reply: 304 when the client has it.
