@@ -33,13 +33,6 @@ class Bells {
   std::map<std::vector<Index>, std::string> known_;
 };
 
-std::string owner_index(const Writer& writer, bool device) {
-  const bool is_device = writer.kind == Writer::Kind::device_output ||
-                         writer.kind == Writer::Kind::device_feedback ||
-                         writer.kind == Writer::Kind::device_values;
-  return is_device == device ? std::to_string(writer.owner) : "no_index";
-}
-
 void emit_jobs(const Model& model, const ApplicationNames& names, Index index, const std::string& bells,
                Text& out, std::vector<std::string>& sizes) {
   const Queue& queue = model.queues[index];
@@ -189,13 +182,9 @@ void emit_slot_records(const Model& model, const ApplicationNames& names, Text& 
   out << "\nconstexpr SlotRecord slots_table[] = {\n";
   for (Index i = 0; i < model.slots.size(); ++i) {
     const Slot& slot = model.slots[i];
-    const auto readers =
-        std::count_if(slot.readers.begin(), slot.readers.end(),
-                      [](const SlotReader& reader) { return reader.kind != SlotReader::Kind::observer; });
     out << "    {\"" << slot.name << "\", " << string_literal(slot.summary) << ", &slot_" << names.slot(i)
         << ", " << names.observer_of(i) << ", \"" << writer_text(model, slot.writer) << "\", "
-        << owner_index(slot.writer, false) << ", " << owner_index(slot.writer, true) << ", " << readers
-        << ", " << bool_literal(slot.wall) << "},\n";
+        << bool_literal(slot.wall) << "},\n";
   }
   out << "};\n";
 }

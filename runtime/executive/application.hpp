@@ -27,9 +27,6 @@ struct SlotRecord {
   SlotControl* control;
   SlotReader* observer;  ///< the observer's reader; null when observe = false
   const char* writer;    ///< "unit.port" or "device.port"; "" for parameters' and feedback's slots
-  std::uint16_t unit;    ///< index of the writing unit, or no_index
-  std::uint16_t device;  ///< index of the writing device, or no_index
-  std::uint8_t readers;  ///< threads and holds that read, without the observer
   bool wall;             ///< left out of the digest
 };
 

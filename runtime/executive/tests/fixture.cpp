@@ -185,7 +185,7 @@ std::vector<Doorbell*> TestApplication::bells_of(const std::vector<std::uint16_t
 
 SlotControl* TestApplication::make_slot(const char* name, const char* writer, const TypeDescriptor& type,
                                         std::uint8_t readers, std::vector<Doorbell*> bells, bool observe,
-                                        bool wall, std::uint16_t unit, std::uint16_t device) {
+                                        bool wall) {
   const std::uint8_t all_readers = static_cast<std::uint8_t>(readers + (observe ? 1 : 0));
   const std::uint8_t buffers = static_cast<std::uint8_t>(all_readers + 2);
   const std::size_t stride = (sizeof(ItemHeader) + type.size + cache_line - 1) / cache_line * cache_line;
@@ -204,7 +204,7 @@ SlotControl* TestApplication::make_slot(const char* name, const char* writer, co
   SlotControl& slot =
       made_->slots.emplace_back(&type, memory, made_->bell_lists.emplace_back(std::move(bells)));
   SlotReader* observer = observe ? &made_->observers.emplace_back(&slot) : nullptr;
-  slot_records_.push_back({name, "", &slot, observer, writer, unit, device, readers, wall});
+  slot_records_.push_back({name, "", &slot, observer, writer, wall});
   return &slot;
 }
 
@@ -220,8 +220,6 @@ void TestApplication::make_slots() {
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const auto index = static_cast<std::uint16_t>(i);
     std::set<std::uint16_t> threads;
-    std::uint16_t unit = no_index;
-    std::uint16_t device = no_index;
     std::string writer;
     for (std::size_t u = 0; u < units_.size(); ++u) {
       for (const InputPlan& input : units_[u].inputs) {
@@ -229,18 +227,15 @@ void TestApplication::make_slots() {
       }
       for (std::size_t port = 0; port < units_[u].outputs.size(); ++port) {
         if (units_[u].outputs[port] != index) continue;
-        unit = static_cast<std::uint16_t>(u);
         writer = units_[u].name + "." + TestUnit::type.ports[TestUnit::ports + port].name;
       }
     }
     for (std::size_t d = 0; d < devices_.size(); ++d) {
-      if (devices_[d].output != index) continue;
-      device = static_cast<std::uint16_t>(d);
-      writer = devices_[d].name + ".output";
+      if (devices_[d].output == index) writer = devices_[d].name + ".output";
     }
     make_slot(slots_[i].name.c_str(), keep(writer), *descriptor_of<Item>,
               static_cast<std::uint8_t>(threads.size()), bells_of(&TriggerPlan::slots, index),
-              slots_[i].observe, slots_[i].wall, unit, device);
+              slots_[i].observe, slots_[i].wall);
   }
 }
 
@@ -361,10 +356,10 @@ void TestApplication::make_units() {
     record.configuration = &TestUnit::default_configuration;
     record.runtime = &TestUnit::default_settings;
     if (plan.parameters) {
-      record.runtime_slot = make_slot(keep(plan.name + ".runtime"), "", *descriptor_of<Settings>, 0, {}, true,
-                                      false, index, no_index);
-      record.feedback_slot = make_slot(keep(plan.name + ".feedback"), "", *descriptor_of<Readings>, 0, {},
-                                       true, false, index, no_index);
+      record.runtime_slot =
+          make_slot(keep(plan.name + ".runtime"), "", *descriptor_of<Settings>, 0, {}, true, false);
+      record.feedback_slot =
+          make_slot(keep(plan.name + ".feedback"), "", *descriptor_of<Readings>, 0, {}, true, false);
     }
     record.thread = thread;
     for (std::size_t p = 0; p < populations_.size(); ++p) {

@@ -162,8 +162,7 @@ class TestApplication {
   void make_units();
   void fill_application();
   SlotControl* make_slot(const char* name, const char* writer, const TypeDescriptor& type,
-                         std::uint8_t readers, std::vector<Doorbell*> bells, bool observe, bool wall,
-                         std::uint16_t unit, std::uint16_t device);
+                         std::uint8_t readers, std::vector<Doorbell*> bells, bool observe, bool wall);
   SlotReader* reader_of(std::uint16_t thread, std::uint16_t slot);
   std::uint16_t thread_of_unit(std::uint16_t unit) const;
   std::uint16_t thread_of_device(std::uint16_t device) const;

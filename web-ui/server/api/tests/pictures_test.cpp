@@ -272,7 +272,7 @@ class PictureCell : public fixture::ProducerAndConsumer {
 
   void add_to(Application& application) {
     records_.assign(application.slots.begin(), application.slots.end());
-    records_.push_back({"camera", "", &control_, &observer_, "", no_index, no_index, 0, false});
+    records_.push_back({"camera", "", &control_, &observer_, "", false});
     application.slots = records_;
   }
   void publish(Format format, Time sampled_at = MonotonicClock::now()) {
