@@ -1,5 +1,6 @@
 // The guard of what moves something: whatever its driver does, a command is taken and leaves only while it
 // may act.
+// [stop-88]
 #include "hal/driver/actuator.hpp"
 
 #include "tests/cmocka.hpp"
