@@ -16,8 +16,8 @@
 #include <fstream>
 #include <random>
 
-#include "runtime/core/json_writer.hpp"
-#include "runtime/core/text_table.hpp"
+#include "base/json_writer.hpp"
+#include "base/text_table.hpp"
 
 namespace flexrf::bench {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf::bench {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "base/text_table.hpp"
 #include "benchmarks/harness.hpp"
-#include "runtime/core/text_table.hpp"
 
 namespace flexrf::bench {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf {
 

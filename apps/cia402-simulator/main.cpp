@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "base/standard_descriptors.hpp"
+#include "base/time.hpp"
 #include "hal/can/socket_can/can_node_runner.hpp"
 #include "hal/servo_drive/canopen/simulator/drive_console.hpp"
-#include "runtime/core/time.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf::bench {
 

@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/time.hpp"
 #include "benchmarks/panel/live_client.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf::bench {
 

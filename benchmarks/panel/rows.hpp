@@ -1,8 +1,8 @@
 // The parts of the benchmark: each adds its rows, or says on standard error why it cannot and is false.
 #pragma once
 
+#include "base/time.hpp"
 #include "benchmarks/harness.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf::bench {
 

@@ -266,7 +266,7 @@ void add_includes(const Model& model, const PlainStruct& plain, std::set<std::st
     if (has_map(field)) system.insert("Eigen/Core");
     if (is_text(field)) {
       system.insert("string_view");
-      own.insert("runtime/core/text.hpp");
+      own.insert("base/text.hpp");
     }
     if (field.type.kind == FieldType::Kind::declared) {
       own.insert(type_header(model.types[field.type.declared]));

@@ -4,7 +4,8 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
-#include <numeric>
+
+#include "base/nearest_name.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -103,24 +104,6 @@ bool digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// Damerau's distance (restricted): insert, delete, replace, swap neighbours.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-  std::iota(last.begin(), last.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t cost = a[i - 1] == b[j - 1] ? 0 : 1;
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + cost});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    before.swap(last);
-    last.swap(row);
-  }
-  return last[b.size()];
-}
-
 std::string number_with_unit(double value, const char* unit) {
   std::array<char, 48> text{};
   std::snprintf(text.data(), text.size(), "%.6g %s", value, unit);
@@ -190,7 +173,7 @@ std::string nearest(std::string_view word, std::span<const std::string> known) {
     const std::size_t length_apart =
         candidate.size() > word.size() ? candidate.size() - word.size() : word.size() - candidate.size();
     if (length_apart >= best) continue;
-    const std::size_t d = distance(word, candidate);
+    const std::size_t d = edit_distance(word, candidate);
     if (d < best || (d == best && !found.empty() && candidate < found)) {
       best = d;
       found = candidate;

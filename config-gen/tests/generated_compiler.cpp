@@ -43,7 +43,7 @@ GeneratedCompiler::GeneratedCompiler(const TableTree& tree, Places places)
             "#include <Eigen/Core>\n#include \"runtime/blackboard/doorbell.hpp\"\n"
             "#include \"runtime/blackboard/history.hpp\"\n#include \"runtime/blackboard/job_queue.hpp\"\n"
             "#include \"runtime/blackboard/ports.hpp\"\n#include \"runtime/blackboard/queue_ring.hpp\"\n"
-            "#include \"runtime/blackboard/slot.hpp\"\n#include \"runtime/core/text.hpp\"\n"
+            "#include \"runtime/blackboard/slot.hpp\"\n#include \"base/text.hpp\"\n"
             "#include \"runtime/core/type_descriptor.hpp\"\n#include \"runtime/device/device.hpp\"\n"
             "#include \"runtime/executive/application.hpp\"\n#include \"runtime/executive/cell_access.hpp\"\n"
             "#include \"runtime/executive/panel_record.hpp\"\n#include \"runtime/unit/unit.hpp\"\n");

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "hal/canopen/cia402.hpp"
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf::canopen::cia402 {
 

@@ -1,9 +1,9 @@
 // The state machine of a CiA 402 drive, led from where the drive says it is to where it shall be.
 #pragma once
 
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "hal/canopen/cia402.hpp"
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf::canopen::cia402 {
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "base/time.hpp"
 #include "hal/canopen/message.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf::canopen {
 

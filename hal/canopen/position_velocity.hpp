@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf::canopen::cia402 {
 

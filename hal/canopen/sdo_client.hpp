@@ -3,10 +3,10 @@
 
 #include <span>
 
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "hal/canopen/message.hpp"
 #include "hal/canopen/object.hpp"
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf::canopen {
 

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <span>
 
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "runtime/realtime/thread_setup.hpp"
 
 namespace flexrf {

@@ -1,7 +1,7 @@
 // TroubleLog: what a device tells as its trouble() stands in the log, too.
 #pragma once
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "runtime/log/log.hpp"
 
 namespace flexrf {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 #include "runtime/core/type_descriptor.hpp"
 
 namespace flexrf {

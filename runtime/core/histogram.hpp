@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <string_view>
 
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
+#include "base/status.hpp"
+#include "base/time.hpp"
 
 namespace flexrf {
 

@@ -1,7 +1,7 @@
 // Any described value as JSON.
 #pragma once
 
-#include "runtime/core/json_writer.hpp"
+#include "base/json_writer.hpp"
 #include "runtime/core/type_descriptor.hpp"
 
 namespace flexrf {

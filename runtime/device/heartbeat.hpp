@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include "runtime/core/json_writer.hpp"
+#include "base/json_writer.hpp"
 #include "runtime/core/value_json.hpp"
 #include "runtime/parameters/value_access.hpp"
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "runtime/executive/value_saver.hpp"
 #include "runtime/parameters/request.hpp"
 #include "runtime/unit/component.hpp"

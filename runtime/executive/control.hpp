@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "runtime/blackboard/doorbell.hpp"
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf {
 

@@ -1,7 +1,7 @@
 // The files that the command line names.
 #pragma once
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "runtime/executive/options.hpp"
 
 namespace flexrf {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <span>
 
+#include "base/status.hpp"
 #include "runtime/core/option.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf {
 

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 
 namespace flexrf {
 namespace {

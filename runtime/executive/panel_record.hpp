@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "runtime/executive/control.hpp"
 
 namespace flexrf {

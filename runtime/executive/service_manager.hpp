@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "runtime/device/heartbeat.hpp"
 #include "runtime/executive/control.hpp"
 

@@ -5,9 +5,9 @@
 #include <atomic>
 #include <cstdint>
 
+#include "base/time.hpp"
 #include "runtime/core/histogram.hpp"
 #include "runtime/core/shared_status.hpp"
-#include "runtime/core/time.hpp"
 #include "runtime/device/device.hpp"
 
 namespace flexrf {

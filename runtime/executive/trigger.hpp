@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "runtime/executive/application.hpp"
 #include "runtime/executive/backoff.hpp"
 

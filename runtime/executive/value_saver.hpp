@@ -6,8 +6,8 @@
 #include <mutex>
 #include <string>
 
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "runtime/realtime/instance_lock.hpp"
 #include "runtime/realtime/thread_setup.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 #include "runtime/json/value_reader.hpp"
 #include "runtime/parameters/parameter_store.hpp"
 #include "runtime/parameters/scalar_types.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "runtime/core/json_writer.hpp"
+#include "base/json_writer.hpp"
 #include "runtime/face/directory.hpp"
 #include "runtime/face/observed_slots.hpp"
 

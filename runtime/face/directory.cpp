@@ -1,6 +1,6 @@
 #include "runtime/face/directory.hpp"
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 
 namespace flexrf {
 namespace {

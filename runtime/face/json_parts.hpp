@@ -1,7 +1,7 @@
 // Parts of JSON that several ways in write alike.
 #pragma once
 
-#include "runtime/core/json_writer.hpp"
+#include "base/json_writer.hpp"
 #include "runtime/face/observed_slots.hpp"
 #include "runtime/face/statistics.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 
 namespace flexrf {
 

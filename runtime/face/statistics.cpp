@@ -1,6 +1,6 @@
 #include "runtime/face/statistics.hpp"
 
-#include "runtime/core/text_table.hpp"
+#include "base/text_table.hpp"
 #include "runtime/executive/schedulability.hpp"
 
 namespace flexrf {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf {
 

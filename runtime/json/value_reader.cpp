@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 #include "runtime/parameters/scalar_types.hpp"
 
 namespace flexrf {

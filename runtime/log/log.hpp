@@ -10,7 +10,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 #include "runtime/log/log_record.hpp"
 
 namespace flexrf {

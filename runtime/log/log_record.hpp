@@ -8,7 +8,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 #include "runtime/parameters/value_access.hpp"
 
 namespace flexrf {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "base/time.hpp"
 #include "runtime/core/parameter_descriptor.hpp"
-#include "runtime/core/time.hpp"
 #include "runtime/parameters/intake.hpp"
 
 namespace flexrf {

@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
+#include "base/status.hpp"
 #include "runtime/core/parameter_descriptor.hpp"
-#include "runtime/core/status.hpp"
 #include "runtime/parameters/rename.hpp"
 #include "runtime/parameters/set_marks.hpp"
 

@@ -10,7 +10,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 #include "runtime/parameters/configuration_document.hpp"
 #include "runtime/parameters/configuration_file.hpp"
 #include "runtime/parameters/durable_file.hpp"

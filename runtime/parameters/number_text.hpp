@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "runtime/core/type_descriptor.hpp"
 #include "runtime/parameters/value_access.hpp"
 

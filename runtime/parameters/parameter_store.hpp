@@ -9,10 +9,10 @@
 #include <cstring>
 #include <vector>
 
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "runtime/blackboard/slot.hpp"
 #include "runtime/core/parameter_descriptor.hpp"
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
 #include "runtime/parameters/request.hpp"
 #include "runtime/parameters/set_marks.hpp"
 #include "runtime/parameters/settings_record.hpp"

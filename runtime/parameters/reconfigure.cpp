@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 #include "runtime/parameters/value_access.hpp"
 
 namespace flexrf {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "runtime/unit/component.hpp"
 
 namespace flexrf {

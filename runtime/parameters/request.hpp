@@ -8,9 +8,9 @@
 #include <optional>
 #include <string_view>
 
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "runtime/blackboard/doorbell.hpp"
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
 #include "runtime/parameters/audit_intake.hpp"
 #include "runtime/parameters/intake.hpp"
 

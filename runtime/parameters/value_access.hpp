@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/status.hpp"
 #include "runtime/core/parameter_descriptor.hpp"
-#include "runtime/core/status.hpp"
 #include "runtime/core/type_descriptor.hpp"
 
 namespace flexrf {

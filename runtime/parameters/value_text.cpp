@@ -3,7 +3,7 @@
 #include <charconv>
 #include <vector>
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 #include "runtime/parameters/number_text.hpp"
 #include "runtime/parameters/scalar_types.hpp"
 #include "runtime/parameters/value_access.hpp"

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf::last_gasp {
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf {
 

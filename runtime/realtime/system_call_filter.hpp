@@ -1,7 +1,7 @@
 // Watches the system calls of real-time threads, as the allocation guard watches their allocations.
 #pragma once
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf {
 

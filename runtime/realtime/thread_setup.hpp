@@ -8,7 +8,7 @@
 #include <atomic>
 #include <cstddef>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "runtime/realtime/cpu_set.hpp"
 
 namespace flexrf {

@@ -1,5 +1,5 @@
 // The final report for programs.
-#include "runtime/core/json_writer.hpp"
+#include "base/json_writer.hpp"
 #include "runtime/core/value_json.hpp"
 #include "runtime/face/json_parts.hpp"
 #include "runtime/realtime/response_time.hpp"

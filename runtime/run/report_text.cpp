@@ -1,7 +1,7 @@
 // The final report for people.
 #include <algorithm>
 
-#include "runtime/core/text_table.hpp"
+#include "base/text_table.hpp"
 #include "runtime/executive/virtual_time.hpp"
 #include "runtime/realtime/response_time.hpp"
 #include "runtime/run/report.hpp"

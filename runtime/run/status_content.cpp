@@ -5,7 +5,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "runtime/core/text_table.hpp"
+#include "base/text_table.hpp"
 #include "runtime/parameters/value_access.hpp"
 
 namespace flexrf {

@@ -6,9 +6,9 @@
 #include <span>
 #include <utility>
 
+#include "base/status.hpp"
 #include "runtime/blackboard/item.hpp"
 #include "runtime/core/parameter_descriptor.hpp"
-#include "runtime/core/status.hpp"
 #include "runtime/unit/restraint.hpp"
 
 namespace flexrf {

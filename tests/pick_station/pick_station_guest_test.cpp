@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 #include "tests/pick_station/real_station.hpp"
 #include "tests/recovery.hpp"
 

@@ -6,8 +6,8 @@
 #include <future>
 #include <memory>
 
+#include "base/time.hpp"
 #include "places.hpp"
-#include "runtime/core/time.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
 
 namespace flexrf::application {

@@ -9,7 +9,7 @@ BODY
 stand_in clang-format </dev/null
 mkdir -p "$tree/units" "$tree/hal/operator/keyboard/interface/types" "$tree/runtime/core"
 touch "$tree/hal/operator/keyboard/interface/types/key_event.toml"
-echo 'class [[nodiscard]] Status {' >"$tree/runtime/core/status.hpp"
+echo 'class [[nodiscard]] Status {' >"$tree/base/status.hpp"
 mkdir -p "$tree/units/arm_watch" "$tree/hal/robot_arm/simulated"
 touch "$tree/hal/robot_arm/simulated/simulated_arm.toml"
 echo 'class [[nodiscard]] TextTable {' >"$tree/units/arm_watch/text_table.hpp"

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "base/status.hpp"
 #include "motion/joint_trajectory.hpp"
-#include "runtime/core/status.hpp"
 #include "types/pose.hpp"
 
 namespace flexrf {

@@ -1,6 +1,6 @@
 #include "units/jog/jog.hpp"
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 #include "units/arm_motion/key_motion.hpp"
 
 namespace flexrf::user {

@@ -2,7 +2,7 @@
 
 #include <turbojpeg.h>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf::user {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf::user {
 namespace {

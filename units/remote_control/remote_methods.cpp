@@ -1,7 +1,7 @@
 // What scripts may call.
 #include <algorithm>
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 #include "units/remote_control/remote_change.hpp"
 #include "units/remote_control/remote_control.hpp"
 

@@ -1,6 +1,6 @@
 #include "units/remote_control/remote_view.hpp"
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 #include "runtime/face/json_parts.hpp"
 #include "units/remote_control/remote_change.hpp"
 

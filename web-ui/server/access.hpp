@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "base/time.hpp"
 #include "runtime/core/parameter_descriptor.hpp"
-#include "runtime/core/time.hpp"
 #include "runtime/parameters/audit_intake.hpp"
 #include "web-ui/server/exchange.hpp"
 

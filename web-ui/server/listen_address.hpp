@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "web-ui/server/access/address.hpp"
 
 namespace flexrf::panel {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf::panel {
 

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "base/status.hpp"
 #include "runtime/blackboard/doorbell.hpp"
 #include "runtime/core/histogram.hpp"
-#include "runtime/core/status.hpp"
 #include "runtime/log/log.hpp"
 #include "web-ui/server/asio.hpp"
 #include "web-ui/server/connection.hpp"

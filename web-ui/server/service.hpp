@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 #include "web-ui/server/access/address.hpp"
 #include "web-ui/server/exchange.hpp"
 #include "web-ui/server/live_link.hpp"

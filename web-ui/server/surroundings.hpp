@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 #include "web-ui/server/asio.hpp"
 #include "web-ui/server/service.hpp"
 #include "web-ui/server/settings.hpp"

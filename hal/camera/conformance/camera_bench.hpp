@@ -3,11 +3,11 @@
 
 #include <memory>
 
+#include "base/text.hpp"
 #include "hal/camera/conformance/camera_conformance.hpp"
 #include "hal/camera/interface/picture_size.hpp"
 #include "hal/driver/device_bench.hpp"
 #include "runtime/blackboard/sized_slot.hpp"
-#include "runtime/core/text.hpp"
 
 namespace flexrf {
 

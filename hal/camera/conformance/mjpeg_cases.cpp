@@ -1,8 +1,8 @@
 #include "hal/camera/conformance/mjpeg_cases.hpp"
 
+#include "base/text.hpp"
 #include "hal/camera/conformance/camera_eye.hpp"
 #include "hal/camera/interface/jpeg_check.hpp"
-#include "runtime/core/text.hpp"
 
 namespace flexrf {
 namespace {

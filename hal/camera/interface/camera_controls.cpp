@@ -3,7 +3,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 
 namespace flexrf {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "types/camera_control.hpp"
 
 namespace flexrf {

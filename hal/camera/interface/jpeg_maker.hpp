@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf {
 

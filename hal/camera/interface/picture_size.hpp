@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "types/camera_frame.hpp"
 
 namespace flexrf {

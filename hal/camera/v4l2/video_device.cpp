@@ -10,8 +10,8 @@
 #include <iterator>
 #include <vector>
 
+#include "base/text.hpp"
 #include "hal/camera/interface/picture_size.hpp"
-#include "runtime/core/text.hpp"
 
 namespace flexrf {
 namespace {

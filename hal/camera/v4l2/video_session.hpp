@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
+#include "base/time.hpp"
 #include "hal/camera/v4l2/video_device.hpp"
-#include "runtime/core/time.hpp"
 #include "types/camera_frame.hpp"
 
 namespace flexrf {

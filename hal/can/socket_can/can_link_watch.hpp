@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string>
 
+#include "base/status.hpp"
 #include "hal/can/socket_can/can_socket.hpp"
 #include "hal/driver/helper_thread.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf {
 

@@ -2,8 +2,8 @@
 
 #include <atomic>
 
+#include "base/status.hpp"
 #include "hal/can/interface/can_node.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf {
 

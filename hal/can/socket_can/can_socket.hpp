@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
+#include "base/status.hpp"
 #include "hal/can/interface/can_frame.hpp"
 #include "hal/can/interface/can_send_queue.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf {
 

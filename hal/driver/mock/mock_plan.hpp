@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf {
 

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 
 namespace flexrf {
 namespace {

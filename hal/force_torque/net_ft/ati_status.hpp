@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "types/ati_family.hpp"
 
 namespace flexrf {

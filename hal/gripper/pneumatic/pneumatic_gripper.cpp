@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 
 namespace flexrf {
 

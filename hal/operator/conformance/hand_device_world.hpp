@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 struct libevdev;
 

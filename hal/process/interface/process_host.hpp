@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "types/process_source.hpp"
 
 namespace flexrf {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "base/time.hpp"
 #include "hal/process/interface/process.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf {
 

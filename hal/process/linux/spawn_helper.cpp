@@ -12,8 +12,8 @@
 #include <csignal>
 #include <cstring>
 
+#include "base/time.hpp"
 #include "hal/process/linux/spawn_order.hpp"
-#include "runtime/core/time.hpp"
 
 // In the helper and in what it forks nothing may be called that allocates or takes a lock.
 

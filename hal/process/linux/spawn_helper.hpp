@@ -2,7 +2,7 @@
 
 #include <sys/types.h>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf {
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "motion/kinematic_chain.hpp"
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
 #include "types/joint_state.hpp"
 
 namespace flexrf {

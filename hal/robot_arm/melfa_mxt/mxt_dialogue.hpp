@@ -4,11 +4,11 @@
 
 #include <optional>
 
+#include "base/status.hpp"
 #include "hal/robot_arm/melfa_mxt/mxt_packet.hpp"
 #include "hal/robot_arm/paced/answer_pacing.hpp"
 #include "hal/robot_arm/paced/datagram_link.hpp"
 #include "hal/robot_arm/paced/joint_follower.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf::melfa {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf {
 

@@ -3,8 +3,8 @@
 
 #include <netinet/in.h>
 
+#include "base/status.hpp"
 #include "hal/robot_arm/paced/datagram_link.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf {
 

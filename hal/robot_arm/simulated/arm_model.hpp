@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/time.hpp"
 #include "motion/kinematics.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf {
 

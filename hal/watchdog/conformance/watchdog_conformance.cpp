@@ -1,6 +1,6 @@
 #include "hal/watchdog/conformance/watchdog_conformance.hpp"
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 #include "tests/conformance.hpp"
 
 namespace flexrf {

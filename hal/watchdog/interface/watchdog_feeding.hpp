@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/text.hpp"
 #include "hal/watchdog/interface/watchdog.hpp"
-#include "runtime/core/text.hpp"
 
 namespace flexrf {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "runtime/core/text_table.hpp"
+#include "base/text_table.hpp"
 #include "runtime/face/change.hpp"
 #include "runtime/face/component_values.hpp"
 #include "runtime/face/statistics.hpp"

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <limits>
 
-#include "runtime/core/nearest_name.hpp"
 #include "runtime/parameters/tests/sample_component.hpp"
 #include "tests/cmocka.hpp"
 
@@ -46,25 +45,6 @@ void expect_refused(const TypeDescriptor& type, const char* path, const char* te
   assert_false(status.is_ok());
   assert_string_equal(status.cause(), cause);
   for (const unsigned char byte : values.bytes) assert_int_equal(byte, 0x5A);
-}
-
-void names_are_compared_by_edits(void**) {
-  assert_int_equal(edit_distance("", ""), 0);
-  assert_int_equal(edit_distance("step", "step"), 0);
-  assert_int_equal(edit_distance("step", "stpe"), 1);
-  assert_int_equal(edit_distance("kitten", "sitting"), 3);
-  assert_int_equal(edit_distance("", "abc"), 3);
-  NearestName nearest("enbled");
-  nearest.offer("mode");
-  nearest.offer("enabled");
-  nearest.offer("disabled");
-  assert_true(nearest.best() == "enabled");
-  NearestName nothing("zzz");
-  nothing.offer("mode");
-  assert_true(nothing.best().empty());
-  NearestName letter("x");
-  letter.offer("y");
-  assert_true(letter.best().empty());
 }
 
 void fields_are_found_by_path(void**) {
@@ -276,7 +256,6 @@ void numbers_are_read_and_written_exactly(void**) {
 int main() {
   using namespace flexrf;
   const CMUnitTest tests[] = {
-      cmocka_unit_test(names_are_compared_by_edits),
       cmocka_unit_test(fields_are_found_by_path),
       cmocka_unit_test(values_become_text_and_return),
       cmocka_unit_test(wrong_text_changes_nothing_and_says_why),

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <string>
 
+#include "base/json_writer.hpp"
 #include "base/standard_descriptors.hpp"
-#include "runtime/core/json_writer.hpp"
 #include "runtime/realtime/doctor/checks.hpp"
 #include "runtime/realtime/machine_file.hpp"
 

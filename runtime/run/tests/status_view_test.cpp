@@ -5,7 +5,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "runtime/core/text_table.hpp"
+#include "base/text_table.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
 #include "runtime/log/log.hpp"
 

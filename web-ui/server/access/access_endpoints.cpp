@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 #include "runtime/log/log.hpp"
 #include "web-ui/server/access/login_body.hpp"
 #include "web-ui/server/http_problem.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf::panel {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "web-ui/server/access/address.hpp"
 
 namespace flexrf::panel {

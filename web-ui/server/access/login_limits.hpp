@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 #include "web-ui/server/access/address.hpp"
 
 namespace flexrf::panel {

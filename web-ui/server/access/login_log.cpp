@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 #include "runtime/log/log.hpp"
 
 namespace flexrf::panel {

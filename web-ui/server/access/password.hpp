@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf::panel {
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 
 namespace flexrf::panel {
 

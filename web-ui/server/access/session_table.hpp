@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 #include "web-ui/server/access.hpp"
 #include "web-ui/server/access/address.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 #include "web-ui/server/access/address.hpp"
 #include "web-ui/server/access/user_file.hpp"
 

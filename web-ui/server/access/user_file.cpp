@@ -6,7 +6,7 @@
 #include <array>
 #include <cerrno>
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 #include "runtime/parameters/durable_file.hpp"
 #include "web-ui/server/access/password.hpp"
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/status.hpp"
 #include "runtime/core/parameter_descriptor.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf::panel {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 #include "web-ui/server/access/user_file.hpp"
 
 namespace flexrf::panel {

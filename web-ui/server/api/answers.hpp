@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "runtime/core/json_writer.hpp"
+#include "base/json_writer.hpp"
 #include "runtime/face/refusal.hpp"
 #include "web-ui/server/access.hpp"
 #include "web-ui/server/api/caller.hpp"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "web-ui/server/access.hpp"
 #include "web-ui/server/exchange.hpp"
 #include "web-ui/server/live_link.hpp"

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/time.hpp"
 #include "runtime/blackboard/item.hpp"
-#include "runtime/core/time.hpp"
 #include "runtime/parameters/request.hpp"
 #include "web-ui/server/api/caller.hpp"
 #include "web-ui/server/live_link.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
 #include "web-ui/server/api/log_lines.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "runtime/core/json_writer.hpp"
+#include "base/json_writer.hpp"
 
 namespace flexrf::panel {
 

@@ -1,6 +1,6 @@
 #include "web-ui/server/api/operations.hpp"
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 
 namespace flexrf::panel {
 

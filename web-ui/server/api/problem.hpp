@@ -1,7 +1,7 @@
 // A refusal as HTTP and the live connection tell it (RFC 9457).
 #pragma once
 
-#include "runtime/core/json_writer.hpp"
+#include "base/json_writer.hpp"
 #include "runtime/face/refusal.hpp"
 #include "web-ui/server/exchange.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "runtime/core/json_writer.hpp"
+#include "base/json_writer.hpp"
 
 namespace flexrf::panel {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/core/json_writer.hpp"
+#include "base/json_writer.hpp"
 #include "runtime/face/statistics.hpp"
 #include "web-ui/server/api/clients.hpp"
 

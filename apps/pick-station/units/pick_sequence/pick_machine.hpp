@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "types/gantry_order.hpp"
 #include "types/gantry_state.hpp"
 #include "types/gripper_object.hpp"

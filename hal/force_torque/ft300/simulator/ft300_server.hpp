@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/status.hpp"
 #include "hal/force_torque/ft300/ft300_stream.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf {
 

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <thread>
 
+#include "base/status.hpp"
 #include "hal/force_torque/net_ft/simulator/net_ft_model.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf {
 

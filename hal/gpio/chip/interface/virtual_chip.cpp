@@ -1,6 +1,6 @@
 #include "hal/gpio/chip/interface/virtual_chip.hpp"
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 
 namespace flexrf {
 

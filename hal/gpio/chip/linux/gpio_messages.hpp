@@ -1,7 +1,7 @@
 // What the driver says when the kernel or libgpiod refuses, whichever version that is.
 #pragma once
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf {
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string_view>
 
-#include "runtime/core/text.hpp"
+#include "base/text.hpp"
 #include "runtime/log/log.hpp"
 
 namespace flexrf {

@@ -3,9 +3,9 @@
 
 #include <optional>
 
+#include "base/text.hpp"
 #include "hal/driver/device_bench.hpp"
 #include "hal/gpio/lines/conformance/digital_io_conformance.hpp"
-#include "runtime/core/text.hpp"
 
 namespace flexrf {
 

@@ -2,8 +2,8 @@
 // on.
 #pragma once
 
+#include "base/text.hpp"
 #include "hal/gpio/lines/interface/digital_line.hpp"
-#include "runtime/core/text.hpp"
 
 namespace flexrf {
 

@@ -1,7 +1,7 @@
 // LineFilter: what a line is when its bounces are left out.
 #pragma once
 
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 namespace flexrf {
 

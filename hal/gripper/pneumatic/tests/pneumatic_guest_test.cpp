@@ -2,10 +2,10 @@
 // what its valves' lines are.
 #include <ctime>
 
+#include "base/text.hpp"
 #include "hal/gpio/chip/linux/linux_gpio_chip.hpp"
 #include "hal/gpio/chip/linux/tests/gpio_sim.hpp"
 #include "hal/gripper/pneumatic/tests/pneumatic_world.hpp"
-#include "runtime/core/text.hpp"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <atomic>
 #include <memory>
 
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "hal/modbus/link/interface/modbus_transport.hpp"
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "base/status.hpp"
 #include "hal/modbus/link/interface/register_map.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf {
 

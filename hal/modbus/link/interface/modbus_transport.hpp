@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "hal/modbus/link/interface/modbus_plan.hpp"
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf {
 

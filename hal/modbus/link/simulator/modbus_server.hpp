@@ -10,10 +10,10 @@
 #include <string_view>
 #include <thread>
 
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "hal/modbus/link/interface/modbus_station_model.hpp"
 #include "hal/modbus/link/interface/register_map.hpp"
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
 
 struct _modbus;
 struct _modbus_mapping_t;

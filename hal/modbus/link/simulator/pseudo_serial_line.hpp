@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 
 namespace flexrf {
 namespace {

@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <string_view>
 
+#include "base/status.hpp"
 #include "hal/driver/actuator.hpp"
 #include "hal/modbus/link/interface/register_map.hpp"
 #include "hal/modbus/station/interface/station_outputs.hpp"
 #include "modbus_station_interface.hpp"
 #include "runtime/blackboard/item.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf {
 

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/text.hpp"
 #include "hal/driver/device_bench.hpp"
 #include "hal/operator/evdev/evdev_nodes.hpp"
 #include "hal/operator/keyboard/evdev/evdev_keyboard.hpp"
 #include "hal/operator/keyboard/evdev/evdev_keys.hpp"
-#include "runtime/core/text.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf {

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <optional>
 
+#include "base/text.hpp"
 #include "hal/driver/device_bench.hpp"
 #include "hal/operator/evdev/tests/uinput_device.hpp"
-#include "runtime/core/text.hpp"
 
 namespace flexrf {
 

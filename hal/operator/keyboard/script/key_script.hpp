@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/core/status.hpp"
-#include "runtime/core/time.hpp"
+#include "base/status.hpp"
+#include "base/time.hpp"
 #include "types/key_event.hpp"
 
 namespace flexrf {

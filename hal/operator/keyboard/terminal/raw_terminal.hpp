@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf::raw_terminal {
 

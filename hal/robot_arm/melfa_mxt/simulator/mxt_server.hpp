@@ -6,8 +6,8 @@
 #include <mutex>
 #include <thread>
 
+#include "base/status.hpp"
 #include "hal/robot_arm/melfa_mxt/simulator/mxt_wire.hpp"
-#include "runtime/core/status.hpp"
 
 namespace flexrf::melfa {
 

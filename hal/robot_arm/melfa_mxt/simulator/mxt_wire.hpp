@@ -2,8 +2,8 @@
 // way.
 #pragma once
 
+#include "base/time.hpp"
 #include "hal/robot_arm/melfa_mxt/simulator/mxt_controller.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf::melfa {
 

@@ -1,12 +1,12 @@
 // A CiA 402 drive with one axis, from the other end of the bus, with faults on purpose.
 #pragma once
 
+#include "base/time.hpp"
 #include "hal/canopen/cia402.hpp"
 #include "hal/canopen/emergency.hpp"
 #include "hal/canopen/nmt.hpp"
 #include "hal/servo_drive/canopen/simulator/drive_motion.hpp"
 #include "hal/servo_drive/canopen/simulator/drive_objects.hpp"
-#include "runtime/core/time.hpp"
 
 namespace flexrf {
 

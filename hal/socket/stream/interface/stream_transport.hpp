@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf {
 

@@ -4,9 +4,9 @@
 #include <cerrno>
 #include <cstring>
 
+#include "base/text.hpp"
 #include "hal/driver/device_bench.hpp"
 #include "hal/gpio/chip/linux/gpio_messages.hpp"
-#include "runtime/core/text.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf {

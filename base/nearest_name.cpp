@@ -1,4 +1,4 @@
-#include "runtime/core/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "runtime/core/text_table.hpp"
+#include "base/text_table.hpp"
 
 #include <algorithm>
 #include <array>

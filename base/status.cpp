@@ -1,4 +1,4 @@
-#include "runtime/core/status.hpp"
+#include "base/status.hpp"
 
 namespace flexrf {
 

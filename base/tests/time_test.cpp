@@ -1,5 +1,5 @@
 // Durations from and to seconds.
-#include "runtime/core/time.hpp"
+#include "base/time.hpp"
 
 #include <limits>
 
