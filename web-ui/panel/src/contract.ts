@@ -62,6 +62,14 @@ export interface Reading {
 
 export type Outcome = { ok: true; values?: { [path: string]: Value } } | { ok: false; detail: string; parameter?: string };
 
+/** Of a value that is set again and again, as while a hand drags. */
+export interface SetOptions {
+  /** ms that lie at least between the request before, if it is the same parameter's, and this one. */
+  readonly spacing?: number;
+  /** Once aborted, a value that still waits is not sent. */
+  readonly signal?: AbortSignal;
+}
+
 /** A hold that lives: refreshed by the core every 100 ms until release() or until it is lost. */
 export interface Hold {
   release(): void;
@@ -85,8 +93,9 @@ export interface WidgetHost {
    * at once if there is one. Ends with the returned function.
    */
   watch(key: string, callback: (reading: Reading) => void, options?: { rate?: number; width?: number }): () => void;
-  /** Sends a runtime parameter; the answer is the unit's. */
-  set(key: string, value: Value): Promise<Outcome>;
+  /** Sends a runtime parameter; the answer is the unit's. One value is under way: of those that follow before its answer
+   *  only the newest is sent, and all get its answer. */
+  set(key: string, value: Value, options?: SetOptions): Promise<Outcome>;
   press(key: string, count?: number): Promise<Outcome>;
   hold(key: string): Promise<Hold>;
   reset(key: string): Promise<Outcome>;

@@ -116,9 +116,13 @@ export class Connection {
 
   /** Whether it was given to an open socket. */
   send(message: { readonly op: string; readonly id: number; readonly [field: string]: unknown }): boolean {
-    if (this.#phase !== 'open' || this.#socket?.readyState !== 1) return false;
-    this.#socket.send(JSON.stringify(message));
-    return true;
+    const socket = this.#openSocket;
+    socket?.send(JSON.stringify(message));
+    return socket !== undefined;
+  }
+
+  get #openSocket(): Socket | undefined {
+    return this.#phase === 'open' && this.#socket?.readyState === 1 ? this.#socket : undefined;
   }
 
   request<Fields = object>(op: string, fields: object = {}, timeoutMs = requestTimeout): Promise<Answer<Fields>> {
@@ -134,7 +138,9 @@ export class Connection {
         problem: { title: 'No answer', detail: `The application did not answer "${op}" within ${timeoutMs / 1000} s.` },
       }), timeoutMs);
       this.#listeners.set(id, finish);
-      if (!this.send({ ...fields, op, id })) finish({ id, ok: false, problem: linkLost });
+      const socket = this.#openSocket;
+      if (socket) socket.send(JSON.stringify({ ...fields, op, id }));
+      else finish({ id, ok: false, problem: linkLost });
     });
   }
 

@@ -1,5 +1,5 @@
 // What every widget is given: the core behind the contract of widgets.
-import type { Hold, Joint, Outcome, Reading, Value, WidgetHost } from '../contract';
+import type { Hold, Joint, Outcome, Reading, SetOptions, Value, WidgetHost } from '../contract';
 import { sameValue } from './same_value';
 import type { ConfigurationValues } from './configuration';
 import type { Item } from './descriptor';
@@ -29,17 +29,13 @@ interface Applied {
   readonly values: { [path: string]: Value };
 }
 
-interface Wanted {
-  readonly value: Value;
-  readonly tell: readonly ((outcome: Outcome) => void)[];
-}
-
 const unknownKey: Outcome = { ok: false, detail: 'There is no such parameter.' };
+const withdrawn: Outcome = { ok: false, detail: 'It was given up before it was sent.' };
 
 export class Host implements WidgetHost {
   readonly history = new History();
-  /** Of each parameter that is being set: a newer value waits for the answer to the one before, those between are left out. */
-  #settings = new Map<string, Newest<Wanted>>();
+  /** Of each parameter that was set. */
+  #settings = new Map<string, Newest<Outcome>>();
 
   constructor(private readonly parts: HostParts) {}
 
@@ -73,20 +69,13 @@ export class Host implements WidgetHost {
     };
   }
 
-  set(key: string, value: Value): Promise<Outcome> {
+  async set(key: string, value: Value, options?: SetOptions): Promise<Outcome> {
     const item = this.item(key);
-    if (item?.component === undefined || item.path === undefined) return Promise.resolve(unknownKey);
+    if (item?.component === undefined || item.path === undefined) return unknownKey;
     const { component, path } = item;
-    return new Promise((resolve) => {
-      const setting: Newest<Wanted> = this.#settings.get(key) ?? new Newest<Wanted>(async ({ value: wanted, tell }, done) => {
-        const outcome = await this.#change('set', component, [path], { values: { [path]: wanted } });
-        done();
-        if (!setting.pending) this.#settings.delete(key);
-        tell.forEach((one) => one(outcome));
-      });
-      this.#settings.set(key, setting);
-      setting.put({ value, tell: [...(setting.waiting?.tell ?? []), resolve] });
-    });
+    const setting = this.#settings.get(key) ?? new Newest<Outcome>();
+    this.#settings.set(key, setting);
+    return (await setting.run(() => this.#change('set', component, [path], { values: { [path]: value } }), options)) ?? withdrawn;
   }
 
   async press(key: string, count = 1): Promise<Outcome> {

@@ -1,62 +1,37 @@
 // One at a time, the newest next: for values that come faster than the other end takes them, as from a hand that drags.
+import type { SetOptions } from '../contract';
 
-/**
- * What is put while another is under way waits for its end; of those that wait only the newest is begun, and the last is
- * never lost. Each put is another object.
- */
-export class Newest<Wanted extends object> {
-  #underWay: Wanted | undefined;
-  #waiting: Wanted | undefined;
+/** What is to be done while another is under way waits for its end; of those that wait only the newest is done, and the last is never lost. */
+export class Newest<Result> {
+  /** Resolves at its end, however that came about. */
+  #underWay: Promise<void> | undefined;
   #begunAt = -Infinity;
-  #timer: ReturnType<typeof setTimeout> | undefined;
+  #waiting: { readonly act: () => Promise<Result>; readonly options: SetOptions } | undefined;
+  #later: Promise<Result | undefined> | undefined;
 
-  constructor(
-    /** Calls `done` when it is over: that begins what waits. False: it was cancelled meanwhile. */
-    private readonly begin: (wanted: Wanted, done: () => boolean) => void,
-    /** ms that lie between two beginnings at least, as it is when one is to begin. */
-    private readonly spacing: () => number = () => 0,
-  ) {}
-
-  /** Not begun yet: the next `put` takes its place. */
-  get waiting(): Wanted | undefined {
-    return this.#waiting;
-  }
-  /** One is under way, or waits. */
-  get pending(): boolean {
-    return (this.#underWay ?? this.#waiting) !== undefined;
-  }
-
-  put(wanted: Wanted): void {
-    this.#waiting = wanted;
-    this.#beginNext();
-  }
-
-  /** Nothing waits any longer, and nobody waits for what is under way: the next begins at once. */
-  cancel(): void {
-    clearTimeout(this.#timer);
-    this.#timer = this.#underWay = this.#waiting = undefined;
-  }
-
-  #beginNext(): void {
-    const wanted = this.#waiting;
-    if (this.#underWay || this.#timer || !wanted) return;
-    const now = performance.now();
-    const early = this.#begunAt + this.spacing() - now;
-    if (early > 0) {
-      this.#timer = setTimeout(() => {
-        this.#timer = undefined;
-        this.#beginNext();
-      }, early);
-      return;
+  /** Those that wait get the result of the newest; undefined: that was withdrawn before it began. */
+  run(act: () => Promise<Result>, options: SetOptions = {}): Promise<Result | undefined> {
+    if (this.#underWay || this.#later || this.#early(options) > 0) {
+      this.#waiting = { act, options };
+      return (this.#later ??= this.#runLater());
     }
-    this.#waiting = undefined;
-    this.#underWay = wanted;
-    this.#begunAt = now;
-    this.begin(wanted, () => {
-      if (this.#underWay !== wanted) return false;
-      this.#underWay = undefined;
-      this.#beginNext();
-      return true;
-    });
+    this.#begunAt = performance.now();
+    const result = act();
+    const over = (): void => { this.#underWay = undefined; };
+    this.#underWay = result.then(over, over);
+    return result;
+  }
+
+  /** ms until it may begin. */
+  #early({ spacing = 0 }: SetOptions): number {
+    return this.#begunAt + spacing - performance.now();
+  }
+
+  async #runLater(): Promise<Result | undefined> {
+    await this.#underWay;
+    for (let early; (early = this.#early(this.#waiting!.options)) > 0;) await new Promise((resolve) => setTimeout(resolve, early));
+    const { act, options } = this.#waiting!;
+    this.#waiting = this.#later = undefined;
+    return options.signal?.aborted ? undefined : this.run(act, options);
   }
 }

@@ -1,6 +1,6 @@
 // What widgets of configuration parameters are given as their host: they show the configuration in force, or the draft
 // while it is being edited, and what they set goes into the draft. All else is the page's own host.
-import type { Hold, ItemInfo, Joint, Outcome, Reading, Value, WidgetHost } from '../contract';
+import type { Hold, ItemInfo, Joint, Outcome, Reading, SetOptions, Value, WidgetHost } from '../contract';
 import { sameValue } from '../core/same_value';
 import { partOf, partsOf } from '../core/value_path';
 import { added } from '../core/watchers';
@@ -50,9 +50,9 @@ export class EditHost implements WidgetHost {
     };
   }
 
-  async set(key: string, value: Value): Promise<Outcome> {
+  async set(key: string, value: Value, options?: SetOptions): Promise<Outcome> {
     const item = this.configured(key);
-    if (item === undefined) return this.base.set(key, value);
+    if (item === undefined) return this.base.set(key, value, options);
     const locked = this.locked(key);
     if (locked !== '') return { ok: false, detail: locked };
     const component = item.component!;

@@ -35,7 +35,7 @@ export class ArrayField extends EditorBase {
     this.cells = Array.from({ length: rows * columns }, (_, i) => {
       const index = this.indexOf(i);
       return new Edit(
-        (value) => this.host.set(`${this.item!.key}${index}`, value),
+        (value, options) => this.host.set(`${this.item!.key}${index}`, value, options),
         () => (this.item?.path === undefined ? undefined : `${this.item.path}${index}`),
         () => this.presentCell(i),
       );

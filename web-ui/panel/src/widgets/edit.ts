@@ -1,17 +1,10 @@
 // The way of one parameter's value: from a person's hand to the unit, and back from the unit to the page.
-import type { Outcome, Value } from '../contract';
-import { Newest } from '../core/newest';
+import type { Outcome, SetOptions, Value } from '../contract';
 import { textOfError } from '../core/reasons';
 import { valueAt } from '../core/value_path';
 
 /** Least time between two requests while a hand drags, ms: enough to tune by, little enough for log and audit. */
 const spacing_ms = 100;
-
-interface Request {
-  readonly make: () => Promise<Outcome>;
-  /** What it sets; undefined: the unit knows. */
-  readonly value?: Value;
-}
 
 /**
  * What is shown is the value in force, except while a person drags or types, or a request is unanswered: then it is
@@ -23,13 +16,14 @@ export class Edit {
   private force: Value | null = null;
   private own: Value | undefined;
   private hands = false;
-  private readonly requests = new Newest<Request>(
-    (request, done) => void this.run(request, done),
-    () => (this.hands ? spacing_ms : 0),
-  );
+  /** The newest request, until it is answered. */
+  private asked: Promise<Outcome> | undefined;
+  /** Aborted with cancel(): what was asked for before is not wanted any longer. */
+  private wanted = new AbortController();
 
   constructor(
-    private readonly send: (value: Value) => Promise<Outcome>,
+    /** One at a time, as WidgetHost.set(). */
+    private readonly send: (value: Value, options: SetOptions) => Promise<Outcome>,
     private readonly path: () => string | undefined,
     /** Called whenever `shown`, `refusal`, `pending` or `inForce` may have changed. */
     private readonly changed: () => void,
@@ -44,7 +38,7 @@ export class Edit {
   }
   /** Sent, and not answered yet. */
   get pending(): boolean {
-    return this.requests.pending;
+    return this.asked !== undefined;
   }
   get shown(): Value | null {
     return (this.hands || this.pending) && this.own !== undefined ? this.own : this.force;
@@ -80,8 +74,7 @@ export class Edit {
   put(value: Value): void {
     this.own = value;
     this.refusal = '';
-    this.requests.put({ make: () => this.send(value), value });
-    this.changed();
+    void this.follow(this.send(value, { spacing: this.hands ? spacing_ms : 0, signal: this.wanted.signal }), value);
   }
 
   /** What was typed makes no sense: nothing is sent. */
@@ -94,7 +87,9 @@ export class Edit {
 
   /** The person gave up, or may not any more: back to the value in force. */
   cancel(): void {
-    this.requests.cancel();
+    this.wanted.abort();
+    this.wanted = new AbortController();
+    this.asked = undefined;
     this.hands = false;
     this.own = undefined;
     this.changed();
@@ -104,18 +99,17 @@ export class Edit {
   perform(make: () => Promise<Outcome>): void {
     this.cancel();
     this.refusal = '';
-    this.requests.put({ make });
-    this.changed();
+    void this.follow(make());
   }
 
-  private async run({ make, value }: Request, done: () => boolean): Promise<void> {
-    let outcome: Outcome;
-    try {
-      outcome = await make();
-    } catch (failure) {
-      outcome = { ok: false, detail: textOfError(failure) };
-    }
-    if (!done()) return;
+  /** `value`: what was asked for; undefined: the unit knows. */
+  private async follow(asked: Promise<Outcome>, value?: Value): Promise<void> {
+    const { signal } = this.wanted;
+    this.asked = asked;
+    this.changed();
+    const outcome = await asked.catch((failure): Outcome => ({ ok: false, detail: textOfError(failure) }));
+    if (signal.aborted) return;
+    if (this.asked === asked) this.asked = undefined;
     if (outcome.ok) {
       const answered = valueAt(outcome.values, this.path());
       if (answered !== undefined) this.force = answered;

@@ -9,7 +9,7 @@ import { anyText, scalarText } from './value_text';
 
 export abstract class EditorBase extends ControlBase {
   protected readonly edit = new Edit(
-    (value) => this.host.set(this.item!.key, value),
+    (value, options) => this.host.set(this.item!.key, value, options),
     () => this.item?.path,
     () => this.presentEdit(),
   );

@@ -3,7 +3,6 @@ import { css, html } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { Reading } from '../contract';
 import { listen } from '../core/listen';
-import { Newest } from '../core/newest';
 import { widgetStyles } from './styles';
 import { WidgetBase } from './widget_base';
 
@@ -36,13 +35,13 @@ export class ImageView extends WidgetBase {
   private width = 0;
   private endWatch: (() => void) | undefined;
   private address = '';
-  /** While the browser decodes one the next waits. */
-  private readonly pictures = new Newest<Blob>((blob, done) => this.put(blob, done));
-  private loaded = (): unknown => undefined;
+  /** While the browser decodes one the newest waits. */
+  private decodes = false;
+  private waiting: Blob | undefined;
 
   protected override render(): TemplateResult {
     return this.frame(html`<div class="picture">
-      <img alt=${`${this.label}. ${this.item?.summary ?? ''}`} @load=${() => this.loaded()} @error=${() => this.loaded()} />
+      <img alt=${`${this.label}. ${this.item?.summary ?? ''}`} @load=${() => this.presentNext()} @error=${() => this.presentNext()} />
     </div>`);
   }
 
@@ -88,7 +87,8 @@ export class ImageView extends WidgetBase {
     this.endWatch?.();
     this.endWatch = undefined;
     this.width = 0;
-    this.pictures.cancel();
+    this.decodes = false;
+    this.waiting = undefined;
     this.revoke();
     this.renderRoot.querySelector('img')?.removeAttribute('src');
   }
@@ -97,16 +97,20 @@ export class ImageView extends WidgetBase {
     super.take(reading);
     if (!this.hasUpdated) return;
     this.find('.picture').classList.toggle('absent', !reading.image);
-    if (reading.image) this.pictures.put(reading.image);
+    if (!reading.image) return;
+    this.waiting = reading.image;
+    if (!this.decodes) this.presentNext();
   }
 
   /** The picture is its own value. */
   protected override show(): void {}
 
-  private put(blob: Blob, done: () => boolean): void {
-    const old = this.address;
-    this.address = URL.createObjectURL(blob);
-    this.loaded = done;
+  private presentNext(): void {
+    const { address: old, waiting } = this;
+    this.decodes = waiting !== undefined;
+    this.waiting = undefined;
+    if (waiting === undefined) return;
+    this.address = URL.createObjectURL(waiting);
     this.find<HTMLImageElement>('img').src = this.address;
     if (old !== '') URL.revokeObjectURL(old);
   }

@@ -57,6 +57,27 @@ describe('set', () => {
     void host.set('jog.gains[1][2]', 7);
     expect(request).toHaveBeenLastCalledWith('set', { component: 'jog', values: { 'gains[1][2]': 7 } });
   });
+  it('keeps values apart as it is asked to, and leaves out what was given up meanwhile', async () => {
+    vi.useFakeTimers();
+    const given = new AbortController();
+    const dragged = { spacing: 100, signal: given.signal };
+    void host.set('jog.step', 1, dragged);
+    answers[0]?.({ id: 1, ok: true });
+    await vi.advanceTimersByTimeAsync(0);
+    const second = host.set('jog.step', 2, dragged);
+    await vi.advanceTimersByTimeAsync(99);
+    expect(request).toHaveBeenCalledTimes(1);
+    await vi.advanceTimersByTimeAsync(1);
+    expect(request).toHaveBeenLastCalledWith('set', { component: 'jog', values: { step: 2 } });
+    const third = host.set('jog.step', 3, dragged);
+    given.abort();
+    answers[1]?.({ id: 2, ok: true });
+    await vi.advanceTimersByTimeAsync(200);
+    expect(await second).toEqual({ ok: true });
+    expect(await third).toMatchObject({ ok: false });
+    expect(request).toHaveBeenCalledTimes(2);
+    vi.useRealTimers();
+  });
   it('refuses what is no parameter', async () => {
     expect(await host.set('nothing', 1)).toMatchObject({ ok: false });
     expect(await host.set('jog.feedback.presses', 1)).toMatchObject({ ok: false });

@@ -1,52 +1,48 @@
 // @vitest-environment node
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import type { SetOptions } from '../../contract';
 import { Newest } from '../newest';
-
-interface Value {
-  readonly value: number;
-}
 
 describe('Newest', () => {
   let begun: number[];
-  let ends: (() => boolean)[];
-  let spacing: number;
-  let newest: Newest<Value>;
-  const put = (...values: number[]): void => values.forEach((value) => newest.put({ value }));
+  let ends: (() => void)[];
+  let newest: Newest<number>;
+  const run = (value: number, options?: SetOptions): Promise<number | undefined> => newest.run(() => {
+    begun.push(value);
+    return new Promise((resolve) => ends.push(() => resolve(10 * value)));
+  }, options);
+  const end = async (index: number): Promise<void> => {
+    ends[index]!();
+    await vi.advanceTimersByTimeAsync(0);
+  };
 
   beforeEach(() => {
     vi.useFakeTimers();
     begun = [];
     ends = [];
-    spacing = 0;
-    newest = new Newest<Value>(({ value }, done) => {
-      begun.push(value);
-      ends.push(done);
-    }, () => spacing);
+    newest = new Newest();
   });
   afterEach(() => void vi.useRealTimers());
 
-  it('begins the first at once, and of those that come meanwhile only the newest, at its end', () => {
-    expect(newest.pending).toBe(false);
-    put(1, 2, 3);
+  it('begins the first at once, and of those that come meanwhile only the newest, at its end', async () => {
+    const results = [1, 2, 3].map((value) => run(value));
     expect(begun).toEqual([1]);
-    expect(newest.waiting).toEqual({ value: 3 });
-    expect(ends[0]!()).toBe(true);
+    await end(0);
+    expect(await results[0]).toBe(10);
     expect(begun).toEqual([1, 3]);
-    expect(newest.waiting).toBeUndefined();
-    expect(newest.pending).toBe(true);
-    expect(ends[1]!()).toBe(true);
-    expect(newest.pending).toBe(false);
-    put(4);
+    await end(1);
+    expect(await Promise.all(results.slice(1))).toEqual([30, 30]);
+    void run(4);
     expect(begun).toEqual([1, 3, 4]);
   });
 
   it('keeps beginnings apart, and begins the last though nothing follows', async () => {
-    spacing = 100;
-    put(1);
-    ends[0]!();
-    put(2);
+    const spaced = { spacing: 100 };
+    void run(1, spaced);
+    await end(0);
+    void run(2, spaced);
     await vi.advanceTimersByTimeAsync(60);
-    put(3);
+    void run(3, spaced);
     expect(begun).toEqual([1]);
     await vi.advanceTimersByTimeAsync(39);
     expect(begun).toEqual([1]);
@@ -55,45 +51,55 @@ describe('Newest', () => {
   });
 
   it('does not begin one before the end of the other, however long that lasts', async () => {
-    spacing = 100;
-    put(1, 2);
+    void run(1);
+    void run(2, { spacing: 100 });
     await vi.advanceTimersByTimeAsync(500);
     expect(begun).toEqual([1]);
-    ends[0]!();
+    await end(0);
     expect(begun).toEqual([1, 2]);
   });
 
-  it('asks for the spacing when one is to begin', () => {
-    spacing = 100;
-    put(1);
-    ends[0]!();
-    spacing = 0;
-    put(2);
+  it('goes by the spacing of the one that is to begin', async () => {
+    void run(1, { spacing: 100 });
+    await end(0);
+    void run(2);
     expect(begun).toEqual([1, 2]);
   });
 
-  it('forgets all when it is cancelled: what waits, for an end or for its time, and what is under way', async () => {
-    put(1, 2);
-    newest.cancel();
-    expect(newest.pending).toBe(false);
-    put(3);
-    expect(begun).toEqual([1, 3]);
-    put(4);
-    expect(ends[0]!()).toBe(false); // of another's that is under way it is not the end
-    expect(begun).toEqual([1, 3]);
-    spacing = 100;
-    ends[1]!();
-    newest.cancel();
-    expect(vi.getTimerCount()).toBe(0);
+  it('leaves out what was withdrawn while it waited, for an end or for its time', async () => {
+    const first = new AbortController();
+    void run(1, first);
+    const withdrawn = run(2, first);
+    first.abort();
+    await end(0);
+    expect(await withdrawn).toBeUndefined();
+    expect(begun).toEqual([1]);
+
+    const second = new AbortController();
+    void run(3, { spacing: 100, signal: second.signal });
+    second.abort();
     await vi.advanceTimersByTimeAsync(1000);
+    expect(begun).toEqual([1]);
+    expect(vi.getTimerCount()).toBe(0);
+    void run(4);
+    expect(begun).toEqual([1, 4]);
+  });
+
+  it('begins what was asked for anew after a withdrawal', async () => {
+    const given = new AbortController();
+    void run(1, given);
+    void run(2, given);
+    given.abort();
+    void run(3);
+    await end(0);
     expect(begun).toEqual([1, 3]);
   });
 
-  it('takes the end of one once', () => {
-    put(1, 2);
-    ends[0]!();
-    put(3);
-    expect(ends[0]!()).toBe(false);
-    expect(begun).toEqual([1, 2]);
+  it('goes on after one that failed', async () => {
+    const failed = newest.run(() => Promise.reject(new Error('no')));
+    void run(2);
+    await expect(failed).rejects.toThrow('no');
+    await vi.advanceTimersByTimeAsync(0);
+    expect(begun).toEqual([2]);
   });
 });

@@ -1,15 +1,20 @@
 // @vitest-environment node
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import type { Outcome, Value } from '../../contract';
+import type { Outcome, SetOptions, Value } from '../../contract';
+import { Newest } from '../../core/newest';
 import { Edit } from '../edit';
 
-/** A unit that answers when the test says so. */
+/** A unit that answers when the test says so, behind what the page's host does with its values. */
 class Unit {
   readonly sent: Value[] = [];
   private answers: ((outcome: Outcome) => void)[] = [];
-  readonly send = (value: Value): Promise<Outcome> => {
-    this.sent.push(value);
-    return new Promise((resolve) => this.answers.push(resolve));
+  private readonly values = new Newest<Outcome>();
+  readonly send = async (value: Value, options: SetOptions): Promise<Outcome> => {
+    const outcome = await this.values.run(() => {
+      this.sent.push(value);
+      return new Promise<Outcome>((resolve) => this.answers.push(resolve));
+    }, options);
+    return outcome ?? { ok: false, detail: 'withdrawn' };
   };
   async answer(outcome: Outcome): Promise<void> {
     this.answers.shift()!(outcome);

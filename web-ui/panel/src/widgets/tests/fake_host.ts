@@ -1,7 +1,8 @@
 // A host whose every side the test holds in its hands.
 import { vi } from 'vitest';
-import type { Hold, ItemInfo, Outcome, Reading, Value, WidgetElement, WidgetHost } from '../../contract';
+import type { Hold, ItemInfo, Outcome, Reading, SetOptions, Value, WidgetElement, WidgetHost } from '../../contract';
 import { kindOf, registerBuiltIn } from '..';
+import { Newest } from '../../core/newest';
 import { tagOf } from '../../core/registry';
 import { registerFurther } from '../further';
 
@@ -88,6 +89,17 @@ export class FakeHost implements WidgetHost {
   }
 }
 
+/** As a widget sees it: of the values that it sets, those come to `host.set` that the page's host would send. */
+function seenByWidgets(host: FakeHost): WidgetHost {
+  const settings = new Map<string, Newest<Outcome>>();
+  const set = async (key: string, value: Value, options?: SetOptions): Promise<Outcome> => {
+    const setting = settings.get(key) ?? new Newest<Outcome>();
+    settings.set(key, setting);
+    return (await setting.run(() => host.set(key, value), options)) ?? { ok: false, detail: 'withdrawn' };
+  };
+  return Object.create(host, { set: { value: set } }) as WidgetHost;
+}
+
 export function makeItem(more: Partial<ItemInfo> = {}): ItemInfo {
   return {
     key: 'jog.step', label: 'Step', summary: 'How far one press moves.', scalar: 'f64', shape: [], unit: '1',
@@ -116,7 +128,7 @@ export async function show(item: ItemInfo, more: Partial<WidgetElement> = {}, ki
 }
 
 export async function mount(kind: string, properties: Partial<WidgetElement>, host: FakeHost): Promise<Shown> {
-  const widget = Object.assign(document.createElement(tagOf(kind)) as WidgetElement, { host }, properties);
+  const widget = Object.assign(document.createElement(tagOf(kind)) as WidgetElement, { host: seenByWidgets(host) }, properties);
   document.body.append(widget);
   await settled(widget);
   const root = widget.shadowRoot!;
