@@ -73,9 +73,9 @@ export class Host implements WidgetHost {
     const item = this.item(key);
     if (item?.component === undefined || item.path === undefined) return unknownKey;
     const { component, path } = item;
-    const setting = this.#settings.get(key) ?? new Newest<Outcome>();
+    const setting = this.#settings.get(key) ?? new Newest(withdrawn);
     this.#settings.set(key, setting);
-    return (await setting.run(() => this.#change('set', component, [path], { values: { [path]: value } }), options)) ?? withdrawn;
+    return setting.run(() => this.#note(component, [path], this.parts.request('set', { component, values: { [path]: value } })), options);
   }
 
   async press(key: string, count = 1): Promise<Outcome> {
@@ -98,7 +98,7 @@ export class Host implements WidgetHost {
 
   /** All of them, or none. */
   resetAll(component: string, parameters: readonly string[]): Promise<Outcome> {
-    return this.#change('reset', component, parameters, { parameters });
+    return this.#note(component, parameters, this.parts.request('reset', { component, parameters }));
   }
 
   /** Takes the newest change back that this page made and nobody has changed since. */
@@ -130,13 +130,14 @@ export class Host implements WidgetHost {
     return fetch(`/application/${parts.map(encodeURIComponent).join('/')}`);
   }
 
-  async #change(op: 'set' | 'reset', component: string, paths: readonly string[], fields: object): Promise<Outcome> {
+  /** What was asked for just now is a change to take back, if it is made. */
+  async #note(component: string, paths: readonly string[], asked: Promise<Answer<Applied>>): Promise<Outcome> {
     const known: { [path: string]: Value } = {};
     for (const path of paths) {
       const value = this.#value(component, path);
       if (value !== undefined) known[path] = value;
     }
-    const outcome = outcomeOf(await this.parts.request<Applied>(op, { component, ...fields }));
+    const outcome = outcomeOf(await asked);
     const before = chosen(known, paths);
     const after = outcome.ok ? chosen(outcome.values, paths) : undefined;
     if (before && after) this.history.note({ component, before, after });

@@ -7,10 +7,13 @@ export class Newest<Result> {
   #underWay: Promise<void> | undefined;
   #begunAt = -Infinity;
   #waiting: { readonly act: () => Promise<Result>; readonly options: SetOptions } | undefined;
-  #later: Promise<Result | undefined> | undefined;
+  #later: Promise<Result> | undefined;
 
-  /** Those that wait get the result of the newest; undefined: that was withdrawn before it began. */
-  run(act: () => Promise<Result>, options: SetOptions = {}): Promise<Result | undefined> {
+  /** `withdrawn`: what comes of one that was withdrawn while it waited. */
+  constructor(private readonly withdrawn: Result) {}
+
+  /** Those that wait get the result of the newest. */
+  run(act: () => Promise<Result>, options: SetOptions = {}): Promise<Result> {
     if (this.#underWay || this.#later || this.#early(options) > 0) {
       this.#waiting = { act, options };
       return (this.#later ??= this.#runLater());
@@ -27,11 +30,11 @@ export class Newest<Result> {
     return this.#begunAt + spacing - performance.now();
   }
 
-  async #runLater(): Promise<Result | undefined> {
+  async #runLater(): Promise<Result> {
     await this.#underWay;
     for (let early; (early = this.#early(this.#waiting!.options)) > 0;) await new Promise((resolve) => setTimeout(resolve, early));
     const { act, options } = this.#waiting!;
     this.#waiting = this.#later = undefined;
-    return options.signal?.aborted ? undefined : this.run(act, options);
+    return options.signal?.aborted ? this.withdrawn : this.run(act, options);
   }
 }

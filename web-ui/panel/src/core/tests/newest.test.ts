@@ -6,7 +6,7 @@ import { Newest } from '../newest';
 describe('Newest', () => {
   let begun: number[];
   let ends: (() => void)[];
-  let newest: Newest<number>;
+  let newest: Newest<number | undefined>;
   const run = (value: number, options?: SetOptions): Promise<number | undefined> => newest.run(() => {
     begun.push(value);
     return new Promise((resolve) => ends.push(() => resolve(10 * value)));
@@ -20,7 +20,7 @@ describe('Newest', () => {
     vi.useFakeTimers();
     begun = [];
     ends = [];
-    newest = new Newest();
+    newest = new Newest<number | undefined>(undefined);
   });
   afterEach(() => void vi.useRealTimers());
 

@@ -8,14 +8,12 @@ import { Edit } from '../edit';
 class Unit {
   readonly sent: Value[] = [];
   private answers: ((outcome: Outcome) => void)[] = [];
-  private readonly values = new Newest<Outcome>();
-  readonly send = async (value: Value, options: SetOptions): Promise<Outcome> => {
-    const outcome = await this.values.run(() => {
+  private readonly values = new Newest<Outcome>({ ok: false, detail: 'withdrawn' });
+  readonly send = (value: Value, options: SetOptions): Promise<Outcome> =>
+    this.values.run(() => {
       this.sent.push(value);
       return new Promise<Outcome>((resolve) => this.answers.push(resolve));
     }, options);
-    return outcome ?? { ok: false, detail: 'withdrawn' };
-  };
   async answer(outcome: Outcome): Promise<void> {
     this.answers.shift()!(outcome);
     await vi.advanceTimersByTimeAsync(0);

@@ -93,9 +93,9 @@ export class FakeHost implements WidgetHost {
 function seenByWidgets(host: FakeHost): WidgetHost {
   const settings = new Map<string, Newest<Outcome>>();
   const set = async (key: string, value: Value, options?: SetOptions): Promise<Outcome> => {
-    const setting = settings.get(key) ?? new Newest<Outcome>();
+    const setting = settings.get(key) ?? new Newest<Outcome>({ ok: false, detail: 'withdrawn' });
     settings.set(key, setting);
-    return (await setting.run(() => host.set(key, value), options)) ?? { ok: false, detail: 'withdrawn' };
+    return setting.run(() => host.set(key, value), options);
   };
   return Object.create(host, { set: { value: set } }) as WidgetHost;
 }
