@@ -129,7 +129,7 @@ void help_lists_each_group_once() {
 }
 
 /// Which of two drivers the actuator has: 0 without options, 1 with them.
-std::uint16_t chosen_by(Words words) {
+std::size_t chosen_by(Words words) {
   CellWithOptions cell;
   Application application = cell.application();
   DeviceRecord device = application.devices[0];
@@ -143,7 +143,7 @@ std::uint16_t chosen_by(Words words) {
   CHECK(options);
   Executive executive(application, *options);
   CHECK(executive.prepare());
-  return cell.device_state(Cell::actuator).driver;
+  return static_cast<std::size_t>(cell.device_state(Cell::actuator).driver - drivers);
 }
 
 void an_option_that_chooses_its_driver_yields_to_hardware() {
