@@ -63,6 +63,9 @@ class AccessControl {
   virtual void release(SessionIndex session) = 0;
   virtual bool answer(SessionIndex session, bool grant,
                       Time now) = 0;  ///< false: it is not the holder's to answer
+  /// Live connections of a session, as they open and close.
+  virtual void link_opened(SessionIndex session) = 0;
+  virtual void link_closed(SessionIndex session, Time now) = 0;
   /// A person did something in this session: its time without use begins anew.
   virtual void acted(SessionIndex session, Time now) = 0;
   /// Rises with everything above that changed: sessions, holder, who asks.
@@ -72,23 +75,17 @@ class AccessControl {
   ~AccessControl() = default;
 };
 
-/// Told when the holder of the control token changes, however it came about: ends holds, stops manual motion.
-class ControlWatcher {
+/// Told of what somebody else has to act on at once.
+class AccessWatcher {
  public:
+  /// The control token has another holder, however it came about: ends holds, stops manual motion.
   virtual void on_control_changed(SessionIndex from, SessionIndex to) = 0;
-
- protected:
-  ~ControlWatcher() = default;
-};
-
-/// Told when a session has ended, by log-out, time or a new login. What is connected under its index must be
-/// closed now: the index may be another session's soon.
-class SessionWatcher {
- public:
+  /// By log-out, time or a new login. What is connected under its index must be closed now: the index may be
+  /// another session's soon.
   virtual void on_session_ended(SessionIndex session) = 0;
 
  protected:
-  ~SessionWatcher() = default;
+  ~AccessWatcher() = default;
 };
 
 }  // namespace flexrf::panel

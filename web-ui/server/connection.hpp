@@ -127,7 +127,8 @@ class Connection final : public LiveLink {
   void on_upgraded(error_code error);
   void read_message();
   void on_message_part(error_code error, std::size_t size);
-  void on_message();
+  /// The message that is complete; none: it was refused.
+  std::optional<std::string_view> take_message();
   bool may_send_directly() const;
   void send_by_beast(bool binary);
   void begin_rest();

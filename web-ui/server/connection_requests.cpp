@@ -104,8 +104,8 @@ bool Connection::admit(const RequestTarget& target) {
   approach.loopback = loopback_;
   approach.has_fetch_site = header.has_fetch_site;
   approach.upgrade = wants_upgrade();
-  return surroundings_.watch(target.path,
-                             [&] { return surroundings_.service.admit(approach, session_, reply_); });
+  const Watch watch(surroundings_, target.path);
+  return surroundings_.service.admit(approach, session_, reply_);
 }
 
 void Connection::serve(const RequestTarget& target) {
@@ -125,8 +125,11 @@ void Connection::serve(const RequestTarget& target) {
   const Ticket ticket{place_, exchange_};
   completed_ = false;
   handler_runs_ = true;
-  const Handled handled =
-      surroundings_.watch(target.path, [&] { return surroundings_.service.handle(request, reply_, ticket); });
+  Handled handled{};
+  {
+    const Watch watch(surroundings_, target.path);
+    handled = surroundings_.service.handle(request, reply_, ticket);
+  }
   handler_runs_ = false;
   if (handled == Handled::now || completed_) {
     send_reply();

@@ -1,9 +1,9 @@
 #include "web-ui/server/http_problem.hpp"
 
 #include <array>
-#include <charconv>
+#include <utility>
 
-#include "web-ui/server/json_text.hpp"
+#include "base/json_writer.hpp"
 
 namespace flexrf::panel {
 namespace {
@@ -67,14 +67,11 @@ void answer_problem(Reply& reply, unsigned status, std::string_view detail) {
   reply.cache_control = "no-store";
   reply.etag.clear();
   reply.fixed = {};
-  reply.text = R"({"type":"about:blank","title":)";
-  append_json_text(reply.text, title_of(status));
-  reply.text += R"(,"status":)";
-  char digits[12];
-  reply.text.append(digits, std::to_chars(digits, digits + sizeof(digits), status).ptr);
-  reply.text += R"(,"detail":)";
-  append_json_text(reply.text, detail);
-  reply.text += '}';
+  reply.text.clear();
+  JsonWriter json(std::move(reply.text));
+  json.begin_object().member("type", "about:blank").member("title", title_of(status));
+  json.member("status", status).member("detail", detail).end_object();
+  reply.text = json.release();
 }
 
 }  // namespace flexrf::panel

@@ -85,7 +85,10 @@ void Connection::on_upgraded(error_code error) {
   message_size_ = 0;
   writing_ = answers_ping_ = flooded_ = false;
   announced_ = true;
-  surroundings_.watch("the opening of a live connection", [this] { surroundings_.service.on_open(*this); });
+  {
+    const Watch watch(surroundings_, "the opening of a live connection");
+    surroundings_.service.live().on_open(*this);
+  }
   if (state_ == State::live) read_message();
 }
 
@@ -107,23 +110,27 @@ void Connection::on_message_part(error_code error, std::size_t size) {
   }
   answers_ping_ = false;
   message_size_ += size;
-  if (web_socket_->is_message_done()) on_message();
+  if (web_socket_->is_message_done()) {
+    if (const std::optional<std::string_view> text = take_message()) {
+      const Watch watch(surroundings_, "a live message");
+      surroundings_.service.live().on_text(*this, *text);
+    }
+  }
   if (state_ == State::live) read_message();
 }
 
-void Connection::on_message() {
+std::optional<std::string_view> Connection::take_message() {
   if (!message_rate_.take(surroundings_.now)) {
     close(1008, "too many messages");
-    return;
+    return std::nullopt;
   }
   if (web_socket_->got_binary()) {
     close(1003, "only text is understood");
-    return;
+    return std::nullopt;
   }
   // Not the turn's time: where the server itself stood still, that is from before, and nobody was silent.
   heard_ = MonotonicClock::now();
-  const std::string_view text{body_, std::exchange(message_size_, 0U)};
-  surroundings_.watch("a live message", [&] { surroundings_.service.on_text(*this, text); });
+  return std::string_view{body_, std::exchange(message_size_, 0U)};
 }
 
 // ---- sending
@@ -208,8 +215,8 @@ void Connection::on_sent(error_code error) {
     return;
   }
   reply_.text.clear();
-  surroundings_.watch("a live connection that can take more",
-                      [this] { surroundings_.service.on_writable(*this); });
+  const Watch watch(surroundings_, "a live connection that can take more");
+  surroundings_.service.live().on_writable(*this);
 }
 
 // ---- the end
@@ -247,7 +254,8 @@ void Connection::close(std::uint16_t code, std::string_view reason) {
 
 void Connection::end_live() {
   if (!std::exchange(announced_, false)) return;
-  surroundings_.watch("the end of a live connection", [this] { surroundings_.service.on_close(*this); });
+  const Watch watch(surroundings_, "the end of a live connection");
+  surroundings_.service.live().on_close(*this);
 }
 
 }  // namespace flexrf::panel

@@ -1,4 +1,4 @@
-// One open WebSocket, as the page's live connection sees it; knows nothing of sockets.
+// One open WebSocket, as who talks over it sees it, and the other way round; knows nothing of sockets.
 #pragma once
 
 #include <cstddef>
@@ -36,6 +36,21 @@ class LiveLink {
 
  protected:
   ~LiveLink() = default;
+};
+
+/// Who talks over the live connections. The server's thread only; each call returns within 5 ms.
+class LiveService {
+ public:
+  virtual void on_open(LiveLink& link) = 0;
+  /// A whole text message; binary ones are refused by the server.
+  virtual void on_text(LiveLink& link, std::string_view text) = 0;
+  /// The last message is with the kernel, and was not yet when it was sent.
+  virtual void on_writable(LiveLink& link) = 0;
+  /// Closed by either side, timed out or lost; the link is gone after the call.
+  virtual void on_close(LiveLink& link) = 0;
+
+ protected:
+  ~LiveService() = default;
 };
 
 }  // namespace flexrf::panel

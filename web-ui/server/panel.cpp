@@ -1,5 +1,6 @@
 #include "web-ui/server/panel.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -23,7 +24,6 @@
 #include "web-ui/server/listen_address.hpp"
 #include "web-ui/server/ordinary_memory.hpp"
 #include "web-ui/server/panel_options.hpp"
-#include "web-ui/server/panel_routes.hpp"
 #include "web-ui/server/server.hpp"
 
 namespace flexrf::panel {
@@ -34,8 +34,8 @@ const PanelRecord& record_of(const Application& application) noexcept {
   return application.panel == nullptr ? defaults : *application.panel;
 }
 
-/// Puts server, access control and API together; owns the server's thread.
-class Panel final : public Observer {
+/// Puts server, access control and API together, and gives each what is for it; owns the server's thread.
+class Panel final : public Observer, public Service {
  public:
   explicit Panel(Executive& executive)
       : executive_(executive), record_(record_of(executive.cell().application())) {}
@@ -44,6 +44,18 @@ class Panel final : public Observer {
   Status prepare() override;
   Status start() override;
   void stop() noexcept override;
+
+  // ---- the server's thread
+  bool admit(const Approach& approach, SessionIndex& session, Reply& reply) override {
+    return entrance_->admit(approach, session, reply);
+  }
+  void on_connection_closed(std::uint32_t place) override { entrance_->on_connection_closed(place); }
+  Handled handle(const Request& request, Reply& reply, Ticket ticket) override;
+  LiveService& live() noexcept override { return api_->live(); }
+  void on_tick(Time now) override;
+  Duration until_next(Time now) const override {
+    return std::min(endpoints_->until_next(now), api_->until_next(now));
+  }
 
  private:
   Status read_options();
@@ -65,7 +77,6 @@ class Panel final : public Observer {
   std::unique_ptr<net::ssl::context> encryption_;
   bool is_secure_ = false;
   std::vector<std::string> host_names_;
-  PanelRoutes routes_;
   std::optional<Server> server_;
   std::optional<PanelAccess> access_;
   std::optional<HostRules> rules_;
@@ -142,7 +153,7 @@ Status Panel::listen() {
   settings.places = record_.connections;
   settings.local = local_addresses();
   settings.loopback_is_local = record_.loopback_is_local;
-  server_.emplace(settings, std::move(encryption_), routes_);
+  server_.emplace(settings, std::move(encryption_), *this);
   Status status = server_->listen(address_);
   // Nobody asked for the default address: another application's panel is no reason not to start.
   if (status.code() == StatusCode::busy && !executive_.options().values().has("--panel")) {
@@ -191,8 +202,20 @@ Status Panel::make_api() {
   ApiTimeouts timeouts;
   timeouts.edit = executive_.options().values().duration("--panel-edit-timeout").value_or(timeouts.edit);
   api_.emplace(executive_, *access_, *server_, record_.connections, timeouts, &server_->bell());
-  routes_.connect({*server_, *access_, *entrance_, *endpoints_, *api_, *files_}, record_.connections);
+  access_->watch(*api_);
   return api_->prepare();
+}
+
+Handled Panel::handle(const Request& request, Reply& reply, Ticket ticket) {
+  if (AccessEndpoints::is_for(request.path)) return endpoints_->handle(request, reply, ticket);
+  if (request.path.starts_with("/api/")) return api_->handle(request, reply, ticket);
+  return files_->handle(request, reply, ticket);
+}
+
+void Panel::on_tick(Time now) {
+  endpoints_->on_tick(now);
+  api_->set_figures(server_->figures());
+  api_->on_tick(now);
 }
 
 /// What a browser on another machine would ask for.

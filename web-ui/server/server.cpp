@@ -182,7 +182,10 @@ void Server::tick() {
   if (std::exchange(bell_announced_, false)) bell_.settle();
   const std::uint32_t heard = bell_.listen();
   surroundings_.now = MonotonicClock::now();
-  surroundings_.watch("what is due", [this] { service_.on_tick(surroundings_.now); });
+  {
+    const Watch watch(surroundings_, "what is due");
+    service_.on_tick(surroundings_.now);
+  }
   bell_announced_ = bell_.announce(heard);
   surroundings_.handled = false;
   plan_tick();

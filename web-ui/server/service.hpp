@@ -38,13 +38,8 @@ class Service {
 
   virtual Handled handle(const Request& request, Reply& reply, Ticket ticket) = 0;
 
-  virtual void on_open(LiveLink& link) = 0;
-  /// A whole text message; binary ones are refused by the server.
-  virtual void on_text(LiveLink& link, std::string_view text) = 0;
-  /// The last message is with the kernel, and was not yet when it was sent.
-  virtual void on_writable(LiveLink& link) = 0;
-  /// Closed by either side, timed out or lost; the link is gone after the call.
-  virtual void on_close(LiveLink& link) = 0;
+  /// Who talks over live connections; always the same.
+  virtual LiveService& live() noexcept = 0;
 
   /// What is due from time to time: sent, ended, fetched from other threads. When until_next() has passed or
   /// the server's bell was rung, soon after each handled request or message, and at least each 100 ms.

@@ -4,11 +4,12 @@
 
 namespace flexrf::panel {
 
-void Surroundings::note(std::string_view what, Duration taken) noexcept {
-  if (taken <= settings.slow_call) return;
-  ++slow_calls;
+Watch::~Watch() {
+  const Duration taken = MonotonicClock::now() - begin_;
+  if (taken <= surroundings_.settings.slow_call) return;
+  ++surroundings_.slow_calls;
   static LogLimit limit;
-  log_warning(limit, "panel", "{} kept the server for {:.1} ms", what, seconds(taken) * 1e3);
+  log_warning(limit, "panel", "{} kept the server for {:.1} ms", what_, seconds(taken) * 1e3);
 }
 
 void Surroundings::note_refusal(std::string_view address, const char* why) noexcept {

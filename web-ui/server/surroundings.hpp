@@ -25,24 +25,26 @@ struct Surroundings {
   std::uint64_t slow_calls = 0;
   bool handled = false;  ///< since the last tick: somebody may have something to do
 
-  /// Calls a handler and watches how long it takes.
-  template <class Call>
-  auto watch(std::string_view what, Call&& call) {
-    struct Watch {
-      Surroundings& surroundings;
-      std::string_view what;
-      Time begin = MonotonicClock::now();
-      ~Watch() { surroundings.note(what, MonotonicClock::now() - begin); }
-    } watch{*this, what};
-    handled = true;
-    return call();
-  }
-
   /// A client did not get as far as a request.
   void note_refusal(std::string_view address, const char* why) noexcept;
+};
+
+/// Lives as long as a call of a handler, and notes one that keeps the server for too long.
+class Watch {
+ public:
+  /// `what`: is called; for the log.
+  Watch(Surroundings& surroundings, std::string_view what) noexcept
+      : surroundings_(surroundings), what_(what) {
+    surroundings.handled = true;
+  }
+  ~Watch();
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
 
  private:
-  void note(std::string_view what, Duration taken) noexcept;
+  Surroundings& surroundings_;
+  std::string_view what_;
+  Time begin_ = MonotonicClock::now();
 };
 
 }  // namespace flexrf::panel

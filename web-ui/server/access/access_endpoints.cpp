@@ -6,11 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "base/json_writer.hpp"
 #include "base/text.hpp"
 #include "runtime/log/log.hpp"
 #include "web-ui/server/access/login_body.hpp"
 #include "web-ui/server/http_problem.hpp"
-#include "web-ui/server/json_text.hpp"
 
 namespace flexrf::panel {
 namespace {
@@ -24,13 +24,11 @@ constexpr std::string_view logout_path = "/api/v1/logout";
 
 void write_session(Reply& reply, const SessionInfo& session) {
   reply.status = 200;
-  reply.text = R"({"name":)";
-  append_json_text(reply.text, session.name);
-  reply.text += R"(,"role":)";
-  append_json_text(reply.text, name_of(session.role));
-  reply.text += session.local ? R"(,"local":true,"user":)" : R"(,"local":false,"user":)";
-  append_json_text(reply.text, session.user);
-  reply.text += '}';
+  reply.text.clear();
+  JsonWriter json(std::move(reply.text));
+  json.begin_object().member("name", session.name).member("role", name_of(session.role));
+  json.member("local", session.local).member("user", session.user).end_object();
+  reply.text = json.release();
 }
 
 void clear(LoginBody& body) noexcept {

@@ -58,18 +58,12 @@ Duration ControlToken::answer_within(Time now) const noexcept {
   return asker_.session == no_session ? Duration::zero() : std::max(deadline_ - now, Duration::zero());
 }
 
-bool ControlToken::watch(ControlWatcher& watcher) noexcept {
-  if (watcher_count_ == watchers_.size()) return false;
-  watchers_[watcher_count_++] = &watcher;
-  return true;
-}
-
 void ControlToken::give(const Asker& to) noexcept {
   const SessionIndex from = holder_.session;
   holder_ = to;  // `to` may be asker_, which goes next
   asker_ = {};
   ++revision_;
-  for (std::size_t i = 0; i < watcher_count_; ++i) watchers_[i]->on_control_changed(from, holder_.session);
+  if (watcher_ != nullptr) watcher_->on_control_changed(from, holder_.session);
 }
 
 }  // namespace flexrf::panel

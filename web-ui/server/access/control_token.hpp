@@ -1,8 +1,6 @@
 // The one control token: whoever holds it may change things.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 
 #include "base/time.hpp"
@@ -14,7 +12,6 @@ namespace flexrf::panel {
 class ControlToken {
  public:
   static constexpr Duration time_to_answer = std::chrono::seconds{10};
-  static constexpr std::size_t most_watchers = 4;
   using Taking = AccessControl::Taking;
 
   struct Asker {
@@ -38,8 +35,8 @@ class ControlToken {
   SessionIndex wanted_by() const noexcept { return asker_.session; }
   Duration answer_within(Time now) const noexcept;  ///< zero when nobody asks
   std::uint64_t revision() const noexcept { return revision_; }
-  /// Told of every change of the holder, after it. false: there are most_watchers already.
-  bool watch(ControlWatcher& watcher) noexcept;
+  /// Told of every change of the holder, after it.
+  void watch(AccessWatcher& watcher) noexcept { watcher_ = &watcher; }
 
  private:
   void give(const Asker& to) noexcept;
@@ -48,8 +45,7 @@ class ControlToken {
   Asker asker_;
   Time deadline_{};
   std::uint64_t revision_ = 0;
-  std::array<ControlWatcher*, most_watchers> watchers_{};
-  std::size_t watcher_count_ = 0;
+  AccessWatcher* watcher_ = nullptr;
 };
 
 }  // namespace flexrf::panel

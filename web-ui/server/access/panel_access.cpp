@@ -97,7 +97,7 @@ void PanelAccess::end_sessions_of(std::string_view user) {
 void PanelAccess::end(SessionIndex session) {
   if (sessions_.info(session) == nullptr) return;
   control_.release(session);
-  for (std::size_t i = 0; i < watcher_count_; ++i) watchers_[i]->on_session_ended(session);
+  if (watcher_ != nullptr) watcher_->on_session_ended(session);
   sessions_.end(session);
   ++revision_;
 }
@@ -125,12 +125,6 @@ bool PanelAccess::use_token(std::string_view text) {
   if (!token_ || !token_->use(text)) return false;
   token_.emplace();
   if (settings_.token_renewed) settings_.token_renewed(*token_);
-  return true;
-}
-
-bool PanelAccess::watch(SessionWatcher& watcher) noexcept {
-  if (watcher_count_ == watchers_.size()) return false;
-  watchers_[watcher_count_++] = &watcher;
   return true;
 }
 

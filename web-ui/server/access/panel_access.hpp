@@ -1,7 +1,6 @@
 // Access control of the panel, put together: who is who, and who holds the control token.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -48,7 +47,6 @@ using Clock = Time (*)();
 /// Takes its memory in the constructor; needs prepare_cryptography() before. The server's thread.
 class PanelAccess final : public AccessControl {
  public:
-  static constexpr std::size_t most_watchers = 4;
   /// A session without an open live connection is gone when it was not heard of for so long.
   static constexpr Duration absence = std::chrono::seconds{15};
 
@@ -67,10 +65,6 @@ class PanelAccess final : public AccessControl {
   /// Of whoever logged in by this name.
   void end_sessions_of(std::string_view user);
 
-  /// Live connections of a session, as they open and close.
-  void link_opened(SessionIndex session) noexcept { sessions_.link_opened(session); }
-  void link_closed(SessionIndex session, Time now) noexcept { sessions_.link_closed(session, now); }
-
   /// Ends what is over, gives the token to who waited, takes it from who is gone. At least every 250 ms.
   void update(Time now);
 
@@ -88,9 +82,11 @@ class PanelAccess final : public AccessControl {
   bool needs_login() const noexcept { return settings_.needs_login; }
   std::size_t session_count() const noexcept { return sessions_.count(); }
 
-  /// Before the server runs. false: there are most_watchers already.
-  bool watch(ControlWatcher& watcher) noexcept { return control_.watch(watcher); }
-  bool watch(SessionWatcher& watcher) noexcept;
+  /// Before the server runs; outlives it.
+  void watch(AccessWatcher& watcher) noexcept {
+    watcher_ = &watcher;
+    control_.watch(watcher);
+  }
 
   const SessionInfo* session(SessionIndex session) const override { return sessions_.info(session); }
   bool has_role(SessionIndex session, Role role) const override;
@@ -100,6 +96,8 @@ class PanelAccess final : public AccessControl {
   Taking take(SessionIndex session, Time now) override;
   void release(SessionIndex session) override { control_.release(session); }
   bool answer(SessionIndex session, bool grant, Time now) override;
+  void link_opened(SessionIndex session) override { sessions_.link_opened(session); }
+  void link_closed(SessionIndex session, Time now) override { sessions_.link_closed(session, now); }
   void acted(SessionIndex session, Time now) override { sessions_.acted(session, now); }
   std::uint64_t revision() const override { return revision_ + control_.revision(); }
 
@@ -118,8 +116,7 @@ class PanelAccess final : public AccessControl {
   SessionTable sessions_;
   ControlToken control_;
   std::optional<OneTimeToken> token_;
-  std::array<SessionWatcher*, most_watchers> watchers_{};
-  std::size_t watcher_count_ = 0;
+  AccessWatcher* watcher_ = nullptr;
   std::uint64_t revision_ = 0;
 };
 

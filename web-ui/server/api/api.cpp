@@ -2,12 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 #include <random>
-#include <string>
-
-#include "web-ui/server/api/live_session.hpp"
-#include "web-ui/server/api/rest_handler.hpp"
 
 namespace flexrf::panel {
 namespace {
@@ -25,180 +20,75 @@ std::string new_boot() {
 
 }  // namespace
 
-struct Api::Parts final : public ControlWatcher, public SessionWatcher {
-  Parts(Executive& executive_to_serve, AccessControl& access_control, LaterReplies& replies,
-        std::uint32_t places, const ApiTimeouts& limits, Doorbell* server_bell)
-      : executive(executive_to_serve),
-        bell(server_bell),
-        access(access_control),
-        timeouts(limits),
-        clients(places),
-        answers(clients, replies) {}
-
-  /// What needs the cell's objects, which Executive::prepare() constructs.
-  void make();
-
-  void on_tick(Time now);
-  Duration until_next(Time now) const;
-  void on_control_changed(SessionIndex from, SessionIndex to) override;
-  void on_session_ended(SessionIndex session) override;
-
-  /// All that is made of the application, in the order in which one builds on the other.
-  struct Made {
-    Made(Parts& parts, Executive& executive, AccessControl& access);
-
-    Directory directory;
-    ObservedSlots slots;
-    ComponentValues values;
-    ImageWorker images;
-    ImageRequests pictures;
-    ParameterOperations parameters;
-    EditOperations edits;
-    MotionOperations motion;
-    LifecycleOperations lifecycle;
-    SaveOperations saving;
-    Operations operations;
-    StateEvent state;
-    TopicBodies topics;
-    FrameWriter frames;
-    Subscriptions subscriptions;
-    LiveSession live;
-    RestHandler rest;
-  };
-
-  Executive& executive;
-  Doorbell* bell;  // null: whoever ticks looks by himself
-  AccessControl& access;
-  ApiTimeouts timeouts;
-  Clients clients;
-  Answers answers;
-  Permission permission{access, answers};
-  JsonReader reader;
-  std::string boot = new_boot();
-  std::optional<Made> made;
-};
-
-Api::Parts::Made::Made(Parts& parts, Executive& executive, AccessControl& access)
-    : directory(executive.cell()),
-      slots(executive.cell()),
-      values(executive.cell(), directory, slots),
-      images(executive.cell(), parts.bell),
-      pictures(images, parts.answers, parts.timeouts.picture),
-      parameters(executive.cell(), directory, slots, values, parts.answers, parts.permission, parts.boot,
-                 parts.timeouts.answer),
-      edits(executive, parts.bell, directory, values, parts.answers, parts.permission, parts.timeouts.edit),
-      motion(executive, access, parts.answers, parts.permission, parameters, edits),
-      lifecycle(executive, parts.bell, directory, parts.answers, parts.permission),
-      saving(executive, parts.answers, parts.permission),
-      operations{directory, parts.answers, parameters, motion, edits, lifecycle, saving},
-      state(executive, directory, access, edits),
-      topics(executive.cell()),
-      frames(executive.cell(), slots, images),
-      subscriptions(parts.clients, directory, executive.cell().application(), images, parts.answers),
-      live({executive, access, parts.clients, parts.reader, operations, subscriptions, state, topics, frames,
-            parts.boot}),
-      rest({executive, access, parts.reader, operations, parts.permission, slots, values, images, pictures,
-            state, topics, parts.boot}) {}
-
-void Api::Parts::make() {
-  made.emplace(*this, executive, access);
-}
-
-void Api::Parts::on_tick(Time now) {
-  made->slots.begin_turn();
-  made->parameters.tick(now);
-  made->edits.tick(now);
-  made->lifecycle.tick();
-  made->saving.tick(now);
-  made->pictures.tick(now);
-  made->state.update(now);
-  made->live.send_all(now, MonotonicClock::now() + sending_time);
-}
-
-Duration Api::Parts::until_next(Time now) const {
-  // Other threads ring when they have answered; who waits in vain is told in one of the next turns.
-  const Time next = std::min(made->live.next(now), made->state.next());
-  return next > now ? next - now : Duration{};
-}
-
-void Api::Parts::on_control_changed(SessionIndex from, SessionIndex to) {
-  AuditIntake& audit = executive.cell().audit();
-  if (to == no_session) {
-    audit.note(who_of(access.session(from)), "has control no longer");
-  } else if (from == no_session) {
-    audit.note(who_of(access.session(to)), "took control");
-  } else {
-    audit.note(who_of(access.session(to)), "took control from", who_of(access.session(from)));
-  }
-  if (from == no_session) return;
-  made->parameters.end_holds_of_session(from, MonotonicClock::now());
-  made->edits.on_control_lost(from);
-}
-
-void Api::Parts::on_session_ended(SessionIndex session) {
-  made->parameters.end_holds_of_session(session, MonotonicClock::now());
-  made->edits.on_control_lost(session);
-  made->live.close_session(session);
-}
-
 Api::Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places,
          const ApiTimeouts& timeouts, Doorbell* bell)
-    : parts_(std::make_unique<Parts>(executive, access, replies, places, timeouts, bell)) {}
-
-Api::~Api() = default;
+    : executive_(executive),
+      access_(access),
+      bell_(bell),
+      boot_(new_boot()),
+      clients_(places),
+      answers_(clients_, replies),
+      permission_(access, answers_),
+      directory_(executive.cell()),
+      slots_(executive.cell()),
+      values_(executive.cell(), directory_, slots_),
+      images_(executive.cell(), bell),
+      pictures_(images_, answers_, timeouts.picture),
+      parameters_(executive.cell(), directory_, slots_, values_, answers_, permission_, boot_,
+                  timeouts.answer),
+      edits_(executive, bell, directory_, values_, answers_, permission_, timeouts.edit),
+      motion_(executive, access, answers_, permission_, parameters_, edits_),
+      lifecycle_(executive, bell, directory_, answers_, permission_),
+      saving_(executive, answers_, permission_),
+      subscriptions_(clients_, directory_, executive.cell().application(), images_, answers_),
+      operations_{directory_, answers_, parameters_, motion_, edits_, lifecycle_, saving_, subscriptions_},
+      state_(executive, directory_, access, edits_),
+      topics_(executive.cell()),
+      frames_(executive.cell(), slots_, images_),
+      live_({executive, access, clients_, reader_, operations_, state_, topics_, frames_, boot_}),
+      rest_({executive, access, reader_, operations_, permission_, slots_, values_, images_, pictures_,
+             state_, topics_, boot_}) {}
 
 Status Api::prepare() {
-  parts_->make();
-  if (parts_->bell != nullptr) parts_->executive.saver().set_bell(*parts_->bell);
-  return parts_->made->parameters.prepare(parts_->bell);
-}
-
-Status Api::start() {
-  return parts_->made->images.start();
-}
-
-void Api::stop() noexcept {
-  if (parts_->made) parts_->made->images.stop();
-}
-
-Handled Api::handle(const Request& request, Reply& reply, Ticket ticket) {
-  return parts_->made->rest.handle(request, reply, ticket);
-}
-
-void Api::on_open(LiveLink& link) {
-  parts_->made->live.on_open(link);
-}
-
-void Api::on_text(LiveLink& link, std::string_view text) {
-  parts_->made->live.on_text(link, text);
-}
-
-void Api::on_writable(LiveLink& link) {
-  parts_->made->live.on_writable(link);
-}
-
-void Api::on_close(LiveLink& link) {
-  parts_->made->live.on_close(link);
+  if (bell_ != nullptr) executive_.saver().set_bell(*bell_);
+  return parameters_.prepare(bell_);
 }
 
 void Api::on_tick(Time now) {
-  parts_->on_tick(now);
+  slots_.begin_turn();
+  parameters_.tick(now);
+  edits_.tick(now);
+  lifecycle_.tick();
+  saving_.tick(now);
+  pictures_.tick(now);
+  state_.update(now);
+  live_.send_all(now, MonotonicClock::now() + sending_time);
 }
 
 Duration Api::until_next(Time now) const {
-  return parts_->until_next(now);
+  // Other threads ring when they have answered; who waits in vain is told in one of the next turns.
+  const Time next = std::min(live_.next(now), state_.next());
+  return next > now ? next - now : Duration{};
 }
 
-ControlWatcher& Api::control_watcher() noexcept {
-  return *parts_;
+void Api::on_control_changed(SessionIndex from, SessionIndex to) {
+  AuditIntake& audit = executive_.cell().audit();
+  if (to == no_session) {
+    audit.note(who_of(access_.session(from)), "has control no longer");
+  } else if (from == no_session) {
+    audit.note(who_of(access_.session(to)), "took control");
+  } else {
+    audit.note(who_of(access_.session(to)), "took control from", who_of(access_.session(from)));
+  }
+  if (from == no_session) return;
+  parameters_.end_holds_of_session(from, MonotonicClock::now());
+  edits_.on_control_lost(from);
 }
 
-SessionWatcher& Api::session_watcher() noexcept {
-  return *parts_;
-}
-
-void Api::set_figures(const ServerFigures& figures) noexcept {
-  parts_->made->state.set_figures(figures);
+void Api::on_session_ended(SessionIndex session) {
+  parameters_.end_holds_of_session(session, MonotonicClock::now());
+  edits_.on_control_lost(session);
+  live_.close_session(session);
 }
 
 }  // namespace flexrf::panel

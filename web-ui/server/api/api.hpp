@@ -2,19 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <string>
 
-#include "base/status.hpp"
-#include "base/time.hpp"
 #include "web-ui/server/access.hpp"
-#include "web-ui/server/exchange.hpp"
-#include "web-ui/server/live_link.hpp"
+#include "web-ui/server/api/image_requests.hpp"
+#include "web-ui/server/api/live_session.hpp"
+#include "web-ui/server/api/rest_handler.hpp"
 #include "web-ui/server/server_figures.hpp"
-
-namespace flexrf {
-class Doorbell;
-class Executive;
-}  // namespace flexrf
 
 namespace flexrf::panel {
 
@@ -27,43 +21,64 @@ struct ApiTimeouts {
 
 /// All functions but those that say otherwise: the server's thread. None takes longer than 5 ms, none
 /// allocates in the steady state (subscribed values, refreshed holds, reading of values).
-class Api {
+class Api final : public AccessWatcher {
  public:
   /// `places`: connections that the server has, each LiveLink's place is below. `bell`: rung when another
   /// thread has answered, and on_tick() is to come; null: it comes often enough by itself. The main thread,
-  /// before the executive runs; all outlive the Api.
+  /// after Executive::prepare(), before anything runs; all outlive the Api.
   Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places,
       const ApiTimeouts& timeouts = {}, Doorbell* bell = nullptr);
   Api(const Api&) = delete;
   Api& operator=(const Api&) = delete;
-  ~Api();
 
-  /// After Executive::prepare(), before anything runs: registers as a requester. The main thread.
+  /// Before anything runs: registers as a requester. The main thread.
   Status prepare();
   /// Starts the worker that encodes pictures; it inherits CPUs and signal mask. The main thread.
-  Status start();
+  Status start() { return images_.start(); }
   /// Ends the worker. After the server's thread ended. The main thread.
-  void stop() noexcept;
+  void stop() noexcept { images_.stop(); }
 
   /// All paths under /api/v1 but `session`, `login`, `logout` and `live`.
-  Handled handle(const Request& request, Reply& reply, Ticket ticket);
-  // Of live connections, as Service has them.
-  void on_open(LiveLink& link);
-  void on_text(LiveLink& link, std::string_view text);
-  void on_writable(LiveLink& link);
-  void on_close(LiveLink& link);
+  Handled handle(const Request& request, Reply& reply, Ticket ticket) {
+    return rest_.handle(request, reply, ticket);
+  }
+  LiveService& live() noexcept { return live_; }
   /// Answers, time-outs, events, frames.
   void on_tick(Time now);
   Duration until_next(Time now) const;
 
-  ControlWatcher& control_watcher() noexcept;
-  SessionWatcher& session_watcher() noexcept;
+  void on_control_changed(SessionIndex from, SessionIndex to) override;
+  void on_session_ended(SessionIndex session) override;
   /// For the `state` event; as often as they are known anew.
-  void set_figures(const ServerFigures& figures) noexcept;
+  void set_figures(const ServerFigures& figures) noexcept { state_.set_figures(figures); }
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  // In the order in which one builds on the other.
+  Executive& executive_;
+  AccessControl& access_;
+  Doorbell* bell_;
+  std::string boot_;
+  JsonReader reader_;
+  Clients clients_;
+  Answers answers_;
+  Permission permission_;
+  Directory directory_;
+  ObservedSlots slots_;
+  ComponentValues values_;
+  ImageWorker images_;
+  ImageRequests pictures_;
+  ParameterOperations parameters_;
+  EditOperations edits_;
+  MotionOperations motion_;
+  LifecycleOperations lifecycle_;
+  SaveOperations saving_;
+  Subscriptions subscriptions_;
+  Operations operations_;
+  StateEvent state_;
+  TopicBodies topics_;
+  FrameWriter frames_;
+  LiveSession live_;
+  RestHandler rest_;
 };
 
 }  // namespace flexrf::panel

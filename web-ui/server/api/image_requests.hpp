@@ -1,11 +1,11 @@
 // Pictures asked for by REST: each waits until the worker has looked at its slot.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "web-ui/server/api/answers.hpp"
 #include "web-ui/server/api/image_worker.hpp"
+#include "web-ui/server/api/places.hpp"
 
 namespace flexrf::panel {
 
@@ -21,17 +21,18 @@ class ImageRequests {
 
  private:
   struct Waiting {
-    Caller caller;  // nobody: the place is free
+    Caller caller;
     std::uint16_t slot = 0;
     std::uint64_t version = 0;  // that is too old
     Time overdue_at{};
   };
 
+  void answer(const Waiting& waiting);
+
   ImageWorker* images_;
   Answers* answers_;
   Duration patience_;
-  std::array<Waiting, 16> waiting_{};
-  std::size_t count_ = 0;
+  Places<Waiting, 16> waiting_;
 };
 
 }  // namespace flexrf::panel

@@ -1,45 +1,38 @@
 #include "web-ui/server/api/lifecycle_operations.hpp"
 
-#include <algorithm>
-
 namespace flexrf::panel {
 
 void LifecycleOperations::act(const Caller& caller, ComponentIndex component, ComponentAction action) {
   if (!permission_->may_control(caller, Role::engineer, "start, stop or initialise a component")) return;
-  const auto place =
-      std::find_if(waiting_.begin(), waiting_.end(), [](const Waiting& waiting) { return !waiting.used; });
-  if (place == waiting_.end()) {
+  if (waiting_.is_full()) {
     return answers_->refuse(
         caller,
         Refusal::make(RefusalKind::busy, "%zu actions are under way; wait until one is done.", most_waiting));
   }
-  *place = {true, caller, component};
-  ++waiting_count_;
-  const auto index = static_cast<std::size_t>(place - waiting_.begin());
+  const std::uint64_t number = ++last_number_;
+  waiting_.add({caller, component, number});
   executive_->act(
       action, component,
-      [outcomes = outcomes_, index](const Status& status) {
-        outcomes->push({index, status});
+      [outcomes = outcomes_, number](const Status& status) {
+        outcomes->push({number, status});
       },
       permission_->who(caller));
 }
 
 void LifecycleOperations::tick() {
-  while (waiting_count_ != 0) {
+  while (!waiting_.is_empty()) {
     const auto outcome = outcomes_->pop();
     if (!outcome) return;
-    Waiting& waiting = waiting_[outcome->place];
-    waiting.used = false;
-    --waiting_count_;
-    if (outcome->status) {
-      answers_->done(waiting.caller);
-    } else {
-      answers_->refuse(waiting.caller,
-                       Refusal::make(RefusalKind::wrong_state, "%s: %s.",
-                                     directory_->entry(waiting.component).name, outcome->status.cause())
-                           .because(outcome->status.cause()));
-    }
+    waiting_.take([&](const Waiting& one) { return one.number == outcome->number; },
+                  [&](const Waiting& waiting) { answer(waiting, outcome->status); });
   }
+}
+
+void LifecycleOperations::answer(const Waiting& waiting, const Status& status) {
+  if (status) return answers_->done(waiting.caller);
+  answers_->refuse(waiting.caller, Refusal::make(RefusalKind::wrong_state, "%s: %s.",
+                                                 directory_->entry(waiting.component).name, status.cause())
+                                       .because(status.cause()));
 }
 
 }  // namespace flexrf::panel

@@ -1,13 +1,13 @@
 // Start, stop and initialise of one component, as its lifecycle thread does them.
 #pragma once
 
-#include <array>
 #include <memory>
 
 #include "runtime/executive/executive.hpp"
 #include "runtime/face/directory.hpp"
 #include "web-ui/server/api/answers.hpp"
 #include "web-ui/server/api/mailbox.hpp"
+#include "web-ui/server/api/places.hpp"
 
 namespace flexrf::panel {
 
@@ -29,22 +29,24 @@ class LifecycleOperations {
   static constexpr std::size_t most_waiting = 8;
 
   struct Waiting {
-    bool used = false;
     Caller caller;
     ComponentIndex component = 0;
+    std::uint64_t number = 0;
   };
   struct Outcome {
-    std::size_t place;
+    std::uint64_t number;
     Status status;
   };
+
+  void answer(const Waiting& waiting, const Status& status);
 
   Executive* executive_;
   std::shared_ptr<Mailbox<Outcome>> outcomes_;
   const Directory* directory_;
   Answers* answers_;
   Permission* permission_;
-  std::array<Waiting, most_waiting> waiting_{};
-  std::size_t waiting_count_ = 0;
+  Places<Waiting, most_waiting> waiting_;
+  std::uint64_t last_number_ = 0;
 };
 
 }  // namespace flexrf::panel

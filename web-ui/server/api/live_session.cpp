@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "base/nearest_name.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
 #include "web-ui/server/api/log_lines.hpp"
 
@@ -21,31 +20,24 @@ void write_session(JsonWriter& json, const SessionInfo& info) {
   json.member("local", info.local).member("user", info.user).member("lapsed", info.lapsed).end_object();
 }
 
-Refusal unknown_op(std::string_view op) noexcept {
-  NearestName nearest(op);
-  for (const char* known :
-       {"subscribe", "set", "reset", "press", "hold", "refresh", "release", "stop_motion",
-        "clear_stop_motion", "start_motion", "save_values", "take_control", "release_control",
-        "answer_control", "action", "edit_begin", "edit_apply", "edit_discard", "ping"})
-    nearest.offer(known);
-  return no_such("op", op, nearest.best(), "docs/panel-protocol.md lists them");
-}
-
 }  // namespace
 
 // ---- connections
 
 void LiveSession::on_open(LiveLink& link) {
   const Time now = MonotonicClock::now();
+  parts_.access.link_opened(link.session());
   pump(parts_.clients.open(link, now), now);
 }
 
 void LiveSession::on_close(LiveLink& link) {
   Client& client = parts_.clients.at(link.place());
   if (client.link != &link) return;
-  parts_.operations.parameters.end_holds_of_client(link.place(), MonotonicClock::now());
+  const Time now = MonotonicClock::now();
+  parts_.operations.parameters.end_holds_of_client(link.place(), now);
+  if (client.session != no_session) parts_.access.link_closed(client.session, now);
   parts_.clients.close(client);
-  parts_.subscriptions.update_demand();
+  parts_.operations.subscriptions.update_demand();
 }
 
 void LiveSession::on_writable(LiveLink& link) {
@@ -66,8 +58,10 @@ void LiveSession::close(Client& client, std::uint16_t code, std::string_view rea
 
 void LiveSession::close_session(SessionIndex session) {
   for (Client& client : parts_.clients.all()) {
-    if (client.is_open() && client.session == session)
-      close(client, close_violation, "the session has ended");
+    if (client.link == nullptr || client.session != session) continue;
+    close(client, close_violation, "the session has ended");
+    // The index may be another's soon.
+    client.session = no_session;
   }
 }
 
@@ -91,113 +85,17 @@ void LiveSession::on_text(LiveLink& link, std::string_view text) {
   caller.place = link.place();
   caller.opening = client.opening;
   caller.id = id;
-  // What the page does by itself is nobody's act.
-  if (op != "ping" && op != "subscribe" && op != "refresh") parts_.access.acted(client.session, now);
-  operate(client, caller, op, fields, now);
+  const Operation* const operation = find_operation(op);
+  if (operation == nullptr || operation->is_an_act) parts_.access.acted(client.session, now);
+  if (operation == nullptr) {
+    parts_.operations.answers.refuse(caller, no_operation(op));
+  } else {
+    Asked asked{parts_.operations, caller, fields, op, now};
+    operation->run(asked);
+  }
   if (client.is_open() && client.outbox.is_full())
     return close(client, close_later, "too many answers wait to be read");
   pump(client, now);
-}
-
-void LiveSession::operate(Client& client, const Caller& caller, std::string_view op, Fields& fields,
-                          Time now) {
-  Operations& operations = parts_.operations;
-  Answers& answers = operations.answers;
-  const auto is_right = [&] { return LiveSession::is_right(caller, op, fields); };
-  // First of all: nothing stands between a person and this.
-  if (op == "stop_motion") return operations.motion.stop_motion(caller);
-  if (op == "refresh" || op == "release") {
-    const std::string_view lease = fields.text("lease");
-    if (!is_right()) return;
-    return op == "refresh" ? operations.parameters.refresh(caller, lease, now)
-                           : operations.parameters.release(caller, lease, now);
-  }
-  if (op == "ping") {
-    const double sent = fields.number("sent");
-    if (!is_right()) return;
-    return answers.done(caller, [sent, now](JsonWriter& json) {
-      json.member("sent", sent).member("server_time_ns", nanoseconds(now));
-    });
-  }
-  if (op == "subscribe") return parts_.subscriptions.subscribe(caller, client, fields, now);
-  if (op == "clear_stop_motion") return operations.motion.clear_stop_motion(caller);
-  if (op == "start_motion") return operations.motion.start_motion(caller);
-  if (op == "save_values") return operations.saving.save(caller, now);
-  if (op == "take_control") return operations.motion.take_control(caller, now);
-  if (op == "release_control") return operations.motion.release_control(caller);
-  if (op == "answer_control") {
-    const bool grant = fields.boolean("grant");
-    if (is_right()) operations.motion.answer_control(caller, grant, now);
-    return;
-  }
-  if (op == "edit_begin") {
-    const auto components = fields.array("components");
-    if (is_right()) operations.edits.begin(caller, *components, now);
-    return;
-  }
-  if (op == "edit_apply") {
-    const std::string_view edit = fields.text("edit");
-    const auto changes = fields.array("changes");
-    if (is_right()) operations.edits.apply(caller, edit, *changes, now);
-    return;
-  }
-  if (op == "edit_discard") {
-    const std::string_view edit = fields.text("edit");
-    if (is_right()) operations.edits.discard(caller, edit);
-    return;
-  }
-  constexpr std::string_view of_components[] = {"set", "reset", "press", "hold", "action"};
-  if (std::find(std::begin(of_components), std::end(of_components), op) != std::end(of_components)) {
-    operate_on_component(caller, op, fields, now);
-  } else {
-    answers.refuse(caller, unknown_op(op));
-  }
-}
-
-bool LiveSession::is_right(const Caller& caller, std::string_view op, const Fields& fields) {
-  if (fields.status()) return true;
-  parts_.operations.answers.refuse(
-      caller, Refusal::make(RefusalKind::bad_request, "%.*s: %s.", static_cast<int>(op.size()), op.data(),
-                            fields.status().cause()));
-  return false;
-}
-
-void LiveSession::operate_on_component(const Caller& caller, std::string_view op, Fields& fields, Time now) {
-  Operations& operations = parts_.operations;
-  const auto is_right = [&] { return LiveSession::is_right(caller, op, fields); };
-  const std::string_view name = fields.text("component");
-  if (!is_right()) return;
-  const auto component = operations.component(caller, name);
-  if (!component) return;
-  if (op == "set") return set(caller, *component, fields, now);
-  if (op == "reset") {
-    std::optional<JsonArray> parameters;
-    if (fields.has("parameters")) parameters = fields.array("parameters");
-    if (is_right()) operations.parameters.reset(caller, *component, parameters, now);
-    return;
-  }
-  if (op == "action") {
-    const std::string_view action = fields.text("action");
-    const std::string_view source = fields.text_or("source", "");
-    if (is_right()) operations.act(caller, *component, action, source, now);
-    return;
-  }
-  const std::string_view parameter = fields.text("parameter");
-  const std::uint64_t count = fields.integer_or("count", 1);
-  if (!is_right()) return;
-  if (op == "press") return operations.parameters.press(caller, *component, parameter, count, now);
-  operations.parameters.hold(caller, *component, parameter, now);
-}
-
-void LiveSession::set(const Caller& caller, ComponentIndex component, Fields& fields, Time now) {
-  const auto values = fields.object("values");
-  std::optional<std::uint64_t> expected;
-  if (fields.has("expected")) expected = fields.integer("expected");
-  if (!fields.status()) {
-    return parts_.operations.answers.refuse(
-        caller, Refusal::make(RefusalKind::bad_request, "set: %s.", fields.status().cause()));
-  }
-  parts_.operations.parameters.set(caller, component, *values, expected, now);
 }
 
 // ---- what goes out

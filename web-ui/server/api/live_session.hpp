@@ -3,12 +3,9 @@
 
 #include <string_view>
 
-#include "runtime/json/json_reader.hpp"
-#include "web-ui/server/api/clients.hpp"
 #include "web-ui/server/api/frame_writer.hpp"
 #include "web-ui/server/api/operations.hpp"
 #include "web-ui/server/api/state_event.hpp"
-#include "web-ui/server/api/subscriptions.hpp"
 #include "web-ui/server/api/topic_bodies.hpp"
 
 namespace flexrf::panel {
@@ -20,7 +17,6 @@ struct LiveParts {
   Clients& clients;
   JsonReader& reader;
   Operations& operations;
-  Subscriptions& subscriptions;
   const StateEvent& state;
   TopicBodies& topics;
   FrameWriter& frames;
@@ -28,14 +24,14 @@ struct LiveParts {
 };
 
 /// The server's thread.
-class LiveSession {
+class LiveSession final : public LiveService {
  public:
   explicit LiveSession(const LiveParts& parts) noexcept : parts_(parts) {}
 
-  void on_open(LiveLink& link);
-  void on_text(LiveLink& link, std::string_view text);
-  void on_writable(LiveLink& link);
-  void on_close(LiveLink& link);
+  void on_open(LiveLink& link) override;
+  void on_text(LiveLink& link, std::string_view text) override;
+  void on_writable(LiveLink& link) override;
+  void on_close(LiveLink& link) override;
 
   /// Sends each client what it is due, until `deadline`; then goes on with the next one the next time.
   void send_all(Time now, Time deadline);
@@ -50,11 +46,6 @@ class LiveSession {
   bool write_log(Client& client, Time now, std::string& to);
   void write_hello(Client& client, Time now, std::string& to);
   void write_end(std::string& to);
-  void operate(Client& client, const Caller& caller, std::string_view op, Fields& fields, Time now);
-  void operate_on_component(const Caller& caller, std::string_view op, Fields& fields, Time now);
-  /// False: the first of the fields that is wrong was answered.
-  bool is_right(const Caller& caller, std::string_view op, const Fields& fields);
-  void set(const Caller& caller, ComponentIndex component, Fields& fields, Time now);
   void close(Client& client, std::uint16_t code, std::string_view reason);
 
   LiveParts parts_;

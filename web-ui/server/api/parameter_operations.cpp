@@ -7,6 +7,8 @@
 namespace flexrf::panel {
 namespace {
 
+using Purpose = PendingRequest::Purpose;
+
 Refusal no_place() noexcept {
   return Refusal::make(RefusalKind::busy, "Too many requests wait for an answer; try again in a moment.");
 }
@@ -35,12 +37,8 @@ void ParameterOperations::set(const Caller& caller, ComponentIndex component, Js
   request.expected = expected;
   Role role = Role::operator_;
   const auto refusal = add_values(directory_->entry(component), values, request, role);
-  // Who may not change anything is told so first, and learns no more.
-  if (!permission_->may_control(caller, refusal ? Role::operator_ : role, "change parameters")) return;
-  if (refusal) return answers_->refuse(caller, *refusal);
-  request.component = component;
-  request.set_who(permission_->who(caller));
-  send(request, {caller, component, Purpose::values, 0, {}}, now);
+  if (!is_granted(caller, refusal, role, "change parameters")) return;
+  if (expect_answer(request, {caller, component, Purpose::values}, now)) cell_->send(request);
 }
 
 void ParameterOperations::reset(const Caller& caller, ComponentIndex component,
@@ -63,11 +61,8 @@ void ParameterOperations::reset(const Caller& caller, ComponentIndex component,
     for (const ParameterDescriptor& parameter : directory_->entry(component).type->runtime.parameters)
       role = std::max(role, parameter.role);
   }
-  if (!permission_->may_control(caller, refusal ? Role::operator_ : role, "reset parameters")) return;
-  if (refusal) return answers_->refuse(caller, *refusal);
-  request.component = component;
-  request.set_who(permission_->who(caller));
-  send(request, {caller, component, Purpose::values, 0, {}}, now);
+  if (!is_granted(caller, refusal, role, "reset parameters")) return;
+  if (expect_answer(request, {caller, component, Purpose::values}, now)) cell_->send(request);
 }
 
 void ParameterOperations::press(const Caller& caller, ComponentIndex component, std::string_view parameter,
@@ -75,11 +70,8 @@ void ParameterOperations::press(const Caller& caller, ComponentIndex component, 
   ParameterRequest request;
   Role role = Role::operator_;
   const auto refusal = add_presses(directory_->entry(component), parameter, count, request, role);
-  if (!permission_->may_control(caller, refusal ? Role::operator_ : role, "press a button")) return;
-  if (refusal) return answers_->refuse(caller, *refusal);
-  request.component = component;
-  request.set_who(permission_->who(caller));
-  send(request, {caller, component, Purpose::plain, 0, {}}, now);
+  if (!is_granted(caller, refusal, role, "press a button")) return;
+  if (expect_answer(request, {caller, component, Purpose::plain}, now)) cell_->send(request);
 }
 
 void ParameterOperations::hold(const Caller& caller, ComponentIndex component, std::string_view parameter,
@@ -88,17 +80,15 @@ void ParameterOperations::hold(const Caller& caller, ComponentIndex component, s
   request.kind = RequestKind::hold;
   Role role = Role::operator_;
   const auto refusal = add_name(directory_->entry(component), parameter, request, role);
-  if (!permission_->may_control(caller, refusal ? Role::operator_ : role, "hold")) return;
-  if (refusal) return answers_->refuse(caller, *refusal);
-  request.component = component;
-  request.set_who(permission_->who(caller));
+  if (!is_granted(caller, refusal, role, "hold")) return;
   request.lease = new_lease_number();
   request.lease_sequence = 1;
   const Lease lease{
       request.lease, caller, component, request.changes[0].parameter, request.changes[0].offset, 1};
-  if (leases_.add(lease) == nullptr) return answers_->refuse(caller, no_place());
-  if (!send(request, {caller, component, Purpose::hold, request.lease, {}}, now))
-    leases_.forget(request.lease);
+  if (!leases_.add(lease)) return answers_->refuse(caller, no_place());
+  if (!expect_answer(request, {caller, component, Purpose::hold, request.lease}, now))
+    return forget_lease(request.lease);
+  cell_->send(request);
 }
 
 void ParameterOperations::refresh(const Caller& caller, std::string_view text, Time now) {
@@ -106,18 +96,18 @@ void ParameterOperations::refresh(const Caller& caller, std::string_view text, T
   if (lease == nullptr) return;
   ParameterRequest request;
   request.kind = RequestKind::refresh;
-  request.component = lease->component;
   request.lease = lease->number;
   request.lease_sequence = ++lease->sequence;
   request.add_name(lease->parameter, lease->offset);
-  send(request, {caller, lease->component, Purpose::refresh, lease->number, {}}, now);
+  if (expect_answer(request, {caller, lease->component, Purpose::refresh, lease->number}, now))
+    cell_->send(request);
 }
 
 void ParameterOperations::release(const Caller& caller, std::string_view text, Time now) {
   Lease* const lease = lease_of(caller, text);
   if (lease == nullptr) return;
   send_release(*lease, now);
-  leases_.forget(lease->number);
+  forget_lease(lease->number);
   answers_->done(caller);
 }
 
@@ -126,10 +116,8 @@ void ParameterOperations::change_member(const Caller& caller, ComponentIndex com
   if (!permission_->may_control(caller, Role::operator_, "change a population")) return;
   ParameterRequest request;
   request.kind = kind;
-  request.component = component;
-  request.set_who(permission_->who(caller));
   request.source = source;
-  send(request, {caller, component, Purpose::plain, 0, {}}, now);
+  if (expect_answer(request, {caller, component, Purpose::plain}, now)) cell_->send(request);
 }
 
 // ---- holds
@@ -138,11 +126,19 @@ Lease* ParameterOperations::lease_of(const Caller& caller, std::string_view text
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   Lease* const lease =
-      error == std::errc{} && end == text.data() + text.size() ? leases_.find(number) : nullptr;
+      error == std::errc{} && end == text.data() + text.size() ? find_lease(number) : nullptr;
   if (lease != nullptr && lease->owner.place == caller.place && lease->owner.opening == caller.opening)
     return lease;
   answers_->refuse(caller, Refusal::make(RefusalKind::wrong_state, "This hold is over; press again."));
   return nullptr;
+}
+
+Lease* ParameterOperations::find_lease(std::uint64_t number) {
+  return leases_.find([number](const Lease& lease) { return lease.number == number; });
+}
+
+void ParameterOperations::forget_lease(std::uint64_t number) {
+  leases_.take([number](const Lease& lease) { return lease.number == number; }, [](const Lease&) {});
 }
 
 /// Nobody waits for its answer: if it is lost, the lease ends by itself, as nothing refreshes it.
@@ -159,50 +155,58 @@ void ParameterOperations::send_release(const Lease& lease, Time now) {
 }
 
 void ParameterOperations::end_holds_of_client(std::uint32_t place, Time now) {
-  leases_.end_if([place](const Lease& lease) { return lease.owner.place == place; },
-                 [this, now](const Lease& lease) { send_release(lease, now); });
+  leases_.take([place](const Lease& lease) { return lease.owner.place == place; },
+               [this, now](const Lease& lease) { send_release(lease, now); });
 }
 
 void ParameterOperations::end_holds_of_session(SessionIndex session, Time now) {
-  leases_.end_if([session](const Lease& lease) { return lease.owner.session == session; },
-                 [this, now](const Lease& lease) { send_release(lease, now); });
+  leases_.take([session](const Lease& lease) { return lease.owner.session == session; },
+               [this, now](const Lease& lease) { send_release(lease, now); });
 }
 
 void ParameterOperations::forget_holds() {
-  leases_.end_if([](const Lease&) { return true; }, [](const Lease&) {});
+  leases_.take([](const Lease&) { return true; }, [](const Lease&) {});
 }
 
 // ---- requests and answers
 
-bool ParameterOperations::send(ParameterRequest& request, PendingRequest pending, Time now) {
+bool ParameterOperations::is_granted(const Caller& caller, const std::optional<Refusal>& refusal, Role role,
+                                     std::string_view act) {
+  // Who may not change anything is told so first, and learns no more.
+  if (!permission_->may_control(caller, refusal ? Role::operator_ : role, act)) return false;
+  if (refusal) answers_->refuse(caller, *refusal);
+  return !refusal;
+}
+
+bool ParameterOperations::expect_answer(ParameterRequest& request, PendingRequest pending, Time now) {
   pending.overdue_at = now + answer_timeout_;
-  request.correlation = pending_.add(pending);
-  if (request.correlation == 0) {
+  pending.correlation = request.correlation = ++last_correlation_;
+  if (!pending_.add(pending)) {
     answers_->refuse(pending.caller, no_place());
     return false;
   }
+  request.component = pending.component;
+  if (pending.purpose != Purpose::refresh) request.set_who(permission_->who(pending.caller));
   request.requester = requester_;
   request.issued_at = now;
-  cell_->send(request);
   return true;
 }
 
 void ParameterOperations::tick(Time now) {
   ParameterAnswer answer;
-  PendingRequest pending;
   while (queue_.pop(answer)) {
-    if (!pending_.take(answer.correlation, pending)) continue;
-    if (answer.kind == AnswerKind::accepted) {
-      accept(pending, answer);
-    } else {
-      refuse(pending, answer);
-    }
+    pending_.take([&](const PendingRequest& one) { return one.correlation == answer.correlation; },
+                  [&](const PendingRequest& pending) {
+                    answer.kind == AnswerKind::accepted ? accept(pending, answer) : refuse(pending, answer);
+                  });
   }
-  while (pending_.take_overdue(now, pending)) {
-    // Whatever becomes of it: nobody knows, so nobody may go on holding.
-    if (pending.lease != 0) leases_.forget(pending.lease);
-    answers_->refuse(pending.caller, no_answer(directory_->entry(pending.component), answer_timeout_));
-  }
+  pending_.take([now](const PendingRequest& one) { return now >= one.overdue_at; },
+                [this](const PendingRequest& pending) {
+                  // Whatever becomes of it: nobody knows, so nobody may go on holding.
+                  forget_lease(pending.lease);
+                  answers_->refuse(pending.caller,
+                                   no_answer(directory_->entry(pending.component), answer_timeout_));
+                });
 }
 
 void ParameterOperations::accept(const PendingRequest& pending, const ParameterAnswer& answer) {
@@ -212,7 +216,7 @@ void ParameterOperations::accept(const PendingRequest& pending, const ParameterA
     case Purpose::refresh:
       return;
     case Purpose::hold: {
-      const Lease* const lease = leases_.find(pending.lease);
+      const Lease* const lease = find_lease(pending.lease);
       if (lease == nullptr) {
         return answers_->refuse(
             pending.caller,
@@ -243,7 +247,7 @@ void ParameterOperations::accept(const PendingRequest& pending, const ParameterA
 void ParameterOperations::refuse(const PendingRequest& pending, const ParameterAnswer& answer) {
   // A refresh that found the queue full may be followed by one that does not.
   if (pending.purpose == Purpose::refresh && answer.kind == AnswerKind::busy) return;
-  if (pending.lease != 0) leases_.forget(pending.lease);
+  forget_lease(pending.lease);
   answers_->refuse(pending.caller, refusal_of(answer, directory_->entry(pending.component)));
 }
 

@@ -9,10 +9,36 @@
 #include "runtime/json/json_reader.hpp"
 #include "web-ui/server/access.hpp"
 #include "web-ui/server/api/answers.hpp"
-#include "web-ui/server/api/leases.hpp"
-#include "web-ui/server/api/pending_requests.hpp"
+#include "web-ui/server/api/places.hpp"
 
 namespace flexrf::panel {
+
+/// A hold that lives, and whose it is. Its number never comes again.
+struct Lease {
+  std::uint64_t number = 0;  ///< from new_lease_number()
+  Caller owner;
+  ComponentIndex component = 0;
+  std::uint16_t parameter = 0;
+  std::uint32_t offset = 0;    ///< bytes within the parameter
+  std::uint64_t sequence = 0;  ///< of the last request
+};
+
+/// A request that a component's thread has not answered yet.
+struct PendingRequest {
+  enum class Purpose : std::uint8_t {
+    values,   ///< answered with the values in force
+    plain,    ///< answered with that it is done
+    hold,     ///< begins a lease
+    refresh,  ///< answered only when the lease is over
+  };
+
+  Caller caller;
+  ComponentIndex component = 0;
+  Purpose purpose = Purpose::plain;
+  std::uint64_t lease = 0;  ///< 0: none
+  Time overdue_at{};
+  std::uint64_t correlation = 0;
+};
 
 /// Each operation checks role and control token, and answers its caller, most of them when the component's
 /// thread has. The server's thread; nothing waits or allocates.
@@ -56,9 +82,16 @@ class ParameterOperations {
   void tick(Time now);
 
  private:
-  bool send(ParameterRequest& request, PendingRequest pending, Time now);
+  /// False: who asks may not, or it makes no sense, as `refusal` says; that was answered.
+  bool is_granted(const Caller& caller, const std::optional<Refusal>& refusal, Role role,
+                  std::string_view act);
+  /// Completes a request that is to be sent, and notes who waits for its answer. False: too many wait; that
+  /// was answered.
+  bool expect_answer(ParameterRequest& request, PendingRequest pending, Time now);
   void send_release(const Lease& lease, Time now);
   Lease* lease_of(const Caller& caller, std::string_view text);
+  Lease* find_lease(std::uint64_t number);
+  void forget_lease(std::uint64_t number);
   void accept(const PendingRequest& pending, const ParameterAnswer& answer);
   void refuse(const PendingRequest& pending, const ParameterAnswer& answer);
 
@@ -72,8 +105,10 @@ class ParameterOperations {
   Duration answer_timeout_;
   AnswerQueue queue_;
   std::uint16_t requester_ = 0;
-  PendingRequests pending_;
-  Leases leases_;
+  std::uint64_t last_correlation_ = 0;
+  /// As many as the queue of answers holds, so that none is lost.
+  Places<PendingRequest, AnswerQueue::capacity> pending_;
+  Places<Lease, 64> leases_;
 };
 
 /// "BOOT-SEQUENCE" in quotation marks.

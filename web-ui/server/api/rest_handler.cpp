@@ -77,7 +77,7 @@ void RestHandler::serve(const Request& request, Reply& reply, const Caller& call
                                                  "There is no such path; openapi.json lists what there is."));
   }
   // The latch comes before everything that could go wrong.
-  if (found.route->resource == Resource::stop_motion) return parts_.operations.motion.stop_motion(caller);
+  if (found.route->operation == "stop_motion") return parts_.operations.motion.stop_motion(caller);
   if (!parts_.permission.has_role(caller, Role::viewer, "see this")) return;
   if (found.route->method == Method::get) {
     read(found, request, reply, caller, now);
@@ -269,42 +269,25 @@ void RestHandler::act(const Match& found, const Request& request, const Caller& 
                                                 "The body: %s.", body.status().cause()));
   }
   Fields fields(*body);
-  const auto is_right = [&] { return RestHandler::is_right(caller, fields); };
+  Asked asked{operations, caller, fields, "The body", now, found.segments[0], found.segments[1]};
   switch (found.route->resource) {
     case Resource::put_parameters:
       return put_parameters(found, request, *body, caller, now);
-    case Resource::action:
-      return act_on_component(found, fields, caller, now);
     case Resource::reconfigure: {
       const auto changes = fields.array("changes");
-      if (is_right()) operations.edits.reconfigure(caller, *changes, now);
+      if (asked.is_right()) operations.edits.reconfigure(caller, *changes, now);
       return;
     }
-    case Resource::clear_stop_motion:
-      return operations.motion.clear_stop_motion(caller);
-    case Resource::start_motion:
-      return operations.motion.start_motion(caller);
-    case Resource::save_values:
-      return operations.saving.save(caller, now);
-    case Resource::take_control:
-      return operations.motion.take_control(caller, now);
-    case Resource::release_control:
-      return operations.motion.release_control(caller);
-    case Resource::answer_control: {
-      const bool grant = fields.boolean("grant");
-      if (is_right()) operations.motion.answer_control(caller, grant, now);
-      return;
+    case Resource::action: {
+      const std::string_view action = found.segments[1];
+      if (action == "clone") fields.text("source");  // has to be there
+      return find_operation(action == "reset" || action == "press" ? action : "action")->run(asked);
     }
+    case Resource::operation:
+      return find_operation(found.route->operation)->run(asked);
     default:
       return;
   }
-}
-
-bool RestHandler::is_right(const Caller& caller, const Fields& fields) {
-  if (fields.status()) return true;
-  parts_.operations.answers.refuse(
-      caller, Refusal::make(RefusalKind::bad_request, "The body: %s.", fields.status().cause()));
-  return false;
 }
 
 void RestHandler::put_parameters(const Match& found, const Request& request, JsonObject values,
@@ -331,23 +314,6 @@ void RestHandler::put_parameters(const Match& found, const Request& request, Jso
     expected = sequence;
   }
   operations.parameters.set(caller, *component, values, expected, now);
-}
-
-void RestHandler::act_on_component(const Match& found, Fields& fields, const Caller& caller, Time now) {
-  Operations& operations = parts_.operations;
-  const auto component = operations.component(caller, found.segments[0]);
-  if (!component) return;
-  const std::string_view action = found.segments[1];
-  std::optional<JsonArray> parameters;
-  std::string_view parameter;
-  if (action == "reset" && fields.has("parameters")) parameters = fields.array("parameters");
-  if (action == "press") parameter = fields.text("parameter");
-  const std::uint64_t count = action == "press" ? fields.integer_or("count", 1) : 1;
-  const std::string_view source = action == "clone" ? fields.text("source") : "";
-  if (!is_right(caller, fields)) return;
-  if (action == "reset") return operations.parameters.reset(caller, *component, parameters, now);
-  if (action == "press") return operations.parameters.press(caller, *component, parameter, count, now);
-  operations.act(caller, *component, action, source, now);
 }
 
 }  // namespace flexrf::panel

@@ -48,9 +48,6 @@ class RestHandler {
   void serve(const Request& request, Reply& reply, const Caller& caller, Time now);
   void read(const Match& match, const Request& request, Reply& reply, const Caller& caller, Time now);
   void act(const Match& match, const Request& request, const Caller& caller, Time now);
-  /// What the body has is there and of its type; else who asks is refused.
-  bool is_right(const Caller& caller, const Fields& fields);
-  void act_on_component(const Match& match, Fields& fields, const Caller& caller, Time now);
   void put_parameters(const Match& match, const Request& request, JsonObject values, const Caller& caller,
                       Time now);
   void write_audit(const Request& request, Reply& reply, const Caller& caller);

@@ -31,14 +31,8 @@ enum class Resource : std::uint8_t {
   devices,
   log,
   audit,
-  stop_motion,
-  clear_stop_motion,
-  start_motion,
-  save_values,
-  take_control,
-  release_control,
-  answer_control,
-  access,  ///< described here, answered by AccessEndpoints
+  operation,  ///< of the table in operations.cpp
+  access,     ///< described here, answered by AccessEndpoints
 };
 
 struct Route {
@@ -51,6 +45,7 @@ struct Route {
   std::string_view request;   ///< name of the schema of the body; empty: no body
   std::string_view response;  ///< likewise of the answer; empty: {}; "204": no body
   std::string_view query;     ///< name of its integer parameter in the query; empty: none
+  std::string_view operation{};
 };
 
 std::span<const Route> routes() noexcept;

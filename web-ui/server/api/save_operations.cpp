@@ -1,14 +1,10 @@
 #include "web-ui/server/api/save_operations.hpp"
 
-#include <algorithm>
-
 namespace flexrf::panel {
 
 void SaveOperations::save(const Caller& caller, Time now) {
   if (!permission_->may_control(caller, Role::operator_, "save the values")) return;
-  const auto place =
-      std::find_if(waiting_.begin(), waiting_.end(), [](const Waiting& waiting) { return !waiting.used; });
-  if (place == waiting_.end()) {
+  if (waiting_.is_full()) {
     return answers_->refuse(
         caller,
         Refusal::make(RefusalKind::busy, "The values are being saved already; wait until that is done."));
@@ -19,27 +15,21 @@ void SaveOperations::save(const Caller& caller, Time now) {
                                                   number.status().cause())
                                         .because(number.status().cause()));
   }
-  *place = {true, caller, *number, now + patience};
-  ++waiting_count_;
+  waiting_.add({caller, *number, now + patience});
 }
 
 void SaveOperations::tick(Time now) {
-  if (waiting_count_ == 0) return;
+  if (waiting_.is_empty()) return;
   const SaveState state = executive_->saver().state();
-  for (Waiting& waiting : waiting_) {
-    if (!waiting.used || (state.answered < waiting.number && now < waiting.overdue_at)) continue;
-    waiting.used = false;
-    --waiting_count_;
-    if (state.answered >= waiting.number) {
-      answer(waiting.caller, state);
-    } else {
-      answers_->refuse(
-          waiting.caller,
-          Refusal::make(RefusalKind::no_answer,
-                        "The disk of the configuration file does not answer; the state says when "
-                        "the values are saved."));
-    }
-  }
+  waiting_.take([&](const Waiting& one) { return state.answered >= one.number || now >= one.overdue_at; },
+                [&](const Waiting& waiting) {
+                  if (state.answered >= waiting.number) return answer(waiting.caller, state);
+                  answers_->refuse(
+                      waiting.caller,
+                      Refusal::make(RefusalKind::no_answer,
+                                    "The disk of the configuration file does not answer; the state says "
+                                    "when the values are saved."));
+                });
 }
 
 void SaveOperations::answer(const Caller& caller, const SaveState& state) {

@@ -1,10 +1,9 @@
 // Save now: what was set goes into the configuration file.
 #pragma once
 
-#include <array>
-
 #include "runtime/executive/executive.hpp"
 #include "web-ui/server/api/answers.hpp"
+#include "web-ui/server/api/places.hpp"
 
 namespace flexrf::panel {
 
@@ -19,12 +18,10 @@ class SaveOperations {
   void tick(Time now);
 
  private:
-  static constexpr std::size_t most_waiting = 8;
   /// A disk may be slow; one that says nothing for so long hangs.
   static constexpr Duration patience = std::chrono::seconds{10};
 
   struct Waiting {
-    bool used = false;
     Caller caller;
     std::uint64_t number = 0;
     Time overdue_at{};
@@ -34,8 +31,7 @@ class SaveOperations {
   Executive* executive_;
   Answers* answers_;
   Permission* permission_;
-  std::array<Waiting, most_waiting> waiting_{};
-  std::size_t waiting_count_ = 0;
+  Places<Waiting, 8> waiting_;
 };
 
 }  // namespace flexrf::panel

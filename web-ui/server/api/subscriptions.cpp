@@ -79,20 +79,22 @@ const char* Subscriptions::read_topics(Client& client, JsonArray topics, Time no
   return nullptr;
 }
 
-void Subscriptions::subscribe(const Caller& caller, Client& client, Fields& fields, Time now) {
+void Subscriptions::subscribe(const Caller& caller, Fields& fields, Time now) {
+  Client* const client = clients_->find(caller);
+  if (client == nullptr) return;
   std::optional<JsonArray> slots;
   std::optional<JsonArray> topics;
   if (fields.has("slots")) slots = fields.array("slots");
   if (fields.has("topics")) topics = fields.array("topics");
   const char* wrong = fields.status() ? nullptr : fields.status().cause();
   if (wrong == nullptr) {
-    const std::uint64_t log_seen = client.topics[static_cast<std::size_t>(Topic::log)].seen;
-    client.slots.clear();
-    client.topics = {};
-    if (slots) wrong = read_slots(client, *slots, now);
-    if (wrong == nullptr && topics) wrong = read_topics(client, *topics, now);
+    const std::uint64_t log_seen = client->topics[static_cast<std::size_t>(Topic::log)].seen;
+    client->slots.clear();
+    client->topics = {};
+    if (slots) wrong = read_slots(*client, *slots, now);
+    if (wrong == nullptr && topics) wrong = read_topics(*client, *topics, now);
     // Who goes on looking at the log needs no line twice.
-    client.topics[static_cast<std::size_t>(Topic::log)].seen = log_seen;
+    client->topics[static_cast<std::size_t>(Topic::log)].seen = log_seen;
     update_demand();
   }
   if (wrong != nullptr)

@@ -22,8 +22,9 @@ class Subscriptions {
         images_(&images),
         answers_(&answers) {}
 
-  /// Replaces what the client had: {"slots": [{"name", "rate", "width"}], "topics": [{"name", "rate"}]}.
-  void subscribe(const Caller& caller, Client& client, Fields& fields, Time now);
+  /// Of a live client. Replaces what it had: {"slots": [{"name", "rate", "width"}], "topics": [{"name",
+  /// "rate"}]}.
+  void subscribe(const Caller& caller, Fields& fields, Time now);
   /// Tells the worker what is looked at, after a client came, changed or went.
   void update_demand();
 

@@ -23,7 +23,7 @@ class Server;
 /// (answered at a later tick), /never. Live: a text comes back; "flood" is answered with message after
 /// message, for ever; "much" with `much_messages`, each of `much_size` bytes, which tell its number, by turns
 /// from the link's buffer and from shared memory; "close" with a close.
-class TestHandlers final : public Service {
+class TestHandlers final : public Service, public LiveService {
  public:
   static constexpr std::size_t much_messages = 4;
   static constexpr std::size_t much_size = 8U << 20U;  // several times what a socket takes at once
@@ -40,6 +40,7 @@ class TestHandlers final : public Service {
   bool admit(const Approach& approach, SessionIndex& session, Reply& reply) override;
   void on_connection_closed(std::uint32_t) override { ++connections_closed; }
   Handled handle(const Request& request, Reply& reply, Ticket ticket) override;
+  LiveService& live() noexcept override { return *this; }
   void on_open(LiveLink&) override { ++opened; }
   void on_text(LiveLink& link, std::string_view text) override;
   void on_writable(LiveLink& link) override;

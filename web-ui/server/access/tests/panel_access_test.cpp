@@ -14,7 +14,7 @@ using std::chrono::hours;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-struct Watcher final : ControlWatcher, SessionWatcher {
+struct Watcher final : AccessWatcher {
   void on_control_changed(SessionIndex, SessionIndex to) override {
     ++control_changes;
     holder = to;
@@ -54,10 +54,8 @@ int begin_with(bool needs_login) {
   own = {};
   set_cookie.clear();
   cookies.clear();
-  return access_control->watch(static_cast<ControlWatcher&>(watcher)) &&
-                 access_control->watch(static_cast<SessionWatcher&>(watcher))
-             ? 0
-             : -1;
+  access_control->watch(watcher);
+  return 0;
 }
 int begin(void**) {
   return begin_with(false);

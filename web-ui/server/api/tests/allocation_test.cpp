@@ -42,8 +42,8 @@ void the_steady_state_allocates_nothing() {
   reply.text.reserve(PlayedLink::room);
   std::uint32_t exchange = 0;
   const auto turn = [&] {
-    rig.api().on_text(link, refresh);
-    rig.api().on_text(other, ping);
+    rig.api().live().on_text(link, refresh);
+    rig.api().live().on_text(other, ping);
     for (const std::string* one : {&path, &parameters}) {
       request.path = *one;
       if (rig.api().handle(request, reply, {7, ++exchange}) != Handled::now || reply.status != 200)

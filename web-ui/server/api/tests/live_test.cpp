@@ -276,7 +276,7 @@ void what_is_no_message_closes_the_connection() {
                           Case{R"({"op": "ping", "id": 0})", 1008}, Case{R"({"id": 1})", 1008},
                           Case{R"({"op": "ping", "id": -1})", 1008}, Case{R"({"op": 7, "id": 1})", 1008}}) {
     PlayedLink& link = rig.connect(a_viewer);
-    rig.api().on_text(link, one.text);
+    rig.api().live().on_text(link, one.text);
     CHECK_EQUAL(link.closed, one.code);
     rig.disconnect(link);
   }
@@ -358,6 +358,22 @@ void a_lapsed_session_is_told_to_log_in_and_can_still_stop() {
   CHECK(rig.executive().control().motion_stopped());
 }
 
+void links_count_for_their_session_until_it_ends() {
+  ProducerAndConsumer cell;
+  Rig rig(cell);
+  rig.start();
+  PlayedLink& first = rig.connect(an_operator);
+  PlayedLink& second = rig.connect(an_operator);
+  CHECK_EQUAL(rig.access().links, 2);
+  rig.disconnect(first);
+  CHECK_EQUAL(rig.access().links, 1);
+  rig.access().end(an_operator);
+  CHECK_EQUAL(second.closed, 1008);
+  // The index may be another session's by now, whose links are still there.
+  rig.disconnect(second);
+  CHECK_EQUAL(rig.access().links, 1);
+}
+
 }  // namespace
 }  // namespace flexrf::panel
 
@@ -377,6 +393,7 @@ int main() {
       CONTAINED_TEST(two_pages_see_each_others_changes),
       CONTAINED_TEST(the_end_is_told),
       CONTAINED_TEST(a_lapsed_session_is_told_to_log_in_and_can_still_stop),
+      CONTAINED_TEST(links_count_for_their_session_until_it_ends),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -44,7 +44,7 @@ void PlayedAccess::end(SessionIndex index) {
   ended_[index] = true;
   if (holder_ == index) give(no_session);
   ++revision_;
-  session_watcher->on_session_ended(index);
+  watcher->on_session_ended(index);
 }
 
 AccessControl::Taking PlayedAccess::take(SessionIndex index, Time) {
@@ -114,7 +114,7 @@ void PlayedLink::close(std::uint16_t code, std::string_view reason) {
 
 void PlayedLink::unstick(Api& api) {
   stuck = writing_ = false;
-  api.on_writable(*this);
+  api.live().on_writable(*this);
 }
 
 Reply* PlayedReplies::reply_of(Ticket ticket) {
@@ -130,8 +130,7 @@ Rig::Rig(fixture::TestApplication& application, const ApiTimeouts& timeouts, Opt
   Status status = api_.prepare();
   if (status) status = api_.start();
   if (!status) throw CheckFailed{std::string{"the API: "} + status.cause()};
-  access_.watcher = &api_.control_watcher();
-  access_.session_watcher = &api_.session_watcher();
+  access_.watcher = &api_;
 }
 
 Rig::~Rig() {
@@ -153,13 +152,13 @@ PlayedLink& Rig::connect(SessionIndex session) {
   const auto place = std::find(connected_.begin(), connected_.end(), false);
   *place = true;
   PlayedLink& link = links_.emplace_back(static_cast<std::uint32_t>(place - connected_.begin()), session);
-  api_.on_open(link);
+  api_.live().on_open(link);
   return link;
 }
 
 void Rig::disconnect(PlayedLink& link) {
   connected_[link.place()] = false;
-  api_.on_close(link);
+  api_.live().on_close(link);
 }
 
 json Rig::ask(PlayedLink& link, json message) {

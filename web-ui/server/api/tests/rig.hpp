@@ -1,6 +1,8 @@
 // A running cell with the panel's API over it; the test plays sockets, sessions and people.
 #pragma once
 
+#include <simdjson.h>  // before CMocka, whose macros are in its way
+
 #include <deque>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -30,14 +32,16 @@ class PlayedAccess final : public AccessControl {
   void release(SessionIndex index) override;
   bool answer(SessionIndex index, bool grant, Time now) override;
   std::uint64_t revision() const override { return revision_; }
+  void link_opened(SessionIndex) override { ++links; }
+  void link_closed(SessionIndex, Time) override { --links; }
   void acted(SessionIndex, Time) override { ++acts; }
 
   void give(SessionIndex to);
   void end(SessionIndex index);
   void lapse(SessionIndex index);
   int acts = 0;
-  ControlWatcher* watcher = nullptr;
-  SessionWatcher* session_watcher = nullptr;
+  int links = 0;
+  AccessWatcher* watcher = nullptr;
 
  private:
   std::vector<SessionInfo> sessions_;
@@ -129,7 +133,7 @@ class Rig {
 
   PlayedLink& connect(SessionIndex session);
   void disconnect(PlayedLink& link);
-  void send(PlayedLink& link, const json& message) { api_.on_text(link, message.dump()); }
+  void send(PlayedLink& link, const json& message) { api_.live().on_text(link, message.dump()); }
   /// Sends with an id of its own, and waits for the answer.
   json ask(PlayedLink& link, json message);
   /// Waits for the next event of this name.
