@@ -2,12 +2,11 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "runtime/executive/panel_record.hpp"
-#include "web-ui/server/exchange.hpp"
+#include "web-ui/server/fixed_reply.hpp"
 
 namespace flexrf::panel {
 
@@ -34,13 +33,16 @@ class Files {
   Handled handle(const Request& request, Reply& reply, Ticket ticket);
 
  private:
-  /// `plain`: the same bytes uncompressed, where they are at hand.
-  bool find(std::string_view path, PageFile& file, std::string_view& plain) const noexcept;
+  struct Found {
+    FixedBytes bytes;
+    std::string_view content_type;
+    bool lasting = false;
+  };
+  bool find(std::string_view path, Found& file) const noexcept;
 
   std::span<const PageFile> page_;
   std::span<const PanelFile> application_;
-  std::vector<std::string> application_tags_;
-  std::vector<std::string> application_compressed_;  // empty: as they are
+  std::vector<Document> documents_;  // of the application's
 };
 
 }  // namespace flexrf::panel

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "runtime/core/digest.hpp"
 #include "runtime/face/json_parts.hpp"
 #include "web-ui/server/api/log_lines.hpp"
-#include "web-ui/server/gzip.hpp"
 
 namespace flexrf::panel {
 namespace {
@@ -29,23 +27,6 @@ bool query_integer(std::string_view query, std::string_view name, std::uint64_t 
   return true;
 }
 
-void write_hash_tag(std::string& etag, std::uint64_t digest) {
-  constexpr int digits = 16;
-  etag.assign(digits + 2, '"');
-  for (int digit = digits; digit > 0; --digit, digest >>= 4U)
-    etag[static_cast<std::size_t>(digit)] = "0123456789abcdef"[digest & 15U];
-}
-
-/// Whether one of a list of entity tags is this one (RFC 9110, 13.1.2: weak comparison).
-bool names_tag(std::string_view list, std::string_view tag) noexcept {
-  if (list == "*") return true;
-  for (std::size_t at = list.find(tag); at != std::string_view::npos; at = list.find(tag, at + 1)) {
-    const std::size_t end = at + tag.size();
-    if (end == list.size() || list[end] == ',' || list[end] == ' ') return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 RestHandler::RestHandler(const RestParts& parts)
@@ -53,8 +34,6 @@ RestHandler::RestHandler(const RestParts& parts)
       openapi_text_(openapi_document(parts.executive.cell().application().name)),
       openapi_(openapi_text_),
       descriptor_(parts.executive.cell().application().descriptor_json) {}
-
-RestHandler::Document::Document(std::string_view document) : text(document), compressed(gzip(document)) {}
 
 Handled RestHandler::handle(const Request& request, Reply& reply, Ticket ticket) {
   const Caller caller = Caller::rest(request.session, ticket);
@@ -92,7 +71,6 @@ void RestHandler::read(const Match& found, const Request& request, Reply& reply,
                        Time now) {
   Answers& answers = parts_.operations.answers;
   const Directory& directory = parts_.operations.directory;
-  const Application& application = parts_.executive.cell().application();
   const std::string_view name = found.segments[0];
   const auto list = [&](Topic topic) {
     const std::string_view body = parts_.topics.body(topic, now);
@@ -103,9 +81,9 @@ void RestHandler::read(const Match& found, const Request& request, Reply& reply,
   reply.text.clear();
   switch (found.route->resource) {
     case Resource::openapi:
-      return finish_fixed(request, reply, openapi_, application.descriptor_hash);
+      return finish_fixed(request, reply, openapi_);
     case Resource::descriptor:
-      return finish_fixed(request, reply, descriptor_, application.descriptor_hash);
+      return finish_fixed(request, reply, descriptor_);
     case Resource::state:
       parts_.state.update(now);
       reply.text.assign("{").append(parts_.state.members_for(caller.session));
@@ -174,13 +152,7 @@ void RestHandler::read(const Match& found, const Request& request, Reply& reply,
 }
 
 void RestHandler::finish(const Request& request, Reply& reply) {
-  Digest digest;
-  digest.add_text(reply.text);
-  write_hash_tag(reply.etag, digest.value());
-  if (names_tag(request.if_none_match, reply.etag)) {
-    reply.status = 304;
-    reply.text.clear();
-  }
+  answer_text(request, reply);
   parts_.operations.answers.answered();
 }
 
@@ -189,19 +161,9 @@ void RestHandler::finish_json(const Request& request, Reply& reply, JsonWriter& 
   finish(request, reply);
 }
 
-void RestHandler::finish_fixed(const Request& request, Reply& reply, const Document& document,
-                               std::uint64_t digest) {
-  const bool compressed = request.accepts_gzip && !document.compressed.empty();
-  // Each representation has a tag of its own.
-  write_hash_tag(reply.etag, compressed ? ~digest : digest);
-  reply.varies_by_encoding = !document.compressed.empty();
+void RestHandler::finish_fixed(const Request& request, Reply& reply, const Document& document) {
   reply.cache_control = "no-cache";
-  if (names_tag(request.if_none_match, reply.etag)) {
-    reply.status = 304;
-  } else {
-    reply.fixed = compressed ? std::string_view{document.compressed} : document.text;
-    if (compressed) reply.content_encoding = "gzip";
-  }
+  answer_fixed(request, reply, document.bytes());
   parts_.operations.answers.answered();
 }
 

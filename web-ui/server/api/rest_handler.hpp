@@ -11,6 +11,7 @@
 #include "web-ui/server/api/routes.hpp"
 #include "web-ui/server/api/state_event.hpp"
 #include "web-ui/server/api/topic_bodies.hpp"
+#include "web-ui/server/fixed_reply.hpp"
 
 namespace flexrf::panel {
 
@@ -38,13 +39,6 @@ class RestHandler {
   Handled handle(const Request& request, Reply& reply, Ticket ticket);
 
  private:
-  /// What never changes; compressed where that saves something, else empty.
-  struct Document {
-    explicit Document(std::string_view document);
-    std::string_view text;
-    std::string compressed;
-  };
-
   void serve(const Request& request, Reply& reply, const Caller& caller, Time now);
   void read(const Match& match, const Request& request, Reply& reply, const Caller& caller, Time now);
   void act(const Match& match, const Request& request, const Caller& caller, Time now);
@@ -56,7 +50,7 @@ class RestHandler {
   /// Makes the text the reply: 304 when the client has it.
   void finish(const Request& request, Reply& reply);
   void finish_json(const Request& request, Reply& reply, JsonWriter& json);
-  void finish_fixed(const Request& request, Reply& reply, const Document& document, std::uint64_t digest);
+  void finish_fixed(const Request& request, Reply& reply, const Document& document);
 
   RestParts parts_;
   std::string openapi_text_;
