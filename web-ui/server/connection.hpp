@@ -117,8 +117,9 @@ class Connection final : public LiveLink {
   void handle();
   unsigned fault_of_header(std::string_view& detail) const;
   void turn_away_request();
-  bool admit(const RequestTarget& target);
-  void serve(const RequestTarget& target);
+  Request request_for(const RequestTarget& target) const;
+  bool admit(Request& request);
+  void serve(const Request& request);
 
   // ---- live_connection.cpp: WebSocket
   bool wants_upgrade() const;

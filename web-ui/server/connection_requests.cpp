@@ -58,12 +58,13 @@ void Connection::handle() {
     refuse(fault, detail);
     return;
   }
-  if (!admit(*target)) {
+  Request request = request_for(*target);
+  if (!admit(request)) {
     send_reply();
   } else if (target->path == "/api/v1/live") {
     upgrade();
   } else {
-    serve(*target);
+    serve(request);
   }
 }
 
@@ -89,45 +90,43 @@ void Connection::turn_away_request() {
   send_reply();
 }
 
-bool Connection::admit(const RequestTarget& target) {
-  const RequestHeader& header = parser_->header();
-  Approach approach;
-  approach.place = place_;
-  approach.method = header.method;
-  approach.path = target.path;
-  approach.query = target.query;
-  approach.host = header.host;
-  approach.origin = header.origin;
-  approach.cookie = header.cookie;
-  approach.remote_address = remote_address_;
-  approach.local_end = local_end_;
-  approach.loopback = loopback_;
-  approach.has_fetch_site = header.has_fetch_site;
-  approach.upgrade = wants_upgrade();
-  const Watch watch(surroundings_, target.path);
-  return surroundings_.service.admit(approach, session_, reply_);
-}
-
-void Connection::serve(const RequestTarget& target) {
+Request Connection::request_for(const RequestTarget& target) const {
   const RequestHeader& header = parser_->header();
   Request request;
+  request.place = place_;
   request.method = header.method;
   request.path = target.path;
   request.query = target.query;
+  request.host = header.host;
+  request.origin = header.origin;
+  request.cookie = header.cookie;
   request.body = parser_->body();
   request.content_type = header.content_type;
   request.if_match = header.if_match;
   request.if_none_match = header.if_none_match;
   request.accepts_gzip = accepts_gzip(header.accept_encoding);
   request.remote_address = remote_address_;
+  request.local_end = local_end_;
   request.loopback = loopback_;
+  request.has_fetch_site = header.has_fetch_site;
+  request.upgrade = wants_upgrade();
+  return request;
+}
+
+bool Connection::admit(Request& request) {
+  const Watch watch(surroundings_, request.path);
+  const bool is_admitted = surroundings_.service.admit(request, session_, reply_);
   request.session = session_;
+  return is_admitted;
+}
+
+void Connection::serve(const Request& request) {
   const Ticket ticket{place_, exchange_};
   completed_ = false;
   handler_runs_ = true;
   Handled handled{};
   {
-    const Watch watch(surroundings_, target.path);
+    const Watch watch(surroundings_, request.path);
     handled = surroundings_.service.handle(request, reply_, ticket);
   }
   handler_runs_ = false;

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "web-ui/server/access/address.hpp"
+
 namespace flexrf::panel {
 
 enum class Method : std::uint8_t { get, head, put, post, other };
@@ -13,18 +15,25 @@ enum class Method : std::uint8_t { get, head, put, post, other };
 using SessionIndex = std::uint16_t;
 inline constexpr SessionIndex no_session = 0xFFFF;
 
-/// Views are valid while handle() runs. What is absent is empty.
+/// Views are valid while the call runs. What is absent is empty.
 struct Request {
+  std::uint32_t place = 0;  ///< of the connection
   Method method = Method::get;
   std::string_view path;   ///< percent-decoded, without query: "/api/v1/slots/joints"
   std::string_view query;  ///< as sent, without '?'
+  std::string_view host;   ///< never empty
+  std::string_view origin;
+  std::string_view cookie;
   std::string_view body;
   std::string_view content_type;
   std::string_view if_match;
   std::string_view if_none_match;
   bool accepts_gzip = false;
   std::string_view remote_address;  ///< numeric
+  Address local_end;                ///< of ours, where the connection arrived
   bool loopback = false;            ///< the remote end is this machine
+  bool has_fetch_site = false;      ///< Sec-Fetch-Site is there: a browser asks
+  bool upgrade = false;             ///< wants to become a WebSocket
   SessionIndex session = no_session;
 };
 

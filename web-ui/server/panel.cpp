@@ -46,8 +46,8 @@ class Panel final : public Observer, public Service {
   void stop() noexcept override;
 
   // ---- the server's thread
-  bool admit(const Approach& approach, SessionIndex& session, Reply& reply) override {
-    return entrance_->admit(approach, session, reply);
+  bool admit(const Request& request, SessionIndex& session, Reply& reply) override {
+    return entrance_->admit(request, session, reply);
   }
   void on_connection_closed(std::uint32_t place) override { entrance_->on_connection_closed(place); }
   Handled handle(const Request& request, Reply& reply, Ticket ticket) override;

@@ -8,8 +8,8 @@
 namespace flexrf::panel {
 namespace {
 
-bool is_change(const Approach& approach) noexcept {
-  return approach.upgrade || (approach.method != Method::get && approach.method != Method::head);
+bool is_change(const Request& request) noexcept {
+  return request.upgrade || (request.method != Method::get && request.method != Method::head);
 }
 
 /// The page itself holds nothing of the application: whoever is to log in needs it.
@@ -39,42 +39,42 @@ Entrance::Entrance(PanelAccess& access, LoginLimits& limits, const HostRules& ru
                    Clock clock)
     : access_(access), limits_(limits), rules_(rules), clock_(clock), own_(places) {}
 
-bool Entrance::is_ours(const Approach& approach, Reply& reply) const {
-  if (!rules_.allows_host(approach.host, approach.local_end)) {
+bool Entrance::is_ours(const Request& request, Reply& reply) const {
+  if (!rules_.allows_host(request.host, request.local_end)) {
     answer_problem(reply, 421,
-                   "This server is not called " + cut(approach.host) +
+                   "This server is not called " + cut(request.host) +
                        ". Ask for it by its address or its machine's name, or start the application with "
                        "--panel-host NAME.");
     return false;
   }
-  if (!is_change(approach)) return true;
+  if (!is_change(request)) return true;
   // A browser that says where it comes from, but not who asks, has something to hide; a script says neither.
-  const bool is_anonymous_page = approach.origin.empty() && approach.has_fetch_site;
-  if (!is_anonymous_page && rules_.allows_origin(approach.origin, approach.host)) return true;
+  const bool is_anonymous_page = request.origin.empty() && request.has_fetch_site;
+  if (!is_anonymous_page && rules_.allows_origin(request.origin, request.host)) return true;
   answer_problem(
       reply, 403,
-      "Pages of another origin (" + cut(approach.origin) + ") may not change anything here, nor connect.");
+      "Pages of another origin (" + cut(request.origin) + ") may not change anything here, nor connect.");
   return false;
 }
 
-bool Entrance::admit(const Approach& approach, SessionIndex& session, Reply& reply) {
+bool Entrance::admit(const Request& request, SessionIndex& session, Reply& reply) {
   session = no_session;
-  if (!is_ours(approach, reply)) return false;
+  if (!is_ours(request, reply)) return false;
   const Time now = clock_();
-  session = access_.identify({approach.cookie, approach.remote_address, approach.loopback},
-                             own_[approach.place], now, reply.set_cookie);
-  if (is_change(approach) && !approach.upgrade) access_.acted(session, now);
-  if (approach.method == Method::get && approach.path == "/" && !approach.upgrade) {
-    const std::string_view token = parameter(approach.query, "token");
+  session = access_.identify({request.cookie, request.remote_address, request.loopback}, own_[request.place],
+                             now, reply.set_cookie);
+  if (is_change(request) && !request.upgrade) access_.acted(session, now);
+  if (request.method == Method::get && request.path == "/" && !request.upgrade) {
+    const std::string_view token = parameter(request.query, "token");
     if (token.data() != nullptr) {
-      use_token(approach, token, session, now, reply);
+      use_token(request, token, session, now, reply);
       return false;
     }
   }
-  if (session != no_session || is_open(approach.path)) return true;
+  if (session != no_session || is_open(request.path)) return true;
   if (access_.needs_login()) {
     answer_problem(reply, 401, "Log in first: open the page, or POST user and password to /api/v1/login.");
-  } else if (approach.loopback) {
+  } else if (request.loopback) {
     reply.retry_after = 10;
     answer_problem(reply, 503, "All sessions are in use. Close a page that is not needed.");
   } else {
@@ -85,28 +85,28 @@ bool Entrance::admit(const Approach& approach, SessionIndex& session, Reply& rep
   return false;
 }
 
-void Entrance::use_token(const Approach& approach, std::string_view token, SessionIndex session, Time now,
+void Entrance::use_token(const Request& request, std::string_view token, SessionIndex session, Time now,
                          Reply& reply) {
   // The printed address may be opened again by the browser that has its session.
   bool is_admin = access_.has_role(session, Role::admin);
-  if (!is_admin && approach.loopback && access_.use_token(token))
-    is_admin = access_.log_in(access_.handle(session), "", Role::admin, approach.remote_address, now,
+  if (!is_admin && request.loopback && access_.use_token(token))
+    is_admin = access_.log_in(access_.handle(session), "", Role::admin, request.remote_address, now,
                               reply.set_cookie) != no_session;
   if (is_admin) {
     reply.status = 303;
     reply.location = "/";
     return;
   }
-  const std::optional<Address> address = Address::parse(approach.remote_address);
+  const std::optional<Address> address = Address::parse(request.remote_address);
   const Duration wait =
-      limits_.admit(address.value_or(Address{}), access_.is_local(approach.remote_address), now);
+      limits_.admit(address.value_or(Address{}), access_.is_local(request.remote_address), now);
   if (wait > Duration::zero()) {
     reply.retry_after = seconds_to_wait(wait);
     answer_problem(reply, 429, "Too many wrong attempts. Wait before the next.");
     return;
   }
-  log_failed_token(approach.remote_address);
-  access_.note(Who("somebody", approach.remote_address),
+  log_failed_token(request.remote_address);
+  access_.note(Who("somebody", request.remote_address),
                "did not get in: the address's token is wrong or was used");
   answer_problem(
       reply, 403,

@@ -20,12 +20,12 @@ class Entrance {
   Entrance(PanelAccess& access, LoginLimits& limits, const HostRules& rules, std::uint32_t places,
            Clock clock = &MonotonicClock::now);
 
-  bool admit(const Approach& approach, SessionIndex& session, Reply& reply);
+  bool admit(const Request& request, SessionIndex& session, Reply& reply);
   void on_connection_closed(std::uint32_t place);
 
  private:
-  bool is_ours(const Approach& approach, Reply& reply) const;
-  void use_token(const Approach& approach, std::string_view token, SessionIndex session, Time now,
+  bool is_ours(const Request& request, Reply& reply) const;
+  void use_token(const Request& request, std::string_view token, SessionIndex session, Time now,
                  Reply& reply);
 
   PanelAccess& access_;

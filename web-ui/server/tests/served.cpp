@@ -17,14 +17,14 @@ const std::string& large() {
 
 }  // namespace
 
-bool TestHandlers::admit(const Approach& approach, SessionIndex& session, Reply& reply) {
-  const bool changes = approach.upgrade || approach.method == Method::put || approach.method == Method::post;
+bool TestHandlers::admit(const Request& request, SessionIndex& session, Reply& reply) {
+  const bool changes = request.upgrade || request.method == Method::put || request.method == Method::post;
   session = 0;
-  if (approach.host != "panel.test") {
+  if (request.host != "panel.test") {
     answer_problem(reply, 421, "unknown host");
     return false;
   }
-  if (changes && !approach.origin.empty() && approach.origin != "http://panel.test") {
+  if (changes && !request.origin.empty() && request.origin != "http://panel.test") {
     answer_problem(reply, 403, "foreign origin");
     return false;
   }

@@ -37,7 +37,7 @@ class TestHandlers final : public Service, public LiveService {
   /// Set before the server runs.
   std::function<void()> ticked;
 
-  bool admit(const Approach& approach, SessionIndex& session, Reply& reply) override;
+  bool admit(const Request& request, SessionIndex& session, Reply& reply) override;
   void on_connection_closed(std::uint32_t) override { ++connections_closed; }
   Handled handle(const Request& request, Reply& reply, Ticket ticket) override;
   LiveService& live() noexcept override { return *this; }

@@ -33,7 +33,7 @@ struct World {
   Entrance entrance;
 };
 std::optional<World> world;
-Approach approach;
+Request request;
 Reply reply;
 SessionIndex session;
 std::string query;
@@ -43,12 +43,12 @@ int begin_with(bool needs_login) {
   if (!prepare_cryptography()) return -1;
   now = Time{std::chrono::seconds{1000}};
   world.emplace(needs_login);
-  approach = {};
-  approach.path = "/";
-  approach.host = "localhost:8080";
-  approach.remote_address = "127.0.0.1";
-  approach.local_end = *Address::parse("127.0.0.1");
-  approach.loopback = true;
+  request = {};
+  request.path = "/";
+  request.host = "localhost:8080";
+  request.remote_address = "127.0.0.1";
+  request.local_end = *Address::parse("127.0.0.1");
+  request.loopback = true;
   cookie.clear();
   return 0;
 }
@@ -61,16 +61,16 @@ int begin_with_logins(void**) {
 
 bool admit() {
   reply = {};
-  approach.cookie = cookie;
-  return world->entrance.admit(approach, session, reply);
+  request.cookie = cookie;
+  return world->entrance.admit(request, session, reply);
 }
 /// The status of the refusal; 0: admitted.
 unsigned refusal() {
   return admit() ? 0 : reply.status;
 }
 unsigned refusal_of(Method method, const char* path) {
-  approach.method = method;
-  approach.path = path;
+  request.method = method;
+  request.path = path;
   return refusal();
 }
 void keep_cookie() {
@@ -90,48 +90,48 @@ void a_visitor_on_loopback_is_a_viewer(void**) {
 }
 
 void a_foreign_host_is_misdirected(void**) {
-  approach.host = "evil.example";
+  request.host = "evil.example";
   assert_int_equal(refusal(), 421);
   assert_int_equal(session, no_session);
   assert_string_equal(reply.set_cookie.c_str(), "");
   assert_non_null(strstr(reply.text.c_str(), "not called evil.example"));
-  approach.host = "cell7:8080";
+  request.host = "cell7:8080";
   assert_int_equal(refusal(), 0);
 }
 
 void changes_and_upgrades_need_our_own_page(void**) {
-  approach.origin = "http://localhost:3000";
+  request.origin = "http://localhost:3000";
   assert_int_equal(refusal_of(Method::get, "/api/v1/state"), 0);
   for (const Method method : {Method::put, Method::post, Method::other})
     assert_int_equal(refusal_of(method, "/api/v1/stop-motion"), 403);
-  approach.upgrade = true;
+  request.upgrade = true;
   assert_int_equal(refusal_of(Method::get, "/api/v1/live"), 403);
-  approach.origin = "http://localhost:8080";
+  request.origin = "http://localhost:8080";
   assert_int_equal(refusal_of(Method::get, "/api/v1/live"), 0);
-  approach.upgrade = false;
+  request.upgrade = false;
   assert_int_equal(refusal_of(Method::post, "/api/v1/stop-motion"), 0);
-  approach.origin = {};
+  request.origin = {};
   assert_int_equal(refusal_of(Method::post, "/api/v1/stop-motion"), 0);  // a script
-  approach.has_fetch_site = true;
+  request.has_fetch_site = true;
   assert_int_equal(refusal_of(Method::post, "/api/v1/stop-motion"), 403);
 }
 
 void the_token_makes_an_admin_once(void**) {
   query = "x=1&token=" + std::string{world->access.one_time_token()->text()};
-  approach.query = query;
+  request.query = query;
   assert_int_equal(refusal(), 303);
   assert_true(reply.location == "/");
   keep_cookie();
   // Its browser may open the address again.
   assert_int_equal(refusal(), 303);
   assert_true(world->access.has_role(session, Role::admin));
-  approach.query = {};
+  request.query = {};
   assert_int_equal(refusal(), 0);
   assert_true(world->access.has_role(session, Role::admin));
   // Nobody else may.
   cookie.clear();
-  approach.query = query;
-  approach.place = 1;
+  request.query = query;
+  request.place = 1;
   assert_int_equal(refusal(), 403);
   assert_false(world->access.has_role(session, Role::operator_));
 }
@@ -159,25 +159,25 @@ void what_was_asked_before_the_token_does_not_take_its_session_away(void**) {
   const std::string before = jar.header();
   cookie = before;
   query = "token=" + std::string{world->access.one_time_token()->text()};
-  approach.query = query;
-  approach.place = 1;
+  request.query = query;
+  request.place = 1;
   assert_int_equal(refusal(), 303);
   jar.keep(reply.set_cookie);
-  approach.query = {};
+  request.query = {};
   // Each on a connection of its own, sent by the first page: file, question, live connection.
   for (const auto& [path, upgrade] :
        {std::pair{"/assets/index-1234.js", false}, {"/api/v1/session", false}, {"/api/v1/live", true}}) {
     cookie = before;
     world->entrance.on_connection_closed(2);
-    approach.place = 2;
-    approach.upgrade = upgrade;
+    request.place = 2;
+    request.upgrade = upgrade;
     assert_int_equal(refusal_of(Method::get, path), 0);
     assert_false(world->access.has_role(session, Role::operator_));  // whoever knew the old one has nothing
     jar.keep(reply.set_cookie);
   }
-  approach.upgrade = false;
+  request.upgrade = false;
   cookie = jar.header();
-  approach.place = 3;
+  request.place = 3;
   assert_int_equal(refusal_of(Method::get, "/api/v1/session"), 0);
   assert_true(world->access.has_role(session, Role::admin));
   assert_string_equal(reply.set_cookie.c_str(), "");
@@ -185,7 +185,7 @@ void what_was_asked_before_the_token_does_not_take_its_session_away(void**) {
 
 void only_a_get_uses_the_token_up(void**) {
   query = "token=" + std::string{world->access.one_time_token()->text()};
-  approach.query = query;
+  request.query = query;
   assert_int_equal(refusal_of(Method::head, "/"), 0);
   assert_int_equal(refusal_of(Method::get, "/api/v1/state"), 0);
   assert_int_equal(refusal_of(Method::get, "/"), 303);
@@ -193,15 +193,15 @@ void only_a_get_uses_the_token_up(void**) {
 
 void the_token_is_for_this_machine(void**) {
   query = "token=" + std::string{world->access.one_time_token()->text()};
-  approach.query = query;
-  approach.loopback = false;
-  approach.remote_address = "10.0.0.9";
+  request.query = query;
+  request.loopback = false;
+  request.remote_address = "10.0.0.9";
   assert_int_equal(refusal(), 403);
   assert_int_equal(world->access.one_time_token()->text().size(), OneTimeToken::digits);
 }
 
 void wrong_tokens_count_as_failed_logins(void**) {
-  approach.query = "token=00000000000000000000000000000000";
+  request.query = "token=00000000000000000000000000000000";
   int refused = 0;
   for (int i = 0; i < 1000; ++i) {
     if (refusal() == 429) ++refused;
@@ -210,7 +210,7 @@ void wrong_tokens_count_as_failed_logins(void**) {
   assert_int_equal(reply.retry_after, 1);
   // The right one is not kept waiting.
   query = "token=" + std::string{world->access.one_time_token()->text()};
-  approach.query = query;
+  request.query = query;
   assert_int_equal(refusal(), 303);
 }
 
@@ -229,15 +229,15 @@ void after_it_the_cookie_opens(void**) {
   assert_int_not_equal(world->access.log_in({}, "ann", Role::operator_, "127.0.0.1", now, reply.set_cookie),
                        no_session);
   keep_cookie();
-  approach.loopback = false;
-  approach.remote_address = "10.0.0.9";
+  request.loopback = false;
+  request.remote_address = "10.0.0.9";
   assert_int_equal(refusal_of(Method::get, "/api/v1/state"), 0);
   assert_true(world->access.has_role(session, Role::operator_));
 }
 
 void without_passwords_others_see_nothing(void**) {
-  approach.loopback = false;
-  approach.remote_address = "10.0.0.9";
+  request.loopback = false;
+  request.remote_address = "10.0.0.9";
   assert_int_equal(refusal_of(Method::get, "/api/v1/state"), 403);
 }
 
