@@ -66,7 +66,6 @@ class Connection final : public LiveLink {
   // ---- LiveLink
   std::uint32_t place() const override { return place_; }
   SessionIndex session() const override { return session_; }
-  std::string_view remote_address() const override { return remote_address_; }
   bool is_writing() const override { return writing_ || state_ != State::live; }
   std::string& buffer() override { return reply_.text; }
   void send(bool binary) override;

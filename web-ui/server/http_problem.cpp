@@ -13,14 +13,11 @@ struct Title {
   std::string_view text;
 };
 
-// RFC 9110, what this server uses.
+// RFC 9110 and 4918, what this server uses.
 constexpr std::array titles{
     Title{100, "Continue"},
     Title{200, "OK"},
-    Title{201, "Created"},
-    Title{202, "Accepted"},
     Title{204, "No Content"},
-    Title{302, "Found"},
     Title{303, "See Other"},
     Title{304, "Not Modified"},
     Title{400, "Bad Request"},
@@ -28,27 +25,22 @@ constexpr std::array titles{
     Title{403, "Forbidden"},
     Title{404, "Not Found"},
     Title{405, "Method Not Allowed"},
-    Title{406, "Not Acceptable"},
     Title{408, "Request Timeout"},
     Title{409, "Conflict"},
-    Title{410, "Gone"},
-    Title{411, "Length Required"},
     Title{412, "Precondition Failed"},
     Title{413, "Content Too Large"},
     Title{415, "Unsupported Media Type"},
     Title{417, "Expectation Failed"},
     Title{421, "Misdirected Request"},
     Title{422, "Unprocessable Content"},
-    Title{423, "Locked"},
     Title{426, "Upgrade Required"},
-    Title{428, "Precondition Required"},
     Title{429, "Too Many Requests"},
     Title{431, "Request Header Fields Too Large"},
     Title{500, "Internal Server Error"},
-    Title{501, "Not Implemented"},
     Title{503, "Service Unavailable"},
     Title{504, "Gateway Timeout"},
     Title{505, "HTTP Version Not Supported"},
+    Title{507, "Insufficient Storage"},
 };
 
 }  // namespace

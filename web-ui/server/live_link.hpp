@@ -22,7 +22,6 @@ class LiveLink {
   /// Place of the connection, below the number of places: what a handler keeps per client is an array of it.
   virtual std::uint32_t place() const = 0;
   virtual SessionIndex session() const = 0;
-  virtual std::string_view remote_address() const = 0;
   virtual bool is_writing() const = 0;
   /// The buffer of the next message, empty; its memory is kept. Only while !is_writing().
   virtual std::string& buffer() = 0;

@@ -63,7 +63,6 @@ class PlayedLink final : public LiveLink {
 
   std::uint32_t place() const override { return place_; }
   SessionIndex session() const override { return session_; }
-  std::string_view remote_address() const override { return "127.0.0.1"; }
   bool is_writing() const override { return writing_; }
   std::string& buffer() override;
   void send(bool binary) override;
