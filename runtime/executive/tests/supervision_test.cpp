@@ -106,6 +106,7 @@ void of_a_process_that_stood_still_every_actuator_is_concerned() {
   for (const std::uint16_t thread :
        {std::uint16_t{Plan::producing}, std::uint16_t{Plan::consuming}, no_index}) {
     Moving application;
+    CHECK(application.cell.construct().is_ok());
     Standstill standstill(application.cell, thread);
     CHECK(!standstill.judge(milliseconds{999}));
     CHECK(application.cell.control().may_move());
