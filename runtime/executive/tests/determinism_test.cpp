@@ -108,7 +108,7 @@ struct Rivals : TestApplication {
     std::string who;
     Duration at;
   };
-  void add_thread(std::string name, std::uint8_t priority, std::vector<Duration> budgets) {
+  void add_thread(const std::string& name, std::uint8_t priority, const std::vector<Duration>& budgets) {
     ThreadPlan thread;
     thread.name = name;
     thread.trigger = TriggerPlan::periodic(milliseconds{1});
