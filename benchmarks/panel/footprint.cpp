@@ -107,16 +107,11 @@ bool measure_page(Report& report) {
   Page page{cell.port()};
   std::set<std::string> files;
   page.add_with_needs("/", files);
-  const std::string entry = first_starting(files, "/assets/index-");
-  const std::string overview = page.loaded_by(entry, "overview");
-  const std::string widgets = page.loaded_by(entry, "index");
-  const std::string further = page.loaded_by(widgets, "further");
-  if (overview.empty() || widgets.empty() || further.empty()) {
+  const std::string further = page.loaded_by(first_starting(files, "/assets/first-"), "further");
+  if (further.empty()) {
     std::fputs("panel: the page's files are not as they were: footprint.cpp has to follow\n", stderr);
     return false;
   }
-  page.add_with_needs(overview, files);
-  page.add_with_needs(widgets, files);
   const double first_view = page.kilobytes(files);
   report.add({"page: first view, gzip",
               "kB",
