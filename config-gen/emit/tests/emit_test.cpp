@@ -135,12 +135,49 @@ void paths_do_not_say_where_the_repository_lies(void**) {
   assert_true(text_is(short_path("jog.toml"), "jog.toml"));
 }
 
+/// What the compiler is to check of a driver's guard, "" for nothing, where its table says this of it.
+std::string checked_of(const char* driver, bool actuates) {
+  const fs::path tests = fs::path(place::source_folder) / "tests/generator";
+  const Target target{Target::Kind::driver, tests / "drivers" / driver / (std::string(driver) + ".toml")};
+  const SearchPaths paths{{tests / "cell/types"}, {}, {tests / "interfaces"}, {tests / "drivers"}, {}};
+  Diagnostics diagnostics;
+  Model model = read(target, paths, diagnostics);
+  for (Driver& one : model.drivers) one.actuates = actuates;
+  std::string found = "no file";
+  for (const GeneratedFile& file : emit(model, target, diagnostics)) {
+    if (file.path != std::string(driver) + "_construct.cpp") continue;
+    const std::size_t guard = file.contents.find("GuardedDriver<");
+    if (guard == std::string::npos) return "";
+    found = file.contents.substr(file.contents.rfind("static_assert", guard));
+    found.resize(found.find(';'));
+  }
+  return found;
+}
+
+bool says(const std::string& text, const char* begin, const char* end) {
+  if (text.starts_with(begin) && text.ends_with(end)) return true;
+  print_error("%s instead of %s ... %s\n", text.c_str(), begin, end);
+  return false;
+}
+
+/// A bus has what it carries do it.
+void what_moves_has_to_have_the_guard_and_to_say_so(void**) {
+  assert_true(says(checked_of("mock_station", true), "static_assert(flexrf::GuardedDriver<MockStation>,",
+                   "Actuator<StationInterface> (hal/driver/actuator.hpp)\")"));
+  assert_true(says(checked_of("mock_station", false), "static_assert(!flexrf::GuardedDriver<MockStation>,",
+                   "its table has to say actuates = true\")"));
+  assert_true(text_is(checked_of("mock_link", true), ""));
+  assert_true(text_is(checked_of("mock_link", false), ""));
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(same_tables_same_bytes),
-                              cmocka_unit_test(the_hash_follows_the_contents), cmocka_unit_test(literals),
+                              cmocka_unit_test(the_hash_follows_the_contents),
+                              cmocka_unit_test(literals),
                               cmocka_unit_test(identifiers_differ_as_names_do),
+                              cmocka_unit_test(what_moves_has_to_have_the_guard_and_to_say_so),
                               cmocka_unit_test(paths_do_not_say_where_the_repository_lies)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
