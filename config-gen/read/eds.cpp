@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 
+#include "base/ascii.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/ini.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/ascii.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/source_text.hpp"
 
@@ -13,10 +14,6 @@ constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
-
-char small(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
 // What a file is that is no text of sections; empty when it may be one.
@@ -123,14 +120,9 @@ class IniReader {
 
 }  // namespace
 
-bool equal_without_case(std::string_view one, std::string_view other) {
-  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
-                    [](char a, char b) { return small(a) == small(b); });
-}
-
 std::string in_small_letters(std::string_view text) {
   std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), small);
+  std::transform(result.begin(), result.end(), result.begin(), lower_case);
   return result;
 }
 

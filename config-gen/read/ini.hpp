@@ -28,7 +28,6 @@ struct IniSection {
   const IniEntry* find(std::string_view key) const;
 };
 
-bool equal_without_case(std::string_view one, std::string_view other);
 std::string in_small_letters(std::string_view text);
 
 // Nothing when the file cannot be read or is no such file at all, which is reported. Lines that are neither

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/ascii.hpp"
 #include "config-gen/model/file_contents.hpp"
 #include "config-gen/model/words.hpp"
 
@@ -24,11 +25,9 @@ const char* content_type_of(const fs::path& file) {
                                                                       {".glb", "model/gltf-binary"},
                                                                       {".png", "image/png"},
                                                                       {".jpg", "image/jpeg"}}};
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string extension = file.extension().string();
   for (const auto& [suffix, type] : types)
-    if (extension == suffix) return type;
+    if (equal_without_case(extension, suffix)) return type;
   return "application/octet-stream";
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "base/ascii.hpp"
+
 namespace flexrf::panel {
 namespace {
 
@@ -24,18 +26,6 @@ std::string_view take_until(std::string_view& list, char mark) noexcept {
   const std::string_view element = list.substr(0, end);
   list = end == std::string_view::npos ? std::string_view{} : list.substr(end + 1);
   return trim(element);
-}
-
-char lower(char character) noexcept {
-  return character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a') : character;
-}
-
-bool is_same_name(std::string_view one, std::string_view other) noexcept {
-  if (one.size() != other.size()) return false;
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    if (lower(one[i]) != lower(other[i])) return false;
-  }
-  return true;
 }
 
 bool has_dot_segment(std::string_view path) noexcept {
@@ -81,7 +71,7 @@ bool accepts_gzip(std::string_view accept_encoding) noexcept {
   while (!accept_encoding.empty()) {
     std::string_view element = take_until(accept_encoding, ',');
     const std::string_view name = take_until(element, ';');
-    if (!is_same_name(name, "gzip") && name != "*") continue;
+    if (!equal_without_case(name, "gzip") && name != "*") continue;
     const std::string_view weight = trim(element);
     // "q=0", "q=0.0": not at all.
     return !weight.starts_with("q=0") || weight.find_first_of("123456789") != std::string_view::npos;
@@ -90,7 +80,7 @@ bool accepts_gzip(std::string_view accept_encoding) noexcept {
 }
 
 bool is_media_type(std::string_view content_type, std::string_view type) noexcept {
-  return is_same_name(take_until(content_type, ';'), type);
+  return equal_without_case(take_until(content_type, ';'), type);
 }
 
 bool list_has(std::string_view list, std::string_view name) noexcept {

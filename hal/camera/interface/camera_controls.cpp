@@ -3,6 +3,7 @@
 #include <charconv>
 #include <system_error>
 
+#include "base/ascii.hpp"
 #include "base/text.hpp"
 
 namespace flexrf {
@@ -93,8 +94,8 @@ const CameraControl* find_control(std::span<const CameraControl> offered, std::s
 std::array<char, 32> control_name(std::string_view shown) noexcept {
   std::array<char, 32> name{};
   std::size_t size = 0;
-  for (char character : shown) {
-    if (character >= 'A' && character <= 'Z') character = static_cast<char>(character - 'A' + 'a');
+  for (const char shown_character : shown) {
+    const char character = lower_case(shown_character);
     if (size == name.size()) break;
     if (is_letter(character)) {
       name[size++] = character;

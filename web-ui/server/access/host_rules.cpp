@@ -6,22 +6,15 @@
 #include <charconv>
 #include <climits>
 
+#include "base/ascii.hpp"
+
 namespace flexrf::panel {
 namespace {
 
 constexpr std::size_t longest_name = 253;  // RFC 1035
 
-char lower(char character) noexcept {
-  return character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a') : character;
-}
-
-bool is_same_name(std::string_view one, std::string_view other) noexcept {
-  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
-                    [](char a, char b) { return lower(a) == lower(b); });
-}
-
 bool is_name_character(char character) noexcept {
-  const char letter = lower(character);
+  const char letter = lower_case(character);
   return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '-' ||
          letter == '.' || letter == '_';
 }
@@ -93,9 +86,9 @@ bool HostRules::allows_host(std::string_view host, const Address& local_end) con
   const std::optional<Authority> authority = parse_authority(host, 1);
   if (!authority) return false;
   if (const std::optional<Address> literal = Address::parse(authority->name)) return *literal == local_end;
-  return is_same_name(authority->name, "localhost") ||
+  return equal_without_case(authority->name, "localhost") ||
          std::any_of(names_.begin(), names_.end(),
-                     [&](const std::string& name) { return is_same_name(authority->name, name); });
+                     [&](const std::string& name) { return equal_without_case(authority->name, name); });
 }
 
 bool HostRules::allows_origin(std::string_view origin, std::string_view host) const noexcept {
@@ -106,7 +99,7 @@ bool HostRules::allows_origin(std::string_view origin, std::string_view host) co
   const std::optional<Authority> from = parse_authority(origin.substr(scheme.size()), default_port);
   const std::optional<Authority> ours = parse_authority(host, default_port);
   return from && ours && from->port == ours->port && from->in_brackets == ours->in_brackets &&
-         is_same_name(from->name, ours->name);
+         equal_without_case(from->name, ours->name);
 }
 
 }  // namespace flexrf::panel

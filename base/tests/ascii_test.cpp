@@ -1,0 +1,29 @@
+#include "base/ascii.hpp"
+
+#include "tests/cmocka.hpp"
+
+namespace flexrf {
+namespace {
+
+void letters_of_ascii(void**) {
+  assert_int_equal(lower_case('A'), 'a');
+  assert_int_equal(lower_case('Z'), 'z');
+  for (const char other : {'@', '[', 'a', '0', '\xC4'}) assert_int_equal(lower_case(other), other);
+}
+
+void comparison(void**) {
+  assert_true(equal_without_case("LocalHost", "localhost"));
+  assert_true(equal_without_case("", ""));
+  assert_false(equal_without_case("local", "localhost"));
+  assert_false(equal_without_case("localhost", "local"));
+  assert_false(equal_without_case("\xC4", "\xE4"));  // of no one encoding
+}
+
+}  // namespace
+}  // namespace flexrf
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(flexrf::letters_of_ascii),
+                              cmocka_unit_test(flexrf::comparison)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
