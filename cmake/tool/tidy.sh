@@ -29,8 +29,9 @@ is_remembered() {  # the first line is the checksum of the others, so that one t
 
 remember() {  # what clang-tidy listed as read, with one dot or more for its depth
   sed -n -E "s|^\.+ (.*)$|\1|p" "$work/read" | sed "s|^$root/|./|" | sort -u >"$work/files"
-  # Who changed a file meanwhile wants it looked at.
-  [[ $(tr '\n' '\0' <"$work/files" | find -files0-from - -maxdepth 0 -newer "$work/begin" -print -quit 2>&1) ]] && return
+  # Who changed a file meanwhile wants it looked at; in the tick of the clock in which it began, that cannot be told.
+  local file
+  while read -r file; do [[ $work/begin -nt $file ]] || return; done <"$work/files"
   xargs -d '\n' sha256sum <"$work/files" >"$work/sums" || return
   { checksum <"$work/sums" && cat "$work/sums"; } >"$1.$$" && mv "$1.$$" "$1"
 }

@@ -10,14 +10,18 @@ batch=${!#}
 while read -r file; do echo ". $file" >&2; done < <(sed -n 's/^#include "\(.*\)"$/\1/p' "$batch")
 echo ".. $STAND_IN/system.hpp" >&2
 echo "1 warning generated." >&2
-[[ -e $STAND_IN/changes ]] && echo "// changed meanwhile" >>"$(<"$STAND_IN/changes")"
+if [[ -e $STAND_IN/changes ]]; then # in the very tick of the clock in which the analysis began
+  file=$(<"$STAND_IN/changes")
+  echo "// changed meanwhile" >>"$file"
+  touch -r "$TMPDIR"/*/begin "$file"
+fi
 grep -H mistake "$STAND_IN/system.hpp" $(sed -n 's/^#include "\(.*\)"$/\1/p' "$batch") && exit 1
 exit 0
 BODY
 echo 14.0.6 >"$work/version"
 echo 'int system;' >"$work/system.hpp"
 memory=$work/memory
-mkdir "$memory"
+mkdir "$memory" "$work/tmp"
 
 clone() {  # clone NAME: with one batch of one file
   mkdir -p "$work/$1/build"
@@ -31,7 +35,7 @@ clone() {  # clone NAME: with one batch of one file
 analyse() {  # analyse CLONE BATCH: sets status, output and calls_made
   : >"$calls"
   sums_of_memory "$memory" "$work/$1" >"$work/$1/build/sums"
-  output=$(bash "$tree/cmake/tool/tidy.sh" "$work/$1" "$work/$1/build" "^$work/$1/" "${3-$memory}" "$(<"$work/version")" \
+  output=$(TMPDIR=$work/tmp bash "$tree/cmake/tool/tidy.sh" "$work/$1" "$work/$1/build" "^$work/$1/" "${3-$memory}" "$(<"$work/version")" \
     "$work/$1/build/$2.cpp" 2>&1)
   status=$?
   calls_made=$(grep -c clang-tidy "$calls")

@@ -34,6 +34,13 @@ inline bool until(GripperWorld& world, const Condition& is_so) {
   return false;
 }
 
+/// What the driver said last has come to the far end, however long the line takes on a loaded machine.
+inline bool is_heard(GripperWorld& world) {
+  idle_for(world, std::chrono::milliseconds(100));
+  const std::uint64_t before = world.exchanges();
+  return before == 0 || until(world, [&] { return world.exchanges() - before >= 6; });
+}
+
 /// In the middle of a cycle, as a unit does.
 template <class Act>
 inline void act(GripperWorld& world, const Act& what) {

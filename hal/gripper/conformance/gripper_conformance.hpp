@@ -52,6 +52,9 @@ class GripperWorld {
   virtual void receive() = 0;
   virtual void send() = 0;
   virtual Time now() const = 0;
+  /// Requests that the far end has answered so far, where a line takes time of its own; 0: what is sent is
+  /// heard.
+  virtual std::uint64_t exchanges() { return 0; }
   /// A clock of its own, by which it may be judged how soon something happens.
   virtual bool has_virtual_time() const { return true; }
   /// Where the fingers really are, m.

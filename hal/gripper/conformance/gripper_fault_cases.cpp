@@ -6,8 +6,7 @@ namespace flexrf::gripper_cases {
 Verdict fingers_that_do_not_move_are_told(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
   if (!world.make(GripperFarEnd::stuck)) return Verdict::skipped;
-  if (!goes_to(world, closed)) return Verdict::failed;
-  idle_for(world, std::chrono::milliseconds(100));  // what it is told in the end has come to it
+  if (!goes_to(world, closed) || !is_heard(world)) return Verdict::failed;
   const Status& trouble = world.gripper().trouble();
   if (trouble.code() != StatusCode::timeout || trouble.cause()[0] == '\0') return Verdict::failed;
   world.make(GripperFarEnd::well);

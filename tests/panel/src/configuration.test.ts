@@ -29,8 +29,8 @@ const opened = () => viewer.page.getByRole('group', { name: 'Editing configurati
 const lost = () => viewer.page.getByText('The link to the application is lost', { exact: false });
 
 async function openEdit(): Promise<void> {
-  await edit().click();
   try {
+    await edit().click();
     await opened().or(lost()).first().waitFor();
     // A browser that gets no processor for a second has lost its link; a person would try again, too.
     if (await lost().isVisible()) await viewer.page.getByRole('button', { name: 'Try again' }).click();

@@ -47,6 +47,9 @@ class RobotiqWorld : public GripperWorld {
   }
   Time now() const override { return MonotonicClock::now(); }
   bool has_virtual_time() const override { return false; }
+  std::uint64_t exchanges() override {
+    return static_cast<const ModbusLinkFeedback*>(link_.driver().parameter_memory().feedback)->requests;
+  }
   double fingers() override { return std::atof(simulator_->ask("fingers").c_str()); }
 
   bool put_object(double width) override { return say("object " + std::to_string(width)); }
