@@ -1,60 +1,15 @@
 #include "base/text_table.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
 
 namespace flexrf {
 namespace {
-
-struct Unit {
-  const char* name;
-  double size;  // in the smallest
-};
-
-/// Three significant digits, of what is below 1000.
-std::string three_digits(double number, const char* unit) {
-  char text[48];
-  const double amount = std::fabs(number);
-  const int decimals = amount < 9.995 ? 2 : amount < 99.95 ? 1 : 0;
-  std::snprintf(text, sizeof(text), "%.*f %s", decimals, number, unit);
-  return text;
-}
-
-template <std::size_t Count>
-std::string quantity_text(double number, const std::array<Unit, Count>& units) {
-  const double amount = std::fabs(number);
-  // The smallest unit counts whole things.
-  if (amount < units[1].size) {
-    char text[48];
-    std::snprintf(text, sizeof(text), "%.0f %s", number, units[0].name);
-    return text;
-  }
-  std::size_t best = 1;
-  // What would be rounded up to the next unit is shown in that.
-  while (best + 1 < Count && amount >= 0.9995 * units[best + 1].size) ++best;
-  return three_digits(number / units[best].size, units[best].name);
-}
-
-constexpr std::array durations{Unit{"ns", 1},  Unit{"us", 1e3},   Unit{"ms", 1e6},
-                               Unit{"s", 1e9}, Unit{"min", 60e9}, Unit{"h", 3600e9}};
-constexpr std::array sizes{Unit{"B", 1}, Unit{"KiB", 1024}, Unit{"MiB", 1024.0 * 1024},
-                           Unit{"GiB", 1024.0 * 1024 * 1024}};
 
 bool begins_character(char byte) noexcept {
   return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
 }
 
 }  // namespace
-
-std::string duration_text(Duration duration) {
-  return quantity_text(static_cast<double>(duration.count()), durations);
-}
-
-std::string size_text(std::uint64_t bytes) {
-  return quantity_text(static_cast<double>(bytes), sizes);
-}
 
 std::size_t text_width(std::string_view text) noexcept {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));

@@ -1,22 +1,15 @@
-// Text in aligned columns, and quantities as people read them.
+// Text in aligned columns.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "base/time.hpp"
-
 namespace flexrf {
 
-/// Three significant digits with the unit that keeps the number below 1000: "850 ns", "12.3 us", "1.00 ms",
-/// "45.0 s", "12.5 min", "100 h". Allocates, as everything here.
-std::string duration_text(Duration duration);
-/// "512 B", "1.50 KiB", "8.00 MiB".
-std::string size_text(std::uint64_t bytes);
-/// At most so many characters (not bytes) of UTF-8; what is cut ends in "...".
+/// At most so many characters (not bytes) of UTF-8; what is cut ends in "...". Allocates, as
+/// TextTable does.
 std::string cut_text(std::string_view text, std::size_t characters);
 /// Characters of UTF-8 text.
 std::size_t text_width(std::string_view text) noexcept;

@@ -15,28 +15,6 @@ void expect(std::string text, const char* expected) {
   assert_string_equal(copy, expected);
 }
 
-void durations_have_three_digits_and_their_unit(void**) {
-  expect(duration_text(Duration{0}), "0 ns");
-  expect(duration_text(Duration{7}), "7 ns");
-  expect(duration_text(Duration{999}), "999 ns");
-  expect(duration_text(Duration{1000}), "1.00 us");
-  expect(duration_text(Duration{12'345}), "12.3 us");
-  expect(duration_text(Duration{123'456}), "123 us");
-  expect(duration_text(Duration{999'600}), "1.00 ms");
-  expect(duration_text(Duration{-1'500'000}), "-1.50 ms");
-  expect(duration_text(std::chrono::seconds{45}), "45.0 s");
-  expect(duration_text(std::chrono::seconds{90}), "1.50 min");
-  expect(duration_text(std::chrono::hours{100}), "100 h");
-}
-
-void sizes_too(void**) {
-  expect(size_text(0), "0 B");
-  expect(size_text(1023), "1023 B");
-  expect(size_text(1536), "1.50 KiB");
-  expect(size_text(8U * 1024 * 1024), "8.00 MiB");
-  expect(size_text(std::uint64_t{5} << 40), "5120 GiB");
-}
-
 void columns_are_as_wide_as_their_widest_cell(void**) {
   const auto text = [] {
     TextTable table({"thread", "cycles", "<why"});
@@ -81,8 +59,6 @@ void long_text_is_cut_between_characters(void**) {
 int main() {
   using namespace flexrf;
   const CMUnitTest tests[] = {
-      cmocka_unit_test(durations_have_three_digits_and_their_unit),
-      cmocka_unit_test(sizes_too),
       cmocka_unit_test(columns_are_as_wide_as_their_widest_cell),
       cmocka_unit_test(columns_without_text_take_no_room),
       cmocka_unit_test(widths_are_of_characters),

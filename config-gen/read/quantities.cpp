@@ -2,39 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <limits>
-#include <vector>
+#include <iterator>
 
 namespace flexrf::config_gen {
 namespace {
-
-struct Scale {
-  std::string_view unit;
-  double factor;
-};
-
-constexpr Scale durations[] = {{"ns", 1}, {"us", 1e3}, {"ms", 1e6}, {"s", 1e9}, {"min", 60e9}, {"h", 3600e9}};
-constexpr Scale sizes[] = {
-    {"B", 1}, {"KiB", 1024.0}, {"MiB", 1024.0 * 1024.0}, {"GiB", 1024.0 * 1024.0 * 1024.0}};
-
-template <std::size_t Count>
-std::optional<double> parse_scaled(std::string_view text, const Scale (&scales)[Count]) {
-  double number = 0;
-  const auto [end, failed] =
-      std::from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);
-  if (failed != std::errc{} || !(number >= 0)) return std::nullopt;
-  std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
-  if (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
-  for (const Scale& scale : scales) {
-    if (scale.unit != unit) continue;
-    const double value = number * scale.factor;
-    const double whole = std::round(value);
-    if (std::abs(value - whole) > 1e-6 || whole > 9e18) return std::nullopt;
-    return whole;
-  }
-  return std::nullopt;
-}
 
 constexpr std::string_view coherent[] = {"m",  "kg", "s",  "A",  "K",  "mol", "cd",  "rad", "sr",  "Hz", "N",
                                          "Pa", "J",  "W",  "C",  "V",  "F",   "Ohm", "S",   "Wb",  "T",  "H",
@@ -79,18 +50,6 @@ std::string judge_symbol(std::string_view symbol, bool multiples) {
 }
 
 }  // namespace
-
-std::optional<std::int64_t> parse_duration(std::string_view text) {
-  const auto value = parse_scaled(text, durations);
-  if (!value) return std::nullopt;
-  return static_cast<std::int64_t>(*value);
-}
-
-std::optional<std::size_t> parse_size(std::string_view text) {
-  const auto value = parse_scaled(text, sizes);
-  if (!value) return std::nullopt;
-  return static_cast<std::size_t>(*value);
-}
 
 std::string judge_unit(std::string_view unit, bool multiples) {
   if (const std::size_t other = unit.find('|'); other != std::string_view::npos) {

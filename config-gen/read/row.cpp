@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "base/quantity_text.hpp"
 #include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
-#include "config-gen/read/quantities.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -68,7 +68,7 @@ std::optional<std::int64_t> Row::duration(std::string_view key) {
   if (value == nullptr) return std::nullopt;
   if (value->kind == Node::Kind::text)
     if (const auto duration = parse_duration(value->text)) {
-      if (*duration <= max_duration) return duration;
+      if (duration->count() <= max_duration) return duration->count();
       diagnostics_.error(value->position,
                          quote(key) + " of " + name_ + " is " + shown(*value) + ", longer than a year",
                          "a duration is at most \"8760 h\"");

@@ -5,25 +5,6 @@
 namespace flexrf::config_gen {
 namespace {
 
-void durations(void**) {
-  assert_int_equal(parse_duration("7 ms").value_or(-1), 7'000'000);
-  assert_int_equal(parse_duration("300us").value_or(-1), 300'000);
-  assert_int_equal(parse_duration("1.5 s").value_or(-1), 1'500'000'000);
-  assert_int_equal(parse_duration("250 ns").value_or(-1), 250);
-  assert_int_equal(parse_duration("0 s").value_or(-1), 0);
-  for (const char* bad : {"", "7", "ms", "7 msec", "-7 ms", "7  ms", "7 ms ", "0.5 ns", "1e3 ms", "nan s",
-                          "1e30 s", "99999999999999 s"})
-    assert_false(parse_duration(bad).has_value());
-}
-
-void sizes(void**) {
-  assert_int_equal(parse_size("8 MiB").value_or(0), 8u << 20);
-  assert_int_equal(parse_size("1.5 KiB").value_or(0), 1536);
-  assert_int_equal(parse_size("512 B").value_or(0), 512);
-  for (const char* bad : {"", "8", "8 MB", "8 mib", "-1 B", "0.5 B", "1.0001 KiB"})
-    assert_false(parse_size(bad).has_value());
-}
-
 void units_of_measure(void**) {
   for (const char* good : {"1", "m", "rad/s", "m/s^2", "N*m", "kg*m^2", "1/s", "rad/s^3", "K", "Ohm", "px"})
     assert_string_equal(judge_unit(good, false).c_str(), "");
@@ -59,8 +40,7 @@ void names_of_quantities(void**) {
 
 int main() {
   using namespace flexrf::config_gen;
-  const CMUnitTest tests[] = {cmocka_unit_test(durations), cmocka_unit_test(sizes),
-                              cmocka_unit_test(units_of_measure), cmocka_unit_test(symbols_are_replaced),
+  const CMUnitTest tests[] = {cmocka_unit_test(units_of_measure), cmocka_unit_test(symbols_are_replaced),
                               cmocka_unit_test(names_of_quantities)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/quantity_text.hpp"
+
 namespace flexrf {
 namespace {
 
@@ -14,19 +16,11 @@ std::optional<double> parse_number(std::string_view text) noexcept {
   return number;
 }
 
-std::optional<Duration> parse_duration(std::string_view text) noexcept {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || !(number > 0)) return std::nullopt;
-  const std::string_view unit{end, static_cast<std::size_t>(text.data() + text.size() - end)};
-  double scale = 0;
-  if (unit == "h") scale = 3600e9;
-  if (unit == "min") scale = 60e9;
-  if (unit == "s") scale = 1e9;
-  if (unit == "ms") scale = 1e6;
-  if (unit == "us") scale = 1e3;
-  if (scale == 0 || number * scale > 9e18 || number * scale < 1) return std::nullopt;
-  return Duration{static_cast<std::int64_t>(number * scale)};
+/// One word, as everything that follows an option.
+std::optional<Duration> parse_word(std::string_view text) noexcept {
+  if (text.find(' ') != std::string_view::npos) return std::nullopt;
+  const std::optional<Duration> duration = parse_duration(text);
+  return duration && duration->count() > 0 ? duration : std::nullopt;
 }
 
 Status no_number(const Option& option, const char* value) noexcept {
@@ -44,10 +38,10 @@ Status check_value(const Option& option, const char* value) noexcept {
     const std::optional<double> number = parse_number(value);
     if (!number || *number < option.least || *number > option.most) return no_number(option, value);
   }
-  if (option.kind == OptionKind::duration && !parse_duration(value)) {
+  if (option.kind == OptionKind::duration && !parse_word(value)) {
     return Status::error(StatusCode::invalid_argument,
-                         "%s %s: give a duration with its unit (us, ms, s, min, h), as `60s`", option.name,
-                         value);
+                         "%s %s: give a duration with its unit (ns, us, ms, s, min, h), as `60s`",
+                         option.name, value);
   }
   return {};
 }
@@ -69,7 +63,7 @@ std::optional<double> OptionValues::number(std::string_view name) const noexcept
 }
 
 std::optional<Duration> OptionValues::duration(std::string_view name) const noexcept {
-  return parse_duration(text(name, ""));
+  return parse_word(text(name, ""));
 }
 
 }  // namespace flexrf

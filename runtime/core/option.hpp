@@ -17,7 +17,7 @@ enum class OptionKind : std::uint8_t {
   flag,         ///< there is none
   text,         ///< anything but nothing
   number,       ///< finite, from `least` to `most`
-  duration,     ///< above 0, with its unit: "60s", "500ms"
+  duration,     ///< above 0, with its unit, one word: "60s", "500ms"
   file,         ///< to be read: a regular file that is there
   output_file,  ///< to be written: it need not be there, its folder must
   kept_file,    ///< likewise, and it is read, too

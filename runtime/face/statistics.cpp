@@ -1,6 +1,6 @@
 #include "runtime/face/statistics.hpp"
 
-#include "base/text_table.hpp"
+#include "base/quantity_text.hpp"
 #include "runtime/executive/schedulability.hpp"
 
 namespace flexrf {

@@ -3,7 +3,7 @@
 #include <csignal>
 #include <cstring>
 
-#include "base/text_table.hpp"
+#include "base/quantity_text.hpp"
 #include "runtime/executive/supervision.hpp"
 #include "runtime/log/log.hpp"
 #include "runtime/realtime/realtime_scope.hpp"

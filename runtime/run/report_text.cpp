@@ -1,6 +1,7 @@
 // The final report for people.
 #include <algorithm>
 
+#include "base/quantity_text.hpp"
 #include "base/text_table.hpp"
 #include "runtime/executive/virtual_time.hpp"
 #include "runtime/realtime/response_time.hpp"

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "base/quantity_text.hpp"
 #include "base/text_table.hpp"
 #include "runtime/parameters/value_access.hpp"
 

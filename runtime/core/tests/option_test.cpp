@@ -37,11 +37,12 @@ void numbers_are_whole_words_within_their_range(void**) {
 }
 
 void durations_have_their_unit(void**) {
-  for (const char* const value : {"60s", "0.5ms", "1min", "2h", "3us"})
+  for (const char* const value : {"60s", "0.5ms", "1min", "2h", "3us", "7ns"})
     assert_true(check_value(limit, value).is_ok());
-  for (const char* const value : {"0s", "-1s", "5 s", "s", "1d", "1e300h", "0.0001us"})
+  for (const char* const value :
+       {"0s", "-1s", "5 s", "s", "1d", "1e300h", "1e3s", "0.0001us", "1.5ns", "nans"})
     assert_false(check_value(limit, value).is_ok());
-  check_refused(limit, "5", "--limit 5: give a duration with its unit (us, ms, s, min, h), as `60s`");
+  check_refused(limit, "5", "--limit 5: give a duration with its unit (ns, us, ms, s, min, h), as `60s`");
 }
 
 void what_was_given_last_counts(void**) {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "base/text_table.hpp"
+#include "base/quantity_text.hpp"
 #include "runtime/face/change.hpp"
 #include "runtime/face/component_values.hpp"
 #include "runtime/face/statistics.hpp"

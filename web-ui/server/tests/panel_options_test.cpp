@@ -50,7 +50,7 @@ void what_cannot_be_is_refused(void**) {
               "--panel [::1]:80 with --virtual-time: there is no panel on a simulated clock; leave one of "
               "them away");
   check_panel({"--panel-edit-timeout", "5"},
-              "--panel-edit-timeout 5: give a duration with its unit (us, ms, s, min, h), as `60s`");
+              "--panel-edit-timeout 5: give a duration with its unit (ns, us, ms, s, min, h), as `60s`");
 }
 
 /// As --help lists them.
