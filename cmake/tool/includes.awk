@@ -10,7 +10,7 @@ BEGIN {
   may["units"] = "base runtime motion units hal"
   may["config-gen"] = "base config-gen"
   may["web-ui"] = "base runtime web-ui"
-  # Of runtime/, from below; executive and face stand above these.
+  # Of runtime/, from below; run stands above these. What a folder's library links follows it (runtime/*/CMakeLists.txt).
   within["core"] = "core"
   within["log"] = "core log"
   within["realtime"] = "core realtime"
@@ -19,6 +19,8 @@ BEGIN {
   within["device"] = "core blackboard unit device"
   within["parameters"] = "core blackboard unit parameters"
   within["json"] = "core parameters json"
+  within["executive"] = "core log realtime blackboard unit device parameters executive"
+  within["face"] = within["executive"] " json face"
 }
 
 FNR == 1 {

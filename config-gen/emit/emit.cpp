@@ -72,7 +72,7 @@ void emit_application(const Model& model, Diagnostics& diagnostics, Files& files
 
 std::string main_source(const Model& model) {
   return generated_note(model.application->file) +
-         "#include \"runtime/executive/application.hpp\"\n"
+         "#include \"runtime/run/run_application.hpp\"\n"
          "#ifdef FLEXRF_WITH_PANEL\n"
          "#include \"web-ui/server/panel.hpp\"\n"
          "#endif\n\n"

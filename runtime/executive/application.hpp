@@ -11,7 +11,6 @@
 #include "runtime/blackboard/queue.hpp"
 #include "runtime/blackboard/slot.hpp"
 #include "runtime/device/device.hpp"
-#include "runtime/executive/observer.hpp"
 #include "runtime/executive/panel_record.hpp"
 #include "runtime/executive/state.hpp"
 #include "runtime/parameters/rename.hpp"
@@ -233,11 +232,5 @@ struct Application {
     return of_devices[device_of(component)];
   }
 };
-
-/// The main function of every application: reads the command line, runs to the end, returns the exit code
-/// (0 finished, 1 usage or table, 2 fault, 3 right missing, 128+n signal).
-/// `observer`: who observes it, as the panel; null: nobody.
-int run_application(const Application& application, int argument_count, char** arguments,
-                    const ObserverPart* observer = nullptr);
 
 }  // namespace flexrf

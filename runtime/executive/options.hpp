@@ -8,6 +8,7 @@
 
 #include "base/status.hpp"
 #include "runtime/executive/application.hpp"
+#include "runtime/executive/observer.hpp"
 
 namespace flexrf {
 

@@ -1,4 +1,5 @@
-// The main function of every application.
+#include "runtime/run/run_application.hpp"
+
 #include <sys/stat.h>
 #include <unistd.h>
 

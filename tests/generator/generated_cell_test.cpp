@@ -8,7 +8,7 @@
 #include "drivers/mock_station/mock_station.hpp"
 #include "places.hpp"
 #include "runtime/core/digest.hpp"
-#include "runtime/executive/application.hpp"
+#include "runtime/run/run_application.hpp"
 #include "tests/cmocka.hpp"
 #include "types/everything.hpp"
 #include "types/named_as_helpers.hpp"

@@ -28,6 +28,8 @@ may runtime/executive/executive.cpp types/key.hpp
 may runtime/executive/executive.cpp runtime/face/face.hpp
 may runtime/device/device.hpp runtime/unit/component.hpp
 may runtime/json/reader.cpp base/text.hpp
+may runtime/face/change.cpp runtime/json/value_reader.hpp
+may runtime/run/report_json.cpp runtime/face/statistics.hpp
 may motion/kinematics.hpp runtime/unit/restraint.hpp
 may hal/gripper/robotiq/robotiq_control.cpp hal/gripper/interface/gripper.hpp
 may hal/gripper/robotiq/robotiq_driver.hpp hal/modbus/station/interface/modbus_station.hpp
@@ -49,6 +51,8 @@ may_not runtime/executive/executive.cpp hal/camera/interface/camera.hpp "runtime
 may_not runtime/executive/executive.cpp tests/log_ear.hpp "runtime/ may include only base runtime"
 may_not runtime/unit/unit.hpp runtime/device/device.hpp "runtime/unit/ may include of runtime/ only core blackboard unit"
 may_not runtime/realtime/machine_file.hpp runtime/executive/application.hpp "runtime/realtime/ may include of runtime/ only core realtime"
+may_not runtime/executive/executive.cpp runtime/run/status_view.hpp "runtime/executive/ may include of runtime/ only core log"
+may_not runtime/face/directory.cpp runtime/run/report.hpp "runtime/face/ may include of runtime/ only core log"
 may_not motion/kinematics.hpp hal/robot_arm/interface/robot_arm.hpp "motion/ may include only base runtime motion"
 may_not config-gen/main.cpp runtime/core/digest.hpp "config-gen/ may include only base config-gen"
 may_not web-ui/server/panel.cpp units/jog/jog.hpp "web-ui/ may include only base runtime web-ui"

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "runtime/executive/tests/running_cell.hpp"
+#include "runtime/run/run_application.hpp"
 
 namespace flexrf::fixture {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "runtime/executive/application.hpp"
+#include "runtime/run/run_application.hpp"
 #include "tests/cmocka.hpp"
 #include "types/level.hpp"
 
