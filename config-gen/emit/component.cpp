@@ -55,9 +55,9 @@ void define_needs(const BlockText& block, Text& out) {
 }
 
 void define_port(std::string_view runtime, std::string_view name, std::string_view direction,
-                 std::string_view type, std::string_view summary, Text& out) {
+                 std::string_view type, std::string_view summary, bool operated, Text& out) {
   out << "    {\"" << name << "\", " << runtime << "PortDescriptor::Direction::" << direction << ", \""
-      << type << "\", " << string_literal(summary) << "},\n";
+      << type << "\", " << string_literal(summary) << ", " << bool_literal(operated) << "},\n";
 }
 
 }  // namespace
@@ -111,15 +111,17 @@ void define_ports(const Model& model, const UnitType& unit, Text& out) {
   const std::string_view runtime = Space(unit.space).runtime();
   out << "constexpr " << runtime << "PortDescriptor " << unit.name << "_unit_ports[] = {\n";
   for (const InputPort& port : unit.inputs) {
-    define_port(runtime, port.name, port.queue ? "queue_input" : "input", model.types[port.type].name,
-                port.summary, out);
+    const Type& type = model.types[port.type];
+    define_port(runtime, port.name, port.queue ? "queue_input" : "input", type.name, port.summary,
+                type.operated, out);
   }
   for (const OutputPort& port : unit.outputs) {
     define_port(runtime, port.name, port.queue ? "queue_output" : "output", model.types[port.type].name,
-                port.summary, out);
+                port.summary, false, out);
   }
   for (const DevicePort& port : unit.devices) {
-    define_port(runtime, port.name, "device", model.interfaces[port.interface].class_name, port.summary, out);
+    const Interface& interface = model.interfaces[port.interface];
+    define_port(runtime, port.name, "device", interface.class_name, port.summary, interface.operated, out);
   }
   out << "};\n";
 }
@@ -130,7 +132,7 @@ void define_ports(const Model& model, const Interface& interface, const Space& s
   out << "constexpr " << runtime << "PortDescriptor " << interface.name << "_ports[] = {\n";
   for (const OutputPort& port : interface.outputs) {
     define_port(runtime, port.name, port.queue ? "queue_output" : "output", model.types[port.type].name,
-                port.summary, out);
+                port.summary, false, out);
   }
   out << "};\n";
 }

@@ -80,6 +80,7 @@ struct Type {
   Kind kind = Kind::record;
   std::string summary;
   bool image = false;
+  bool operated = false;                 // its items are what a person does
   std::vector<Field> fields;             // record
   std::vector<EnumerationValue> values;  // enumeration; at most 256, stored as u8
   std::size_t single_fields = 1;         // scalars and arrays of them, of each element of a record
@@ -227,7 +228,8 @@ struct Interface {
   std::filesystem::path file;
   Position position;
   std::string summary;
-  bool bus = false;  // carries other devices
+  bool bus = false;       // carries other devices
+  bool operated = false;  // a person does something with it
   std::vector<Resource> resources;
   std::vector<OutputPort> outputs;  // published by the device's IO thread
   std::vector<UnitChoice> units;

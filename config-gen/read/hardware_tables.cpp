@@ -134,6 +134,7 @@ std::optional<Index> read_interface_table(Library& library, const Node& root,
                       "interfaces are found by it: write " + quote(camel_case(interface.name)) +
                           ", or rename folder and file to " + quote(snake_case(interface.class_name)));
   interface.bus = row.boolean("bus").value_or(false);
+  interface.operated = row.boolean("operated").value_or(false);
   interface.units = read_unit_choices(row, diagnostics);
   for (const char* section : {"resource", "output", "configuration", "runtime", "feedback"})
     row.also(section);

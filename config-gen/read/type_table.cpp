@@ -48,6 +48,7 @@ std::optional<Index> read_type_table(Library& library, const Node& root, const s
   Row row(root, "this type table", diagnostics);
   type.summary = row.summary();
   type.image = row.boolean("image").value_or(false);
+  type.operated = row.boolean("operated").value_or(false);
   row.also("field");
   row.also("value");
   row.finish();

@@ -53,6 +53,8 @@ struct PortDescriptor {
   Direction direction;
   const char* type;  ///< data type, or interface
   const char* summary;
+  /// Through it a person operates the unit: `operated` in the table of its type or interface.
+  bool operated = false;
 };
 
 /// A type of unit, or a driver of a device: what config-gen knows of it from its table.

@@ -148,18 +148,16 @@ StatusContent::Section StatusContent::feedback() {
   return {lines_of(table), "values"};
 }
 
-/// Who reads keys says in its summary what they do.
-StatusLine StatusContent::keys() const {
+/// A unit that hears of what a person does says in its summary what comes of it; one that has the device
+/// itself, in that of its port.
+StatusLine StatusContent::operation() const {
   std::string text = "Ctrl-C ends.";
   for (ComponentIndex i = 0; i < directory_.component_count(); ++i) {
     const ComponentEntry& entry = directory_.entry(i);
     for (const PortDescriptor& port : entry.type->ports) {
-      using Direction = PortDescriptor::Direction;
-      if (port.direction == Direction::queue_input && std::strcmp(port.type, "KeyEvent") == 0) {
-        text += std::string{"  "} + entry.name + ": " + entry.record->summary;
-      } else if (port.direction == Direction::device && std::strcmp(port.type, "Keyboard") == 0) {
-        text += std::string{"  "} + entry.name + ": " + port.summary;
-      }
+      if (!port.operated) continue;
+      const bool has_device = port.direction == PortDescriptor::Direction::device;
+      text += std::string{"  "} + entry.name + ": " + (has_device ? port.summary : entry.record->summary);
     }
   }
   return {Style::faint, text};
@@ -169,7 +167,7 @@ std::vector<StatusLine> StatusContent::lines(Time now, std::size_t rows) {
   if (begun_ == Time{} && cell_->control().mode() >= Mode::running) begun_ = now;
   std::vector<StatusLine> lines{heading(now)};
   for (StatusLine& fault : faults()) lines.push_back(std::move(fault));
-  lines.push_back(keys());
+  lines.push_back(operation());
   std::vector<Section> sections;
   sections.push_back(threads(now));
   sections.push_back(units());

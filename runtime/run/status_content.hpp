@@ -43,7 +43,7 @@ class StatusContent {
   Section threads(Time now);
   Section units() const;
   Section feedback();
-  StatusLine keys() const;
+  StatusLine operation() const;
 
   const Cell* cell_;
   Directory directory_;

@@ -145,6 +145,17 @@ void parameters_are_described(void**) {
   assert_int_equal(row(cell.units, "axis[0].lift").type->ports.size(), 0);
 }
 
+void ports_say_through_which_a_person_operates_the_unit(void**) {
+  const ComponentType& worker = *row(cell.units, "worker[0]").type;
+  assert_int_equal(worker.ports.size(), 2);
+  assert_string_equal(worker.ports[0].name, "jobs");
+  assert_true(worker.ports[0].operated);
+  assert_false(worker.ports[1].operated);
+  for (const PortDescriptor& port : row(cell.units, "overview").type->ports)
+    assert_true(port.operated == (port.direction == PortDescriptor::Direction::device));
+  for (const PortDescriptor& port : row(cell.units, "source").type->ports) assert_false(port.operated);
+}
+
 void types_are_described(void**) {
   const TypeDescriptor& type = *descriptor_of<Everything>;
   assert_int_equal(type.size, sizeof(Everything));
@@ -387,6 +398,7 @@ int main() {
                               cmocka_unit_test(inputs_find_their_readers),
                               cmocka_unit_test(values_of_the_tables_are_constants),
                               cmocka_unit_test(parameters_are_described),
+                              cmocka_unit_test(ports_say_through_which_a_person_operates_the_unit),
                               cmocka_unit_test(types_are_described),
                               cmocka_unit_test(fields_may_be_called_as_what_generated_code_calls),
                               cmocka_unit_test(padding_is_not_significant),

@@ -347,7 +347,7 @@ void TestApplication::make_units() {
     record.kind = "unit";
     record.level = level_unit;
     record.name = plan.name.c_str();
-    record.summary = "";
+    record.summary = "Follows its script.";
     record.type = &TestUnit::type;
     record.construct = &UnitPlace::construct<Unit>;
     record.storage = place.object;

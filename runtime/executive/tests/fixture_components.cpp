@@ -51,12 +51,17 @@ constexpr ParameterDescriptor readings_parameters[] = {parameter(readings_fields
 
 using Direction = PortDescriptor::Direction;
 constexpr PortDescriptor unit_ports[] = {
-    {"first", Direction::input, "Item", ""},       {"second", Direction::input, "Item", ""},
-    {"third", Direction::input, "Item", ""},       {"fourth", Direction::input, "Item", ""},
-    {"out_first", Direction::output, "Item", ""},  {"out_second", Direction::output, "Item", ""},
-    {"out_third", Direction::output, "Item", ""},  {"out_fourth", Direction::output, "Item", ""},
-    {"jobs", Direction::queue_input, "Item", ""},  {"orders", Direction::queue_output, "Item", ""},
-    {"device", Direction::device, "Actuator", ""},
+    {"first", Direction::input, "Item", ""},
+    {"second", Direction::input, "Item", ""},
+    {"third", Direction::input, "Item", ""},
+    {"fourth", Direction::input, "Item", ""},
+    {"out_first", Direction::output, "Item", ""},
+    {"out_second", Direction::output, "Item", ""},
+    {"out_third", Direction::output, "Item", ""},
+    {"out_fourth", Direction::output, "Item", ""},
+    {"jobs", Direction::queue_input, "Item", "", true},
+    {"orders", Direction::queue_output, "Item", ""},
+    {"device", Direction::device, "Actuator", "Arrows move it.", true},
 };
 
 }  // namespace

@@ -48,7 +48,7 @@ void the_content_names_what_matters() {
   const std::string text = text_of(content.lines(beginning, 100));
   CHECK_CONTAINS(text, "test_cell  ended");
   CHECK_CONTAINS(text, "fault: producer: slipped\n");
-  CHECK_CONTAINS(text, "Ctrl-C ends.");
+  CHECK_CONTAINS(text, "Ctrl-C ends.  producer: Follows its script.  producer: Arrows move it.  consumer: ");
   CHECK_CONTAINS(text, "producing");
   CHECK_CONTAINS(text, "actuator (mock)");
   CHECK_CONTAINS(text, "steps 5, value 0.1235 m");
