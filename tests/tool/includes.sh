@@ -25,7 +25,7 @@ may_not() {  # may_not FILE INCLUDED HINT
 may base/time.hpp base/status.hpp
 may runtime/executive/executive.cpp base/status.hpp
 may runtime/executive/executive.cpp types/key.hpp
-may runtime/executive/executive.cpp runtime/face/face.hpp
+may runtime/executive/executive.cpp runtime/parameters/request.hpp
 may runtime/device/device.hpp runtime/unit/component.hpp
 may runtime/json/reader.cpp base/text.hpp
 may runtime/face/change.cpp runtime/json/value_reader.hpp
