@@ -15,6 +15,7 @@
 
 #include "motion/pose_conversion.hpp"
 #include "runtime/executive/executive.hpp"
+#include "runtime/run/status_content.hpp"
 #include "script_keyboard_driver.hpp"
 #include "six_axis.hpp"
 #include "tests/cmocka.hpp"
@@ -302,6 +303,21 @@ void a_broken_script_is_cited(void**) {
   assert_true(passed);
 }
 
+void the_status_view_says_what_the_keys_do(void**) {
+  write_script("0.5 w\n");
+  const bool passed =
+      in_a_process([] {
+        Executive executive(application, in_virtual_time());
+        if (!executive.prepare()) return Outcome{};
+        std::string text;
+        for (const StatusLine& line : StatusContent(executive.cell()).lines(MonotonicClock::now(), 100))
+          if (line.text.starts_with("Ctrl-C ends.")) text = line.text;
+        const std::size_t keys = text.find("w/s, a/d, q/e");
+        return Outcome{keys != std::string::npos && text.find("w/s", keys + 1) == std::string::npos, 0};
+      }).passed;
+  assert_true(passed);
+}
+
 int remove_script(void**) {
   return std::remove(script.c_str()) == 0 ? 0 : 1;
 }
@@ -316,6 +332,7 @@ int main() {
       cmocka_unit_test(a_script_moves_the_arm_in_virtual_time),
       cmocka_unit_test(same_seed_same_run),
       cmocka_unit_test(a_broken_script_is_cited),
+      cmocka_unit_test(the_status_view_says_what_the_keys_do),
       cmocka_unit_test(an_arrow_moves_the_arm_only_while_it_is_held),
   };
   return cmocka_run_group_tests(tests, nullptr, remove_script);
