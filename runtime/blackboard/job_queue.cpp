@@ -109,11 +109,12 @@ bool JobQueue::pop(void* value_out, ItemHeader& header) noexcept {
   }
 }
 
-bool JobQueue::is_empty() const noexcept {
+std::uint32_t JobQueue::fill() const noexcept {
+  std::uint32_t sum = 0;
   for (std::uint32_t index = 0; index < memory_.count; ++index) {
-    if ((memory_.cells[index].word.load(std::memory_order_acquire) & state_mask) == full) return false;
+    if ((memory_.cells[index].word.load(std::memory_order_acquire) & state_mask) == full) ++sum;
   }
-  return true;
+  return sum;
 }
 
 bool JobQueue::has_empty_cell() const noexcept {

@@ -59,7 +59,7 @@ class JobQueue final : public QueueSource {
   JobQueue& operator=(const JobQueue&) = delete;
 
   bool pop(void* value, ItemHeader& header) noexcept override;
-  bool is_empty() const noexcept override;
+  std::uint32_t fill() const noexcept override;
   std::uint64_t arrivals() const noexcept override { return arrivals_.load(std::memory_order_acquire); }
   const TypeDescriptor* type() const noexcept override { return type_; }
   std::uint32_t capacity() const noexcept { return memory_.count; }

@@ -48,8 +48,9 @@ class QueueSource {
  public:
   /// Copies the next item out; false when there is none.
   virtual bool pop(void* value, ItemHeader& header) noexcept = 0;
-  /// Any thread; true may be out of date at once.
-  virtual bool is_empty() const noexcept = 0;
+  /// How many items wait. Any thread; may be out of date at once.
+  virtual std::uint32_t fill() const noexcept = 0;
+  bool is_empty() const noexcept { return fill() == 0; }
   /// Grows with every visible push: what a trigger compares. Any thread.
   virtual std::uint64_t arrivals() const noexcept = 0;
   virtual const TypeDescriptor* type() const noexcept = 0;

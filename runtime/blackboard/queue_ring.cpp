@@ -1,5 +1,7 @@
 #include "runtime/blackboard/queue_ring.hpp"
 
+#include <algorithm>
+
 #include "runtime/core/digest.hpp"
 
 namespace flexrf {
@@ -55,8 +57,11 @@ bool QueueRing::pop(void* value, ItemHeader& header) noexcept {
   return popped;
 }
 
-bool QueueRing::is_empty() const noexcept {
-  return visible_.load(std::memory_order_acquire) == read_.load(std::memory_order_acquire);
+std::uint32_t QueueRing::fill() const noexcept {
+  const std::uint64_t read = read_.load(std::memory_order_acquire);
+  const std::uint64_t waiting = visible_.load(std::memory_order_acquire) - read;
+  // What is beyond was overwritten.
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(waiting, memory_.capacity));
 }
 
 QueueCounters QueueRing::counters() const noexcept {
@@ -84,11 +89,10 @@ bool RingSet::pop(void* value, ItemHeader& header) noexcept {
   return false;
 }
 
-bool RingSet::is_empty() const noexcept {
-  for (const QueueRing* ring : rings_) {
-    if (!ring->is_empty()) return false;
-  }
-  return true;
+std::uint32_t RingSet::fill() const noexcept {
+  std::uint32_t sum = 0;
+  for (const QueueRing* ring : rings_) sum += ring->fill();
+  return sum;
 }
 
 std::uint64_t RingSet::arrivals() const noexcept {

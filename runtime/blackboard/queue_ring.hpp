@@ -49,7 +49,7 @@ class QueueRing final : public QueueSink, public QueueSource {
   const TypeDescriptor* type() const noexcept override { return type_; }
 
   bool pop(void* value, ItemHeader& header) noexcept override;
-  bool is_empty() const noexcept override;
+  std::uint32_t fill() const noexcept override;
   std::uint64_t arrivals() const noexcept override { return visible_.load(std::memory_order_acquire); }
 
   std::uint32_t capacity() const noexcept { return memory_.capacity; }
@@ -106,7 +106,7 @@ class RingSet final : public QueueSource {
 
   /// The next item of the first ring that has one. At most one pop per ring.
   bool pop(void* value, ItemHeader& header) noexcept override;
-  bool is_empty() const noexcept override;
+  std::uint32_t fill() const noexcept override;
   std::uint64_t arrivals() const noexcept override;
   const TypeDescriptor* type() const noexcept override { return type_; }
 

@@ -94,6 +94,7 @@ void check_drop_oldest() {
   for (std::uint32_t number = 1; number <= 2 * Capacity + 5; ++number) assert_true(ring.push(number));
   assert_false(ring.ring.has_room());
   assert_counters(ring.ring, 2 * Capacity + 5, 0, Capacity + 5);  // before the reader found out
+  assert_int_equal(ring.ring.fill(), Capacity);
   for (std::uint32_t number = Capacity + 6; number <= 2 * Capacity + 5; ++number) {
     assert_int_equal(pop(ring.ring), number);
   }
@@ -161,6 +162,7 @@ void rings_are_drained_in_table_order(void**) {
   second.push(22);
   first.push(12);
   assert_false(set.is_empty());
+  assert_int_equal(set.fill(), 4);
   assert_int_equal(set.arrivals(), 4);
   assert_int_equal(pop(set), 11);
   assert_int_equal(pop(set), 12);
@@ -207,6 +209,7 @@ void jobs_of_several_writers_come_out_in_order_of_arrival(void**) {
       ++expected;
     }
     assert_int_equal(jobs.queue.is_empty(), expected == number);
+    assert_int_equal(jobs.queue.fill(), number - expected);
   }
   assert_int_equal(jobs.queue.arrivals(), number - 1);
   assert_int_equal(jobs.one.counters().pushed + jobs.two.counters().pushed, number - 1);
