@@ -347,13 +347,7 @@ void Stepper::send(Time now) noexcept {
 void Stepper::note_restraint(const char* name, Component& component, SharedRestraint& shared,
                              Time now) noexcept {
   const Restraint restraint = component.take_restraint();
-  if (!shared.note(restraint, now)) return;
-  if (std::isnan(restraint.asked)) {
-    log_warning(name, "{}", StaticText{restraint.reason});
-  } else {
-    log_warning(name, "{}: {:.4} was asked for, {:.4} is done", StaticText{restraint.reason}, restraint.asked,
-                restraint.given);
-  }
+  if (shared.note(restraint, now)) log_warning(name, "{}", RestraintText(restraint).text);
 }
 
 void Stepper::publish_feedback(SlotControl* slot, const ParameterBlock& block, const void* values,

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 
 #include "base/time.hpp"
@@ -16,6 +17,22 @@ struct Restraint {
   const char* reason = nullptr;  ///< lives for ever; null: none
   double asked = std::numeric_limits<double>::quiet_NaN();
   double given = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Its words, the same for everybody who tells of it: "position above `highest`: 1200 was asked for, 1000 is
+/// done"; "": there is none. Allocates nothing, so that a real-time thread may say it.
+struct RestraintText {
+  explicit RestraintText(const Restraint& restraint) noexcept {
+    if (restraint.reason == nullptr) return;
+    if (std::isnan(restraint.asked)) {
+      std::snprintf(text, sizeof(text), "%.140s", restraint.reason);
+    } else {
+      std::snprintf(text, sizeof(text), "%.140s: %.6g was asked for, %.6g is done", restraint.reason,
+                    restraint.asked, restraint.given);
+    }
+  }
+
+  char text[200] = "";
 };
 
 /// What everybody may see of it, and how often there was one. Written by the component's thread; all-zero:

@@ -47,8 +47,7 @@ void a_restraint_is_told_once_while_it_lasts() {
   CHECK_EQUAL(std::string{seen.reason}, "a position above `highest` is not gone to");
   CHECK_EQUAL(seen.asked, 12.5);
   CHECK_EQUAL(seen.given, 10.0);
-  CHECK(ear.has_heard(
-      "producer: a position above `highest` is not gone to: 12.5000 was asked for, 10.0000 is done"));
+  CHECK(ear.has_heard("producer: a position above `highest` is not gone to: 12.5 was asked for, 10 is done"));
   CHECK_EQUAL(cell.unit_state(ProducerAndConsumer::producer).restraint.count(), 2U);
   CHECK_CONTAINS(report.json, "\"restraints\": 2");
   CHECK_CONTAINS(report.text, "Warnings and errors in the log: ");

@@ -1,7 +1,5 @@
 #include "web-ui/server/api/topic_bodies.hpp"
 
-#include <cmath>
-#include <cstdio>
 #include <ctime>
 
 #include "runtime/face/json_parts.hpp"
@@ -29,17 +27,6 @@ void write_histogram(JsonWriter& json, const Histogram& histogram) {
     if (count != 0) json.value(bucket).value(count);
   }
   json.end_array().end_object();
-}
-
-/// Why it does less than it was commanded now, and how often that was so.
-void write_restraint(JsonWriter& json, const ComponentFigures& component) {
-  const Restraint& restraint = component.restraint;
-  char numbers[80] = "";
-  if (restraint.reason != nullptr && !std::isnan(restraint.asked))
-    std::snprintf(numbers, sizeof(numbers), ": %.4g asked for, %.4g done", restraint.asked, restraint.given);
-  char text[200] = "";
-  if (restraint.reason != nullptr) std::snprintf(text, sizeof(text), "%.110s%s", restraint.reason, numbers);
-  json.member("restraint", text).member("restraints", component.restraints);
 }
 
 void write_life(JsonWriter& json, const ComponentFigures& component) {
@@ -120,7 +107,8 @@ void TopicBodies::write_component(JsonWriter& json, ComponentIndex index) const 
   const bool has_driver = component.driver[0] != '\0';
   json.member(has_driver ? "driver" : "type", has_driver ? component.driver : component.type->name);
   write_life(json, component);
-  write_restraint(json, component);
+  json.member("restraint", RestraintText(component.restraint).text)
+      .member("restraints", component.restraints);
   json.member("active", component.active).key("member");
   if (record.population == no_index) {
     json.null();

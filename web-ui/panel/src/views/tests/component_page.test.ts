@@ -111,9 +111,9 @@ describe('the page of a unit', () => {
   // [exec-25]
   it('says what holds it back, and that something did', async () => {
     const text = (): string => page().shadowRoot!.textContent!.replace(/\s+/g, ' ');
-    fake.topic('components', [alive('axis[0]', { restraint: 'a velocity above `fastest` is not taken: 3 asked for, 1 done', restraints: 1 })]);
+    fake.topic('components', [alive('axis[0]', { restraint: 'a velocity above `fastest` is not taken: 3 was asked for, 1 is done', restraints: 1 })]);
     await settled();
-    expect(text()).toContain('▲ Restrained: a velocity above `fastest` is not taken: 3 asked for, 1 done');
+    expect(text()).toContain('▲ Restrained: a velocity above `fastest` is not taken: 3 was asked for, 1 is done');
     fake.topic('components', [alive('axis[0]', { restraints: 2 })]);
     await settled();
     expect(text()).toContain('Restrained 2 times: the log says by what.');
