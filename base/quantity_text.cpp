@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cinttypes>
 #include <cmath>
 #include <cstdio>
 
@@ -68,6 +69,16 @@ std::optional<std::uint64_t> parse_quantity(std::string_view text,
 
 std::string duration_text(Duration duration) {
   return quantity_text(static_cast<double>(duration.count()), durations);
+}
+
+std::string duration_if_any(Duration duration) {
+  return duration.count() == 0 ? std::string{} : duration_text(duration);
+}
+
+std::string hexadecimal_text(std::uint64_t number) {
+  char text[17];
+  std::snprintf(text, sizeof(text), "%016" PRIx64, number);
+  return text;
 }
 
 std::string size_text(std::uint64_t bytes) {

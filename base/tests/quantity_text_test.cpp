@@ -28,6 +28,8 @@ void durations_have_three_digits_and_their_unit(void**) {
   expect(duration_text(std::chrono::seconds{45}), "45.0 s");
   expect(duration_text(std::chrono::seconds{90}), "1.50 min");
   expect(duration_text(std::chrono::hours{100}), "100 h");
+  expect(duration_if_any(Duration{7}), "7 ns");
+  expect(duration_if_any(Duration{}), "");
 }
 
 void sizes_too(void**) {
@@ -36,6 +38,11 @@ void sizes_too(void**) {
   expect(size_text(1536), "1.50 KiB");
   expect(size_text(8U * 1024 * 1024), "8.00 MiB");
   expect(size_text(std::uint64_t{5} << 40), "5120 GiB");
+}
+
+void hashes_have_all_their_digits(void**) {
+  expect(hexadecimal_text(0xAB), "00000000000000ab");
+  expect(hexadecimal_text(~std::uint64_t{0}), "ffffffffffffffff");
 }
 
 void durations_are_read_in_each_unit(void**) {
@@ -88,6 +95,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(durations_have_three_digits_and_their_unit),
       cmocka_unit_test(sizes_too),
+      cmocka_unit_test(hashes_have_all_their_digits),
       cmocka_unit_test(durations_are_read_in_each_unit),
       cmocka_unit_test(what_is_no_duration_is_nothing),
       cmocka_unit_test(a_duration_is_finite_whole_and_not_negative),

@@ -1,10 +1,10 @@
 #include "runtime/parameters/configuration_document.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <iterator>
 
+#include "base/quantity_text.hpp"
 #include "runtime/core/digest.hpp"
 
 namespace flexrf {
@@ -28,9 +28,7 @@ std::string checksum_of(std::string text, std::size_t digits) {
   text.replace(digits, checksum_digits, no_checksum);
   Digest digest;
   digest.add_text(text);
-  char hexadecimal[checksum_digits + 1];
-  std::snprintf(hexadecimal, sizeof(hexadecimal), "%016llx", static_cast<unsigned long long>(digest.value()));
-  return hexadecimal;
+  return hexadecimal_text(digest.value());
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // Saving the configuration file.
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <map>
 #include <string_view>
 
+#include "base/quantity_text.hpp"
 #include "runtime/parameters/configuration_document.hpp"
 #include "runtime/parameters/configuration_file.hpp"
 #include "runtime/parameters/durable_file.hpp"
@@ -97,11 +97,9 @@ std::string text_of_components(const ConfigurationIdentity& identity,
   document.append_child(pugi::node_comment)
       .set_value(" Values only, in the units shown. After an edit by hand write checksum=\"edited\" below. ");
   pugi::xml_node root = document.append_child("flexrf");
-  char hash[17];
-  std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(identity.descriptor_hash));
   root.append_attribute("application").set_value(identity.application);
   root.append_attribute("format").set_value(configuration_format);
-  root.append_attribute("descriptor").set_value(hash);
+  root.append_attribute("descriptor").set_value(hexadecimal_text(identity.descriptor_hash).c_str());
   root.append_attribute("checksum");
   const FormerSections sections = sections_of(former);
   for (const ConfigurationComponent& component : components) write_component(root, component, sections);

@@ -1,5 +1,6 @@
 // The final report for programs.
 #include "base/json_writer.hpp"
+#include "base/quantity_text.hpp"
 #include "runtime/core/value_json.hpp"
 #include "runtime/face/json_parts.hpp"
 #include "runtime/realtime/response_time.hpp"
@@ -28,14 +29,7 @@ void write_run(JsonWriter& json, const ReportData& data) {
   json.member("run_time_ns", summary.run_time.count()).member("wall_time_ns", summary.wall_time.count());
   json.member("start_time_ns", summary.start_time.count());
   json.key("digest");
-  if (summary.digest) {
-    // As text: a number of 64 bits does not survive every reader.
-    char digits[20];
-    std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(*summary.digest));
-    json.value(digits);
-  } else {
-    json.null();
-  }
+  summary.digest ? json.value(hexadecimal_text(*summary.digest)) : json.null();
   json.end_object();
 }
 
@@ -148,11 +142,9 @@ void write_memory(JsonWriter& json, const ReportData& data) {
 
 std::string report_json(const Cell& cell, const RunSummary& summary) {
   const ReportData data(cell, summary);
-  char hash[20];
-  std::snprintf(hash, sizeof(hash), "%016llx",
-                static_cast<unsigned long long>(data.application->descriptor_hash));
   JsonWriter json;
-  json.begin_object().member("application", data.application->name).member("descriptor_hash", hash);
+  json.begin_object().member("application", data.application->name);
+  json.member("descriptor_hash", hexadecimal_text(data.application->descriptor_hash));
   write_run(json, data);
   write_threads(json, data);
   write_components(json, data);

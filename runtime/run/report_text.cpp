@@ -45,8 +45,7 @@ std::string threads_text(const ReportData& data) {
   for (const ThreadReport& thread : data.threads) {
     const char* name = thread.record->name;
     counts.add({name, std::to_string(thread.cycles), std::to_string(thread.overruns),
-                or_nothing(thread.skipped),
-                thread.skipped_time.count() > 0 ? duration_text(thread.skipped_time) : "",
+                or_nothing(thread.skipped), duration_if_any(thread.skipped_time),
                 or_nothing(thread.minor_faults + thread.major_faults), or_nothing(thread.voluntary_switches),
                 or_nothing(thread.involuntary_switches), or_nothing(thread.allocations)});
     if (thread.cycles == 0) continue;
@@ -57,8 +56,8 @@ std::string threads_text(const ReportData& data) {
     };
     lateness.add(row(*thread.lateness));
     std::vector<std::string> cells = row(*thread.execution);
-    cells.push_back(thread.record->budget.count() > 0 ? duration_text(thread.record->budget) : "");
-    cells.push_back(thread.record->deadline.count() > 0 ? duration_text(thread.record->deadline) : "");
+    cells.push_back(duration_if_any(thread.record->budget));
+    cells.push_back(duration_if_any(thread.record->deadline));
     if (thread.response_estimate) {
       estimated = true;
       cells.push_back(*thread.response_estimate == Duration::max()
@@ -99,7 +98,7 @@ std::string units_text(const ReportData& data) {
     table.add({unit.record->name, life_of(unit), std::to_string(unit.steps),
                data.summary.virtual_time ? "" : duration_text(unit.execution_mean),
                data.summary.virtual_time ? "" : duration_text(unit.execution_maximum),
-               unit.record->budget.count() > 0 ? duration_text(unit.record->budget) : ""});
+               duration_if_any(unit.record->budget)});
   }
   std::string text = "\nUnits\n" + table.text("  ");
   if (idle > 0) text += "  and " + std::to_string(idle) + " members that were never active\n";

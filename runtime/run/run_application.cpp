@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cinttypes>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "base/standard_descriptors.hpp"
+#include "base/quantity_text.hpp"
 #include "runtime/executive/executive.hpp"
 #include "runtime/executive/file_options.hpp"
 #include "runtime/log/log.hpp"
@@ -52,15 +52,8 @@ void complain(const Application& application, const Status& status) {
 }
 
 std::string version_line(const Application& application) {
-  char hash[20];
-  std::snprintf(hash, sizeof(hash), "%016" PRIx64, application.descriptor_hash);
-  return std::string{application.name} + ", descriptor " + hash + ", FlexRF " FLEXRF_VERSION "\n";
-}
-
-std::string digest_line(std::uint64_t digest) {
-  char text[20];
-  std::snprintf(text, sizeof(text), "%016" PRIx64 "\n", digest);
-  return text;
+  return std::string{application.name} + ", descriptor " + hexadecimal_text(application.descriptor_hash) +
+         ", FlexRF " FLEXRF_VERSION "\n";
 }
 
 /// On a disk that is full the report of the run before stays.
@@ -145,7 +138,7 @@ int run_application(const Application& application, int argument_count, char** a
   if (!options->report_file.empty())
     note_failure(write_report(options->report_file, report_json(executive.cell(), summary)));
   std::vector<std::string> texts{report_text(executive.cell(), summary)};
-  if (summary.digest) texts.push_back(digest_line(*summary.digest));
+  if (summary.digest) texts.push_back(hexadecimal_text(*summary.digest) + "\n");
   for (const Status& failure : executive.say_last(std::move(texts))) note_failure(failure);
   // A thread that hangs can be neither joined nor destroyed under; the process can only be left.
   if (summary.stuck || executive.is_still_saying() || executive.is_still_saving()) _exit(summary.exit_code);

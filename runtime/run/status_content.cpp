@@ -32,10 +32,6 @@ std::string number_text(double number, bool whole) {
   return text;
 }
 
-std::string budget_text(Duration budget) {
-  return budget.count() > 0 ? duration_text(budget) : "";
-}
-
 /// Text for a glance: four digits, the unit of measure behind.
 std::string glance_at(const FieldDescriptor& field, const void* structure) {
   constexpr std::uint32_t most_elements = 8;
@@ -108,7 +104,7 @@ StatusContent::Section StatusContent::threads(Time now) {
         cells.push_back(duration_text(histogram->quantile(0.5)));
         cells.push_back(duration_text(histogram->quantile(0.99)));
       }
-      cells.push_back(budget_text(thread.record->budget));
+      cells.push_back(duration_if_any(thread.record->budget));
     }
     table.add(std::move(cells));
   }
@@ -127,7 +123,7 @@ StatusContent::Section StatusContent::units() const {
                  cell_->driver_name(index) + ")";
     }
     table.add({record.name, name_of(unit.life), std::to_string(unit.steps),
-               duration_text(unit.execution_maximum), budget_text(record.budget), devices});
+               duration_text(unit.execution_maximum), duration_if_any(record.budget), devices});
   }
   return {lines_of(table), "units"};
 }

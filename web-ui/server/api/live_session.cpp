@@ -1,8 +1,8 @@
 #include "web-ui/server/api/live_session.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "base/quantity_text.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
 #include "web-ui/server/api/log_lines.hpp"
 
@@ -212,11 +212,9 @@ void LiveSession::write_hello(Client& client, Time now, std::string& to) {
   const SessionInfo* const session = parts_.access.session(client.session);
   constexpr SessionInfo nobody{};
   const SessionInfo& info = session == nullptr ? nobody : *session;
-  char hash[17];
-  std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(application.descriptor_hash));
   JsonWriter json(std::move(to));
   json.begin_object().member("event", "hello").member("protocol", 1).member("application", application.name);
-  json.member("boot", parts_.boot).member("descriptor", static_cast<const char*>(hash));
+  json.member("boot", parts_.boot).member("descriptor", hexadecimal_text(application.descriptor_hash));
   json.key("session");
   write_session(json, info);
   json.member("server_time_ns", nanoseconds(now)).member("allocations", has_allocation_guard()).end_object();
