@@ -174,4 +174,7 @@ class Control {
   std::atomic<std::uint32_t> faults_{0};
 };
 
+/// Whether a running application's actuators may move, as it stands in a list of words: "waits for Start".
+const char* phrase_of_motion(const Control& control) noexcept;
+
 }  // namespace flexrf

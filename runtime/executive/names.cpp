@@ -42,6 +42,11 @@ const char* phrase_of(Mode mode) noexcept {
   return mode == Mode::safe ? "in its safe state" : name_of(mode);
 }
 
+const char* phrase_of_motion(const Control& control) noexcept {
+  if (control.motion_stopped()) return "motion is stopped";
+  return control.may_move() ? "actuators may move" : "waits for Start";
+}
+
 const char* name_of(EndCause cause) noexcept {
   switch (cause) {
     case EndCause::none:

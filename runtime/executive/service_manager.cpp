@@ -28,13 +28,7 @@ std::optional<std::int64_t> number_in_environment(const char* name) {
 
 std::string words_of(const Control& control) {
   std::string words = phrase_of(control.mode());
-  if (control.mode() == Mode::running) {
-    if (control.motion_stopped()) {
-      words += ", motion is stopped";
-    } else {
-      words += control.may_move() ? ", actuators may move" : ", waits for Start";
-    }
-  }
+  if (control.mode() == Mode::running) words += std::string{", "} + phrase_of_motion(control);
   if (const std::uint32_t faults = control.faults(); faults > 0)
     words += ", " + std::to_string(faults) + (faults == 1 ? " fault" : " faults");
   return words;

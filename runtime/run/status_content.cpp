@@ -68,11 +68,7 @@ StatusLine StatusContent::heading(Time now) const {
   const Control& control = cell_->control();
   std::string text = std::string{cell_->application().name} + "  " + phrase_of(control.mode());
   if (begun_ != Time{}) text += "  " + duration_text(now - begun_);
-  if (control.motion_stopped()) {
-    text += "  motion: Stop is latched";
-  } else {
-    text += control.may_move() ? "  motion: allowed" : "  motion: inhibited until Start";
-  }
+  if (control.mode() == Mode::running) text += std::string{"  "} + phrase_of_motion(control);
   return {control.motion_stopped() ? Style::alarm : Style::title, text};
 }
 
