@@ -29,8 +29,6 @@ std::optional<Refusal> cannot_be(const char* act, const char* other, const Compo
       .about(path);
 }
 
-}  // namespace
-
 std::optional<Refusal> find_parameter(const ParameterBlock& block, const char* kind,
                                       const ComponentEntry& component, std::string_view path,
                                       ParameterPlace& found) noexcept {
@@ -52,6 +50,23 @@ std::optional<Refusal> find_parameter(const ParameterBlock& block, const char* k
   return refusal.about(path);
 }
 
+}  // namespace
+
+std::optional<Refusal> read_parameter(const ParameterBlock& block, const char* kind,
+                                      const ComponentEntry& component, std::string_view path,
+                                      JsonElement value, void* structure, ParameterPlace& found) noexcept {
+  if (auto refusal = find_parameter(block, kind, component, path, found)) return refusal;
+  ValueRange range{};
+  const bool is_member = path.find('.') != std::string_view::npos;
+  const Status status =
+      read_value(value, found.place, structure, is_member ? nullptr : range_of(*found.parameter, range));
+  if (status) return std::nullopt;
+  return Refusal::make(RefusalKind::refused, "%s.%.*s is refused: %s", component.name, shown(path),
+                       path.data(), status.cause())
+      .about(path)
+      .because(status.cause());
+}
+
 std::optional<Refusal> add_values(const ComponentEntry& component, JsonObject values,
                                   ParameterRequest& request, Role& role) noexcept {
   const ParameterBlock& block = component.type->runtime;
@@ -59,18 +74,10 @@ std::optional<Refusal> add_values(const ComponentEntry& component, JsonObject va
   alignas(cache_line) std::byte structure[max_runtime_size];
   for (const auto member : values) {
     ParameterPlace found;
-    if (auto refusal = find_parameter(block, "runtime", component, member.key, found)) return refusal;
+    if (auto refusal =
+            read_parameter(block, "runtime", component, member.key, member.value, structure, found))
+      return refusal;
     role = std::max(role, found.parameter->role);
-    ValueRange range{};
-    const bool is_member = member.key.find('.') != std::string_view::npos;
-    const Status status = read_value(member.value, found.place, structure,
-                                     is_member ? nullptr : range_of(*found.parameter, range));
-    if (!status) {
-      return Refusal::make(RefusalKind::refused, "%s.%.*s is refused: %s", component.name, shown(member.key),
-                           member.key.data(), status.cause())
-          .about(member.key)
-          .because(status.cause());
-    }
     const std::size_t size = found.place.field->scalar == Scalar::text
                                  ? found.place.field->count
                                  : found.place.count * element_size(*found.place.field);

@@ -25,10 +25,11 @@ struct ParameterPlace {
 /// Presses that one request may count.
 inline constexpr std::uint64_t most_presses = 100;
 
-/// "gain", "gains[2]", "limits.low" in a block; the refusal names the nearest known name.
-std::optional<Refusal> find_parameter(const ParameterBlock& block, const char* kind,
+/// Finds "gain", "gains[2]", "limits.low" in a block, and reads its value into `structure`, which is as the
+/// block's type says and else untouched. The refusal names the nearest known name, or what is wrong.
+std::optional<Refusal> read_parameter(const ParameterBlock& block, const char* kind,
                                       const ComponentEntry& component, std::string_view path,
-                                      ParameterPlace& found) noexcept;
+                                      JsonElement value, void* structure, ParameterPlace& found) noexcept;
 
 // Each adds to a request; nothing is sent. `role` rises to what the parameters need.
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "runtime/face/change.hpp"
-#include "runtime/json/value_reader.hpp"
 #include "runtime/parameters/value_access.hpp"
 
 namespace flexrf::panel {
@@ -37,17 +36,9 @@ void read_component(const ComponentEntry& entry, ComponentIndex component, JsonO
   std::vector<std::byte> structure(block.type == nullptr ? 0 : block.type->size);
   for (const auto member : values) {
     ParameterPlace found;
-    if (const auto refusal = find_parameter(block, "configuration", entry, member.key, found)) {
+    if (const auto refusal = read_parameter(block, "configuration", entry, member.key, member.value,
+                                            structure.data(), found)) {
       wanted.causes.emplace_back(refusal->detail());
-      continue;
-    }
-    ValueRange range{};
-    const bool is_member = member.key.find('.') != std::string_view::npos;
-    const Status status = read_value(member.value, found.place, structure.data(),
-                                     is_member ? nullptr : range_of(*found.parameter, range));
-    if (!status) {
-      wanted.causes.push_back(std::string{entry.name} + "." + std::string{member.key} + ": " +
-                              status.cause());
       continue;
     }
     wanted.role = std::max(wanted.role, found.parameter->role);

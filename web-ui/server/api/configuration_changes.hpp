@@ -13,7 +13,7 @@ namespace flexrf::panel {
 /// What a client wants changed, and everything that is wrong with it.
 struct WantedChanges {
   std::vector<ConfigurationChange> changes;
-  std::vector<std::string> causes;  ///< "jog.limits: ...", one per problem; empty when all is right
+  std::vector<std::string> causes;  ///< as refusals, one per problem; empty when all is right
   std::vector<ComponentIndex> components;
   Role role = Role::engineer;  ///< the greatest that the parameters ask for
 };

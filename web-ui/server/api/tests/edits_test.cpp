@@ -44,6 +44,7 @@ void an_edit_is_applied_and_ends_inhibited() {
                                 {{"component", "producer"}, {"values", {{"offset", 1}}}}})}});
   CHECK_EQUAL(wrong.at("outcome").get<std::string>(), "refused");
   CHECK_EQUAL(wrong.at("causes").size(), 3U);
+  CHECK_CONTAINS(wrong.at("causes").at(0).get<std::string>(), "consumer.offset is refused: ");
   const json applied = rig.ask(link, {{"op", "edit_apply"}, {"edit", edit}, {"changes", change(0.25)}});
   CHECK_EQUAL(applied.at("outcome").get<std::string>(), "done");
   CHECK_EQUAL(applied.at("owners").dump(), json::array({"consumer"}).dump());
