@@ -39,6 +39,23 @@ Refusal no_such(const char* what, std::string_view name, std::string_view neares
   return nearest.empty() ? refusal.hint("%s", otherwise) : refusal.hint_nearest(nearest);
 }
 
+Refusal saving_already() noexcept {
+  return Refusal::make(RefusalKind::busy, "The values are being saved already")
+      .hint("wait until that is done");
+}
+
+Refusal not_saved(RefusalKind kind, const Status& cause) noexcept {
+  return Refusal::make(kind, "The values were not saved: %s", cause.cause())
+      .hint("they are in force all the same")
+      .because(cause.cause());
+}
+
+Refusal no_answer_of_disk(Duration waited) noexcept {
+  return Refusal::make(RefusalKind::no_answer,
+                       "The disk of the configuration file did not answer within %.3g s", seconds(waited))
+      .hint("the state says when the values are saved");
+}
+
 void Refusal::compose() noexcept {
   const std::string_view end = hint_[0] != '\0' ? hint_ : text_;
   const bool is_ended = end.ends_with('.') || end.ends_with('?');

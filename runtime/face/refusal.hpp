@@ -6,6 +6,9 @@
 #include <span>
 #include <string_view>
 
+#include "base/status.hpp"
+#include "base/time.hpp"
+
 namespace flexrf {
 
 enum class RefusalKind : std::uint8_t {
@@ -69,5 +72,13 @@ class Refusal {
 /// "There is no slot 'posse'; did you mean 'pose'?" `nearest` empty: `otherwise` says what to do.
 Refusal no_such(const char* what, std::string_view name, std::string_view nearest,
                 const char* otherwise) noexcept;
+
+// Why values that somebody asked to save are not in the configuration file.
+
+Refusal saving_already() noexcept;
+/// wrong_state: it cannot be tried; not_stored: it failed.
+Refusal not_saved(RefusalKind kind, const Status& cause) noexcept;
+/// Within this time.
+Refusal no_answer_of_disk(Duration waited) noexcept;
 
 }  // namespace flexrf

@@ -161,11 +161,6 @@ void RemoteControl::take_answers() {
   });
 }
 
-RpcProblem RemoteControl::not_saved(const Status& status) {
-  return {RpcError::refused, std::string{"the values are not saved: "} + status.cause(),
-          "they are in force all the same"};
-}
-
 void RemoteControl::take_saves() {
   if (saves_.empty()) return;
   const SaveState state = cell.save_state();
@@ -175,11 +170,9 @@ void RemoteControl::take_saves() {
     Client* const client = find(save.session);
     if (client == nullptr) return true;
     if (!is_done) {
-      say_error(*client, save.id,
-                {RpcError::no_answer, "the disk of the configuration file did not answer within 10 s",
-                 "the method state says when the values are saved"});
+      say_error(*client, save.id, remote::problem_of(no_answer_of_disk(saving_timeout)));
     } else if (!state.failure) {
-      say_error(*client, save.id, not_saved(state.failure));
+      say_error(*client, save.id, remote::problem_of(not_saved(RefusalKind::not_stored, state.failure)));
     } else {
       reply(*client, save.id, [&](JsonWriter& json) {
         json.begin_object().member("saved_at_ms", state.saved_at).end_object();

@@ -85,7 +85,6 @@ class RemoteControl final : public RemoteControlUnit {
   Problem may(const Client& client, Need need) const;
   void take_answers();
   void take_saves();
-  static remote::RpcProblem not_saved(const Status& status);
   void answer(const Waiting& waiting, const ParameterAnswer& given);
   Client* find(SocketSession session) noexcept;
   /// As the audit names it.

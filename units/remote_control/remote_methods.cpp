@@ -152,10 +152,9 @@ RemoteControl::Problem RemoteControl::change(Client& client, const RpcCall& call
 
 /// The runtime writes in a thread of its own; take_saves() answers.
 RemoteControl::Problem RemoteControl::save_values(Client& client, const RpcCall& call, Fields& /*params*/) {
-  if (saves_.size() >= most_waiting)
-    return RpcProblem{RpcError::busy, "the values are being saved already", "try again when that is done"};
+  if (saves_.size() >= most_waiting) return remote::problem_of(saving_already());
   const Result<std::uint64_t> number = cell.save_values();
-  if (!number) return not_saved(number.status());
+  if (!number) return remote::problem_of(not_saved(RefusalKind::wrong_state, number.status()));
   saves_.push_back({client.session, call.id, *number, now_ + saving_timeout});
   return std::nullopt;
 }

@@ -4,17 +4,9 @@ namespace flexrf::panel {
 
 void SaveOperations::save(const Caller& caller, Time now) {
   if (!permission_->may_control(caller, Role::operator_, "save the values")) return;
-  if (waiting_.is_full()) {
-    return answers_->refuse(
-        caller,
-        Refusal::make(RefusalKind::busy, "The values are being saved already; wait until that is done."));
-  }
+  if (waiting_.is_full()) return answers_->refuse(caller, saving_already());
   const Result<std::uint64_t> number = executive_->saver().request();
-  if (!number) {
-    return answers_->refuse(caller, Refusal::make(RefusalKind::wrong_state, "The values cannot be saved: %s.",
-                                                  number.status().cause())
-                                        .because(number.status().cause()));
-  }
+  if (!number) return answers_->refuse(caller, not_saved(RefusalKind::wrong_state, number.status()));
   waiting_.add({caller, *number, now + patience});
 }
 
@@ -24,11 +16,7 @@ void SaveOperations::tick(Time now) {
   waiting_.take([&](const Waiting& one) { return state.answered >= one.number || now >= one.overdue_at; },
                 [&](const Waiting& waiting) {
                   if (state.answered >= waiting.number) return answer(waiting.caller, state);
-                  answers_->refuse(
-                      waiting.caller,
-                      Refusal::make(RefusalKind::no_answer,
-                                    "The disk of the configuration file does not answer; the state says "
-                                    "when the values are saved."));
+                  answers_->refuse(waiting.caller, no_answer_of_disk(patience));
                 });
 }
 
@@ -36,9 +24,7 @@ void SaveOperations::answer(const Caller& caller, const SaveState& state) {
   if (state.failure) {
     return answers_->done(caller, [&state](JsonWriter& json) { json.member("saved_at_ms", state.saved_at); });
   }
-  answers_->refuse(
-      caller, Refusal::make(RefusalKind::not_stored, "The values were not saved: %s.", state.failure.cause())
-                  .because(state.failure.cause()));
+  answers_->refuse(caller, not_saved(RefusalKind::not_stored, state.failure));
 }
 
 }  // namespace flexrf::panel
