@@ -1,22 +1,11 @@
 #include "runtime/face/directory.hpp"
 
 #include "base/nearest_name.hpp"
+#include "runtime/face/slot_readers.hpp"
 
 namespace flexrf {
-namespace {
-
-std::uint16_t index_of(const Application& application, const SlotControl* control) noexcept {
-  if (control == nullptr) return no_index;
-  for (std::size_t i = 0; i < application.slots.size(); ++i) {
-    if (application.slots[i].control == control) return static_cast<std::uint16_t>(i);
-  }
-  return no_index;
-}
-
-}  // namespace
-
-Directory::Directory(const Cell& cell) {
-  const Application& application = cell.application();
+Directory::Directory(const Cell& cell) : application_(&cell.application()) {
+  const Application& application = *application_;
   for (ComponentIndex i = 0; i < application.component_count(); ++i) {
     const ComponentRecord& record = application.component(i);
     components_.push_back({record.name, &record, &cell.component_type(i),

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -41,12 +42,19 @@ class Directory {
   Refusal no_component(std::string_view name) const noexcept { return unknown(Part::component, name); }
   Refusal no_slot(std::string_view name) const noexcept { return unknown(Part::slot, name); }
 
+  std::size_t count(Part part) const noexcept { return names_[static_cast<std::size_t>(part)].size(); }
+  // All there is of a kind, in the order of its table; Statistics has the figures.
+  std::span<const SlotRecord> slots() const noexcept { return application_->slots; }
+  std::span<const QueueRecord> queues() const noexcept { return application_->queues; }
+  std::span<const ThreadRecord> threads() const noexcept { return application_->threads; }
+
   const ComponentEntry& entry(ComponentIndex component) const noexcept { return components_[component]; }
   ComponentIndex component_count() const noexcept { return static_cast<ComponentIndex>(components_.size()); }
 
  private:
   using Names = std::unordered_map<std::string_view, std::uint16_t>;
 
+  const Application* application_;
   std::vector<ComponentEntry> components_;
   std::array<Names, 4> names_;  // of each Part
 };

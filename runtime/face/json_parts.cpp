@@ -1,5 +1,7 @@
 #include "runtime/face/json_parts.hpp"
 
+#include <utility>
+
 #include "runtime/core/value_json.hpp"
 
 namespace flexrf {
@@ -16,25 +18,38 @@ void write_cycles(JsonWriter& json, const ThreadFigures& thread) {
   json.member("longest_standstill_ns", thread.longest_standstill.count());
 }
 
-void write_readers(JsonWriter& json, const Statistics& statistics, std::size_t slot) {
+void write_thread(JsonWriter& json, const ThreadFigures& thread) {
+  json.member("name", thread.record->name).member("priority", thread.record->priority);
+  write_cycles(json, thread);
+  for (const auto& [name, measured] :
+       {std::pair{"lateness", thread.lateness}, std::pair{"execution", thread.execution}}) {
+    json.key(name).begin_object();
+    write_quantiles(json, *measured);
+    json.end_object();
+  }
+  json.member("budget_ns", thread.record->budget.count());
+  json.member("deadline_ns", thread.record->deadline.count());
+}
+
+void write_readers(JsonWriter& json, const SlotFigures& slot) {
   json.key("readers").begin_array();
-  for (const SlotInput& reader : statistics.readers(slot)) {
-    const InputCounters counters = statistics.counters(reader);
+  for (const SlotInput& reader : slot.readers) {
+    const InputCounters counters = reader.counters();
     json.begin_object().member("name", reader.name).member("read", counters.read);
     json.member("missed", counters.missed).end_object();
   }
   json.end_array();
 }
 
-void write_queue(JsonWriter& json, const QueueRecord& queue) {
-  json.member("capacity", queue.capacity).key("writers").begin_array();
-  for (std::size_t i = 0; i < queue.sinks.size(); ++i) {
-    const auto [name, counters] = Statistics::writer(queue, i);
+void write_queue(JsonWriter& json, const QueueFigures& queue) {
+  json.member("capacity", queue.record->capacity).member("fill", queue.fill).key("writers").begin_array();
+  for (std::size_t i = 0; i < queue.writer_count(); ++i) {
+    const auto [name, counters] = queue.writer(i);
     json.begin_object().member("name", name).member("pushed", counters.pushed);
     json.member("popped", counters.popped).member("dropped", counters.dropped).end_object();
   }
   json.end_array().key("readers").begin_array();
-  for (const char* const reader : queue.readers) json.value(reader);
+  for (const char* const reader : queue.record->readers) json.value(reader);
   json.end_array();
 }
 

@@ -13,10 +13,14 @@ namespace flexrf {
 void write_quantiles(JsonWriter& json, const Histogram& histogram);
 /// "cycles", "overruns", "skipped", "skipped_time_ns", "longest_standstill_ns"
 void write_cycles(JsonWriter& json, const ThreadFigures& thread);
+/// "name", "priority", what write_cycles() writes, "lateness" and "execution" with their quantiles,
+/// "budget_ns", "deadline_ns"
+void write_thread(JsonWriter& json, const ThreadFigures& thread);
 /// "readers": a list of {"name", "read", "missed"}
-void write_readers(JsonWriter& json, const Statistics& statistics, std::size_t slot);
-/// "capacity", "writers": a list of {"name", "pushed", "popped", "dropped"}, "readers": a list of names
-void write_queue(JsonWriter& json, const QueueRecord& queue);
+void write_readers(JsonWriter& json, const SlotFigures& slot);
+/// "capacity", "fill", "writers": a list of {"name", "pushed", "popped", "dropped"}, "readers": a list of
+/// names
+void write_queue(JsonWriter& json, const QueueFigures& queue);
 /// "reason", which is "" unless the slot is NULL, "sequence", "sampled_at_ns", "value"
 void write_observed(JsonWriter& json, const TypeDescriptor& type, const ObservedSlot& newest);
 

@@ -17,8 +17,32 @@ struct ObservedSlot {
   const void* last = nullptr;   ///< of the newest item, whatever became of its writer; null: there is none
 };
 
-/// Why an observed slot is NULL whose newest item has this header.
-NullReason reason_of(const SlotRecord& record, const ItemHeader& header) noexcept;
+/// How often who subscribed to a slot is told of it, in values a second.
+struct SlotRate {
+  static constexpr double slowest = 0.01;
+  static constexpr double fastest = 60;
+  static constexpr double usual = 10;
+
+  static constexpr bool is_possible(double rate) noexcept { return rate >= slowest && rate <= fastest; }
+};
+
+/// An observed slot as of now, without its values: `take(header, payload)` is called with the newest item, if
+/// there is one, under the observer's lock, and copies what it wants. Any thread that is not real-time.
+template <class Take>
+ObservedSlot look_at(const Cell& cell, std::uint16_t slot, Take&& take) {
+  const SlotRecord& record = cell.application().slots[slot];
+  ObservedSlot seen;
+  {
+    const auto lock = cell.observe();
+    if (const ItemHeader* const newest = record.observer->newest(); newest != nullptr) {
+      seen.header = *newest;
+      take(*newest, record.observer->payload());
+    }
+  }
+  seen.reason = null_reason_of(record.control->writer_state());
+  if (seen.reason == NullReason::none && seen.header.sequence == 0) seen.reason = NullReason::nothing_yet;
+  return seen;
+}
 
 /// One thread's, which is not real-time. Memory for a slot's value is allocated when it is first asked for.
 class ObservedSlots {

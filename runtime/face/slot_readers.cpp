@@ -16,6 +16,12 @@ std::vector<const char*> input_names(const ComponentType& type) {
 
 }  // namespace
 
+std::uint16_t index_of(const Application& application, const SlotControl* control) noexcept {
+  const auto found = std::ranges::find(application.slots, control, &SlotRecord::control);
+  return found == application.slots.end() ? no_index
+                                          : static_cast<std::uint16_t>(found - application.slots.begin());
+}
+
 std::vector<std::vector<SlotInput>> readers_of_slots(const Application& application) {
   std::vector<std::vector<SlotInput>> readers(application.slots.size());
   for (std::size_t u = 0; u < application.units.size(); ++u) {
@@ -24,14 +30,11 @@ std::vector<std::vector<SlotInput>> readers_of_slots(const Application& applicat
     for (std::size_t input = 0; input < unit.binding.inputs.size(); ++input) {
       const InputBinding& binding = unit.binding.inputs[input];
       for (std::uint32_t member = 0; member < binding.count; ++member) {
-        const SlotControl* const control = binding.readers[member].slot();
-        const auto slot =
-            std::find_if(application.slots.begin(), application.slots.end(),
-                         [control](const SlotRecord& record) { return record.control == control; });
-        if (slot == application.slots.end()) continue;
+        const std::uint16_t slot = index_of(application, binding.readers[member].slot());
+        if (slot == no_index) continue;
         const std::string name = std::string{unit.name} + "." + (input < names.size() ? names[input] : "?");
-        readers[static_cast<std::size_t>(slot - application.slots.begin())].push_back(
-            {name, static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(input), member});
+        readers[slot].push_back(
+            {name, &application.unit_states[u], static_cast<std::uint16_t>(input), member});
       }
     }
   }

@@ -1,5 +1,7 @@
 #include "runtime/face/statistics.hpp"
 
+#include <utility>
+
 #include "base/quantity_text.hpp"
 #include "runtime/executive/schedulability.hpp"
 
@@ -11,6 +13,8 @@ ComponentFigures Statistics::component(ComponentIndex component) const noexcept 
   figures.record = &cell_->application().component(component);
   figures.type = state.type;
   figures.driver = cell_->driver_name(component);
+  if (figures.record->population != no_index)
+    figures.population = cell_->application().populations[figures.record->population].name;
   figures.life = state.life.load(std::memory_order_acquire);
   if (figures.life == Life::fault) figures.fault = state.fault.read();
   figures.active = state.active.load(std::memory_order_relaxed);
@@ -25,9 +29,24 @@ ComponentFigures Statistics::component(ComponentIndex component) const noexcept 
   return figures;
 }
 
+DeviceFigures Statistics::device(std::size_t device) const noexcept {
+  const Application& application = cell_->application();
+  const DeviceRecord& record = application.devices[device];
+  const DriverRecord& driver = cell_->driver(static_cast<std::uint16_t>(device));
+  return {component(record.index),
+          &record,
+          &driver,
+          record.unit == no_index ? "" : application.units[record.unit].name,
+          record.bus == no_index ? "" : application.devices[record.bus].name,
+          application.threads[record.thread].name,
+          driver.actuates && application.device_states[device].device->is_inhibited()};
+}
+
 ThreadFigures Statistics::thread(std::size_t thread) const noexcept {
   const ThreadState& state = cell_->application().thread_states[thread];
   return {&cell_->application().threads[thread],
+          state.thread_id.load(std::memory_order_relaxed),
+          Time{Duration{state.step_began.load()}},
           state.cycles.load(std::memory_order_relaxed),
           state.overruns.load(std::memory_order_relaxed),
           state.skipped.load(std::memory_order_relaxed),
@@ -42,11 +61,20 @@ ThreadFigures Statistics::thread(std::size_t thread) const noexcept {
           state.involuntary_switches.load(std::memory_order_relaxed)};
 }
 
-QueueWriterFigures Statistics::writer(const QueueRecord& queue, std::size_t writer) noexcept {
-  return {queue.writers[writer], queue.sinks[writer]->counters()};
+SlotFigures Statistics::slot(std::size_t slot) const noexcept {
+  const SlotRecord& record = cell_->application().slots[slot];
+  return {static_cast<std::uint16_t>(slot), &record, record.control->type(), record.control->published(),
+          readers_[slot]};
 }
 
-std::vector<std::optional<Duration>> response_estimates(const Application& application, bool realtime) {
+QueueFigures Statistics::queue(std::size_t queue) const noexcept {
+  const QueueRecord& record = cell_->application().queues[queue];
+  // All readers of one queue draw from the same.
+  return {&record, record.sources.empty() ? 0 : record.sources[0]->fill()};
+}
+
+std::vector<std::optional<Duration>> response_estimates(const Cell& cell, bool realtime) {
+  const Application& application = cell.application();
   std::vector<std::optional<Duration>> responses(application.threads.size());
   if (!realtime) return responses;
   const Result<MachineFile> machine = MachineFile::of_this_machine();
@@ -72,12 +100,22 @@ FaultPlaces::Fault FaultPlaces::at(std::size_t place) const {
   if (place < thread(0)) {
     const auto component = static_cast<ComponentIndex>(place);
     const ComponentRecord& record = application.component(component);
-    return {record.kind, record.name, application.component_state(component).fault.read().cause()};
+    return {record.kind, record.name, record.name,
+            application.component_state(component).fault.read().cause()};
   }
-  const bool is_process = place == process();
-  return {is_process ? "process" : "thread",
-          is_process ? application.name : application.threads[place - thread(0)].name,
-          "stood still for " + duration_text(Duration{extent(place)})};
+  const std::string cause = "stood still for " + duration_text(Duration{extent(place)});
+  if (place == process())
+    return {"process", application.name, std::string{"process "} + application.name, cause};
+  return of_thread(place - thread(0), cause);
+}
+
+FaultPlaces::Fault FaultPlaces::hanging(std::size_t thread) const {
+  return of_thread(thread, "its step does not return");
+}
+
+FaultPlaces::Fault FaultPlaces::of_thread(std::size_t thread, std::string cause) const {
+  const char* const name = cell_->application().threads[thread].name;
+  return {"thread", name, std::string{"thread "} + name, std::move(cause)};
 }
 
 }  // namespace flexrf

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,7 +16,8 @@ namespace flexrf {
 struct ComponentFigures {
   const ComponentRecord* record;
   const ComponentType* type;
-  const char* driver;  ///< name of the chosen one; "": it has none
+  const char* driver;      ///< name of the chosen one; "": it has none
+  const char* population;  ///< name of the one that it is a member of; null: of none
   Life life;
   Status fault;  ///< the cause while it is in fault, else ok
   bool active;
@@ -26,8 +28,19 @@ struct ComponentFigures {
   Duration execution_maximum;
 };
 
+struct DeviceFigures : ComponentFigures {
+  const DeviceRecord* device;
+  const DriverRecord* chosen;
+  const char* unit;  ///< name of the one that owns it; "": none does
+  const char* bus;   ///< name of the one that carries it; "": none does
+  const char* thread;
+  bool inhibited;  ///< it actuates, and may not
+};
+
 struct ThreadFigures {
   const ThreadRecord* record;
+  std::int32_t id;  ///< the kernel's; 0: it has not begun
+  Time step_began;  ///< of the step that it is in; Time{}: it is in none
   std::uint64_t cycles;
   std::uint64_t overruns;
   std::uint64_t skipped;
@@ -43,10 +56,34 @@ struct ThreadFigures {
   std::uint64_t involuntary_switches;
 };
 
+struct SlotFigures {
+  std::uint16_t index;
+  const SlotRecord* record;
+  const TypeDescriptor* type;
+  std::uint64_t published;
+  std::span<const SlotInput> readers;
+};
+
 struct QueueWriterFigures {
   const char* name;
   QueueCounters counters;
 };
+
+struct QueueFigures {
+  const QueueRecord* record;
+  std::uint32_t fill;  ///< items that wait in it
+
+  std::size_t writer_count() const noexcept { return record->sinks.size(); }
+  QueueWriterFigures writer(std::size_t writer) const noexcept {
+    return {record->writers[writer], record->sinks[writer]->counters()};
+  }
+};
+
+/// A range of what `figures` gives for each number of a record.
+template <class Records, class Figures>
+auto figures_of_each(const Records& records, Figures figures) {
+  return std::views::iota(std::size_t{0}, records.size()) | std::views::transform(figures);
+}
 
 /// Any thread that is not real-time. Nothing but the constructor allocates.
 class Statistics {
@@ -55,14 +92,29 @@ class Statistics {
   explicit Statistics(const Cell& cell) : cell_(&cell), readers_(readers_of_slots(cell.application())) {}
 
   ComponentFigures component(ComponentIndex component) const noexcept;
+  /// By its number among the devices.
+  DeviceFigures device(std::size_t device) const noexcept;
   ThreadFigures thread(std::size_t thread) const noexcept;
-  std::span<const SlotInput> readers(std::size_t slot) const noexcept { return readers_[slot]; }
-  InputCounters counters(const SlotInput& reader) const noexcept {
-    return reader.counters(cell_->application());
+  SlotFigures slot(std::size_t slot) const noexcept;
+  QueueFigures queue(std::size_t queue) const noexcept;
+
+  // Ranges: all of a kind, in the order of its table, each with its figures as of when one comes to it.
+  auto units() const {
+    return figures_of_each(all().units, [this](std::size_t i) { return component(all().units[i].index); });
   }
-  static QueueWriterFigures writer(const QueueRecord& queue, std::size_t writer) noexcept;
+  auto devices() const {
+    return figures_of_each(all().devices, [this](std::size_t i) { return device(i); });
+  }
+  auto slots() const {
+    return figures_of_each(all().slots, [this](std::size_t i) { return slot(i); });
+  }
+  auto queues() const {
+    return figures_of_each(all().queues, [this](std::size_t i) { return queue(i); });
+  }
 
  private:
+  const Application& all() const noexcept { return cell_->application(); }
+
   const Cell* cell_;
   std::vector<std::vector<SlotInput>> readers_;
 };
@@ -70,7 +122,7 @@ class Statistics {
 /// The longest response of each thread, estimated from declared budgets; Duration::max(): there is no bound.
 /// None where that cannot be said, and for all while not `realtime`: ordinary threads are promised nothing,
 /// simulated ones disturb nobody.
-std::vector<std::optional<Duration>> response_estimates(const Application& application, bool realtime);
+std::vector<std::optional<Duration>> response_estimates(const Cell& cell, bool realtime);
 
 /// All that can be in fault, each in its place: components by their index, threads by theirs, the process.
 /// Any thread that is not real-time.
@@ -79,6 +131,7 @@ class FaultPlaces {
   struct Fault {
     const char* kind;  ///< "unit", "device", "thread", "process"
     const char* name;
+    std::string who;  ///< as a text names it, before a colon: "producer", "thread producing"
     std::string cause;
   };
 
@@ -92,8 +145,12 @@ class FaultPlaces {
   std::int64_t extent(std::size_t place) const noexcept;
   /// Of one with an extent.
   Fault at(std::size_t place) const;
+  /// Of a thread that is known to hang.
+  Fault hanging(std::size_t thread) const;
 
  private:
+  Fault of_thread(std::size_t thread, std::string cause) const;
+
   const Cell* cell_;
 };
 

@@ -12,28 +12,35 @@ namespace flexrf {
 namespace {
 
 /// The others are still running when the application is given up: they are in a step now and then.
-bool hangs(const ThreadRecord& thread, const ThreadState& state, Time now) noexcept {
-  const std::int64_t began = state.step_began.load();
-  return began != 0 && now - Time{Duration{began}} > Supervision::hang_timeout(thread);
+bool hangs(const ThreadFigures& thread, Time now) noexcept {
+  return thread.step_began != Time{} && now - thread.step_began > Supervision::hang_timeout(*thread.record);
 }
 
-std::vector<ThreadReport> collect_threads(const Application& application, const Statistics& statistics,
+std::vector<ThreadReport> collect_threads(const Cell& cell, const Statistics& statistics,
                                           const RunSummary& summary) {
-  const std::vector<std::optional<Duration>> responses = response_estimates(application, summary.realtime);
   std::vector<ThreadReport> threads;
-  for (std::size_t i = 0; i < application.threads.size(); ++i) {
-    ThreadReport& thread = threads.emplace_back(ThreadReport{statistics.thread(i), false, responses[i]});
-    thread.hangs =
-        summary.stuck && hangs(*thread.record, application.thread_states[i], MonotonicClock::now());
+  for (const std::optional<Duration>& response : response_estimates(cell, summary.realtime)) {
+    ThreadReport& thread =
+        threads.emplace_back(ThreadReport{statistics.thread(threads.size()), false, response});
+    thread.hangs = summary.stuck && hangs(thread, MonotonicClock::now());
   }
   return threads;
 }
 
-template <class Records>
-std::vector<ComponentFigures> collect(const Statistics& statistics, const Records& records) {
-  std::vector<ComponentFigures> components;
-  for (const ComponentRecord& record : records) components.push_back(statistics.component(record.index));
-  return components;
+/// What to blame first comes first: components, devices before what depends on them; threads that hang; what
+/// stood still.
+std::vector<FaultPlaces::Fault> collect_faults(const ReportData& data, const FaultPlaces& places) {
+  std::vector<FaultPlaces::Fault> found;
+  const auto add = [&](std::size_t place) {
+    if (places.extent(place) != 0) found.push_back(places.at(place));
+  };
+  for (const ComponentFigures& device : data.statistics.devices()) add(device.record->index);
+  for (const ComponentFigures& unit : data.statistics.units()) add(unit.record->index);
+  for (std::size_t i = 0; i < data.threads.size(); ++i) {
+    if (data.threads[i].hangs) found.push_back(places.hanging(i));
+  }
+  for (std::size_t place = places.thread(0); place < places.count(); ++place) add(place);
+  return found;
 }
 
 std::string name_of_signal(int signal) {
@@ -41,23 +48,9 @@ std::string name_of_signal(int signal) {
   return name == nullptr ? "signal " + std::to_string(signal) : "SIG" + std::string{name};
 }
 
-/// What to blame first: a component in fault, a thread that hangs, one that was restarted.
 std::string blame(const ReportData& data) {
   if (!data.summary.start_failure) return std::string{"not started: "} + data.summary.start_failure.cause();
-  for (const auto* components : {&data.devices, &data.units}) {
-    for (const ComponentFigures& component : *components) {
-      if (!component.fault) return std::string{component.record->name} + ": " + component.fault.cause();
-    }
-  }
-  for (const ThreadReport& thread : data.threads) {
-    if (thread.hangs) return "thread " + std::string{thread.record->name} + ": its step does not return";
-  }
-  for (std::size_t place = data.fault_places.thread(0); place < data.fault_places.count(); ++place) {
-    if (data.fault_places.extent(place) == 0) continue;
-    const FaultPlaces::Fault fault = data.fault_places.at(place);
-    if (place == data.fault_places.process()) return "the process " + fault.cause;
-    return std::string{fault.kind} + " " + fault.name + " " + fault.cause;
-  }
+  if (!data.found.empty()) return data.found[0].who + ": " + data.found[0].cause;
   if (data.faults > 0)
     return std::to_string(data.faults) +
            (data.faults == 1 ? " fault, restarted by policy" : " faults, restarted by policy");
@@ -100,10 +93,8 @@ ReportData::ReportData(const Cell& cell, const RunSummary& run)
     : application(&cell.application()),
       summary(run),
       statistics(cell),
-      fault_places(cell),
-      threads(collect_threads(*application, statistics, summary)),
-      units(collect(statistics, application->units)),
-      devices(collect(statistics, application->devices)),
+      threads(collect_threads(cell, statistics, summary)),
+      found(collect_faults(*this, FaultPlaces(cell))),
       faults(cell.control().faults()),
       longest_standstill(cell.control().longest_standstill()),
       dropped_log_messages(flexrf::dropped_log_messages()),

@@ -26,10 +26,9 @@ struct ReportData {
   const Application* application;
   RunSummary summary;
   Statistics statistics;
-  FaultPlaces fault_places;
   std::vector<ThreadReport> threads;
-  std::vector<ComponentFigures> units;
-  std::vector<ComponentFigures> devices;
+  /// Of what is in fault, hangs, or stood still once; the first is to blame.
+  std::vector<FaultPlaces::Fault> found;
   std::optional<ProcessStatistics> process;
   std::uint64_t faults;         ///< how often a unit or device went into fault, those restarted too
   Duration longest_standstill;  ///< of the process as a whole

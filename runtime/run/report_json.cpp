@@ -10,12 +10,6 @@
 namespace flexrf {
 namespace {
 
-void write_durations(JsonWriter& json, const char* name, const Histogram& histogram) {
-  json.key(name).begin_object();
-  write_quantiles(json, histogram);
-  json.end_object();
-}
-
 void write_run(JsonWriter& json, const ReportData& data) {
   const RunSummary& summary = data.summary;
   json.key("run").begin_object();
@@ -36,18 +30,11 @@ void write_run(JsonWriter& json, const ReportData& data) {
 void write_threads(JsonWriter& json, const ReportData& data) {
   json.key("threads").begin_array();
   for (const ThreadReport& thread : data.threads) {
-    json.begin_object().member("name", thread.record->name).member("priority", thread.record->priority);
-    write_cycles(json, thread);
-    write_durations(json, "lateness", *thread.lateness);
-    write_durations(json, "execution", *thread.execution);
-    json.member("budget_ns", thread.record->budget.count());
-    json.member("deadline_ns", thread.record->deadline.count());
+    json.begin_object();
+    write_thread(json, thread);
     json.key("response_estimate_ns");
-    if (thread.response_estimate && *thread.response_estimate != Duration::max()) {
-      json.value(thread.response_estimate->count());
-    } else {
-      json.null();
-    }
+    const Duration response = thread.response_estimate.value_or(Duration::max());
+    response == Duration::max() ? json.null() : json.value(response.count());
     json.member("allocations", thread.allocations).member("minor_faults", thread.minor_faults);
     json.member("major_faults", thread.major_faults).member("voluntary_switches", thread.voluntary_switches);
     json.member("involuntary_switches", thread.involuntary_switches)
@@ -59,17 +46,13 @@ void write_threads(JsonWriter& json, const ReportData& data) {
 
 void write_end(JsonWriter& json, const ComponentFigures& component) {
   json.member("restraints", component.restraints).key("fault");
-  if (component.fault) {
-    json.null();
-  } else {
-    json.value(component.fault.cause());
-  }
+  component.fault ? json.null() : json.value(component.fault.cause());
   json.end_object();
 }
 
 void write_components(JsonWriter& json, const ReportData& data) {
   json.key("units").begin_array();
-  for (const ComponentFigures& unit : data.units) {
+  for (const ComponentFigures& unit : data.statistics.units()) {
     json.begin_object().member("name", unit.record->name).member("life", name_of(unit.life));
     json.member("active", unit.active).member("steps", unit.steps);
     json.member("budget_ns", unit.record->budget.count());
@@ -78,7 +61,7 @@ void write_components(JsonWriter& json, const ReportData& data) {
     write_end(json, unit);
   }
   json.end_array().key("devices").begin_array();
-  for (const ComponentFigures& device : data.devices) {
+  for (const DeviceFigures& device : data.statistics.devices()) {
     json.begin_object().member("name", device.record->name).member("driver", device.driver);
     json.member("life", name_of(device.life));
     write_end(json, device);
@@ -90,30 +73,28 @@ void write_components(JsonWriter& json, const ReportData& data) {
 constexpr std::uint32_t largest_value = 4096;
 
 /// What the slot held at the end, whatever became of its writer; null: nothing, not observed, or too large.
-void write_last_value(JsonWriter& json, ObservedSlots& slots, std::size_t slot, const TypeDescriptor& type) {
+void write_last_value(JsonWriter& json, ObservedSlots& slots, const SlotFigures& slot) {
   json.key("last");
   const ObservedSlot* const newest =
-      type.is_image || type.size > largest_value ? nullptr : &slots.read(static_cast<std::uint16_t>(slot));
+      slot.type->is_image || slot.type->size > largest_value ? nullptr : &slots.read(slot.index);
   if (newest == nullptr || newest->last == nullptr) {
     json.null();
     return;
   }
   json.begin_object().member("sequence", newest->header.sequence);
   json.member("time_ns", nanoseconds(newest->header.sampled_at)).key("value");
-  write_value(json, type, newest->last);
+  write_value(json, *slot.type, newest->last);
   json.end_object();
 }
 
 void write_slots(JsonWriter& json, const ReportData& data, const Cell& cell) {
   ObservedSlots newest(cell);
   json.key("slots").begin_array();
-  for (std::size_t i = 0; i < data.application->slots.size(); ++i) {
-    const SlotRecord& slot = data.application->slots[i];
-    const TypeDescriptor& type = *slot.control->type();
-    json.begin_object().member("name", slot.name).member("writer", slot.writer);
-    json.member("type", type.name).member("published", slot.control->published());
-    write_last_value(json, newest, i, type);
-    write_readers(json, data.statistics, i);
+  for (const SlotFigures& slot : data.statistics.slots()) {
+    json.begin_object().member("name", slot.record->name).member("writer", slot.record->writer);
+    json.member("type", slot.type->name).member("published", slot.published);
+    write_last_value(json, newest, slot);
+    write_readers(json, slot);
     json.end_object();
   }
   json.end_array();
@@ -121,8 +102,8 @@ void write_slots(JsonWriter& json, const ReportData& data, const Cell& cell) {
 
 void write_queues(JsonWriter& json, const ReportData& data) {
   json.key("queues").begin_array();
-  for (const QueueRecord& queue : data.application->queues) {
-    json.begin_object().member("name", queue.name).member("type", queue.type->name);
+  for (const QueueFigures& queue : data.statistics.queues()) {
+    json.begin_object().member("name", queue.record->name).member("type", queue.record->type->name);
     write_queue(json, queue);
     json.end_object();
   }

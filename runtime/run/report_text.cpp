@@ -86,10 +86,10 @@ std::string life_of(const ComponentFigures& component) {
 }
 
 std::string units_text(const ReportData& data) {
-  if (data.units.empty()) return {};
+  if (data.statistics.units().empty()) return {};
   TextTable table({"unit", "<life", "steps", "mean", "max", "budget"});
   std::size_t idle = 0;
-  for (const ComponentFigures& unit : data.units) {
+  for (const ComponentFigures& unit : data.statistics.units()) {
     // A population of hundreds must not hide the rest.
     if (!unit.active && unit.steps == 0 && unit.fault) {
       ++idle;
@@ -106,9 +106,9 @@ std::string units_text(const ReportData& data) {
 }
 
 std::string devices_text(const ReportData& data) {
-  if (data.devices.empty()) return {};
+  if (data.statistics.devices().empty()) return {};
   TextTable table({"device", "<driver", "<life", "restrained"});
-  for (const ComponentFigures& device : data.devices)
+  for (const DeviceFigures& device : data.statistics.devices())
     table.add({device.record->name, device.driver, life_of(device), or_nothing(device.restraints)});
   return "\nDevices\n" + table.text("  ");
 }
@@ -116,21 +116,20 @@ std::string devices_text(const ReportData& data) {
 std::string slots_text(const ReportData& data) {
   TextTable table({"slot", "published", "<writer", "<reader", "read", "missed"});
   std::uint64_t others = 0;
-  for (std::size_t i = 0; i < data.application->slots.size(); ++i) {
-    const SlotRecord& slot = data.application->slots[i];
-    if (*slot.writer == '\0') {
+  for (const SlotFigures& slot : data.statistics.slots()) {
+    if (*slot.record->writer == '\0') {
       ++others;
       continue;
     }
-    std::vector<std::string> cells{slot.name, std::to_string(slot.control->published()), slot.writer};
-    for (const SlotInput& reader : data.statistics.readers(i)) {
-      const InputCounters counters = data.statistics.counters(reader);
+    std::vector<std::string> cells{slot.record->name, std::to_string(slot.published), slot.record->writer};
+    for (const SlotInput& reader : slot.readers) {
+      const InputCounters counters = reader.counters();
       cells.insert(cells.end(),
                    {reader.name, std::to_string(counters.read), std::to_string(counters.missed)});
       table.add(std::move(cells));
       cells = {"", "", ""};
     }
-    if (data.statistics.readers(i).empty()) table.add(std::move(cells));
+    if (slot.readers.empty()) table.add(std::move(cells));
   }
   if (table.is_empty()) return {};
   std::string text = "\nSlots\n" + table.text("  ");
@@ -140,11 +139,11 @@ std::string slots_text(const ReportData& data) {
 
 std::string queues_text(const ReportData& data) {
   TextTable table({"queue", "capacity", "<writer", "pushed", "popped", "dropped"});
-  for (const QueueRecord& queue : data.application->queues) {
-    std::string name = queue.name;
-    std::string capacity = std::to_string(queue.capacity);
-    for (std::size_t i = 0; i < queue.sinks.size(); ++i) {
-      const auto [writer, counters] = Statistics::writer(queue, i);
+  for (const QueueFigures& queue : data.statistics.queues()) {
+    std::string name = queue.record->name;
+    std::string capacity = std::to_string(queue.record->capacity);
+    for (std::size_t i = 0; i < queue.writer_count(); ++i) {
+      const auto [writer, counters] = queue.writer(i);
       table.add({name, capacity, writer, std::to_string(counters.pushed), std::to_string(counters.popped),
                  std::to_string(counters.dropped)});
       name.clear();
@@ -157,20 +156,8 @@ std::string queues_text(const ReportData& data) {
 std::string faults_text(const ReportData& data) {
   if (data.faults == 0 && !data.summary.had_fault) return "\nFaults: none\n";
   TextTable table({"component", "<cause"});
-  for (const auto* components : {&data.devices, &data.units}) {
-    for (const ComponentFigures& component : *components) {
-      if (!component.fault)
-        table.add({component.record->name, cut_text(component.fault.cause(), longest_cause)});
-    }
-  }
-  const FaultPlaces& places = data.fault_places;
-  for (std::size_t i = 0; i < data.threads.size(); ++i) {
-    const char* const name = data.threads[i].record->name;
-    if (data.threads[i].hangs) table.add({name, "this thread's step does not return"});
-    if (places.extent(places.thread(i)) > 0) table.add({name, places.at(places.thread(i)).cause});
-  }
-  if (places.extent(places.process()) > 0)
-    table.add({data.application->name, "the process " + places.at(places.process()).cause});
+  for (const FaultPlaces::Fault& fault : data.found)
+    table.add({fault.who, cut_text(fault.cause, longest_cause)});
   std::string text = "\nFaults: " + std::to_string(std::max<std::uint64_t>(data.faults, 1)) + " in all\n";
   return table.is_empty() ? text : text + table.text("  ");
 }

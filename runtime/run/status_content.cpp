@@ -78,7 +78,7 @@ std::vector<StatusLine> StatusContent::faults() const {
   for (std::size_t place = 0; place < faults_.thread(0); ++place) {
     if (faults_.extent(place) == 0) continue;
     const FaultPlaces::Fault fault = faults_.at(place);
-    lines.push_back({Style::alarm, "fault: " + std::string{fault.name} + ": " + fault.cause});
+    lines.push_back({Style::alarm, "fault: " + fault.who + ": " + fault.cause});
   }
   return lines;
 }
@@ -109,14 +109,14 @@ StatusContent::Section StatusContent::threads(Time now) {
 
 StatusContent::Section StatusContent::units() const {
   TextTable table({"unit", "<life", "steps", "longest", "budget", "<device"});
-  for (const UnitRecord& record : cell_->application().units) {
-    const ComponentFigures unit = statistics_.component(record.index);
+  for (const ComponentFigures& unit : statistics_.units()) {
     if (!unit.active) continue;
+    const ComponentRecord& record = *unit.record;
     std::string devices;
-    for (const std::uint16_t device : cell_->devices_of(record.index)) {
-      const ComponentIndex index = cell_->application().devices[device].index;
-      devices += (devices.empty() ? "" : ", ") + std::string{directory_.entry(index).name} + " (" +
-                 cell_->driver_name(index) + ")";
+    for (const std::uint16_t number : cell_->devices_of(record.index)) {
+      const DeviceFigures device = statistics_.device(number);
+      devices +=
+          (devices.empty() ? "" : ", ") + std::string{device.record->name} + " (" + device.driver + ")";
     }
     table.add({record.name, name_of(unit.life), std::to_string(unit.steps),
                duration_text(unit.execution_maximum), duration_if_any(record.budget), devices});

@@ -26,7 +26,7 @@ class StatusContent {
         slots_(cell),
         statistics_(cell),
         faults_(cell),
-        cycles_(cell.application().threads.size()) {}
+        cycles_(directory_.threads().size()) {}
 
   /// At most `rows` lines. What does not fit is left out from the least important on: feedback, then units,
   /// then threads; faults stay.

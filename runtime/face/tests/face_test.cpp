@@ -128,7 +128,8 @@ void what_is_counted_is_had_of_each_part() {
   CHECK_EQUAL(std::string{producer.fault.cause()}, "slipped");
   CHECK_EQUAL(producer.steps, 10U);
   CHECK_EQUAL(producer.restraints, 1U);
-  CHECK_EQUAL(producer.restraint.asked, 3.0);
+  CHECK_EQUAL(std::string{RestraintText(producer.restraint).text}, "slippery: 3 was asked for, 2 is done");
+  CHECK(producer.population == nullptr);
   CHECK_EQUAL(std::string{producer.driver}, "");
   CHECK_EQUAL(std::string{producer.record->kind}, "unit");
   const ComponentFigures actuator =
@@ -142,18 +143,76 @@ void what_is_counted_is_had_of_each_part() {
   CHECK_EQUAL(std::string{producing.record->name}, "producing");
   CHECK(producing.cycles >= producer.steps);
 
-  CHECK_EQUAL(statistics.readers(Cell::values).size(), 1U);
-  const SlotInput& reader = statistics.readers(Cell::values)[0];
+  CHECK(producing.step_began == Time{});
+
+  const SlotFigures values = statistics.slot(Cell::values);
+  CHECK_EQUAL(std::string{values.record->name} + " " + values.type->name, "values Item");
+  CHECK_EQUAL(values.published, 10U);
+  CHECK_EQUAL(values.readers.size(), 1U);
+  const SlotInput& reader = values.readers[0];
   CHECK_EQUAL(reader.name, "consumer.first");
   // But for the last, which came from a step that failed.
-  CHECK_EQUAL(statistics.counters(reader).read, 9U);
-  CHECK_EQUAL(statistics.counters(reader).missed, 0U);
+  CHECK_EQUAL(reader.counters().read, 9U);
+  CHECK_EQUAL(reader.counters().missed, 0U);
 
-  const auto [name, counters] = Statistics::writer(ended.cell.application().queues[Cell::jobs], 0);
+  const QueueFigures jobs = statistics.queue(Cell::jobs);
+  CHECK_EQUAL(jobs.writer_count(), 1U);
+  CHECK_EQUAL(jobs.fill, 4U);
+  const auto [name, counters] = jobs.writer(0);
   CHECK_EQUAL(std::string{name}, "producer.orders");
   CHECK_EQUAL(counters.pushed, 4U);
   CHECK_EQUAL(counters.dropped, 6U);
   CHECK_EQUAL(counters.popped, 0U);
+}
+
+template <class Range, class Name>
+std::string names_of(const Range& range, const Name& name) {
+  std::string names;
+  for (const auto& figures : range) names += std::string{name(figures)} + " ";
+  return names;
+}
+
+void all_of_a_kind_come_in_the_order_of_their_table() {
+  Ended ended;
+  const Statistics statistics(ended.inside());
+  const auto name = [](const auto& figures) { return figures.record->name; };
+  CHECK_EQUAL(names_of(statistics.units(), name), "producer consumer ");
+  CHECK_EQUAL(names_of(statistics.devices(), name), "actuator ");
+  CHECK_EQUAL(names_of(statistics.queues(), name), "jobs ");
+  const Directory directory(ended.inside());
+  const auto own_name = [](const auto& record) { return record.name; };
+  CHECK_EQUAL(names_of(statistics.slots(), name), names_of(directory.slots(), own_name));
+  CHECK_EQUAL(names_of(directory.queues(), own_name), "jobs ");
+  CHECK_EQUAL(names_of(directory.threads(), own_name), "producing consuming ");
+  for (const SlotFigures& slot : statistics.slots())
+    CHECK_EQUAL(*directory.slot(slot.record->name), slot.index);
+
+  const DeviceFigures actuator = statistics.device(Cell::actuator);
+  CHECK_EQUAL(std::string{actuator.unit} + ", " + actuator.bus + ", " + actuator.thread,
+              "consumer, , consuming");
+  CHECK_EQUAL(actuator.chosen->kind, DriverKind::mock);
+}
+
+void restraints_have_one_wording() {
+  CHECK_EQUAL(std::string{RestraintText({}).text}, "");
+  CHECK_EQUAL(std::string{RestraintText({.reason = "it is homed"}).text}, "it is homed");
+  const std::string longest(300, 'x');
+  const std::string cut = RestraintText({longest.c_str(), -1234567, 0.000012345678}).text;
+  CHECK_EQUAL(cut, std::string(140, 'x') + ": -1.23457e+06 was asked for, 1.23457e-05 is done");
+}
+
+void what_is_not_saved_has_one_wording() {
+  const Status full = Status::error(StatusCode::unavailable, "no room");
+  const Refusal failed = not_saved(RefusalKind::not_stored, full);
+  CHECK_EQUAL(failed.kind(), RefusalKind::not_stored);
+  CHECK_EQUAL(std::string{failed.detail()},
+              "The values were not saved: no room; they are in force all the same.");
+  CHECK_EQUAL(std::string{failed.reason()}, "no room");
+  CHECK_EQUAL(std::string{no_answer_of_disk(std::chrono::seconds{10}).detail()},
+              "The disk of the configuration file did not answer within 10 s; the state says when the values "
+              "are saved.");
+  CHECK_EQUAL(std::string{saving_already().detail()},
+              "The values are being saved already; wait until that is done.");
 }
 
 void what_is_in_fault_has_its_place() {
@@ -164,6 +223,7 @@ void what_is_in_fault_has_its_place() {
     CHECK_EQUAL(places.extent(place) != 0, place == Cell::producer);
   const FaultPlaces::Fault fault = places.at(Cell::producer);
   CHECK_EQUAL(std::string{fault.kind} + " " + fault.name + ": " + fault.cause, "unit producer: slipped");
+  CHECK_EQUAL(fault.who, "producer");
 
   ended.cell.application().thread_states[Cell::consuming].longest_standstill = 2'000'000;
   ended.inside().control().note_standstill(std::chrono::seconds{3});
@@ -171,9 +231,13 @@ void what_is_in_fault_has_its_place() {
   const FaultPlaces::Fault thread = places.at(places.thread(Cell::consuming));
   CHECK_EQUAL(std::string{thread.kind} + " " + thread.name + ": " + thread.cause,
               "thread consuming: stood still for " + duration_text(std::chrono::milliseconds{2}));
+  CHECK_EQUAL(thread.who, "thread consuming");
+  const FaultPlaces::Fault hanging = places.hanging(Cell::consuming);
+  CHECK_EQUAL(hanging.who + ": " + hanging.cause, "thread consuming: its step does not return");
   const FaultPlaces::Fault process = places.at(places.process());
   CHECK_EQUAL(std::string{process.kind} + " " + process.name + ": " + process.cause,
               "process test_cell: stood still for " + duration_text(std::chrono::seconds{3}));
+  CHECK_EQUAL(process.who, "process test_cell");
 }
 
 void configuration_is_known_before_anything_runs() {
@@ -237,6 +301,9 @@ int main() {
       CONTAINED_TEST(a_slot_is_read_once_in_a_turn_with_the_reason_when_there_is_nothing),
       CONTAINED_TEST(a_slot_that_is_not_observed_says_so),
       CONTAINED_TEST(what_is_counted_is_had_of_each_part),
+      CONTAINED_TEST(all_of_a_kind_come_in_the_order_of_their_table),
+      CONTAINED_TEST(restraints_have_one_wording),
+      CONTAINED_TEST(what_is_not_saved_has_one_wording),
       CONTAINED_TEST(what_is_in_fault_has_its_place),
       CONTAINED_TEST(configuration_is_known_before_anything_runs),
       CONTAINED_TEST(what_is_written_becomes_a_request_or_is_refused_in_one_wording),

@@ -99,6 +99,8 @@ void a_thread_that_is_in_a_step_does_not_hang() {
   threads[ProducerAndConsumer::consuming].step_began = nanoseconds(now + std::chrono::minutes{1});
   const ReportData data(executive.cell(), summary);
   CHECK(data.threads[ProducerAndConsumer::producing].hangs);
+  CHECK_EQUAL(data.found.size(), 1U);
+  CHECK_EQUAL(data.found[0].who + ": " + data.found[0].cause, "thread producing: its step does not return");
   CHECK(!data.threads[ProducerAndConsumer::consuming].hangs);
 }
 
@@ -111,12 +113,12 @@ void readers_are_counted() {
   CHECK(executive.prepare().is_ok());
   const RunSummary summary = executive.run();
   const ReportData data(executive.cell(), summary);
-  const std::span<const SlotInput> readers = data.statistics.readers(ProducerAndConsumer::values);
+  const std::span<const SlotInput> readers = data.statistics.slot(ProducerAndConsumer::values).readers;
   const std::uint64_t published = cell.slot_control(ProducerAndConsumer::values).published();
   CHECK_EQUAL(readers.size(), 1U);
   CHECK_EQUAL(readers[0].name, "consumer.first");
-  const InputCounters seen = data.statistics.counters(readers[0]);
-  CHECK(seen.read >= 100 && seen.read <= data.units[ProducerAndConsumer::consumer].steps);
+  const InputCounters seen = readers[0].counters();
+  CHECK(seen.read >= 100 && seen.read <= data.statistics.component(ProducerAndConsumer::consumer).steps);
   // All but what came before the first and after the last reading.
   CHECK(seen.read + seen.missed <= published);
   CHECK(seen.read + seen.missed + 3 >= published);
@@ -130,7 +132,8 @@ void drops_of_queues_are_shown() {
   cell.unit(ProducerAndConsumer::consumer).script.step = [](TestUnit&, const Tick&) {};
   const Report report = report_of(cell, in_virtual_time(milliseconds{20}));
   CHECK_CONTAINS(report.json,
-                 "\"name\": \"producer.orders\",\n          \"pushed\": 4,\n          \"popped\": 0,\n");
+                 "\"capacity\": 4,\n      \"fill\": 4,\n      \"writers\": [\n        {\n          \"name\": "
+                 "\"producer.orders\",\n          \"pushed\": 4,\n          \"popped\": 0,\n");
   CHECK_CONTAINS(report.text, "producer.orders       4       0");
 }
 

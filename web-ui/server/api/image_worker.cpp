@@ -9,14 +9,17 @@
 
 namespace flexrf::panel {
 
-ImageWorker::ImageWorker(Cell& cell, Doorbell* bell)
-    : cell_(&cell), bell_(bell), slots_(cell.application().slots.size()) {
-  for (std::size_t i = 0; i < slots_.size(); ++i) {
-    const SlotRecord& record = cell.application().slots[i];
-    const PictureLayout layout = PictureLayout::of(*record.control->type());
-    if (!record.control->type()->is_image || record.observer == nullptr || !layout.is_complete()) continue;
-    slots_[i] = std::make_unique<Slot>();
-    slots_[i]->layout = layout;
+ImageWorker::ImageWorker(const Cell& cell, const Directory& directory, Doorbell* bell)
+    : cell_(&cell), bell_(bell) {
+  for (const SlotRecord& record : directory.slots()) {
+    std::unique_ptr<Slot>& slot = slots_.emplace_back();
+    const TypeDescriptor& type = *record.control->type();
+    const PictureLayout layout = PictureLayout::of(type);
+    if (!type.is_image || record.observer == nullptr || !layout.is_complete()) continue;
+    slot = std::make_unique<Slot>();
+    slot->name = record.name;
+    slot->layout = layout;
+    slot->size = type.size;
   }
 }
 
@@ -113,42 +116,34 @@ void ImageWorker::run() {
 }
 
 void ImageWorker::encode(std::uint16_t index, Slot& slot, std::uint32_t width) {
-  const SlotRecord& record = cell_->application().slots[index];
-  const std::size_t size = record.control->type()->size;
-  if (slot.raw.size() != size) slot.raw.resize(size);
-  ItemHeader header{};
+  slot.raw.resize(slot.size);
   bool copied = false;
-  {
-    const auto lock = cell_->observe();
-    if (const ItemHeader* const newest = record.observer->newest(); newest != nullptr) {
-      header = *newest;
-      copied = header.sequence != slot.encoded_sequence || width > slot.encoded_width;
-      if (copied) std::memcpy(slot.raw.data(), record.observer->payload(), size);
-    }
-  }
-  const NullReason reason = reason_of(record, header);
+  const ObservedSlot seen = look_at(*cell_, index, [&](const ItemHeader& header, const void* payload) {
+    copied = header.sequence != slot.encoded_sequence || width > slot.encoded_width;
+    if (copied) std::memcpy(slot.raw.data(), payload, slot.size);
+  });
   const std::string_view jpeg =
       copied ? slot.encoder.encode(slot.layout, slot.raw.data(), width) : std::string_view{};
-  if (copied) tell(record, slot);
+  if (copied) tell(slot);
   const std::lock_guard lock(mutex_);
   if (copied) {
-    slot.encoded_sequence = header.sequence;
+    slot.encoded_sequence = seen.header.sequence;
     slot.encoded_width = width;
     slot.jpeg.assign(jpeg);
-    slot.newest.header = header;
+    slot.newest.header = seen.header;
   }
-  slot.cause = reason == NullReason::none ? slot.encoder.cause() : name_of(reason);
-  slot.newest.reason = reason;
-  slot.newest.size = reason == NullReason::none ? slot.jpeg.size() : 0;
+  slot.cause = seen.reason == NullReason::none ? slot.encoder.cause() : name_of(seen.reason);
+  slot.newest.reason = seen.reason;
+  slot.newest.size = seen.reason == NullReason::none ? slot.jpeg.size() : 0;
   ++slot.newest.version;
 }
 
 /// Once for each cause in a row: a camera whose pictures are all alike does not fill the log.
-void ImageWorker::tell(const SlotRecord& record, Slot& slot) {
+void ImageWorker::tell(Slot& slot) {
   const char* const cause = slot.encoder.cause();
   if (cause == slot.told) return;
   if (cause[0] != '\0')
-    log_warning(slot.telling, "panel", "Slot {}: a picture cannot be shown: {}", record.name, cause);
+    log_warning(slot.telling, "panel", "Slot {}: a picture cannot be shown: {}", slot.name, cause);
   // One that was held back is tried again with the next picture.
   slot.told = slot.telling.held_back() == 0 ? cause : nullptr;
 }

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/executive/cell.hpp"
+#include "runtime/face/directory.hpp"
 #include "runtime/log/log.hpp"
 #include "web-ui/server/api/picture.hpp"
 
@@ -21,7 +21,7 @@ namespace flexrf::panel {
 class ImageWorker {
  public:
   /// `bell`: rung when a picture is there that demand_once() asked for; null: nothing is.
-  ImageWorker(Cell& cell, Doorbell* bell);
+  ImageWorker(const Cell& cell, const Directory& directory, Doorbell* bell);
   ~ImageWorker() { stop(); }
   ImageWorker(const ImageWorker&) = delete;
   ImageWorker& operator=(const ImageWorker&) = delete;
@@ -49,7 +49,9 @@ class ImageWorker {
 
  private:
   struct Slot {
+    const char* name = nullptr;
     PictureLayout layout;
+    std::size_t size = 0;  // bytes of an item
     std::uint32_t width = 0;
     std::uint32_t width_once = 0;  // 0: nobody asked
     Duration interval{};
@@ -69,9 +71,9 @@ class ImageWorker {
 
   void run();
   void encode(std::uint16_t index, Slot& slot, std::uint32_t width);
-  void tell(const SlotRecord& record, Slot& slot);
+  static void tell(Slot& slot);
 
-  Cell* cell_;
+  const Cell* cell_;
   Doorbell* bell_;
   std::vector<std::unique_ptr<Slot>> slots_;  // null: no image, or not observed
   mutable std::mutex mutex_;

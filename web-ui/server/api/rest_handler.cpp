@@ -189,14 +189,14 @@ void RestHandler::write_audit(const Request& request, Reply& reply, const Caller
 }
 
 void RestHandler::write_slot(JsonWriter& json, std::uint16_t slot) {
-  const SlotRecord& record = parts_.executive.cell().application().slots[slot];
+  const SlotFigures figures = parts_.topics.statistics().slot(slot);
   const bool is_picture = parts_.images.is_image(slot);
-  json.begin_object().member("name", record.name).member("type", record.control->type()->name);
-  json.member("published", record.control->published());
+  json.begin_object().member("name", figures.record->name).member("type", figures.type->name);
+  json.member("published", figures.published);
   // A picture is asked for as such; its bytes are no JSON.
   const ObservedSlot newest = is_picture ? parts_.slots.read_header(slot) : parts_.slots.read(slot);
-  write_observed(json, *record.control->type(), newest);
-  write_readers(json, parts_.topics.statistics(), slot);
+  write_observed(json, *figures.type, newest);
+  write_readers(json, figures);
   json.end_object();
 }
 
@@ -206,7 +206,7 @@ void RestHandler::ask_picture(std::uint16_t slot, const Request& request, const 
   if (!parts_.images.is_image(slot)) {
     return answers.refuse(
         caller, Refusal::make(RefusalKind::not_found, "The slot '%s' holds no picture that is observed.",
-                              parts_.executive.cell().application().slots[slot].name));
+                              parts_.operations.directory.slots()[slot].name));
   }
   if (!query_integer(request.query, "width", 640, width) || width < 1 || width > 4096)
     return answers.refuse(caller,

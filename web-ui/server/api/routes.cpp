@@ -85,7 +85,7 @@ constexpr std::string_view schemas = R"json({
 "Components":{"type":"array","items":{"$ref":"#/components/schemas/Component"}},
 "Slot":{"type":"object","required":["name","type","published","reason","sequence","sampled_at_ns","value","readers"],"properties":{"name":{"type":"string"},"type":{"type":"string"},"published":{"type":"integer"},"reason":{"type":"string"},"sequence":{"type":"integer"},"sampled_at_ns":{"type":"integer"},"value":{"type":["object","null"]},"readers":{"type":"array"}}},
 "Slots":{"type":"array","items":{"type":"object","required":["name","published","readers"]}},
-"Queues":{"type":"array","items":{"type":"object","required":["name","capacity","writers","readers"]}},
+"Queues":{"type":"array","items":{"type":"object","required":["name","capacity","fill","writers","readers"]}},
 "Threads":{"type":"array","items":{"type":"object","required":["name","cycles","overruns","skipped","skipped_time_ns","longest_standstill_ns","allocations","budget_ns","lateness","execution"]}},
 "Devices":{"type":"array","items":{"type":"object","required":["name","interface","driver","kind","life"]}},
 "Audit":{"type":"object","required":["last","entries"],"properties":{"last":{"type":"integer"},"entries":{"type":"array","items":{"type":"object","required":["number","at","who","did"],"properties":{"number":{"type":"integer"},"at":{"type":"string"},"who":{"type":"string"},"did":{"type":"string"},"what":{"type":"string"},"before":{},"after":{},"count":{"type":"integer"}}}}}},

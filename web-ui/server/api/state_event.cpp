@@ -94,11 +94,7 @@ void StateEvent::write_values(JsonWriter& json) const {
   json.key("values").begin_object().member("file", state.has_file);
   json.member("on", state.on_change ? "change" : "command").member("unsaved", state.unsaved);
   json.key("saved_at_ms");
-  if (state.saved_at == 0) {
-    json.null();
-  } else {
-    json.value(state.saved_at);
-  }
+  state.saved_at == 0 ? json.null() : json.value(state.saved_at);
   json.member("failure", state.failure.cause()).end_object();
 }
 

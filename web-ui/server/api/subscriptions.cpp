@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "runtime/face/observed_slots.hpp"
 #include "web-ui/server/api/topic_bodies.hpp"
 
 namespace flexrf::panel {
 namespace {
 
-constexpr double default_rate = 10;
-constexpr double slowest_rate = 0.01;
 constexpr std::uint64_t default_width = 640;
 constexpr std::uint64_t largest_width = 4096;
-
-Duration interval_of(double rate) noexcept {
-  return Duration{static_cast<std::int64_t>(1e9 / rate)};
-}
 
 bool topic_named(std::string_view name, std::size_t& topic) noexcept {
   for (topic = 0; topic < topic_count; ++topic) {
@@ -28,7 +23,7 @@ bool topic_named(std::string_view name, std::size_t& topic) noexcept {
 
 bool Subscriptions::is_observed(std::string_view name, std::uint16_t& slot) const noexcept {
   const auto found = directory_->slot(name);
-  if (!found || application_->slots[*found].observer == nullptr) return false;
+  if (!found || directory_->slots()[*found].observer == nullptr) return false;
   slot = *found;
   return true;
 }
@@ -40,16 +35,15 @@ const char* Subscriptions::read_slots(Client& client, JsonArray slots, Time now)
       return "'slots' is a list of {\"name\", \"rate\", \"width\"}";
     Fields fields(object);
     const std::string_view name = fields.text("name");
-    const double rate = fields.number_or("rate", default_rate);
+    const double rate = fields.number_or("rate", SlotRate::usual);
     const std::uint64_t width = fields.integer_or("width", default_width);
-    if (!fields.status() || !(rate >= slowest_rate && rate <= most_values) || width < 1 ||
-        width > largest_width)
+    if (!fields.status() || !SlotRate::is_possible(rate) || width < 1 || width > largest_width)
       return "a slot's 'name' is a text, its 'rate' lies from 0.01 to 60 a second, its 'width' from 1 to "
              "4096";
     SlotSubscription wanted;
     if (!is_observed(name, wanted.slot)) continue;
     wanted.width = static_cast<std::uint16_t>(width);
-    wanted.interval = interval_of(rate);
+    wanted.interval = duration_of(1 / rate);
     wanted.next = now;
     const auto same =
         std::find_if(client.slots.begin(), client.slots.end(),
@@ -71,10 +65,10 @@ const char* Subscriptions::read_topics(Client& client, JsonArray topics, Time no
     Fields fields(object);
     const std::string_view name = fields.text("name");
     const double rate = fields.number_or("rate", 1);
-    if (!fields.status() || !(rate >= slowest_rate && rate <= most_topics))
+    if (!fields.status() || !(rate >= SlotRate::slowest && rate <= most_topics))
       return "a topic's 'name' is a text, its 'rate' lies from 0.01 to 10 a second";
     std::size_t topic = 0;
-    if (topic_named(name, topic)) client.topics[topic] = {interval_of(rate), now, 0};
+    if (topic_named(name, topic)) client.topics[topic] = {duration_of(1 / rate), now, 0};
   }
   return nullptr;
 }
@@ -118,7 +112,7 @@ void Subscriptions::write_unknown(JsonWriter& json, JsonArray entries, bool topi
 }
 
 void Subscriptions::update_demand() {
-  for (std::size_t i = 0; i < application_->slots.size(); ++i) {
+  for (std::size_t i = 0; i < directory_->slots().size(); ++i) {
     const auto slot = static_cast<std::uint16_t>(i);
     if (!images_->is_image(slot)) continue;
     std::uint32_t width = 0;

@@ -11,16 +11,10 @@ namespace flexrf::panel {
 /// The server's thread.
 class Subscriptions {
  public:
-  static constexpr double most_values = 60;  ///< a second
-  static constexpr double most_topics = 10;
+  static constexpr double most_topics = 10;  ///< a second
 
-  Subscriptions(Clients& clients, const Directory& directory, const Application& application,
-                ImageWorker& images, Answers& answers) noexcept
-      : clients_(&clients),
-        directory_(&directory),
-        application_(&application),
-        images_(&images),
-        answers_(&answers) {}
+  Subscriptions(Clients& clients, const Directory& directory, ImageWorker& images, Answers& answers) noexcept
+      : clients_(&clients), directory_(&directory), images_(&images), answers_(&answers) {}
 
   /// Of a live client. Replaces what it had: {"slots": [{"name", "rate", "width"}], "topics": [{"name",
   /// "rate"}]}.
@@ -36,7 +30,6 @@ class Subscriptions {
 
   Clients* clients_;
   const Directory* directory_;
-  const Application* application_;
   ImageWorker* images_;
   Answers* answers_;
 };

@@ -59,10 +59,9 @@ const char* name_of(Topic topic) noexcept {
 
 TopicBodies::TopicBodies(const Cell& cell)
     : cell_(&cell),
-      application_(&cell.application()),
       statistics_(cell),
-      response_estimates_(response_estimates(*application_, cell.options().realtime)),
-      figures_(application_->threads.size()) {}
+      response_estimates_(response_estimates(cell, cell.options().realtime)),
+      figures_(response_estimates_.size()) {}
 
 std::string_view TopicBodies::body(Topic topic, Time now) {
   Body& body = bodies_[static_cast<std::size_t>(topic)];
@@ -110,10 +109,10 @@ void TopicBodies::write_component(JsonWriter& json, ComponentIndex index) const 
   json.member("restraint", RestraintText(component.restraint).text)
       .member("restraints", component.restraints);
   json.member("active", component.active).key("member");
-  if (record.population == no_index) {
+  if (component.population == nullptr) {
     json.null();
   } else {
-    json.begin_object().member("population", application_->populations[record.population].name);
+    json.begin_object().member("population", component.population);
     json.member("index", record.member).end_object();
   }
   json.member("steps", component.steps).key("execution").begin_object();
@@ -123,28 +122,22 @@ void TopicBodies::write_component(JsonWriter& json, ComponentIndex index) const 
 
 void TopicBodies::write_devices(JsonWriter& json) const {
   json.begin_array();
-  for (std::size_t i = 0; i < application_->devices.size(); ++i) {
-    const DeviceRecord& device = application_->devices[i];
-    const DriverRecord& driver = cell_->driver(static_cast<std::uint16_t>(i));
-    json.begin_object().member("name", device.name).member("interface", device.interface);
-    json.member("driver", driver.name).member("kind", flexrf::name_of(driver.kind));
-    json.member("actuates", driver.actuates);
-    json.member("unit", device.unit == no_index ? "" : application_->units[device.unit].name);
-    json.member("bus", device.bus == no_index ? "" : application_->devices[device.bus].name);
-    json.member("thread", application_->threads[device.thread].name);
-    write_life(json, statistics_.component(device.index));
-    json.member("inhibited", driver.actuates && application_->device_states[i].device->is_inhibited());
-    json.end_object();
+  for (const DeviceFigures& device : statistics_.devices()) {
+    json.begin_object().member("name", device.record->name).member("interface", device.device->interface);
+    json.member("driver", device.driver).member("kind", flexrf::name_of(device.chosen->kind));
+    json.member("actuates", device.chosen->actuates).member("unit", device.unit).member("bus", device.bus);
+    json.member("thread", device.thread);
+    write_life(json, device);
+    json.member("inhibited", device.inhibited).end_object();
   }
   json.end_array();
 }
 
 void TopicBodies::write_slots(JsonWriter& json) const {
   json.begin_array();
-  for (std::size_t i = 0; i < application_->slots.size(); ++i) {
-    const SlotRecord& slot = application_->slots[i];
-    json.begin_object().member("name", slot.name).member("published", slot.control->published());
-    write_readers(json, statistics_, i);
+  for (const SlotFigures& slot : statistics_.slots()) {
+    json.begin_object().member("name", slot.record->name).member("published", slot.published);
+    write_readers(json, slot);
     json.end_object();
   }
   json.end_array();
@@ -152,8 +145,8 @@ void TopicBodies::write_slots(JsonWriter& json) const {
 
 void TopicBodies::write_queues(JsonWriter& json) const {
   json.begin_array();
-  for (const QueueRecord& queue : application_->queues) {
-    json.begin_object().member("name", queue.name);
+  for (const QueueFigures& queue : statistics_.queues()) {
+    json.begin_object().member("name", queue.record->name);
     write_queue(json, queue);
     json.end_object();
   }
@@ -164,11 +157,10 @@ void TopicBodies::write_threads(JsonWriter& json, Time now) {
   const bool look_up = figures_at_ == Time{} || now >= figures_at_ + std::chrono::seconds{1};
   if (look_up) figures_at_ = now;
   json.begin_array();
-  for (std::size_t i = 0; i < application_->threads.size(); ++i) {
+  for (std::size_t i = 0; i < figures_.size(); ++i) {
     const ThreadFigures thread = statistics_.thread(i);
-    const pid_t id = application_->thread_states[i].thread_id.load(std::memory_order_relaxed);
-    if (look_up && id != 0) {
-      if (const Result<ThreadStatistics> kernel = read_thread_statistics(id); kernel)
+    if (look_up && thread.id != 0) {
+      if (const Result<ThreadStatistics> kernel = read_thread_statistics(thread.id); kernel)
         figures_[i] = {kernel->cpu, kernel->minor_faults, kernel->major_faults};
     }
     json.begin_object().member("name", thread.record->name);
@@ -177,7 +169,7 @@ void TopicBodies::write_threads(JsonWriter& json, Time now) {
     const Duration response = response_estimates_[i].value_or(Duration::max());
     write_known(json, "response_estimate_ns", response == Duration::max() ? -1 : response.count());
     write_known(json, "cpu", figures_[i].cpu);
-    write_known(json, "cpu_time_ns", cpu_time(id));
+    write_known(json, "cpu_time_ns", cpu_time(thread.id));
     json.member("minor_faults", figures_[i].minor_faults).member("major_faults", figures_[i].major_faults);
     json.key("lateness");
     write_histogram(json, *thread.lateness);

@@ -56,7 +56,6 @@ class TopicBodies {
   void write_threads(JsonWriter& json, Time now);
 
   const Cell* cell_;
-  const Application* application_;
   Statistics statistics_;
   std::array<Body, topic_count> bodies_;
   std::vector<std::optional<Duration>> response_estimates_;  // per thread

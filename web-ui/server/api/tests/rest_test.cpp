@@ -21,6 +21,8 @@ void everything_can_be_read() {
   CHECK(slot.at("sequence").get<std::uint64_t>() > 0);
   CHECK_EQUAL(rig.get("slots").body.size(), 5U);
   CHECK_EQUAL(rig.get("queues").body.at(0).at("name").get<std::string>(), "jobs");
+  const json jobs = rig.get("queues").body.at(0);
+  CHECK(jobs.at("fill").get<std::uint32_t>() <= jobs.at("capacity").get<std::uint32_t>());
   CHECK_EQUAL(rig.get("threads").body.size(), 2U);
   CHECK(rig.get("threads").body.at(0).at("execution").at("buckets").size() % 2 == 0);
   CHECK_EQUAL(rig.get("devices").body.at(0).at("unit").get<std::string>(), "consumer");
