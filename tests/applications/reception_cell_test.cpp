@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -90,6 +91,55 @@ void without_a_token_scripts_look() {
   play.ask(0, "stop_motion", json::object());
   play.do_once([&] { CHECK(play.cell().control().motion_stopped()); });
   play.is_refused(0, "start_motion", json::object(), -32601, "did you mean 'stop_motion'");
+  play.perform_all();
+}
+
+void queues_and_threads_are_seen_by_name() {
+  const Safe safe;
+  Play play;
+  play.let_in(0);
+  play.set_remote(true);
+  play.ask(0, "list", {{"of", "queues"}}, [](const json& result) {
+    CHECK(result ==
+          json({{"queues", {{{"name", "kicked"}, {"type", "Pose"}, {"capacity", 2}}}}, {"next", nullptr}}));
+  });
+  play.ask(0, "list", {{"of", "threads"}}, [](const json& result) {
+    const json& threads = result.at("threads");
+    CHECK_EQUAL(threads.size(), 2U);
+    CHECK(std::find(threads.begin(), threads.end(), json({{"name", "service"}, {"priority", 0}})) !=
+          threads.end());
+  });
+  play.ask(0, "list", {{"of", "threads"}, {"from", 1}}, [](const json& result) {
+    CHECK_EQUAL(result.at("threads").size(), 1U);
+    CHECK(result.at("next").is_null());
+  });
+  play.ask(0, "press", {{"component", "mixer"}, {"parameter", "kick"}, {"count", 3}});
+  play.wait(std::chrono::milliseconds{50});
+  play.ask(0, "read", {{"queue", "kicked"}}, [](const json& result) {
+    CHECK(result ==
+          json({{"name", "kicked"},
+                {"type", "Pose"},
+                {"capacity", 2},
+                {"fill", 2},
+                {"writers", {{{"name", "mixer.kicked"}, {"pushed", 2}, {"popped", 0}, {"dropped", 1}}}},
+                {"readers", {"conductor.kicked"}}}));
+  });
+  play.ask(0, "read", {{"thread", "work"}}, [](const json& result) {
+    CHECK_EQUAL(result.at("name").get<std::string>(), "work");
+    CHECK(result.at("cycles").get<std::uint64_t>() > 10);
+    CHECK_EQUAL(result.at("overruns").get<int>(), 0);
+    for (const char* const figure :
+         {"priority", "skipped", "skipped_time_ns", "longest_standstill_ns", "budget_ns", "deadline_ns"})
+      CHECK(result.at(figure).is_number());
+    for (const char* const measured : {"lateness", "execution"}) {
+      for (const char* const quantile : {"count", "p50_ns", "p99_ns", "p99.9_ns", "max_ns"})
+        CHECK(result.at(measured).at(quantile).is_number());
+    }
+  });
+  play.is_refused(0, "read", {{"queue", "kickde"}}, -32004, "did you mean 'kicked'");
+  play.is_refused(0, "read", {{"thread", "pose"}}, -32004, "There is no thread 'pose'");
+  play.is_refused(0, "read", {{"thread", "work"}, {"queue", "kicked"}}, -32602, "several");
+  play.is_refused(0, "list", {{"of", "thread"}}, -32602, "did you mean 'threads'");
   play.perform_all();
 }
 
@@ -445,6 +495,7 @@ int main() {
   const CMUnitTest tests[] = {
       TEST_APART(what_is_no_request_is_told_so),
       TEST_APART(without_a_token_scripts_look),
+      TEST_APART(queues_and_threads_are_seen_by_name),
       TEST_APART(with_it_and_permission_they_change),
       TEST_APART(what_they_set_is_saved_when_they_ask),
       TEST_APART(without_a_file_they_cannot_save),

@@ -25,10 +25,7 @@ class RemoteControl final : public RemoteControlUnit {
   static constexpr Duration answer_timeout = std::chrono::seconds{1};
   static constexpr Duration saving_timeout = std::chrono::seconds{10};  ///< of the disk
   static constexpr Duration reading_timeout = std::chrono::seconds{5};  ///< of answers
-  static constexpr double slowest_rate = 0.01;                          ///< values in a second, of one slot
-  static constexpr double fastest_rate = 60;
-  static constexpr double default_rate = 10;
-  static constexpr std::size_t smallest_buffer = 4096;  ///< bytes, of the door
+  static constexpr std::size_t smallest_buffer = 4096;                  ///< bytes, of the door
 
   Status initialise() override;
   void step(const Tick& tick) override;

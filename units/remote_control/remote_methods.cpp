@@ -127,7 +127,7 @@ RemoteControl::Problem RemoteControl::change(Client& client, const RpcCall& call
     return remote::wrong_params(params, "name a unit or a device in 'component'");
   }
   ComponentIndex index = 0;
-  if (auto problem = view_->find_component(name_given, index)) return problem;
+  if (auto problem = view_->find(Part::component, name_given, index)) return problem;
   if (index == cell.self()) {
     return RpcProblem{RpcError::role_missing, "what scripts may do is not for scripts to say",
                       "a person changes it in the panel"};
@@ -163,21 +163,21 @@ RemoteControl::Problem RemoteControl::save_values(Client& client, const RpcCall&
 
 RemoteControl::Problem RemoteControl::read_subscription(JsonElement json, Subscription& subscription) const {
   std::string_view slot_name;
-  double rate = default_rate;
+  double rate = SlotRate::usual;
   if (JsonObject object; json.get(object) == simdjson::SUCCESS) {
     Fields fields(object);
     slot_name = fields.text("name");
-    rate = fields.number_or("rate", default_rate);
+    rate = fields.number_or("rate", SlotRate::usual);
     if (!fields.status()) return remote::wrong_params(fields, R"(write {"name": NAME, "rate": 10})");
   } else if (json.get(slot_name) != simdjson::SUCCESS) {
     return RpcProblem{RpcError::invalid_params, "'slots' holds something that names no slot",
                       R"(write [{"name": NAME, "rate": 10}])"};
   }
-  if (!(rate >= slowest_rate && rate <= fastest_rate)) {
+  if (!SlotRate::is_possible(rate)) {
     return RpcProblem{RpcError::invalid_params, "'rate' does not lie within its bounds",
                       "from 0.01 to 60 values in a second"};
   }
-  if (auto problem = view_->find_slot(slot_name, subscription.slot)) return problem;
+  if (auto problem = view_->find(Part::slot, slot_name, subscription.slot)) return problem;
   if (view_->slot(subscription.slot).observer == nullptr) {
     return RpcProblem{RpcError::refused, "'" + std::string{slot_name} + "' is not observed",
                       "its table says observe = false"};
@@ -225,7 +225,7 @@ RemoteControl::Problem RemoteControl::unsubscribe(Client& client, const RpcCall&
       return RpcProblem{RpcError::invalid_params, "'slots' holds something that names no slot",
                         R"(write {"slots": [NAME]})"};
     }
-    if (auto problem = view_->find_slot(slot_name, slot)) return problem;
+    if (auto problem = view_->find(Part::slot, slot_name, slot)) return problem;
     std::erase_if(rest, [&](const Subscription& one) { return one.slot == slot; });
   }
   client.subscriptions = std::move(rest);

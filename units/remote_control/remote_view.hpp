@@ -1,4 +1,4 @@
-// What a script may see of the cell: names, slots, parameters.
+// What a script may see of the cell: names, slots, parameters, and the figures of queues and threads.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "runtime/face/component_values.hpp"
+#include "runtime/face/statistics.hpp"
 #include "units/remote_control/rpc.hpp"
 
 namespace flexrf::remote {
@@ -17,7 +18,7 @@ class RemoteView {
   static constexpr std::size_t largest_value = 16 * 1024;
 
   explicit RemoteView(const Cell& cell)
-      : cell_(&cell), directory_(cell), slots_(cell), values_(cell, directory_, slots_) {}
+      : directory_(cell), slots_(cell), values_(cell, directory_, slots_), statistics_(cell) {}
 
   RemoteView(const RemoteView&) = delete;
   RemoteView& operator=(const RemoteView&) = delete;
@@ -28,11 +29,10 @@ class RemoteView {
   std::optional<RpcProblem> list(Fields& params, JsonWriter& json, std::size_t room);
   std::optional<RpcProblem> read(Fields& params, JsonWriter& json);
 
-  std::optional<RpcProblem> find_slot(std::string_view name, std::uint16_t& slot) const;
-  std::optional<RpcProblem> find_component(std::string_view name, ComponentIndex& component) const;
+  std::optional<RpcProblem> find(Part part, std::string_view name, std::uint16_t& index) const;
   /// A slot whose values are for the panel.
   std::optional<RpcProblem> too_much(std::uint16_t slot) const;
-  const SlotRecord& slot(std::uint16_t slot) const noexcept { return application().slots[slot]; }
+  const SlotRecord& slot(std::uint16_t slot) const noexcept { return directory_.slots()[slot]; }
   const ComponentEntry& entry(ComponentIndex component) const noexcept { return directory_.entry(component); }
 
   const ObservedSlot& look(std::uint16_t slot) { return slots_.read(slot); }
@@ -42,14 +42,10 @@ class RemoteView {
   void write_runtime(JsonWriter& json, ComponentIndex component);
 
  private:
-  const Application& application() const noexcept { return cell_->application(); }
-  void write_component(JsonWriter& json, ComponentIndex component);
-  void list_parameter(JsonWriter& json, const char* kind, const ParameterDescriptor& parameter) const;
-
-  const Cell* cell_;
   Directory directory_;
   ObservedSlots slots_;
   ComponentValues values_;
+  Statistics statistics_;
 };
 
 }  // namespace flexrf::remote

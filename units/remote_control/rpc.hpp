@@ -20,7 +20,7 @@ enum class RpcError : int {
   token_missing = -32001,  ///< or wrong
   not_remote = -32002,     ///< the person at the machine does not permit it
   role_missing = -32003,   ///< this is for higher roles than scripts have
-  not_found = -32004,      ///< no such slot, unit, device, parameter
+  not_found = -32004,      ///< no such slot, unit, device, queue, thread, parameter
   refused = -32005,        ///< the value, or the state
   stale = -32006,          ///< settings changed since `expected`
   too_large = -32007,

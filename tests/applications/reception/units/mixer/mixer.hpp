@@ -16,6 +16,7 @@ class Mixer final : public MixerUnit {
     Pose place{};
     place.position[0] = at_;
     pose.publish(place);
+    for (std::uint32_t press = 0; press < runtime.kick; ++press) kicked.push(place);
   }
 
  private:
