@@ -176,6 +176,15 @@ function(flexrf_add_benchmark)
   set_target_properties(bench_${benchmark_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/benchmarks)
 endfunction()
 
+# flexrf_public_headers(FOLDER HEADER...)
+# What of the repository's FOLDER is installed, and may be relied on by applications outside: what generated code, units, drivers,
+# applications and their tests include, and what those headers include. All else is private. Interfaces, their suites, drivers and
+# units are found by their tables instead (public_headers.cmake).
+function(flexrf_public_headers folder)
+  list(TRANSFORM ARGN PREPEND "${folder}/")
+  set_property(GLOBAL APPEND PROPERTY FLEXRF_PUBLIC_HEADERS ${ARGN})
+endfunction()
+
 # flexrf_compile_together()
 # For the end of the top CMakeLists.txt: has few compiler runs do what many would repeat. With FLEXRF_BATCH_SIZE the source
 # files of a target are compiled in batches, with FLEXRF_COMMON_HEADERS the standard library's headers are read once for all

@@ -1,7 +1,7 @@
 # What an application outside this repository needs, under one prefix that may be moved:
 #
 #   bin/config-gen, config-gen-parts  the generator, and what tells the build what tables name
-#   include/flexrf/                   public headers under the paths they are included by, and generated ones
+#   include/flexrf/                   public headers (public_headers.cmake) under the paths they are included by, and generated ones
 #   share/flexrf/                     the tables that applications build on
 #   lib/, lib/cmake/FlexRF/           libraries, find_package(FlexRF), flexrf_add_application() and the others
 
@@ -41,13 +41,26 @@ function(_flexrf_needed result packages_result)
   set(${packages_result} "${packages}" PARENT_SCOPE)
 endfunction()
 
+# When all parts have listed theirs.
+function(_flexrf_write_public_headers of_tables)
+  get_property(listed GLOBAL PROPERTY FLEXRF_PUBLIC_HEADERS)
+  list(TRANSFORM listed PREPEND "listed ")
+  list(JOIN listed "\n" listed)
+  file(WRITE "${PROJECT_BINARY_DIR}/public_headers.txt" "${listed}\n${of_tables}")
+endfunction()
+cmake_language(DEFER CALL _flexrf_write_public_headers "${of_tables}")
+
 set(registry "# Which tables the installed targets were made from, and what they link.\n")
 set(made "")
+set(of_tables "")  # headers of drivers and units
 foreach(kind IN ITEMS TYPES INTERFACES DRIVERS UNITS)
   get_property(targets GLOBAL PROPERTY FLEXRF_${kind})
   foreach(target IN LISTS targets)
-    list(APPEND made ${target})
     get_target_property(folder ${target} FLEXRF_FOLDER)
+    if(folder MATCHES "^${PROJECT_SOURCE_DIR}/apps/")  # an application's own
+      continue()
+    endif()
+    list(APPEND made ${target})
     get_target_property(output ${target} FLEXRF_OUTPUT)
     get_target_property(name ${target} FLEXRF_NAME)
     get_target_property(class ${target} FLEXRF_CLASS)
@@ -57,6 +70,15 @@ foreach(kind IN ITEMS TYPES INTERFACES DRIVERS UNITS)
     install(DIRECTORY "${output}/" DESTINATION ${headers}/generated FILES_MATCHING PATTERN "*.hpp")
     install(DIRECTORY "${folder}/" DESTINATION share/flexrf/${place} FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv"
             PATTERN tests EXCLUDE)
+    if(kind MATCHES "DRIVERS|UNITS")
+      string(REGEX REPLACE "^flexrf_(driver|unit)_" "" stem ${target})
+      set(header "${stem}.hpp")
+      file(STRINGS "${folder}/${stem}.toml" key REGEX "^header *= *\"[^\"]+\"")
+      if(key MATCHES "\"([^\"]+)\"")
+        set(header "${CMAKE_MATCH_1}")
+      endif()
+      string(APPEND of_tables "table ${place}/${header}\n")
+    endif()
     string(REGEX REPLACE "^flexrf_" "FlexRF::" exported ${target})
     string(APPEND registry "set_property(GLOBAL APPEND PROPERTY FLEXRF_${kind} ${exported})\n"
            "set_target_properties(${exported} PROPERTIES FLEXRF_FOLDER \"\${_flexrf_tables}/${place}\" "
@@ -66,9 +88,8 @@ endforeach()
 target_include_directories(flexrf_options INTERFACE
   $<INSTALL_INTERFACE:${headers}> $<INSTALL_INTERFACE:${headers}/generated>)
 set(panel "")
-if(TARGET flexrf_panel)  # where it was built; of its headers an application needs this one
+if(TARGET flexrf_panel)  # where it was built
   set(panel flexrf_panel)
-  install(FILES web-ui/server/panel.hpp DESTINATION ${headers}/web-ui/server)
 endif()
 _flexrf_needed(needed linked flexrf_runtime flexrf_allocation_guard ${panel} ${made})
 get_property(packages GLOBAL PROPERTY FLEXRF_PACKAGES)
@@ -88,8 +109,10 @@ install(TARGETS ${needed} config-gen EXPORT FlexRFTargets
 get_property(parts GLOBAL PROPERTY FLEXRF_PARTS)
 install(PROGRAMS "${parts}" DESTINATION bin)
 install(EXPORT FlexRFTargets NAMESPACE FlexRF:: DESTINATION ${package})
-install(DIRECTORY base runtime motion hal units DESTINATION ${headers} FILES_MATCHING PATTERN "*.hpp"
-        PATTERN tests EXCLUDE PATTERN conformance EXCLUDE)
+install(CODE "set(SOURCE [==[${PROJECT_SOURCE_DIR}]==])")
+install(CODE "set(LIST [==[${PROJECT_BINARY_DIR}/public_headers.txt]==])")
+install(CODE "set(DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${headers}\")")
+install(SCRIPT cmake/public_headers.cmake)
 include(CMakePackageConfigHelpers)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/FlexRFConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES cmake/FlexRFConfig.cmake cmake/FlexRFGenerate.cmake "${PROJECT_BINARY_DIR}/FlexRFRegistry.cmake"

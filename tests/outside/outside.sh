@@ -19,6 +19,17 @@ cmake --install "$build" --prefix "$work/first" >/dev/null
 mv "$work/first" "$work/prefix"
 ! grep -rq -F -e "$source/" -e "$work/first" "$work/prefix/lib/cmake" || fail "the package names folders of its build"
 cp -r "$source/tests/outside/project" "$work/project"
+headers=$work/prefix/include/flexrf
+(cd "$headers" && find . -name '*.hpp' -printf '%P\n') >"$work/headers"
+(cd "$headers" && xargs grep -H '^#include "' <"$work/headers") | tr '"' ':' | awk -F : '
+  FILENAME != "-" { is_there[$0]; next }
+  { folder = $1; sub("[^/]*$", "", folder) }
+  !($3 in is_there) && !("generated/" $3 in is_there) && !(folder $3 in is_there) { print $1 " includes " $3; missing = 1 }
+  END { exit missing }' "$work/headers" - >&2 || fail "what installed headers include is not installed"
+# What helps the tests of who has a driver or a unit of his own; CMocka's macros spare no names, hence the order.
+for place in /conformance/ ^hal/driver/device_bench ^units/unit_bench ^tests/; do
+  sed -n "\\|$place|s/.*/#include \"&\"/p" "$work/headers"
+done >"$work/project/every/test_support.cpp"
 # What the compiler made here before is remembered, as in the build itself.
 launcher=()
 for part in words cache; do

@@ -1,0 +1,118 @@
+# Finds the public headers, says what is wrong with them, and installs them:
+#
+#   cmake -D SOURCE=<repository> -D LIST=<public_headers.txt of a build> [-D SCAFFOLDS=ON] -P public_headers.cmake
+#
+# LIST has a line "listed PATH" for each header of flexrf_public_headers(), and "table PATH" for the header of each driver and unit.
+# Public besides are the headers of interfaces and suites, and what a public header includes of a folder in hal/ or units/ that lists
+# none: so who makes a driver or a unit keeps no list.
+# SCAFFOLDS: looks, too, at what generated code, templates and mocks include, as `flexrf new` makes files of them.
+# An installation sets DESTINATION, where they go.
+
+cmake_minimum_required(VERSION 3.25)
+
+set(parts "base|config-gen|runtime|motion|hal|units|web-ui|apps|tests|benchmarks")
+set(failed OFF)
+macro(refuse place what hint)
+  message("${place}: error: ${what}\n${place}: hint: ${hint}")
+  set(failed ON)
+endmacro()
+
+# Sets `included` to what a file includes of this repository; what is generated begins with no part's name.
+macro(read_includes file)
+  file(STRINGS "${SOURCE}/${file}" included REGEX "^#include \"(${parts})/")
+  list(TRANSFORM included REPLACE "^#include \"([^\"]+)\".*" "\\1")
+endmacro()
+
+function(line_of result file included)
+  file(READ "${SOURCE}/${file}" text)
+  string(FIND "${text}" "\"${included}" position)
+  string(SUBSTRING "${text}" 0 ${position} text)
+  string(REGEX MATCHALL "\n" breaks "${text}")
+  list(LENGTH breaks number)
+  math(EXPR number "${number} + 1")
+  set(${result} "${file}:${number}:1" PARENT_SCOPE)
+endfunction()
+
+file(STRINGS "${LIST}" lines)
+set(public "")
+set(folders "")
+foreach(line IN LISTS lines)
+  string(REGEX MATCH "^(listed|table) (.+)$" unused "${line}")
+  if(NOT EXISTS "${SOURCE}/${CMAKE_MATCH_2}")
+    cmake_path(GET CMAKE_MATCH_2 PARENT_PATH folder)
+    refuse("${CMAKE_MATCH_2}:1:1" "there is no such header, but it is to be installed"
+           "it is ${CMAKE_MATCH_1}: see flexrf_public_headers(${folder} ...), or the tables in ${folder}")
+    continue()
+  endif()
+  list(APPEND public "${CMAKE_MATCH_2}")
+  if(CMAKE_MATCH_1 STREQUAL "listed")
+    cmake_path(GET CMAKE_MATCH_2 PARENT_PATH folder)
+    list(APPEND folders "${folder}")
+  endif()
+endforeach()
+file(GLOB_RECURSE shared RELATIVE "${SOURCE}" "${SOURCE}/hal/*.hpp")
+list(FILTER shared INCLUDE REGEX "/(interface|conformance)/[^/]+$")
+list(APPEND public ${shared})
+list(REMOVE_DUPLICATES public)
+
+set(waiting ${public})
+while(waiting)
+  list(POP_FRONT waiting header)
+  read_includes("${header}")
+  foreach(one IN LISTS included)
+    if(one IN_LIST public)
+      continue()
+    endif()
+    cmake_path(GET one PARENT_PATH folder)
+    if(one MATCHES "^(hal|units)/" AND NOT one MATCHES "/tests/" AND NOT folder IN_LIST folders)
+      list(APPEND public "${one}")
+      list(APPEND waiting "${one}")
+    else()
+      line_of(place "${header}" "${one}")
+      refuse("${place}" "the public header ${header} includes ${one}, which is private"
+             "do without it, or make it public: flexrf_public_headers(${folder} ...)")
+    endif()
+  endforeach()
+endwhile()
+
+if(SCAFFOLDS)
+  file(GLOB_RECURSE files RELATIVE "${SOURCE}" "${SOURCE}/cmake/tool/templates/*.[ch]pp" "${SOURCE}/hal/*.[ch]pp")
+  list(FILTER files INCLUDE REGEX "^cmake/|^hal/.*/mock/")
+  list(FILTER files EXCLUDE REGEX "^hal/driver/")
+  foreach(file IN LISTS files)
+    read_includes("${file}")
+    foreach(one IN LISTS included)
+      if(NOT one IN_LIST public AND EXISTS "${SOURCE}/${one}")
+        cmake_path(GET one PARENT_PATH folder)
+        line_of(place "${file}" "${one}")
+        refuse("${place}" "what `flexrf new` makes of it includes ${one}, which is private"
+               "do without it, or make it public: flexrf_public_headers(${folder} ...)")
+      endif()
+    endforeach()
+  endforeach()
+  file(GLOB_RECURSE files RELATIVE "${SOURCE}" "${SOURCE}/config-gen/*.[ch]pp")
+  list(FILTER files EXCLUDE REGEX "/tests/")
+  foreach(file IN LISTS files)
+    file(STRINGS "${SOURCE}/${file}" lines REGEX "^[^#].*\"(${parts})/[^\"]*[.]hpp")
+    string(REGEX MATCHALL "\"(${parts})/[^\"\\]*[.]hpp" included "${lines}")
+    list(TRANSFORM included REPLACE "^\"" "")
+    foreach(one IN LISTS included)
+      if(NOT one IN_LIST public)
+        cmake_path(GET one PARENT_PATH folder)
+        line_of(place "${file}" "${one}")
+        refuse("${place}" "generated code includes ${one}, which is private"
+               "do without it, or make it public: flexrf_public_headers(${folder} ...)")
+      endif()
+    endforeach()
+  endforeach()
+endif()
+
+if(failed)
+  message(FATAL_ERROR "The public headers are not whole: see above.")
+endif()
+if(DESTINATION)
+  foreach(header IN LISTS public)
+    cmake_path(GET header PARENT_PATH folder)
+    file(INSTALL "${SOURCE}/${header}" DESTINATION "${DESTINATION}/${folder}")
+  endforeach()
+endif()
