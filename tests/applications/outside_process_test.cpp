@@ -214,7 +214,7 @@ void an_answer_that_is_not_written_is_an_error() {
 
 // ---- signals
 
-// [stop-47] [stop-49]
+// [stop-47] [stop-49] [stop-90]
 void what_somebody_ends_it_with_is_a_controlled_stop() {
   for (const int signal : {SIGPWR, SIGQUIT}) {
     const Folder folder;
@@ -223,7 +223,9 @@ void what_somebody_ends_it_with_is_a_controlled_stop() {
     if (signal == SIGPWR) process.type("m");
     process.send(signal);
     if (signal == SIGPWR) process.send(SIGTERM);  // it does not come to rest, as it was told
-    CHECK(process.wait().exit_code > 128);
+    const Ending ending = process.wait();
+    CHECK(ending.exit_code > 128);
+    CHECK_EQUAL(ending.signal, 0);  // the kernel writes a core file of what a signal ends
     // SIGQUIT does not wait for units to come to rest.
     CHECK_EQUAL(drive_log(folder), moving + while_moving);
     CHECK_EQUAL(Report(folder / "report")["run"].at("cause").get<std::string>(), "signal");

@@ -328,6 +328,26 @@ void after_a_reconfiguration_nothing_moves_before_start() {
   }
 }
 
+/// Whoever looks may take as long as he likes.
+// [exec-77]
+void nobody_waits_for_who_observes() {
+  Machine machine;
+  const auto lock = machine.executive().cell().observe();
+  const std::uint64_t before = machine.steps();
+  const std::uint64_t produced = machine.cell.unit_state(Cell::producer).steps;
+  CHECK(RunningCell::wait_until([&] {
+    return machine.steps() > before + 20 && machine.cell.unit_state(Cell::producer).steps > produced + 20;
+  }));
+}
+
+// [exec-78]
+void what_is_declared_of_a_component_is_known_without_its_object() {
+  Machine machine;
+  const flexrf::Cell& cell = machine.executive().cell();
+  CHECK(cell.component_type(Cell::consumer).runtime.type == &settings_type);
+  CHECK_EQUAL(std::string{cell.component_type(actuator).name}, std::string{TestDevice::type.name});
+}
+
 // [exec-51]
 void after_the_end_everything_is_refused() {
   Machine machine;
@@ -386,6 +406,8 @@ int main() {
       CONTAINED_TEST(what_a_change_initialises_again_is_known_before),
       CONTAINED_TEST(a_reconfiguration_answers_later),
       CONTAINED_TEST(after_a_reconfiguration_nothing_moves_before_start),
+      CONTAINED_TEST(nobody_waits_for_who_observes),
+      CONTAINED_TEST(what_is_declared_of_a_component_is_known_without_its_object),
       CONTAINED_TEST(after_the_end_everything_is_refused),
       CONTAINED_TEST(a_narrowed_range_is_enforced),
   };

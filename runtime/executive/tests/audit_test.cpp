@@ -197,6 +197,7 @@ void configuration_and_actions_are_told() {
 }
 
 /// Of ordinary size; then nothing more can be written, as on a full disk.
+// [exec-79]
 void a_full_disk_stops_nobody() {
   AuditFolder folder;
   const std::string file = folder / "audit";

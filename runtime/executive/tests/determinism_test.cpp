@@ -166,7 +166,7 @@ void what_is_completed_at_an_instant_is_there_for_who_is_released_in_it() {
   CHECK((seen == std::vector<std::int64_t>{-1, 0, 1, 2}));
 }
 
-// [exec-65]
+// [exec-65] [exec-81]
 void units_of_a_thread_take_turns_and_threads_have_a_cpu_each() {
   Rivals cell;
   cell.add_thread("first", 20, {microseconds{300}, microseconds{400}});

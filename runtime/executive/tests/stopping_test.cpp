@@ -15,13 +15,17 @@ using Cell = ProducerAndConsumer;
 
 constexpr Time beginning{std::chrono::seconds{1}};
 
-// [stop-17]
+// [stop-17] [stop-89]
 void a_controlled_stop_lets_units_come_to_rest() {
   Cell cell;
   std::int64_t steps_to_rest = 30;
+  bool is_stopping = false;
+  bool seems_over = false;
   bool safe_too_early = false;
   cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{1});
   cell.unit(Cell::consumer).script.step = [&](TestUnit&, const Tick& tick) {
+    is_stopping = is_stopping || tick.stop_requested;
+    seems_over = seems_over || tick.stop_requested != is_stopping;
     if (tick.stop_requested && steps_to_rest > 0) --steps_to_rest;
   };
   cell.unit(Cell::consumer).script.is_idle = [&](const TestUnit&) { return steps_to_rest == 0; };
@@ -34,6 +38,7 @@ void a_controlled_stop_lets_units_come_to_rest() {
   CHECK_EQUAL(summary.exit_code, 0);
   CHECK(!summary.cut_short);
   CHECK_EQUAL(steps_to_rest, 0);
+  CHECK(!seems_over);
   CHECK(!safe_too_early);
   CHECK_EQUAL(cell.events().count_of("actuator: make_safe"), 1U);
   CHECK(summary.run_time >= milliseconds{130} && summary.run_time < milliseconds{200});

@@ -110,6 +110,50 @@ void a_publication_between_the_look_and_the_release_fires_the_next() {
   CHECK_EQUAL(trigger.due(now, false).fired, 0U);
 }
 
+/// On the wall clock: in virtual time nothing is late.
+// [exec-75]
+void a_period_is_late_against_its_instant() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{1});
+  std::vector<Tick> ticks;
+  cell.unit(Cell::consumer).script.step = [&](TestUnit&, const Tick& tick) {
+    if (tick.number % 4 == 0) usleep(1500);  // the next begins when this ends
+    if (ticks.size() < 40) ticks.push_back(tick);
+  };
+  RunningCell running(cell);
+  running.start();
+  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::consumer).steps > 40; }));
+  CHECK_EQUAL(running.finish().exit_code, 0);
+  Duration latest{};
+  for (const Tick& tick : ticks) {
+    CHECK_EQUAL((tick.nominal - ticks[0].nominal).count() % 1'000'000, 0);
+    CHECK_EQUAL(tick.lateness.count(), (tick.now - tick.nominal).count());
+    latest = std::max(latest, tick.lateness);
+  }
+  CHECK(latest.count() > 0);
+}
+
+// [exec-75]
+void what_has_no_period_is_late_against_when_it_was_noticed() {
+  TriggerPlan with_timeout = TriggerPlan::on_slots({});
+  with_timeout.timeout = milliseconds{1};
+  for (const TriggerPlan& trigger :
+       {TriggerPlan::on_slots({Cell::values}), with_timeout, TriggerPlan::free_running(),
+        TriggerPlan::backing_off(Cell::values, microseconds{100}, milliseconds{5})}) {
+    Cell cell;
+    cell.thread(Cell::consuming).trigger = trigger;
+    std::atomic<bool> is_late{false};
+    cell.unit(Cell::consumer).script.step = [&](TestUnit&, const Tick& tick) {
+      if (tick.lateness.count() != 0 || tick.nominal != tick.now) is_late = true;
+    };
+    RunningCell running(cell);
+    running.start();
+    CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::consumer).steps > 20; }));
+    CHECK_EQUAL(running.finish().exit_code, 0);
+    CHECK(!is_late);
+  }
+}
+
 // [exec-9] [exec-15]
 void publications_in_between_make_one_release() {
   Cell cell;
@@ -184,17 +228,21 @@ void before_a_device_has_something_it_is_the_timeout() {
   CHECK((events == std::vector<std::int64_t>{3500, 7500}));
 }
 
-// [exec-11]
+// [exec-11] [exec-75]
 void a_device_releases_its_thread_on_the_wall_clock() {
   Cell cell;
   cell.thread(Cell::consuming).trigger = TriggerPlan::on_device(Cell::actuator);
   const int descriptor = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  std::atomic<Time> written{Time{}};
+  std::atomic<bool> is_due_before_it_came{false};
   std::atomic<std::uint64_t> received{0};
   std::atomic<int> released{0};
   cell.device(Cell::actuator).script.descriptor = [descriptor] { return descriptor; };
-  cell.device(Cell::actuator).script.receive = [&](TestDevice&, const Tick&) {
+  cell.device(Cell::actuator).script.receive = [&](TestDevice&, const Tick& tick) {
     std::uint64_t value = 0;
-    if (read(descriptor, &value, sizeof(value)) == sizeof(value)) received += value;
+    if (read(descriptor, &value, sizeof(value)) != sizeof(value)) return;
+    if (tick.nominal < written.load()) is_due_before_it_came = true;
+    received += value;
   };
   cell.unit(Cell::consumer).script.step = [&](TestUnit&, const Tick& tick) {
     released += tick.fired == 1 ? 1 : 0;
@@ -204,10 +252,12 @@ void a_device_releases_its_thread_on_the_wall_clock() {
   CHECK(RunningCell::wait_until([&] { return running.control().mode() == Mode::running; }));
   for (std::uint64_t i = 1; i <= 5; ++i) {
     const std::uint64_t one = 1;
+    written = MonotonicClock::now();
     CHECK_EQUAL(write(descriptor, &one, sizeof(one)), 8);
     CHECK(RunningCell::wait_until([&] { return received == i; }));
   }
   CHECK(RunningCell::wait_until([&] { return released >= 5; }));
+  CHECK(!is_due_before_it_came);
   CHECK_EQUAL(running.finish().exit_code, 0);
   close(descriptor);
 }
@@ -285,6 +335,8 @@ int main() {
       CONTAINED_TEST(the_tick_says_which_source_fired),
       CONTAINED_TEST(as_many_sources_as_there_may_be_have_a_bit_each),
       CONTAINED_TEST(a_publication_between_the_look_and_the_release_fires_the_next),
+      CONTAINED_TEST(a_period_is_late_against_its_instant),
+      CONTAINED_TEST(what_has_no_period_is_late_against_when_it_was_noticed),
       CONTAINED_TEST(publications_in_between_make_one_release),
       CONTAINED_TEST(a_timeout_is_a_release_of_its_own),
       CONTAINED_TEST(a_device_releases_its_thread_in_virtual_time),

@@ -35,7 +35,7 @@ void check_panel(const std::vector<std::string>& words, const char* expected) {
   assert_string_equal(panel_with(words).c_str(), expected);
 }
 
-// [exec-41]
+// [exec-41] [exec-76]
 void there_is_one_unless_it_is_off_or_time_is_virtual(void**) {
   check_panel({}, "yes");
   check_panel({"--panel", "127.0.0.1:0"}, "yes");
