@@ -2,7 +2,7 @@
 
 namespace flexrf::gripper_cases {
 
-// [gripper-16]
+// [gripper-16] [gripper-21]
 Verdict fingers_that_do_not_move_are_told(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
   if (!world.make(GripperFarEnd::stuck)) return Verdict::skipped;

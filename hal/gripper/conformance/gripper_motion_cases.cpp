@@ -238,7 +238,7 @@ bool is_made_safe(GripperWorld& world) {
 
 }  // namespace
 
-// [gripper-13]
+// [gripper-13] [gripper-20]
 Verdict made_safe_it_holds_what_it_holds(GripperWorld& world) {
   if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
   if (!world.put_object(0.03)) return Verdict::skipped;
@@ -251,14 +251,15 @@ Verdict made_safe_it_holds_what_it_holds(GripperWorld& world) {
                  fingers_at(world, opened));
 }
 
-// [gripper-14]
+// [gripper-14] [gripper-20]
 Verdict made_safe_it_releases_where_it_shall(GripperWorld& world) {
   if (!starts_active(world, {.safe_state = GripperSafeState::release}) || !goes_to(world, closed))
     return Verdict::failed;
   if (!is_made_safe(world) || !fingers_at(world, opened)) return Verdict::failed;
   idle_for(world, std::chrono::milliseconds(300));
   world.gripper().set_inhibited(false);
-  return verdict(goes_to(world, closed) && fingers_at(world, closed));
+  idle_for(world, std::chrono::milliseconds(300));
+  return verdict(fingers_at(world, opened) && goes_to(world, closed) && fingers_at(world, closed));
 }
 
 template Verdict nonsense_is_a_fault_and_never_followed<0>(GripperWorld& world);

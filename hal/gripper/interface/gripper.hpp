@@ -51,8 +51,8 @@ struct GripperState {
 /// Everything: the thread the gripper lives in. Commands are sent at the end of the cycle; without effect
 /// while is_inhibited(), and not remembered: what it was at is ended, and the fingers stay as they
 /// are [gripper-3]. By itself it does nothing [gripper-12]. Made safe, it holds what it holds [gripper-13],
-/// or opens, as configured [gripper-14], and stays so until it is commanded. What of a command is kept to a
-/// limit or is without effect is told (Component::restrain()) [gripper-15].
+/// or opens, as configured [gripper-14], and stays so until it is commanded [gripper-20]. What of a command
+/// is kept to a limit or is without effect is told (Component::restrain()) [gripper-15].
 class Gripper : public Actuator<GripperInterface> {
  public:
   /// From initialise() on, always the same.
@@ -61,8 +61,9 @@ class Gripper : public Actuator<GripperInterface> {
   /// What it said last, with what was commanded since; nothing while it says nothing [gripper-4].
   virtual std::optional<GripperState> state() const noexcept = 0;
   /// What is wrong, and what a person can do; ok while nothing is. device_fault, unavailable, and timeout:
-  /// the fingers did not come to rest in their time [gripper-16], and go on only when they are told again. It
-  /// goes when the cause has gone, what it reports as its own fault with activate() [gripper-5].
+  /// the fingers did not come to rest in their time [gripper-16], and go on only when they are told
+  /// again [gripper-21]. It goes when the cause has gone, what it reports as its own fault with activate()
+  /// [gripper-5].
   virtual const Status& trouble() const noexcept = 0;
 
   /// Makes it follow commands, after power-on and after a fault [gripper-6]: the fingers may go all their way

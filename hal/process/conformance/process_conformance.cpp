@@ -161,6 +161,22 @@ Verdict a_start_that_is_asked_for_while_it_ends_comes_after(ProcessWorld& world)
   }));
 }
 
+// [process-12]
+Verdict made_safe_with_the_cell_it_runs_on(ProcessWorld& world) {
+  if (!world.start(ProgramPart::echoes, {})) return Verdict::failed;
+  Heard heard;
+  if (!reaches(world, ProcessPhase::running, heard)) return Verdict::failed;
+  for (int cycles = 0; cycles < 200; ++cycles) {
+    world.receive();
+    if (!world.process().make_safe()) return Verdict::failed;
+    world.send();
+  }
+  if (!world.process().write_line("x")) return Verdict::failed;
+  world.send();
+  return verdict(hears(world, heard, 1) && world.process().state().phase == ProcessPhase::running &&
+                 world.process().state().runs == 1);
+}
+
 // [process-3]
 Verdict what_does_not_end_is_killed(ProcessWorld& world) {
   if (!world.start(ProgramPart::disobeys, {.stop_timeout = std::chrono::milliseconds(100)}))
@@ -288,6 +304,7 @@ int run_process_conformance(const char* driver, MakeProcessWorld make) {
       CASE(what_is_missing_is_told_at_the_start),
       CASE(it_waits_for_its_unit_if_it_is_told_to),
       CASE(a_start_that_is_asked_for_while_it_ends_comes_after),
+      CASE(made_safe_with_the_cell_it_runs_on),
       CASE(what_does_not_end_is_killed),
       CASE(nothing_is_left_after_the_device_stopped),
       CASE(it_is_started_again_after_a_growing_pause),

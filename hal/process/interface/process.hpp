@@ -10,7 +10,7 @@
 namespace flexrf {
 
 /// Everything: the thread the process lives in; nothing blocks. What a program moves by itself is not made
-/// safe with the cell: it is no actuator.
+/// safe with the cell: it is no actuator, and runs on [process-12].
 class Process : public ProcessInterface {
  public:
   /// As of this cycle. A run has ended when its last line has been read [process-1].

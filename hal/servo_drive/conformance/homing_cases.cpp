@@ -35,11 +35,18 @@ Verdict needs_no_home_with_method_0(ServoDriveWorld& world) {
   return verdict(state_of(world).homing == ServoHoming::homed && holds(world) && is_at(world, start));
 }
 
-// [servo-drive-14] [servo-drive-15]
+// [servo-drive-14] [servo-drive-15] [servo-drive-26]
 Verdict finds_its_home_and_goes_on_in_its_mode(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   if (state_of(world).homing != ServoHoming::not_homed) return Verdict::failed;
-  if (!starts_to_home(world) || !is_homed_in_time(world)) return Verdict::failed;
+  if (!starts_to_home(world)) return Verdict::failed;
+  bool has_reached = false;
+  const bool homed = await(world, [&] {
+    const ServoState state = state_of(world);
+    has_reached = has_reached || (state.homing == ServoHoming::running && state.target_reached);
+    return state.homing == ServoHoming::homed;
+  });
+  if (!homed || has_reached) return Verdict::failed;
   if (!is_at(world, 0) || !holds(world) || !is_at(world, 0)) return Verdict::failed;
   if (!world.drive().homing_problem().is_ok()) return Verdict::failed;
   return verdict(moves(world) && state_of(world).homing == ServoHoming::homed);

@@ -34,7 +34,7 @@ bool came_to_rest(ServoDriveWorld& world) {
 
 }  // namespace
 
-// [servo-drive-1]
+// [servo-drive-1] [servo-drive-26]
 Verdict goes_to_targets_and_says_when_it_is_there(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   idle_for(world, 0.3);
@@ -146,7 +146,7 @@ Verdict follows_only_what_its_mode_takes(ServoDriveWorld& world) {
   return verdict(is_at(world, start) && world.drive().fault().is_ok() && goes_to(world, 4));
 }
 
-// [servo-drive-1]
+// [servo-drive-1] [servo-drive-26]
 Verdict comes_to_velocities_and_says_when_it_has_them(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   for (const double velocity : {2.0, -4.0, 0.0}) {
@@ -183,11 +183,12 @@ Verdict halts_on_its_way_to_a_position(ServoDriveWorld& world) {
   return verdict(is_at(world, -2));
 }
 
-// [servo-drive-1] [servo-drive-17]
+// [servo-drive-1] [servo-drive-17] [servo-drive-25] [servo-drive-26]
 Verdict halts_on_its_way_to_a_target(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   do_once(world, [](ServoDrive& drive) { drive.move_to(9, 4); });
   idle_for(world, 0.3);
+  if (state_of(world).following_error != 0) return Verdict::failed;
   do_once(world, [](ServoDrive& drive) { drive.halt(); });
   if (!came_to_rest(world)) return Verdict::failed;
   if (state_of(world).position <= start || state_of(world).position >= 9 - tolerance) return Verdict::failed;

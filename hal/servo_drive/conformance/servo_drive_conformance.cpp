@@ -47,11 +47,11 @@ Verdict enables_itself_where_it_is(ServoDriveWorld& world) {
                  world.drive().fault().is_ok());
 }
 
-// [servo-drive-8]
+// [servo-drive-8] [servo-drive-26]
 Verdict follows_positions_and_holds(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   command_for(world, 4, 1);
-  if (!is_at(world, 4)) return Verdict::failed;
+  if (!is_at(world, 4) || state_of(world).target_reached) return Verdict::failed;
   idle_for(world, 0.5);  // the last command stands
   return verdict(is_at(world, 4) && std::abs(world.drive().state()->following_error) <= tolerance);
 }
@@ -79,12 +79,13 @@ Verdict keeps_to_its_range(ServoDriveWorld& world) {
   return verdict(is_at(world, -10) && world.drive().fault().is_ok());
 }
 
-// [servo-drive-11]
+// [servo-drive-11] [servo-drive-25]
 Verdict follows_velocities(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   drive_for(world, -2, 1);
   const auto state = world.drive().state();
   if (!state || std::abs(state->velocity + 2) > tolerance || state->position > 0) return Verdict::failed;
+  if (state->following_error != 0) return Verdict::failed;
   drive_for(world, 0, 1);
   const double rest = world.drive().state()->position;
   idle_for(world, 0.5);

@@ -20,10 +20,11 @@ struct ServoState {
   double position = 0;
   double velocity = 0;
   double following_error = 0;  ///< cyclic set-point less position; 0 in other modes than cyclic_position
+                               ///< [servo-drive-25]
   bool enabled = false;        ///< it follows; else it is off, or on its way to either
   bool at_internal_limit = false;
   /// In profile modes: the drive took the last command and has done it [servo-drive-1]. False from the
-  /// command on, after a halt, while it homes, and in cyclic modes.
+  /// command on, after a halt, while it homes, and in cyclic modes [servo-drive-26].
   bool target_reached = false;
   ServoHoming homing = ServoHoming::not_homed;
 };

@@ -34,12 +34,13 @@ class JoystickTracker {
  public:
   const JoystickState& state() const noexcept { return state_; }
 
-  /// The joystick is there, at rest: what is deflected or down counts when it is moved or pressed anew.
+  /// The joystick is there, at rest: what is deflected or down counts when it is moved or pressed
+  /// anew [joystick-tracker-6].
   void appear() noexcept { begin(true); }
   /// It is gone, and with it every deflection and every button that was down [joystick-tracker-5].
   void vanish() noexcept { begin(false); }
 
-  /// What it lacks a place for is passed over.
+  /// What it lacks a place for is passed over [joystick-tracker-7].
   void deflect(std::size_t axis, double deflection) noexcept {
     if (state_.present && axis < state_.axes.size()) state_.axes[axis] = deflection;
   }

@@ -21,7 +21,7 @@ class KeyTracker {
  public:
   const HeldKeys& held() const noexcept { return held_; }
 
-  /// The keyboard is there. What was down before counts when it is pressed anew.
+  /// The keyboard is there. What was down before counts when it is pressed anew [key-tracker-2].
   void appear() noexcept {
     held_ = {};
     held_.present = true;

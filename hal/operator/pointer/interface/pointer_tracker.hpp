@@ -12,7 +12,7 @@ class PointerTracker {
  public:
   const PointerState& state() const noexcept { return state_; }
 
-  /// The pointer is there. What was down before counts when it is pressed anew.
+  /// The pointer is there. What was down before counts when it is pressed anew [pointer-tracker-2].
   void appear() noexcept {
     state_.present = true;
     state_.buttons = 0;
@@ -32,7 +32,7 @@ class PointerTracker {
     state_.wheel += wheel;
     state_.tilt += tilt;
   }
-  /// Others than the first eight are passed over.
+  /// Others than the first eight are passed over [pointer-tracker-3].
   void press(std::size_t button) noexcept {
     if (!state_.present || button >= state_.presses.size()) return;
     state_.buttons |= 1U << button;

@@ -86,7 +86,20 @@ Verdict lines_go_both_ways(StreamSocketWorld& world) {
                  world.feedback().sent_bytes == 13 && world.feedback().trouble_view().empty());
 }
 
-// [stream-socket-9]
+// [stream-socket-14]
+Verdict lines_stay_until_the_cycle_ends(StreamSocketWorld& world) {
+  if (!connected(world)) return Verdict::failed;
+  const SocketSession session = world.socket().sessions()[0];
+  if (!world.give(0, "one\ntwenty\nthree\n")) return Verdict::failed;
+  if (!until(world, [&] { return world.socket().peek(session).size() == 17; })) return Verdict::failed;
+  world.receive();
+  std::vector<std::string_view> lines;
+  while (const auto line = world.socket().read_line(session)) lines.push_back(*line);
+  static_cast<void>(world.socket().write_line(session, "something of its own"));
+  return verdict(lines == std::vector<std::string_view>{"one", "twenty", "three"});
+}
+
+// [stream-socket-9] [stream-socket-15]
 Verdict bytes_are_taken_as_many_as_are_wanted(StreamSocketWorld& world) {
   if (!connected(world)) return Verdict::failed;
   const SocketSession session = world.socket().sessions()[0];
@@ -96,7 +109,8 @@ Verdict bytes_are_taken_as_many_as_are_wanted(StreamSocketWorld& world) {
   world.receive();
   if (world.socket().peek(session) != "\ncd") return Verdict::failed;
   world.socket().take(session, 100);
-  return verdict(world.socket().peek(session).empty());
+  if (!world.socket().peek(session).empty() || !world.give(0, "new")) return Verdict::failed;
+  return verdict(until(world, [&] { return world.socket().peek(session) == "new"; }));
 }
 
 Verdict a_peer_that_comes_later_is_found(StreamSocketWorld& world) {
@@ -319,6 +333,7 @@ int run_stream_socket_conformance(const char* driver, MakeStreamSocketWorld make
   { #name, judged < name>, nullptr, nullptr, nullptr }
   const CMUnitTest tests[] = {
       CASE(lines_go_both_ways),
+      CASE(lines_stay_until_the_cycle_ends),
       CASE(bytes_are_taken_as_many_as_are_wanted),
       CASE(a_peer_that_comes_later_is_found),
       CASE(a_peer_that_ended_is_connected_to_again),

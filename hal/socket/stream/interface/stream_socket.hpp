@@ -26,14 +26,14 @@ class StreamSocket : public StreamSocketInterface {
   virtual bool write(SocketSession session, std::string_view bytes) noexcept = 0;
   virtual bool write_line(SocketSession session, std::string_view line) noexcept = 0;
 
-  /// The next whole line, without its end [stream-socket-6]; valid until the cycle ends. What is not read
-  /// waits, and holds up its sender in the end: nothing is lost [stream-socket-7]. With the queue `lines`
-  /// connected they go there instead [stream-socket-8].
+  /// The next whole line, without its end [stream-socket-6]; valid until the cycle ends [stream-socket-14].
+  /// What is not read waits, and holds up its sender in the end: nothing is lost [stream-socket-7]. With the
+  /// queue `lines` connected they go there instead [stream-socket-8].
   virtual std::optional<std::string_view> read_line(SocketSession session) noexcept = 0;
   /// All bytes that wait, for who counts no lines; valid until the cycle ends, unless fewer are
   /// taken [stream-socket-9].
   virtual std::string_view peek(SocketSession session) const noexcept = 0;
-  /// The first `count` of them have been read; at most as many as peek() gave.
+  /// The first `count` of them have been read; at most as many as peek() gave [stream-socket-15].
   virtual void take(SocketSession session, std::size_t count) noexcept = 0;
 
   /// Ends the connection once what was written has been sent [stream-socket-10], after a second at the

@@ -48,6 +48,35 @@ void a_range_that_makes_no_sense_is_zero(void**) {
   assert_true(deflection(NAN, {0, 255, 0}, 0.1) == 0);
 }
 
+// [joystick-tracker-6]
+void one_that_comes_is_at_rest_until_it_is_moved_or_pressed_anew(void**) {
+  JoystickTracker tracker;
+  tracker.deflect(1, 0.5);  // while it was away
+  tracker.press(2);
+  tracker.appear();
+  assert_true(tracker.state().present);
+  assert_true(tracker.state().axes[1] == 0 && tracker.state().buttons == 0 &&
+              tracker.state().presses[2] == 0);
+  tracker.deflect(1, 0.5);
+  tracker.press(2);
+  assert_true(tracker.state().axes[1] == 0.5 && tracker.state().buttons == 4);
+  tracker.appear();  // another one, in the place of the first
+  assert_true(tracker.state().axes[1] == 0 && tracker.state().buttons == 0);
+}
+
+// [joystick-tracker-7]
+void what_has_no_place_is_passed_over(void**) {
+  JoystickTracker tracker;
+  tracker.appear();
+  const JoystickState before = tracker.state();
+  tracker.deflect(before.axes.size(), 1);
+  tracker.press(before.presses.size());
+  tracker.let_go(before.presses.size());
+  tracker.press(before.presses.size());
+  assert_int_equal(tracker.state().buttons, 0);
+  assert_true(tracker.state().axes == before.axes && tracker.state().presses == before.presses);
+}
+
 }  // namespace
 
 int main() {
@@ -56,6 +85,8 @@ int main() {
       cmocka_unit_test(the_dead_zone_is_zero_and_nothing_jumps_at_its_edge),
       cmocka_unit_test(the_larger_dead_zone_counts),
       cmocka_unit_test(a_range_that_makes_no_sense_is_zero),
+      cmocka_unit_test(one_that_comes_is_at_rest_until_it_is_moved_or_pressed_anew),
+      cmocka_unit_test(what_has_no_place_is_passed_over),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
