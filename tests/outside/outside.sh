@@ -19,6 +19,7 @@ cmake --install "$build" --prefix "$work/first" >/dev/null
 mv "$work/first" "$work/prefix"
 ! grep -rq -F -e "$source/" -e "$work/first" "$work/prefix/lib/cmake" || fail "the package names folders of its build"
 cp -r "$source/tests/outside/project" "$work/project"
+cp "$source/hal/gripper/mock/tests/mock_gripper_conformance_test.cpp" "$work/project/driver_test"
 headers=$work/prefix/include/flexrf
 (cd "$headers" && find . -name '*.hpp' -printf '%P\n') >"$work/headers"
 (cd "$headers" && xargs grep -H '^#include "' <"$work/headers") | tr '"' ':' | awk -F : '
@@ -45,6 +46,7 @@ cmake "${launcher[@]}" -S "$work/project" -B "$work/build" -G Ninja -DCMAKE_BUIL
 rebuild
 
 "$work/build/every/every" --help >/dev/null || fail "every: exit code $?"
+"$work/build/driver_test/driver_test" >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "driver_test: exit code $?"; }
 drivers() { "$work/prefix/bin/config-gen-parts" "$@"; }
 find "$work/prefix/share/flexrf/hal" -name '*.toml' ! -path '*/types/*' ! -path '*/interface/*' -print0 |
   while IFS= read -r -d '' table; do
