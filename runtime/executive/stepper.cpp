@@ -42,8 +42,11 @@ void Stepper::serve(Time now) noexcept {
   if (state_->asked_back.load(std::memory_order_acquire)) give_back();
   // Before the requests: a hold is judged by the permission as it is now.
   follow_motion_permission(now);
-  if (cell_->requests(static_cast<std::uint16_t>(record_ - application_->threads.data())).has_any())
-    apply_requests(now);
+  RequestQueue& queue = cell_->requests(static_cast<std::uint16_t>(record_ - application_->threads.data()));
+  if (!queue.has_any()) return;
+  ParameterRequest request;
+  // At most one queue's worth: who fills it faster than this must not hold up the step.
+  for (std::uint32_t i = 0; i < RequestQueue::capacity && queue.pop(request); ++i) apply(request, now);
 }
 
 void Stepper::give_back() noexcept {
@@ -54,13 +57,6 @@ void Stepper::give_back() noexcept {
   };
   for (const std::uint16_t unit : record_->units) let_go(application_->unit_states[unit]);
   for (const std::uint16_t device : record_->devices) let_go(application_->device_states[device]);
-}
-
-void Stepper::apply_requests(Time now) noexcept {
-  RequestQueue& queue = cell_->requests(static_cast<std::uint16_t>(record_ - application_->threads.data()));
-  ParameterRequest request;
-  // At most one queue's worth: who fills it faster than this must not hold up the step.
-  for (std::uint32_t i = 0; i < RequestQueue::capacity && queue.pop(request); ++i) apply(request, now);
 }
 
 void Stepper::apply(const ParameterRequest& request, Time now) noexcept {

@@ -30,9 +30,7 @@ rusage usage_of_this_thread() noexcept {
 ThreadLoop::ThreadLoop(Cell& cell, std::uint16_t thread)
     : cell_(&cell),
       record_(&cell.application().threads[thread]),
-      stepper_(cell, thread),
-      trigger_(record_->trigger, cell.application()),
-      accounting_(*record_, cell.application().thread_states[thread]),
+      releases_(cell, thread),
       standstill_(cell, thread) {}
 
 ThreadLoop::~ThreadLoop() {
@@ -56,23 +54,23 @@ void ThreadLoop::run() noexcept {
   std::optional<RealtimeScope> guard;
   if (record_->priority > 0) {
     watch_system_calls();
-    guard.emplace(stepper_.state().allocations);
+    guard.emplace(releases_.stepper().state().allocations);
   }
   const rusage before = usage_of_this_thread();
-  trigger_.begin(MonotonicClock::now());
+  releases_.begin(MonotonicClock::now());
   while (cell_->control().mode() != Mode::ended) turn(record_->bell->listen());
   const rusage after = usage_of_this_thread();
   const auto count = [](std::atomic<std::uint64_t>& counter, long from, long to) {
     counter.store(static_cast<std::uint64_t>(to - from), std::memory_order_relaxed);
   };
-  ThreadState& state = stepper_.state();
+  ThreadState& state = releases_.stepper().state();
   count(state.minor_faults, before.ru_minflt, after.ru_minflt);
   count(state.major_faults, before.ru_majflt, after.ru_majflt);
   count(state.voluntary_switches, before.ru_nvcsw, after.ru_nvcsw);
   count(state.involuntary_switches, before.ru_nivcsw, after.ru_nivcsw);
-  accounting_.say(Time::max());
+  releases_.say(Time::max());
   // What the lifecycle thread still asks for is given back here; after this nobody steps.
-  stepper_.serve(MonotonicClock::now());
+  releases_.stepper().serve(MonotonicClock::now());
 }
 
 void ThreadLoop::watch_system_calls() noexcept {
@@ -84,36 +82,27 @@ void ThreadLoop::watch_system_calls() noexcept {
 
 void ThreadLoop::turn(std::uint32_t heard) noexcept {
   const Time now = MonotonicClock::now();
-  std::atomic<std::uint64_t>& turns = stepper_.state().turns;
+  Stepper& stepper = releases_.stepper();
+  std::atomic<std::uint64_t>& turns = stepper.state().turns;
   turns.store(turns.load(std::memory_order_relaxed) + 1, std::memory_order_release);
-  stepper_.serve(now);
-  accounting_.say(now);
-  Due due = trigger_.due(now, readable_);
-  if (stepper_.needs_attention() && due.at > trigger_.last_release() + Stepper::attention_interval) {
-    due = Due{trigger_.last_release() + Stepper::attention_interval, due.fired, true};
-  }
+  stepper.serve(now);
+  releases_.say(now);
+  const Due due = releases_.next(now, readable_);
   if (due.at <= now) {
-    // A period is late against its own instant; everything else is due when it is noticed.
-    release(record_->trigger.kind == TriggerKind::period && !due.timed_out ? due.at : now, now, due);
+    release(due, now);
   } else {
     wait(heard, due.at);
   }
 }
 
-void ThreadLoop::release(Time nominal, Time now, const Due& due) noexcept {
-  const Release release{nominal, now, due.fired, due.timed_out};
+void ThreadLoop::release(const Due& due, Time now) noexcept {
+  const Release release = releases_.take(due, now);
   readable_ = false;
-  trigger_.released(nominal, now);
   // Before the step: what was commanded before the standstill is not to go on by itself.
-  if (standstill_.judge(missed_before(release))) stepper_.serve(now);
-  const Time ended = stepper_.run(release);
+  if (standstill_.judge(missed_before(release))) releases_.stepper().serve(now);
+  const Time ended = releases_.stepper().run(release);
   if (record_->hang_timeout.count() == 0) standstill_.judge(ended - now);
-  const std::uint64_t past = trigger_.finished(ended, record_->overrun);
-  if (accounting_.count(release, ended, past)) {
-    stepper_.fault_all(
-        Status::error(StatusCode::timeout, "thread %s reached its overrun limit: %lld us after it was due",
-                      record_->name, static_cast<long long>((ended - release.nominal).count() / 1000)));
-  }
+  releases_.finish(release, ended);
   if (record_->trigger.kind == TriggerKind::free) sched_yield();
 }
 
@@ -128,7 +117,7 @@ void ThreadLoop::wait(std::uint32_t heard, Time until) noexcept {
   if (event_descriptor_ >= 0) {
     // What is there already waits for min_interval too: to look at it again would end the wait at once.
     const bool waits_for_us = readable_;
-    wait_with_descriptor(heard, until, waits_for_us ? -1 : trigger_.descriptor());
+    wait_with_descriptor(heard, until, waits_for_us ? -1 : releases_.descriptor());
     readable_ = readable_ || waits_for_us;
   } else {
     record_->bell->wait(heard, until);

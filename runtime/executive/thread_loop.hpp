@@ -4,10 +4,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "runtime/executive/accounting.hpp"
+#include "runtime/executive/releases.hpp"
 #include "runtime/executive/standstill.hpp"
-#include "runtime/executive/stepper.hpp"
-#include "runtime/executive/trigger.hpp"
 
 namespace flexrf {
 
@@ -27,16 +25,14 @@ class ThreadLoop {
  private:
   void watch_system_calls() noexcept;
   void turn(std::uint32_t heard) noexcept;
-  void release(Time nominal, Time now, const Due& due) noexcept;
+  void release(const Due& due, Time now) noexcept;
   Duration missed_before(const Release& release) const noexcept;
   void wait(std::uint32_t heard, Time until) noexcept;
   void wait_with_descriptor(std::uint32_t heard, Time until, int descriptor) noexcept;
 
   Cell* cell_;
   const ThreadRecord* record_;
-  Stepper stepper_;
-  Trigger trigger_;
-  Accounting accounting_;
+  Releases releases_;
   Standstill standstill_;
   std::unique_ptr<std::byte[]> handler_stack_;  // for crash signals
   int event_descriptor_ = -1;

@@ -34,11 +34,8 @@ bool lacks_budget(const Application& application, const ThreadRecord& thread) no
                      [&](std::uint16_t unit) { return application.units[unit].budget <= Duration::zero(); });
 }
 
-VirtualTime::Thread::Thread(Cell& cell, std::uint16_t index)
-    : stepper(cell, index),
-      trigger(cell.application().threads[index].trigger, cell.application()),
-      accounting(cell.application().threads[index], cell.application().thread_states[index]) {
-  for (const std::uint16_t device : stepper.record().devices) {
+VirtualTime::Thread::Thread(Cell& cell, std::uint16_t index) : releases(cell, index) {
+  for (const std::uint16_t device : record().devices) {
     const DeviceBinding& binding = cell.application().devices[device].binding;
     receives = receives || !binding.outputs.empty() || !binding.queue_outputs.empty();
   }
@@ -62,7 +59,7 @@ VirtualTime::~VirtualTime() {
 Duration VirtualTime::run(Duration duration) noexcept {
   const Time limit = now_ + duration;
   for (Thread& thread : threads_) {
-    thread.trigger.begin(now_);
+    thread.releases.begin(now_);
     look_for_release(thread);
   }
   Control& control = cell_->control();
@@ -98,14 +95,14 @@ Duration VirtualTime::run(Duration duration) noexcept {
     }
   }
   supervision_->observe(now_);
-  for (Thread& thread : threads_) thread.accounting.say(Time::max());
+  for (Thread& thread : threads_) thread.releases.say(Time::max());
   return now_ - beginning;
 }
 
 VirtualTime::Thread* VirtualTime::next_event() noexcept {
   Thread* first = nullptr;
   for (Thread& thread : threads_) {
-    if (thread.phase == Phase::waiting && thread.stepper.record().bell->listen() != thread.heard)
+    if (thread.phase == Phase::waiting && thread.record().bell->listen() != thread.heard)
       look_for_release(thread);
     if (thread.next == Time::max()) continue;
     if (first == nullptr || thread.next < first->next) {
@@ -117,7 +114,7 @@ VirtualTime::Thread* VirtualTime::next_event() noexcept {
     const bool first_completes = first->phase != Phase::waiting;
     if (completes != first_completes) {
       if (completes) first = &thread;
-    } else if (thread.stepper.record().priority > first->stepper.record().priority) {
+    } else if (thread.record().priority > first->record().priority) {
       first = &thread;
     }
   }
@@ -126,13 +123,9 @@ VirtualTime::Thread* VirtualTime::next_event() noexcept {
 
 void VirtualTime::look_for_release(Thread& thread) noexcept {
   if (thread.phase != Phase::waiting) return;
-  thread.heard = thread.stepper.record().bell->listen();
-  thread.stepper.serve(now_);
-  thread.due = thread.trigger.due(now_, false);
-  if (thread.stepper.needs_attention()) {
-    const Time attention = thread.trigger.last_release() + Stepper::attention_interval;
-    if (thread.due.at > attention) thread.due = Due{attention, thread.due.fired, true};
-  }
+  thread.heard = thread.record().bell->listen();
+  thread.stepper().serve(now_);
+  thread.due = thread.releases.next(now_, false);
   // Never twice at one instant: that would be without end.
   thread.next = std::max({thread.due.at, now_, thread.released_at + least_budget});
 }
@@ -141,15 +134,10 @@ void VirtualTime::begin(Thread& thread) noexcept {
   // What was published since the release became due belongs to it.
   look_for_release(thread);
   if (thread.next > now_) return;
-  if (thread.stepper.record().trigger.kind == TriggerKind::backoff && thread.due.fired == 0 &&
-      !thread.due.timed_out)
-    return;
-  const bool periodic = thread.stepper.record().trigger.kind == TriggerKind::period && !thread.due.timed_out;
-  thread.release = Release{periodic ? thread.due.at : now_, now_, thread.due.fired, thread.due.timed_out};
-  thread.trigger.released(thread.release.nominal, now_);
+  thread.release = thread.releases.take(thread.due, now_);
   thread.released_at = now_;
-  thread.stepper.begin(thread.release);
-  thread.stepper.receive(now_);
+  thread.stepper().begin(thread.release);
+  thread.stepper().receive(now_);
   thread.place = 0;
   if (thread.receives) {
     thread.phase = Phase::receiving;
@@ -160,7 +148,7 @@ void VirtualTime::begin(Thread& thread) noexcept {
 }
 
 void VirtualTime::commit_devices(const Thread& thread) noexcept {
-  for (const std::uint16_t device : thread.stepper.record().devices)
+  for (const std::uint16_t device : thread.record().devices)
     cell_->commit(cell_->application().devices[device].index);
 }
 
@@ -168,16 +156,16 @@ void VirtualTime::complete(Thread& thread) noexcept {
   if (thread.phase == Phase::receiving) {
     commit_devices(thread);
   } else {
-    cell_->commit(thread.stepper.record().units[thread.place]);
+    cell_->commit(thread.record().units[thread.place]);
     ++thread.place;
   }
   go_on(thread);
 }
 
 void VirtualTime::go_on(Thread& thread) noexcept {
-  const ThreadRecord& record = thread.stepper.record();
+  const ThreadRecord& record = thread.record();
   for (; thread.place < record.units.size(); ++thread.place) {
-    if (!thread.stepper.step(thread.place, now_)) continue;
+    if (!thread.stepper().step(thread.place, now_)) continue;
     thread.phase = Phase::stepping;
     thread.next =
         now_ + std::max(cell_->application().units[record.units[thread.place]].budget, least_budget);
@@ -187,16 +175,11 @@ void VirtualTime::go_on(Thread& thread) noexcept {
 }
 
 void VirtualTime::end(Thread& thread) noexcept {
-  const ThreadRecord& record = thread.stepper.record();
-  thread.stepper.send(now_);
-  thread.stepper.state().step_began.store(0, std::memory_order_relaxed);
+  thread.stepper().send(now_);
+  thread.stepper().state().step_began.store(0, std::memory_order_relaxed);
   commit_devices(thread);
-  const std::uint64_t past = thread.trigger.finished(now_, record.overrun);
-  if (thread.accounting.count(thread.release, now_, past)) {
-    thread.stepper.fault_all(
-        Status::error(StatusCode::timeout, "thread %s reached its overrun limit", record.name));
-  }
-  thread.accounting.say(now_);
+  thread.releases.finish(thread.release, now_);
+  thread.releases.say(now_);
   thread.phase = Phase::waiting;
   look_for_release(thread);
 }

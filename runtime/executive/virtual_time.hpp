@@ -4,10 +4,9 @@
 #include <chrono>
 #include <vector>
 
-#include "runtime/executive/accounting.hpp"
 #include "runtime/executive/cell.hpp"
+#include "runtime/executive/releases.hpp"
 #include "runtime/executive/supervision.hpp"
-#include "runtime/executive/trigger.hpp"
 
 namespace flexrf {
 
@@ -41,9 +40,10 @@ class VirtualTime {
   struct Thread {
     Thread(Cell& cell, std::uint16_t index);
 
-    Stepper stepper;
-    Trigger trigger;
-    Accounting accounting;
+    Stepper& stepper() noexcept { return releases.stepper(); }
+    const ThreadRecord& record() const noexcept { return releases.stepper().record(); }
+
+    Releases releases;
     Phase phase = Phase::waiting;
     Time next = Time::max();  // completion of what is under way, or the next release
     Due due{};

@@ -172,8 +172,8 @@ RuntimeParameters::Verdict RuntimeParameters::apply_values(const ParameterReques
       for (const ParameterDescriptor& parameter : block_->parameters) reset(*parameter.field);
   }
   if (const Status status = accept_proposed(); !status) return {status};
-  mark_changes(request);
-  commit_settings(request, now);
+  note_changes(request, now);
+  commit_settings(now);
   return {};
 }
 
@@ -191,8 +191,8 @@ RuntimeParameters::Verdict RuntimeParameters::apply_member(const ParameterReques
   marks_changed_ |= marks_.clear(0, marks_.size());
   // Somebody chose the other member's values for this one.
   if (request.kind == RequestKind::clone) mark_differences(defaults_);
-  mark_changes(request);
-  commit_settings(request, now);
+  note_changes(request, now);
+  commit_settings(now);
   return {};
 }
 
@@ -268,12 +268,6 @@ Status RuntimeParameters::accept_proposed() noexcept {
   return component_->accept_runtime(proposed_);
 }
 
-void RuntimeParameters::commit_settings(const ParameterRequest& request, Time now) noexcept {
-  if (audit_ != nullptr)
-    audit_->note_differences(request.who, index_, ParameterKind::runtime, *block_, values_, proposed_, now);
-  commit_settings(now);
-}
-
 AuditRecord RuntimeParameters::record_of(AuditRecord::Kind kind, const ParameterRequest& request,
                                          std::uint32_t offset, Time now) const noexcept {
   AuditRecord record;
@@ -323,8 +317,10 @@ void RuntimeParameters::commit_settings(Time now) noexcept {
 
 // ---- what is kept in the configuration file
 
-/// `set` marks what it names, `reset` gives it back to the tables.
-void RuntimeParameters::mark_changes(const ParameterRequest& request) noexcept {
+/// `set` marks what it names, `reset` gives it back to the tables. Who did it is told.
+void RuntimeParameters::note_changes(const ParameterRequest& request, Time now) noexcept {
+  if (audit_ != nullptr)
+    audit_->note_differences(request.who, index_, ParameterKind::runtime, *block_, values_, proposed_, now);
   const auto apply_to = [&](const ParameterDescriptor& parameter, std::size_t offset, std::size_t size) {
     if (!is_saved(parameter)) return;
     marks_changed_ |=

@@ -124,12 +124,11 @@ class RuntimeParameters {
   Verdict propose_changes(const ParameterRequest& request) noexcept;
   void propose(const void* base) noexcept;
   Status accept_proposed() noexcept;
-  void commit_settings(const ParameterRequest& request, Time now) noexcept;
   void commit_settings(Time now) noexcept;
   Status judge_own_changes(Time now) noexcept;
   Status check_own_changes() noexcept;
   void put_settings_back() noexcept;
-  void mark_changes(const ParameterRequest& request) noexcept;
+  void note_changes(const ParameterRequest& request, Time now) noexcept;
   void mark_differences(const std::byte* before) noexcept;
   bool saved_values_differ() const noexcept;
   const ParameterDescriptor* parameter_of(const ParameterChange& change, const ParameterRequest& request,
