@@ -67,8 +67,8 @@ Status WrenchMeter::begin(const char* name, const MeterPlan& plan) noexcept {
 }
 
 void WrenchMeter::take(const RawWrench& raw, Time at, std::uint64_t missed) noexcept {
-  ++samples_;
-  lost_ += missed;
+  ++told_.samples;
+  told_.lost += missed;
   heard_ = measured_ = at;
   const bool is_another = raw.force != before_.force || raw.torque != before_.torque;
   if (is_another || changed_ == Time{}) changed_ = at;
@@ -112,7 +112,7 @@ void WrenchMeter::judge(const RawWrench& raw) noexcept {
     overload_ = {};
   }
   if (!overload_.is_ok()) give_up_tare("the load is beyond what may be measured");
-  if (was_ok && !overload_.is_ok()) ++overloads_;
+  if (was_ok && !overload_.is_ok()) ++told_.overloads;
 }
 
 void WrenchMeter::weigh(const RawWrench& raw) noexcept {
@@ -125,7 +125,7 @@ void WrenchMeter::weigh(const RawWrench& raw) noexcept {
     bias_.force[i] = sum_.force[i] / plan_.tare_samples;
     bias_.torque[i] = sum_.torque[i] / plan_.tare_samples;
   }
-  tared_ = true;
+  told_.tared = true;
 }
 
 void WrenchMeter::tare() noexcept {
@@ -139,7 +139,7 @@ void WrenchMeter::tare() noexcept {
 
 void WrenchMeter::clear_tare() noexcept {
   taring_ = 0;
-  tared_ = false;
+  told_.tared = false;
   bias_ = {};
 }
 
@@ -163,7 +163,7 @@ Wrench WrenchMeter::in_frame(const RawWrench& raw) const noexcept {
   wrench.torque = {torque[0] + lever[1] * force[2] - lever[2] * force[1],
                    torque[1] + lever[2] * force[0] - lever[0] * force[2],
                    torque[2] + lever[0] * force[1] - lever[1] * force[0]};
-  wrench.tared = tared_;
+  wrench.tared = told_.tared;
   return wrench;
 }
 
@@ -201,31 +201,24 @@ void WrenchMeter::close(Time now) noexcept {
   if (was_heard_ && trouble_.code() != before) {
     // That it was not there yet is no trouble that it recovers from.
     if (!trouble_.is_ok()) {
-      ++troubles_;
-    } else if (troubles_ > 0) {
-      ++recoveries_;
+      ++told_.troubles;
+    } else if (told_.troubles > 0) {
+      ++told_.recoveries;
     }
   }
 }
 
 void WrenchMeter::fill(ForceTorqueSensorFeedback& feedback) const noexcept {
+  feedback = told_;
   feedback.force = newest_.force;
   feedback.torque = newest_.torque;
   feedback.present = state_.has_value();
   feedback.age = age_ == Duration::max() ? 0 : seconds(age_);
   feedback.overload = state_ && state_->overload;
   feedback.taring = taring_ > 0;
-  feedback.tared = tared_;
   feedback.force_tare = bias_.force;
   feedback.torque_tare = bias_.torque;
   feedback.set_trouble(trouble_.cause());
-  feedback.samples = samples_;
-  feedback.lost = lost_;
-  feedback.damaged = damaged_;
-  feedback.foreign = foreign_;
-  feedback.overloads = overloads_;
-  feedback.troubles = troubles_;
-  feedback.recoveries = recoveries_;
 }
 
 }  // namespace flexrf

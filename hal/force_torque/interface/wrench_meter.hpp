@@ -40,8 +40,8 @@ class WrenchMeter {
   void take(const RawWrench& raw, Time at, std::uint64_t missed = 0) noexcept;
   /// The sensor is heard, and says that it cannot measure.
   void take_fault(const Status& fault, Time at) noexcept;
-  void note_damaged(std::uint64_t count = 1) noexcept { damaged_ += count; }
-  void note_foreign() noexcept { ++foreign_; }
+  void note_damaged(std::uint64_t count = 1) noexcept { told_.damaged += count; }
+  void note_foreign() noexcept { ++told_.foreign; }
   /// Why nothing comes, until something does: told when the newest is too old.
   void note_away(const Status& why) noexcept { away_ = why; }
   /// After all of a cycle.
@@ -71,7 +71,6 @@ class WrenchMeter {
   RawWrench bias_;
   RawWrench sum_;
   std::uint32_t taring_ = 0;  // so many measurements are still to come
-  bool tared_ = false;
 
   Time heard_{};     // a measurement or a fault
   Time measured_{};  // a measurement
@@ -85,14 +84,8 @@ class WrenchMeter {
   std::optional<Wrench> state_;
   Duration age_ = Duration::max();
   Status trouble_;
-  bool was_heard_ = false;  // before, it was not there yet, which is no trouble
-  std::uint64_t samples_ = 0;
-  std::uint64_t lost_ = 0;
-  std::uint64_t damaged_ = 0;
-  std::uint64_t foreign_ = 0;
-  std::uint64_t overloads_ = 0;
-  std::uint64_t troubles_ = 0;
-  std::uint64_t recoveries_ = 0;
+  bool was_heard_ = false;          // before, it was not there yet, which is no trouble
+  ForceTorqueSensorFeedback told_;  // but for what is of this cycle, which fill() adds
 };
 
 }  // namespace flexrf

@@ -33,8 +33,7 @@ void DatagramExchange::begin(const char* name, DatagramTransport& transport,
   inbox_.make(settings.waiting, settings.size);
   outbox_.make(settings.waiting, settings.size);
   spare_.assign(settings.size, {});
-  received_ = sent_ = dropped_ = foreign_ = long_ = refused_writes_ = failures_ = 0;
-  trouble_ = {};
+  told_ = {};
 }
 
 /// All that came is taken in, so that what is kept is what came first, and not what the kernel had room for.
@@ -46,14 +45,14 @@ void DatagramExchange::receive(Time now) noexcept {
     const long size = transport_->receive(full ? std::span(spare_) : inbox_.room(inbox_.count), from);
     if (size < 0) return;
     if (settings_.only_remote && settings_.remote.size > 0 && !(from == settings_.remote)) {
-      ++foreign_;
+      ++told_.foreign;
     } else if (static_cast<std::size_t>(size) > settings_.size) {
-      ++long_;
+      ++told_.long_datagrams;
     } else if (full) {
-      ++dropped_;
+      ++told_.dropped;
     } else {
       inbox_.entries[inbox_.at(inbox_.count++)] = {from, now, static_cast<std::size_t>(size)};
-      ++received_;
+      ++told_.received;
     }
   }
 }
@@ -66,15 +65,15 @@ void DatagramExchange::send() noexcept {
     if (sent == DatagramTransport::Sent::later) break;
     ++outbox_.taken;
     if (sent == DatagramTransport::Sent::done) {
-      ++sent_;
-      trouble_ = {};
+      ++told_.sent;
+      told_.trouble = {};
       continue;
     }
     // What cannot be sent now is too old later.
-    ++failures_;
-    const std::array<char, sizeof(trouble_)> before = trouble_;
-    set_text(trouble_, transport_->error().cause());
-    if (trouble_ != before) log_warning(name_, "{}", text_view(trouble_));
+    ++told_.failures;
+    const std::array<char, sizeof(told_.trouble)> before = told_.trouble;
+    set_text(told_.trouble, transport_->error().cause());
+    if (told_.trouble != before) log_warning(name_, "{}", text_view(told_.trouble));
   }
   outbox_.settle();
 }
@@ -89,23 +88,12 @@ std::optional<Datagram> DatagramExchange::read() noexcept {
 
 bool DatagramExchange::write_to(const DatagramPeer& peer, std::span<const std::byte> bytes) noexcept {
   if (peer.size == 0 || bytes.size() > settings_.size || outbox_.is_full()) {
-    ++refused_writes_;
+    ++told_.refused_writes;
     return false;
   }
   std::copy(bytes.begin(), bytes.end(), outbox_.room(outbox_.count).begin());
   outbox_.entries[outbox_.at(outbox_.count++)] = {peer, Time{}, bytes.size()};
   return true;
-}
-
-void DatagramExchange::fill(DatagramSocketFeedback& feedback) const noexcept {
-  feedback.received = received_;
-  feedback.sent = sent_;
-  feedback.dropped = dropped_;
-  feedback.foreign = foreign_;
-  feedback.long_datagrams = long_;
-  feedback.refused_writes = refused_writes_;
-  feedback.failures = failures_;
-  feedback.trouble = trouble_;
 }
 
 }  // namespace flexrf

@@ -17,6 +17,9 @@ struct DatagramSettings {
 /// device's thread.
 class DatagramExchange {
  public:
+  /// `told`: of the device, where all is counted; outlives this.
+  explicit DatagramExchange(DatagramSocketFeedback& told) noexcept : told_(told) {}
+
   /// `name`: the device's; it and the transport outlive this.
   void begin(const char* name, DatagramTransport& transport, const DatagramSettings& settings);
 
@@ -26,7 +29,6 @@ class DatagramExchange {
   std::optional<Datagram> read() noexcept;
   bool write_to(const DatagramPeer& peer, std::span<const std::byte> bytes) noexcept;
   const DatagramPeer& remote() const noexcept { return settings_.remote; }
-  void fill(DatagramSocketFeedback& feedback) const noexcept;
 
  private:
   struct Entry {
@@ -52,20 +54,13 @@ class DatagramExchange {
     void settle() noexcept;
   };
 
+  DatagramSocketFeedback& told_;
   const char* name_ = "";
   DatagramTransport* transport_ = nullptr;
   DatagramSettings settings_;
   Box inbox_;
   Box outbox_;
   std::vector<std::byte> spare_;  // for what is dropped
-  std::uint64_t received_ = 0;
-  std::uint64_t sent_ = 0;
-  std::uint64_t dropped_ = 0;
-  std::uint64_t foreign_ = 0;
-  std::uint64_t long_ = 0;
-  std::uint64_t refused_writes_ = 0;
-  std::uint64_t failures_ = 0;
-  std::array<char, sizeof(DatagramSocketFeedback::trouble)> trouble_{};
 };
 
 }  // namespace flexrf

@@ -25,14 +25,8 @@ class DatagramSocketOn : public Base {
   }
   void stop() override { transport_.shut(); }
 
-  void receive(const Tick& tick) noexcept override {
-    exchange_.receive(tick.now);
-    exchange_.fill(this->feedback);
-  }
-  void send(const Tick& /*tick*/) noexcept override {
-    exchange_.send();
-    exchange_.fill(this->feedback);
-  }
+  void receive(const Tick& tick) noexcept override { exchange_.receive(tick.now); }
+  void send(const Tick& /*tick*/) noexcept override { exchange_.send(); }
   int descriptor() const noexcept override { return transport_.descriptor(); }
 
   std::optional<Datagram> read() noexcept override { return exchange_.read(); }
@@ -48,7 +42,7 @@ class DatagramSocketOn : public Base {
 
  private:
   Transport transport_;
-  DatagramExchange exchange_;
+  DatagramExchange exchange_{this->feedback};
 };
 
 }  // namespace flexrf

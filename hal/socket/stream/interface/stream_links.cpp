@@ -31,8 +31,7 @@ void StreamLinks::begin(const char* name, StreamTransport& transport, const Stre
   list_sessions();
   retry_at_ = {};
   pause_ = settings.reconnect_shortest;
-  opened_ = ended_ = refused_sessions_ = received_bytes_ = sent_bytes_ = long_lines_ = refused_writes_ = 0;
-  trouble_ = {};
+  told_ = {};
 }
 
 void StreamLinks::stop() noexcept {
@@ -60,7 +59,7 @@ void StreamLinks::send(Time now) noexcept {
       if (count < 0) lose(place, now);
       if (count <= 0) break;
       place.outbox.drop(static_cast<std::size_t>(count));
-      sent_bytes_ += static_cast<std::uint64_t>(count);
+      told_.sent_bytes += static_cast<std::uint64_t>(count);
     }
     if (!place.closing || place.state == State::free) continue;
     if (place.state == State::open && place.until == Time{}) place.until = now + longest_rest;
@@ -107,7 +106,7 @@ void StreamLinks::accept(Time now) noexcept {
     ++peers;
     open(place, now);
   }
-  for (; peers < peers_per_cycle && transport_->turn_away(); ++peers) ++refused_sessions_;
+  for (; peers < peers_per_cycle && transport_->turn_away(); ++peers) ++told_.refused_sessions;
 }
 
 void StreamLinks::open(Place& place, Time now) noexcept {
@@ -118,8 +117,8 @@ void StreamLinks::open(Place& place, Time now) noexcept {
   place.begin = place.end = 0;
   place.outbox.clear();
   opened_at_ = now;
-  ++opened_;
-  if (!settings_.listen) trouble_ = {};
+  ++told_.opened;
+  if (!settings_.listen) told_.trouble = {};
 }
 
 /// What has been read makes room for what comes; views of the last cycle end here.
@@ -133,7 +132,7 @@ void StreamLinks::fetch(Place& place, Time now) noexcept {
     if (count < 0) lose(place, now);
     if (count <= 0) return;
     place.end += static_cast<std::size_t>(count);
-    received_bytes_ += static_cast<std::uint64_t>(count);
+    told_.received_bytes += static_cast<std::uint64_t>(count);
   }
 }
 
@@ -144,7 +143,7 @@ void StreamLinks::lose(Place& place, Time now) noexcept {
   } else if (!settings_.listen) {
     note_trouble(Status::error(StatusCode::unavailable, "the peer has ended the connection"));
   }
-  ++ended_;
+  ++told_.ended;
   transport_->close(index_of(place));
   place.state = State::ended;
   place.until = now + longest_rest;
@@ -174,13 +173,14 @@ void StreamLinks::list_sessions() noexcept {
       sessions_[session_count_++] = place.session;
   }
   std::sort(sessions_.begin(), sessions_.begin() + static_cast<std::ptrdiff_t>(session_count_));
+  told_.sessions = static_cast<std::uint8_t>(session_count_);
 }
 
 /// What fails again and again for the same reason is logged once.
 void StreamLinks::note_trouble(const Status& cause) noexcept {
-  const std::array<char, sizeof(trouble_)> before = trouble_;
-  set_text(trouble_, cause.cause());
-  if (trouble_ != before) log_warning(name_, "{}", text_view(trouble_));
+  const std::array<char, sizeof(told_.trouble)> before = told_.trouble;
+  set_text(told_.trouble, cause.cause());
+  if (told_.trouble != before) log_warning(name_, "{}", text_view(told_.trouble));
 }
 
 // ---- what a unit asks
@@ -200,7 +200,7 @@ bool StreamLinks::write(SocketSession session, std::string_view bytes, bool as_l
   Place* const place = find(session);
   if (place == nullptr || place->state != State::open || place->closing ||
       bytes.size() + (as_line ? 1 : 0) > place->outbox.room()) {
-    ++refused_writes_;
+    ++told_.refused_writes;
     return false;
   }
   return place->outbox.put(bytes) && (!as_line || place->outbox.put("\n"));
@@ -217,7 +217,7 @@ std::optional<std::string_view> StreamLinks::read_line(SocketSession session) no
     const bool rest = !whole && place->state == State::ended && !waiting.empty();
     if (!whole && !rest) {
       if (place->skipping || waiting.size() == place->inbox.size()) {
-        if (!place->skipping) ++long_lines_;
+        if (!place->skipping) ++told_.long_lines;
         place->skipping = true;
         place->begin = place->end = 0;
       }
@@ -248,18 +248,6 @@ void StreamLinks::take(SocketSession session, std::size_t count) noexcept {
 void StreamLinks::close(SocketSession session) noexcept {
   Place* const place = find(session);
   if (place != nullptr) place->closing = true;
-}
-
-void StreamLinks::fill(StreamSocketFeedback& feedback) const noexcept {
-  feedback.sessions = static_cast<std::uint8_t>(session_count_);
-  feedback.opened = opened_;
-  feedback.ended = ended_;
-  feedback.refused_sessions = refused_sessions_;
-  feedback.received_bytes = received_bytes_;
-  feedback.sent_bytes = sent_bytes_;
-  feedback.long_lines = long_lines_;
-  feedback.refused_writes = refused_writes_;
-  feedback.trouble = trouble_;
 }
 
 }  // namespace flexrf

@@ -24,6 +24,9 @@ class StreamLinks {
  public:
   static constexpr std::size_t most_sessions = 8;
 
+  /// `told`: of the device, where all is counted; outlives this.
+  explicit StreamLinks(StreamSocketFeedback& told) noexcept : told_(told) {}
+
   /// `name`: the device's; it and the transport outlive this.
   void begin(const char* name, StreamTransport& transport, const StreamSettings& settings);
   void stop() noexcept;
@@ -37,7 +40,6 @@ class StreamLinks {
   std::string_view peek(SocketSession session) const noexcept;
   void take(SocketSession session, std::size_t count) noexcept;
   void close(SocketSession session) noexcept;
-  void fill(StreamSocketFeedback& feedback) const noexcept;
 
  private:
   enum class State : std::uint8_t { free, connecting, open, ended };
@@ -70,6 +72,7 @@ class StreamLinks {
   void list_sessions() noexcept;
   void note_trouble(const Status& cause) noexcept;
 
+  StreamSocketFeedback& told_;
   const char* name_ = "";
   StreamTransport* transport_ = nullptr;
   StreamSettings settings_;
@@ -81,14 +84,6 @@ class StreamLinks {
   Time give_up_at_{};
   Time opened_at_{};
   Duration pause_{};
-  std::uint64_t opened_ = 0;
-  std::uint64_t ended_ = 0;
-  std::uint64_t refused_sessions_ = 0;
-  std::uint64_t received_bytes_ = 0;
-  std::uint64_t sent_bytes_ = 0;
-  std::uint64_t long_lines_ = 0;
-  std::uint64_t refused_writes_ = 0;
-  std::array<char, sizeof(StreamSocketFeedback::trouble)> trouble_{};
 };
 
 }  // namespace flexrf

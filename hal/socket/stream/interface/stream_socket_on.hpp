@@ -36,12 +36,8 @@ class StreamSocketOn : public Base {
   void receive(const Tick& tick) noexcept override {
     links_.receive(tick.now);
     if (this->lines.is_connected()) push_lines();
-    links_.fill(this->feedback);
   }
-  void send(const Tick& tick) noexcept override {
-    links_.send(tick.now);
-    links_.fill(this->feedback);
-  }
+  void send(const Tick& tick) noexcept override { links_.send(tick.now); }
 
   std::span<const SocketSession> sessions() const noexcept override { return links_.sessions(); }
   bool write(SocketSession session, std::string_view bytes) noexcept override {
@@ -79,7 +75,7 @@ class StreamSocketOn : public Base {
   }
 
   Transport transport_;
-  StreamLinks links_;
+  StreamLinks links_{this->feedback};
 };
 
 }  // namespace flexrf
