@@ -12,76 +12,53 @@
 //   unplug | plug                  nobody is at its port; somebody is again, and everything forgotten
 //
 // Runs until it is interrupted.
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <utility>
 
-#include "base/standard_descriptors.hpp"
+#include "hal/driver/simulator/simulator_program.hpp"
 #include "hal/force_torque/net_ft/simulator/net_ft_server.hpp"
 
+namespace flexrf {
 namespace {
 
-using namespace flexrf;
-
-constexpr const char* usage = "usage: net_ft_simulator [--port N] [--rate HERTZ]\n";
-
-struct Options {
-  double port = rdt::usual_port;
-  double rate = 1000;
-};
-
-bool is_number(const char* text, double least, double most, double& value) {
-  char* end = nullptr;
-  value = std::strtod(text, &end);
-  return end != text && *end == '\0' && value >= least && value <= most;
-}
-
-bool parse(int count, char** words, Options& options) {
-  for (int i = 1; i + 1 < count; i += 2) {
-    if (std::strcmp(words[i], "--port") == 0) {
-      if (!is_number(words[i + 1], 0, 65535, options.port)) return false;
-    } else if (std::strcmp(words[i], "--rate") == 0) {
-      if (!is_number(words[i + 1], 1, 8000, options.rate)) return false;
-    } else {
-      return false;
-    }
-  }
-  return count % 2 == 1;
-}
-
-class Simulator {
+class NetFtSimulator final : public SimulatorProgram {
  public:
-  explicit Simulator(double rate) : server_(rate) {}
-  NetFtServer& server() { return server_; }
+  bool read(CommandLine& line) override {
+    line.number("--port", 0, 65535, port_);
+    line.number("--rate", 1, 8000, rate_);
+    return true;
+  }
+  Status begin() override { return server_.emplace(rate_).plug(static_cast<std::uint16_t>(port_)); }
+  std::string place() const override { return "127.0.0.1 port " + std::to_string(server_->port()); }
 
-  const char* answer(const char* line) {
+  std::string answer(const std::string& line) override {
     char word[16] = "";
-    if (std::sscanf(line, "%15s", word) != 1) return "that is no command";
+    if (std::sscanf(line.c_str(), "%15s", word) != 1) return no_command;
     const std::string_view command = word;
-    const char* const rest = std::strstr(line, word) + command.size();
+    const char* const rest = std::strstr(line.c_str(), word) + command.size();
     if (command == "unplug") {
-      server_.unplug();
+      server_->unplug();
     } else if (command == "plug") {
-      if (!server_.plug()) return "its port is taken";
+      if (!server_->plug()) return "its port is taken";
     } else if (command == "force" || command == "torque") {
       auto& values = command == "force" ? force_ : torque_;
       if (std::sscanf(rest, "%lf %lf %lf", &values[0], &values[1], &values[2]) != 3)
         return "three numbers are needed";
-      server_.with_model([this](NetFtModel& model) { model.set_load(force_, torque_); });
+      server_->with_model([this](NetFtModel& model) { model.set_load(force_, torque_); });
     } else if (command == "off") {
-      server_.with_model([](NetFtModel& model) { model.switch_off_and_on(); });
+      server_->with_model([](NetFtModel& model) { model.switch_off_and_on(); });
     } else if (command == "status") {
       const auto status = static_cast<std::uint32_t>(std::strtoul(rest, nullptr, 16));
-      server_.with_model([status](NetFtModel& model) { model.set_status(status); });
+      server_->with_model([status](NetFtModel& model) { model.set_status(status); });
     } else if (command == "lose") {
       const auto number = static_cast<std::uint32_t>(std::strtoul(rest, nullptr, 10));
-      server_.with_model([number](NetFtModel& model) { model.lose(number); });
+      server_->with_model([number](NetFtModel& model) { model.lose(number); });
     } else {
-      return behave(command) ? "ok" : "that is no command";
+      return behave(command) ? "ok" : no_command;
     }
     return "ok";
   }
@@ -96,37 +73,24 @@ class Simulator {
                                                                             {"foreign", foreign}};
     for (const auto& [name, behaviour] : known) {
       if (name != command) continue;
-      server_.with_model([wanted = behaviour](NetFtModel& model) { model.set_behaviour(wanted); });
+      server_->with_model([wanted = behaviour](NetFtModel& model) { model.set_behaviour(wanted); });
       return true;
     }
     return false;
   }
 
-  NetFtServer server_;
+  double port_ = rdt::usual_port;
+  double rate_ = 1000;
+  std::optional<NetFtServer> server_;
   std::array<double, 3> force_{};
   std::array<double, 3> torque_{};
 };
 
 }  // namespace
+}  // namespace flexrf
 
 int main(int count, char** words) {
-  flexrf::hold_standard_descriptors();
-  Options options;
-  if (!parse(count, words, options)) {
-    std::fputs(usage, stderr);
-    return 2;
-  }
-  Simulator simulator(options.rate);
-  if (const Status status = simulator.server().plug(static_cast<std::uint16_t>(options.port)); !status) {
-    std::fprintf(stderr, "net_ft_simulator: %s\n", status.cause());
-    return 1;
-  }
-  std::printf("127.0.0.1 port %u\n", unsigned{simulator.server().port()});
-  std::fflush(stdout);
-  char line[128];
-  while (std::fgets(line, sizeof(line), stdin) != nullptr) {
-    std::puts(simulator.answer(line));
-    std::fflush(stdout);
-  }
-  while (true) pause();
+  flexrf::NetFtSimulator simulator;
+  return run_simulator(simulator, "net_ft_simulator", "usage: net_ft_simulator [--port N] [--rate HERTZ]\n",
+                       count, words);
 }

@@ -18,124 +18,63 @@
 //   unplug | plug      a pseudo-terminal: its adapter is pulled out; plugged in, with the line's new name
 //
 // Runs until it is interrupted.
-#include <unistd.h>
-
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <memory>
-#include <string>
+#include <optional>
 #include <string_view>
 
-#include "base/standard_descriptors.hpp"
 #include "hal/gripper/robotiq/simulator/robotiq_model.hpp"
 #include "hal/modbus/link/simulator/modbus_server.hpp"
-#include "hal/modbus/link/simulator/pseudo_serial_line.hpp"
+#include "hal/modbus/link/simulator/serial_simulator.hpp"
 
+namespace flexrf {
 namespace {
 
-using namespace flexrf;
-
-constexpr const char* usage =
-    "usage: robotiq_simulator (--serial DEVICE BAUD | --pseudo-terminal) [--unit N] [--width METRES]\n"
-    "                         [--longest-step SECONDS]\n";
-
-struct Options {
-  const char* device = nullptr;  // null: a pseudo-terminal
-  bool pseudo_terminal = false;
-  double baud = 0;
-  double unit = robotiq::usual_unit_id;
-  double width = 0.085;
-  double longest_step = 0;  // s; 0: any
-};
-
-bool is_number(const char* text, double least, double most, double& value) {
-  char* end = nullptr;
-  value = std::strtod(text, &end);
-  return end != text && *end == '\0' && value >= least && value <= most;
-}
-
-bool parse(int count, char** words, Options& options) {
-  for (int i = 1; i < count; ++i) {
-    const int left = count - i - 1;
-    if (std::strcmp(words[i], "--serial") == 0 && left >= 2) {
-      options.device = words[++i];
-      if (!is_number(words[++i], 1200, 921600, options.baud)) return false;
-    } else if (std::strcmp(words[i], "--pseudo-terminal") == 0) {
-      options.pseudo_terminal = true;
-    } else if (std::strcmp(words[i], "--unit") == 0 && left >= 1) {
-      if (!is_number(words[++i], 1, 247, options.unit)) return false;
-    } else if (std::strcmp(words[i], "--width") == 0 && left >= 1) {
-      if (!is_number(words[++i], 0.001, 1, options.width)) return false;
-    } else if (std::strcmp(words[i], "--longest-step") == 0 && left >= 1) {
-      if (!is_number(words[++i], 0.001, 60, options.longest_step)) return false;
-    } else {
-      return false;
-    }
-  }
-  return options.pseudo_terminal != (options.device != nullptr);
-}
-
-robotiq::ModelPlan plan_of(const Options& options) {
-  robotiq::ModelPlan plan;
-  plan.open_width = options.width;
-  if (options.longest_step > 0) plan.longest_step = duration_of(options.longest_step);
-  return plan;
-}
-
-class Simulator {
+class RobotiqSimulator final : public SerialSimulator {
  public:
-  explicit Simulator(const Options& options) : options_(options), model_(plan_of(options)) {}
-
-  Status plug() {
-    if (options_.pseudo_terminal) {
-      if (const Status status = pseudo_.open(); !status) return status;
-    }
-    const auto unit = static_cast<std::uint8_t>(options_.unit);
-    auto server = options_.pseudo_terminal ? ModbusServer::on_descriptor(unit, pseudo_.descriptor())
-                                           : ModbusServer::on_serial_line(
-                                                 unit, options_.device, static_cast<int>(options_.baud), 'N');
-    if (!server) return server.status();
-    server_ = std::move(*server);
-    server_->set_model(&model_);
-    return {};
-  }
-
-  /// The answer, without the end of the line.
-  std::string answer(const char* line) {
-    char command[16] = "";
-    double number = 0;
-    const int parts = std::sscanf(line, "%15s %lf", command, &number);
-    if (parts < 1 || number < 0 || number > 255) return "that is no command";
-    if (std::strcmp(command, "fingers") == 0) return std::to_string(model_.fingers());
-    if (std::strcmp(command, "unplug") == 0 && options_.pseudo_terminal) {
-      server_.reset();
-      pseudo_.close();
-      return "ok";
-    }
-    if (std::strcmp(command, "plug") == 0 && options_.pseudo_terminal) {
-      const Status status = plug();
-      return status ? line_name() : status.cause();
-    }
-    return fingers_obey(command, number) || line_obeys(command) ? "ok" : "that is no command";
-  }
-  const char* line_name() const {
-    return options_.pseudo_terminal ? pseudo_.path().c_str() : options_.device;
+  bool read(CommandLine& line) override {
+    robotiq::ModelPlan plan;
+    double longest_step = 0;  // s; 0: any
+    line.number("--unit", 1, 247, unit_);
+    line.number("--width", 0.001, 1, plan.open_width);
+    line.number("--longest-step", 0.001, 60, longest_step);
+    if (longest_step > 0) plan.longest_step = duration_of(longest_step);
+    model_.emplace(plan);
+    return use_line(line, line.word_and_number("--serial", 1200, 921600, baud_));
   }
 
  private:
+  Status plug() override {
+    const auto unit = static_cast<std::uint8_t>(unit_);
+    auto server = is_pseudo_terminal()
+                      ? ModbusServer::on_descriptor(unit, descriptor())
+                      : ModbusServer::on_serial_line(unit, device(), static_cast<int>(baud_), 'N');
+    if (!server) return server.status();
+    server_ = std::move(*server);
+    server_->set_model(&*model_);
+    return {};
+  }
+  void unplug() override { server_.reset(); }
+
+  std::string obey(const std::string& line) override {
+    char command[16] = "";
+    double number = 0;
+    const int parts = std::sscanf(line.c_str(), "%15s %lf", command, &number);
+    if (parts < 1 || number < 0 || number > 255) return no_command;
+    if (std::string_view(command) == "fingers") return std::to_string(model_->fingers());
+    return fingers_obey(command, number) || line_obeys(command) ? "ok" : no_command;
+  }
+
   bool fingers_obey(std::string_view command, double number) {
     if (command == "object") {
-      model_.put_object(number);
+      model_->put_object(number);
     } else if (command == "around") {
-      model_.put_around(number);
+      model_->put_around(number);
     } else if (command == "take") {
-      model_.take_away();
+      model_->take_away();
     } else if (command == "stuck" || command == "free") {
-      model_.set_stuck(command == "stuck");
+      model_->set_stuck(command == "stuck");
     } else if (command == "fault") {
-      model_.set_fault(static_cast<std::uint8_t>(number));
+      model_->set_fault(static_cast<std::uint8_t>(number));
     } else {
       return false;
     }
@@ -144,7 +83,7 @@ class Simulator {
 
   bool line_obeys(std::string_view command) {
     if (server_ == nullptr) return false;
-    if (command == "on") model_.switch_off_and_on();
+    if (command == "on") model_->switch_off_and_on();
     if (command == "on") command = "well";
     if (command == "off") command = "silent";
     const auto behaviour = ModbusServer::behaviour_named(command);
@@ -153,32 +92,19 @@ class Simulator {
     return true;
   }
 
-  Options options_;
-  robotiq::RobotiqModel model_;
-  PseudoSerialLine pseudo_;
+  double unit_ = robotiq::usual_unit_id;
+  double baud_ = 0;
+  std::optional<robotiq::RobotiqModel> model_;
   std::unique_ptr<ModbusServer> server_;  // ends before what it answers for
 };
 
 }  // namespace
+}  // namespace flexrf
 
 int main(int count, char** words) {
-  flexrf::hold_standard_descriptors();
-  Options options;
-  if (!parse(count, words, options)) {
-    std::fputs(usage, stderr);
-    return 2;
-  }
-  Simulator simulator(options);
-  if (const Status status = simulator.plug(); !status) {
-    std::fprintf(stderr, "robotiq_simulator: %s\n", status.cause());
-    return 1;
-  }
-  std::puts(simulator.line_name());
-  std::fflush(stdout);
-  char line[128];
-  while (std::fgets(line, sizeof(line), stdin) != nullptr) {
-    std::puts(simulator.answer(line).c_str());
-    std::fflush(stdout);
-  }
-  while (true) pause();
+  flexrf::RobotiqSimulator simulator;
+  return run_simulator(simulator, "robotiq_simulator",
+                       "usage: robotiq_simulator (--serial DEVICE BAUD | --pseudo-terminal) [--unit N] "
+                       "[--width METRES]\n                         [--longest-step SECONDS]\n",
+                       count, words);
 }

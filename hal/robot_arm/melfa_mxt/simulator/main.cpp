@@ -6,23 +6,16 @@
 // --start, --speed: of all joints, or of each. --once: its program does not come to MXT again after the end
 // of a session. Says its port, then takes commands from standard input, a line each, and answers each by a
 // line; "help" tells which. Runs until it is interrupted.
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <iostream>
 #include <string>
 #include <string_view>
 
-#include "base/standard_descriptors.hpp"
+#include "hal/driver/simulator/simulator_program.hpp"
 #include "hal/robot_arm/melfa_mxt/simulator/mxt_console.hpp"
 #include "hal/robot_arm/melfa_mxt/simulator/mxt_server.hpp"
 
+namespace flexrf::melfa {
 namespace {
-
-using namespace flexrf;
-using namespace flexrf::melfa;
 
 constexpr const char* usage =
     "usage: mxt_simulator [--address A] [--port N] [--joints N] [--start RAD[,RAD]...]\n"
@@ -35,22 +28,6 @@ JointAngles of_all_joints(double value) {
   JointAngles all{};
   all.fill(value);
   return all;
-}
-
-struct Options {
-  const char* address = "127.0.0.1";
-  double port = usual_port;
-  double joints = 6;
-  double cycle = 0.00711;
-  JointAngles start{};
-  JointAngles speed = of_all_joints(6);
-  bool once = false;
-};
-
-bool is_number(const char* text, double least, double most, double& value) {
-  char* end = nullptr;
-  value = std::strtod(text, &end);
-  return end != text && *end == '\0' && value >= least && value <= most;
 }
 
 /// One number for all joints, or one for each of the first.
@@ -68,57 +45,44 @@ bool are_numbers(std::string_view text, double least, double most, JointAngles& 
   return false;
 }
 
-bool parse(int count, char** words, Options& options) {
-  for (int i = 1; i < count; ++i) {
-    const std::string_view word = words[i];
-    if (word == "--once") {
-      options.once = true;
-      continue;
-    }
-    if (++i == count) return false;
-    if (word == "--address") {
-      options.address = words[i];
-    } else if (word == "--port") {
-      if (!is_number(words[i], 0, 65535, options.port)) return false;
-    } else if (word == "--joints") {
-      if (!is_number(words[i], 1, most_joints, options.joints)) return false;
-    } else if (word == "--start") {
-      if (!are_numbers(words[i], -most_angle, most_angle, options.start)) return false;
-    } else if (word == "--speed") {
-      if (!are_numbers(words[i], 0.01, most_speed, options.speed)) return false;
-    } else if (word == "--cycle") {
-      if (!is_number(words[i], 0.001, 1, options.cycle)) return false;
-    } else {
-      return false;
-    }
+class MxtSimulator final : public SimulatorProgram {
+ public:
+  bool read(CommandLine& line) override {
+    auto joints = static_cast<double>(plan_.joints);
+    plan_.fastest = of_all_joints(6);
+    plan_.loops = !line.has("--once");
+    if (const char* const address = line.word("--address"); address != nullptr) address_ = address;
+    line.number("--port", 0, 65535, port_);
+    line.number("--joints", 1, most_joints, joints);
+    line.number("--cycle", 0.001, 1, plan_.cycle);
+    plan_.joints = static_cast<std::size_t>(joints);
+    const char* const start = line.word("--start");
+    const char* const speed = line.word("--speed");
+    return (start == nullptr || are_numbers(start, -most_angle, most_angle, plan_.start)) &&
+           (speed == nullptr || are_numbers(speed, 0.01, most_speed, plan_.fastest));
   }
-  return true;
-}
+  Status begin() override {
+    auto server = MxtServer::open(plan_, true, address_, static_cast<std::uint16_t>(port_));
+    if (!server) return server.status();
+    server_ = std::move(*server);
+    return {};
+  }
+  std::string place() const override { return std::to_string(server_->port()); }
+  std::string answer(const std::string& line) override {
+    return server_->with([&line](MxtWire& wire) { return obey(wire, line); });
+  }
+
+ private:
+  ControllerPlan plan_;
+  const char* address_ = "127.0.0.1";
+  double port_ = usual_port;
+  std::unique_ptr<MxtServer> server_;
+};
 
 }  // namespace
+}  // namespace flexrf::melfa
 
 int main(int count, char** words) {
-  flexrf::hold_standard_descriptors();
-  Options options;
-  if (!parse(count, words, options)) {
-    std::fputs(usage, stderr);
-    return 2;
-  }
-  ControllerPlan plan;
-  plan.joints = static_cast<std::size_t>(options.joints);
-  plan.start = options.start;
-  plan.fastest = options.speed;
-  plan.cycle = options.cycle;
-  plan.loops = !options.once;
-  auto server = MxtServer::open(plan, true, options.address, static_cast<std::uint16_t>(options.port));
-  if (!server) {
-    std::fprintf(stderr, "mxt_simulator: %s\n", server.status().cause());
-    return 1;
-  }
-  std::printf("%u\n", unsigned{(*server)->port()});
-  std::fflush(stdout);
-  for (std::string line; std::getline(std::cin, line);) {
-    std::cout << (*server)->with([&line](MxtWire& wire) { return obey(wire, line); }) << std::endl;
-  }
-  while (true) pause();
+  flexrf::melfa::MxtSimulator simulator;
+  return flexrf::run_simulator(simulator, "mxt_simulator", flexrf::melfa::usage, count, words);
 }
