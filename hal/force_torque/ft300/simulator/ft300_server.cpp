@@ -1,8 +1,6 @@
 #include "hal/force_torque/ft300/simulator/ft300_server.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
-#include <sys/eventfd.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -33,20 +31,15 @@ void say(int line, std::span<const std::uint8_t> bytes) {
 }  // namespace
 
 Ft300Server::~Ft300Server() {
-  if (thread_.joinable()) {
-    eventfd_write(wake_, 1);
-    thread_.join();
-  }
+  thread_.end();
   if (owns_line_) close(line_);
-  if (wake_ >= 0) close(wake_);
 }
 
 Result<std::unique_ptr<Ft300Server>> Ft300Server::on_descriptor(int descriptor, std::uint8_t unit_id) {
   std::unique_ptr<Ft300Server> server(new Ft300Server);
   server->line_ = descriptor;
   server->unit_id_ = unit_id;
-  if (const Status status = server->begin(); !status) return status;
-  return server;
+  return begin(std::move(server));
 }
 
 Result<std::unique_ptr<Ft300Server>> Ft300Server::on_serial_line(const std::string& device,
@@ -62,19 +55,16 @@ Result<std::unique_ptr<Ft300Server>> Ft300Server::on_serial_line(const std::stri
   cfsetspeed(&settings, B19200);
   tcsetattr(server->line_, TCSANOW, &settings);
   tcflush(server->line_, TCIOFLUSH);
-  if (const Status status = server->begin(); !status) return status;
+  return begin(std::move(server));
+}
+
+Result<std::unique_ptr<Ft300Server>> Ft300Server::begin(std::unique_ptr<Ft300Server> server) {
+  const Status status = server->thread_.begin<Ft300Server, &Ft300Server::run>("ft300_server", *server);
+  if (!status) return status;
   return server;
 }
 
-Status Ft300Server::begin() {
-  wake_ = eventfd(0, EFD_CLOEXEC);
-  if (wake_ < 0) return failure("the simulator cannot wait");
-  thread_ = std::thread([this] { run(); });
-  return {};
-}
-
 void Ft300Server::run() {
-  pollfd both[2] = {{wake_, POLLIN, 0}, {line_, POLLIN, 0}};
   Time due = MonotonicClock::now();
   while (true) {
     const Time now = MonotonicClock::now();
@@ -82,10 +72,9 @@ void Ft300Server::run() {
       send();
       due = std::max(due + period, now);
     }
-    const auto rest = static_cast<int>((due - now).count() / 1'000'000 + 1);
-    if (poll(both, 2, std::clamp(rest, 1, 10)) < 0 && errno != EINTR) return;
-    if (both[0].revents != 0 || (both[1].revents & (POLLERR | POLLNVAL)) != 0) return;
-    if ((both[1].revents & POLLIN) != 0) receive();
+    pollfd line{line_, POLLIN, 0};
+    if (!thread_.wait(due - now, {&line, 1}) || (line.revents & (POLLERR | POLLNVAL)) != 0) return;
+    if ((line.revents & POLLIN) != 0) receive();
   }
 }
 

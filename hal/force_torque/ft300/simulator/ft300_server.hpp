@@ -5,10 +5,10 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "base/status.hpp"
+#include "hal/driver/helper_thread.hpp"
 #include "hal/force_torque/ft300/ft300_stream.hpp"
 
 namespace flexrf {
@@ -39,7 +39,7 @@ class Ft300Server {
 
  private:
   Ft300Server() = default;
-  Status begin();
+  static Result<std::unique_ptr<Ft300Server>> begin(std::unique_ptr<Ft300Server> server);
   void run();
   void receive();
   void heed(std::uint8_t byte);
@@ -47,7 +47,6 @@ class Ft300Server {
 
   int line_ = -1;
   bool owns_line_ = false;
-  int wake_ = -1;
   std::uint8_t unit_id_ = ft300::usual_unit_id;
   std::vector<std::uint8_t> heard_;  // the newest bytes, as long as a request
   int ones_ = 0;
@@ -56,7 +55,7 @@ class Ft300Server {
   bool streams_ = false;
   ft300::Frame frame_;
   Behaviour behaviour_ = Behaviour::well;
-  std::thread thread_;
+  HelperThread thread_;
 };
 
 }  // namespace flexrf

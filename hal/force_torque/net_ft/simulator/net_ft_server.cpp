@@ -1,8 +1,6 @@
 #include "hal/force_torque/net_ft/simulator/net_ft_server.hpp"
 
 #include <arpa/inet.h>
-#include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -11,6 +9,12 @@
 #include <cstring>
 
 namespace flexrf {
+namespace {
+
+constexpr Duration shortest_pause = std::chrono::milliseconds(1);
+constexpr Duration longest_pause = std::chrono::seconds(1);
+
+}  // namespace
 
 Status NetFtServer::plug(std::uint16_t port) {
   unplug();
@@ -21,8 +25,7 @@ Status NetFtServer::plug(std::uint16_t port) {
   socklen_t size = sizeof(address);
   socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   other_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  wake_ = eventfd(0, EFD_CLOEXEC);
-  if (socket_ < 0 || other_ < 0 || wake_ < 0 ||
+  if (socket_ < 0 || other_ < 0 ||
       bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
       getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
     const int error = errno;
@@ -32,27 +35,22 @@ Status NetFtServer::plug(std::uint16_t port) {
   port_ = ntohs(address.sin_port);
   client_ = {};
   model_.switch_off_and_on();
-  thread_ = std::thread([this] { run(); });
-  return {};
+  return thread_.begin<NetFtServer, &NetFtServer::run>("net_ft_server", *this);
 }
 
 void NetFtServer::unplug() {
-  if (thread_.joinable()) {
-    eventfd_write(wake_, 1);
-    thread_.join();
-  }
-  for (int* descriptor : {&socket_, &other_, &wake_}) {
+  thread_.end();
+  for (int* descriptor : {&socket_, &other_}) {
     if (*descriptor >= 0) close(*descriptor);
     *descriptor = -1;
   }
 }
 
 void NetFtServer::run() {
-  pollfd both[2] = {{wake_, POLLIN, 0}, {socket_, POLLIN, 0}};
-  while (both[0].revents == 0) {
+  pollfd socket{socket_, POLLIN, 0};
+  do {
     receive();
-    if (poll(both, 2, send()) < 0 && errno != EINTR) return;
-  }
+  } while (thread_.wait(send(), {&socket, 1}));
 }
 
 void NetFtServer::receive() {
@@ -69,15 +67,15 @@ void NetFtServer::receive() {
   }
 }
 
-int NetFtServer::send() {
+Duration NetFtServer::send() {
   const Time now = MonotonicClock::now();
   const std::lock_guard lock(mutex_);
   while (const auto datagram = model_.send(now)) {
     static_cast<void>(!sendto(datagram->foreign ? other_ : socket_, datagram->bytes.data(), datagram->size, 0,
                               reinterpret_cast<const sockaddr*>(&client_), sizeof(client_)));
   }
-  if (model_.next() == Time::max()) return -1;
-  return static_cast<int>(std::clamp<std::int64_t>((model_.next() - now).count() / 1'000'000 + 1, 1, 1000));
+  if (model_.next() == Time::max()) return longest_pause;
+  return std::clamp(Duration{model_.next() - now}, shortest_pause, longest_pause);
 }
 
 }  // namespace flexrf

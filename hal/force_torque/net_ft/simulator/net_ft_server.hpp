@@ -5,9 +5,9 @@
 
 #include <cstdint>
 #include <mutex>
-#include <thread>
 
 #include "base/status.hpp"
+#include "hal/driver/helper_thread.hpp"
 #include "hal/force_torque/net_ft/simulator/net_ft_model.hpp"
 
 namespace flexrf {
@@ -35,17 +35,16 @@ class NetFtServer {
  private:
   void run();
   void receive();
-  /// How long until there is something to send, in ms; −1: nothing is waited for.
-  int send();
+  /// How long until there is something to send, at most longest_pause.
+  Duration send();
 
   std::mutex mutex_;
   NetFtModel model_;
   std::uint16_t port_ = 0;
   int socket_ = -1;
   int other_ = -1;  // a socket with another port
-  int wake_ = -1;
   sockaddr_in client_{};
-  std::thread thread_;
+  HelperThread thread_;
 };
 
 }  // namespace flexrf

@@ -2,8 +2,6 @@
 
 #include <modbus.h>
 #include <netinet/in.h>
-#include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -16,6 +14,8 @@ namespace flexrf {
 namespace {
 
 constexpr int addresses = 65536;
+/// Nobody counts on it: what comes wakes the thread.
+constexpr Duration look_interval = std::chrono::seconds(1);
 
 Status failure(const char* what) {
   return Status::error(StatusCode::unavailable, "%s: %s", what, modbus_strerror(errno));
@@ -49,14 +49,10 @@ std::optional<ModbusServer::Behaviour> ModbusServer::behaviour_named(std::string
 }
 
 ModbusServer::~ModbusServer() {
-  if (thread_.joinable()) {
-    eventfd_write(wake_, 1);
-    thread_.join();
-  }
+  thread_.end();
   end_connection();
   if (listener_ >= 0) close(listener_);
   if (owns_line_) modbus_close(context_);
-  if (wake_ >= 0) close(wake_);
   if (registers_ != nullptr) modbus_mapping_free(registers_);
   if (context_ != nullptr) modbus_free(context_);
 }
@@ -65,9 +61,7 @@ Result<std::unique_ptr<ModbusServer>> ModbusServer::begin(std::unique_ptr<Modbus
                                                           _modbus* context) {
   server->context_ = context;
   server->registers_ = modbus_mapping_new(addresses, addresses, addresses, addresses);
-  server->wake_ = eventfd(0, EFD_CLOEXEC);
-  if (context == nullptr || server->registers_ == nullptr || server->wake_ < 0)
-    return failure("a Modbus server cannot be made");
+  if (context == nullptr || server->registers_ == nullptr) return failure("a Modbus server cannot be made");
   if (server->serial_) {
     modbus_set_slave(context, server->unit_id_);
   } else {
@@ -75,7 +69,8 @@ Result<std::unique_ptr<ModbusServer>> ModbusServer::begin(std::unique_ptr<Modbus
     if (server->listener_ < 0) return failure("a Modbus server cannot listen");
     server->port_ = port_of(server->listener_);
   }
-  server->thread_ = std::thread([raw = server.get()] { raw->run(); });
+  const Status status = server->thread_.begin<ModbusServer, &ModbusServer::run>("modbus_server", *server);
+  if (!status) return status;
   return server;
 }
 
@@ -114,17 +109,16 @@ Result<std::unique_ptr<ModbusServer>> ModbusServer::on_descriptor(std::uint8_t u
 
 void ModbusServer::run() {
   while (true) {
-    std::array<pollfd, 3> waits{{{wake_, POLLIN, 0}, {listener_, POLLIN, 0}, {client_, POLLIN, 0}}};
-    if (poll(waits.data(), waits.size(), -1) < 0 && errno != EINTR) return;
-    if (waits[0].revents != 0) return;
-    if (waits[1].revents != 0) {
+    std::array<pollfd, 2> waits{{{listener_, POLLIN, 0}, {client_, POLLIN, 0}}};
+    if (!thread_.wait(look_interval, waits)) return;
+    if (waits[0].revents != 0) {
       accept();
       continue;
     }
     if (client_ < 0) continue;
     if (!serial_ && behaviour_.load() == Behaviour::cut) {
       end_connection();
-    } else if (waits[2].revents != 0) {
+    } else if (waits[1].revents != 0) {
       serve();
     }
   }
@@ -149,14 +143,9 @@ void ModbusServer::serve() {
     answer(request.data(), length);
   } else if (length < 0) {
     // A serial line goes on after a damaged request; one that is gone must not be asked without end.
-    if (serial_ && errno != EMBBADCRC) pause(std::chrono::milliseconds(1));
+    if (serial_ && errno != EMBBADCRC) thread_.wait(std::chrono::milliseconds(1));
     end_connection();
   }
-}
-
-void ModbusServer::pause(Duration duration) noexcept {
-  pollfd wake{wake_, POLLIN, 0};
-  poll(&wake, 1, static_cast<int>(duration.count() / 1'000'000));
 }
 
 void ModbusServer::answer(std::uint8_t* request, int length) {
@@ -190,7 +179,7 @@ void ModbusServer::answer(std::uint8_t* request, int length) {
       ++unit;
       break;
     case Behaviour::slow:
-      pause(slow_delay);
+      thread_.wait(slow_delay);
       break;
     case Behaviour::well:
       break;

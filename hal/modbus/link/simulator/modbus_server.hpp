@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 
 #include "base/status.hpp"
 #include "base/time.hpp"
+#include "hal/driver/helper_thread.hpp"
 #include "hal/modbus/link/interface/modbus_station_model.hpp"
 #include "hal/modbus/link/interface/register_map.hpp"
 
@@ -72,7 +72,6 @@ class ModbusServer {
   void answer(std::uint8_t* request, int length);
   void end_connection() noexcept;
   void follow() noexcept;
-  void pause(Duration duration) noexcept;
 
   _modbus* context_ = nullptr;
   _modbus_mapping_t* registers_ = nullptr;
@@ -84,10 +83,9 @@ class ModbusServer {
   bool owns_line_ = false;
   int listener_ = -1;
   int client_ = -1;
-  int wake_ = -1;  // readable when the thread is to end
   std::atomic<Behaviour> behaviour_{Behaviour::well};
   std::atomic<int> requests_{0};
-  std::thread thread_;
+  HelperThread thread_;
 };
 
 }  // namespace flexrf

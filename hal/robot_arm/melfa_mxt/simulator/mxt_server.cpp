@@ -2,15 +2,12 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
-#include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 
 namespace flexrf::melfa {
 namespace {
@@ -33,37 +30,29 @@ Result<std::unique_ptr<MxtServer>> MxtServer::open(const ControllerPlan& plan, b
     return Status::error(StatusCode::invalid_argument, "'%s' is no numeric IPv4 address", address);
   server->socket_ = udp_socket();
   server->stranger_ = udp_socket();
-  server->wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   socklen_t length = sizeof(own);
-  if (server->socket_ < 0 || server->stranger_ < 0 || server->wake_ < 0 ||
+  if (server->socket_ < 0 || server->stranger_ < 0 ||
       bind(server->socket_, reinterpret_cast<const sockaddr*>(&own), sizeof(own)) != 0 ||
       getsockname(server->socket_, reinterpret_cast<sockaddr*>(&own), &length) != 0)
     return Status::error(StatusCode::unavailable, "no UDP socket at %s:%u: %s", address, unsigned{port},
                          std::strerror(errno));
   server->port_ = ntohs(own.sin_port);
-  server->thread_ = std::thread([raw = server.get()] { raw->run(); });
+  const Status status = server->thread_.begin<MxtServer, &MxtServer::run>("mxt_server", *server);
+  if (!status) return status;
   return server;
 }
 
 MxtServer::~MxtServer() {
-  if (thread_.joinable()) {
-    eventfd_write(wake_, 1);
-    thread_.join();
-  }
-  for (const int descriptor : {socket_, stranger_, wake_}) {
+  thread_.end();
+  for (const int descriptor : {socket_, stranger_}) {
     if (descriptor >= 0) close(descriptor);
   }
 }
 
 void MxtServer::run() {
-  while (true) {
-    pollfd watched[2] = {{wake_, POLLIN, 0}, {socket_, POLLIN, 0}};
-    const Duration pause = until_due();
-    const timespec time{static_cast<time_t>(pause.count() / 1'000'000'000),
-                        static_cast<long>(pause.count() % 1'000'000'000)};
-    ppoll(watched, 2, &time, nullptr);
-    if ((watched[0].revents & POLLIN) != 0) return;
-    if ((watched[1].revents & POLLIN) != 0) receive();
+  pollfd socket{socket_, POLLIN, 0};
+  while (thread_.wait(until_due(), {&socket, 1})) {
+    if ((socket.revents & POLLIN) != 0) receive();
     send_due();
   }
 }

@@ -4,9 +4,9 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 #include "base/status.hpp"
+#include "hal/driver/helper_thread.hpp"
 #include "hal/robot_arm/melfa_mxt/simulator/mxt_wire.hpp"
 
 namespace flexrf::melfa {
@@ -42,13 +42,12 @@ class MxtServer {
   MxtWire wire_;
   int socket_ = -1;
   int stranger_ = -1;  // another socket, for what is not the controller's
-  int wake_ = -1;      // readable when the thread is to end
   std::uint16_t port_ = 0;
   std::uint32_t peer_address_ = 0;  // of who asked last, network byte order
   std::uint16_t peer_port_ = 0;     // likewise
   std::atomic<std::uint64_t> received_{0};
   std::atomic<std::uint64_t> sent_{0};
-  std::thread thread_;
+  HelperThread thread_;
 };
 
 }  // namespace flexrf::melfa
