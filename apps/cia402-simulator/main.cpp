@@ -7,7 +7,6 @@
 // Runs until it is interrupted, also while the interface is down or not there yet. Lines on its standard
 // input make the drives misbehave: "help" tells which; with several drives the node's number comes first ("5
 // off"). Each is answered with a line.
-#include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
 

@@ -1,5 +1,4 @@
 // All generated types and classes, and those that authors derive, are in one namespace: each name once.
-#include <algorithm>
 #include <map>
 
 #include "config-gen/check/checks.hpp"

@@ -1,7 +1,5 @@
 #include "config-gen/emit/component.hpp"
 
-#include <cmath>
-
 #include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {

@@ -1,7 +1,5 @@
 // panel.cpp: what the tables say to the panel, and the files that the application carries for it.
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 #include "config-gen/emit/application_parts.hpp"
 #include "config-gen/emit/emit.hpp"

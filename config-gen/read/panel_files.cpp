@@ -4,13 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "base/ascii.hpp"
-#include "config-gen/model/file_contents.hpp"
 #include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {

@@ -2,11 +2,9 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"

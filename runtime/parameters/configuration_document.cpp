@@ -1,7 +1,6 @@
 #include "runtime/parameters/configuration_document.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <iterator>
 
 #include "base/quantity_text.hpp"

@@ -1,7 +1,6 @@
 #include "runtime/realtime/last_gasp.hpp"
 
 #include <execinfo.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/syscall.h>

@@ -1,7 +1,5 @@
 #include "web-ui/server/fixed_reply.hpp"
 
-#include <cstdint>
-
 #include "runtime/core/digest.hpp"
 #include "web-ui/server/gzip.hpp"
 #include "web-ui/server/request_target.hpp"

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "web-ui/server/connection.hpp"
-#include "web-ui/server/http_problem.hpp"
 #include "web-ui/server/reply_head.hpp"
 #include "web-ui/server/request_target.hpp"
 

@@ -1,6 +1,5 @@
 // Of Server: which client gets a place, which waits for one, and who has to make room.
 #include <algorithm>
-#include <string>
 #include <tuple>
 
 #include "runtime/log/log.hpp"

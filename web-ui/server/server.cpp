@@ -3,13 +3,11 @@
 #include <sys/eventfd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 
 #include "runtime/log/log.hpp"
-#include "web-ui/server/http_problem.hpp"
 #include "web-ui/server/reply_head.hpp"
 
 namespace flexrf::panel {

@@ -1,7 +1,5 @@
 #include "hal/can/in_process/in_process_can_bus.hpp"
 
-#include <cmath>
-
 namespace flexrf {
 
 Status InProcessCanBus::initialise() {

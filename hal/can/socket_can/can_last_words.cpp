@@ -1,6 +1,5 @@
 #include "hal/can/socket_can/can_last_words.hpp"
 
-#include <algorithm>
 #include <span>
 
 #include "runtime/realtime/last_gasp.hpp"

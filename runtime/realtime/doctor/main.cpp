@@ -1,7 +1,6 @@
 // flexrf-doctor: says what this machine has and lacks for real time, and how to mend it. Changes nothing.
 
 #include <cstdio>
-#include <cstring>
 #include <string>
 
 #include "base/json_writer.hpp"

@@ -1,6 +1,5 @@
 // flexrf-password: who may log in to the panel, and with which password.
 
-#include <array>
 #include <cstdio>
 #include <string>
 #include <string_view>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 
 #include "base/nearest_name.hpp"
 #include "runtime/parameters/durable_file.hpp"

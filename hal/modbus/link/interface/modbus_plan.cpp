@@ -1,7 +1,6 @@
 #include "hal/modbus/link/interface/modbus_plan.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 namespace flexrf {

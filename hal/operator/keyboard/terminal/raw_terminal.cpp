@@ -1,7 +1,6 @@
 #include "hal/operator/keyboard/terminal/raw_terminal.hpp"
 
 #include <termios.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>

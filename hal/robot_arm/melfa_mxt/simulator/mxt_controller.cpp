@@ -1,6 +1,5 @@
 #include "hal/robot_arm/melfa_mxt/simulator/mxt_controller.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace flexrf::melfa {
