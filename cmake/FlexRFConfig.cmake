@@ -9,7 +9,6 @@ include("${CMAKE_CURRENT_LIST_DIR}/FlexRFTargets.cmake")
 if(TARGET FlexRF::panel)
   find_dependency(Boost 1.74)
   find_dependency(OpenSSL 3.0)
-  find_dependency(nlohmann_json)
 endif()
 if(NOT TARGET PkgConfig::cmocka)  # of the suites: who runs none does without
   pkg_check_modules(cmocka QUIET IMPORTED_TARGET GLOBAL cmocka)
