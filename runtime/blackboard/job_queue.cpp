@@ -4,8 +4,11 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
+#include <utility>
 
 #include "runtime/core/digest.hpp"
+#include "runtime/core/scalar_types.hpp"
 
 namespace flexrf {
 namespace {
@@ -32,48 +35,29 @@ std::uint64_t rank_of_real(double score) noexcept {
   return ((bits & sign) != 0 ? ~bits : bits | sign) >> state_bits;
 }
 
-template <class T>
-T field(const std::byte* at) noexcept {
-  T value{};
-  std::memcpy(&value, at, sizeof(T));
-  return value;
-}
-
 }  // namespace
 
 std::uint64_t JobQueue::rank_of(const void* value) const noexcept {
   const std::byte* at = static_cast<const std::byte*>(value) + order_.offset;
   switch (order_.scalar) {
-    case Scalar::f64:
-      return rank_of_real(field<double>(at));
-    case Scalar::f32:
-      return rank_of_real(field<float>(at));
-    case Scalar::i64:
-      return rank_of_integer(field<std::int64_t>(at));
-    case Scalar::u64:
-      return rank_of_integer(static_cast<std::int64_t>(
-          std::min(field<std::uint64_t>(at), static_cast<std::uint64_t>(INT64_MAX))));
-    case Scalar::i32:
-      return rank_of_integer(field<std::int32_t>(at));
-    case Scalar::u32:
     case Scalar::button:
-      return rank_of_integer(field<std::uint32_t>(at));
-    case Scalar::i16:
-      return rank_of_integer(field<std::int16_t>(at));
-    case Scalar::u16:
-      return rank_of_integer(field<std::uint16_t>(at));
-    case Scalar::i8:
-      return rank_of_integer(field<std::int8_t>(at));
-    case Scalar::u8:
+      return rank_of_integer(load<std::uint32_t>(at));
     case Scalar::boolean:
     case Scalar::enumeration:
     case Scalar::hold:
-      return rank_of_integer(field<std::uint8_t>(at));
-    case Scalar::text:
-    case Scalar::structure:
-      break;
+      return rank_of_integer(load<std::uint8_t>(at));
+    default:
+      return visit_number(order_.scalar, std::uint64_t{0}, [at](auto tag) {
+        using Score = decltype(tag);
+        const auto score = load<Score>(at);
+        if constexpr (std::is_floating_point_v<Score>) {
+          return rank_of_real(score);
+        } else {
+          return rank_of_integer(std::in_range<std::int64_t>(score) ? static_cast<std::int64_t>(score)
+                                                                    : INT64_MAX);
+        }
+      });
   }
-  return 0;
 }
 
 bool JobQueue::ranks_above(const Candidate& one, const Candidate& other) const noexcept {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/nearest_name.hpp"
+#include "runtime/core/scalar_types.hpp"
 #include "runtime/json/value_reader.hpp"
 #include "runtime/parameters/parameter_store.hpp"
-#include "runtime/parameters/scalar_types.hpp"
 
 namespace flexrf {
 namespace {

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "base/nearest_name.hpp"
-#include "runtime/parameters/scalar_types.hpp"
+#include "runtime/core/scalar_types.hpp"
 
 namespace flexrf {
 namespace {

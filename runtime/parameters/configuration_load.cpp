@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "base/nearest_name.hpp"
+#include "runtime/core/scalar_types.hpp"
 #include "runtime/parameters/configuration_document.hpp"
 #include "runtime/parameters/configuration_file.hpp"
 #include "runtime/parameters/durable_file.hpp"
-#include "runtime/parameters/scalar_types.hpp"
 #include "runtime/parameters/value_access.hpp"
 
 namespace flexrf {

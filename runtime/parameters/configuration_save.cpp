@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "base/quantity_text.hpp"
+#include "runtime/core/scalar_types.hpp"
 #include "runtime/parameters/configuration_document.hpp"
 #include "runtime/parameters/configuration_file.hpp"
 #include "runtime/parameters/durable_file.hpp"
-#include "runtime/parameters/scalar_types.hpp"
 #include "runtime/parameters/value_access.hpp"
 
 namespace flexrf {

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "runtime/parameters/scalar_types.hpp"
+#include "runtime/core/scalar_types.hpp"
 #include "runtime/parameters/value_access.hpp"
 
 namespace flexrf {

@@ -6,8 +6,8 @@
 #include <type_traits>
 
 #include "base/nearest_name.hpp"
+#include "runtime/core/scalar_types.hpp"
 #include "runtime/parameters/number_text.hpp"
-#include "runtime/parameters/scalar_types.hpp"
 
 namespace flexrf {
 namespace {
@@ -117,21 +117,6 @@ Status unknown_field(const TypeDescriptor& type, std::string_view name) noexcept
 }
 
 }  // namespace
-
-std::size_t element_size(const FieldDescriptor& field) noexcept {
-  switch (field.scalar) {
-    case Scalar::structure:
-      return field.type->size;
-    case Scalar::button:
-      return sizeof(std::uint32_t);
-    default:
-      return visit_number(field.scalar, std::size_t{1}, [](auto tag) { return sizeof(tag); });
-  }
-}
-
-std::size_t field_size(const FieldDescriptor& field) noexcept {
-  return field.count * element_size(field);
-}
 
 FieldPlace whole(const FieldDescriptor& field) noexcept {
   return {&field, field.offset, field.count, false};

@@ -8,6 +8,7 @@
 
 #include "base/status.hpp"
 #include "runtime/core/parameter_descriptor.hpp"
+#include "runtime/core/scalar_types.hpp"
 #include "runtime/core/type_descriptor.hpp"
 
 namespace flexrf {
@@ -26,10 +27,6 @@ struct ValueRange {
   double maximum;
 };
 
-/// Bytes of one element; of a text, 1.
-std::size_t element_size(const FieldDescriptor& field) noexcept;
-/// Bytes of all elements.
-std::size_t field_size(const FieldDescriptor& field) noexcept;
 FieldPlace whole(const FieldDescriptor& field) noexcept;
 /// The parameter's range, or null. `range` is where it is put.
 const ValueRange* range_of(const ParameterDescriptor& parameter, ValueRange& range) noexcept;

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/nearest_name.hpp"
+#include "runtime/core/scalar_types.hpp"
 #include "runtime/parameters/number_text.hpp"
-#include "runtime/parameters/scalar_types.hpp"
 #include "runtime/parameters/value_access.hpp"
 
 namespace flexrf {

@@ -3,29 +3,10 @@
 #include <cstddef>
 #include <cstring>
 
+#include "runtime/core/scalar_types.hpp"
+
 namespace flexrf {
 namespace {
-
-std::size_t bytes_of(const FieldDescriptor& field) noexcept {
-  switch (field.scalar) {
-    case Scalar::i16:
-    case Scalar::u16:
-      return std::size_t{2} * field.count;
-    case Scalar::i32:
-    case Scalar::u32:
-    case Scalar::f32:
-    case Scalar::button:
-      return std::size_t{4} * field.count;
-    case Scalar::i64:
-    case Scalar::u64:
-    case Scalar::f64:
-      return std::size_t{8} * field.count;
-    case Scalar::structure:
-      return std::size_t{field.type->size} * field.count;
-    default:
-      return field.count;
-  }
-}
 
 bool is_same(const FieldDescriptor& one, const FieldDescriptor& other) noexcept {
   return std::strcmp(one.name, other.name) == 0 && one.scalar == other.scalar && one.type == other.type &&
@@ -40,7 +21,7 @@ void copy_same_columns(const TypeDescriptor& from_type, const void* from, const 
   auto* target = static_cast<std::byte*>(to);
   for (const FieldDescriptor& have : from_type.fields) {
     for (const FieldDescriptor& want : to_type.fields) {
-      if (is_same(have, want)) std::memcpy(target + want.offset, source + have.offset, bytes_of(have));
+      if (is_same(have, want)) std::memcpy(target + want.offset, source + have.offset, field_size(have));
     }
   }
 }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "runtime/parameters/scalar_types.hpp"
+#include "runtime/core/scalar_types.hpp"
 #include "runtime/parameters/tests/parameter_bench.hpp"
 #include "tests/cmocka.hpp"
 

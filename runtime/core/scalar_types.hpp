@@ -1,6 +1,7 @@
-// From a scalar's tag to its C++ type. Private to runtime/parameters.
+// From a scalar's tag to its C++ type, and how large it is.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -42,6 +43,23 @@ Result visit_number(Scalar scalar, Result otherwise, Visit&& visit) {
       break;
   }
   return otherwise;
+}
+
+/// Bytes of one element; of a text, 1.
+inline std::size_t element_size(const FieldDescriptor& field) noexcept {
+  switch (field.scalar) {
+    case Scalar::structure:
+      return field.type->size;
+    case Scalar::button:
+      return sizeof(std::uint32_t);
+    default:
+      return visit_number(field.scalar, std::size_t{1}, [](auto tag) { return sizeof(tag); });
+  }
+}
+
+/// Bytes of all elements.
+inline std::size_t field_size(const FieldDescriptor& field) noexcept {
+  return field.count * element_size(field);
 }
 
 template <class T>
