@@ -1,13 +1,9 @@
 #include "hal/force_torque/ft300/simulator/ft300_server.hpp"
 
-#include <fcntl.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 
 namespace flexrf {
 namespace {
@@ -20,20 +16,11 @@ std::int16_t counts_of(double value, double counts) {
   return static_cast<std::int16_t>(std::lround(std::clamp(value * counts, -32768.0, 32767.0)));
 }
 
-Status failure(const char* what) {
-  return Status::error(StatusCode::unavailable, "%s: %s", what, std::strerror(errno));
-}
-
 void say(int line, std::span<const std::uint8_t> bytes) {
   static_cast<void>(!write(line, bytes.data(), bytes.size()));
 }
 
 }  // namespace
-
-Ft300Server::~Ft300Server() {
-  thread_.end();
-  if (owns_line_) close(line_);
-}
 
 Result<std::unique_ptr<Ft300Server>> Ft300Server::on_descriptor(int descriptor, std::uint8_t unit_id) {
   std::unique_ptr<Ft300Server> server(new Ft300Server);
@@ -45,16 +32,9 @@ Result<std::unique_ptr<Ft300Server>> Ft300Server::on_descriptor(int descriptor, 
 Result<std::unique_ptr<Ft300Server>> Ft300Server::on_serial_line(const std::string& device,
                                                                  std::uint8_t unit_id) {
   std::unique_ptr<Ft300Server> server(new Ft300Server);
-  server->line_ = open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-  server->owns_line_ = server->line_ >= 0;
+  if (const Status status = server->port_.open(device.c_str()); !status) return status;
+  server->line_ = server->port_.descriptor();
   server->unit_id_ = unit_id;
-  termios settings{};
-  if (server->line_ < 0 || tcgetattr(server->line_, &settings) != 0) return failure(device.c_str());
-  cfmakeraw(&settings);
-  settings.c_cflag |= CLOCAL | CREAD;
-  cfsetspeed(&settings, B19200);
-  tcsetattr(server->line_, TCSANOW, &settings);
-  tcflush(server->line_, TCIOFLUSH);
   return begin(std::move(server));
 }
 

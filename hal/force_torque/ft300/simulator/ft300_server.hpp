@@ -10,6 +10,7 @@
 #include "base/status.hpp"
 #include "hal/driver/helper_thread.hpp"
 #include "hal/force_torque/ft300/ft300_stream.hpp"
+#include "hal/force_torque/ft300/serial_port.hpp"
 
 namespace flexrf {
 
@@ -24,7 +25,6 @@ class Ft300Server {
     truncated,  ///< its frames end early
   };
 
-  ~Ft300Server();
   /// A line that is open already and stays its owner's.
   static Result<std::unique_ptr<Ft300Server>> on_descriptor(int descriptor, std::uint8_t unit_id);
   /// Opened with 19200 bit/s.
@@ -45,8 +45,8 @@ class Ft300Server {
   void heed(std::uint8_t byte);
   void send();
 
+  SerialPort port_;  // of a line of its own
   int line_ = -1;
-  bool owns_line_ = false;
   std::uint8_t unit_id_ = ft300::usual_unit_id;
   std::vector<std::uint8_t> heard_;  // the newest bytes, as long as a request
   int ones_ = 0;
@@ -55,7 +55,7 @@ class Ft300Server {
   bool streams_ = false;
   ft300::Frame frame_;
   Behaviour behaviour_ = Behaviour::well;
-  HelperThread thread_;
+  HelperThread thread_;  // ends first
 };
 
 }  // namespace flexrf
