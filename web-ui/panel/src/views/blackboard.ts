@@ -7,6 +7,7 @@ import { words } from '../widgets/value_text';
 import { ownerOf, slotColumns, SlotRow, type SlotCounters } from './blackboard_rows';
 import { countText, rateText } from './durations';
 import { RateMeters } from './rates';
+import { table } from './table';
 import { addressOf, ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 import { hasAll, wordsOf } from './wanted_words';
@@ -174,28 +175,12 @@ export class Blackboard extends ViewBase {
     return html`
       <h3 id="queues-title">Queues</h3>
       <div class="scroll ${this.age}" tabindex="0" role="region" aria-labelledby="queues-title">
-        <table>
-          <caption>
-            Each item goes to one reader; a line for each writer
-          </caption>
-          <thead>
-            <tr>
-              <th scope="col">Queue</th>
-              <th scope="col">Type</th>
-              <th scope="col" class="number">Capacity</th>
-              <th scope="col">When full</th>
-              <th scope="col">Writer</th>
-              <th scope="col" class="number">Pushed</th>
-              <th scope="col" class="number">Rate</th>
-              <th scope="col" class="number">Taken</th>
-              <th scope="col" class="number">Dropped</th>
-              <th scope="col">Readers</th>
-            </tr>
-          </thead>
-          <tbody>
-            ${repeat(queues, (queue) => queue.name, (queue) => queue.writers.map((name, i) => this.queueRow(queue, name, i)))}
-          </tbody>
-        </table>
+        ${table(
+          'Each item goes to one reader; a line for each writer',
+          ['Queue', 'Type', 'Capacity', 'When full', 'Writer', 'Pushed', 'Rate', 'Taken', 'Dropped', 'Readers'],
+          repeat(queues, (queue) => queue.name, (queue) => queue.writers.map((name, i) => this.queueRow(queue, name, i))),
+          ['Capacity', 'Pushed', 'Rate', 'Taken', 'Dropped'],
+        )}
       </div>
     `;
   }

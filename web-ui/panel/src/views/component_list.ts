@@ -4,6 +4,7 @@ import { customElement, property } from 'lit/decorators.js';
 import { repeat } from 'lit/directives/repeat.js';
 import type { Component } from '../core/descriptor';
 import { componentRows, stateText, urgency, type ComponentRow } from './component_actions';
+import { table } from './table';
 import { addressOf, ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
@@ -48,23 +49,11 @@ export class ComponentList extends ViewBase {
       <h2>${title}</h2>
       ${this.faults(components)}
       <div class="scroll ${this.age}" tabindex="0" role="region" aria-label=${title}>
-        <table>
-          <caption>
-            All ${title.toLowerCase()}, in the order of the tables
-          </caption>
-          <thead>
-            <tr>
-              <th scope="col">Name</th>
-              <th scope="col">State</th>
-              <th scope="col">${this.kind === 'unit' ? 'Type' : 'Interface'}</th>
-              <th scope="col">${this.kind === 'unit' ? 'Population' : 'Driver'}</th>
-              <th scope="col">Thread</th>
-            </tr>
-          </thead>
-          <tbody>
-            ${repeat(components, (component) => component.name, (component) => this.row(component))}
-          </tbody>
-        </table>
+        ${table(
+          `All ${title.toLowerCase()}, in the order of the tables`,
+          ['Name', 'State', ...(this.kind === 'unit' ? ['Type', 'Population'] : ['Interface', 'Driver']), 'Thread'],
+          repeat(components, (component) => component.name, (component) => this.row(component)),
+        )}
       </div>
     `;
   }

@@ -14,6 +14,7 @@ import './group_reset';
 import { portsOf, type Port } from './ports';
 import './slot_age';
 import './undo';
+import { table } from './table';
 import { addressOf, ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 import './widget_place';
@@ -263,24 +264,11 @@ export class ComponentPage extends ViewBase {
     return html`
       <h3 id="ports">Inputs and outputs</h3>
       <div class="scroll" tabindex="0" role="region" aria-labelledby="ports">
-        <table>
-          <caption>
-            What it reads and writes
-          </caption>
-          <thead>
-            <tr>
-              <th scope="col">Name</th>
-              <th scope="col">Direction</th>
-              <th scope="col">Type</th>
-              <th scope="col">Connected to</th>
-              <th scope="col">Age, or why NULL</th>
-              <th scope="col">Meaning</th>
-            </tr>
-          </thead>
-          <tbody>
-            ${repeat(ports, (port) => `${port.direction} ${port.name}`, (port) => this.port(port))}
-          </tbody>
-        </table>
+        ${table(
+          'What it reads and writes',
+          ['Name', 'Direction', 'Type', 'Connected to', 'Age, or why NULL', 'Meaning'],
+          repeat(ports, (port) => `${port.direction} ${port.name}`, (port) => this.port(port)),
+        )}
       </div>
     `;
   }

@@ -6,6 +6,7 @@ import type { ThreadJson } from '../core/descriptor_json';
 import { countText, durationText, rateText } from './durations';
 import { budgetUse, columnsOf, histogramPath, LogAxis, type DurationHistogram } from './histogram_scale';
 import { RateMeters } from './rates';
+import { table } from './table';
 import { addressOf, ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
@@ -27,6 +28,8 @@ export interface ThreadRow {
   readonly lateness: DurationHistogram;
   readonly execution: DurationHistogram;
 }
+
+const quantileNames = ['p50', 'p99', 'p99.9', 'Longest'];
 
 const width = 480;
 const height = 70;
@@ -215,23 +218,12 @@ export class Threads extends ViewBase {
     `;
     return html`
       <div class="scroll">
-        <table>
-          <caption>
-            Durations since the start, ${row.name}
-          </caption>
-          <thead>
-            <tr>
-              <th scope="col">What</th>
-              <th scope="col" class="number">p50</th>
-              <th scope="col" class="number">p99</th>
-              <th scope="col" class="number">p99.9</th>
-              <th scope="col" class="number">Longest</th>
-            </tr>
-          </thead>
-          <tbody>
-            ${line('Lateness', row.lateness)} ${line('Execution', row.execution)}
-          </tbody>
-        </table>
+        ${table(
+          `Durations since the start, ${row.name}`,
+          ['What', ...quantileNames],
+          [line('Lateness', row.lateness), line('Execution', row.execution)],
+          quantileNames,
+        )}
       </div>
     `;
   }
