@@ -72,7 +72,6 @@ class Node {
   std::uint64_t resets() const noexcept { return resets_; }
   /// Silences of its heartbeat, or of its answers to guarding.
   std::uint64_t silences() const noexcept { return silences_; }
-  std::uint64_t dropped_answers() const noexcept { return client_.dropped(); }
 
  private:
   Status check(const NodePlan& plan) const noexcept;

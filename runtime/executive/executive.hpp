@@ -105,7 +105,6 @@ class Executive {
   Observer* observer_ = nullptr;
   std::deque<ThreadLoop> loops_;
   std::deque<RunningThread> threads_;
-  Status start_status_;
   std::atomic<bool> lives_{false};
   bool asked_to_end_ = false;  // by a signal; the main thread
   LogLimit useless_signal_;

@@ -47,8 +47,7 @@ bool MockProcessHost::start() noexcept {
     read_[i] = 0;
   }
   fed_.clear();
-  input_ended_ = closed_own_input_ = false;
-  if (start_hangs_) return true;
+  input_ended_ = false;
   ProcessEvent event;
   event.kind = refusal_.is_ok() ? ProcessEvent::Kind::started : ProcessEvent::Kind::refused;
   event.id = next_id_++;
@@ -59,7 +58,6 @@ bool MockProcessHost::start() noexcept {
 }
 
 void MockProcessHost::end(bool at_once) noexcept {
-  if (at_once && start_hangs_) runs_ = true;
   if (at_once || obeys_) finish(0, at_once ? SIGKILL : SIGTERM);
 }
 
@@ -86,7 +84,7 @@ long MockProcessHost::read(ProcessSource source, std::span<char> bytes) noexcept
 }
 
 long MockProcessHost::write(std::string_view bytes) noexcept {
-  if (!runs_ || closed_own_input_) return -1;
+  if (!runs_) return -1;
   if (!reads_) return 0;
   const std::size_t count = std::min(bytes.size(), pipe_capacity - fed_.size());
   fed_.append(bytes.substr(0, count));

@@ -27,14 +27,12 @@ class MockProcessHost final : public ProcessHost {
   std::string_view fed() const noexcept { return fed_; }
   bool input_ended() const noexcept { return input_ended_; }
   void set_reads(bool on) noexcept { reads_ = on; }
-  void close_own_input() noexcept { closed_own_input_ = true; }
   /// Whether it ends when it is asked to; a kill ends it in any case.
   void set_obeys(bool on) noexcept { obeys_ = on; }
   /// Its children have its output open after it has ended.
   void set_leaves_output_open(bool on) noexcept { leaves_open_ = on; }
   /// How starts go from now on: ok: as they should.
   void refuse(const Status& cause) noexcept { refusal_ = cause; }
-  void set_start_hangs(bool on) noexcept { start_hangs_ = on; }
   /// Whatever starts programs is gone, and the program with it.
   void lose(const Status& cause) noexcept;
 
@@ -63,9 +61,7 @@ class MockProcessHost final : public ProcessHost {
   bool runs_ = false;
   bool obeys_ = true;
   bool reads_ = true;
-  bool closed_own_input_ = false;
   bool leaves_open_ = false;
-  bool start_hangs_ = false;
   bool input_ended_ = false;
 };
 

@@ -31,7 +31,6 @@ class VirtualLine final : public GpioLine {
 
   /// Drives an input from the next cycle on. Each change is an edge, also those between two cycles.
   void drive(bool high) noexcept;
-  bool is_driven_high() const noexcept { return (changes_.load(std::memory_order_acquire) & 1U) != 0; }
   /// What an output drives; an input: what is seen of it.
   bool is_high() const noexcept { return high_.load(std::memory_order_acquire); }
   /// An output takes no value from now on, and stays as it is.

@@ -36,7 +36,6 @@ Status MockStreamTransport::open(std::string_view /*address*/, bool /*listen*/, 
 }
 
 StreamTransport::Attempt MockStreamTransport::attempt() noexcept {
-  if (slow_) return Attempt::pending;
   if (!listening_) {
     error_ = Status::error(StatusCode::unavailable, "scripted: nobody listens there");
     return Attempt::failed;

@@ -19,7 +19,6 @@ class MockStreamTransport final : public StreamTransport {
 
   // The far ends.
   void set_listening(bool on) noexcept { listening_ = on; }
-  void set_connects_slowly(bool on) noexcept { slow_ = on; }
   std::size_t connections() const noexcept { return ends_.size(); }
   /// To what listens; the connection's number.
   std::size_t connect_to_it();
@@ -68,7 +67,6 @@ class MockStreamTransport final : public StreamTransport {
   std::vector<End> ends_;
   std::array<std::size_t, StreamLinks::most_sessions> places_{};  // which end has each
   bool listening_ = false;
-  bool slow_ = false;
   Status refusal_;
   Status error_;
 };
