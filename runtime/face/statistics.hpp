@@ -1,9 +1,9 @@
 // What is counted and measured of components, threads, slots and queues, and what is in fault.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
@@ -79,10 +79,33 @@ struct QueueFigures {
   }
 };
 
-/// A range of what `figures` gives for each number of a record.
+/// A range: what `figures` gives for each number below `count`. Not of <ranges>, whose views clang 14 does
+/// not compile with the library of g++ 12.
+template <class Figures>
+struct FiguresOfEach {
+  struct Iterator {
+    const FiguresOfEach* range;
+    std::size_t index;
+
+    auto operator*() const noexcept { return range->figures(index); }
+    Iterator& operator++() noexcept {
+      ++index;
+      return *this;
+    }
+    bool operator==(const Iterator&) const noexcept = default;
+  };
+
+  Iterator begin() const noexcept { return {this, 0}; }
+  Iterator end() const noexcept { return {this, count}; }
+  bool empty() const noexcept { return count == 0; }
+
+  std::size_t count;
+  Figures figures;
+};
+
 template <class Records, class Figures>
-auto figures_of_each(const Records& records, Figures figures) {
-  return std::views::iota(std::size_t{0}, records.size()) | std::views::transform(figures);
+FiguresOfEach<Figures> figures_of_each(const Records& records, Figures figures) noexcept {
+  return {records.size(), figures};
 }
 
 /// Any thread that is not real-time. Nothing but the constructor allocates.
