@@ -16,15 +16,9 @@ export class Audit extends ViewBase {
     viewStyles,
     toolStyles,
     css`
-      table {
-        width: 100%;
-        border-collapse: collapse;
-      }
       th,
       td {
         padding: 4px 12px 4px 0;
-        text-align: start;
-        vertical-align: top;
         border-block-end: 1px solid var(--border);
         overflow-wrap: anywhere;
       }

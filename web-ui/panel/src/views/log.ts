@@ -54,9 +54,6 @@ export class Log extends ViewBase {
       .error {
         color: var(--alarm);
       }
-      .warning {
-        color: var(--warning);
-      }
     `,
   ];
 
