@@ -1,8 +1,16 @@
 #include "web-ui/server/api/answers.hpp"
 
+#include <cstdarg>
+#include <cstdio>
+
 #include "web-ui/server/api/problem.hpp"
 
 namespace flexrf::panel {
+namespace {
+
+constexpr std::size_t most_text = 512;  // a refusal holds less
+
+}  // namespace
 
 void Answers::begin_request(Ticket ticket, Reply& reply) noexcept {
   current_ = ticket;
@@ -84,22 +92,30 @@ void Answers::refuse(const Caller& caller, const Refusal& refusal) {
   }
 }
 
+void Answers::refuse(const Caller& caller, RefusalKind kind, const char* format, ...) {
+  char text[most_text] = {};
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof(text), format, arguments);
+  va_end(arguments);
+  refuse(caller, Refusal::make(kind, "%s", text));
+}
+
 bool Permission::has_role(const Caller& caller, Role role, std::string_view act) {
   if (caller.session != no_session && access_->has_role(caller.session, role)) return true;
-  answers_->refuse(caller, Refusal::make(RefusalKind::role_missing,
-                                         "To %.*s needs the role %s; log in as somebody who has it.",
-                                         static_cast<int>(act.size()), act.data(), name_of(role)));
+  answers_->refuse(caller, RefusalKind::role_missing,
+                   "To %.*s needs the role %s; log in as somebody who has it.", static_cast<int>(act.size()),
+                   act.data(), name_of(role));
   return false;
 }
 
 bool Permission::may_control(const Caller& caller, Role role, std::string_view act) {
   if (!has_role(caller, role, act)) return false;
   if (caller.session != no_session && access_->holder() == caller.session) return true;
-  answers_->refuse(caller,
-                   Refusal::make(RefusalKind::control_missing,
-                                 "To %.*s needs the control token, which %s; take control first.",
-                                 static_cast<int>(act.size()), act.data(),
-                                 access_->holder() == no_session ? "nobody holds" : "another session holds"));
+  answers_->refuse(caller, RefusalKind::control_missing,
+                   "To %.*s needs the control token, which %s; take control first.",
+                   static_cast<int>(act.size()), act.data(),
+                   access_->holder() == no_session ? "nobody holds" : "another session holds");
   return false;
 }
 

@@ -29,6 +29,8 @@ class Answers {
     done(caller, [](JsonWriter&) {});
   }
   void refuse(const Caller& caller, const Refusal& refusal);
+  /// As Refusal::make().
+  [[gnu::format(printf, 4, 5)]] void refuse(const Caller& caller, RefusalKind kind, const char* format, ...);
   /// A REST answer that is no JSON: its empty body; null when who asked is gone.
   std::string* begin_bytes(const Caller& caller);
   void end_bytes(const Caller& caller, std::string_view content_type);

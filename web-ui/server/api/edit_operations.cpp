@@ -17,10 +17,9 @@ const char* word_of(ReconfigureOutcome outcome) noexcept {
 
 bool EditOperations::is_at_rest(const Caller& caller) {
   if (executive_->control().mode() != Mode::running) {
-    answers_->refuse(caller,
-                     Refusal::make(RefusalKind::wrong_state,
-                                   "The application is %s; its configuration can be changed while it runs.",
-                                   phrase_of(executive_->control().mode())));
+    answers_->refuse(caller, RefusalKind::wrong_state,
+                     "The application is %s; its configuration can be changed while it runs.",
+                     phrase_of(executive_->control().mode()));
     return false;
   }
   const std::vector<ComponentIndex> moving = executive_->moving();
@@ -39,10 +38,8 @@ void EditOperations::count_anew(Time now) noexcept {
 
 bool EditOperations::is_mine(const Caller& caller, std::string_view edit) {
   if (is_open() && edit == std::to_string(number_) && caller.session == owner_) return true;
-  answers_->refuse(
-      caller,
-      Refusal::make(RefusalKind::wrong_state,
-                    "This edit is over (it was left open too long, or control was lost); begin anew."));
+  answers_->refuse(caller, RefusalKind::wrong_state,
+                   "This edit is over (it was left open too long, or control was lost); begin anew.");
   return false;
 }
 
@@ -52,23 +49,21 @@ void EditOperations::begin(const Caller& caller, JsonArray components, Time now)
   if (!permission_->may_control(caller, Role::engineer, "edit the configuration")) return;
   if (applying_ || (is_open() && caller.session != owner_)) {
     return answers_->refuse(
-        caller,
-        Refusal::make(RefusalKind::wrong_state,
-                      "The configuration is being edited already; wait until that is applied or discarded."));
+        caller, RefusalKind::wrong_state,
+        "The configuration is being edited already; wait until that is applied or discarded.");
   }
   std::vector<ComponentIndex> wanted;
   for (const JsonElement element : components) {
     std::string_view name;
     if (element.get(name) != simdjson::SUCCESS)
-      return answers_->refuse(caller,
-                              Refusal::make(RefusalKind::bad_request, "'components' is a list of names."));
+      return answers_->refuse(caller, RefusalKind::bad_request, "'components' is a list of names.");
     const auto component = directory_->component(name);
     if (!component) return answers_->refuse(caller, directory_->no_component(name));
     if (std::find(wanted.begin(), wanted.end(), *component) == wanted.end()) wanted.push_back(*component);
   }
   if (wanted.empty()) {
-    return answers_->refuse(
-        caller, Refusal::make(RefusalKind::bad_request, "'components' is empty; name what is to be edited."));
+    return answers_->refuse(caller, RefusalKind::bad_request,
+                            "'components' is empty; name what is to be edited.");
   }
   if (!is_at_rest(caller)) return;
   number_ = ++last_number_;
@@ -92,8 +87,7 @@ void EditOperations::begin(const Caller& caller, JsonArray components, Time now)
 void EditOperations::apply(const Caller& caller, std::string_view edit, JsonArray changes, Time now) {
   if (!permission_->may_control(caller, Role::engineer, "apply an edit") || !is_mine(caller, edit)) return;
   if (applying_) {
-    return answers_->refuse(
-        caller, Refusal::make(RefusalKind::busy, "It is being applied; its outcome comes by itself."));
+    return answers_->refuse(caller, RefusalKind::busy, "It is being applied; its outcome comes by itself.");
   }
   WantedChanges wanted = read_changes(*directory_, changes);
   for (const ComponentIndex component : wanted.components) {
@@ -109,8 +103,8 @@ void EditOperations::apply(const Caller& caller, std::string_view edit, JsonArra
 void EditOperations::discard(const Caller& caller, std::string_view edit) {
   if (!is_mine(caller, edit)) return;
   if (applying_) {
-    return answers_->refuse(caller, Refusal::make(RefusalKind::wrong_state,
-                                                  "It is being applied and can no longer be discarded."));
+    return answers_->refuse(caller, RefusalKind::wrong_state,
+                            "It is being applied and can no longer be discarded.");
   }
   end();
   answers_->done(caller);
@@ -119,9 +113,8 @@ void EditOperations::discard(const Caller& caller, std::string_view edit) {
 void EditOperations::reconfigure(const Caller& caller, JsonArray changes, Time now) {
   if (!permission_->may_control(caller, Role::engineer, "change the configuration")) return;
   if (is_open()) {
-    return answers_->refuse(caller,
-                            Refusal::make(RefusalKind::wrong_state,
-                                          "The configuration is being edited; wait until that is over."));
+    return answers_->refuse(caller, RefusalKind::wrong_state,
+                            "The configuration is being edited; wait until that is over.");
   }
   const WantedChanges wanted = read_changes(*directory_, changes);
   if (!permission_->has_role(caller, wanted.role, "change these parameters") || !is_at_rest(caller)) return;

@@ -5,8 +5,7 @@ namespace flexrf::panel {
 void ImageRequests::ask(const Caller& caller, std::uint16_t slot, std::uint32_t width, Time now) {
   // The look that is under way may have begun before.
   if (!waiting_.add({caller, slot, images_->newest(slot).version, now + patience_}))
-    return answers_->refuse(caller,
-                            Refusal::make(RefusalKind::busy, "Too many pictures are asked for at a time."));
+    return answers_->refuse(caller, RefusalKind::busy, "Too many pictures are asked for at a time.");
   images_->demand_once(slot, width);
 }
 
@@ -26,8 +25,7 @@ void ImageRequests::answer(const Waiting& waiting) {
   if (newest.version != waiting.version && images_->copy(waiting.slot, *text, newest, cause)) {
     answers_->end_bytes(waiting.caller, "image/jpeg");
   } else {
-    answers_->refuse(waiting.caller,
-                     Refusal::make(RefusalKind::wrong_state, "There is no picture: %s.", cause));
+    answers_->refuse(waiting.caller, RefusalKind::wrong_state, "There is no picture: %s.", cause);
   }
 }
 

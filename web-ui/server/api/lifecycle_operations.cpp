@@ -5,9 +5,8 @@ namespace flexrf::panel {
 void LifecycleOperations::act(const Caller& caller, ComponentIndex component, ComponentAction action) {
   if (!permission_->may_control(caller, Role::engineer, "start, stop or initialise a component")) return;
   if (waiting_.is_full()) {
-    return answers_->refuse(
-        caller,
-        Refusal::make(RefusalKind::busy, "%zu actions are under way; wait until one is done.", most_waiting));
+    return answers_->refuse(caller, RefusalKind::busy, "%zu actions are under way; wait until one is done.",
+                            most_waiting);
   }
   const std::uint64_t number = ++last_number_;
   waiting_.add({caller, component, number});

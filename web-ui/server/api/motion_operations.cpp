@@ -18,12 +18,11 @@ void MotionOperations::clear_stop_motion(const Caller& caller) {
 void MotionOperations::start_motion(const Caller& caller) {
   if (!permission_->may_control(caller, Role::operator_, "start motion")) return;
   if (edits_->is_open()) {
-    return answers_->refuse(
-        caller, Refusal::make(RefusalKind::wrong_state,
-                              "The configuration is being edited; apply or discard the edit before Start."));
+    return answers_->refuse(caller, RefusalKind::wrong_state,
+                            "The configuration is being edited; apply or discard the edit before Start.");
   }
   if (const Status status = executive_->cell().start_motion(permission_->who(caller)); !status)
-    return answers_->refuse(caller, Refusal::make(RefusalKind::wrong_state, "No Start: %s.", status.cause()));
+    return answers_->refuse(caller, RefusalKind::wrong_state, "No Start: %s.", status.cause());
   answers_->done(caller);
 }
 
@@ -37,21 +36,18 @@ void MotionOperations::take_control(const Caller& caller, Time now) {
         json.member("taken", access_->holder() == caller.session);
       });
     case AccessControl::Taking::refused_role:
-      return answers_->refuse(caller,
-                              Refusal::make(RefusalKind::role_missing,
-                                            "The control token needs the role operator; log in as one."));
+      return answers_->refuse(caller, RefusalKind::role_missing,
+                              "The control token needs the role operator; log in as one.");
     case AccessControl::Taking::refused_asked:
-      return answers_->refuse(caller,
-                              Refusal::make(RefusalKind::wrong_state,
-                                            "Somebody else has asked for control already; wait until that "
-                                            "is answered."));
+      return answers_->refuse(caller, RefusalKind::wrong_state,
+                              "Somebody else has asked for control already; wait until that "
+                              "is answered.");
     case AccessControl::Taking::refused_local:
       break;
   }
-  answers_->refuse(caller,
-                   Refusal::make(RefusalKind::control_missing,
-                                 "Control is held at the machine, and is not given away from afar; ask "
-                                 "the person there to release it."));
+  answers_->refuse(caller, RefusalKind::control_missing,
+                   "Control is held at the machine, and is not given away from afar; ask "
+                   "the person there to release it.");
 }
 
 void MotionOperations::release_control(const Caller& caller) {
@@ -64,9 +60,8 @@ void MotionOperations::answer_control(const Caller& caller, bool grant, Time now
     if (!grant) executive_->cell().audit().note(permission_->who(caller), "kept control");
     return answers_->done(caller);
   }
-  answers_->refuse(caller,
-                   Refusal::make(RefusalKind::wrong_state,
-                                 "There is nothing to answer: you do not hold control, or nobody asks."));
+  answers_->refuse(caller, RefusalKind::wrong_state,
+                   "There is nothing to answer: you do not hold control, or nobody asks.");
 }
 
 }  // namespace flexrf::panel

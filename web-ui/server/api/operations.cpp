@@ -129,9 +129,8 @@ Refusal no_operation(std::string_view name) noexcept {
 
 bool Asked::is_right() {
   if (fields.status()) return true;
-  operations.answers.refuse(
-      caller, Refusal::make(RefusalKind::bad_request, "%.*s: %s.", static_cast<int>(what.size()), what.data(),
-                            fields.status().cause()));
+  operations.answers.refuse(caller, RefusalKind::bad_request, "%.*s: %s.", static_cast<int>(what.size()),
+                            what.data(), fields.status().cause());
   return false;
 }
 

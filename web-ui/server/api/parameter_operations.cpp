@@ -129,7 +129,7 @@ Lease* ParameterOperations::lease_of(const Caller& caller, std::string_view text
       error == std::errc{} && end == text.data() + text.size() ? find_lease(number) : nullptr;
   if (lease != nullptr && lease->owner.place == caller.place && lease->owner.opening == caller.opening)
     return lease;
-  answers_->refuse(caller, Refusal::make(RefusalKind::wrong_state, "This hold is over; press again."));
+  answers_->refuse(caller, RefusalKind::wrong_state, "This hold is over; press again.");
   return nullptr;
 }
 
@@ -218,9 +218,8 @@ void ParameterOperations::accept(const PendingRequest& pending, const ParameterA
     case Purpose::hold: {
       const Lease* const lease = find_lease(pending.lease);
       if (lease == nullptr) {
-        return answers_->refuse(
-            pending.caller,
-            Refusal::make(RefusalKind::wrong_state, "The hold ended before it began; press again."));
+        return answers_->refuse(pending.caller, RefusalKind::wrong_state,
+                                "The hold ended before it began; press again.");
       }
       char digits[24];
       const char* const end = std::to_chars(digits, digits + sizeof(digits), pending.lease).ptr;

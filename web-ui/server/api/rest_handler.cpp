@@ -46,7 +46,7 @@ Handled RestHandler::handle(const Request& request, Reply& reply, Ticket ticket)
 void RestHandler::serve(const Request& request, Reply& reply, const Caller& caller, Time now) {
   Answers& answers = parts_.operations.answers;
   if (!request.path.starts_with(prefix))
-    return answers.refuse(caller, Refusal::make(RefusalKind::not_found, "It begins with /api/v1/."));
+    return answers.refuse(caller, RefusalKind::not_found, "It begins with /api/v1/.");
   const Match found = match(request.method, request.path.substr(prefix.size()));
   if (found.route == nullptr) {
     return answers.refuse(
@@ -104,8 +104,7 @@ void RestHandler::read(const Match& found, const Request& request, Reply& reply,
     case Resource::log: {
       std::uint64_t after = 0;
       if (!query_integer(request.query, "after", 0, after))
-        return answers.refuse(caller,
-                              Refusal::make(RefusalKind::bad_request, "'after' is the number of a line."));
+        return answers.refuse(caller, RefusalKind::bad_request, "'after' is the number of a line.");
       // The lines come first, as only then their last number is known.
       JsonWriter json(std::move(reply.text));
       json.begin_object().key("lines");
@@ -170,8 +169,8 @@ void RestHandler::finish_fixed(const Request& request, Reply& reply, const Docum
 void RestHandler::write_audit(const Request& request, Reply& reply, const Caller& caller) {
   std::uint64_t after = 0;
   if (!query_integer(request.query, "after", 0, after)) {
-    return parts_.operations.answers.refuse(
-        caller, Refusal::make(RefusalKind::bad_request, "'after' is the number of an entry."));
+    return parts_.operations.answers.refuse(caller, RefusalKind::bad_request,
+                                            "'after' is the number of an entry.");
   }
   JsonWriter json(std::move(reply.text));
   json.begin_object().key("entries").begin_array();
@@ -204,13 +203,11 @@ void RestHandler::ask_picture(std::uint16_t slot, const Request& request, const 
   Answers& answers = parts_.operations.answers;
   std::uint64_t width = 0;
   if (!parts_.images.is_image(slot)) {
-    return answers.refuse(
-        caller, Refusal::make(RefusalKind::not_found, "The slot '%s' holds no picture that is observed.",
-                              parts_.operations.directory.slots()[slot].name));
+    return answers.refuse(caller, RefusalKind::not_found, "The slot '%s' holds no picture that is observed.",
+                          parts_.operations.directory.slots()[slot].name);
   }
   if (!query_integer(request.query, "width", 640, width) || width < 1 || width > 4096)
-    return answers.refuse(caller,
-                          Refusal::make(RefusalKind::bad_request, "'width' lies from 1 to 4096 pixels."));
+    return answers.refuse(caller, RefusalKind::bad_request, "'width' lies from 1 to 4096 pixels.");
   parts_.pictures.ask(caller, slot, static_cast<std::uint32_t>(width), now);
 }
 
@@ -220,15 +217,14 @@ void RestHandler::act(const Match& found, const Request& request, const Caller& 
   Operations& operations = parts_.operations;
   Answers& answers = operations.answers;
   if (!request.body.empty() && !request.content_type.starts_with("application/json")) {
-    return answers.refuse(caller,
-                          Refusal::make(RefusalKind::wrong_media_type,
-                                        "The body is to be JSON, with Content-Type: application/json."));
+    return answers.refuse(caller, RefusalKind::wrong_media_type,
+                          "The body is to be JSON, with Content-Type: application/json.");
   }
   const Result<JsonObject> body = parts_.reader.object(request.body.empty() ? "{}" : request.body);
   if (!body) {
     const bool too_large = request.body.size() > JsonReader::max_bytes;
-    return answers.refuse(caller, Refusal::make(too_large ? RefusalKind::too_large : RefusalKind::bad_request,
-                                                "The body: %s.", body.status().cause()));
+    return answers.refuse(caller, too_large ? RefusalKind::too_large : RefusalKind::bad_request,
+                          "The body: %s.", body.status().cause());
   }
   Fields fields(*body);
   Asked asked{operations, caller, fields, "The body", now, found.segments[0], found.segments[1]};
@@ -268,10 +264,9 @@ void RestHandler::put_parameters(const Match& found, const Request& request, Jso
     if (ours) tag.remove_prefix(parts_.boot.size() + 1);
     const auto [end, error] = std::from_chars(tag.data(), tag.data() + tag.size(), sequence);
     if (!ours || error != std::errc{} || end != tag.data() + tag.size()) {
-      return operations.answers.refuse(
-          caller, Refusal::make(RefusalKind::stale,
-                                "If-Match is none of this run's entity tags; the application "
-                                "may have been started again. Read the parameters anew."));
+      return operations.answers.refuse(caller, RefusalKind::stale,
+                                       "If-Match is none of this run's entity tags; the application "
+                                       "may have been started again. Read the parameters anew.");
     }
     expected = sequence;
   }

@@ -91,8 +91,7 @@ void Subscriptions::subscribe(const Caller& caller, Fields& fields, Time now) {
     client->topics[static_cast<std::size_t>(Topic::log)].seen = log_seen;
     update_demand();
   }
-  if (wrong != nullptr)
-    return answers_->refuse(caller, Refusal::make(RefusalKind::bad_request, "subscribe: %s.", wrong));
+  if (wrong != nullptr) return answers_->refuse(caller, RefusalKind::bad_request, "subscribe: %s.", wrong);
   answers_->done(caller, [&](JsonWriter& json) {
     json.key("unknown").begin_array();
     if (slots) write_unknown(json, *slots, false);
