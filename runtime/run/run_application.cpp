@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/standard_descriptors.hpp"
 #include "base/quantity_text.hpp"
+#include "base/standard_descriptors.hpp"
 #include "runtime/executive/executive.hpp"
 #include "runtime/executive/file_options.hpp"
 #include "runtime/log/log.hpp"
