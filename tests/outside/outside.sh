@@ -27,7 +27,7 @@ headers=$work/prefix/include/flexrf
   { folder = $1; sub("[^/]*$", "", folder) }
   !($3 in is_there) && !("generated/" $3 in is_there) && !(folder $3 in is_there) { print $1 " includes " $3; missing = 1 }
   END { exit missing }' "$work/headers" - >&2 || fail "what installed headers include is not installed"
-# What helps the tests of who has a driver or a unit of his own; CMocka's macros spare no names, hence the order.
+# What helps the tests of who has a driver or a unit of his own.
 for place in /conformance/ ^hal/driver/device_bench ^units/unit_bench ^tests/; do
   sed -n "\\|$place|s/.*/#include \"&\"/p" "$work/headers"
 done >"$work/project/every/test_support.cpp"

@@ -207,7 +207,7 @@ void after_a_fault_initialise_constructs_it_anew() {
   std::atomic<bool> fails{true};
   Machine machine([&](Cell& cell) {
     cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
-      if (fails && tick.number == 10) unit.give_up(Status::error(StatusCode::device_fault, "slipped"));
+      if (fails && tick.number == 10) unit.fail(Status::error(StatusCode::device_fault, "slipped"));
     };
   });
   CHECK(RunningCell::wait_until([&] { return machine.life() == Life::fault; }));
@@ -285,7 +285,7 @@ void what_a_fault_has_not_made_safe_moves() {
   Machine machine([&](Cell& cell) {
     cell.device(Cell::actuator).script.make_safe = [&](TestDevice&) { return is_safe.load(); };
     cell.unit(Cell::consumer).script.step = [](TestUnit& unit, const Tick& tick) {
-      if (tick.number == 10) unit.give_up(Status::error(StatusCode::device_fault, "slipped"));
+      if (tick.number == 10) unit.fail(Status::error(StatusCode::device_fault, "slipped"));
     };
   });
   CHECK(RunningCell::wait_until([&] { return machine.cell.events().count_of("actuator: make_safe") > 0; }));

@@ -102,7 +102,7 @@ void pressed_from_the_start_nothing_ever_moves() {
 void an_input_in_fault_stops_all() {
   GuardedCell cell(Cell::producing, 1000, 1000);
   cell.device(cell.guard_device).script.receive = [&cell](TestDevice& device, const Tick&) {
-    if (++cell.cycles == 11) device.give_up(Status::error(StatusCode::device_fault, "broken"));
+    if (++cell.cycles == 11) device.fail(Status::error(StatusCode::device_fault, "broken"));
   };
   std::optional<Executive> executive;
   cell.unit(Cell::producer).script.step = [&](TestUnit&, const Tick& tick) {

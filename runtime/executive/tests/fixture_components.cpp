@@ -102,10 +102,6 @@ std::size_t Events::count_of(std::string_view event) const {
 
 // ---- unit
 
-void TestUnit::give_up(const Status& cause) noexcept {
-  fail(cause);
-}
-
 Status TestUnit::initialise() {
   events_->add(name(), "initialise");
   return script_->initialise ? script_->initialise(*this) : Status{};
@@ -140,10 +136,6 @@ void TestUnit::connect(const UnitBinding& binding) noexcept {
 }
 
 // ---- device
-
-void TestDevice::give_up(const Status& cause) noexcept {
-  fail(cause);
-}
 
 Status TestDevice::initialise() {
   events_->add(name(), "initialise");

@@ -93,8 +93,7 @@ class TestUnit final : public Unit {
   Readings feedback{};
   std::int64_t memory = 0;  ///< the script's own; zero after construction and reset()
 
-  /// fail(), which CMocka has a macro for.
-  void give_up(const Status& cause) noexcept;
+  using Unit::fail;
   using Unit::restrain;
 
   Status initialise() override;
@@ -131,8 +130,8 @@ class TestDevice final : public Device {
   double position = 0;     ///< follows the command while not inhibited
   std::int64_t moves = 0;  ///< how often the position changed
 
-  void give_up(const Status& cause) noexcept;
   using Device::environment;
+  using Device::fail;
 
   Status initialise() override;
   void stop() override;

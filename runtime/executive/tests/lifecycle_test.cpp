@@ -154,7 +154,7 @@ Restarts restarts_with(RestartPolicy policy, DriverKind kind) {
   Executive executive(cell.application(), in_virtual_time(milliseconds{100}));
   cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
     may_move = executive.control().may_move();
-    if (tick.number == 4) unit.give_up(Status::error(StatusCode::device_fault, "again"));
+    if (tick.number == 4) unit.fail(Status::error(StatusCode::device_fault, "again"));
   };
   CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
   return {cell.events().count_of("consumer: initialise"), cell.unit_state(Cell::consumer).steps,
@@ -211,7 +211,7 @@ void a_restart_constructs_anew_and_keeps_the_settings() {
       request.add(0, 0, &gain, sizeof(gain));
       executive.cell().send(request);
     }
-    if (tick.number == 6 && gains.size() == 1) unit.give_up(Status::error(StatusCode::device_fault, "once"));
+    if (tick.number == 6 && gains.size() == 1) unit.fail(Status::error(StatusCode::device_fault, "once"));
   };
   CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
   CHECK((gains == std::vector<double>{1.0, 2.5}));
@@ -225,7 +225,7 @@ void a_restart_on_the_wall_clock() {
   cell.unit(Cell::producer).restart = RestartPolicy::once;
   cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
     unit.outputs[0].publish(Item{});
-    if (tick.number == 4) unit.give_up(Status::error(StatusCode::device_fault, "broken"));
+    if (tick.number == 4) unit.fail(Status::error(StatusCode::device_fault, "broken"));
   };
   RunningCell running(cell);
   running.start();
@@ -262,7 +262,7 @@ void readers_of_a_faulted_unit_see_why() {
   Cell cell;
   cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
     if (tick.number >= 3) unit.outputs[0].publish(Item{});
-    if (tick.number == 10) unit.give_up(Status::error(StatusCode::device_fault, "broken"));
+    if (tick.number == 10) unit.fail(Status::error(StatusCode::device_fault, "broken"));
   };
   CHECK((reasons_seen(cell) ==
          std::vector<NullReason>{NullReason::nothing_yet, NullReason::none, NullReason::writer_faulted}));
@@ -276,7 +276,7 @@ void readers_of_a_restarted_unit_see_it_again() {
     unit.outputs[0].publish(Item{});
     if (tick.number == 10 && !failed) {
       failed = true;
-      unit.give_up(Status::error(StatusCode::device_fault, "broken"));
+      unit.fail(Status::error(StatusCode::device_fault, "broken"));
     }
   };
   const std::vector<NullReason> reasons = reasons_seen(cell);
@@ -313,7 +313,7 @@ void readers_of_a_faulted_device_see_why() {
     device.output.publish(Item{});
     now = tick.now;
     if (tick.now > Time{std::chrono::seconds{1}} + milliseconds{20}) {
-      device.give_up(Status::error(StatusCode::device_fault, "overheated"));
+      device.fail(Status::error(StatusCode::device_fault, "overheated"));
     }
   };
   cell.device(Cell::actuator).script.make_safe = [&](TestDevice&) {

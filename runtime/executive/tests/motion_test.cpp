@@ -167,7 +167,7 @@ void a_restart_needs_a_new_start() {
   cell.unit(Cell::producer).script.step = [&](TestUnit& unit, const Tick& tick) {
     if (tick.number != 10 || failed) return;
     failed = true;
-    unit.give_up(Status::error(StatusCode::device_fault, "broken"));
+    unit.fail(Status::error(StatusCode::device_fault, "broken"));
   };
   cell.unit(Cell::consumer).script.step = [&](TestUnit&, const Tick& tick) {
     if (!tick.stop_requested) inhibited.push_back(tick.motion_inhibited);

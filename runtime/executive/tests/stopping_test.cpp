@@ -191,7 +191,7 @@ void a_fault_makes_the_units_own_devices_safe_and_no_others() {
   cell.thread(Cell::producing).devices = {gripper};
   cell.unit(Cell::producer).device = gripper;
   cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
-    if (tick.number == 5) unit.give_up(Status::error(StatusCode::device_fault, "slipped"));
+    if (tick.number == 5) unit.fail(Status::error(StatusCode::device_fault, "slipped"));
   };
   std::size_t safe_before_stop = 0;
   cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{1});

@@ -106,7 +106,7 @@ struct Ended {
     cell.unit(Cell::producer).script.step = [this](TestUnit& unit, const Tick& tick) {
       make_and_push(unit, tick);
       unit.restrain("slippery", 3, 2);
-      if (tick.number == 9) unit.give_up(Status::error(StatusCode::device_fault, "slipped"));
+      if (tick.number == 9) unit.fail(Status::error(StatusCode::device_fault, "slipped"));
     };
     cell.unit(Cell::consumer).script.step = [](TestUnit& unit, const Tick&) { unit.inputs[0].latest(); };
     executive.emplace(cell.application(), in_virtual_time(std::chrono::milliseconds{50}));

@@ -140,7 +140,7 @@ void drops_of_queues_are_shown() {
 void a_fault_is_told_with_its_cause() {
   ProducerAndConsumer cell;
   cell.unit(ProducerAndConsumer::producer).script.step = [](TestUnit& unit, const Tick& tick) {
-    if (tick.number == 5) unit.give_up(Status::error(StatusCode::device_fault, "the \"arm\" is on fire"));
+    if (tick.number == 5) unit.fail(Status::error(StatusCode::device_fault, "the \"arm\" is on fire"));
   };
   const Report report = report_of(cell, in_virtual_time(milliseconds{20}));
   CHECK_EQUAL(report.summary.exit_code, 2);

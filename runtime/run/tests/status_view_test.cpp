@@ -28,7 +28,7 @@ struct Ended {
   explicit Ended() {
     cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
       unit.feedback = {tick.number, 0.123456};
-      if (tick.number == 5) unit.give_up(Status::error(StatusCode::device_fault, "slipped"));
+      if (tick.number == 5) unit.fail(Status::error(StatusCode::device_fault, "slipped"));
     };
     for (int i = 0; i < 10; ++i) {
       UnitPlan more;

@@ -65,7 +65,7 @@ void a_fault_is_told_with_its_cause() {
   ProducerAndConsumer cell;
   std::atomic<bool> fails{false};
   cell.unit(ProducerAndConsumer::producer).script.step = [&fails](fixture::TestUnit& unit, const Tick&) {
-    if (fails) unit.give_up(Status::error(StatusCode::device_fault, "the gripper lost its part"));
+    if (fails) unit.fail(Status::error(StatusCode::device_fault, "the gripper lost its part"));
   };
   Rig rig(cell);
   rig.start();
