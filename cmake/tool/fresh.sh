@@ -67,6 +67,7 @@ TRY
 # shellcheck disable=SC2016 # expands inside
 unshare --mount --pid --fork --kill-child bash -c '
   set -eu
+  mount --bind "$1" "$1" # so that its root is a mount point, as that of a machine: tests have mounts of their own
   mount -t proc proc "$1/proc"
   mount --rbind /sys "$1/sys"
   mount --rbind /dev "$1/dev"

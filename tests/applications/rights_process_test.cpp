@@ -159,8 +159,8 @@ void a_machine_file_that_makes_no_sense_keeps_it_from_starting() {
              "mount -t tmpfs tmpfs /etc && mkdir /etc/flexrf && echo \"$1\" > /etc/flexrf/machine.conf && "
              "exec \"$0\" --panel off --no-realtime --standstill-limit 10min",
              place::keyboard, std::string{"# roles\n"} + line});
-    CHECK_EQUAL(ending.exit_code, 2);
     CHECK_CONTAINS(ending.errors, "/etc/flexrf/machine.conf:2: ");
+    CHECK_EQUAL(ending.exit_code, 2);
     CHECK_EQUAL(ending.errors.find("autostart"), std::string::npos);
   }
 }
