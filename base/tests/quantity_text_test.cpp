@@ -3,18 +3,10 @@
 
 #include <initializer_list>
 
-#include "tests/cmocka.hpp"
+#include "base/tests/expect_text.hpp"
 
 namespace flexrf {
 namespace {
-
-void expect(std::string text, const char* expected) {
-  static char copy[1024];
-  copy[text.copy(copy, sizeof(copy) - 1)] = '\0';
-  text = {};
-  text.shrink_to_fit();
-  assert_string_equal(copy, expected);
-}
 
 void durations_have_three_digits_and_their_unit(void**) {
   expect(duration_text(Duration{0}), "0 ns");

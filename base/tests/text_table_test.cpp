@@ -2,18 +2,10 @@
 
 #include <cstring>
 
-#include "tests/cmocka.hpp"
+#include "base/tests/expect_text.hpp"
 
 namespace flexrf {
 namespace {
-
-void expect(std::string text, const char* expected) {
-  static char copy[1024];
-  copy[text.copy(copy, sizeof(copy) - 1)] = '\0';
-  text = {};
-  text.shrink_to_fit();
-  assert_string_equal(copy, expected);
-}
 
 void columns_are_as_wide_as_their_widest_cell(void**) {
   const auto text = [] {
