@@ -103,7 +103,9 @@ export class Viewer {
     for (let presses = 1; presses < 4; ++presses) {
       await taken.waitFor({ timeout: within / 4 }).catch(() => undefined);
       if (await taken.isVisible()) return;
-      if (await take.isEnabled()) await take.click();
+      if (!(await take.isEnabled())) continue;
+      console.log(`"Take control" is pressed again; the page says:\n${await this.page.locator('header, [role=banner]').first().ariaSnapshot()}`);
+      await take.click();
     }
     await taken.waitFor();
   }
