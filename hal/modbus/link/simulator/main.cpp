@@ -29,7 +29,8 @@ class StationSimulator final : public SerialSimulator {
   bool read(CommandLine& line) override {
     line.number("--unit", 0, 255, unit_);
     line.number("--tcp", 0, 65535, port_);
-    return use_line(line, line.word_and_number("--serial", 1200, 921600, baud_)) != is_tcp();
+    const bool is_serial = use_line(line, line.word_and_number("--serial", 1200, 921600, baud_));
+    return is_tcp() ? device() == nullptr && !is_pseudo_terminal() : is_serial;
   }
   std::string place() const override {
     return is_tcp() ? "127.0.0.1 port " + std::to_string(server_->port()) : SerialSimulator::place();
