@@ -1,7 +1,6 @@
 #include "runtime/executive/thread_loop.hpp"
 
 #include <poll.h>
-#include <sched.h>
 #include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -103,7 +102,6 @@ void ThreadLoop::release(const Due& due, Time now) noexcept {
   const Time ended = releases_.stepper().run(release);
   if (record_->hang_timeout.count() == 0) standstill_.judge(ended - now);
   releases_.finish(release, ended);
-  if (record_->trigger.kind == TriggerKind::free) sched_yield();
 }
 
 Duration ThreadLoop::missed_before(const Release& release) const noexcept {

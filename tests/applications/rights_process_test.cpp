@@ -3,6 +3,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <thread>
@@ -114,6 +116,43 @@ void a_real_actuator_is_run_once_on_the_machine() {
   }
 }
 
+/// Both are always in a step. By sched_yield after each of them they kept all others off their processor for
+/// minutes (Linux 6.18).
+// [exec-82]
+void free_threads_leave_their_processor_to_others() {
+  const Folder folder;
+  Process process(folder, {place::crowd});
+  const auto is_running = [&process](const std::string& name) {
+    for (const auto& task :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(process.id()) + "/task")) {
+      if (contents_of(task.path() / "comm") == name + "\n") return true;
+    }
+    return false;
+  };
+  CHECK(wait_until([&] { return is_running("walking") && is_running("gathering"); }));
+  constexpr int turns = 100;
+  std::vector<std::thread> others;
+  std::atomic<int> taken{0};
+  const unsigned processors = std::thread::hardware_concurrency();
+  for (unsigned processor = 0; processor < processors; ++processor) {
+    others.emplace_back([processor, &taken] {
+      cpu_set_t mine;
+      CPU_ZERO(&mine);
+      CPU_SET(processor, &mine);
+      sched_setaffinity(0, sizeof(mine), &mine);  // where it is not allowed, it is elsewhere
+      for (int turn = 0; turn < turns; ++turn) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        ++taken;
+      }
+    });
+  }
+  const bool all = wait_until([&] { return taken == static_cast<int>(processors) * turns; });
+  process.send(SIGTERM);
+  for (std::thread& other : others) other.join();
+  CHECK(all);
+  CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
+}
+
 /// Those that are always there, too.
 // [exec-70]
 void who_is_not_real_time_keeps_off_its_cpus() {
@@ -190,6 +229,7 @@ int main() {
       CONTAINED_TEST(a_real_actuator_is_refused_with_no_realtime),
       CONTAINED_TEST(a_kind_of_hardware_is_for_all_devices),
       CONTAINED_TEST(a_real_actuator_is_run_once_on_the_machine),
+      CONTAINED_TEST(free_threads_leave_their_processor_to_others),
       CONTAINED_TEST(who_is_not_real_time_keeps_off_its_cpus),
       CONTAINED_TEST(a_machine_file_that_makes_no_sense_keeps_it_from_starting),
       CONTAINED_TEST(a_limit_between_budget_and_need_is_noticed),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 namespace flexrf {
@@ -11,9 +12,9 @@ class Turn {
  public:
   /// The cyclic thread: false when the other one is at it; then it leaves it for this cycle.
   bool try_take() noexcept { return !taken_.exchange(true, std::memory_order_acquire); }
-  /// The lifecycle thread: the cyclic one is done within microseconds.
+  /// The lifecycle thread: the cyclic one is done within microseconds, if it has a processor.
   void take() noexcept {
-    while (!try_take()) std::this_thread::yield();
+    while (!try_take()) std::this_thread::sleep_for(std::chrono::microseconds{50});
   }
   void give_back() noexcept { taken_.store(false, std::memory_order_release); }
 
