@@ -1,6 +1,6 @@
 // The flow of changing configuration: locked, edited, checked together, applied or rolled back, never half.
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
-import { Application, Viewer, itemOf, useBrowser, screenshot, tidyUp, useOperator, violations, within, type Operator, type Rest } from './harness';
+import { Application, Viewer, frames, itemOf, useBrowser, screenshot, tidyUp, useOperator, violations, within, type Operator, type Rest } from './harness';
 
 const browser = useBrowser();
 
@@ -35,8 +35,9 @@ async function openEdit(): Promise<void> {
     // A browser that gets no processor for a second has lost its link; a person would try again, too.
     if (await lost().isVisible()) await viewer.page.getByRole('button', { name: 'Try again' }).click();
     await opened().waitFor();
-  } catch {
-    throw new Error(`No edit was opened. The page says:\n${await viewer.page.locator('body').ariaSnapshot()}`);
+  } catch (failure) {
+    const page = await viewer.page.locator('body').ariaSnapshot();
+    throw new Error(`No edit was opened: ${(failure as Error).message}\nThe page, ${await frames(viewer.page)}, says:\n${page}`);
   }
 }
 /** mm, as it is shown. */

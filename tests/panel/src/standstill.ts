@@ -1,6 +1,8 @@
-// For every test file: what failed while this machine stood still is done once more, from its beforeEach on; what failed
-// without that has failed. Pages go dead after a second of silence, holds end after a quarter: as they should.
+// For every test file: of what failed it is told what its applications said, and where this machine stood still meanwhile it
+// is done once more, from its beforeEach on; what failed without that has failed. Pages go dead after a second of silence,
+// holds end after a quarter: as they should.
 import { afterEach, beforeEach } from 'vitest';
+import { runningApplications } from './harness/application';
 
 const interval = 10;
 /** In ms: longer than a loaded machine lets a process wait that has something to do every 10 ms. */
@@ -23,6 +25,11 @@ beforeEach(({ task }) => {
   }
   tried = task.id;
   longest = 0;
+});
+
+afterEach(({ task }) => {
+  if (task.result?.state !== 'fail') return;
+  for (const application of runningApplications) console.log(`"${task.name}" failed; the application said:\n${application.text.slice(-8000)}`);
 });
 
 afterEach(() => new Promise<void>((resolve) => { setTimeout(resolve, 2 * interval); })); // so that the last gap is seen

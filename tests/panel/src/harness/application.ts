@@ -20,6 +20,9 @@ export interface StartOptions {
   readonly arguments?: readonly string[];
 }
 
+/** Those that run now: what they said explains why a test failed. */
+export const runningApplications = new Set<Application>();
+
 const startWithin = 30_000;
 const endWithin = 15_000;
 
@@ -35,7 +38,11 @@ export class Application {
     const listen = (part: Buffer): void => { this.said += part.toString('utf8'); };
     process.stdout!.on('data', listen);
     process.stderr!.on('data', listen);
-    this.ended = new Promise((resolve) => process.once('close', (code, signal) => resolve(signal ?? code)));
+    runningApplications.add(this);
+    this.ended = new Promise((resolve) => process.once('close', (code, signal) => {
+      runningApplications.delete(this);
+      resolve(signal ?? code);
+    }));
     process.once('error', (error) => { this.said += error.message; });
   }
 

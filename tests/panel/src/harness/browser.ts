@@ -104,7 +104,7 @@ export class Viewer {
       await taken.waitFor({ timeout: within / 4 }).catch(() => undefined);
       if (await taken.isVisible()) return;
       if (!(await take.isEnabled())) continue;
-      console.log(`"Take control" is pressed again; the page says:\n${await this.page.locator('header, [role=banner]').first().ariaSnapshot()}`);
+      console.log(`"Take control" is pressed again; the page says, ${await frames(this.page)}:\n${await this.page.getByRole('banner').ariaSnapshot()}`);
       await take.click();
     }
     await taken.waitFor();
@@ -156,6 +156,16 @@ export class Viewer {
       if (new URL(socket.url()).host !== host) problems.push(`a socket left the host: ${socket.url()}`);
     });
   }
+}
+
+/** Whether the browser draws this page: without frames nothing of it can be pressed, or seen to change. */
+export async function frames(page: Page): Promise<string> {
+  const waited = await page.evaluate(() => new Promise<number>((resolve) => {
+    const began = performance.now();
+    requestAnimationFrame(() => resolve(performance.now() - began));
+    setTimeout(() => resolve(-1), 2000);
+  }));
+  return waited < 0 ? 'which got no frame of the screen for 2 s' : `which got a frame of the screen after ${waited.toFixed()} ms`;
 }
 
 /** The row of a parameter in a list of them, by its label, which may bear the mark of a modified value. */

@@ -9,6 +9,7 @@ import type { DescriptorJson } from './descriptor_json';
 import { Holds } from './holds';
 import { Host } from './host';
 import { getJson } from './http';
+import { inNextFrame } from './next_frame';
 import type { Answer, ApplicationState, Hello, LogLine, ServerEvent, SessionInfo, TopicName, Values } from './protocol';
 import { textOfError } from './reasons';
 import { Registry, type BuiltInWidgets } from './registry';
@@ -260,7 +261,7 @@ export class PanelCore implements Core {
     this.options.onNotice(`You did not get control: ${this.controlRefused}.`, 'warning');
   }
 
-  /** Holds end at once; who watches is told in the next animation frame, or soon in a hidden page. */
+  /** Holds end at once; who watches is told in the next frame. */
   #changed(): void {
     if (this.link.phase !== 'open' && this.link.detail === 'login') this.session = undefined; // logged out, or too long away
     const lost = deniedLink(this) !== '' ? 'the link is lost'
@@ -269,16 +270,14 @@ export class PanelCore implements Core {
     if (lost !== '' && this.#holds.alive > 0) this.#holds.endAll(lost);
     if (this.#telling) return;
     this.#telling = true;
-    const tell = (): void => {
+    inNextFrame(() => {
       this.#telling = false;
       this.#stateWatchers.forEach((watcher) => watcher());
       const access = JSON.stringify([this.link.phase, this.link.stale, this.session?.role, this.state?.control, this.state?.motion, this.state?.mode]);
       if (access === this.#access) return;
       this.#access = access;
       this.#accessWatchers.forEach((watcher) => watcher());
-    };
-    if (document.visibilityState === 'hidden') setTimeout(tell, 100);
-    else requestAnimationFrame(tell);
+    });
   }
 }
 

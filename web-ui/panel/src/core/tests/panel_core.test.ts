@@ -1,6 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import type { WidgetHost } from '../../contract';
 import type { Model } from '../descriptor';
+import { longestWait } from '../next_frame';
 import { PanelCore, type PanelCoreOptions } from '../panel_core';
 import type { BuiltInWidgets } from '../registry';
 import { FakeSocket } from './fake_socket';
@@ -60,6 +61,14 @@ async function reconnect(fields: object): Promise<void> {
 }
 
 describe('the core', () => {
+  it('tells who watches also where no frame of the screen comes any more: a hidden page has a title, too', async () => {
+    const told = vi.fn();
+    core.watchState(told);
+    vi.stubGlobal('requestAnimationFrame', () => 1);
+    newest().say({ ...state, faults: [{ component: 'jog', kind: 'unit', cause: 'it broke', since_ns: 1 }] });
+    await vi.advanceTimersByTimeAsync(longestWait);
+    expect(told).toHaveBeenCalledOnce();
+  });
   it('loads the description before anything is shown', () => {
     expect(onModel).toHaveBeenCalledOnce();
     expect(core.application).toBe('sample');
