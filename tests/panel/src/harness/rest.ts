@@ -15,6 +15,8 @@ export interface RestOptions {
   readonly headers?: { readonly [name: string]: string };
 }
 
+const publishedWithin = 30_000;
+
 export class Rest {
   cookie = '';
 
@@ -65,14 +67,25 @@ export class Rest {
   }
 
   async feedback<Feedback extends object>(component: string): Promise<Feedback> {
-    return (await this.do(`components/${component}/parameters`)).body.feedback as Feedback;
+    return await this.published(component, 'feedback') as Feedback;
   }
 
   async runtime(component: string): Promise<{ [path: string]: unknown }> {
-    return (await this.do(`components/${component}/parameters`)).body.runtime;
+    return await this.published(component, 'runtime') as { [path: string]: unknown };
   }
 
   async configuration(component: string): Promise<{ [path: string]: unknown }> {
     return (await this.do(`components/${component}/parameters`)).body.configuration;
+  }
+
+  /** The panel is there before each unit has made its first step; until then it has published nothing. */
+  private async published(component: string, kind: 'feedback' | 'runtime'): Promise<object> {
+    const until = Date.now() + publishedWithin;
+    for (;;) {
+      const values = (await this.do(`components/${component}/parameters`)).body[kind] as object | null;
+      if (values !== null) return values;
+      if (Date.now() > until) throw new Error(`${component} published no ${kind}`);
+      await new Promise((resolve) => setTimeout(resolve, 20));
+    }
   }
 }
