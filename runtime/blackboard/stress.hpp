@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <thread>
@@ -16,12 +15,6 @@ inline std::uint64_t items(std::uint64_t few) {
   few /= 4;
 #endif
   return is_long ? few * 20 : few;
-}
-
-/// Leaves the processor to another for a moment. Not by sched_yield: threads that do little else than yield
-/// to each other have kept all others off their processor for minutes (Linux 6.18).
-inline void give_way() {
-  std::this_thread::sleep_for(std::chrono::microseconds{1});
 }
 
 /// The first complaint of any thread. Threads go on after complaining, so that all of them end.
@@ -44,9 +37,9 @@ class Complaint {
 class Start {
  public:
   explicit Start(int threads) noexcept : missing_(threads) {}
-  void wait() {
+  void wait() noexcept {
     missing_.fetch_sub(1);
-    while (missing_.load() > 0) give_way();
+    while (missing_.load() > 0) std::this_thread::yield();
   }
 
  private:

@@ -116,8 +116,7 @@ void a_real_actuator_is_run_once_on_the_machine() {
   }
 }
 
-/// Both are always in a step. By sched_yield after each of them they kept all others off their processor for
-/// minutes (Linux 6.18).
+/// Both are always in a step.
 // [exec-82]
 void free_threads_leave_their_processor_to_others() {
   const Folder folder;

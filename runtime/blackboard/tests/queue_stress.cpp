@@ -27,7 +27,7 @@ void push_items(QueueRing& ring, std::uint64_t count) {
   for (std::uint64_t number = 1; number <= count; ++number) {
     item.fill(number);
     ring.push(&item, at(number));
-    if (number % 2048 == 0) test::give_way();
+    if (number % 2048 == 0) std::this_thread::yield();
   }
 }
 
@@ -41,7 +41,7 @@ std::uint64_t pop_items(QueueRing& ring, const std::atomic<bool>& done, Complain
     const bool was_done = done;
     if (!ring.pop(&item, header)) {
       if (was_done && ring.is_empty()) return count;
-      test::give_way();
+      std::this_thread::yield();
       continue;
     }
     ++count;
@@ -100,7 +100,7 @@ void push_jobs(JobSink& sink, std::uint64_t writer, std::uint64_t count) {
     const std::uint64_t name = writer << 32 | number;
     const Job job{{name, name, number * 7919 % 101}};
     sink.push(&job, at(number));
-    if (number % 2048 == 0) test::give_way();
+    if (number % 2048 == 0) std::this_thread::yield();
   }
 }
 
@@ -113,7 +113,7 @@ void pop_jobs(JobQueue& queue, bool in_order, const std::atomic<bool>& done, See
     ItemHeader header{};
     if (!queue.pop(&job, header)) {
       if (was_done && queue.is_empty()) return;
-      test::give_way();
+      std::this_thread::yield();
       continue;
     }
     const std::uint64_t writer = job.words[0] >> 32;
@@ -215,7 +215,7 @@ const char* run_history() {
   for (std::uint64_t number = 1; number <= count || found[0] == 0 || found[1] == 0; ++number) {
     item.fill(number);
     history.append({number, at(number)}, &item);
-    if (number % 2048 == 0) test::give_way();
+    if (number % 2048 == 0) std::this_thread::yield();
   }
   done = true;
   for (std::thread& thread : readers) thread.join();

@@ -8,7 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/blackboard/stress.hpp"
 #include "runtime/parameters/parameter_store.hpp"
 #include "runtime/parameters/tests/sample_component.hpp"
 #include "tests/cmocka.hpp"
@@ -44,7 +43,7 @@ bool run_intake(std::uint32_t items) {
         if (run.intake.put(item))
           run.put[producer].fetch_add(1, std::memory_order_relaxed);
         else
-          test::give_way();
+          std::this_thread::yield();
       }
       run.finished.fetch_add(1, std::memory_order_release);
     });
@@ -62,7 +61,7 @@ bool run_intake(std::uint32_t items) {
       ++taken[item.producer];
     }
     if (is_last) break;
-    test::give_way();
+    std::this_thread::yield();
   }
   for (std::thread& thread : threads) thread.join();
   std::uint64_t total = 0;
@@ -117,16 +116,16 @@ std::uint32_t request_changes(CellRun& run, std::uint16_t requester, std::uint32
     request.add(sample::limits, 0, &limits, sizeof(limits));
     while (!run.requests.push(request)) {
       fetch();
-      test::give_way();
+      std::this_thread::yield();
     }
     while (i + 1 - answered > AnswerQueue::capacity / 2) {
       fetch();
-      test::give_way();
+      std::this_thread::yield();
     }
   }
   while (answered < count) {
     fetch();
-    test::give_way();
+    std::this_thread::yield();
   }
   run.finished.fetch_add(1);
   run.owner.ring();
@@ -157,7 +156,7 @@ std::uint64_t watch(CellRun& run) {
     const bool was_done = run.done;
     if (!run.slot.control().take(held)) {
       if (was_done) break;
-      test::give_way();
+      std::this_thread::yield();
       continue;
     }
     const auto& values = *reinterpret_cast<const sample::Runtime*>(run.slot.control().payload(held));
