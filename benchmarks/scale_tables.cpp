@@ -71,7 +71,7 @@ std::string unit_header(int kind, int outputs) {
 
 #include "stage_%d_unit.hpp"
 
-namespace flexrf {
+namespace flexrf::user {
 
 class Stage%d final : public Stage%dUnit {
  public:
@@ -82,7 +82,7 @@ class Stage%d final : public Stage%dUnit {
 )",
                             kind, kind, kind, kind);
   for (int output = 0; output < outputs; ++output) header += text("    out_%d.publish(item);\n", output);
-  return header + "    ++feedback.steps;\n  }\n};\n\n}  // namespace flexrf\n";
+  return header + "    ++feedback.steps;\n  }\n};\n\n}  // namespace flexrf::user\n";
 }
 
 std::string application_table(int units, int outputs) {
