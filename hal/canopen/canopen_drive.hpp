@@ -67,8 +67,7 @@ class CanopenDrive : public Base {
   void rest(const Tick& tick) noexcept override { exchange(tick, false); }
   void exchange(const Tick& tick, bool may_move) noexcept {
     link_.send(tick, may_move);
-    if (const Restraint held = link_.axis().take_restraint(); held.reason != nullptr)
-      this->restrain(held.reason, held.asked, held.given);
+    if (link_.axis().is_restrained()) this->restrain(link_.axis().take_restraint());
     if (!link_.axis().fault().is_ok()) this->fail(link_.axis().fault());
   }
 

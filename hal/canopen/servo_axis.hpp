@@ -148,6 +148,7 @@ class ServoAxis {
   bool has_own_ramps() const noexcept { return node_.has_left_out(objects::profile_acceleration); }
   /// In mode profile_position, what the drive took and is not at yet; else nothing.
   std::optional<ProfileTarget> profile_target() const noexcept;
+  bool is_restrained() const noexcept { return restraint_.reason != nullptr; }
   /// Why it does less than it was commanded, in this cycle and as long as that command stands; once.
   Restraint take_restraint() noexcept { return std::exchange(restraint_, Restraint{}); }
 

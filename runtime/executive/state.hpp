@@ -30,12 +30,14 @@ enum class Ownership : std::uint8_t {
 
 /// Of a unit and of a device alike.
 struct ComponentState {
+  // First, as it is large and seldom asked for: what every step touches lies together behind it, and of a
+  // unit in the same cache lines as what UnitState adds.
+  SharedStatus fault;  ///< why; published before life becomes fault
   /// What is declared of it: of a device by the chosen driver, with ranges as the application narrows them.
   const ComponentType* type = nullptr;
   const DriverRecord* driver = nullptr;  ///< the chosen one; null: it has none, as a unit
   std::atomic<Life> life{Life::created};
   std::atomic<Ownership> ownership{Ownership::lifecycle};
-  SharedStatus fault;  ///< why; published before life becomes fault
   SharedRestraint restraint;
   std::atomic<bool> active{false};  ///< member of a population: stepped. Others: always true
   std::atomic<bool> idle{true};     ///< what is_idle() said after the last step

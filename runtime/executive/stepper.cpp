@@ -22,6 +22,18 @@ void add(Counter& counter, Value value) noexcept {
   counter.store(counter.load(std::memory_order_relaxed) + value, std::memory_order_relaxed);
 }
 
+[[gnu::noinline]] void tell_restraint(const char* name, Component& component, SharedRestraint& shared,
+                                      Time now) noexcept {
+  const Restraint restraint = component.take_restraint();
+  if (shared.note(restraint, now)) log_warning(name, "{}", RestraintText(restraint).text);
+}
+
+/// After each step or send. Nearly always there is none and was none, which costs two loads.
+void note_restraint(const char* name, Component& component, SharedRestraint& shared, Time now) noexcept {
+  if (component.is_restrained() || shared.lasts_on()) [[unlikely]]
+    tell_restraint(name, component, shared, now);
+}
+
 }  // namespace
 
 Stepper::Stepper(Cell& cell, std::uint16_t thread)
@@ -338,12 +350,6 @@ void Stepper::send(Time now) noexcept {
     }
   }
   note_stepped(nullptr);
-}
-
-void Stepper::note_restraint(const char* name, Component& component, SharedRestraint& shared,
-                             Time now) noexcept {
-  const Restraint restraint = component.take_restraint();
-  if (shared.note(restraint, now)) log_warning(name, "{}", RestraintText(restraint).text);
 }
 
 void Stepper::publish_feedback(SlotControl* slot, const ParameterBlock& block, const void* values,

@@ -51,7 +51,6 @@ class Stepper {
 
  private:
   void note_stepped(const char* component) noexcept;
-  void note_restraint(const char* name, Component& component, SharedRestraint& shared, Time now) noexcept;
   void give_back() noexcept;
   void apply(const ParameterRequest& request, Time now) noexcept;
   void apply_to_member(const ParameterRequest& request, std::uint16_t unit, Time now) noexcept;

@@ -62,7 +62,9 @@ class Component {
   void set_type_in_force(const ComponentType& type) noexcept { type_in_force_ = &type; }
   void set_fault(const Status& cause) noexcept { fault_ = cause; }
   void clear_fault() noexcept { fault_ = {}; }
-  /// What restrain() said since it was asked last. Owning thread.
+  /// restrain() said something since it was asked last. Owning thread.
+  bool is_restrained() const noexcept { return restraint_.reason != nullptr; }
+  /// What that was. Owning thread.
   Restraint take_restraint() noexcept { return std::exchange(restraint_, Restraint{}); }
 
  protected:

@@ -56,6 +56,9 @@ class SharedRestraint {
     return true;
   }
 
+  /// There is one, or was within the last second. The component's thread.
+  bool lasts_on() const noexcept { return reason_.load(std::memory_order_relaxed) != nullptr; }
+
   /// Any thread.
   Restraint read() const noexcept {
     Restraint restraint;
