@@ -167,10 +167,14 @@ function(flexrf_add_guest_test)
 endfunction()
 
 # flexrf_add_benchmark(NAME name SOURCES file... LIBRARIES target...)
-# One executable, bench_<name>, that measures and prints; `flexrf bench name` builds and runs it. Never a test. The tool
-# finds the names in benchmarks/CMakeLists.txt, so NAME stands on the line of the call.
+# One executable, bench_<name>, that measures and prints; `flexrf bench name` builds and runs it. Its NAME stands in
+# benchmarks/names.txt, too, from which the tool knows it.
 function(flexrf_add_benchmark)
   cmake_parse_arguments(PARSE_ARGV 0 benchmark "" "NAME" "SOURCES;LIBRARIES")
+  file(STRINGS "${PROJECT_SOURCE_DIR}/benchmarks/names.txt" names)
+  if(NOT benchmark_NAME IN_LIST names)
+    message(FATAL_ERROR "benchmarks/names.txt lacks ${benchmark_NAME}: `flexrf bench` would not run it")
+  endif()
   add_executable(bench_${benchmark_NAME} ${benchmark_SOURCES})
   target_link_libraries(bench_${benchmark_NAME} PRIVATE FlexRF::options ${benchmark_LIBRARIES})
   set_target_properties(bench_${benchmark_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/benchmarks)

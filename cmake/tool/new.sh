@@ -15,14 +15,12 @@ need_identifier() {  # need_identifier NAME STEM: the tables, hence the generate
   g++ -std=c++20 -fsyntax-only -x c++ - <<<"extern int $2;" 2>/dev/null || refuse "$1" "it is a word of C++"
 }
 
-need_free_class() {  # need_free_class NAME: no other table, nor another unit, has this class
+need_free_class() {  # need_free_class NAME: no table has this class, nor a header of units/, which is called as what it declares
   local class place
   class=$(camel_case "$1")
   # In their namespace they have no neighbours but each other: a Status or a Slot of the runtime is in none's way.
   place=$(find "$root"/{runtime,hal,units,apps} \( -path '*/types/'"$1.toml" -o -path "$root/hal/*/$1.toml" \) -print | head -n 1)
-  [[ $place ]] || place=$(grep -r -l -E --include='*.hpp' \
-    "^(class|struct|enum|enum class|union|concept|using)( \[\[[^]]*\]\]| alignas\([^ ]*\))* ($class|${class}Unit)\b" \
-    "$root/units" | head -n 1)
+  [[ $place ]] || place=$(find "$root/units" -name "$1.hpp" -print | head -n 1)
   [[ $place ]] && refuse "$1" "${place#"$root/"} has a $class already"
 }
 

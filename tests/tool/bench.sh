@@ -3,7 +3,7 @@
 source "$(dirname "$0")/stand_in.sh"
 
 mkdir -p "$tree/benchmarks" "$tree/docs" "$tree/build/release/benchmarks"
-printf 'flexrf_add_benchmark(NAME %s SOURCES x.cpp)\n' first second >"$tree/benchmarks/CMakeLists.txt"
+printf '%s\n' first second >"$tree/benchmarks/names.txt"
 for name in first second; do
   cat >"$tree/build/release/benchmarks/bench_$name" <<'BODY'
 #!/bin/bash

@@ -7,14 +7,12 @@ stand_in g++ <<'BODY'
 [[ $(cat) != *" operator;"* ]]
 BODY
 stand_in clang-format </dev/null
-mkdir -p "$tree/units" "$tree/hal/operator/keyboard/interface/types" "$tree/runtime/core"
+mkdir -p "$tree/units" "$tree/hal/operator/keyboard/interface/types" "$tree/runtime/core" "$tree/base"
 touch "$tree/hal/operator/keyboard/interface/types/key_event.toml"
 echo 'class [[nodiscard]] Status {' >"$tree/base/status.hpp"
 mkdir -p "$tree/units/arm_watch" "$tree/hal/robot_arm/simulated"
 touch "$tree/hal/robot_arm/simulated/simulated_arm.toml"
-echo 'class [[nodiscard]] TextTable {' >"$tree/units/arm_watch/text_table.hpp"
-echo 'using Reach = long;' >"$tree/units/arm_watch/reach.hpp"
-echo 'struct alignas(64) NextUnit {' >"$tree/units/arm_watch/next.hpp"
+touch "$tree/units/arm_watch/text_table.hpp" "$tree/units/arm_watch/reach.hpp"
 
 mock=$tree/hal/operator/pedal/mock
 mkdir -p "$mock/tests" "$tree/hal/operator/pedal/interface" "$tree/hal/bell/interface"
@@ -78,7 +76,6 @@ refused "key_event.toml has a KeyEvent already" unit key_event
 refused "simulated_arm.toml has a SimulatedArm already" unit simulated_arm
 refused "text_table.hpp has a TextTable already" unit text_table
 refused "reach.hpp has a Reach already" unit reach
-refused "next.hpp has a Next already" unit next
 refused "the build" app test
 for name in Sewing sewing-pedal ''; do refused lower_snake_case driver Pedal "$name"; done
 refused "hal/operator/pedal/mock is there already" driver Pedal mock
