@@ -34,6 +34,12 @@ std::vector<ClassName> class_names(const Model& model) {
     names.push_back({driver.class_name, "the class of " + of, driver.position});
     names.push_back({driver.base_class, "the base class of " + of, driver.position});
     names.push_back({driver.class_name + "Configuration", "the parameter struct of " + of, driver.position});
+    if (!driver.runtime.empty())
+      names.push_back({driver.class_name + "Runtime", "the parameter struct of " + of, driver.position});
+    if (!driver.feedback.empty())
+      names.push_back({driver.class_name + "Feedback", "the parameter struct of " + of, driver.position});
+    if (!driver.runtime.empty() || !driver.feedback.empty())
+      names.push_back({driver.class_name + "Values", "the struct of values of " + of, driver.position});
   }
   for (const Type& type : model.types)
     names.push_back({type.name, "the type " + quote(type.stem), type.position});

@@ -109,6 +109,9 @@ std::string slot_type(const Model& model, const Slot& slot) {
     case SlotType::Kind::interface_runtime:
     case SlotType::Kind::interface_feedback:
       return application_space.of(model.interfaces[slot.type.index], name);
+    case SlotType::Kind::driver_runtime:
+    case SlotType::Kind::driver_feedback:
+      return application_space.of(model.drivers[slot.type.index], name);
     case SlotType::Kind::declared:
       break;
   }

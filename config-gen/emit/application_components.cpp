@@ -14,20 +14,40 @@ std::string slot_or_null(const ApplicationNames& names, const std::optional<Inde
   return slot ? "&slot_" + names.slot(*slot) : "nullptr";
 }
 
+std::string value_list(const Model& model, const ParameterBlock& block, const std::vector<Literal>& values) {
+  std::string list;
+  for (std::size_t i = 0; i < block.parameters.size(); ++i) {
+    const Literal& value = i < values.size() ? values[i] : block.parameters[i].initial;
+    list +=
+        (list.empty() ? "" : ", ") + cpp_value(model, application_space, block.parameters[i].field, value);
+  }
+  return list;
+}
+
 // The initial values of one block, as a constant; "nullptr" when the block has no parameters.
 std::string emit_values(
     const Model& model, const std::string& type, const std::string& name,
     const std::vector<std::pair<const ParameterBlock*, const std::vector<Literal>*>>& parts, Text& out) {
   std::string list;
   for (const auto& [block, values] : parts) {
-    for (std::size_t i = 0; i < block->parameters.size(); ++i) {
-      const Literal& value = i < values->size() ? (*values)[i] : block->parameters[i].initial;
-      list +=
-          (list.empty() ? "" : ", ") + cpp_value(model, application_space, block->parameters[i].field, value);
-    }
+    const std::string more = value_list(model, *block, *values);
+    list += (list.empty() || more.empty() ? "" : ", ") + more;
   }
   if (list.empty()) return "nullptr";
   out << "constexpr " << type << " " << name << "{" << list << "};\n";
+  return "&" + name;
+}
+
+// Of a driver with runtime parameters of its own: its struct derives from its interface's.
+std::string emit_driver_runtime(const Model& model, const Device& device, const DriverChoice& choice,
+                                const std::string& prefix, Text& out) {
+  const Driver& driver = model.drivers[choice.driver];
+  const Interface& interface = model.interfaces[device.interface];
+  const std::string name = prefix + "_" + driver.stem + "_runtime";
+  const std::string base = value_list(model, interface.runtime, device.runtime);
+  out << "constexpr " << application_space.of(driver, block_struct_name(driver.class_name, "Runtime")) << " "
+      << name << "{" << (base.empty() ? "" : "{" + base + "}, ")
+      << value_list(model, driver.runtime, choice.runtime) << "};\n";
   return "&" + name;
 }
 
@@ -106,11 +126,13 @@ std::string emit_resources(const Model& model, const Device& device, const std::
 std::string emit_drivers(const Model& model, const Device& device, const std::string& prefix, Text& out) {
   const Interface& interface = model.interfaces[device.interface];
   Text records;
-  const std::string runtime =
+  const std::string common_runtime =
       emit_values(model, application_space.of(interface, block_struct_name(interface.class_name, "Runtime")),
                   prefix + "_runtime", {{&interface.runtime, &device.runtime}}, out);
   for (const DriverChoice& choice : device.drivers) {
     const Driver& driver = model.drivers[choice.driver];
+    const std::string runtime =
+        driver.runtime.empty() ? common_runtime : emit_driver_runtime(model, device, choice, prefix, out);
     const std::string configuration = emit_values(
         model, application_space.of(driver, block_struct_name(driver.class_name, "Configuration")),
         prefix + "_" + driver.stem + "_configuration",

@@ -64,15 +64,36 @@ std::string block_struct_name(const std::string& class_name, std::string_view wh
   return class_name + std::string(what);
 }
 
+namespace {
+
+std::string block_summary(const std::string& class_name, std::string_view what) {
+  return what == "Configuration" ? "Configuration of " + class_name + ": read at initialise()."
+         : what == "Runtime"     ? "Runtime parameters of " + class_name + ", in force for a step."
+                                 : "Feedback of " + class_name + ", published after each step.";
+}
+
+BlockText driver_block(const Model& model, const Driver& driver, std::string_view what,
+                       const ParameterBlock& own, const ParameterBlock& before) {
+  BlockText block;
+  if (own.empty()) return block;
+  const Interface& interface = model.interfaces[driver.interface];
+  const Space space(driver.space);
+  block.plain = plain_struct(model, block_struct_name(driver.class_name, what), space,
+                             block_summary(driver.class_name, what), driver.position, own,
+                             space.of(interface, block_struct_name(interface.class_name, what)), before);
+  for (const ParameterBlock* part : {&before, &own})
+    for (const Parameter& parameter : part->parameters) block.parameters.push_back(&parameter);
+  return block;
+}
+
+}  // namespace
+
 BlockText block_text(const Model& model, const std::string& class_name, const Space& space,
                      std::string_view what, const Position& position,
                      const std::vector<const ParameterBlock*>& blocks) {
   BlockText block;
-  const std::string summary =
-      what == "Configuration" ? "Configuration of " + class_name + ": read at initialise()."
-      : what == "Runtime"     ? "Runtime parameters of " + class_name + ", in force for a step."
-                              : "Feedback of " + class_name + ", published after each step.";
-  block.plain = plain_struct(model, block_struct_name(class_name, what), space, summary, position, blocks);
+  block.plain = plain_struct(model, block_struct_name(class_name, what), space,
+                             block_summary(class_name, what), position, blocks);
   for (const ParameterBlock* part : blocks) {
     for (const Parameter& parameter : part->parameters) block.parameters.push_back(&parameter);
   }
@@ -171,6 +192,14 @@ BlockText driver_configuration(const Model& model, const Driver& driver) {
   const Interface& interface = model.interfaces[driver.interface];
   return block_text(model, driver.class_name, Space(driver.space), "Configuration", driver.position,
                     {&interface.configuration, &driver.configuration});
+}
+
+BlockText driver_runtime(const Model& model, const Driver& driver) {
+  return driver_block(model, driver, "Runtime", driver.runtime, model.interfaces[driver.interface].runtime);
+}
+BlockText driver_feedback(const Model& model, const Driver& driver) {
+  return driver_block(model, driver, "Feedback", driver.feedback,
+                      model.interfaces[driver.interface].feedback);
 }
 
 std::string resource_type(Resource::Reader reader) {

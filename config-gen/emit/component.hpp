@@ -57,6 +57,9 @@ void define_size(const UnitType& unit, Text& out);
 void define_size(const Driver& driver, Text& out);
 std::string block_struct_name(const std::string& class_name, std::string_view what);
 BlockText driver_configuration(const Model& model, const Driver& driver);
+// Of a driver that has some of its own: the interface's, then those. Else empty.
+BlockText driver_runtime(const Model& model, const Driver& driver);
+BlockText driver_feedback(const Model& model, const Driver& driver);
 
 // What a device's resource is in C++.
 std::string resource_type(Resource::Reader reader);

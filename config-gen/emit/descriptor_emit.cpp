@@ -233,6 +233,14 @@ Json driver_json(const Model& model, const Driver& driver, Json& types) {
   add_block(model, driver.class_name, "configuration", "Configuration",
             {&interface.configuration, &driver.configuration}, json);
   add_struct(model, driver_configuration(model, driver), types);
+  // Where there is none of its own, the interface's is all there is.
+  if (!driver.runtime.empty())
+    add_block(model, driver.class_name, "runtime", "Runtime", {&interface.runtime, &driver.runtime}, json);
+  if (!driver.feedback.empty())
+    add_block(model, driver.class_name, "feedback", "Feedback", {&interface.feedback, &driver.feedback},
+              json);
+  add_struct(model, driver_runtime(model, driver), types);
+  add_struct(model, driver_feedback(model, driver), types);
   return json;
 }
 
@@ -335,6 +343,7 @@ Json device_json(const Model& model, const Device& device) {
     Json values = values_json(model, interface.configuration, device.configuration);
     values.update(values_json(model, driver.configuration, choice.configuration));
     if (!values.empty()) one["configuration"] = std::move(values);
+    add_values(model, "runtime", driver.runtime, choice.runtime, one);
     json["drivers"].push_back(std::move(one));
   }
   if (device.bus) json["on"] = model.devices[*device.bus].name;
@@ -362,9 +371,22 @@ Json readers_json(const Model& model, const Readers& readers) {
   return list;
 }
 
+// Of a slot of a device's parameters: the structs of drivers that have more than their interface.
+Json driver_types_json(const Model& model, const Slot& slot) {
+  Json json = Json::object();
+  const bool is_runtime = slot.writer.kind == Writer::Kind::device_values;
+  if (!is_runtime && slot.writer.kind != Writer::Kind::device_feedback) return json;
+  for (const DriverChoice& choice : model.devices[slot.writer.owner].drivers) {
+    const Driver& driver = model.drivers[choice.driver];
+    if ((is_runtime ? driver.runtime : driver.feedback).empty()) continue;
+    json[driver.name] = block_struct_name(driver.class_name, is_runtime ? "Runtime" : "Feedback");
+  }
+  return json;
+}
+
 Json slot_json(const Model& model, const Slot& slot) {
   Json json = {{"name", slot.name},
-               {"type", type_name(model, slot.type)},
+               {"type", common_type_name(model, slot)},
                {"writer", writer_text(model, slot.writer)},
                {"readers", readers_json(model, slot.inputs)},
                {"buffers", slot.buffers()},
@@ -372,6 +394,7 @@ Json slot_json(const Model& model, const Slot& slot) {
                {"wall", slot.wall},
                {"history", slot.history}};
   if (slot.elements > 0) json["elements"] = slot.elements;
+  if (Json types = driver_types_json(model, slot); !types.empty()) json["driver_types"] = std::move(types);
   json["summary"] = slot.summary;
   return json;
 }

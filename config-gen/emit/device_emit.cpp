@@ -1,4 +1,6 @@
 // The generated base classes of an interface and of a driver, and the function that constructs a driver.
+#include <tuple>
+
 #include "config-gen/emit/component.hpp"
 
 namespace flexrf::config_gen {
@@ -52,6 +54,29 @@ bool connects(const Interface& interface) {
   return !interface.outputs.empty() || !interface.resources.empty();
 }
 
+// Where an interface's values lie is its driver's choice, as a driver may have more of them: the base of both
+// reaches them by reference.
+void declare_values(const BlockText& runtime, const BlockText& feedback, const std::string& base, Text& out,
+                    Text& members, Text& places) {
+  out << "\n  /// Of a driver with values of its own: where those lie that it shares with the others.\n"
+      << "  struct Values {\n";
+  Text storage, initialisers;
+  for (const auto& [block, type, name] :
+       {std::tuple{&runtime, "Runtime", "runtime"}, {&feedback, "Feedback", "feedback"}}) {
+    if (block->empty()) continue;
+    out << "    " << type << "* " << name << " = nullptr;  ///< null: here\n";
+    members << "  " << type << "& " << name << ";\n";
+    storage << "  " << type << " " << name << "_;\n";
+    initialisers << (initialisers.str().empty() ? "" : ",\n        ") << name << "(values_." << name
+                 << " != nullptr ? *values_." << name << " : " << name << "_)";
+  }
+  out << "  };\n"
+      << "  " << base << "() noexcept : " << base << "(Values{}) {}\n"
+      << "  explicit " << base << "(const Values& values_) noexcept\n      : " << initialisers.str()
+      << " {}\n";
+  places << "\n private:\n" << storage.str();
+}
+
 }  // namespace
 
 std::string interface_base_header(const Model& model, const Interface& interface) {
@@ -81,11 +106,13 @@ std::string interface_base_header(const Model& model, const Interface& interface
         << "  /// May refuse a set of runtime parameters as a whole; its cause goes to who asked. Between "
            "two steps.\n"
         << "  virtual " << prefix << "Status accept(const Runtime& /*proposed*/) { return {}; }\n"
-        << "  " << prefix << "Status accept_runtime(const void* proposed) noexcept final;\n";
+        << "  " << prefix << "Status accept_runtime(const void* proposed) noexcept override;\n";
   }
   if (!feedback.empty()) out << "  using Feedback = " << feedback.plain.name << ";\n";
   out << "  void connect(const " << prefix << "DeviceBinding& binding) noexcept override;\n";
-  Text members;
+  Text members, places;
+  if (!runtime.empty() || !feedback.empty())
+    declare_values(runtime, feedback, base_of(interface), out, members, places);
   for (const OutputPort& port : interface.outputs) {
     members << "  " << prefix << (port.queue ? "QueueOutput<" : "Output<")
             << space.of(model.types[port.type], model.types[port.type].name) << "> " << port.name
@@ -95,9 +122,7 @@ std::string interface_base_header(const Model& model, const Interface& interface
     members << "  const " << prefix << resource_type(resource.reader) << "* " << resource.name
             << " = nullptr;  ///< " << comment_text(resource.summary) << "\n";
   }
-  if (!runtime.empty()) members << "  Runtime runtime;\n";
-  if (!feedback.empty()) members << "  Feedback feedback;\n";
-  if (!members.str().empty()) out << "\n protected:\n" << members.str();
+  if (!members.str().empty()) out << "\n protected:\n" << members.str() << places.str();
   out << "};\n";
   if (!runtime.empty() || !feedback.empty()) out << "\n";
   declare_parameters(runtime, out);
@@ -145,13 +170,53 @@ std::string interface_base_source(const Model& model, const Interface& interface
   return out.take();
 }
 
+namespace {
+
+std::string values_of(const Driver& driver) {
+  return driver.class_name + "Values";
+}
+
+// What a driver has beside its interface's values lies before all that it derives from, as the interface's
+// base refers to a part of it.
+void declare_own_values(const BlockText& runtime, const BlockText& feedback, const Driver& driver,
+                        Text& out) {
+  out << "struct " << values_of(driver) << " {\n";
+  if (!runtime.empty()) out << "  " << runtime.plain.name << " runtime;\n";
+  if (!feedback.empty()) out << "  " << feedback.plain.name << " feedback;\n";
+  out << "};\n\n";
+}
+
+// Of a driver whose own runtime parameters are checked with its interface's.
+void declare_own_accept(const Interface& interface, const std::string& face, const std::string& prefix,
+                        Text& out) {
+  const bool is_shared = !interface.runtime.empty();
+  if (is_shared) out << "  using " << face << "::accept;\n";
+  out << "  /// May refuse a set of runtime parameters as a whole; its cause goes to who asked. Between two "
+         "steps.\n"
+      << "  virtual " << prefix << "Status accept(const Runtime& "
+      << (is_shared ? "proposed" : "/*proposed*/") << ") { return ";
+  if (is_shared) {
+    out << face << "::accept(static_cast<const " << face << "::Runtime&>(proposed))";
+  } else {
+    out << "{}";
+  }
+  out << "; }\n"
+      << "  " << prefix << "Status accept_runtime(const void* proposed) noexcept final;\n";
+}
+
+}  // namespace
+
 std::string driver_base_header(const Model& model, const Driver& driver) {
   const Interface& interface = model.interfaces[driver.interface];
   const BlockText configuration = driver_configuration(model, driver);
+  const BlockText runtime = driver_runtime(model, driver);
+  const BlockText feedback = driver_feedback(model, driver);
+  const bool has_own_values = !runtime.empty() || !feedback.empty();
   const Space space(driver.space);
   const std::string prefix(space.runtime());
   std::set<std::string> system, own{interface.header};
-  if (!configuration.empty()) add_includes(model, configuration.plain, system, own);
+  for (const BlockText* block : {&configuration, &runtime, &feedback})
+    if (!block->empty()) add_includes(model, block->plain, system, own);
   if (driver.bus_interface) own.insert(model.interfaces[*driver.bus_interface].header);
   if (!driver.options.empty()) own.insert("runtime/core/option.hpp");
 
@@ -159,16 +224,38 @@ std::string driver_base_header(const Model& model, const Driver& driver) {
   out << generated_note(driver.file) << "#pragma once\n\n"
       << include_lines(system, own) << "\n"
       << space.open() << "\n";
-  if (!configuration.empty()) define_struct(model, configuration.plain, out), out << "\n";
-  out << "/// " << comment_text(driver.summary) << "\nclass " << driver.base_class << " : public "
-      << space.of(interface, interface.class_name) << " {\n public:\n";
-  if (!configuration.empty()) out << "  using Configuration = " << configuration.plain.name << ";\n\n";
+  for (const BlockText* block : {&configuration, &runtime, &feedback})
+    if (!block->empty()) define_struct(model, block->plain, out), out << "\n";
+  const std::string face = space.of(interface, interface.class_name);
+  if (has_own_values) declare_own_values(runtime, feedback, driver, out);
+  out << "/// " << comment_text(driver.summary) << "\nclass " << driver.base_class << " : "
+      << (has_own_values ? "private " + values_of(driver) + ", " : "") << "public " << face
+      << " {\n public:\n";
+  if (!configuration.empty()) out << "  using Configuration = " << configuration.plain.name << ";\n";
+  if (!runtime.empty()) out << "  using Runtime = " << runtime.plain.name << ";\n";
+  if (!feedback.empty()) out << "  using Feedback = " << feedback.plain.name << ";\n";
+  if (has_own_values || !configuration.empty()) out << "\n";
+  if (!runtime.empty()) declare_own_accept(interface, face, prefix, out);
   declare_options(driver, prefix, out);
   if (driver.bus_interface)
     out << "  void connect(const " << prefix << "DeviceBinding& binding) noexcept final;\n";
   out << "  const " << prefix << "ComponentType& component_type() const noexcept final;\n"
       << "  " << prefix << "ParameterMemory parameter_memory() noexcept final;\n";
-  if (driver.bus_interface || !configuration.empty() || !driver.options.empty()) out << "\n protected:\n";
+  if (has_own_values || driver.bus_interface || !configuration.empty() || !driver.options.empty())
+    out << "\n protected:\n";
+  if (has_own_values) {
+    std::string shared;
+    for (const auto& [block, common, name] :
+         {std::tuple{&runtime, &interface.runtime, "runtime"}, {&feedback, &interface.feedback, "feedback"}})
+      if (!block->empty() && !common->empty())
+        shared += (shared.empty() ? "." : ", .") + std::string(name) + " = &" + name;
+    if (!shared.empty())
+      out << "  // " << interface.class_name << " has to hand on its base's constructors: using "
+          << base_of(interface) << "::" << base_of(interface) << ";\n"
+          << "  " << driver.base_class << "() noexcept : " << face << "(Values{" << shared << "}) {}\n";
+    if (!runtime.empty()) out << "  using " << values_of(driver) << "::runtime;\n";
+    if (!feedback.empty()) out << "  using " << values_of(driver) << "::feedback;\n";
+  }
   if (driver.bus_interface) {
     const Interface& bus = model.interfaces[*driver.bus_interface];
     out << "  " << space.of(bus, bus.class_name)
@@ -189,24 +276,32 @@ std::string driver_base_header(const Model& model, const Driver& driver) {
 std::string driver_base_source(const Model& model, const Driver& driver) {
   const Interface& interface = model.interfaces[driver.interface];
   const BlockText configuration = driver_configuration(model, driver);
-  const BlockText runtime = runtime_of(model, interface);
-  const BlockText feedback = feedback_of(model, interface);
+  const BlockText runtime = driver_runtime(model, driver);
+  const BlockText feedback = driver_feedback(model, driver);
+  const bool has_runtime = !runtime.empty() || !interface.runtime.empty();
+  const bool has_feedback = !feedback.empty() || !interface.feedback.empty();
   const Space space(driver.space);
   const std::string prefix(space.runtime());
   Text out;
   out << generated_note(driver.file) << "#include \"" << driver.base_header
       << "\"\n\n#include <cstddef>\n#include <type_traits>\n\n"
       << space.open() << "\n";
-  if (!configuration.empty()) define_descriptor(model, configuration.plain, out), out << "\n";
+  for (const BlockText* block : {&configuration, &runtime, &feedback})
+    if (!block->empty()) define_descriptor(model, block->plain, out), out << "\n";
   Text local;
-  define_parameters(configuration, false, local);
+  for (const BlockText* block : {&configuration, &runtime, &feedback})
+    define_parameters(*block, false, local);
   define_ports(model, interface, space, local);
   if (!local.str().empty()) out << "namespace {\n\n" << local.str() << "\n}  // namespace\n\n";
   out << "constinit const " << prefix << "ComponentType " << driver_component_name(driver) << "{\n    \""
       << driver.stem << "\", " << string_literal(driver.summary) << ",\n    "
-      << block_initialiser(configuration) << ",\n    " << block_initialiser(runtime, space, interface)
-      << ",\n    " << block_initialiser(feedback, space, interface) << ",\n    "
-      << (interface.outputs.empty() ? "{}" : interface.name + "_ports") << "};\n\n";
+      << block_initialiser(configuration) << ",\n    "
+      << (runtime.empty() ? block_initialiser(runtime_of(model, interface), space, interface)
+                          : block_initialiser(runtime))
+      << ",\n    "
+      << (feedback.empty() ? block_initialiser(feedback_of(model, interface), space, interface)
+                           : block_initialiser(feedback))
+      << ",\n    " << (interface.outputs.empty() ? "{}" : interface.name + "_ports") << "};\n\n";
   define_options(driver, prefix, out);
   if (driver.bus_interface) {
     const Interface& bus_interface = model.interfaces[*driver.bus_interface];
@@ -215,11 +310,15 @@ std::string driver_base_source(const Model& model, const Driver& driver) {
         << "DeviceBinding& binding) noexcept {\n  " << space.of(interface, base_of(interface))
         << "::connect(binding);\n  bus = static_cast<" << bus << "*>(binding.bus);\n}\n\n";
   }
+  if (!runtime.empty()) {
+    out << prefix << "Status " << driver.base_class << "::accept_runtime(const void* proposed) noexcept {\n"
+        << "  return accept(*static_cast<const Runtime*>(proposed));\n}\n\n";
+  }
   out << "const " << prefix << "ComponentType& " << driver.base_class
       << "::component_type() const noexcept { return " << driver_component_name(driver) << "; }\n\n"
       << prefix << "ParameterMemory " << driver.base_class << "::parameter_memory() noexcept {\n  return {"
       << (configuration.empty() ? "nullptr" : "&configuration") << ", "
-      << (runtime.empty() ? "nullptr" : "&runtime") << ", " << (feedback.empty() ? "nullptr" : "&feedback")
+      << (has_runtime ? "&runtime" : "nullptr") << ", " << (has_feedback ? "&feedback" : "nullptr")
       << "};\n}\n\n"
       << space.close();
   return out.take();

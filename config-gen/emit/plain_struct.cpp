@@ -226,8 +226,18 @@ std::size_t PlainStruct::struct_size() const {
 }
 
 PlainStruct plain_struct(const Model& model, const Type& type) {
-  PlainStruct plain{type.name, snake_case(type.name), Space(type.space), type.summary,         type.position,
-                    type.size, type.alignment,        type.image,        type.elements_offset, {}};
+  PlainStruct plain{type.name,
+                    snake_case(type.name),
+                    Space(type.space),
+                    type.summary,
+                    type.position,
+                    type.size,
+                    type.alignment,
+                    type.image,
+                    type.elements_offset,
+                    {},
+                    "",
+                    0};
   for (const Field& field : type.fields) {
     plain.fields.push_back({&field, field.offset, scalar_of(model, field.type), nullptr});
   }
@@ -237,7 +247,8 @@ PlainStruct plain_struct(const Model& model, const Type& type) {
 PlainStruct plain_struct(const Model& model, std::string name, const Space& space, std::string summary,
                          const Position& position, const std::vector<const ParameterBlock*>& blocks) {
   const std::string identifier = snake_case(name);
-  PlainStruct plain{std::move(name), identifier, space, std::move(summary), position, 1, 1, false, 0, {}};
+  PlainStruct plain{
+      std::move(name), identifier, space, std::move(summary), position, 1, 1, false, 0, {}, "", 0};
   Extent extent;
   for (const ParameterBlock* block : blocks) {
     for (const Parameter& parameter : block->parameters) {
@@ -250,6 +261,20 @@ PlainStruct plain_struct(const Model& model, std::string name, const Space& spac
   extent = finish(extent, plain.fields.empty());
   plain.size = extent.size;
   plain.alignment = extent.alignment;
+  return plain;
+}
+
+PlainStruct plain_struct(const Model& model, std::string name, const Space& space, std::string summary,
+                         const Position& position, const ParameterBlock& own, std::string base,
+                         const ParameterBlock& before) {
+  PlainStruct plain = plain_struct(model, std::move(name), space, std::move(summary), position, {&before});
+  if (!before.empty()) plain.base = std::move(base);
+  plain.base_fields = plain.fields.size();
+  for (const Parameter& parameter : own.parameters)
+    plain.fields.push_back(
+        {&parameter.field, parameter.field.offset, scalar_of(model, parameter), &parameter.initial});
+  plain.size = own.size;
+  plain.alignment = own.alignment;
   return plain;
 }
 
@@ -296,18 +321,25 @@ void declare_descriptor(const Space& space, std::string_view type, std::string_v
 }
 
 void define_struct(const Model& model, const PlainStruct& plain, Text& out) {
-  out << "/// " << comment_text(plain.summary) << "\nstruct " << plain.name << " {\n";
-  for (const PlainField& entry : plain.fields) {
+  out << "/// " << comment_text(plain.summary) << "\nstruct " << plain.name
+      << (plain.base.empty() ? "" : " : " + plain.base) << " {\n";
+  Text accessors;
+  for (std::size_t i = plain.base_fields; i < plain.fields.size(); ++i) {
+    const PlainField& entry = plain.fields[i];
     if (entry.field->resizable) continue;
     const std::string value =
         entry.initial == nullptr ? "{}" : cpp_value(model, plain.space, *entry.field, *entry.initial);
     const bool braced = value.starts_with("{");
-    out << "  " << cpp_type(model, plain.space, *entry.field) << " " << entry.field->name
-        << (braced ? "" : " = ") << value << ";  ///< " << comment_of(*entry.field) << "\n";
+    // Else it may lie in the base's padding, which whoever assigns to the base overwrites.
+    const bool behind = i == plain.base_fields && !plain.base.empty();
+    out << "  "
+        << (behind
+                ? "alignas(" + plain.base + ") alignas(" + cpp_type(model, plain.space, *entry.field) + ") "
+                : "")
+        << cpp_type(model, plain.space, *entry.field) << " " << entry.field->name << (braced ? "" : " = ")
+        << value << ";  ///< " << comment_of(*entry.field) << "\n";
+    define_accessors(*entry.field, accessors);
   }
-  Text accessors;
-  for (const PlainField& entry : plain.fields)
-    if (!entry.field->resizable) define_accessors(*entry.field, accessors);
   if (plain.elements_offset != 0) define_elements(plain, accessors);
   if (!accessors.str().empty()) out << "\n" << accessors.str();
   out << "};\n\n";
@@ -338,8 +370,11 @@ void define_descriptor(const Model& model, const PlainStruct& plain, Text& out) 
   const std::string row = short_position(plain.position);
   out << "static_assert(sizeof(" << name << ") == " << plain.struct_size() << " && alignof(" << name
       << ") == " << plain.alignment << ", " << string_literal(row + ": layout of " + name) << ");\n"
-      << "static_assert(std::is_trivially_copyable_v<" << name << "> && std::is_standard_layout_v<" << name
-      << ">);\n";
+      << "static_assert(std::is_trivially_copyable_v<" << name << ">"
+      << (plain.base.empty() ? " && std::is_standard_layout_v<" + name + ">" : "") << ");\n";
+  // With a base it has no standard layout; GCC and Clang know the places all the same.
+  if (!plain.base.empty())
+    out << "#pragma GCC diagnostic push\n#pragma GCC diagnostic ignored \"-Winvalid-offsetof\"\n";
   for (const PlainField& entry : plain.fields) {
     const bool behind = entry.field->resizable;
     out << "static_assert(offsetof(" << name << ", " << (behind ? "elements_" : entry.field->name)
@@ -347,6 +382,7 @@ void define_descriptor(const Model& model, const PlainStruct& plain, Text& out) 
         << string_literal(short_position(entry.field->position) + ": place of " + entry.field->name)
         << ");\n";
   }
+  if (!plain.base.empty()) out << "#pragma GCC diagnostic pop\n";
   define_descriptor_alone(model, plain, plain.space, out);
 }
 

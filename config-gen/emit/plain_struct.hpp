@@ -30,6 +30,8 @@ struct PlainStruct {
   bool image = false;
   std::size_t elements_offset = 0;  // as Type's: the last field lies behind the struct
   std::vector<PlainField> fields;
+  std::string base;             // the struct that it derives from; empty: none
+  std::size_t base_fields = 0;  // of `fields`, the first, which are the base's
 
   // Of the C++ struct.
   std::size_t struct_size() const;
@@ -39,6 +41,11 @@ PlainStruct plain_struct(const Model& model, const Type& type);
 // Of parameters laid out one after the other. An interface's come before its driver's own.
 PlainStruct plain_struct(const Model& model, std::string name, const Space& space, std::string summary,
                          const Position& position, const std::vector<const ParameterBlock*>& blocks);
+// Of a driver's own, as they were laid out behind their interface's, `before`, whose struct is `base`: what
+// is written through that changes nothing of them.
+PlainStruct plain_struct(const Model& model, std::string name, const Space& space, std::string summary,
+                         const Position& position, const ParameterBlock& own, std::string base,
+                         const ParameterBlock& before);
 
 // What #include lines a header with these fields needs.
 void add_includes(const Model& model, const PlainStruct& plain, std::set<std::string>& system,

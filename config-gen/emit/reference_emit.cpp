@@ -122,6 +122,8 @@ void driver_section(const Model& model, const Driver& driver, std::string_view h
   parameters(model,
              "Configuration, read at `initialise()`:", {&interface.configuration, &driver.configuration},
              out);
+  parameters(model, "Runtime parameters, beside those of the interface:", {&driver.runtime}, out);
+  parameters(model, "Feedback, beside that of the interface:", {&driver.feedback}, out);
   if (driver.options.empty()) return;
   out << "\nOptions of the command line:\n\n| option | unit | range | |\n| --- | --- | --- | --- |\n";
   for (const DriverOption& option : driver.options) {
@@ -189,7 +191,7 @@ void application_tables(const Model& model, Text& out) {
   out << "\n## Slots\n\n| slot | type | written by | read by | |\n| --- | --- | --- | --- | --- |\n";
   for (const Slot& slot : model.slots) {
     const std::string writer = writer_text(model, slot.writer);
-    out << "| `" << slot.name << "` | " << type_name(model, slot.type) << " | "
+    out << "| `" << slot.name << "` | " << common_type_name(model, slot) << " | "
         << (writer.empty() ? "the executive" : "`" + writer + "`") << " | " << names_of(slot.inputs, model)
         << " | " << cell(slot.summary) << " |\n";
   }

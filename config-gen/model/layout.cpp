@@ -40,6 +40,10 @@ const ParameterBlock* block_of(const Model& model, const SlotType& type) {
       return &model.interfaces[type.index].runtime;
     case SlotType::Kind::interface_feedback:
       return &model.interfaces[type.index].feedback;
+    case SlotType::Kind::driver_runtime:
+      return &model.drivers[type.index].runtime;
+    case SlotType::Kind::driver_feedback:
+      return &model.drivers[type.index].feedback;
     case SlotType::Kind::declared:
       break;
   }
@@ -75,10 +79,24 @@ std::string type_name(const Model& model, const SlotType& type) {
       return model.interfaces[type.index].class_name + "Runtime";
     case SlotType::Kind::interface_feedback:
       return model.interfaces[type.index].class_name + "Feedback";
+    case SlotType::Kind::driver_runtime:
+      return model.drivers[type.index].class_name + "Runtime";
+    case SlotType::Kind::driver_feedback:
+      return model.drivers[type.index].class_name + "Feedback";
     case SlotType::Kind::declared:
       break;
   }
   return model.types[type.index].name;
+}
+
+std::string common_type_name(const Model& model, const Slot& slot) {
+  const bool is_runtime = slot.type.kind == SlotType::Kind::driver_runtime;
+  if (!is_runtime && slot.type.kind != SlotType::Kind::driver_feedback) return type_name(model, slot.type);
+  const Index index = model.drivers[slot.type.index].interface;
+  const Interface& interface = model.interfaces[index];
+  if ((is_runtime ? interface.runtime : interface.feedback).empty()) return type_name(model, slot.type);
+  return type_name(
+      model, {is_runtime ? SlotType::Kind::interface_runtime : SlotType::Kind::interface_feedback, index});
 }
 
 std::size_t Field::elements() const {
@@ -149,12 +167,16 @@ void lay_out(const Model& model, Type& type) {
 }
 
 void lay_out(const Model& model, ParameterBlock& block) {
-  Extent extent;
+  lay_out(model, block, {});
+}
+
+void lay_out(const Model& model, ParameterBlock& block, const ParameterBlock& before) {
+  Extent extent{before.size, before.alignment};
   for (Parameter& parameter : block.parameters) {
     lay_out(model, parameter.field);
-    append(parameter.field, extent, &parameter == &block.parameters.front());
+    append(parameter.field, extent, before.empty() && &parameter == &block.parameters.front());
   }
-  extent = finish(extent, block.parameters.empty());
+  extent = finish(extent, block.empty());
   block.size = extent.size;
   block.alignment = extent.alignment;
 }

@@ -13,6 +13,8 @@ bool is_integer(Scalar scalar);
 std::string scalar_name(Scalar scalar);
 std::string type_name(const Model& model, const FieldType& type);
 std::string type_name(const Model& model, const SlotType& type);  // "Pose"; "JogFeedback"
+// Of a slot, for people: of a device's parameters what all its drivers have, as far as there is any.
+std::string common_type_name(const Model& model, const Slot& slot);
 
 // Sets size and alignment of a field whose type has been laid out.
 void lay_out(const Model& model, Field& field);
@@ -31,5 +33,7 @@ std::size_t single_values(const Model& model, const Field& field);
 // Each of its fields is within the limits.
 void lay_out(const Model& model, Type& type);
 void lay_out(const Model& model, ParameterBlock& block);
+// In one struct with what it begins with, and behind all of that: also behind its padding.
+void lay_out(const Model& model, ParameterBlock& block, const ParameterBlock& before);
 
 }  // namespace flexrf::config_gen

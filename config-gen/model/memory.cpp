@@ -61,9 +61,11 @@ std::vector<MemoryItem> memory_map(const Model& model) {
   for (const Device& device : model.devices) {
     const Interface& interface = model.interfaces[device.interface];
     std::size_t bytes = 0;
-    for (const DriverChoice& choice : device.drivers)
-      bytes = std::max(bytes, model.drivers[choice.driver].configuration.size);
-    bytes += interface.configuration.size + interface.runtime.size + interface.feedback.size;
+    for (const DriverChoice& choice : device.drivers) {
+      const Driver& driver = model.drivers[choice.driver];
+      bytes = std::max(bytes, driver.configuration.size + driver.runtime.size + driver.feedback.size);
+    }
+    bytes += interface.configuration.size;
     items.push_back({MemoryItem::Kind::parameters, device.name, bytes, "configuration, runtime and feedback",
                      device.position});
   }

@@ -147,6 +147,8 @@ struct ParameterBlock {
   std::vector<Parameter> parameters;
   std::size_t size = 1;  // an empty struct has size 1
   std::size_t alignment = 1;
+
+  bool empty() const { return parameters.empty(); }
 };
 
 // ---- Unit types, interfaces, drivers
@@ -283,6 +285,9 @@ struct Driver {
   std::size_t helper_threads = 0;      // of its own, which may wait
   std::optional<Index> bus_interface;  // the device must be on a bus with this interface
   ParameterBlock configuration;        // the driver's own; the interface's come before
+  // The driver's own, with places, size and alignment of the struct that begins with the interface's.
+  ParameterBlock runtime;
+  ParameterBlock feedback;
   std::vector<DriverOption> options;
   bool takes_eds = false;  // a device may name its EDS file, which is checked against:
   std::vector<NeededObject> objects;
@@ -291,11 +296,20 @@ struct Driver {
 // ---- The application: slots and queues
 // -------------------------------------------------------------------------
 
-// What a slot carries: a type of the tables, or the generated parameter struct of a unit type or interface.
+// What a slot carries: a type of the tables, or the generated parameter struct of a unit type, an interface
+// or a driver that has more than its interface.
 struct SlotType {
-  enum class Kind { declared, unit_runtime, unit_feedback, interface_runtime, interface_feedback };
+  enum class Kind {
+    declared,
+    unit_runtime,
+    unit_feedback,
+    interface_runtime,
+    interface_feedback,
+    driver_runtime,
+    driver_feedback
+  };
   Kind kind = Kind::declared;
-  Index index = 0;  // into types, unit_types or interfaces
+  Index index = 0;  // into types, unit_types, interfaces or drivers
 };
 
 // Who writes: output `port` of a unit or a device; or the executive on behalf of a unit or device, which
@@ -330,8 +344,8 @@ struct InputReference {
 struct Slot {
   std::string
       name;  // "tool_pose", "tracks[3]", "axis[2].position"; of parameters "jog.feedback", "jog.values"
-  Position position;  // its row, or where it was first named
-  SlotType type;
+  Position position;             // its row, or where it was first named
+  SlotType type;                 // of a device's parameters: the largest that one of its drivers has
   std::size_t elements = 0;      // of the type's resizable field; 0: it has none
   std::size_t payload_size = 0;  // of the type; 0 until the layout is known
   std::size_t payload_alignment = 1;
@@ -464,6 +478,7 @@ struct DeviceResource {
 struct DriverChoice {
   Index driver = 0;
   std::vector<Literal> configuration;  // per parameter of the driver's own block
+  std::vector<Literal> runtime;        // likewise
   std::string eds;                     // the EDS file as the row names it; empty: none
   Position eds_position;
 };

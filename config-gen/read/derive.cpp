@@ -7,6 +7,25 @@
 namespace flexrf::config_gen {
 namespace {
 
+// Which of its drivers a device has is known at the start only: its slots are as large as any needs. None:
+// neither its interface nor a driver has parameters of this kind.
+std::optional<SlotType> largest_type(const Model& model, const Device& device, Parameter::Kind kind) {
+  const bool is_runtime = kind == Parameter::Kind::runtime;
+  const Interface& interface = model.interfaces[device.interface];
+  std::optional<SlotType> largest;
+  if (!(is_runtime ? interface.runtime : interface.feedback).empty())
+    largest = {is_runtime ? SlotType::Kind::interface_runtime : SlotType::Kind::interface_feedback,
+               device.interface};
+  for (const DriverChoice& choice : device.drivers) {
+    const Driver& driver = model.drivers[choice.driver];
+    if ((is_runtime ? driver.runtime : driver.feedback).empty()) continue;
+    const SlotType type{is_runtime ? SlotType::Kind::driver_runtime : SlotType::Kind::driver_feedback,
+                        choice.driver};
+    if (!largest || size_of(model, type) > size_of(model, *largest)) largest = type;
+  }
+  return largest;
+}
+
 void add_parameter_slots(Model& model) {
   const auto add = [&](const std::string& name, const Position& position, SlotType::Kind kind, Index type,
                        Writer::Kind writer, Index owner) {
@@ -20,14 +39,12 @@ void add_parameter_slots(Model& model) {
   };
   for (Index i = 0; i < model.devices.size(); ++i) {
     Device& device = model.devices[i];
-    const Interface& interface = model.interfaces[device.interface];
-    if (!interface.feedback.parameters.empty())
-      device.feedback_slot =
-          add(device.name + ".feedback", device.position, SlotType::Kind::interface_feedback,
-              device.interface, Writer::Kind::device_feedback, i);
-    if (!interface.runtime.parameters.empty())
-      device.values_slot = add(device.name + ".values", device.position, SlotType::Kind::interface_runtime,
-                               device.interface, Writer::Kind::device_values, i);
+    if (const auto type = largest_type(model, device, Parameter::Kind::feedback))
+      device.feedback_slot = add(device.name + ".feedback", device.position, type->kind, type->index,
+                                 Writer::Kind::device_feedback, i);
+    if (const auto type = largest_type(model, device, Parameter::Kind::runtime))
+      device.values_slot = add(device.name + ".values", device.position, type->kind, type->index,
+                               Writer::Kind::device_values, i);
   }
   for (Index i = 0; i < model.units.size(); ++i) {
     Unit& unit = model.units[i];

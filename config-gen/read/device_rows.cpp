@@ -71,17 +71,22 @@ void read_drivers(Assembly& assembly, Row& row, Device& device) {
     DriverChoice choice;
     choice.driver = *driver;
     const Node* configuration = nullptr;
+    const Node* runtime = nullptr;
     if (values != nullptr) {
       Row own(*values, quote(name.text) + " in " + row.name(), assembly.diagnostics);
       configuration = own.table("configuration");
+      runtime = own.table("runtime");
       if (assembly.model.drivers[*driver].takes_eds) {
         choice.eds = own.text("eds").value_or("");
         choice.eds_position = own.position("eds");
       }
       own.finish();
     }
+    const std::string of_driver = row.name() + ", driver " + quote(name.text);
     choice.configuration = read_values(assembly, configuration, assembly.model.drivers[*driver].configuration,
-                                       "configuration", row.name() + ", driver " + quote(name.text));
+                                       "configuration", of_driver);
+    choice.runtime =
+        read_values(assembly, runtime, assembly.model.drivers[*driver].runtime, "runtime", of_driver);
     device.drivers.push_back(std::move(choice));
   }
 }
@@ -205,15 +210,24 @@ void check_data_sheets(Assembly& assembly, const Device& device) {
 
 void read_device_overrides(Assembly& assembly, Row& row, Device& device) {
   const Interface& kind = assembly.model.interfaces[device.interface];
-  std::vector<const ParameterBlock*> blocks{&kind.runtime, &kind.configuration, &kind.feedback};
-  for (const DriverChoice& choice : device.drivers)
-    blocks.push_back(&assembly.model.drivers[choice.driver].configuration);
+  // Of several of one name the first is meant.
+  std::vector<const ParameterBlock*> blocks;
+  const auto add = [&](const ParameterBlock& common, ParameterBlock Driver::*own) {
+    blocks.push_back(&common);
+    for (const DriverChoice& choice : device.drivers)
+      blocks.push_back(&(assembly.model.drivers[choice.driver].*own));
+  };
+  add(kind.runtime, &Driver::runtime);
+  add(kind.configuration, &Driver::configuration);
+  add(kind.feedback, &Driver::feedback);
   device.overrides = read_overrides(assembly, row.table("parameter"), blocks, quote(device.name), row.name());
   check_narrowed(assembly, device.overrides, kind.configuration, device.configuration);
   check_narrowed(assembly, device.overrides, kind.runtime, device.runtime);
-  for (const DriverChoice& choice : device.drivers)
-    check_narrowed(assembly, device.overrides, assembly.model.drivers[choice.driver].configuration,
-                   choice.configuration);
+  for (const DriverChoice& choice : device.drivers) {
+    const Driver& driver = assembly.model.drivers[choice.driver];
+    check_narrowed(assembly, device.overrides, driver.configuration, choice.configuration);
+    check_narrowed(assembly, device.overrides, driver.runtime, choice.runtime);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Fields of types, and parameters of units, interfaces and drivers.
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "config-gen/model/layout.hpp"
 #include "config-gen/model/limits.hpp"
@@ -234,8 +235,10 @@ Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kin
 }
 
 // As much as the runtime reserves for the parameters of one component.
-void check_limits(const ParameterBlock& block, Diagnostics& diagnostics) {
-  std::size_t holds = 0;
+void check_limits(const ParameterBlock& block, const ParameterBlock& before, Diagnostics& diagnostics) {
+  auto holds = static_cast<std::size_t>(
+      std::count_if(before.parameters.begin(), before.parameters.end(),
+                    [](const Parameter& one) { return one.input == Parameter::Input::hold; }));
   bool too_large = false;
   for (const Parameter& parameter : block.parameters) {
     const Field& field = parameter.field;
@@ -326,18 +329,18 @@ Parameter read_number(Library& library, Row& row) {
 }
 
 void read_parameters(Library& library, const Node& root, Parameter::Kind kind, ParameterBlock& block,
-                     const std::vector<UnitChoice>& choices) {
+                     const std::vector<UnitChoice>& choices, const ParameterBlock& before) {
   const std::string section = kind == Parameter::Kind::configuration ? "configuration"
                               : kind == Parameter::Kind::runtime     ? "runtime"
                                                                      : "feedback";
   for (const Node* node : named_rows(library, root, section, "a parameter"))
     block.parameters.push_back(read_parameter(library, *node, kind, section, choices));
-  lay_out(library.model(), block);
+  lay_out(library.model(), block, before);
   std::vector<const Field*> fields;
-  for (const Parameter& parameter : block.parameters) fields.push_back(&parameter.field);
-  // A driver's are in one struct with its interface's, and checked with them.
+  for (const ParameterBlock* const part : {&before, &std::as_const(block)})
+    for (const Parameter& parameter : part->parameters) fields.push_back(&parameter.field);
   check_fields(fields, library.diagnostics());
-  if (kind == Parameter::Kind::runtime) check_limits(block, library.diagnostics());
+  if (kind == Parameter::Kind::runtime) check_limits(block, before, library.diagnostics());
 }
 
 std::vector<const Node*> named_rows(Library& library, const Node& root, std::string_view kind,

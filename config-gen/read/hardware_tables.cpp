@@ -92,16 +92,33 @@ void read_objects(Library& library, const std::string& name, const Position& pos
   driver.objects = read_object_list(file, parameters, library.diagnostics());
 }
 
-// What units and the panel see of a device is the same whichever driver it has.
+// What units are connected to is the same whichever driver a device has.
 void refuse_sections_of_interface(Row& row, const std::string& interface, Diagnostics& diagnostics) {
-  for (const char* section : {"runtime", "feedback", "output", "resource"}) {
+  for (const char* section : {"output", "resource"}) {
     if (!row.has(section)) continue;
     row.also(section);
     diagnostics.error(row.position(section),
                       "a driver cannot have [" + std::string(section) + ".NAME]: only its interface has it",
                       "move it to the table of the interface " + interface +
-                          ", so that every driver has it; a driver's own is only [configuration.NAME]");
+                          ", so that every driver has it; a driver's own are only [configuration.NAME], "
+                          "[runtime.NAME] and [feedback.NAME]");
   }
+}
+
+// A driver's own stand beside its interface's in one struct.
+void check_beside(const ParameterBlock& common, const ParameterBlock& own, const std::string& interface,
+                  Diagnostics& diagnostics) {
+  std::vector<const Field*> fields;
+  for (const ParameterBlock* block : {&common, &own})
+    for (const Parameter& parameter : block->parameters) fields.push_back(&parameter.field);
+  check_fields(fields, diagnostics);
+  for (const Parameter& parameter : own.parameters)
+    for (const Parameter& other : common.parameters)
+      if (parameter.field.name == other.field.name)
+        diagnostics.error(parameter.field.position,
+                          "the name " + quote(parameter.field.name) + " is used twice: every driver of " +
+                              interface + " has it",
+                          "rename it; the other is at " + to_string(other.field.position));
 }
 
 // The build reads these itself (read/parts.hpp), and only plain words.
@@ -202,8 +219,7 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
       diagnostics.error(row.position("on"), quote(*bus) + " is not a bus",
                         "name an interface whose table says bus = true");
   }
-  row.also("configuration");
-  row.also("option");
+  for (const char* section : {"configuration", "runtime", "feedback", "option"}) row.also(section);
   check_build_words(row, "libraries", "a target of the build, as \"FlexRF::can_wire\"", diagnostics);
   check_build_words(row, "packages", "what pkg-config calls a library, as \"libgpiod\"", diagnostics);
   const auto objects = row.text("objects");
@@ -211,25 +227,19 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
   row.finish();
   driver.options = read_driver_options(library, root, driver.kind);
   // A copy: further tables may be read meanwhile, and the interfaces move.
-  std::vector<UnitChoice> choices;
+  Interface face;
   if (index) {
     driver.interface = *index;
-    choices = model.interfaces[*index].units;
+    face = model.interfaces[*index];
   }
-  read_parameters(library, root, Parameter::Kind::configuration, driver.configuration, choices);
+  read_parameters(library, root, Parameter::Kind::configuration, driver.configuration, face.units);
+  read_parameters(library, root, Parameter::Kind::runtime, driver.runtime, face.units, face.runtime);
+  read_parameters(library, root, Parameter::Kind::feedback, driver.feedback, face.units, face.feedback);
+  read_needs(library, root, driver.runtime, driver.feedback, face);
   if (!index) return std::nullopt;
-  std::vector<const Field*> fields;
-  for (const ParameterBlock* block :
-       {&model.interfaces[driver.interface].configuration, &driver.configuration})
-    for (const Parameter& parameter : block->parameters) fields.push_back(&parameter.field);
-  check_fields(fields, diagnostics);
-  for (const Parameter& parameter : driver.configuration.parameters)
-    for (const Parameter& common : model.interfaces[driver.interface].configuration.parameters)
-      if (parameter.field.name == common.field.name)
-        diagnostics.error(parameter.field.position,
-                          "the name " + quote(parameter.field.name) + " is used twice: every driver of " +
-                              *interface + " has it",
-                          "rename it; the other is at " + to_string(common.field.position));
+  check_beside(face.configuration, driver.configuration, *interface, diagnostics);
+  check_beside(face.runtime, driver.runtime, *interface, diagnostics);
+  check_beside(face.feedback, driver.feedback, *interface, diagnostics);
 
   if (objects) read_objects(library, *objects, row.position("objects"), driver);
 

@@ -1,6 +1,7 @@
 #include "config-gen/read/needs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,8 +43,9 @@ Need motion() {
 
 class NeedReader {
  public:
-  NeedReader(Library& library, const ParameterBlock& runtime, const ParameterBlock& feedback)
-      : library_(library), runtime_(runtime), feedback_(feedback) {}
+  NeedReader(Library& library, const ParameterBlock& runtime, const ParameterBlock& feedback,
+             const Interface& before)
+      : library_(library), blocks_{&feedback, &before.feedback, &runtime, &before.runtime} {}
 
   std::optional<Need> read(const Node& node) {
     std::string_view text = without_blanks(node.text);
@@ -82,10 +84,9 @@ class NeedReader {
 
  private:
   const Parameter* find(const std::string& name, Need::Of& of) const {
-    for (const auto& [block, kind] :
-         {std::pair{&feedback_, Need::Of::feedback}, std::pair{&runtime_, Need::Of::runtime}}) {
+    for (const ParameterBlock* const block : blocks_) {
       for (const Parameter& parameter : block->parameters) {
-        of = kind;
+        of = parameter.kind == Parameter::Kind::runtime ? Need::Of::runtime : Need::Of::feedback;
         if (parameter.field.name == name) return &parameter;
       }
     }
@@ -94,7 +95,7 @@ class NeedReader {
 
   std::nullopt_t refuse_name(const Node& node, const std::string& name) {
     std::vector<std::string> known{"motion"};
-    for (const ParameterBlock* block : {&feedback_, &runtime_})
+    for (const ParameterBlock* const block : blocks_)
       for (const Parameter& parameter : block->parameters) known.push_back(parameter.field.name);
     library_.diagnostics().error(
         node.position, quote(name) + " is neither \"motion\" nor a name in [feedback] or [runtime] here",
@@ -140,19 +141,19 @@ class NeedReader {
   }
 
   Library& library_;
-  const ParameterBlock& runtime_;
-  const ParameterBlock& feedback_;
+  const std::array<const ParameterBlock*, 4> blocks_;
 };
 
 }  // namespace
 
-void read_needs(Library& library, const Node& root, ParameterBlock& runtime, const ParameterBlock& feedback) {
+void read_needs(Library& library, const Node& root, ParameterBlock& runtime, const ParameterBlock& feedback,
+                const Interface& before) {
   const Node* const section = root.find("runtime");
   if (section == nullptr || section->kind != Node::Kind::table) return;
   // No hold begins without the permission to move.
   for (Parameter& parameter : runtime.parameters)
     if (parameter.input == Parameter::Input::hold) parameter.needs.push_back(motion());
-  NeedReader reader(library, runtime, feedback);
+  NeedReader reader(library, runtime, feedback, before);
   for (const Node& row : section->children) {
     const Node* const needs = row.kind == Node::Kind::table ? row.find("needs") : nullptr;
     if (needs == nullptr) continue;

@@ -7,7 +7,9 @@
 
 namespace flexrf::config_gen {
 
-// Of all rows under [runtime.*] of this table, once its parameters and its feedback have been read.
-void read_needs(Library& library, const Node& root, ParameterBlock& runtime, const ParameterBlock& feedback);
+// Of all rows under [runtime.*] of this table, once its parameters and its feedback have been read. `before`:
+// of a driver, its interface, whose values its commands may need, too.
+void read_needs(Library& library, const Node& root, ParameterBlock& runtime, const ParameterBlock& feedback,
+                const Interface& before = {});
 
 }  // namespace flexrf::config_gen

@@ -46,8 +46,11 @@ Names names_of(const Model& model) {
     const Interface& type = model.interfaces[device.interface];
     for (const ParameterBlock* block : {&type.runtime, &type.configuration, &type.feedback})
       add_parameters(device.name, *block, names.parameters);
-    for (const DriverChoice& choice : device.drivers)
-      add_parameters(device.name, model.drivers[choice.driver].configuration, names.parameters);
+    for (const DriverChoice& choice : device.drivers) {
+      const Driver& driver = model.drivers[choice.driver];
+      for (const ParameterBlock* block : {&driver.runtime, &driver.configuration, &driver.feedback})
+        add_parameters(device.name, *block, names.parameters);
+    }
   }
   return names;
 }

@@ -40,8 +40,10 @@ std::vector<Saved> all_saved(const Model& model) {
     Saved saved{device.name, 0, {}};
     add_saved(model.interfaces[device.interface].configuration, saved.parameters);
     add_saved(model.interfaces[device.interface].runtime, saved.parameters);
-    for (const DriverChoice& choice : device.drivers)
+    for (const DriverChoice& choice : device.drivers) {
       add_saved(model.drivers[choice.driver].configuration, saved.parameters);
+      add_saved(model.drivers[choice.driver].runtime, saved.parameters);
+    }
     all.push_back(std::move(saved));
   }
   return all;

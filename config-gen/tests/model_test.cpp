@@ -153,6 +153,42 @@ void memory_adds_up(void**) {
   assert_true(total(items) > picture);
 }
 
+// The driver is chosen at the start: what is read by the interface's struct lies at the same place with each.
+void values_of_a_driver_lie_behind_its_interfaces(void**) {
+  struct Feedback {
+    double share;
+    bool known;
+  };
+  struct All {
+    Feedback shared;
+    bool warm;
+    double heat;
+  };
+  const Model& model = cell("own-values").model;
+  assert_string_equal(cell("own-values").messages.c_str(), "");
+  const Driver& plain = named(model.drivers, "plain");
+  const Driver& smart = named(model.drivers, "smart");
+  assert_true(plain.runtime.empty() && plain.feedback.empty());
+  assert_int_equal(smart.feedback.parameters[0].field.offset, offsetof(All, warm));
+  assert_int_equal(smart.feedback.parameters[1].field.offset, offsetof(All, heat));
+  assert_int_equal(smart.feedback.size, sizeof(All));
+  assert_int_equal(smart.feedback.alignment, alignof(All));
+  const Slot& feedback = named(model.slots, "valve.feedback");
+  assert_true(feedback.type.kind == SlotType::Kind::driver_feedback);
+  assert_int_equal(feedback.payload_size, sizeof(All));
+  assert_int_equal(named(model.slots, "valve.values").payload_size, 16);
+  const Device& valve = named(model.devices, "valve");
+  assert_int_equal(valve.drivers[0].runtime.size(), 0);
+  assert_int_equal(std::get<std::int64_t>(valve.drivers[1].runtime[0].value), 3);
+  assert_true(smart.runtime.parameters[1].needs[0].of == Need::Of::feedback);
+  assert_int_equal(valve.overrides.size(), 2);
+  assert_true(valve.overrides[0].kind == Parameter::Kind::runtime);
+  assert_true(valve.overrides[1].kind == Parameter::Kind::feedback);
+  assert_string_equal(model.panel.widgets[0].parameters[0].second.c_str(), "valve.feedback.heat");
+  assert_string_equal(model.panel.widgets[0].parameters[1].second.c_str(), "valve.dither");
+  assert_string_equal(model.renames[0].to.c_str(), "valve.dither");
+}
+
 // 1000 units with two slots each, in ten threads.
 std::string large_table() {
   std::string text = "summary = \"Large.\"\nmemory_budget = \"64 MiB\"\n";
@@ -222,6 +258,7 @@ int main() {
                               cmocka_unit_test(copies_are_queues_of_their_own),
                               cmocka_unit_test(children_come_before_buses),
                               cmocka_unit_test(memory_adds_up),
+                              cmocka_unit_test(values_of_a_driver_lie_behind_its_interfaces),
                               cmocka_unit_test(a_large_application_reads_the_same_twice)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

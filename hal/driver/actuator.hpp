@@ -21,6 +21,7 @@ class Actuator : public Interface {
  public:
   /// The generator asks for this of a driver whose table says `actuates = true`.
   using Guard = Actuator;
+  using Interface::Interface;
 
   void receive(const Tick& tick) noexcept final {
     see_permission();

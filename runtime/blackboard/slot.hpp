@@ -120,6 +120,9 @@ class SlotControl {
 
   /// Tells each buffer how many elements it has, where the slot's row says that: once, before the first loan.
   void lay_out_items() noexcept;
+  /// Of a slot with room for the largest of several types: which of them it carries. Before the first loan,
+  /// and before anybody asks for the type.
+  void set_type(const TypeDescriptor& type) noexcept { type_ = &type; }
   /// Virtual time: publications wait for commit().
   void set_deferred(bool on) noexcept { deferred_ = on; }
   /// Whether to digest publications, and the digest so far (name not included).

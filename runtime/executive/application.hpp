@@ -56,7 +56,7 @@ struct ComponentRecord {
   std::size_t storage_size;
   std::uint16_t thread;        ///< index of the thread it lives in
   SlotControl* runtime_slot;   ///< runtime parameters in force, sized for the largest driver; null: none
-  SlotControl* feedback_slot;  ///< published after each step; null: none
+  SlotControl* feedback_slot;  ///< published after each step, sized likewise; null: none
   Duration initialise_timeout;
   Duration stop_timeout;
   std::uint16_t population = no_index;  ///< that it is a member of, or no_index

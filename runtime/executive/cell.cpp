@@ -23,6 +23,10 @@ void fill(void* memory, const ParameterBlock& block, const void* initial) noexce
   }
 }
 
+void carry(SlotControl* slot, const ParameterBlock& block) noexcept {
+  if (slot != nullptr && block.type != nullptr) slot->set_type(*block.type);
+}
+
 std::vector<std::vector<std::uint16_t>> devices_by_component(const Application& application) {
   std::vector<std::vector<std::uint16_t>> devices(application.component_count());
   for (std::size_t i = 0; i < application.devices.size(); ++i) {
@@ -217,6 +221,9 @@ Status Cell::construct_device(std::uint16_t index) {
   DeviceBinding binding = record.binding;
   if (record.bus != no_index) binding.bus = application_->device_states[record.bus].device;
   state.device->connect(binding);
+  // They have room for what the largest of its drivers has.
+  carry(record.runtime_slot, driver.type->runtime);
+  carry(record.feedback_slot, driver.type->feedback);
   const ParameterMemory memory = state.device->parameter_memory();
   fill(memory.configuration, driver.type->configuration, driver.configuration);
   fill(memory.runtime, driver.type->runtime, driver.runtime);

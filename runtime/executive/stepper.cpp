@@ -354,8 +354,10 @@ void Stepper::send(Time now) noexcept {
 
 void Stepper::publish_feedback(SlotControl* slot, const ParameterBlock& block, const void* values,
                                Time now) noexcept {
+  // A device's slot may be another driver's: this one has nothing to publish.
+  if (values == nullptr || block.type == nullptr) return;
   const std::uint8_t buffer = slot->loan();
-  if (buffer == SlotControl::none || values == nullptr || block.type == nullptr) return;
+  if (buffer == SlotControl::none) return;
   std::memcpy(slot->payload(buffer), values, block.type->size);
   slot->publish(buffer, now);
 }

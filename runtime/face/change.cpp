@@ -29,6 +29,15 @@ std::optional<Refusal> cannot_be(const char* act, const char* other, const Compo
       .about(path);
 }
 
+/// Of a device, another of its drivers that has a parameter of this name; null: none has.
+const char* driver_with(const ComponentEntry& component, ParameterBlock ComponentType::*kind,
+                        std::string_view name) noexcept {
+  for (const DriverRecord& driver : component.drivers)
+    for (const ParameterDescriptor& parameter : (driver.type->*kind).parameters)
+      if (name == parameter.field->name) return driver.name;
+  return nullptr;
+}
+
 std::optional<Refusal> find_parameter(const ParameterBlock& block, const char* kind,
                                       const ComponentEntry& component, std::string_view path,
                                       ParameterPlace& found) noexcept {
@@ -43,6 +52,16 @@ std::optional<Refusal> find_parameter(const ParameterBlock& block, const char* k
           .about(path);
     found = {&block.parameters[i], static_cast<std::uint16_t>(i), *place};
     return std::nullopt;
+  }
+  const bool is_runtime = std::string_view{kind} == "runtime";
+  if (const char* const other =
+          driver_with(component, is_runtime ? &ComponentType::runtime : &ComponentType::configuration, name);
+      other != nullptr) {
+    Refusal refusal = Refusal::make(RefusalKind::wrong_state,
+                                    "%s.%.*s is not there: the driver is '%s'; this belongs to '%s'",
+                                    component.name, shown(path), path.data(), component.driver, other);
+    return refusal.hint("a driver is chosen at the start, as --hardware %s=%s", component.name, other)
+        .about(path);
   }
   Refusal refusal = Refusal::make(RefusalKind::not_found, "%s has no %s parameter '%.*s'", component.name,
                                   kind, shown(path), path.data());

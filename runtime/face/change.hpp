@@ -26,7 +26,8 @@ struct ParameterPlace {
 inline constexpr std::uint64_t most_presses = 100;
 
 /// Finds "gain", "gains[2]", "limits.low" in a block, and reads its value into `structure`, which is as the
-/// block's type says and else untouched. The refusal names the nearest known name, or what is wrong.
+/// block's type says and else untouched. The refusal names the nearest known name, the driver that such a
+/// parameter belongs to where the device has another, or what is wrong.
 std::optional<Refusal> read_parameter(const ParameterBlock& block, const char* kind,
                                       const ComponentEntry& component, std::string_view path,
                                       JsonElement value, void* structure, ParameterPlace& found) noexcept;

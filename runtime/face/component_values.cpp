@@ -18,7 +18,6 @@ void ComponentValues::write_slot(JsonWriter& json, std::uint16_t slot, const Typ
   if (newest.value == nullptr) {
     json.null();
   } else {
-    // A device's slot is as large as its largest driver needs; its contents are the chosen driver's.
     write_value(json, *type, newest.value);
   }
 }

@@ -10,8 +10,9 @@ Directory::Directory(const Cell& cell) : application_(&cell.application()) {
     const ComponentRecord& record = application.component(i);
     components_.push_back({record.name, &record, &cell.component_type(i),
                            index_of(application, record.runtime_slot),
-                           index_of(application, record.feedback_slot)});
+                           index_of(application, record.feedback_slot), cell.driver_name(i)});
   }
+  for (const DeviceRecord& device : application.devices) components_[device.index].drivers = device.drivers;
   const auto add = [this](Part part, const auto& records) {
     Names& names = names_[static_cast<std::size_t>(part)];
     for (std::size_t i = 0; i < records.size(); ++i)

@@ -17,9 +17,11 @@ namespace flexrf {
 struct ComponentEntry {
   const char* name;
   const ComponentRecord* record;
-  const ComponentType* type;    ///< with ranges as the application narrows them
-  std::uint16_t runtime_slot;   ///< in Application::slots, or no_index
-  std::uint16_t feedback_slot;  ///< likewise
+  const ComponentType* type;                   ///< with ranges as the application narrows them
+  std::uint16_t runtime_slot;                  ///< in Application::slots, or no_index
+  std::uint16_t feedback_slot;                 ///< likewise
+  const char* driver = "";                     ///< that was chosen; of a unit ""
+  std::span<const DriverRecord> drivers = {};  ///< that the device's row permits; of a unit none
 };
 
 /// What has names of its own: a slot and a thread may share one.

@@ -561,8 +561,6 @@ void RuntimeParameters::publish(Time now) noexcept {
   const std::uint8_t buffer = slot_->loan();
   const std::size_t size = block_->type->size;
   std::memcpy(slot_->payload(buffer), values_, size);
-  // A device's slot has room for the largest of its drivers.
-  if (slot_->type()->size > size) std::memset(slot_->payload(buffer) + size, 0, slot_->type()->size - size);
   slot_->publish(buffer, now);
   sequence_ = slot_->header(buffer).sequence;
 }

@@ -1,4 +1,5 @@
 // The generated application says what its tables say, and runs.
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -286,13 +287,14 @@ void the_panel_has_its_settings_and_files(void**) {
 }
 
 void ranges_that_rows_narrow_are_told(void**) {
-  assert_int_equal(cell.ranges.size(), 2);
+  assert_int_equal(cell.ranges.size(), 3);
   assert_int_equal(cell.ranges[0].component, 0);
   assert_string_equal(cell.ranges[0].parameter, "gain");
   assert_true(cell.ranges[0].minimum == 0.0 && cell.ranges[0].maximum == 2.0);
   assert_int_equal(cell.ranges[1].component, cell.units.size() + 1);
   assert_true(cell.ranges[1].kind == ParameterKind::runtime);
   assert_true(cell.ranges[1].minimum == 1.0 && cell.ranges[1].maximum == 6.0);
+  assert_string_equal(cell.ranges[2].parameter, "trim");  // of one driver alone
 }
 
 void text_equals(const nlohmann::json& json, const char* wanted) {
@@ -323,6 +325,19 @@ void the_descriptor_tells_what_a_page_needs(void**) {
   assert_true(station.at("overrides").at(0).at("range").at(1).get<double>() == 6.0);
   text_equals(station.at("values_slot"), "station.values");
   text_equals(station.at("feedback_slot"), "station.feedback");
+  assert_true(station.at("drivers").at(1).at("runtime").at("trim").get<double>() == 0.5);
+  assert_false(station.at("drivers").at(0).contains("runtime"));
+  assert_false(json.at("drivers").at(1).contains("runtime"));
+  const auto& metering = json.at("drivers").at(2);
+  text_equals(metering.at("runtime").at("type"), "MeteringStationRuntime");
+  text_equals(metering.at("runtime").at("parameters").at(0).at("name"), "setpoint");
+  text_equals(metering.at("runtime").at("parameters").at(1).at("name"), "trim");
+  text_equals(metering.at("feedback").at("parameters").at(4).at("name"), "sum");
+  const auto slot = std::find_if(json.at("slots").begin(), json.at("slots").end(),
+                                 [](const auto& one) { return one.at("name") == "station.feedback"; });
+  text_equals(slot->at("type"), "StationFeedback");
+  text_equals(slot->at("driver_types").at("metering"), "MeteringStationFeedback");
+  text_equals(gain.at("parameters").at("sum"), "station.feedback.sum");
   assert_true(json.at("interfaces").at(1).contains("runtime") &&
               json.at("interfaces").at(1).contains("feedback"));
   text_equals(json.at("units").at(1).at("population"), "worker");

@@ -44,6 +44,7 @@ constexpr Case cases[] = {{Target::Kind::types, "cell/types", 16},
                           {Target::Kind::unit, "cell/units/lift/lift.toml", 4},
                           {Target::Kind::interface, "interfaces/station/station.toml", 3},
                           {Target::Kind::driver, "drivers/mock_station/mock_station.toml", 4},
+                          {Target::Kind::driver, "drivers/metering_station/metering_station.toml", 4},
                           {Target::Kind::application, "cell/generated_cell.toml", 9}};
 
 // What goes wrong in one case, so that no assertion jumps over the files' destructors.

@@ -31,6 +31,8 @@ struct CameraImage {
 /// lives in.
 class Camera : public CameraInterface {
  public:
+  using CameraInterface::CameraInterface;
+
   /// The newest picture, if one came since the cycle before; the same all through a cycle, valid until the
   /// next receive() [camera-5]. Nothing while the slot `frames` is connected: they go there
   /// instead [camera-6].

@@ -28,6 +28,8 @@ class CanWire;
 /// feedback.recoveries counts it [can-bus-2]. What a device does meanwhile is for the device to say.
 class CanBus : public CanBusInterface {
  public:
+  using CanBusInterface::CanBusInterface;
+
   static constexpr int no_last_word = -1;
 
   // ---- for devices on the bus: in initialise() and stop(), the lifecycle thread

@@ -12,6 +12,8 @@ namespace flexrf {
 /// device: state() is nothing, trouble() says why, and both come back when it does [force-torque-sensor-1].
 class ForceTorqueSensor : public ForceTorqueSensorInterface {
  public:
+  using ForceTorqueSensorInterface::ForceTorqueSensorInterface;
+
   /// The newest measurement, in the configured frame and without the tare [force-torque-sensor-2]; nothing
   /// before the first one, when the newest is older than max_age, and while the sensor reports a fault of its
   /// own [force-torque-sensor-3]. With an overload the values are there and say so [force-torque-sensor-4]:

@@ -55,6 +55,8 @@ struct GripperState {
 /// is kept to a limit or is without effect is told (Component::restrain()) [gripper-15].
 class Gripper : public Actuator<GripperInterface> {
  public:
+  using Actuator::Actuator;
+
   /// From initialise() on, always the same.
   virtual GripperCapabilities capabilities() const noexcept = 0;
 

@@ -13,6 +13,8 @@ namespace flexrf {
 /// safe with the cell: it is no actuator, and runs on [process-12].
 class Process : public ProcessInterface {
  public:
+  using ProcessInterface::ProcessInterface;
+
   /// As of this cycle. A run has ended when its last line has been read [process-1].
   virtual ProcessState state() const noexcept = 0;
 

@@ -19,6 +19,8 @@ namespace flexrf {
 /// there [robot-arm-8]. What its drives report as a fault is the arm's [robot-arm-9].
 class RobotArm : public Actuator<RobotArmInterface> {
  public:
+  using Actuator::Actuator;
+
   const KinematicChain& kinematic_chain() const noexcept { return *chain; }
 
   /// What the sensors said last, as of this cycle; nothing while they say nothing [robot-arm-1].

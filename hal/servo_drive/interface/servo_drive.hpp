@@ -41,6 +41,8 @@ struct ServoState {
 /// drive in fault [servo-drive-6].
 class ServoDrive : public Actuator<ServoDriveInterface> {
  public:
+  using Actuator::Actuator;
+
   /// The speed of move_to() that is the greatest of the configuration.
   static constexpr double full_speed = std::numeric_limits<double>::max();
 

@@ -215,6 +215,10 @@ void LiveSession::write_hello(Client& client, Time now, std::string& to) {
   JsonWriter json(std::move(to));
   json.begin_object().member("event", "hello").member("protocol", 1).member("application", application.name);
   json.member("boot", parts_.boot).member("descriptor", hexadecimal_text(application.descriptor_hash));
+  json.key("drivers").begin_object();
+  for (const DeviceRecord& device : application.devices)
+    json.member(device.name, parts_.executive.cell().driver_name(device.index));
+  json.end_object();
   json.key("session");
   write_session(json, info);
   json.member("server_time_ns", nanoseconds(now)).member("allocations", has_allocation_guard()).end_object();

@@ -47,6 +47,8 @@ class GpioLine {
 
 class GpioChip : public GpioChipInterface {
  public:
+  using GpioChipInterface::GpioChipInterface;
+
   /// From initialise() of the device that will use the line; valid until release(). Fails with a cause for
   /// the operator: no such line, in use by somebody else, no permission, no chip [gpio-chip-5]. Lifecycle
   /// thread.

@@ -13,6 +13,8 @@ namespace flexrf {
 /// Everything: the thread the line lives in. Made safe, an output has its safe value at once [digital-io-5].
 class DigitalIo : public Actuator<DigitalIoInterface> {
  public:
+  using Actuator::Actuator;
+
   /// What the line is as of this cycle, bounces left out; an output: what it was told. Nothing while its chip
   /// is away [digital-io-1].
   virtual std::optional<DigitalState> state() const noexcept = 0;

@@ -11,6 +11,8 @@ namespace flexrf {
 /// exchange, so that the station never waits; the same where both live in one thread.
 class ModbusLink : public ModbusLinkInterface {
  public:
+  using ModbusLinkInterface::ModbusLinkInterface;
+
   /// A station registers and goes: lifecycle thread, from the station's initialise() and stop().
   virtual Result<ModbusExchange*> attach(const ModbusStationSetup& setup) { return master_.attach(setup); }
   static void detach(ModbusExchange& exchange) noexcept { ModbusMaster::detach(exchange); }

@@ -29,6 +29,8 @@ struct ModbusValue {
 /// its safe values written, and says so once the station has confirmed them [modbus-station-7].
 class ModbusStation : public Actuator<ModbusStationInterface> {
  public:
+  using Actuator::Actuator;
+
   const ModbusRegisterMap& register_map() const noexcept { return *registers; }
 
   /// The index of the register of this name, for read() or set(); to be asked once, in initialise(). It is an

@@ -31,6 +31,8 @@ struct Datagram {
 /// overtaken on their way: what matters needs numbers of its own.
 class DatagramSocket : public DatagramSocketInterface {
  public:
+  using DatagramSocketInterface::DatagramSocketInterface;
+
   /// The next datagram that came, oldest first [datagram-socket-2].
   virtual std::optional<Datagram> read() noexcept = 0;
 

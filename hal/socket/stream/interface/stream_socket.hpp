@@ -16,6 +16,8 @@ using SocketSession = std::uint32_t;
 /// Everything: the thread the socket lives in; nothing blocks or allocates.
 class StreamSocket : public StreamSocketInterface {
  public:
+  using StreamSocketInterface::StreamSocketInterface;
+
   /// Connections as of this cycle, oldest first; at most `configuration.sessions` [stream-socket-2]. One that
   /// the peer has ended is among them until what came before has been read [stream-socket-3], for a second at
   /// most [stream-socket-11].

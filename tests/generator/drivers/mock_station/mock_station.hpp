@@ -8,7 +8,7 @@ class MockStation final : public MockStationDriver {
  public:
   void receive(const Tick& /*tick*/) noexcept override {
     bus->transfer();
-    ++feedback.transfers;
+    count_transfer();
   }
   Options told() const noexcept { return options(); }
   double output() const noexcept override { return runtime.setpoint; }

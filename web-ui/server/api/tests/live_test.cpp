@@ -38,6 +38,7 @@ void a_page_is_greeted_and_told_the_state() {
   CHECK_EQUAL(hello.at("application").get<std::string>(), "test_cell");
   CHECK_EQUAL(hello.at("descriptor").get<std::string>(), "0000000000007e57");
   CHECK_EQUAL(hello.at("boot").get<std::string>().size(), 16U);
+  CHECK(hello.at("drivers") == json({{"actuator", "mock"}}));
   CHECK(
       hello.at("session") ==
       json(

@@ -9,6 +9,8 @@ namespace flexrf {
 /// What a unit can ask of it, with any driver. In the thread of its owner; never waits.
 class NewInterface : public Actuator<NewInterfaceInterface> {
  public:
+  using Actuator::Actuator;
+
   /// Leaves with the end of the cycle. Without effect while is_inhibited(), and not remembered: it is off
   /// then.
   void command(bool on) noexcept {
