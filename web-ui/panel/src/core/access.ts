@@ -66,9 +66,10 @@ function deniedMotion({ state }: Situation): string {
 }
 
 /** Why a control of this item is dead now, whatever kind of control it is; empty when it acts. */
-export function locked(situation: Situation, item: ItemInfo | undefined): string {
+export function locked(situation: Situation, item: (ItemInfo & { readonly absent?: string }) | undefined): string {
   if (!item) return 'unknown';
   if (item.role === undefined) return 'read only';
+  if (item.absent !== undefined) return item.absent;
   if (item.kind === 'configuration') return 'changed by Edit';
   const denied = deniedAction(situation, item.role);
   if (denied || situation.state?.motion.may_move) return denied;

@@ -1,14 +1,17 @@
 // What the page knows of the application before any value arrives: components, slots, and every item that can be shown.
 import type { ItemInfo, Joint, Placement, Role, Value } from '../contract';
+import type { Drivers } from './protocol';
 import type {
-  BlockJson, DescriptorJson, DeviceJson, OverrideJson, ParameterJson, QueueJson, SlotJson, ThreadJson, UnitJson,
+  BlockJson, DescriptorJson, DeviceJson, InterfaceJson, OverrideJson, ParameterJson, QueueJson, SlotJson, ThreadJson, UnitJson,
 } from './descriptor_json';
 import { makeTypes, type Field, type Types } from './types';
 
 /** An item with what only the core, the shell and the views need of it. */
 export interface Item extends ItemInfo {
-  /** Where its value comes from; undefined for configuration, which is asked for. */
+  /** Where its value comes from; undefined for configuration, which is asked for, and for what is not there. */
   readonly source?: Source;
+  /** Why it is not there: it belongs to a driver that the device does not have now. */
+  readonly absent?: string;
   readonly hidden: boolean;
   readonly menu: string;
   readonly place: string;
@@ -42,16 +45,19 @@ export interface Component {
   readonly population: string;
   readonly unit?: UnitJson;
   readonly device?: DeviceJson;
-  /** Of a device: its interface's, and that of the first driver that its row permits. */
+  /** Of a device: its interface's, and that of the driver that it has. */
   readonly configuration: readonly Item[];
-  /** Of a device: the same with each driver that its row permits, by the driver's name; which was chosen says the server. */
+  /** Of a device: the same with each driver that its row permits, by the driver's name. */
   readonly driverConfiguration: ReadonlyMap<string, readonly Item[]>;
+  /** Of a device: its interface's, then those of the driver that it has. */
   readonly runtime: readonly Item[];
   readonly feedback: readonly Item[];
 }
 
 export interface Model {
   readonly json: DescriptorJson;
+  /** That the devices have, as far as the server said. */
+  readonly drivers: Drivers;
   /** 16 hexadecimal digits, as in every frame of values. */
   readonly hash: string;
   readonly application: string;
@@ -100,6 +106,7 @@ interface Origin {
   readonly joints?: readonly Joint[];
   /** Of the device's row. */
   readonly units?: { readonly [symbol: string]: string } | undefined;
+  readonly absent?: string;
 }
 
 /** Beside a field: what its declaration says, and what the application's table changes of that. */
@@ -148,6 +155,7 @@ function makeItem(types: Types, key: string, field: Field, path: string, origin:
     ...(parameter?.needs && { needs: needsOf(parameter.needs, origin.component ?? '') }),
     ...(writable && { path }),
     ...(origin.source && { source: origin.source }),
+    ...(origin.absent !== undefined && { absent: origin.absent }),
   };
 }
 
@@ -207,6 +215,7 @@ function makeElement(types: Types, parent: Item, index: number): Item | undefine
     ...(parent.component !== undefined && { component: parent.component }),
     ...(parent.role && { role: parent.role }),
     ...(source && { source }),
+    ...(parent.absent !== undefined && { absent: parent.absent }),
   });
   const { units, ...alike } = rest;
   return {
@@ -220,7 +229,8 @@ function makeElement(types: Types, parent: Item, index: number): Item | undefine
   };
 }
 
-export function makeModel(json: DescriptorJson): Model {
+/** `drivers`: of each device the one that it has; without it the first that its row permits. */
+export function makeModel(json: DescriptorJson, drivers: Drivers = {}): Model {
   const types = makeTypes(json.types);
   const slots: Slot[] = [];
   const slotsByName = new Map<string, Slot>();
@@ -254,7 +264,11 @@ export function makeModel(json: DescriptorJson): Model {
 
   const unitsOfSlots = new Map(json.devices.flatMap((device) =>
     [device.values_slot, device.feedback_slot].map((slot) => [slot, device.units] as const)));
-  json.slots.forEach((slotJson, index) => {
+  const driverOf = (device: DeviceJson): string => drivers[device.name] ?? device.drivers[0]?.driver ?? '';
+  const driverOfSlots = new Map(json.devices.flatMap((device) =>
+    [device.values_slot, device.feedback_slot].map((slot) => [slot, driverOf(device)] as const)));
+  json.slots.forEach((declared, index) => {
+    const slotJson = { ...declared, type: declared.driver_types?.[driverOfSlots.get(declared.name) ?? ''] ?? declared.type };
     const type = types.get(slotJson.type);
     const slot = {
       index, name: slotJson.name, json: slotJson, image: type?.image ?? false,
@@ -278,7 +292,7 @@ export function makeModel(json: DescriptorJson): Model {
                  overrides: readonly OverrideJson[] | undefined,
                  values: { readonly [name: string]: Value } | undefined,
                  before: readonly (BlockJson | undefined)[] = [],
-                 units?: { readonly [symbol: string]: string }): Item[] => {
+                 units?: { readonly [symbol: string]: string }, absent?: string): Item[] => {
     if (!declared) return [];
     const slot = slotName === undefined ? undefined : slotsByName.get(slotName);
     const joints = armOf.get(`component:${component}`);
@@ -292,15 +306,41 @@ export function makeModel(json: DescriptorJson): Model {
       const initial = values?.[field.name]; // the application's own default goes before the type's
       const merged = parameter && initial !== undefined ? { ...parameter, default: initial } : parameter;
       const item = makeItem(types, `${prefix}.${field.name}`, field, field.name,
-        { kind, component, units, ...(slot && { source: { slot, fields: [field], steps: [] } }), ...(joints && { joints }) },
+        {
+          kind, component, units, ...(joints && { joints }),
+          ...(absent !== undefined ? { absent } : slot && { source: { slot, fields: [field], steps: [] } }),
+        },
         { parameter: merged, change });
+      // What belongs to a driver that is not there is known only where nothing that is there has its name.
+      if (absent !== undefined && items.has(item.key)) continue;
       made.push(item);
       addAll(item);
+      if (absent !== undefined) continue;
       // An interface's comes once with each driver.
       const others = (menus.get(item.menu) ?? []).filter((one) => one.key !== item.key);
       if (item.menu && !item.hidden) menus.set(item.menu, [...others, item]);
     }
     return made;
+  };
+
+  /** Runtime parameters and feedback that a device has; of those of other drivers it makes items that say so. */
+  const deviceValues = (device: DeviceJson, face: InterfaceJson | undefined): Pick<Component, 'runtime' | 'feedback'> => {
+    const has = driverOf(device);
+    const made = (driver: string, absent?: string): Pick<Component, 'runtime' | 'feedback'> => {
+      const choice = device.drivers.find((one) => one.driver === driver);
+      const own = json.drivers.find((one) => one.name === choice?.type);
+      const runtime = own?.runtime ?? face?.runtime;
+      return {
+        runtime: block(device.name, 'runtime', runtime, device.values_slot, device.overrides, { ...device.runtime, ...choice?.runtime },
+          [], device.units, absent),
+        feedback: block(device.name, 'feedback', own?.feedback ?? face?.feedback, device.feedback_slot, device.overrides, undefined,
+          [runtime, face?.configuration, own?.configuration], device.units, absent),
+      };
+    };
+    const values = made(has);
+    for (const { driver } of device.drivers)
+      if (driver !== has) made(driver, `the driver is '${has}'; this belongs to '${driver}'`);
+    return values;
   };
 
   for (const unit of json.units) {
@@ -318,22 +358,22 @@ export function makeModel(json: DescriptorJson): Model {
   }
   for (const device of json.devices) {
     const face = json.interfaces.find((one) => one.name === device.interface);
-    // The first comes last: where two drivers have a parameter of one name, the key is that of the first's.
-    const driverConfiguration = new Map([...device.drivers].reverse().map((choice) => {
+    // What it has comes last: where two drivers have a parameter of one name, the key is that of this one's.
+    const has = driverOf(device);
+    const inOrder = [...device.drivers.filter(({ driver }) => driver !== has), ...device.drivers.filter(({ driver }) => driver === has)];
+    const driverConfiguration = new Map(inOrder.map((choice) => {
       const driver = json.drivers.find((one) => one.name === choice.type);
       const items = [face, driver].flatMap((declared) =>
         block(device.name, 'configuration', declared?.configuration, undefined, device.overrides, choice.configuration,
-          declared === face ? [face?.runtime] : [face?.runtime, face?.configuration, face?.feedback], device.units));
+          [driver?.runtime ?? face?.runtime], device.units));
       return [choice.driver, items] as const;
     }));
     components.set(device.name, {
       kind: 'device', name: device.name, typeName: device.interface, summary: face?.summary ?? '',
       thread: device.thread ?? '', population: '', device,
-      configuration: driverConfiguration.get(device.drivers[0]?.driver ?? '') ?? [],
+      configuration: driverConfiguration.get(has) ?? [],
       driverConfiguration,
-      runtime: block(device.name, 'runtime', face?.runtime, device.values_slot, device.overrides, device.runtime, [], device.units),
-      feedback: block(device.name, 'feedback', face?.feedback, device.feedback_slot, device.overrides, undefined,
-        [face?.runtime, face?.configuration], device.units),
+      ...deviceValues(device, face),
     });
   }
 
@@ -357,7 +397,7 @@ export function makeModel(json: DescriptorJson): Model {
   };
 
   return {
-    json, hash: json.hash, application: json.application, types, components, slots, slotsByName,
+    json, drivers, hash: json.hash, application: json.application, types, components, slots, slotsByName,
     queues: json.queues, threads: json.threads, menus, placements,
     item: find,
     joints: (device) => components.get(device)?.device?.joints ?? [],

@@ -83,6 +83,7 @@ export interface InterfaceJson extends Blocks {
   readonly outputs?: readonly PortJson[];
 }
 
+/** Runtime and feedback only where it has some of its own: then its interface's come first, at the same places. */
 export interface DriverJson extends Blocks {
   readonly name: string;
   readonly driver: string;
@@ -137,6 +138,8 @@ export interface DeviceJson {
     readonly driver: string;
     readonly type: string;
     readonly configuration?: { readonly [name: string]: Value };
+    /** Of the driver's own. */
+    readonly runtime?: { readonly [name: string]: Value };
   }[];
   readonly on?: string;
   readonly unit?: string;
@@ -163,6 +166,8 @@ export interface JointJson {
 export interface SlotJson {
   readonly name: string;
   readonly type: string;
+  /** Of a device's parameters: what it carries with each driver that has more than `type` says. */
+  readonly driver_types?: { readonly [driver: string]: string };
   readonly writer: string;
   readonly readers: readonly string[];
   readonly buffers: number;

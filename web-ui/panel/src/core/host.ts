@@ -59,6 +59,10 @@ export class Host implements WidgetHost {
       callback({ value: null, reason: `nothing is called ${key}`, sampledAt: 0, sequence: 0, age: 0 });
       return () => undefined;
     }
+    if (item.absent !== undefined) {
+      callback({ value: null, reason: item.absent, sampledAt: 0, sequence: 0, age: 0 });
+      return () => undefined;
+    }
     if (!item.source) return this.parts.configuration.watch(item, callback);
     const rate = options.rate ?? 30;
     const unwatch = this.parts.store.watch(item, callback, rate);

@@ -10,7 +10,7 @@ import { Holds } from './holds';
 import { Host } from './host';
 import { getJson } from './http';
 import { inNextFrame } from './next_frame';
-import type { Answer, ApplicationState, Hello, LogLine, ServerEvent, SessionInfo, TopicName, Values } from './protocol';
+import type { Answer, ApplicationState, Drivers, Hello, LogLine, ServerEvent, SessionInfo, TopicName, Values } from './protocol';
 import { textOfError } from './reasons';
 import { Registry, type BuiltInWidgets } from './registry';
 import { Store } from './store';
@@ -27,7 +27,7 @@ export interface PanelCoreOptions {
   readonly loadBuiltIn: () => Promise<BuiltInWidgets>;
   /** Stands where a widget belongs that could not be had: says why, and offers a second try. */
   readonly makeMissing: (text: string, again: () => Promise<unknown>) => HTMLElement;
-  /** Another descriptor than before, or the first. */
+  /** Another descriptor than before or other drivers, or the first. */
   readonly onModel: (model: Model) => void;
   readonly onNotice: (text: string, severity: Severity) => void;
   /** The application said that it ends. */
@@ -200,12 +200,12 @@ export class PanelCore implements Core {
       this.#log = [];
       this.host.history.clear();
     }
-    if (this.#model?.hash !== hello.descriptor) {
+    if (this.#model?.hash !== hello.descriptor || !sameDrivers(this.#model.drivers, hello.drivers)) {
       const json = await getJson<DescriptorJson>('/api/v1/descriptor');
       if (!json.ok) {
         return this.connection.retry(`The application's description could not be loaded: ${json.detail}`);
       }
-      this.#model = makeModel(json.body);
+      this.#model = makeModel(json.body, hello.drivers);
       this.#store.reset(this.#model);
       this.options.onModel(this.#model);
     }
@@ -279,6 +279,11 @@ export class PanelCore implements Core {
       this.#accessWatchers.forEach((watcher) => watcher());
     });
   }
+}
+
+/** The tables are the same, so the devices are. */
+function sameDrivers(before: Drivers, now: Drivers): boolean {
+  return Object.entries(now).every(([device, driver]) => before[device] === driver);
 }
 
 function openSocket(): Socket {

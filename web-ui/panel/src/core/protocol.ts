@@ -26,6 +26,9 @@ export interface SessionInfo {
   readonly lapsed?: boolean;
 }
 
+/** By the device's name. */
+export type Drivers = { readonly [device: string]: string };
+
 export interface Hello {
   readonly event: 'hello';
   readonly protocol: number;
@@ -34,6 +37,8 @@ export interface Hello {
   readonly boot: string | number;
   /** Hash of descriptor.json, 16 hexadecimal digits. */
   readonly descriptor: string;
+  /** Of each device the driver that was chosen at this start. */
+  readonly drivers: Drivers;
   readonly session: SessionInfo;
   readonly server_time_ns: number;
 }

@@ -71,6 +71,9 @@ describe('locked', () => {
     expect(locked({ ...stopped, session: { ...still.session!, role: 'viewer' } }, hold)).toBe('needs operator');
     expect(locked(stopped, { ...hold, needs: [{ reason: 'needs state to be ready', key: 'jog.feedback.state', numbers: [1] }] })).toBe('');
   });
+  it('says to which driver belongs what is not there', () => {
+    expect(locked(situation('admin'), { ...model.item('jog.step')!, absent: "this belongs to 'can'" })).toBe("this belongs to 'can'");
+  });
   it('tells what is never changed here', () => {
     expect(of('jog.feedback.presses', situation('admin'))).toBe('read only');
     expect(of('jog.configuration.lag', situation('admin'))).toBe('changed by Edit');

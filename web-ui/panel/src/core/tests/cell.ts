@@ -72,3 +72,36 @@ export const cell: DescriptorJson = {
     },
   ],
 };
+
+const can = { pace: { name: 'pace', role: 'operator' as const, default: 1 }, turns: { name: 'turns' } };
+
+/** The same, whose device has runtime parameters and feedback, and with its second driver more of them. */
+export const driven: DescriptorJson = {
+  ...cell,
+  interfaces: cell.interfaces.map((face) => ({
+    ...face,
+    runtime: { type: 'MotorRuntime', parameters: [can.pace] }, feedback: { type: 'MotorFeedback', parameters: [can.turns] },
+  })),
+  drivers: cell.drivers.map((one) => (one.driver !== 'can' ? one : {
+    ...one,
+    runtime: { type: 'CanRuntime', parameters: [can.pace, { name: 'boost', role: 'operator', default: 0, range: [0, 1], menu: 'Motor' }] },
+    feedback: { type: 'CanFeedback', parameters: [can.turns, { name: 'heat' }] },
+  })),
+  types: [
+    ...cell.types,
+    { name: 'MotorRuntime', summary: 'Runtime.', hash: '5', size: 8, fields: [number('pace', 0)] },
+    { name: 'MotorFeedback', summary: 'Feedback.', hash: '6', size: 8, fields: [number('turns', 0)] },
+    { name: 'CanRuntime', summary: 'Runtime.', hash: '7', size: 16, fields: [number('pace', 0), number('boost', 8)] },
+    { name: 'CanFeedback', summary: 'Feedback.', hash: '8', size: 16, fields: [number('turns', 0), number('heat', 8)] },
+  ],
+  devices: cell.devices.map((device) => ({
+    ...device, values_slot: 'motor.values', feedback_slot: 'motor.feedback', runtime: { pace: 2 },
+    drivers: device.drivers.map((one) => (one.driver === 'can' ? { ...one, runtime: { boost: 0.5 } } : one)),
+    overrides: [{ parameter: 'heat', label: 'How warm', place: 'overview' }],
+  })),
+  slots: [
+    ...cell.slots,
+    { ...slot('motor.values', 'MotorRuntime', '', []), driver_types: { can: 'CanRuntime' } },
+    { ...slot('motor.feedback', 'MotorFeedback', '', []), driver_types: { can: 'CanFeedback' } },
+  ],
+};

@@ -1,7 +1,7 @@
 // @vitest-environment node
 import { describe, expect, it } from 'vitest';
 import { labelOf, makeModel, rowsOf, unitWith } from '../descriptor';
-import { cell } from './cell';
+import { cell, driven } from './cell';
 import { sample } from './sample';
 
 const model = makeModel(sample);
@@ -80,6 +80,40 @@ describe('makeModel', () => {
     expect(placements).toEqual([{
       name: 'arrows', kind: 'jog_arrows', label: 'Arrows', place: 'overview', slots: { pose: 'track' }, parameters: {}, options: { size: 3 },
     }]);
+  });
+});
+
+describe('a device whose driver has more than its interface', () => {
+  const keysOf = (made: ReturnType<typeof makeModel>, kind: 'runtime' | 'feedback' | 'configuration') =>
+    made.components.get('motor')?.[kind].map((item) => item.key);
+
+  it('has its interface\'s values and the driver\'s own, each at its place', () => {
+    const can = makeModel(driven, { motor: 'can' });
+    expect(keysOf(can, 'runtime')).toEqual(['motor.pace', 'motor.boost']);
+    expect(keysOf(can, 'feedback')).toEqual(['motor.feedback.turns', 'motor.feedback.heat']);
+    expect(keysOf(can, 'configuration')).toEqual(['motor.configuration.gear', 'motor.configuration.node']);
+    expect(can.item('motor.pace')).toMatchObject({ default: 2, path: 'pace' });
+    expect(can.item('motor.boost')).toMatchObject({ default: 0.5, range: [0, 1], path: 'boost' });
+    expect(can.item('motor.boost')?.source?.fields.map((field) => field.offset)).toEqual([8]);
+    expect(can.item('motor.feedback.heat')).toMatchObject({ label: 'How warm', place: 'overview' });
+    expect(can.item('motor.feedback.heat')?.absent).toBeUndefined();
+    expect(can.slotsByName.get('motor.feedback')?.json.type).toBe('CanFeedback');
+    expect(can.item('slot:motor.feedback.heat')).toBeDefined();
+    expect(can.menus.get('Motor')?.map((item) => item.key)).toEqual(['motor.boost']);
+  });
+  it('says of what belongs to another driver that it is not there', () => {
+    for (const other of [makeModel(driven), makeModel(driven, { motor: 'model' })]) {
+      expect(keysOf(other, 'runtime')).toEqual(['motor.pace']);
+      expect(keysOf(other, 'feedback')).toEqual(['motor.feedback.turns']);
+      expect(other.item('motor.boost')).toMatchObject({ absent: "the driver is 'model'; this belongs to 'can'", path: 'boost' });
+      expect(other.item('motor.boost')?.source).toBeUndefined();
+      expect(other.item('motor.pace')?.absent).toBeUndefined();
+      expect(other.item('motor.pace')?.source).toBeDefined();
+      expect(other.slotsByName.get('motor.feedback')?.json.type).toBe('MotorFeedback');
+      expect(other.item('slot:motor.feedback.heat')).toBeUndefined();
+      expect(other.placed('overview').items.map((item) => item.key)).toEqual(['motor.feedback.heat']);
+      expect(other.menus.size).toBe(0);
+    }
   });
 });
 

@@ -3,7 +3,7 @@ import type { ItemInfo, Placement, Reading, Value, WidgetElement, WidgetHost } f
 import type { Core, LinkStatus, PanelHost } from '../core';
 import { makeModel } from '../descriptor';
 import type { DescriptorJson } from '../descriptor_json';
-import type { ApplicationState } from '../protocol';
+import type { ApplicationState, Drivers } from '../protocol';
 import { History } from '../history';
 import { DisplayUnits } from '../units';
 
@@ -66,8 +66,8 @@ export class FakeCore {
     file: async () => new Response('', { status: 404 }),
   };
 
-  constructor(json: DescriptorJson) {
-    this.model = makeModel(json);
+  constructor(json: DescriptorJson, drivers: Drivers = {}) {
+    this.model = makeModel(json, drivers);
   }
 
   get core(): Core {

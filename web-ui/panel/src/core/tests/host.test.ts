@@ -1,12 +1,13 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { ConfigurationValues } from '../configuration';
 import { decodeFrame } from '../decode';
-import { makeModel } from '../descriptor';
+import { makeModel, type Model } from '../descriptor';
 import { Holds } from '../holds';
 import { Host } from '../host';
 import type { Answer } from '../protocol';
 import { Store } from '../store';
 import { Subscriptions } from '../subscriptions';
+import { driven } from './cell';
 import { frameOf, runtimeBytes, sample } from './sample';
 
 const model = makeModel(sample);
@@ -26,8 +27,13 @@ beforeEach(() => {
   store = new Store({ serverNow: () => 0 });
   store.reset(model);
   subscriptions = new Subscriptions({ request, onSlotGone: () => undefined, onProblem: () => undefined });
-  host = new Host({
-    item: (key) => model.item(key), joints: (device) => model.joints(device), store, subscriptions,
+  host = hostOf(model);
+});
+afterEach(() => vi.unstubAllGlobals());
+
+function hostOf(known: Model): Host {
+  return new Host({
+    item: (key) => known.item(key), joints: (device) => known.joints(device), store, subscriptions,
     configuration: new ConfigurationValues(fetchValues),
     holds: new Holds({ request: request as never, send: () => true, nextId: () => 1, listen: () => () => undefined }),
     request: request as never,
@@ -35,8 +41,18 @@ beforeEach(() => {
     stale: () => false,
     watchAccess: () => () => undefined,
   });
+}
+
+describe('what belongs to a driver that is not there', () => {
+  it('reads as NULL with the reason', () => {
+    for (const key of ['motor.boost', 'motor.feedback.heat']) {
+      const seen = vi.fn();
+      hostOf(makeModel(driven)).watch(key, seen)();
+      expect(seen.mock.calls).toEqual([[expect.objectContaining({ value: null, reason: "the driver is 'model'; this belongs to 'can'" })]]);
+    }
+    expect(request).not.toHaveBeenCalled();
+  });
 });
-afterEach(() => vi.unstubAllGlobals());
 
 describe('set', () => {
   it('sends one value, and of those that follow before the answer only the newest', async () => {

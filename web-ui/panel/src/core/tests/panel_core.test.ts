@@ -96,6 +96,15 @@ describe('the core', () => {
     expect(onModel).toHaveBeenCalledTimes(2);
     expect(core.model.hash).toBe(hash);
   });
+  it('makes the page anew when a device has another driver', async () => {
+    await reconnect({ drivers: { arm: 'simulated' } });
+    expect(onModel).toHaveBeenCalledTimes(2);
+    await reconnect({ drivers: { arm: 'simulated' } });
+    expect(onModel).toHaveBeenCalledTimes(2);
+    await reconnect({ boot: 'b', drivers: { arm: 'real' } });
+    expect(onModel).toHaveBeenCalledTimes(3);
+    expect(core.model.drivers).toEqual({ arm: 'real' });
+  });
   it('tries again, after a while, when the description cannot be had', async () => {
     fetched.mockImplementation(() => Promise.resolve(new Response('{"title":"No"}', { status: 500 })));
     await reconnect({ boot: 'b', descriptor: '0000000000000009' });

@@ -3,7 +3,7 @@ import '../components';
 import type { ComponentButtons } from '../component_buttons';
 import type { ComponentPage } from '../component_page';
 import type { ViewBase } from '../view_base';
-import { cell } from '../../core/tests/cell';
+import { cell, driven } from '../../core/tests/cell';
 import { FakeCore, quiet, reading } from '../../core/tests/fake_core';
 
 const alive = (name: string, more: object = {}) => ({
@@ -155,6 +155,18 @@ describe('the page of a device', () => {
     await settled();
     expect(keys()).toEqual(['motor.configuration.gear', 'motor.configuration.node']);
     expect(text(page())).toContain('can (real): On a bus.');
+  });
+
+  it('shows runtime parameters and feedback of its own driver, and none of another', async () => {
+    const shownWith = async (driver: string): Promise<unknown[]> => {
+      fake = new FakeCore(driven, { motor: driver });
+      await shown('flexrf-devices', ['motor']);
+      const keys = [...page().shadowRoot!.querySelectorAll<HTMLElement & { item: { key: string } }>('flexrf-item')].map(({ item }) => item.key);
+      view.remove();
+      return keys.filter((key) => !key.startsWith('motor.configuration.'));
+    };
+    expect(await shownWith('can')).toEqual(['motor.pace', 'motor.boost', 'motor.feedback.turns', 'motor.feedback.heat']);
+    expect(await shownWith('model')).toEqual(['motor.pace', 'motor.feedback.turns']);
   });
 
   it('shows the widgets that the table places there', async () => {
