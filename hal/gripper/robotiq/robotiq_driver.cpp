@@ -24,7 +24,7 @@ Status RobotiqEnd::attach(ModbusLink& link, const char* name, std::uint8_t unit_
   return end_.attach(link, setup, max_age);
 }
 
-void RobotiqEnd::receive(Control& control, Time now) noexcept {
+std::optional<Words> RobotiqEnd::receive(Control& control, Time now) noexcept {
   const ModbusImage& image = end_.update(now);
   Words words{};
   bool heard = image.online;
@@ -36,6 +36,7 @@ void RobotiqEnd::receive(Control& control, Time now) noexcept {
   const std::optional<Told> told = heard ? std::optional(decode(words)) : std::nullopt;
   const std::string_view error = image.last_error_view();
   control.receive(told, end_.is_written(), now, error.empty() ? "no answer yet; is its link open?" : error);
+  return heard ? std::optional(words) : std::nullopt;
 }
 
 void RobotiqEnd::send(Control& control, bool safe) noexcept {

@@ -15,7 +15,8 @@ class RobotiqEnd {
   Status attach(ModbusLink& link, const char* name, std::uint8_t unit_id, Duration max_age);
   void detach() noexcept { end_.detach(); }
 
-  void receive(Control& control, Time now) noexcept;
+  /// What it said, as it came; nothing while it is not heard.
+  std::optional<Words> receive(Control& control, Time now) noexcept;
   void send(Control& control, bool safe) noexcept;
 
  private:
@@ -26,6 +27,7 @@ class RobotiqEnd {
 /// Error: the configuration makes no sense.
 Status check(const ControlPlan& plan) noexcept;
 
+/// `Base`: of a driver whose table has the feedback that report() fills.
 template <class Base>
 class RobotiqDriver : public Base {
  public:
@@ -70,8 +72,20 @@ class RobotiqDriver : public Base {
 
   void halt() noexcept override { control_.halt(); }
 
+ protected:
+  void hear(const Tick& tick) noexcept override {
+    if (const std::optional<Words> words = end_.receive(control_, tick.now); words) report(*words);
+  }
+
  private:
-  void hear(const Tick& tick) noexcept override { end_.receive(control_, tick.now); }
+  /// What it tells beside its state. While it is not heard, what it told last stays.
+  void report(const Words& words) noexcept {
+    const Told told = decode(words);
+    this->feedback.status_byte = status_byte(words);
+    this->feedback.fault_code = told.fault;
+    this->feedback.position_count = told.position;
+    this->feedback.motor_current = told.current * current_step;
+  }
   void begin_activation() noexcept override { control_.activate(); }
   void go(const GripperGoal& goal) noexcept override { control_.command(goal); }
   bool is_ready() const noexcept override { return control_.is_active(); }

@@ -75,6 +75,10 @@ Words encode(const Told& told) noexcept {
   return {join(status, 0), join(told.fault, told.requested), join(told.position, told.current)};
 }
 
+std::uint8_t status_byte(const Words& words) noexcept {
+  return static_cast<std::uint8_t>(high(words[0]));
+}
+
 const char* describe_fault(std::uint8_t fault) noexcept {
   switch (fault) {
     case 0x00:

@@ -11,6 +11,7 @@ namespace flexrf::robotiq {
 inline constexpr std::uint16_t first_written = 0x03E8;
 inline constexpr std::uint16_t first_told = 0x07D0;
 inline constexpr std::uint8_t usual_unit_id = 9;
+inline constexpr double current_step = 0.01;  ///< A
 
 /// Three registers to write, then three to read, in the order of the words below.
 const ModbusRegisterMap& register_map() noexcept;
@@ -41,12 +42,14 @@ struct Told {
   std::uint8_t fault = 0;                     ///< gFLT
   std::uint8_t requested = 0;                 ///< gPR, echo of rPR
   std::uint8_t position = 0;                  ///< gPO
-  std::uint8_t current = 0;                   ///< gCU, about 10 mA each
+  std::uint8_t current = 0;                   ///< gCU, in steps of current_step
 
   bool is_active() const noexcept { return activate && activation == Activation::active; }
 };
 Told decode(const Words& words) noexcept;
 Words encode(const Told& told) noexcept;
+/// The gripper status as a whole, reserved bits among them.
+std::uint8_t status_byte(const Words& words) noexcept;
 
 /// From here on a fault ends only when rACT is taken away and given again.
 inline constexpr std::uint8_t first_major_fault = 0x0A;

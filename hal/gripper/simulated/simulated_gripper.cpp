@@ -28,4 +28,11 @@ Status SimulatedGripper::initialise() {
   return RobotiqDriver::initialise();
 }
 
+void SimulatedGripper::hear(const Tick& tick) noexcept {
+  model_->want_stuck(runtime.stuck);
+  if (runtime.take_object > 0) model_->want_taken();
+  if (runtime.overload > 0) model_->want_fault(0x0E);
+  RobotiqDriver::hear(tick);
+}
+
 }  // namespace flexrf

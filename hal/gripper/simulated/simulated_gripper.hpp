@@ -16,6 +16,9 @@ class SimulatedGripper final : public robotiq::RobotiqDriver<SimulatedGripperDri
   /// For tests, from initialise() on: what the fingers meet, and what goes wrong. Any thread.
   robotiq::RobotiqModel& model() noexcept { return *model_; }
 
+ protected:
+  void hear(const Tick& tick) noexcept override;
+
  private:
   std::shared_ptr<robotiq::RobotiqModel> model_;  // the link's, too: its thread may be in a request
 };

@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace flexrf::robotiq {
+namespace {
+
+constexpr std::uint8_t turning_current = 20;  // steps
+
+}  // namespace
 
 RobotiqModel::RobotiqModel(const ModelPlan& plan) noexcept
     : plan_(plan), fingers_(plan.closed_width, plan.open_width) {}
@@ -27,12 +32,26 @@ void RobotiqModel::follow(Time now, std::span<std::uint16_t> holding) noexcept {
   std::uint16_t* const written = &holding[first_written];
   if (forgets_) std::fill_n(written, 3, std::uint16_t{0});
   forgets_ = false;
+  disturb();
   if (now_ != Time{} && now > now_) move(std::min<Duration>(now - now_, plan_.longest_step));
   now_ = now;
   take(action_in({written[0], written[1], written[2]}));
   told_.position = count();
+  const bool turns =
+      told_.is_active() && told_.go && told_.found == Found::moving && told_.fault < first_major_fault;
+  told_.current = turns ? turning_current : std::uint8_t{0};
   const Words words = encode(told_);
   std::copy(words.begin(), words.end(), &holding[first_told]);
+}
+
+void RobotiqModel::disturb() noexcept {
+  if (taken_.exchange(false, std::memory_order_acquire)) fingers_.take_away();
+  if (const std::uint8_t fault = fault_.exchange(0, std::memory_order_acquire); fault != 0)
+    told_.fault = fault;
+  const bool stuck = stuck_.load(std::memory_order_acquire);
+  if (stuck == was_stuck_) return;
+  was_stuck_ = stuck;
+  fingers_.set_stuck(stuck);
 }
 
 void RobotiqModel::take(const Action& action) noexcept {

@@ -1,6 +1,7 @@
 // A Robotiq two-finger gripper that exists in memory only: what its registers do.
 #pragma once
 
+#include <atomic>
 #include <mutex>
 
 #include "hal/gripper/interface/finger_model.hpp"
@@ -40,7 +41,16 @@ class RobotiqModel final : public ModbusStationModel {
   /// It has forgotten everything, and is not activated. The fingers stay.
   void switch_off_and_on();
 
+  // The same, for a thread that must not wait: it comes true before the next answer.
+
+  void want_taken() noexcept { taken_.store(true, std::memory_order_release); }
+  /// As set_stuck() where it is another than before.
+  void want_stuck(bool on) noexcept { stuck_.store(on, std::memory_order_release); }
+  /// Not 0.
+  void want_fault(std::uint8_t fault) noexcept { fault_.store(fault, std::memory_order_release); }
+
  private:
+  void disturb() noexcept;
   void take(const Action& action) noexcept;
   void move(Duration elapsed) noexcept;
   std::uint8_t count() const noexcept;
@@ -54,6 +64,12 @@ class RobotiqModel final : public ModbusStationModel {
   int activation_part_ = 0;  // opening, closing, opening again
   bool forgets_ = false;
   Time now_{};
+  bool was_stuck_ = false;  // as was wanted last
+
+  // What is wanted; without the mutex.
+  std::atomic<bool> taken_{false};
+  std::atomic<bool> stuck_{false};
+  std::atomic<std::uint8_t> fault_{0};
 };
 
 }  // namespace flexrf::robotiq
