@@ -5,8 +5,8 @@
 
 namespace flexrf {
 
-/// `Base`: the driver's generated base, of a ServoDrive on a CanBus. Its initialise() makes the plan and
-/// gives it to open().
+/// `Base`: the driver's generated base, of a ServoDrive on a CanBus, whose table has the feedback that
+/// tell_as_it_came() fills. Its initialise() makes the plan and gives it to open().
 template <class Base>
 class CanopenDrive : public Base {
  public:
@@ -46,6 +46,7 @@ class CanopenDrive : public Base {
     told.resets = node.resets();
     told.silences = node.silences();
     told.emergencies = node.emergencies();
+    tell_as_it_came(node);
     const Status& trouble = node.problem();
     const bool was_told = told.trouble[0] != '\0';
     if (was_told || !trouble.is_ok()) told.set_trouble(trouble.is_ok() ? "" : trouble.cause());
@@ -59,6 +60,15 @@ class CanopenDrive : public Base {
     told.at_internal_limit = state->at_internal_limit;
     this->supervise(this->configuration, link_.axis().asked_velocity(), link_.axis().profile_target(),
                     tick.now);
+  }
+
+  void tell_as_it_came(const canopen::Node& node) noexcept {
+    auto& told = this->feedback;
+    told.status_word = link_.axis().statusword();
+    told.mode_display = static_cast<std::int8_t>(link_.axis().mode_shown());
+    const auto& emergency = node.emergency();
+    told.emergency_code = emergency ? emergency->code : std::uint16_t{0};
+    told.error_register = emergency ? emergency->error_register : std::uint8_t{0};
   }
 
   // An axis that may not move forgets by itself what it was commanded.

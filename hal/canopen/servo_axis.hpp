@@ -142,6 +142,9 @@ class ServoAxis {
   /// is enabled anew. A node that was refused stays so.
   void forget_fault() noexcept { fault_ = {}; }
   const Node& node() const noexcept { return node_; }
+  /// Objects 6041 and 6061 as the drive told them last, since begin().
+  std::uint16_t statusword() const noexcept { return statusword_; }
+  Mode mode_shown() const noexcept { return mode_shown_; }
   /// What the drive is told in the modes that are led by velocities, unit/s; else 0.
   double asked_velocity() const noexcept { return asked_velocity_; }
   /// In the modes with a profile: the drive has no object for an acceleration (6083) and was told none.

@@ -175,13 +175,23 @@ bool our_heartbeat_lost(DriveFaultWorld& world) {
          stays_off(world) && comes_back(world, "a lost heartbeat of ours");
 }
 
+/// As it came from the drive, beside what the interface makes of it. `code` 0: of none.
+bool tells_of_fault(DriveFaultWorld& world, unsigned code) {
+  constexpr unsigned fault_bit = 8;
+  constexpr int cyclic_position = 8;
+  const auto& as_it_came = told(world);
+  return as_it_came.emergency_code == code && ((as_it_came.status_word & fault_bit) != 0) == (code != 0) &&
+         (as_it_came.error_register != 0) == (code != 0) && as_it_came.mode_display == cyclic_position;
+}
+
 bool drive_fault_in_motion(DriveFaultWorld& world) {
   if (!moves(world)) return false;
   const std::uint64_t emergencies = told(world).emergencies;
   if (!world.tell("trip 0x2310")) return false;
   return reads(world, "the drive is in fault") && says(world.drive().fault().cause(), "current") &&
          until(world, target, [&] { return told(world).emergencies > emergencies; }) &&
-         drive_is(world, "fault") && stays_off(world) && comes_back(world, "a fault of the drive");
+         drive_is(world, "fault") && stays_off(world) && tells_of_fault(world, 0x2310) &&
+         comes_back(world, "a fault of the drive") && tells_of_fault(world, 0);
 }
 
 bool drive_fault_whose_cause_stays(DriveFaultWorld& world) {
