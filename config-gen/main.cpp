@@ -3,9 +3,12 @@
 //   config-gen (--application FILE | --unit FILE | --interface FILE | --driver FILE | --types-only FOLDER)
 //              [--types FOLDER...] [--units FOLDER...] [--interfaces FOLDER...] [--drivers FOLDER...]
 //              [--library FOLDER...]
-//              (--output FOLDER [--dependencies FILE --stamp FILE] | --check-only)
+//              (--output FOLDER [--dependencies FILE --stamp FILE] | --check-only [--fix [FOLDER...]
+//              [--dry-run]])
 //
-// Prints nothing on success. Exit code 1 on any error in the tables or the command line; nothing is written
+// Prints nothing on success. --fix puts known names in the place of misspelt ones, in files of the
+// application's folder and below each FOLDER, and prints each change; with --dry-run it writes none
+// (config-gen/fix/fix.hpp). Exit code 1 on any error in the tables or the command line; nothing is written
 // then.
 #include <algorithm>
 #include <cstdlib>
@@ -18,6 +21,7 @@
 #include <vector>
 
 #include "base/standard_descriptors.hpp"
+#include "config-gen/fix/fix.hpp"
 #include "config-gen/model/file_contents.hpp"
 #include "config-gen/model/target.hpp"
 #include "config-gen/model/words.hpp"
@@ -33,7 +37,8 @@ constexpr const char* usage =
     "                  [--types FOLDER...] [--units FOLDER...] [--interfaces FOLDER...] [--drivers "
     "FOLDER...]\n"
     "                  [--library FOLDER...]\n"
-    "                  (--output FOLDER [--dependencies FILE --stamp FILE] | --check-only)\n";
+    "                  (--output FOLDER [--dependencies FILE --stamp FILE] | --check-only [--fix [FOLDER...] "
+    "[--dry-run]])\n";
 
 struct Command {
   std::optional<Target> target;
@@ -42,6 +47,8 @@ struct Command {
   fs::path dependencies;  // Makefile rules for the build system
   fs::path stamp;         // touched on success; the target of those rules
   bool check_only = false;
+  bool fix = false;
+  FixSettings fixing;
 };
 
 Command parse(const std::vector<std::string>& words) {
@@ -51,11 +58,10 @@ Command parse(const std::vector<std::string>& words) {
                                                        {"--interface", Target::Kind::interface},
                                                        {"--driver", Target::Kind::driver},
                                                        {"--types-only", Target::Kind::types}};
-  const std::map<std::string, std::vector<fs::path>*> folders = {{"--types", &command.paths.types},
-                                                                 {"--units", &command.paths.units},
-                                                                 {"--interfaces", &command.paths.interfaces},
-                                                                 {"--drivers", &command.paths.drivers},
-                                                                 {"--library", &command.paths.library}};
+  const std::map<std::string, std::vector<fs::path>*> folders = {
+      {"--types", &command.paths.types},           {"--units", &command.paths.units},
+      {"--interfaces", &command.paths.interfaces}, {"--drivers", &command.paths.drivers},
+      {"--library", &command.paths.library},       {"--fix", &command.fixing.folders}};
   const std::map<std::string, fs::path*> files = {
       {"--output", &command.output}, {"--dependencies", &command.dependencies}, {"--stamp", &command.stamp}};
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -68,24 +74,30 @@ Command parse(const std::vector<std::string>& words) {
       if (command.target) throw std::invalid_argument("one run makes one thing: " + option + " is too much");
       command.target = Target{target->second, fs::path(value()).lexically_normal()};
     } else if (const auto folder = folders.find(option); folder != folders.end()) {
+      command.fix = command.fix || option == "--fix";
       while (i + 1 < words.size() && !words[i + 1].starts_with("--")) folder->second->push_back(words[++i]);
     } else if (const auto file = files.find(option); file != files.end()) {
       *file->second = value();
     } else if (option == "--check-only") {
       command.check_only = true;
+    } else if (option == "--dry-run") {
+      command.fixing.dry_run = true;
     } else {
-      std::vector<std::string> known = {"--check-only"};
+      std::vector<std::string> known = {"--check-only", "--dry-run"};
       for (const auto& [name, kind] : targets) known.push_back(name);
       for (const auto& [name, list] : folders) known.push_back(name);
       for (const auto& [name, path] : files) known.push_back(name);
       throw std::invalid_argument("unknown option " + quote(option) + "; " +
-                                  suggest(option, known, "options", ""));
+                                  suggest(option, known, "options", "").text);
     }
   }
   if (!command.target) throw std::invalid_argument("nothing to do");
   if (command.output.empty() && !command.check_only) throw std::invalid_argument("--output is missing");
   if (command.dependencies.empty() != command.stamp.empty())
     throw std::invalid_argument("--dependencies and --stamp belong together");
+  if (command.fixing.dry_run && !command.fix) throw std::invalid_argument("--dry-run belongs to --fix");
+  if (command.fix && (!command.check_only || command.target->kind != Target::Kind::application))
+    throw std::invalid_argument("--fix belongs to --application and --check-only");
   return command;
 }
 
@@ -128,18 +140,40 @@ void write_dependencies(const Command& command, const Model& model) {
   write(command.stamp, "");
 }
 
-int run(const Command& command) {
-  Diagnostics diagnostics;
-  Model model = read(*command.target, command.paths, diagnostics);
-  check(model, diagnostics);
-  // Also where nothing is to be written: only the emitter places each thread's readers.
+struct Made {
+  Model model;
   std::vector<GeneratedFile> files;
-  if (!diagnostics.failed()) files = emit(model, *command.target, diagnostics);
+};
+
+Made make(const Command& command, Diagnostics& diagnostics) {
+  Made made{read(*command.target, command.paths, diagnostics), {}};
+  check(made.model, diagnostics);
+  // Also where nothing is to be written: only the emitter places each thread's readers.
+  if (!diagnostics.failed()) made.files = emit(made.model, *command.target, diagnostics);
+  return made;
+}
+
+int run_fix(const Command& command) {
+  FixSettings settings = command.fixing;
+  const fs::path folder = command.target->file.parent_path();
+  settings.folders.push_back(folder.empty() ? "." : folder);
+  const auto examine = [&command] {
+    Diagnostics diagnostics;
+    make(command, diagnostics);
+    return diagnostics;
+  };
+  return fix(settings, examine, std::cerr) ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+int run(const Command& command) {
+  if (command.fix) return run_fix(command);
+  Diagnostics diagnostics;
+  const Made made = make(command, diagnostics);
   diagnostics.print(std::cerr);
   if (diagnostics.failed()) return EXIT_FAILURE;
   if (command.check_only) return EXIT_SUCCESS;
-  for (const GeneratedFile& file : files) write_if_changed(command.output / file.path, file.contents);
-  write_dependencies(command, model);
+  for (const GeneratedFile& file : made.files) write_if_changed(command.output / file.path, file.contents);
+  write_dependencies(command, made.model);
   return EXIT_SUCCESS;
 }
 

@@ -18,7 +18,8 @@ void check_reader(const Model& model, const Queue& queue, const InputReference& 
         input.position,
         "nobody writes queue " + quote(queue.declared) + ", which " + describe(model, input) + " reads",
         suggest(queue.declared, known, "queues of " + wanted,
-                "connect an output with queue = \"" + wanted + "\" to it"));
+                "connect an output with queue = \"" + wanted + "\" to it")
+            .doubted("the output that writes " + quote(queue.declared) + " may be what is missing"));
   } else if (port.type != queue.type) {
     diagnostics.error(input.position,
                       describe(model, input) + " takes " + wanted + ", but queue " + quote(queue.declared) +

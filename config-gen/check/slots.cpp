@@ -58,7 +58,8 @@ void check_inputs_of(const Model& model, const Slot& slot, bool written, Diagnos
           input.position,
           "nobody writes slot " + quote(slot.name) + ", which " + describe(model, input) + " reads",
           suggest(slot.name, known, "slots of " + model.types[port.type].name,
-                  "connect an output of type " + model.types[port.type].name + " to it"));
+                  "connect an output of type " + model.types[port.type].name + " to it")
+              .doubted("the output that writes " + quote(slot.name) + " may be what is missing"));
       continue;
     }
     if (slot.type.index != port.type)

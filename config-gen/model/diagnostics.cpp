@@ -35,21 +35,21 @@ std::string to_string(const Position& position) {
   return text;
 }
 
-void Diagnostics::error(const Position& position, std::string text, std::string hint) {
+void Diagnostics::error(const Position& position, std::string text, Hint hint) {
   add(Severity::error, position, std::move(text), std::move(hint));
 }
 
-void Diagnostics::warning(const Position& position, std::string text, std::string hint) {
+void Diagnostics::warning(const Position& position, std::string text, Hint hint) {
   add(Severity::warning, position, std::move(text), std::move(hint));
 }
 
-void Diagnostics::give_up(const Position& position, std::string text, std::string hint) {
+void Diagnostics::give_up(const Position& position, std::string text, Hint hint) {
   add(Severity::error, position, std::move(text), std::move(hint));
   gave_up_ = true;
   throw GivenUp{};
 }
 
-void Diagnostics::add(Severity severity, const Position& position, std::string text, std::string hint) {
+void Diagnostics::add(Severity severity, const Position& position, std::string text, Hint hint) {
   Count& count = counts_[static_cast<std::size_t>(severity)];
   if (count.different >= max_errors || count.all >= max_errors_alike) {
     // Warnings change nothing, and the tables may be good.
@@ -61,7 +61,8 @@ void Diagnostics::add(Severity severity, const Position& position, std::string t
     return;
   }
   ++count.all;
-  Diagnostic diagnostic{severity, position, std::move(text), std::move(hint), {}, {}};
+  Diagnostic diagnostic{
+      severity, position, std::move(text), std::move(hint.text), {}, {}, std::move(hint.replacement)};
   if (!instances_.empty()) {
     diagnostic.instance = instances_.back().name;
     diagnostic.instantiated = instances_.back().position;
@@ -69,7 +70,12 @@ void Diagnostics::add(Severity severity, const Position& position, std::string t
   const auto [alike, is_new] =
       alike_.try_emplace(Key{position, severity, without_numbers(diagnostic.text)}, Alike{all_.size(), {}});
   alike->second.messages.insert(diagnostic.instance + '\n' + diagnostic.text);
-  if (!is_new) return;
+  if (!is_new) {
+    // In another instance another word is the nearest: nobody knows which was meant.
+    Diagnostic& first = all_[alike->second.first];
+    if (first.replacement != diagnostic.replacement) first.replacement.reset();
+    return;
+  }
   ++count.different;
   all_.push_back(std::move(diagnostic));
 }

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "config-gen/model/hint.hpp"
 #include "config-gen/model/position.hpp"
 
 namespace flexrf::config_gen {
@@ -23,6 +25,7 @@ struct Diagnostic {
   std::string hint;       // empty: none
   std::string instance;   // the group instance in which it was found ("axis[2]"), empty outside of groups
   Position instantiated;  // the row of that instance
+  std::optional<Replacement> replacement;  // of a word at `position`, where that is what the hint says
 };
 
 // Thrown where it makes no sense to go on; read() and check() end there. So what one mistake makes is
@@ -31,11 +34,11 @@ struct GivenUp {};
 
 class Diagnostics {
  public:
-  void error(const Position& position, std::string text, std::string hint);
-  void warning(const Position& position, std::string text, std::string hint);
+  void error(const Position& position, std::string text, Hint hint);
+  void warning(const Position& position, std::string text, Hint hint);
 
   // Adds the error, and nothing after it is looked at: throws GivenUp.
-  [[noreturn]] void give_up(const Position& position, std::string text, std::string hint);
+  [[noreturn]] void give_up(const Position& position, std::string text, Hint hint);
 
   // Errors added until leave() belong to this instance of a group. The same error in several instances of one
   // group is kept once, with the first instance.
@@ -50,7 +53,7 @@ class Diagnostics {
   void print(std::ostream& out) const;
 
  private:
-  void add(Severity severity, const Position& position, std::string text, std::string hint);
+  void add(Severity severity, const Position& position, std::string text, Hint hint);
 
   struct Instance {
     std::string name;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <iterator>
 
 #include "base/nearest_name.hpp"
 
@@ -110,6 +111,95 @@ std::string number_with_unit(double value, const char* unit) {
   return text.data();
 }
 
+// ---- The nearest word, and whether it can only be a slip
+
+struct Nearest {
+  std::string name;   // empty: none is near
+  std::string other;  // as near; empty: none is
+};
+
+Nearest find_nearest(std::string_view word, std::span<const std::string> known) {
+  constexpr std::size_t most_looked_at = 1000;  // an application of more names shall not take longer
+  constexpr std::size_t longest = 64;           // no name is longer that somebody mistypes
+  if (word.size() > longest) return {};
+  known = known.first(std::min(known.size(), most_looked_at));
+  const std::size_t limit = std::max<std::size_t>(1, std::min<std::size_t>(3, word.size() / 2));
+  std::size_t best = limit + 1;
+  Nearest found;
+  for (const std::string& candidate : known) {
+    const std::size_t length_apart =
+        candidate.size() > word.size() ? candidate.size() - word.size() : word.size() - candidate.size();
+    if (length_apart > best) continue;
+    const std::size_t d = edit_distance(word, candidate);
+    if (d > best || (d == best && found.name.empty()) || candidate == found.name) continue;
+    if (d < best) {
+      found = {candidate, ""};
+    } else {
+      found = {std::min(candidate, found.name), std::max(candidate, found.name)};
+    }
+    best = d;
+  }
+  return found;
+}
+
+std::string small_letters(std::string_view text) {
+  std::string small;
+  for (const char c : text) small += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return small;
+}
+
+bool separates(char c) {
+  return c == '_' || c == '-';
+}
+
+std::string without(bool (*left_out)(char), std::string_view text) {
+  std::string rest;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(rest), [&](char c) { return !left_out(c); });
+  return rest;
+}
+
+std::string digits_of(std::string_view text) {
+  return without([](char c) { return !digit(c); }, text);
+}
+
+// "tool_pose" has two, "axis[2].drive" three.
+std::vector<std::string> parts_of(std::string_view name) {
+  std::vector<std::string> parts(1);
+  for (const char c : name) {
+    if (separates(c) || c == '.' || c == '[' || c == ']' || c == '/')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+// Two neighbours exchanged, a letter too many or too few; in a long word also another letter. The first
+// letter is seldom mistyped: 'lamp' and 'clamp', 'left' and 'lift' are words of their own.
+bool is_slip_of_part(const std::string& found, const std::string& wanted) {
+  if (found == wanted) return true;
+  const auto [shorter, longer] = std::minmax(found.size(), wanted.size());
+  if (shorter < 3 || edit_distance(found, wanted) != 1) return false;
+  if (shorter == longer && std::is_permutation(found.begin(), found.end(), wanted.begin())) return true;
+  return found.front() == wanted.front() && (shorter != longer || shorter >= 6);
+}
+
+bool is_slip(std::string_view found, std::string_view wanted) {
+  const std::string one = small_letters(found);
+  const std::string other = small_letters(wanted);
+  if (without(separates, one) == without(separates, other)) return true;
+  const std::vector<std::string> parts = parts_of(one);
+  const std::vector<std::string> wanted_parts = parts_of(other);
+  return parts.size() == wanted_parts.size() &&
+         std::equal(parts.begin(), parts.end(), wanted_parts.begin(), is_slip_of_part);
+}
+
+std::string doubt_about(std::string_view word, const Nearest& near) {
+  if (!near.other.empty()) return quote(near.other) + " is as near";
+  if (digits_of(word) != digits_of(near.name)) return "names with other numbers are other things";
+  return is_slip(word, near.name) ? "" : "they differ by more than a slip of the hand";
+}
+
 }  // namespace
 
 bool is_snake_case(std::string_view name) {
@@ -162,30 +252,17 @@ std::string snake_case(std::string_view camel) {
 }
 
 std::string nearest(std::string_view word, std::span<const std::string> known) {
-  constexpr std::size_t most_looked_at = 1000;  // an application of more names shall not take longer
-  constexpr std::size_t longest = 64;           // no name is longer that somebody mistypes
-  if (word.size() > longest) return "";
-  known = known.first(std::min(known.size(), most_looked_at));
-  const std::size_t limit = std::max<std::size_t>(1, std::min<std::size_t>(3, word.size() / 2));
-  std::size_t best = limit + 1;
-  std::string found;
-  for (const std::string& candidate : known) {
-    const std::size_t length_apart =
-        candidate.size() > word.size() ? candidate.size() - word.size() : word.size() - candidate.size();
-    if (length_apart >= best) continue;
-    const std::size_t d = edit_distance(word, candidate);
-    if (d < best || (d == best && !found.empty() && candidate < found)) {
-      best = d;
-      found = candidate;
-    }
-  }
-  return found;
+  return find_nearest(word, known).name;
 }
 
-std::string suggest(std::string_view word, const std::vector<std::string>& known, std::string_view kinds,
-                    std::string_view otherwise) {
-  const std::string near = nearest(word, known);
-  if (!near.empty()) return "did you mean " + quote(near) + "?";
+Hint suggest(std::string_view word, const std::vector<std::string>& known, std::string_view kinds,
+             std::string_view otherwise) {
+  const Nearest near = find_nearest(word, known);
+  if (!near.name.empty()) {
+    Hint hint = "did you mean " + quote(near.name) + "?";
+    hint.replacement = Replacement{std::string(word), near.name, doubt_about(word, near)};
+    return hint;
+  }
   if (known.empty()) return std::string(otherwise);
   std::vector<std::string> shown = known;
   std::sort(shown.begin(), shown.end());

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "config-gen/model/hint.hpp"
+
 namespace flexrf::config_gen {
 
 bool is_snake_case(
@@ -22,9 +24,11 @@ std::string snake_case(std::string_view camel);  // KeyEvent -> key_event
 // The known word that is the fewest edits away, or empty when none is near enough to be meant.
 std::string nearest(std::string_view word, std::span<const std::string> known);
 
-// "did you mean 'nearest'?"; else "known KINDS: 'a', 'b'" (sorted, at most a dozen); else `otherwise`.
-std::string suggest(std::string_view word, const std::vector<std::string>& known, std::string_view kinds,
-                    std::string_view otherwise);
+// "did you mean 'nearest'?", with the replacement; else "known KINDS: 'a', 'b'" (sorted, at most a dozen);
+// else `otherwise`. The replacement is in doubt where another word is as near, or where the words differ by
+// more than a slip of the hand, as 'can0' and 'can1' do.
+Hint suggest(std::string_view word, const std::vector<std::string>& known, std::string_view kinds,
+             std::string_view otherwise);
 
 std::string string_literal(std::string_view text);  // "…" in C++, whatever the text holds
 // On one line, whatever it holds: control characters as escapes.

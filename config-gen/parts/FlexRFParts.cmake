@@ -7,7 +7,7 @@ endif()
 
 set(folder "${CMAKE_CURRENT_BINARY_DIR}/parts")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
-  parts/CMakeLists.txt parts/main.cpp model/diagnostics.cpp model/diagnostics.hpp model/limits.hpp model/words.cpp model/words.hpp
+  parts/CMakeLists.txt parts/main.cpp model/diagnostics.cpp model/diagnostics.hpp model/hint.hpp model/limits.hpp model/words.cpp model/words.hpp
   read/parts.cpp read/parts.hpp read/source_text.cpp read/tree.cpp read/tree.hpp)
 set(as_here -G "${CMAKE_GENERATOR}" "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" "-DCMAKE_MAKE_PROGRAM=${CMAKE_MAKE_PROGRAM}")
 if(CMAKE_CXX_COMPILER_LAUNCHER)

@@ -142,7 +142,8 @@ std::optional<std::size_t> CsvTable::required_column(std::string_view name, Diag
   std::vector<std::string> known;
   for (const CsvCell& cell : header) known.push_back(cell.text);
   diagnostics.error(header.front().position, "this list has no column " + quote(name),
-                    suggest(name, known, "columns", "add it to the first line"));
+                    // The name that is asked for is right: what stands there may be a column of its own.
+                    suggest(name, known, "columns", "add it to the first line").text);
   return std::nullopt;
 }
 

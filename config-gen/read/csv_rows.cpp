@@ -31,17 +31,19 @@ const CsvCell& CsvRowReader::place(std::size_t column) const {
   return places_[column] ? (*row_)[*places_[column]] : row_->cells.front();
 }
 
-std::optional<std::size_t> CsvRowReader::word(std::size_t column, const std::vector<std::string>& words) {
+std::optional<std::size_t> CsvRowReader::word(std::size_t column, const std::vector<std::string>& words,
+                                              std::string_view doubt) {
   const CsvCell* const found = cell(column);
   if (found == nullptr) return std::nullopt;
   const auto known = std::find(words.begin(), words.end(), found->text);
   if (known != words.end()) return static_cast<std::size_t>(known - words.begin());
-  error(*found, quote(found->text) + " is no " + columns_[column] + std::string(of_row_),
-        suggest(found->text, words, "ones", "write one of " + listed(words)));
+  Hint hint = suggest(found->text, words, "ones", "write one of " + listed(words));
+  if (!doubt.empty()) hint = std::move(hint).doubted(std::string(doubt));
+  error(*found, quote(found->text) + " is no " + columns_[column] + std::string(of_row_), std::move(hint));
   return std::nullopt;
 }
 
-void CsvRowReader::error(const CsvCell& cell, std::string text, std::string hint) {
+void CsvRowReader::error(const CsvCell& cell, std::string text, Hint hint) {
   failed_ = true;
   diagnostics_.error(cell.position, std::move(text), std::move(hint));
 }

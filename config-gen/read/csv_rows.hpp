@@ -30,9 +30,11 @@ class CsvRowReader {
   // The cell, or the row's first where there is none: something to point at.
   const CsvCell& place(std::size_t column) const;
   // Which of the words stands there; nothing where none does, and another one is reported.
-  std::optional<std::size_t> word(std::size_t column, const std::vector<std::string>& words);
+  // `doubt` is why its nearest is not to be taken without looking.
+  std::optional<std::size_t> word(std::size_t column, const std::vector<std::string>& words,
+                                  std::string_view doubt = {});
 
-  void error(const CsvCell& cell, std::string text, std::string hint);
+  void error(const CsvCell& cell, std::string text, Hint hint);
 
   const CsvTable& table_;
   Diagnostics& diagnostics_;

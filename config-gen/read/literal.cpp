@@ -17,8 +17,8 @@ struct Context {
   const std::string& what;
   Diagnostics& diagnostics;
 
-  std::nullopt_t fail(const Node& value, const std::string& is, const std::string& hint) const {
-    diagnostics.error(value.position, what + " " + is, hint);
+  std::nullopt_t fail(const Node& value, const std::string& is, Hint hint) const {
+    diagnostics.error(value.position, what + " " + is, std::move(hint));
     return std::nullopt;
   }
 };

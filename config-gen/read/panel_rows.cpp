@@ -140,13 +140,12 @@ void Reader::check_kind(Row& row, PanelWidget& widget) {
     add_panel_file(assembly_.model, {"widgets/" + *kind + ".js", "text/javascript", file});
     return;
   }
-  std::string hint = suggest(*kind, built_in_kinds(), "kinds", "");
-  if (nearest(*kind, built_in_kinds()).empty())
-    hint = "write the file, or use a built-in kind: " + listed(built_in_kinds());
+  Hint hint = suggest(*kind, built_in_kinds(), "kinds", "");
+  if (!hint.replacement) hint = "write the file, or use a built-in kind: " + listed(built_in_kinds());
   assembly_.diagnostics.error(row.position("kind"),
                               quote(*kind) + " is neither a built-in kind of widget nor a file " +
                                   quote("widgets/" + *kind + ".js") + " beside this table",
-                              hint);
+                              std::move(hint));
 }
 
 std::vector<const Node*> Reader::roles(Row& row, const char* key) {

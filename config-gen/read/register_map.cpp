@@ -149,7 +149,7 @@ class MapReader : CsvRowReader {
   }
 
   void read_word_order() {
-    const auto order = word(word_order, register_word_orders);
+    const auto order = word(word_order, register_word_orders, "only the device's manual tells its order");
     entry_.word_order = order.value_or(0);
     if (order && words_of(entry_) == 1)
       error(place(word_order), quote(register_types[entry_.type]) + " has no word_order",

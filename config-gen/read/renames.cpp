@@ -133,7 +133,8 @@ void read_renames(Assembly& assembly, const Node& table) {
           "the old name stands first, the new one second; remove the row if nothing was renamed");
     } else if (!to.found) {
       diagnostics.error(row.position, "nothing that is saved is named " + quote(row.text),
-                        suggest(row.text, known_names(all, to), "names", "remove this row"));
+                        suggest(row.text, known_names(all, to), "names", "remove this row")
+                            .doubted("it decides which saved values are loaded"));
     } else if (to.parameter.empty() ? from.saved != nullptr : from.parameter.empty()) {
       diagnostics.error(row.key_position,
                         quote(row.key) + " and " + quote(row.text) + " are not both parameters",

@@ -5,12 +5,15 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
 namespace {
+
+TriedTexts* tried_texts = nullptr;
 
 // The place of a byte; characters of several bytes count once.
 Position place_of(std::string_view text, std::size_t byte, std::string_view file) {
@@ -121,7 +124,23 @@ class NestingCheck {
 
 }  // namespace
 
+TriedTexts::TriedTexts() {
+  tried_texts = this;
+}
+
+TriedTexts::~TriedTexts() {
+  tried_texts = nullptr;
+}
+
+void TriedTexts::set(const std::filesystem::path& file, std::string text) {
+  texts_.insert_or_assign(std::filesystem::weakly_canonical(file), std::move(text));
+}
+
 std::optional<std::string> read_source(const std::filesystem::path& file, Diagnostics& diagnostics) {
+  if (tried_texts != nullptr && !tried_texts->texts_.empty()) {
+    const auto found = tried_texts->texts_.find(std::filesystem::weakly_canonical(file));
+    if (found != tried_texts->texts_.end()) return found->second;
+  }
   const Position place{intern(file.generic_string()), 1, 1};
   errno = 0;
   std::ifstream stream(file, std::ios::binary);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,24 @@ namespace flexrf::config_gen {
 
 // The file's bytes; nothing when it cannot be read or is too large, which is then in `diagnostics`.
 std::optional<std::string> read_source(const std::filesystem::path& file, Diagnostics& diagnostics);
+
+// Texts that read_source() finds in place of the files' own, until it goes: so changes are tried before they
+// are written. At most one at a time, in the thread that reads.
+class TriedTexts {
+ public:
+  TriedTexts();
+  ~TriedTexts();
+  TriedTexts(const TriedTexts&) = delete;
+  TriedTexts& operator=(const TriedTexts&) = delete;
+
+  // However the file is named when it is read.
+  void set(const std::filesystem::path& file, std::string text);
+
+ private:
+  friend std::optional<std::string> read_source(const std::filesystem::path& file, Diagnostics& diagnostics);
+
+  std::map<std::filesystem::path, std::string> texts_;
+};
 
 // Whether these are characters in UTF-8. What else they are is reported, with the place of the first byte
 // that is wrong. A byte order mark of UTF-8 is allowed.

@@ -19,7 +19,7 @@ enum class Stage { check, emit };
 
 // The application `folder`/cell.toml as far as to that stage, with the tables of base/ and those in the
 // folder itself. Paths in messages are as given here, so tests run in the folder of the tests.
-inline Result read_cell(const std::filesystem::path& folder, Stage last = Stage::check) {
+inline Diagnostics judge_cell(const std::filesystem::path& folder, Stage last, Model& model) {
   SearchPaths paths;
   paths.types = {"base/types"};
   paths.units = {"base/units"};
@@ -27,10 +27,15 @@ inline Result read_cell(const std::filesystem::path& folder, Stage last = Stage:
   paths.drivers = {"base/hal/linux", "base/hal/simulated", folder / "hal/drivers"};
   const Target target{Target::Kind::application, folder / "cell.toml"};
   Diagnostics diagnostics;
+  model = read(target, paths, diagnostics);
+  check(model, diagnostics);
+  if (last == Stage::emit && !diagnostics.failed()) emit(model, target, diagnostics);
+  return diagnostics;
+}
+
+inline Result read_cell(const std::filesystem::path& folder, Stage last = Stage::check) {
   Result result;
-  result.model = read(target, paths, diagnostics);
-  check(result.model, diagnostics);
-  if (last == Stage::emit && !diagnostics.failed()) emit(result.model, target, diagnostics);
+  const Diagnostics diagnostics = judge_cell(folder, last, result.model);
   std::ostringstream text;
   diagnostics.print(text);
   result.messages = text.str();

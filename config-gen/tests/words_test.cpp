@@ -37,10 +37,45 @@ void nearest_word(void**) {
 }
 
 void suggestions(void**) {
-  assert_string_equal(suggest("jgo", {"jog", "arm"}, "units", "none").c_str(), "did you mean 'jog'?");
-  assert_string_equal(suggest("camera", {"jog", "arm"}, "units", "none").c_str(),
+  assert_string_equal(suggest("jgo", {"jog", "arm"}, "units", "none").text.c_str(), "did you mean 'jog'?");
+  assert_string_equal(suggest("camera", {"jog", "arm"}, "units", "none").text.c_str(),
                       "known units: 'arm', 'jog'");
-  assert_string_equal(suggest("camera", {}, "units", "declare it").c_str(), "declare it");
+  assert_string_equal(suggest("camera", {}, "units", "declare it").text.c_str(), "declare it");
+}
+
+bool is_sure(const char* found, const std::vector<std::string>& known) {
+  const Hint hint = suggest(found, known, "names", "none");
+  assert_true(hint.replacement.has_value());
+  assert_string_equal(hint.replacement->found.c_str(), found);
+  return hint.replacement->doubt.empty();
+}
+
+void a_replacement_is_sure_of_slips_only(void**) {
+  assert_true(is_sure("wantd", {"wanted"}));
+  assert_true(is_sure("jgo", {"jog", "arm"}));
+  assert_true(is_sure("acceleraton_limt", {"acceleration_limit"}));
+  assert_true(is_sure("mininterval", {"min_interval"}));
+  assert_true(is_sure("robotarm", {"RobotArm"}));
+  assert_true(is_sure("jog.stpe", {"jog.step"}));
+  assert_true(is_sure("diraction", {"direction"}));
+  // Other things than what is known, however near.
+  assert_false(is_sure("can0", {"can1"}));
+  assert_false(is_sure("axis[2].drvie", {"axis[1].drive"}));
+  assert_false(is_sure("mm", {"m"}));
+  assert_false(is_sure("f32", {"i32"}));
+  assert_false(is_sure("minimum_speed", {"maximum_speed"}));
+  assert_false(is_sure("lamp", {"clamp"}));
+  assert_false(is_sure("left_gripper", {"lift_gripper"}));
+  assert_false(is_sure("speed_x", {"speed_y"}));
+  assert_false(is_sure("reel", {"real"}));
+}
+
+void a_replacement_is_not_sure_between_two(void**) {
+  const Hint hint = suggest("lamps", {"lamp", "lamps_a", "lampss"}, "names", "none");
+  assert_string_equal(hint.text.c_str(), "did you mean 'lamp'?");
+  assert_string_equal(hint.replacement->doubt.c_str(), "'lampss' is as near");
+  assert_true(is_sure("lmap", {"lamp", "lamp"}));
+  assert_false(suggest("camera", {"jog"}, "names", "none").replacement.has_value());
 }
 
 void lists(void**) {
@@ -62,8 +97,13 @@ void quantities_for_people(void**) {
 
 int main() {
   using namespace flexrf::config_gen;
-  const CMUnitTest tests[] = {cmocka_unit_test(names),        cmocka_unit_test(spellings),
-                              cmocka_unit_test(nearest_word), cmocka_unit_test(suggestions),
-                              cmocka_unit_test(lists),        cmocka_unit_test(quantities_for_people)};
+  const CMUnitTest tests[] = {cmocka_unit_test(names),
+                              cmocka_unit_test(spellings),
+                              cmocka_unit_test(nearest_word),
+                              cmocka_unit_test(suggestions),
+                              cmocka_unit_test(a_replacement_is_sure_of_slips_only),
+                              cmocka_unit_test(a_replacement_is_not_sure_between_two),
+                              cmocka_unit_test(lists),
+                              cmocka_unit_test(quantities_for_people)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -26,7 +26,7 @@ Position UrdfDocument::position(const pugi::xml_node& node) const {
   return place(offset > 0 ? static_cast<std::size_t>(offset) - 1 : 0);
 }
 
-void UrdfDocument::error(const pugi::xml_node& node, std::string text, std::string hint) {
+void UrdfDocument::error(const pugi::xml_node& node, std::string text, Hint hint) {
   failed_ = true;
   diagnostics_.error(position(node), std::move(text), std::move(hint));
 }

@@ -45,7 +45,7 @@ class UrdfDocument {
 
   pugi::xml_node robot() const { return document_.document_element(); }
   Position position(const pugi::xml_node& node) const;
-  void error(const pugi::xml_node& node, std::string text, std::string hint);
+  void error(const pugi::xml_node& node, std::string text, Hint hint);
   bool failed() const { return failed_; }
 
  private:

@@ -33,4 +33,19 @@ expect "message of no folder" "$errors" "*there is no folder apps/keybord"
 
 flexrf check </dev/null
 expect "exit code without a folder" "$status" 1
+
+# A folder of the repository brings the repository's other tables along, one elsewhere does not.
+flexrf check --fix keyboard-single </dev/null
+expect "exit code of --fix" "$status" 0
+expect "--fix of a name" "$output" "* --drivers $tree/hal --fix $tree"
+flexrf check --fix --dry-run keyboard-single </dev/null
+expect "--fix --dry-run" "$output" "* --drivers $tree/hal --fix $tree --dry-run"
+flexrf check --dry-run --fix "$work/mine" </dev/null
+expect "--fix of a folder elsewhere" "$output" "* --drivers $tree/hal --fix --dry-run"
+flexrf check --dry-run keyboard-single </dev/null
+expect "exit code of --dry-run alone" "$status" 1
+expect "message of --dry-run alone" "$errors" "*--dry-run belongs to --fix*"
+flexrf check --fxi keyboard-single </dev/null
+expect "exit code of an unknown option" "$status" 1
+expect "message of an unknown option" "$errors" "*unknown option '--fxi', did you mean '--fix'?*"
 finish
