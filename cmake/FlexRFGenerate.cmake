@@ -44,6 +44,10 @@ function(_flexrf_list_parts option table)
       set(part_${key} "${words}" PARENT_SCOPE)
     endif()
   endforeach()
+  # What a list of devices names is read from it here, as from the table.
+  string(REGEX MATCHALL "\nlist [^\n]+" lists "\n${lines}")
+  list(TRANSFORM lists REPLACE "^\nlist " "")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${lists})
 endfunction()
 
 # flexrf_need_package(NAME MODULE): PkgConfig::NAME for the library that pkg-config calls MODULE; an installed FlexRF asks for it

@@ -6,7 +6,6 @@
 #include <ostream>
 #include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "config-gen/fix/replace_file.hpp"

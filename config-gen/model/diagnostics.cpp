@@ -9,13 +9,14 @@
 namespace flexrf::config_gen {
 namespace {
 
-// "tracks[3]" and "tracks[4]" are alike.
-std::string without_numbers(const std::string& text) {
+// "tracks[3]" and "tracks[4]" are alike, and so are "[device.door]" and "[device.lamp]", which have a place
+// in common where it is a column of their list.
+std::string without_brackets(const std::string& text) {
   std::string plain;
   bool inside = false;
   for (const char c : text) {
     if (c == ']') inside = false;
-    if (!inside || c < '0' || c > '9') plain += c;
+    if (!inside) plain += c;
     if (c == '[') inside = true;
   }
   return plain;
@@ -68,7 +69,7 @@ void Diagnostics::add(Severity severity, const Position& position, std::string t
     diagnostic.instantiated = instances_.back().position;
   }
   const auto [alike, is_new] =
-      alike_.try_emplace(Key{position, severity, without_numbers(diagnostic.text)}, Alike{all_.size(), {}});
+      alike_.try_emplace(Key{position, severity, without_brackets(diagnostic.text)}, Alike{all_.size(), {}});
   alike->second.messages.insert(diagnostic.instance + '\n' + diagnostic.text);
   if (!is_new) {
     // In another instance another word is the nearest: nobody knows which was meant.

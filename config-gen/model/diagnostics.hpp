@@ -45,7 +45,8 @@ class Diagnostics {
   void enter(std::string instance, const Position& instantiated);
   void leave();
 
-  bool failed() const;                       // an error, not only warnings
+  bool failed() const;  // an error, not only warnings
+  std::size_t errors() const { return counts_[static_cast<std::size_t>(Severity::error)].all; }
   bool gave_up() const { return gave_up_; }  // also after more than max_errors
   std::vector<Diagnostic> sorted() const;
   // `file:line:column: error: text`, then `file:line:column: hint: text`, sorted by file and place. Of more
@@ -59,8 +60,8 @@ class Diagnostics {
     std::string name;
     Position position;
   };
-  // What is wrong with all instances is said once: alike are messages that differ in numbers of instances
-  // only.
+  // What is wrong with all instances, or all rows of a list, is said once: alike are messages of one place
+  // that differ within brackets only.
   using Key = std::tuple<Position, Severity, std::string>;
   struct Alike {
     std::size_t first = 0;           // in all_

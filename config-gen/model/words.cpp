@@ -178,7 +178,7 @@ std::vector<std::string> parts_of(std::string_view name) {
 // letter is seldom mistyped: 'lamp' and 'clamp', 'left' and 'lift' are words of their own.
 bool is_slip_of_part(const std::string& found, const std::string& wanted) {
   if (found == wanted) return true;
-  const auto [shorter, longer] = std::minmax(found.size(), wanted.size());
+  const auto [shorter, longer] = std::minmax({found.size(), wanted.size()});
   if (shorter < 3 || edit_distance(found, wanted) != 1) return false;
   if (shorter == longer && std::is_permutation(found.begin(), found.end(), wanted.begin())) return true;
   return found.front() == wanted.front() && (shorter != longer || shorter >= 6);

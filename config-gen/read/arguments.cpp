@@ -56,7 +56,7 @@ class Filler {
   }
 
   void fill(Node& node, bool keep_index) {
-    if (node.kind == Node::Kind::text) fill_text(node, keep_index);
+    if (node.kind == Node::Kind::text || node.cell) fill_text(node, keep_index);
     for (Node& child : node.children) fill(child, keep_index);
   }
 

@@ -50,6 +50,11 @@ struct Assembly {
   std::set<std::string> broken_owners;  // units and devices
   std::set<std::string> broken_places;  // slots and queues
 
+  // Of a device that is there, or unknown: something is wrong that was reported.
+  bool is_broken_device(const std::string& name) const {
+    return flat.devices_missing || broken_owners.contains(name);
+  }
+
   // Names of `table` that rows of `scope` can use, as they would write them.
   template <typename Map>
   std::vector<std::string> names_in(const Scope& scope, const Map& table) const {

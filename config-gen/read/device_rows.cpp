@@ -286,9 +286,7 @@ void connect_devices(Assembly& assembly) {
     if (const std::string meant = nearest(value.text, assembly.names_in(scope, assembly.devices));
         !meant.empty())
       assembly.broken_owners.insert(scope.prefix + meant);
-    if (assembly.broken_owners.contains(scope.prefix + value.text) ||
-        assembly.broken_owners.contains(value.text))
-      return;
+    if (assembly.is_broken_device(scope.prefix + value.text) || assembly.is_broken_device(value.text)) return;
     assembly.diagnostics.error(value.position, "unknown device " + quote(value.text),
                                suggest(value.text, assembly.names_in(scope, assembly.devices), "devices",
                                        "declare it as [device." + value.text + "]"));
@@ -297,7 +295,7 @@ void connect_devices(Assembly& assembly) {
     const Scope& scope = *entry.row->scope;
     const InScope in_scope(assembly.diagnostics, scope);
     const Node* on = entry.row->node->find("on");
-    if (on == nullptr || on->kind != Node::Kind::text) continue;
+    if (on == nullptr || (on->kind != Node::Kind::text && !on->cell)) continue;
     const auto bus = look_up(scope, on->text);
     if (!bus) {
       unknown(scope, *on);

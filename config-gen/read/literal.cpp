@@ -56,7 +56,7 @@ std::optional<Literal> read_scalar(const Context& context, const Field& field, c
                           "write true or false, without quotes");
     literal.value = value.boolean;
   } else if (scalar == Scalar::text) {
-    if (value.kind != Node::Kind::text)
+    if (value.kind != Node::Kind::text && !value.cell)
       return context.fail(value, "must be a text, not " + kind_text(value.kind), "write it in double quotes");
     if (value.text.size() > field.capacity)
       return context.fail(value,
@@ -67,7 +67,9 @@ std::optional<Literal> read_scalar(const Context& context, const Field& field, c
   } else if (is_floating(scalar)) {
     if (value.kind != Node::Kind::real && value.kind != Node::Kind::integer)
       return context.fail(value, "must be a number, not " + kind_text(value.kind),
-                          "write it without quotes, in SI units");
+                          value.cell && value.text.find(',') != std::string::npos
+                              ? "write the fraction after a point, as 1.5"
+                              : "write it without quotes, in SI units");
     const double number = value.kind == Node::Kind::real ? value.real : static_cast<double>(value.integer);
     if (!std::isfinite(number)) return context.fail(value, "is not a finite number", "write a finite number");
     if (scalar == Scalar::f32 && std::abs(number) > static_cast<double>(std::numeric_limits<float>::max()))
@@ -128,7 +130,7 @@ std::optional<Literal> read_element(const Context& context, const Field& field, 
   if (type.kind == Type::Kind::record) return read_record(context, type, value);
   std::vector<std::string> names;
   for (const EnumerationValue& known : type.values) names.push_back(known.name);
-  if (value.kind != Node::Kind::text)
+  if (value.kind != Node::Kind::text && !value.cell)
     return context.fail(value,
                         "must be the name of a value of " + type.name + ", not " + kind_text(value.kind),
                         suggest("", names, "values", "the type has none"));

@@ -76,7 +76,7 @@ class Reader {
   void read_options(Row& row, PanelWidget& widget);
   /// The texts of a table { role = "name" }.
   std::vector<const Node*> roles(Row& row, const char* key);
-  bool is_broken(const std::string& owner) const { return assembly_.broken_owners.contains(owner); }
+  bool is_broken(const std::string& owner) const { return assembly_.is_broken_device(owner); }
 
   Assembly& assembly_;
   Names names_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "config-gen/model/words.hpp"
+#include "config-gen/read/device_list.hpp"
 #include "config-gen/read/tree.hpp"
 
 namespace flexrf::config_gen {
@@ -93,8 +94,11 @@ std::string parts_of_application(const fs::path& table) {
   for (const fs::directory_entry& entry : fs::directory_iterator(table.parent_path() / "groups", ignored))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   std::vector<Node> roots;
+  std::vector<fs::path> lists;
+  Diagnostics unused;
   for (const fs::path& file : files)
     if (auto root = read(file)) roots.push_back(std::move(*root));
+  for (Node& root : roots) add_listed_devices(root, table.parent_path(), unused, lists);
 
   Words values;
   for (const Node& root : roots) {
@@ -112,7 +116,9 @@ std::string parts_of_application(const fs::path& table) {
         for (const std::string& driver : meant(texts_of(*device, "drivers"), values))
           drivers.insert(interface + "/" + driver);
   }
-  return line("units", units) + line("drivers", drivers);
+  std::string text = line("units", units) + line("drivers", drivers);
+  for (const fs::path& list : lists) text += "list " + list.generic_string() + "\n";
+  return text;
 }
 
 }  // namespace

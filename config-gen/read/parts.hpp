@@ -22,6 +22,7 @@ bool is_build_word(std::string_view word);
 //   application: units (types), drivers ("CLASS/NAME"), of all rows of the table and of the groups beside it.
 //   A group's argument may
 //                be each value that any instance gives it.
+//                And a line "list FILE" for each list of devices, whatever letters its name has.
 // Judges nothing, as a broken table is told by the run that makes something of it: what cannot be read is
 // left out.
 std::string list_parts(Target::Kind kind, const std::filesystem::path& table);

@@ -50,7 +50,7 @@ void read_application(Library& library, const std::filesystem::path& file) {
       row.positive_duration("standstill_limit").value_or(application.standstill_limit);
   read_save(row, application.save, diagnostics);
   for (const char* section :
-       {"device", "unit", "slot", "queue", "thread", "group", "renamed", "panel", "widget"})
+       {"device", "device_list", "unit", "slot", "queue", "thread", "group", "renamed", "panel", "widget"})
     row.also(section);
   row.finish();
   model.application = std::move(application);
@@ -74,7 +74,7 @@ void read_application(Library& library, const std::filesystem::path& file) {
   derive(assembly);
   read_panel(assembly);
   for (Device& device : model.devices)
-    device.partial = device.partial || assembly.broken_owners.contains(device.name);
+    device.partial = device.partial || assembly.is_broken_device(device.name);
   for (Slot& slot : model.slots) slot.partial = assembly.broken_places.contains(array_base(slot.name));
   for (Queue& queue : model.queues) queue.partial = assembly.broken_places.contains(queue.declared);
 }

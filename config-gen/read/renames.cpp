@@ -126,7 +126,7 @@ void read_renames(Assembly& assembly, const Node& table) {
     }
     const Place from = place_of(all, row.key);
     const Place to = place_of(all, row.text);
-    if (assembly.broken_owners.contains(to.owner.empty() ? row.text : to.owner)) continue;
+    if (assembly.is_broken_device(to.owner.empty() ? row.text : to.owner)) continue;
     if (from.found) {
       diagnostics.error(
           row.key_position, "the old name " + quote(row.key) + " is still in use",

@@ -35,7 +35,7 @@ const Node* Row::any(std::string_view key) {
 std::optional<std::string> Row::text(std::string_view key) {
   const Node* value = find(key);
   if (value == nullptr) return std::nullopt;
-  if (value->kind == Node::Kind::text) return value->text;
+  if (value->kind == Node::Kind::text || value->cell) return value->text;
   wrong_kind(*value, key, "a text", "write it in double quotes");
   return std::nullopt;
 }
@@ -106,7 +106,7 @@ std::optional<std::size_t> Row::size(std::string_view key) {
 const Node* Row::list_of_texts(std::string_view key) {
   const Node* value = find(key);
   if (value == nullptr) return nullptr;
-  const auto is_text = [](const Node& element) { return element.kind == Node::Kind::text; };
+  const auto is_text = [](const Node& element) { return element.kind == Node::Kind::text || element.cell; };
   if (value->kind == Node::Kind::array &&
       std::all_of(value->children.begin(), value->children.end(), is_text))
     return value;

@@ -5,6 +5,7 @@
 #include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/arguments.hpp"
+#include "config-gen/read/device_list.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -33,6 +34,7 @@ class Flattener {
       : library_(library), diagnostics_(library.diagnostics()), folder_(std::move(folder)) {}
 
   Flattened run(Node application) {
+    add_listed(application);
     fill_in(application, {}, std::nullopt, false, diagnostics_);
     Scope& root = result_.scopes.emplace_back();
     root.tree = std::move(application);
@@ -41,6 +43,14 @@ class Flattener {
   }
 
  private:
+  void add_listed(Node& table) {
+    if (!add_listed_devices(table, folder_, diagnostics_, library_.model().files))
+      result_.devices_missing = true;
+  }
+
+  // Where a table says that there is this row.
+  static const Position& place_of(const Node& row) { return row.listed ? row.listed : row.key_position; }
+
   void walk(const Scope& scope) {
     const InScope in_scope(diagnostics_, scope);
     struct Found {
@@ -54,9 +64,8 @@ class Flattener {
         found.push_back({node, kind.kind, false});
     for (const Node* node : named_rows(library_, scope.tree, "group", "a group"))
       found.push_back({node, FlatRow::Kind::unit, true});
-    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
-      return a.node->key_position < b.node->key_position;
-    });
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Found& a, const Found& b) { return place_of(*a.node) < place_of(*b.node); });
     check_names(scope, found);
     for (const Found& row : found) {
       if (row.group)
@@ -110,11 +119,13 @@ class Flattener {
                          suggest(table, names, "group tables", "declare it in " + file.generic_string()));
       return nullptr;
     }
-    const auto& tree = tables_.emplace(table, library_.parse(file)).first->second;
+    auto& tree = tables_.emplace(table, library_.parse(file)).first->second;
     if (!tree) return nullptr;
+    add_listed(*tree);
     Row row(*tree, "this group table", diagnostics_);
     row.summary();
-    for (const char* section : {"device", "unit", "slot", "queue", "thread", "group", "argument", "port"})
+    for (const char* section :
+         {"device", "device_list", "unit", "slot", "queue", "thread", "group", "argument", "port"})
       row.also(section);
     row.finish();
     return &*tree;

@@ -43,6 +43,7 @@ struct FlatRow {
 struct Flattened {
   std::deque<Scope> scopes;                // the application first
   std::vector<std::string> broken_places;  // slots and queues of instances that could not be made
+  bool devices_missing = false;            // a list of them has errors: nothing is said of unknown ones
   std::vector<FlatRow> rows;               // source order, an instance's rows in place of its own
 };
 

@@ -108,7 +108,7 @@ std::optional<Trigger> read_device_trigger(Assembly& assembly, Row& row, const S
   auto found = assembly.devices.find(scope.prefix + *name);
   if (found == assembly.devices.end()) found = assembly.devices.find(*name);
   if (found == assembly.devices.end()) {
-    if (!assembly.broken_owners.contains(scope.prefix + *name))
+    if (!assembly.is_broken_device(scope.prefix + *name))
       assembly.diagnostics.error(row.position("device"), "unknown device " + quote(*name) + " in a trigger",
                                  suggest(*name, assembly.names_in(scope, assembly.devices), "devices",
                                          "declare it as [device." + *name + "]"));

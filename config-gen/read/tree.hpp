@@ -23,6 +23,8 @@ struct Node {
   double real = 0;
   std::string text;
   bool broken = false;         // what it should be is unknown, and was reported
+  bool cell = false;           // of a list in CSV: `kind` is what it looks like, `text` what stands there
+  Position listed;             // of a row that stands in a list: where the table names that list
   std::vector<Node> children;  // of a table by source position, of an array in order
 
   const Node* find(std::string_view name) const;

@@ -69,3 +69,20 @@ output=$("$generator" --application "$odd/cell.toml" --types "$tests/base/types"
   --drivers "$tests"/base/hal/{linux,simulated} --output made --dependencies made/rules --stamp made/stamp 2>&1)
 status=$?
 [[ $status == 0 && $(<made/rules) == *'/a\\\ b\#c$$d/cell.toml'* ]] || fail "the rules do not name the folder: $status $(<made/rules)"
+
+# --fix replaces the word and nothing else, and ends as what is left deserves it.
+cp -r "$tests/cells/shared" misspelt
+sed -i '1s/^summary/sumary/' misspelt/cell.toml
+fix() {  # fix OPTIONS...: sets status and output
+  output=$("$generator" --application misspelt/cell.toml --check-only --types "$tests/base/types" --units "$tests/base/units" \
+    --interfaces "$tests/base/hal/interfaces" --drivers "$tests"/base/hal/{linux,simulated} "$@" 2>&1)
+  status=$?
+}
+fix --fix --dry-run
+[[ $status == 1 && $output == "misspelt/cell.toml:1:1: 'sumary' -> 'summary'"$'\n'* && $(head -n 1 misspelt/cell.toml) == sumary* ]] ||
+  fail "a dry run is none: $status"
+fix --fix
+[[ $status == 0 && $output == "misspelt/cell.toml:1:1: 'sumary' -> 'summary'" ]] || fail "the word is not replaced: $status"
+cmp misspelt/cell.toml "$tests/cells/shared/cell.toml" || fail "more than the word was replaced"
+fix --dry-run
+[[ $status == 1 && $output == *"--dry-run belongs to --fix"* ]] || fail "a dry run of nothing: $status"
