@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_rounds =
-    32;  // each shows what the one before hid: a type, then its ports, then their slots
+// Each shows what the one before hid: a type, then its ports, then their slots.
+constexpr int most_rounds = 32;
 
 struct Edit {
   std::size_t at = 0;     // byte of the word in the file as it was
@@ -196,19 +196,23 @@ class Fixer {
 
   // A key that is there already is one that the file cannot have twice.
   std::string damage_of(const EditedFile& file) const {
-    Diagnostics before;
-    Diagnostics after;
-    if (file.kind() == SourceKind::table) {
-      parse_text(file.original(), file.name(), before);
-      parse_text(file.text(round_ + 1), file.name(), after);
-    } else {
-      parse_csv(file.original(), file.name(), before);
-      parse_csv(file.text(round_ + 1), file.name(), after);
-    }
-    const std::set<std::string> known = texts_of(before);
-    for (const Diagnostic& one : after.sorted())
+    const std::set<std::string> known = texts_of(parsed(file.original(), file));
+    for (const Diagnostic& one : parsed(file.text(round_ + 1), file).sorted())
       if (!known.contains(text_of(one))) return "then " + text_of(one);
     return "";
+  }
+
+  static Diagnostics parsed(const std::string& text, const EditedFile& file) {
+    Diagnostics diagnostics;
+    try {
+      if (file.kind() == SourceKind::table)
+        parse_text(text, file.name(), diagnostics);
+      else
+        parse_csv(text, file.name(), diagnostics);
+    } catch (const GivenUp&) {
+      // They are in `diagnostics`.
+    }
+    return diagnostics;
   }
 
   void refuse(EditedFile& file, std::size_t at, std::string reason) {

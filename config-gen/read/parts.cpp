@@ -50,6 +50,15 @@ std::optional<Node> read(const fs::path& table) {
   return parse_file(table, unused);
 }
 
+void add_listed(Node& table, const fs::path& folder, std::vector<fs::path>& lists) {
+  Diagnostics unused;
+  try {
+    add_listed_devices(table, folder, unused, lists);
+  } catch (const GivenUp&) {
+    // A list with a thousand errors.
+  }
+}
+
 std::string parts_of_unit(const Node& root, const std::string& stem) {
   Words interfaces;
   for (const Node* device : rows(root, "device")) interfaces.merge(texts_of(*device, "interface"));
@@ -95,10 +104,12 @@ std::string parts_of_application(const fs::path& table) {
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   std::vector<Node> roots;
   std::vector<fs::path> lists;
-  Diagnostics unused;
-  for (const fs::path& file : files)
-    if (auto root = read(file)) roots.push_back(std::move(*root));
-  for (Node& root : roots) add_listed_devices(root, table.parent_path(), unused, lists);
+  for (const fs::path& file : files) {
+    auto root = read(file);
+    if (!root) continue;
+    add_listed(*root, table.parent_path(), lists);
+    roots.push_back(std::move(*root));
+  }
 
   Words values;
   for (const Node& root : roots) {
