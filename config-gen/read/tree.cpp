@@ -40,9 +40,9 @@ Node convert(const toml::node& node, std::string_view file) {
   } else if (const auto* real = node.as_floating_point()) {
     result.kind = Node::Kind::real;
     result.real = real->get();
-  } else if (const auto* boolean = node.as_boolean()) {
+  } else if (const auto* truth = node.as_boolean()) {
     result.kind = Node::Kind::boolean;
-    result.boolean = boolean->get();
+    result.boolean = truth->get();
   } else {
     result.kind = Node::Kind::other;
   }

@@ -172,6 +172,37 @@ void cells_of_lists_are_corrected(void**) {
   assert_true(is(Cell::text("list.csv"), replaced(good, "press\xC3\xBCre", "pressure")));
 }
 
+// Keys of the table and of the list's columns, and values of cells.
+void lists_of_devices_are_corrected(void**) {
+  const Files good = with(base("lines"), "io_list.csv", base("lines")["io_list.csv"],
+                          "name;line;configuration.direction;drivers\n"
+                          "stop_button;ESTOP;input;simulated\n"
+                          "green_lamp;LAMP;\"output\";simulated | simulated_too\n");
+  Files files = with(good, "cell.toml", "file = ", "fiel = ");
+  files = with(files, "cell.toml", "configuration.debounce", "configuration.debuonce");
+  files["io_list.csv"] =
+      "nmae;lien;configuration.dirction;drivres\n"
+      "stop_button;ESTOP;inptu;simulatde\n"
+      "green_lamp;LAMP;\"ouptut\";simulatde | simulated_too\n";
+  const Cell cell(files);
+  const Fixed fixed = Cell::fix();
+  assert_true(says(fixed.told,
+                   "cell/cell.toml:9:1: 'fiel' -> 'file'\n"
+                   "cell/cell.toml:13:15: 'debuonce' -> 'debounce'\n"
+                   "cell/io_list.csv:1:1: 'nmae' -> 'name'\n"
+                   "cell/io_list.csv:1:6: 'lien' -> 'line'\n"
+                   "cell/io_list.csv:1:11: 'dirction' -> 'direction'\n"
+                   "cell/io_list.csv:1:34: 'drivres' -> 'drivers'\n"
+                   "cell/io_list.csv:2:19: 'inptu' -> 'input'\n"
+                   "cell/io_list.csv:2:25: 'simulatde' -> 'simulated'\n"
+                   "cell/io_list.csv:3:17: 'ouptut' -> 'output'\n"
+                   "cell/io_list.csv:3:26: 'simulatde' -> 'simulated'\n"
+                   "cell/io_list.csv:3:26: error: unknown driver 'simulated_too' of DigitalLine\n"));
+  assert_false(fixed.good);
+  assert_true(is(Cell::text("cell.toml"), good.at("cell.toml")));
+  assert_true(is(Cell::text("io_list.csv"), good.at("io_list.csv")));
+}
+
 // What a person has to decide, each with the reason.
 void what_is_in_doubt_is_left_alone(void**) {
   Files files = with(base("jog"), "cell.toml", "in.actual = \"pose\"", "in.actual = \"psoe\"");
@@ -436,6 +467,7 @@ int main() {
   using namespace flexrf::config_gen::tests;
   const CMUnitTest tests[] = {cmocka_unit_test(all_else_stays_byte_for_byte),
                               cmocka_unit_test(cells_of_lists_are_corrected),
+                              cmocka_unit_test(lists_of_devices_are_corrected),
                               cmocka_unit_test(what_is_in_doubt_is_left_alone),
                               cmocka_unit_test(only_the_word_that_is_wrong_is_replaced),
                               cmocka_unit_test(a_key_that_is_there_already_is_left_alone),
