@@ -115,6 +115,23 @@ void check_drivers(const Model& model, const Device& device, Diagnostics& diagno
   }
 }
 
+// Told once, at the first row of the circle.
+void check_bus_circle(const Model& model, Index first, Diagnostics& diagnostics) {
+  std::string way;
+  auto bus = model.devices[first].bus;
+  for (std::size_t steps = 0; bus && *bus >= first && steps < model.devices.size(); ++steps) {
+    const Device& device = model.devices[*bus];
+    if (*bus == first) {
+      diagnostics.error(device.position,
+                        "bus " + quote(device.name) + " carries itself" + (way.empty() ? "" : ", through" + way),
+                        "remove 'on' from one of them");
+      return;
+    }
+    way += " " + quote(device.name);
+    bus = device.bus;
+  }
+}
+
 // Without an IO thread a bus is served by the one thread in which all live that are on it.
 void check_bus_threads(const Model& model, const Device& bus, Diagnostics& diagnostics) {
   if (bus.io_thread || bus.children.empty()) return;
@@ -178,6 +195,7 @@ void check_devices(const Model& model, Diagnostics& diagnostics) {
     const InInstance instance(diagnostics, model, device.name);
     check_io_thread(model, device, diagnostics);
     check_drivers(model, device, diagnostics);
+    check_bus_circle(model, index, diagnostics);
     check_bus_threads(model, device, diagnostics);
   }
   for (const Unit& unit : model.units) check_restart(model, unit, diagnostics);

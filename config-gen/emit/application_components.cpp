@@ -87,7 +87,7 @@ std::string port_binding(const ApplicationNames& names, const std::optional<Inde
 struct Common {
   Index index;
   const char* kind;
-  const char* level;
+  std::string level;
   Nanoseconds stop_timeout;
 };
 
@@ -221,6 +221,14 @@ std::string instead_of(const Device& device) {
          "}";
 }
 
+/// On a bus; each bus that is itself on one lifts it by one level more.
+std::string level_of(const Model& model, const Device& device) {
+  if (!device.bus) return "level_base";
+  std::size_t more = 0;
+  for (auto bus = model.devices[*device.bus].bus; bus; bus = model.devices[*bus].bus) ++more;
+  return more == 0 ? "level_carried" : "level_carried + " + std::to_string(more);
+}
+
 }  // namespace
 
 void emit_devices(const Model& model, const ApplicationNames& names, Text& out,
@@ -242,7 +250,7 @@ void emit_devices(const Model& model, const ApplicationNames& names, Text& out,
     const std::string resources = emit_resources(model, device, prefix, out);
     const std::string drivers = emit_drivers(model, device, prefix, out);
     const Common common{static_cast<Index>(model.units.size() + i), "device",
-                        device.bus ? "level_carried" : "level_base", device.initialise_timeout};
+                        level_of(model, device), device.initialise_timeout};
     records << "    {" << common_part(names, device, common, interface.summary, prefix)
             << "},\n     {.interface = \"" << interface.class_name << "\",\n      .drivers = " << drivers
             << instead_of(device) << ",\n      .instance = &constructed_devices[" << i

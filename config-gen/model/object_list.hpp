@@ -47,9 +47,9 @@ struct NeededObject {
 };
 
 // The words of the list. Types by their number in CiA 301 beside.
-inline const std::vector<std::string> object_types = {"i8", "i16", "i32", "u8", "u16", "u32"};
-inline constexpr std::int64_t object_data_types[] = {2, 3, 4, 5, 6, 7};
-inline constexpr unsigned object_type_bits[] = {8, 16, 32, 8, 16, 32};
+inline const std::vector<std::string> object_types = {"i8", "i16", "i32", "u8", "u16", "u32", "bool"};
+inline constexpr std::int64_t object_data_types[] = {2, 3, 4, 5, 6, 7, 1};
+inline constexpr unsigned object_type_bits[] = {8, 16, 32, 8, 16, 32, 8};  // as SDO carries them
 inline const std::vector<std::string> object_accesses = {"read", "write", "read_write", "map"};
 inline const std::vector<std::string> object_pdos = {"received", "sent"};
 inline const std::vector<std::string> object_presences = {"required", "optional"};

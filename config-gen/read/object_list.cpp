@@ -91,7 +91,8 @@ class ListReader : CsvRowReader {
     read_value();
   }
 
-  // "homing_method", "not takes_velocities", "mode = cyclic_position | profile_position and maps_mode".
+  // "homing_method", "not takes_velocities", "mode = cyclic_position | profile_position and maps_mode",
+  // "output_bytes = 2 | 3".
   void read_when() {
     const CsvCell* found = cell(when);
     if (found == nullptr) return;
@@ -122,12 +123,20 @@ class ListReader : CsvRowReader {
 
   void read_choice(const CsvCell& found, const ListParameter& parameter, const std::string& wanted,
                    NeededObject::Condition& condition) {
+    if (parameter.values.empty()) {
+      CsvCell number = found;
+      number.text = wanted;
+      const auto value = CsvTable::integer(number, diagnostics_);
+      failed_ = failed_ || !value;
+      condition.values.push_back(value.value_or(0));
+      return;
+    }
     const auto place = std::find(parameter.values.begin(), parameter.values.end(), wanted);
     if (place != parameter.values.end())
       condition.values.push_back(place - parameter.values.begin());
     else
       error(found, quote(parameter.name) + " cannot be " + quote(wanted),
-            suggest(wanted, parameter.values, "values", "it is no enumeration: name it alone"));
+            suggest(wanted, parameter.values, "values", "name it alone"));
   }
 
   void read_value() {

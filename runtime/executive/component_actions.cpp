@@ -81,13 +81,14 @@ Status ComponentActions::start_one(ComponentIndex component) {
   return lifecycle_->start(component);
 }
 
-/// Buses before the devices on them.
+/// Buses before the devices on them, and before the buses on them.
 std::vector<ComponentIndex> ComponentActions::stands_on(ComponentIndex component) const {
   const Application& application = cell_->application();
   std::vector<ComponentIndex> below;
   for (const std::uint16_t place : cell_->devices_of(component)) {
     const DeviceRecord& device = application.devices[place];
-    if (device.bus != no_index) below.insert(below.begin(), application.devices[device.bus].index);
+    for (std::uint16_t bus = device.bus; bus != no_index; bus = application.devices[bus].bus)
+      below.insert(below.begin(), application.devices[bus].index);
     if (device.index != component) below.push_back(device.index);
   }
   return below;

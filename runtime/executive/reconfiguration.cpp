@@ -25,14 +25,19 @@ std::vector<std::uint16_t> Reconfiguration::owners_of(std::span<const std::uint1
   const auto add_unit_of = [&](const DeviceRecord& device) {
     if (device.unit != no_index) add(device.unit);
   };
+  // A bus may carry a bus.
+  const auto add_carried = [&](const auto& self, std::uint16_t bus) -> void {
+    for (const DeviceRecord& device : application.devices) {
+      if (device.bus == no_index || application.devices[device.bus].index != bus) continue;
+      add(device.index);
+      add_unit_of(device);
+      self(self, device.index);
+    }
+  };
   for (const std::uint16_t index : changed) {
     add(index);
     for (const std::uint16_t device : cell_->devices_of(index)) add_unit_of(application.devices[device]);
-    for (const DeviceRecord& device : application.devices) {
-      if (device.bus == no_index || application.devices[device.bus].index != index) continue;
-      add(device.index);
-      add_unit_of(device);
-    }
+    add_carried(add_carried, index);
   }
   const auto rank = [&](std::uint16_t index) {
     const std::uint8_t level = application.component(index).level;

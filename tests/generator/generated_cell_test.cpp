@@ -61,8 +61,10 @@ void what_units_and_devices_share_stands_in_their_records(void**) {
   assert_int_equal(source.population, no_index);
   const DeviceRecord& station = row(cell.devices, "station");
   assert_string_equal(station.kind, "device");
-  assert_int_equal(station.level, level_carried);
-  assert_int_equal(cell.devices[station.bus].level, level_base);
+  const DeviceRecord& line = cell.devices[station.bus];
+  assert_int_equal(station.level, level_carried + 1);
+  assert_int_equal(line.level, level_carried);
+  assert_int_equal(cell.devices[line.bus].level, level_base);
   assert_true(station.stop_timeout == station.initialise_timeout);
   assert_int_equal(station.population, no_index);
   for (ComponentIndex i = 0; i < cell.component_count(); ++i) assert_int_equal(cell.component(i).index, i);
@@ -79,9 +81,10 @@ void a_thread_is_as_its_row_says(void**) {
   assert_int_equal(control.limit.limit, 5);
   assert_int_equal(control.budget.count(), 40'000);
   assert_int_equal(control.units.size(), 2);
-  // The bus before the station that it carries.
-  assert_int_equal(control.devices.size(), 2);
-  assert_string_equal(cell.devices[control.devices[0]].name, "line");
+  // Buses before what they carry.
+  assert_int_equal(control.devices.size(), 3);
+  assert_string_equal(cell.devices[control.devices[0]].name, "trunk");
+  assert_string_equal(cell.devices[control.devices[1]].name, "line");
   assert_int_equal(reinterpret_cast<std::uintptr_t>(control.stack) % page, 0);
   assert_int_equal(control.stack_size, 256 * 1024 + page);
   const ThreadRecord& work = row(cell.threads, "work");

@@ -185,10 +185,13 @@ void a_device_stops_after_its_unit_and_starts_before_it() {
 // [exec-62]
 void a_bus_stops_after_what_it_carries_and_starts_before_it() {
   constexpr ComponentIndex bus = 3;
+  constexpr ComponentIndex trunk = 4;
   Machine machine([](Cell& cell) {
     cell.device(Cell::actuator).bus = cell.add(DevicePlan{.name = "bus", .script = {}, .actuates = false});
-    cell.thread(Cell::consuming).devices = {1, Cell::actuator};
+    cell.device(1).bus = cell.add(DevicePlan{.name = "trunk", .script = {}, .actuates = false});
+    cell.thread(Cell::consuming).devices = {2, 1, Cell::actuator};
   });
+  CHECK(machine.cell.events().place_of("trunk: initialise") < machine.cell.events().place_of("bus: initialise"));
   const auto events_of = [&](ComponentAction action, ComponentIndex component) {
     const std::size_t before = machine.cell.events().all().size();
     CHECK(machine.act(action, component).is_ok());
@@ -200,6 +203,12 @@ void a_bus_stops_after_what_it_carries_and_starts_before_it() {
         (std::vector<std::string>{"consumer: stop", "actuator: stop", "bus: stop"}));
   CHECK(events_of(ComponentAction::start, Cell::consumer) ==
         (std::vector<std::string>{"bus: initialise", "actuator: initialise", "consumer: initialise"}));
+  // A bus on a bus.
+  CHECK(events_of(ComponentAction::stop, trunk) ==
+        (std::vector<std::string>{"consumer: stop", "actuator: stop", "bus: stop", "trunk: stop"}));
+  CHECK(events_of(ComponentAction::start, Cell::consumer) ==
+        (std::vector<std::string>{"trunk: initialise", "bus: initialise", "actuator: initialise",
+                                  "consumer: initialise"}));
 }
 
 // [exec-48] [exec-49]

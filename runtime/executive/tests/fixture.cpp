@@ -298,7 +298,8 @@ void TestApplication::make_devices() {
     DeviceRecord record{};
     record.index = static_cast<ComponentIndex>(units_.size() + i);
     record.kind = "device";
-    record.level = plan.bus == no_index ? level_base : level_carried;
+    record.level = level_base;
+    for (std::uint16_t bus = plan.bus; bus != no_index; bus = devices_[bus].bus) ++record.level;
     record.name = plan.name.c_str();
     record.summary = "";
     record.interface = "Actuator";
