@@ -47,7 +47,7 @@ void Configuration::configure_pdo(const PdoPlan& plan) noexcept {
   add({.act = Act::map, .size = 1, .object = plan.mapping(0), .value = plan.count});
   write(plan.communication(2), 1, plan.transmission);
   if (sent && plan.inhibit != 0) write(plan.communication(3), 2, plan.inhibit);
-  if (plan.event_timer != 0) write(plan.communication(5), 2, plan.event_timer);
+  if (plan.event_timer != 0) write(plan.communication(5), 2, plan.event_timer, plan.event_timer_helps);
   identify(identifier);
 }
 

@@ -27,9 +27,10 @@ struct PdoPlan {
   std::uint16_t identifier = 0;   ///< of its messages
   std::uint8_t transmission = 1;  ///< 1 to 240: with each n-th SYNC; 255: on its own
   std::uint16_t inhibit = 0;  ///< least time between two, in 100 us; only if sent by the node; 0: not written
-  std::uint16_t event_timer = 0;  ///< ms; 0: not written
-  bool forbids_remote = true;     ///< nobody may ask for it (bit 30); only if sent by the node
-  const char* helps = "";         ///< see ConfigurationStep
+  std::uint16_t event_timer = 0;       ///< ms; 0: not written
+  const char* event_timer_helps = "";  ///< see ConfigurationStep
+  bool forbids_remote = true;          ///< nobody may ask for it (bit 30); only if sent by the node
+  const char* helps = "";              ///< see ConfigurationStep
   std::uint8_t count = 0;
   std::array<PdoEntry, most_entries> entries{};
 
