@@ -122,9 +122,10 @@ void check_bus_circle(const Model& model, Index first, Diagnostics& diagnostics)
   for (std::size_t steps = 0; bus && *bus >= first && steps < model.devices.size(); ++steps) {
     const Device& device = model.devices[*bus];
     if (*bus == first) {
-      diagnostics.error(device.position,
-                        "bus " + quote(device.name) + " carries itself" + (way.empty() ? "" : ", through" + way),
-                        "remove 'on' from one of them");
+      diagnostics.error(
+          device.position,
+          "bus " + quote(device.name) + " carries itself" + (way.empty() ? "" : ", through" + way),
+          "remove 'on' from one of them");
       return;
     }
     way += " " + quote(device.name);

@@ -249,8 +249,8 @@ void emit_devices(const Model& model, const ApplicationNames& names, Text& out,
         emit_outputs(names, interface.outputs, device.outputs, Writer::Kind::device_output, i, prefix, out);
     const std::string resources = emit_resources(model, device, prefix, out);
     const std::string drivers = emit_drivers(model, device, prefix, out);
-    const Common common{static_cast<Index>(model.units.size() + i), "device",
-                        level_of(model, device), device.initialise_timeout};
+    const Common common{static_cast<Index>(model.units.size() + i), "device", level_of(model, device),
+                        device.initialise_timeout};
     records << "    {" << common_part(names, device, common, interface.summary, prefix)
             << "},\n     {.interface = \"" << interface.class_name << "\",\n      .drivers = " << drivers
             << instead_of(device) << ",\n      .instance = &constructed_devices[" << i

@@ -1,7 +1,5 @@
 #include "hal/canopen/axis_on_bus.hpp"
 
-#include <cmath>
-
 #include "hal/canopen/can_message.hpp"
 #include "runtime/log/log.hpp"
 
@@ -123,10 +121,6 @@ cia402::Mode mode_of(ServoMode mode) noexcept {
       break;
   }
   return cia402::Mode::cyclic_position;
-}
-
-Duration whole_milliseconds(double seconds) noexcept {
-  return std::chrono::milliseconds(std::llround(seconds * 1e3));
 }
 
 }  // namespace flexrf::canopen

@@ -50,7 +50,5 @@ class AxisOnBus {
 };
 
 cia402::Mode mode_of(ServoMode mode) noexcept;
-/// To whole milliseconds, as drives count time.
-Duration whole_milliseconds(double seconds) noexcept;
 
 }  // namespace flexrf::canopen

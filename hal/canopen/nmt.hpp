@@ -1,12 +1,18 @@
 // Network management (CiA 301): commands to nodes, what heartbeats say of them, and who supervises whom.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "base/time.hpp"
 #include "hal/canopen/message.hpp"
 
 namespace flexrf::canopen {
+
+/// As nodes count time.
+inline Duration whole_milliseconds(double seconds) noexcept {
+  return std::chrono::milliseconds(std::llround(seconds * 1e3));
+}
 
 enum class NmtCommand : std::uint8_t {
   start = 0x01,

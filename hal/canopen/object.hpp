@@ -22,6 +22,7 @@ inline constexpr ObjectAddress consumer_heartbeat{0x1016, 1};  ///< u32: node <<
 inline constexpr ObjectAddress producer_heartbeat{0x1017, 0};  ///< u16: ms, 0 is off
 inline constexpr ObjectAddress vendor{0x1018, 1};
 inline constexpr ObjectAddress product{0x1018, 2};
+inline constexpr ObjectAddress error_behaviour{0x1029, 1};  ///< u8: 0 pre-operational, 1 as it is, 2 stopped
 }  // namespace objects
 
 }  // namespace flexrf::canopen

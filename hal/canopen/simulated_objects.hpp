@@ -19,6 +19,7 @@ class SimulatedObjects : public ObjectDictionary {
   std::uint32_t read(ObjectAddress address, std::span<std::uint8_t> value, std::size_t& size) override;
   std::uint32_t write(ObjectAddress address, std::span<const std::uint8_t> value) override;
 
+  bool has(ObjectAddress address) const { return find(address) != nullptr; }
   /// 0 when there is none.
   std::uint64_t get(ObjectAddress address) const;
   std::int64_t get_signed(ObjectAddress address) const;

@@ -41,9 +41,9 @@ struct QueueRecord {
   bool wall;
 };
 
-/// Levels on which a component may stand: a device that nothing carries, a device on such a bus, and one level
-/// more for each bus that is itself on a bus; a unit. What it stands on is started before it, and stopped after
-/// it.
+/// Levels on which a component may stand: a device that nothing carries, a device on such a bus, and one
+/// level more for each bus that is itself on a bus; a unit. What it stands on is started before it, and
+/// stopped after it.
 enum : std::uint8_t { level_base, level_carried, level_unit = 0xFF };
 
 /// What the tables say of a unit and of a device alike.

@@ -191,7 +191,8 @@ void a_bus_stops_after_what_it_carries_and_starts_before_it() {
     cell.device(1).bus = cell.add(DevicePlan{.name = "trunk", .script = {}, .actuates = false});
     cell.thread(Cell::consuming).devices = {2, 1, Cell::actuator};
   });
-  CHECK(machine.cell.events().place_of("trunk: initialise") < machine.cell.events().place_of("bus: initialise"));
+  CHECK(machine.cell.events().place_of("trunk: initialise") <
+        machine.cell.events().place_of("bus: initialise"));
   const auto events_of = [&](ComponentAction action, ComponentIndex component) {
     const std::size_t before = machine.cell.events().all().size();
     CHECK(machine.act(action, component).is_ok());

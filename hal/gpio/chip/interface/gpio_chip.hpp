@@ -50,7 +50,8 @@ class GpioChip : public GpioChipInterface {
   using GpioChipInterface::GpioChipInterface;
 
   /// From initialise() of the device that will use the line; valid until release(). Fails with a cause for
-  /// the operator: no such line, in use by somebody else, no permission, no chip [gpio-chip-5]. Lifecycle
+  /// the operator: no such line, in use by somebody else, no permission, no chip [gpio-chip-5]. Of a chip
+  /// that is switched on by itself, as a module on a bus, the line is away until it is there. Lifecycle
   /// thread.
   virtual Result<GpioLine*> request(const GpioLineSettings& settings) = 0;
   /// From its stop(). Lifecycle thread.

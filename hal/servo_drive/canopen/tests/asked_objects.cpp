@@ -1,14 +1,12 @@
 #include "hal/servo_drive/canopen/tests/asked_objects.hpp"
 
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "hal/can/in_process/in_process_can_bus.hpp"
+#include "hal/canopen/tests/listed_objects.hpp"
 #include "hal/driver/device_bench.hpp"
 #include "hal/servo_drive/canopen/canopen_servo_drive.hpp"
 #include "hal/servo_drive/canopen/simulator/drive_console.hpp"
@@ -22,125 +20,9 @@ namespace {
 
 constexpr std::uint8_t listed_node = 5;
 
-struct Row {
-  canopen::ObjectAddress object;
-  std::string type;
-  std::string access;
-  std::string pdo;
-  std::string value;
-};
-
-// Of a line without quotes, as all of this list are.
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',') {
-      cells.emplace_back();
-    } else if (c != '\n') {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
-std::uint32_t number_in(const std::string& text) {
-  return static_cast<std::uint32_t>(std::strtoul(text.c_str(), nullptr, 0));
-}
-
-std::vector<Row> read_list() {
-  std::vector<Row> rows;
-  std::FILE* const file = std::fopen(place::object_list, "r");
-  if (file == nullptr) return rows;
-  char line[512];
-  while (std::fgets(line, sizeof line, file) != nullptr) {
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != 12 || cells[0] == "index") continue;
-    rows.push_back(
-        {{static_cast<std::uint16_t>(number_in(cells[0])), static_cast<std::uint8_t>(number_in(cells[1]))},
-         cells[3],
-         cells[4],
-         cells[5],
-         cells[8]});
-  }
-  std::fclose(file);
-  return rows;
-}
-
-unsigned bits_of(const Row& row) {
-  return number_in(row.type.substr(1));
-}
-
-/// What the master asks and tells by SDO.
-class Listener final : public CanNode {
- public:
-  explicit Listener(const std::vector<Row>& rows) : rows_{rows} {}
-
-  void on_frame(const CanFrame& frame, CanPort& /*port*/) noexcept override {
-    if (frame.identifier != canopen::identifier_of(canopen::sdo_request_base, listed_node)) return;
-    const std::uint8_t command = frame.data[0];
-    const canopen::ObjectAddress object{
-        static_cast<std::uint16_t>(canopen::read_number(frame.data.data() + 1, 2)), frame.data[3]};
-    const auto value = static_cast<std::uint32_t>(canopen::read_number(frame.data.data() + 4, 4));
-    const unsigned bits = 8U * (4U - (command >> 2 & 3U));
-    ++asked_;
-    if (command == 0x40 ? is_read(object) : is_written(object, bits, value)) return;
-    std::printf("not in the list, or not so: %s of %04X:%02X, %u bits, %08X\n",
-                command == 0x40 ? "read" : "write", unsigned{object.index}, unsigned{object.subindex}, bits,
-                unsigned{value});
-    ++missing_;
-  }
-  Time next_event() const noexcept override { return Time::max(); }
-  void on_time(Time /*now*/, CanPort& /*port*/) noexcept override {}
-
-  int asked() const { return asked_; }
-  int missing() const { return missing_; }
-
- private:
-  bool is_read(canopen::ObjectAddress object) const {
-    for (const Row& row : rows_) {
-      if (row.object == object && row.access == "read") return true;
-    }
-    return false;
-  }
-  bool is_written(canopen::ObjectAddress object, unsigned bits, std::uint32_t value) const {
-    for (const Row& row : rows_) {
-      if (row.object != object || bits_of(row) != bits) continue;
-      if (row.access == "write") return true;
-      if (row.access != "map") continue;
-      const bool is_mapping = (object.index & 0xFF00U) == 0x1600 || (object.index & 0xFF00U) == 0x1A00;
-      if (!is_mapping && is_value(row, bits, value)) return true;
-      // The number of mapped objects is 0 while they are written.
-      if (is_mapping && (number_in(row.value) == value || (object.subindex == 0 && value == 0)))
-        return object.subindex == 0 || is_mapped(object, value);
-    }
-    return false;
-  }
-  // An identifier is written out of use first (bit 31), and may forbid remote frames (bit 30).
-  static bool is_value(const Row& row, unsigned bits, std::uint32_t value) {
-    constexpr std::string_view of_node = "$NODEID+";
-    if (row.value.starts_with(of_node))
-      return (value & 0x3FFFFFFF) == number_in(row.value.substr(of_node.size())) + listed_node;
-    return value == (number_in(row.value) & (bits < 32 ? (1U << bits) - 1 : 0xFFFFFFFF));
-  }
-  bool is_mapped(canopen::ObjectAddress mapping, std::uint32_t word) const {
-    const canopen::ObjectAddress object{static_cast<std::uint16_t>(word >> 16),
-                                        static_cast<std::uint8_t>(word >> 8)};
-    for (const Row& row : rows_) {
-      if (row.object == object && bits_of(row) == (word & 0xFF) &&
-          row.pdo == (mapping.index < 0x1800 ? "received" : "sent"))
-        return true;
-    }
-    return false;
-  }
-
-  const std::vector<Row>& rows_;
-  int asked_ = 0;
-  int missing_ = 0;
-};
-
 bool asks_for_what_is_listed(ServoMode mode, bool has_all, bool interpolates) {
-  const std::vector<Row> rows = read_list();
-  Listener listener{rows};
+  const std::vector<ListedObject> rows = read_listed_objects(place::object_list);
+  SdoListener listener{listed_node, rows};
   const auto bus = std::make_unique<DeviceBench<InProcessCanBus>>(nullptr);
   const auto drive = std::make_unique<DeviceBench<CanopenServoDrive>>(nullptr, std::span<QueueSink* const>{},
                                                                       &bus->driver());
