@@ -397,7 +397,7 @@ void ForeignModule::enter(State next) {
   if (next == State::stopped) {
     upload_.reset();
     request_.reset();
-    take_error_values();
+    if (!settings_.keeps_outputs_when_stopped) take_error_values();
   } else if (before == State::operational && !settings_.keeps_outputs_when_paused) {
     take_error_values();
   }
@@ -608,7 +608,7 @@ std::uint32_t ForeignModule::check_pdo_parameter(std::uint16_t index, std::uint8
     case 1:
       return check_pdo_cob_id(index, value);
     case 2:
-      // 252 and 253 are for those that wait for remote requests, which this module's PDOs never do.
+      // 252 and 253, sent upon a remote request only, are optional, and not here.
       return value <= 240 || value >= event_driven ? done : invalid_value;
     case 3:
       return is_valid(index) ? wrong_state : done;
@@ -812,7 +812,7 @@ void ForeignModule::restart_tpdo(std::uint8_t sub) {
   event_timer_from_ = clock_;
   if (sub > 2) return;
   syncs_ = 0;
-  is_pending_ = false;
+  is_pending_ = sub == 1 && settings_.sends_tpdo_at_start;
 }
 
 // ---- Process

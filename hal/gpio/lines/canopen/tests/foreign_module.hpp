@@ -45,20 +45,21 @@ class ForeignModule {
     Duration filter_time = std::chrono::milliseconds{2};  ///< of inputs whose bit in 6003h is set
 
     // ---- what vendors do differently
-    bool enables_interrupts = false;         ///< 6005h is 1 at power-on
-    bool is_silent_without_them = false;     ///< 6005h = 0 stops every TPDO, not only those of changes
-    bool sends_tpdo_at_start = true;         ///< once when it becomes operational, though no input changed
-    bool starts_itself = false;              ///< operational after boot-up, without NMT (1F80h bit 2)
-    bool has_fixed_mapping = false;          ///< 1600h and 1A00h are read only
-    bool locks_cob_ids = false;              ///< 1400h:01 and 1800h:01 may not be written when operational
-    bool keeps_disabled_cob_ids = false;     ///< what sets bit 31 may not change the CAN-ID at the same time
-    bool refuses_remote_requests = false;    ///< 1800h:01 must have bit 30 set
-    std::uint16_t least_event_timer = 0;     ///< ms; a smaller 1800h:05 but 0 is refused, 06090032h
-    bool raises_event_timer = false;         ///< a too small 1800h:05 becomes least_event_timer instead
-    bool keeps_outputs_on_reset = false;     ///< NMT Reset Node leaves the outputs as they are
-    bool keeps_outputs_when_paused = false;  ///< so do Enter Pre-Operational and Reset Communication
-    bool returns_to_old_outputs = false;     ///< to 6200h as before a fault, as soon as operational again
-    bool says_no_error_after_boot = false;   ///< an EMCY with error code 0 behind the boot-up message
+    bool enables_interrupts = false;      ///< 6005h is 1 at power-on
+    bool is_silent_without_them = false;  ///< 6005h = 0 stops every TPDO, not only those of changes
+    bool sends_tpdo_at_start = true;  ///< once when it, or the TPDO, becomes operational, without a change
+    bool starts_itself = false;       ///< operational after boot-up, without NMT (1F80h bit 2)
+    bool has_fixed_mapping = false;   ///< 1600h and 1A00h are read only
+    bool locks_cob_ids = false;       ///< 1400h:01 and 1800h:01 may not be written when operational
+    bool keeps_disabled_cob_ids = false;      ///< what sets bit 31 may not change the CAN-ID at the same time
+    bool refuses_remote_requests = false;     ///< 1800h:01 must have bit 30 set
+    std::uint16_t least_event_timer = 0;      ///< ms; a smaller 1800h:05 but 0 is refused, 06090032h
+    bool raises_event_timer = false;          ///< a too small 1800h:05 becomes least_event_timer instead
+    bool keeps_outputs_on_reset = false;      ///< NMT Reset Node leaves the outputs as they are
+    bool keeps_outputs_when_paused = false;   ///< so do Enter Pre-Operational and Reset Communication
+    bool keeps_outputs_when_stopped = false;  ///< so does Stop: only a fault sets error values
+    bool returns_to_old_outputs = false;      ///< to 6200h as before a fault, as soon as operational again
+    bool says_no_error_after_boot = false;    ///< an EMCY with error code 0 behind the boot-up message
   };
 
   enum class State : std::uint8_t { off, initialising, pre_operational, operational, stopped };

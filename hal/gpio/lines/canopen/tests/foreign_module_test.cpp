@@ -643,6 +643,15 @@ void silent_without_interrupts(void**) {
   assert_true(bench.hears("185 00 00"));
 }
 
+void tells_a_tpdo_that_becomes_valid(void**) {
+  Bench bench;
+  assert_true(bench.accepts("23 00 18 01 85 01 00 C0"));
+  bench.say("000 01 05");
+  assert_true(bench.is_silent());
+  assert_true(bench.accepts("23 00 18 01 85 01 00 40"));
+  assert_true(bench.hears("185 00 00"));
+}
+
 void silent_at_start(void**) {
   Bench bench({.sends_tpdo_at_start = false});
   bench.say("000 01 05");
@@ -716,6 +725,15 @@ void outputs_that_are_kept(void**) {
   assert_int_equal(paused.module.outputs(), 0xA5);
   paused.say("000 02 05");
   assert_int_equal(paused.module.outputs(), 0);
+
+  Bench stopped({.keeps_outputs_when_stopped = true});
+  watch(stopped);
+  stopped.say("000 02 05");
+  assert_int_equal(stopped.module.outputs(), 0xA5);
+  stopped.say("77F 05");
+  stopped.pass(milliseconds{100});
+  assert_true(stopped.is_silent());  // no EMCY in stopped
+  assert_int_equal(stopped.module.outputs(), 0);
 
   Bench returns({.returns_to_old_outputs = true});
   returns.start();
@@ -806,6 +824,7 @@ int main() {
       cmocka_unit_test(leaving_operational_sets_error_values),
       cmocka_unit_test(without_optional_objects),
       cmocka_unit_test(silent_without_interrupts),
+      cmocka_unit_test(tells_a_tpdo_that_becomes_valid),
       cmocka_unit_test(silent_at_start),
       cmocka_unit_test(starts_itself),
       cmocka_unit_test(fixed_mapping),
