@@ -1,11 +1,10 @@
 #include "hal/servo_drive/canopen/tests/asked_objects.hpp"
 
-#include <cstdio>
-#include <cstring>
 #include <memory>
 #include <vector>
 
 #include "hal/can/in_process/in_process_can_bus.hpp"
+#include "hal/canopen/tests/data_sheet.hpp"
 #include "hal/canopen/tests/listed_objects.hpp"
 #include "hal/driver/device_bench.hpp"
 #include "hal/servo_drive/canopen/canopen_servo_drive.hpp"
@@ -63,66 +62,9 @@ void judged_in(void**) {
   assert_true(good);
 }
 
-// Of the lines of an EDS file, what stands behind `key`; else null.
-const char* value_of(const char* line, const char* key) {
-  const std::size_t size = std::strlen(key);
-  return std::strncmp(line, key, size) == 0 ? line + size : nullptr;
-}
-
-std::size_t bytes_of_data_type(std::uint32_t type) {
-  switch (type) {
-    case 2:
-    case 5:
-      return 1;
-    case 3:
-    case 6:
-      return 2;
-    default:
-      return 4;
-  }
-}
-
-// Each object of its EDS file, with its size and what it is after power-on.
-bool simulated_drive_is_as_its_data_sheet_says() {
-  std::FILE* const file = std::fopen(place::data_sheet, "r");
-  if (file == nullptr) return false;
-  DriveObjects objects;
-  canopen::ObjectAddress address;
-  std::size_t bytes = 0;
-  int known = 0;
-  bool good = true;
-  char line[256];
-  while (std::fgets(line, sizeof line, file) != nullptr) {
-    unsigned index = 0;
-    unsigned subindex = 0;
-    if (line[0] == '[') {
-      const int found = std::sscanf(line, "[%4x%*[sub]%x]", &index, &subindex);
-      address = {static_cast<std::uint16_t>(found >= 1 ? index : 0U), static_cast<std::uint8_t>(subindex)};
-    } else if (const char* type = value_of(line, "DataType=")) {
-      bytes = bytes_of_data_type(number_in(type));
-    } else if (value_of(line, "AccessType=") != nullptr) {
-      std::uint8_t value[8] = {};
-      std::size_t size = 0;
-      good = good && objects.read(address, value, size) == 0 && size == bytes;
-      ++known;
-    } else if (const char* first = value_of(line, "DefaultValue="); first != nullptr && first[0] != '$') {
-      const auto mask = bytes == 4 ? 0xFFFFFFFFU : (1U << (8 * bytes)) - 1;
-      std::uint8_t value[8] = {};
-      std::size_t size = 0;
-      good = good && objects.read(address, value, size) == 0 &&
-             canopen::read_number(value, size) == (number_in(first) & mask);
-    }
-    if (good) continue;
-    std::printf("%04X:%02X is not as its data sheet says\n", unsigned{address.index},
-                unsigned{address.subindex});
-    break;
-  }
-  std::fclose(file);
-  return good && known > 40;
-}
-
 void data_sheet(void**) {
-  const bool good = simulated_drive_is_as_its_data_sheet_says();
+  DriveObjects objects;
+  const bool good = is_as_data_sheet_says(objects, place::data_sheet, 40);
   assert_true(good);
 }
 

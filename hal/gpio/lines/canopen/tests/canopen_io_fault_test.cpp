@@ -8,6 +8,7 @@
 #include "hal/can/mock/mock_can_bus.hpp"
 #include "hal/canopen/cia401.hpp"
 #include "hal/canopen/sdo_abort.hpp"
+#include "hal/canopen/tests/data_sheet.hpp"
 #include "hal/canopen/tests/listed_objects.hpp"
 #include "hal/gpio/chip/canopen/simulator/module_on_can.hpp"
 #include "hal/gpio/lines/canopen/tests/io_world.hpp"
@@ -600,6 +601,12 @@ void listed(void**) {
   assert_true(good);
 }
 
+void data_sheet(void**) {
+  ModuleObjects objects{World::node, 1, 1};
+  const bool good = is_as_data_sheet_says(objects, place::data_sheet, 40);
+  assert_true(good);
+}
+
 }  // namespace
 
 int main() {
@@ -649,6 +656,7 @@ int main() {
        nullptr},
       {"and with as many bytes as there can be", listed<8, true>, nullptr, nullptr, nullptr},
       {"and guarded, with SYNC", listed<2, false>, nullptr, nullptr, nullptr},
+      {"the simulated module is as its data sheet says", data_sheet, nullptr, nullptr, nullptr},
   };
   int failed = cmocka_run_group_tests_name("faults of a CANopen IO module", faults, nullptr, nullptr);
   failed += cmocka_run_group_tests_name("the chip of a CANopen IO module", lists, nullptr, nullptr);
