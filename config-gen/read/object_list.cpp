@@ -126,9 +126,9 @@ class ListReader : CsvRowReader {
     if (parameter.values.empty()) {
       CsvCell number = found;
       number.text = wanted;
-      const auto value = CsvTable::integer(number, diagnostics_);
-      failed_ = failed_ || !value;
-      condition.values.push_back(value.value_or(0));
+      const auto whole = CsvTable::integer(number, diagnostics_);
+      failed_ = failed_ || !whole;
+      condition.values.push_back(whole.value_or(0));
       return;
     }
     const auto place = std::find(parameter.values.begin(), parameter.values.end(), wanted);

@@ -8,6 +8,7 @@ namespace flexrf::canopen::cia401 {
 inline constexpr std::uint32_t profile_number = 401;  ///< lower half of object 1000
 /// Bytes of lines in each direction that one PDO holds; the profile's default PDOs have no more.
 inline constexpr std::uint8_t most_bytes = 8;
+inline constexpr std::uint8_t all_lines = 0xFF;  ///< of a byte
 
 /// `byte`, from 1, is that of eight lines; the first of them is its lowest bit.
 namespace objects {

@@ -7,7 +7,6 @@ namespace flexrf::canopen {
 namespace {
 
 constexpr std::uint8_t bits_of_byte = 8;
-constexpr std::uint8_t all_lines = 0xFF;
 constexpr std::uint8_t on_its_own = 255;
 constexpr std::uint8_t with_each_sync = 1;
 constexpr std::uint8_t stops = 2;  // of object 1029
@@ -98,10 +97,10 @@ void IoModule::plan_outputs(Configuration& list, std::uint64_t safe) const noexc
     // What is on is turned round on this side, or not at all: so 6200 and 6207 mean the same.
     list.write_if_there(cia401::objects::output_polarity(byte), 1, 0);
     list.write(cia401::objects::output(byte), 1, lines, fewer_outputs[byte - 1U]);
-    list.write_if_there(cia401::objects::output_mask(byte), 1, all_lines);
+    list.write_if_there(cia401::objects::output_mask(byte), 1, cia401::all_lines);
     if (!plan_.tells_error_values) continue;
     constexpr const char* helps = "tells_error_values = false";
-    list.write(cia401::objects::error_mode(byte), 1, all_lines, helps);
+    list.write(cia401::objects::error_mode(byte), 1, cia401::all_lines, helps);
     list.write(cia401::objects::error_value(byte), 1, lines, helps);
   }
   if (plan_.output_bytes == 0) return;
@@ -115,7 +114,7 @@ void IoModule::plan_inputs(Configuration& list) const noexcept {
   if (plan_.input_bytes == 0) return;
   for (std::uint8_t byte = 1; byte <= plan_.input_bytes; ++byte) {
     list.write_if_there(cia401::objects::input_polarity(byte), 1, 0);
-    list.write_if_there(cia401::objects::interrupt_mask(byte), 1, all_lines);
+    list.write_if_there(cia401::objects::interrupt_mask(byte), 1, cia401::all_lines);
   }
   list.write_if_there(cia401::objects::interrupts, 1, 1);
   list.configure_pdo(told_);

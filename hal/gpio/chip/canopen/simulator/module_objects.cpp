@@ -10,7 +10,6 @@ namespace module = canopen::cia401::objects;
 
 constexpr std::uint32_t has_inputs = 0x10000;  // of object 1000
 constexpr std::uint32_t has_outputs = 0x20000;
-constexpr std::uint8_t all_lines = 0xFF;
 
 }  // namespace
 
@@ -32,14 +31,14 @@ ModuleObjects::ModuleObjects(std::uint8_t node, std::uint8_t input_bytes, std::u
   for (std::uint8_t byte = 1; byte <= input_bytes; ++byte) {
     add(module::input(byte), 1, false, true);
     add(module::input_polarity(byte), 1, true, false);
-    add(module::interrupt_mask(byte), 1, true, false, all_lines);
+    add(module::interrupt_mask(byte), 1, true, false, canopen::cia401::all_lines);
   }
   for (std::uint8_t byte = 1; byte <= output_bytes; ++byte) {
     add(module::output(byte), 1, true, true);
     add(module::output_polarity(byte), 1, true, false);
-    add(module::error_mode(byte), 1, true, false, all_lines);
+    add(module::error_mode(byte), 1, true, false, canopen::cia401::all_lines);
     add(module::error_value(byte), 1, true, false);
-    add(module::output_mask(byte), 1, true, false, all_lines);
+    add(module::output_mask(byte), 1, true, false, canopen::cia401::all_lines);
   }
   sort();
 

@@ -16,7 +16,6 @@ constexpr std::uint8_t last_synchronous = 240;
 constexpr std::uint8_t first_by_events = 254;
 constexpr std::uint16_t heartbeat_lost = 0x8130;
 constexpr std::uint16_t short_pdo = 0x8210;
-constexpr std::uint8_t all_lines = 0xFF;
 
 }  // namespace
 
@@ -197,11 +196,11 @@ void SimulatedCia401Module::put_outputs() {
     return lines(object, options_.output_bytes, missing);
   };
   if (in_error_) {
-    const std::uint64_t taken = all(module::error_mode, all_lines);
+    const std::uint64_t taken = all(module::error_mode, canopen::cia401::all_lines);
     outputs_ = (outputs_ & ~taken) | (all(module::error_value, 0) & taken);
     return;
   }
-  const std::uint64_t followed = all(module::output_mask, all_lines);
+  const std::uint64_t followed = all(module::output_mask, canopen::cia401::all_lines);
   const std::uint64_t wanted = all(module::output, 0) ^ all(module::output_polarity, 0);
   outputs_ = (outputs_ & ~followed) | (wanted & followed);
 }
@@ -219,7 +218,8 @@ void SimulatedCia401Module::drive(std::uint64_t inputs, Time now, Outbox& outbox
   read_inputs();
   if (!powered_ || !booted_ || nmt_ != NmtState::operational) return;
   if (objects_.has(module::interrupts) && objects_.get(module::interrupts) == 0) return;
-  if ((changed & lines(module::interrupt_mask, options_.input_bytes, all_lines)) == 0) return;
+  if ((changed & lines(module::interrupt_mask, options_.input_bytes, canopen::cia401::all_lines)) == 0)
+    return;
   const auto plan = objects_.pdo(PdoDirection::sent_by_node, 1);
   if (plan && plan->transmission >= first_by_events) tell_inputs(now, outbox);
 }

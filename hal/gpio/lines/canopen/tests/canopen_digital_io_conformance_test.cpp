@@ -17,6 +17,7 @@ class CanopenWorld final : public DigitalIoWorld {
 
   Status start(const DigitalLineSettings& settings, bool signal) override {
     if (!ready_) return Status::error(StatusCode::internal, "the module did not come up");
+    world_.run(std::chrono::milliseconds(10));  // what was driven before has been told
     const char* const name = settings.direction == LineDirection::output ? "DO3" : "DI3";
     const Status status = world_.add(settings, name, signal);
     started_ = status.is_ok();

@@ -290,7 +290,9 @@ bool fewer_outputs_than_are_configured(World& world) {
 // Which is what needs no column.
 bool module_with_nothing_that_is_optional(World& world) {
   ModuleObjects& objects = world.far_end().module().objects();
-  for (const std::uint16_t index : {0x6002, 0x6005, 0x6006, 0x6202, 0x6208}) objects.lack_all(index);
+  for (const int index : {0x6002, 0x6005, 0x6006, 0x6202, 0x6208}) {
+    objects.lack_all(static_cast<std::uint16_t>(index));
+  }
   objects.lack(canopen::objects::error_behaviour);
   return works(world);
 }
