@@ -193,17 +193,17 @@ bool check_name(const Node& row, std::string_view what, bool only_text, Diagnost
                       "choose another name, as " + quote(row.key + "_value"));
     return false;
   }
+  if (!is_snake_case(row.key)) {
+    diagnostics.error(
+        row.key_position, quote(row.key) + " is not a name for " + std::string(what),
+        "names are lower_snake_case: small letters, digits and single underscores, a letter first");
+    return false;
+  }
   if (!only_text && is_macro(row.key)) {
     diagnostics.error(
         row.key_position,
         std::string(what) + " cannot be named " + quote(row.key) + ": it is a macro of the system's headers",
         "choose another name, as " + quote(row.key + "_value"));
-    return false;
-  }
-  if (!is_snake_case(row.key)) {
-    diagnostics.error(
-        row.key_position, quote(row.key) + " is not a name for " + std::string(what),
-        "names are lower_snake_case: small letters, digits and single underscores, a letter first");
     return false;
   }
   return true;

@@ -80,9 +80,10 @@ std::string GeneratedCompiler::make_sources(const Judgement& judgement, const Ce
     if (!is_own(tree_, folder / "any.toml")) sources += make(model, {Target::Kind::types, folder}, mine);
   for (const Interface& interface : model.interfaces) {
     sources += make(model, {Target::Kind::interface, interface.file}, mine);
-    make_file(mine / interface.header,
-              "#pragma once\n#include \"" + interface.name + "_interface.hpp\"\n" +
-                  class_text(interface.space, interface.class_name, interface.class_name + "Interface", ""));
+    const std::string base = interface.class_name + "Interface";
+    make_file(mine / interface.header, "#pragma once\n#include \"" + interface.name + "_interface.hpp\"\n" +
+                                           class_text(interface.space, interface.class_name, base,
+                                                      "  using " + base + "::" + base + ";\n"));
   }
   for (const Driver& driver : model.drivers) {
     // Its class may be abstract here, for what it implements is made up. FlexRF's own are compiled by its
