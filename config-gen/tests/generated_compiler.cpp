@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string class_text(std::string_view space, const std::string& name, const std::string& base,
-                       const char* body) {
+                       const std::string& body) {
   return "namespace " + std::string(space) + " {\nclass " + name + " : public " + base + " {\n public:\n" +
          body + "};\n}\n";
 }
