@@ -1,4 +1,5 @@
 #include "config-gen/check/checks.hpp"
+#include "config-gen/model/ports.hpp"
 #include "config-gen/model/target.hpp"
 #include "config-gen/model/words.hpp"
 
@@ -33,26 +34,17 @@ void check(Model& model, Diagnostics& diagnostics) {
 }
 
 std::string describe(const Model& model, const Writer& writer) {
-  if (writer.kind == Writer::Kind::unit_output) {
-    const Unit& unit = model.units[writer.owner];
-    return "output " + quote(model.unit_types[unit.type].outputs[writer.port].name) + " of unit " +
-           quote(unit.name);
-  }
-  const Device& device = model.devices[writer.owner];
-  return "output " + quote(model.interfaces[device.interface].outputs[writer.port].name) + " of device " +
-         quote(device.name);
+  return "output " + quote(ports_of(model, writer.owner).outputs[writer.port].name) + " of " +
+         describe(model, writer.owner);
 }
 
 std::string describe(const Model& model, const InputReference& input) {
-  const Unit& unit = model.units[input.unit];
-  return "input " + quote(model.unit_types[unit.type].inputs[input.port].name) + " of unit " +
-         quote(unit.name);
+  return "input " + quote(ports_of(model, input.owner).inputs[input.port].name) + " of " +
+         describe(model, input.owner);
 }
 
 Position declared_at(const Model& model, const Writer& writer) {
-  return writer.kind == Writer::Kind::unit_output
-             ? model.unit_types[model.units[writer.owner].type].outputs[writer.port].type_position
-             : model.interfaces[model.devices[writer.owner].interface].outputs[writer.port].type_position;
+  return ports_of(model, writer.owner).outputs[writer.port].type_position;
 }
 
 Nanoseconds interval_of(const Thread& thread) {

@@ -21,7 +21,7 @@ void check_memory(const Model& model, Diagnostics& diagnostics);
 // Sets Thread::response_time.
 void check_schedule(Model& model, Diagnostics& diagnostics);
 
-// "output 'target' of unit 'jog'"
+// "output 'target' of unit 'jog'", "output 'joints' of driver 'simulated' of device 'arm'"
 std::string describe(const Model& model, const Writer& writer);
 // "input 'target' of unit 'robot'"
 std::string describe(const Model& model, const InputReference& input);

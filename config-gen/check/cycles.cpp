@@ -1,8 +1,8 @@
 // Threads that release each other in a circle through slots and queues.
 #include <algorithm>
-#include <optional>
 
 #include "config-gen/check/checks.hpp"
+#include "config-gen/model/ports.hpp"
 #include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
@@ -13,15 +13,10 @@ struct Edge {
   std::string through;
 };
 
-std::optional<Index> thread_of(const Model& model, const Writer& writer) {
-  return writer.kind == Writer::Kind::unit_output ? model.units[writer.owner].thread
-                                                  : model.devices[writer.owner].thread;
-}
-
 std::vector<std::vector<Edge>> releases(const Model& model) {
   std::vector<std::vector<Edge>> edges(model.threads.size());
   const auto add = [&](const Writer& writer, const std::vector<Index>& bells, const std::string& name) {
-    const auto from = thread_of(model, writer);
+    const auto from = ports_of(model, writer.owner).thread;
     if (!from) return;
     for (const Index to : bells) edges[*from].push_back({to, name});
   };

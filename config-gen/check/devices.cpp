@@ -23,6 +23,15 @@ std::map<Index, std::vector<Owner>> owners_by_device(const Model& model) {
   return owners;
 }
 
+// Of its interface or of a driver: then it has something to do by itself.
+bool has_ports(const Model& model, const Device& device) {
+  return !model.interfaces[device.interface].outputs.empty() ||
+         std::any_of(device.drivers.begin(), device.drivers.end(), [&](const DriverChoice& choice) {
+           const Driver& driver = model.drivers[choice.driver];
+           return !driver.inputs.empty() || !driver.outputs.empty();
+         });
+}
+
 bool waits(const Model& model, const Device& device) {
   return std::any_of(device.drivers.begin(), device.drivers.end(),
                      [&](const DriverChoice& choice) { return model.drivers[choice.driver].waits; });
@@ -57,7 +66,7 @@ void check_owners(const Model& model, const Device& device, const std::vector<Ow
                                waits(model, device);
   if (owners.empty() && !device.io_thread && !interface.bus && !lacks_io_thread)
     diagnostics.error(device.position, "device " + quote(device.name) + " has no owner",
-                      interface.outputs.empty()
+                      !has_ports(model, device)
                           ? "give it to a unit, as device.NAME = \"" + device.name + "\""
                           : "give it to a unit, as device.NAME = \"" + device.name +
                                 "\", or let it publish by itself with io_thread = true");
@@ -81,7 +90,7 @@ void check_io_thread(const Model& model, const Device& device, Diagnostics& diag
                           "device " + quote(device.name) + " publishes " +
                               quote(interface.outputs[port].name) + " only with an IO thread",
                           "add io_thread = true, or let the unit that owns it publish");
-  } else if (interface.outputs.empty() && !interface.bus && !waits(model, device)) {
+  } else if (!has_ports(model, device) && !interface.bus && !waits(model, device)) {
     diagnostics.error(model.threads[*device.io_thread].position,
                       "device " + quote(device.name) + " needs no IO thread: " + interface.class_name +
                           " publishes nothing",

@@ -1,5 +1,6 @@
 // Queues: writers and readers, sharing, order, types.
 #include "config-gen/check/checks.hpp"
+#include "config-gen/model/ports.hpp"
 #include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
@@ -7,8 +8,9 @@ namespace {
 
 void check_reader(const Model& model, const Queue& queue, const InputReference& input,
                   Diagnostics& diagnostics) {
-  const InInstance instance(diagnostics, model, model.units[input.unit].name);
-  const InputPort& port = model.unit_types[model.units[input.unit].type].inputs[input.port];
+  const PortSet ports = ports_of(model, input.owner);
+  const InInstance instance(diagnostics, model, ports.name);
+  const InputPort& port = ports.inputs[input.port];
   const std::string& wanted = model.types[port.type].name;
   if (queue.writers.empty()) {
     std::vector<std::string> known;
@@ -33,9 +35,7 @@ void check_reader(const Model& model, const Queue& queue, const InputReference& 
 }
 
 void check_writer(const Model& model, const Queue& queue, const Writer& writer, Diagnostics& diagnostics) {
-  const Index type = writer.kind == Writer::Kind::unit_output
-                         ? model.unit_types[model.units[writer.owner].type].outputs[writer.port].type
-                         : model.interfaces[model.devices[writer.owner].interface].outputs[writer.port].type;
+  const Index type = ports_of(model, writer.owner).outputs[writer.port].type;
   if (type == queue.type) return;
   diagnostics.error(writer.position,
                     describe(model, writer) + " gives " + model.types[type].name + ", but queue " +
@@ -58,12 +58,12 @@ void check_queues(const Model& model, Diagnostics& diagnostics) {
     if (queue.readers.empty() && queue.doorbells.empty())
       diagnostics.warning(queue.writers.front().position, "queue " + quote(queue.declared) + " is never read",
                           "connect an input to it: it fills up and then drops every item");
-    if (queue.readers.size() > 1 && !queue.jobs)
-      diagnostics.error(queue.readers[1].position,
-                        "queue " + quote(queue.declared) + " has " + std::to_string(queue.readers.size()) +
-                            " readers: " + describe(model, queue.readers[0]) + " and " +
-                            describe(model, queue.readers[1]) +
-                            (queue.readers.size() > 2 ? " and others" : ""),
+    const auto readers = readers_at_work(queue);
+    if (readers.size() > 1 && !queue.jobs)
+      diagnostics.error(readers[1].front().position,
+                        "queue " + quote(queue.declared) + " has " + std::to_string(readers.size()) +
+                            " readers: " + describe(model, readers[0].front()) + " and " +
+                            describe(model, readers[1].front()) + (readers.size() > 2 ? " and others" : ""),
                         "say in [queue." + queue.declared.substr(queue.declared.rfind('.') + 1) +
                             "] share = \"copies\" if each shall get every item, or share = \"jobs\" if each "
                             "item is for one of them");

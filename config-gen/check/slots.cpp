@@ -3,6 +3,7 @@
 
 #include "config-gen/check/checks.hpp"
 #include "config-gen/model/layout.hpp"
+#include "config-gen/model/ports.hpp"
 #include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
@@ -18,14 +19,41 @@ std::string local_base(const std::string& name) {
   return local.substr(0, local.find('['));
 }
 
-void check_output_connections(const Model& model, const std::string& owner, const Position& row,
-                              const std::vector<OutputPort>& ports,
-                              const std::vector<OutputConnection>& outputs, Diagnostics& diagnostics) {
-  for (std::size_t port = 0; port < outputs.size() && port < ports.size(); ++port) {
-    if (outputs[port].position || ports[port].optional) continue;
-    const InInstance instance(diagnostics, model, owner);
-    diagnostics.warning(row, "output " + quote(ports[port].name) + " of " + quote(owner) + " goes nowhere",
-                        "add out." + ports[port].name + " = \"" + ports[port].name +
+// Whose ports it is, for messages; and what comes before in. and out. in a row that connects them.
+struct Named {
+  std::string name;
+  std::string key;
+};
+
+Named named(const Model& model, const PortOwner& owner) {
+  if (owner.kind != PortOwner::Kind::driver) return {quote(ports_of(model, owner).name), ""};
+  const DriverChoice& choice = model.devices[owner.component].drivers[owner.choice];
+  return {describe(model, owner), model.drivers[choice.driver].name + "."};
+}
+
+void check_input_connections(const Model& model, const PortOwner& owner, Diagnostics& diagnostics) {
+  const PortSet ports = ports_of(model, owner);
+  for (std::size_t port = 0; port < ports.inputs.size(); ++port) {
+    const InputPort& input = ports.inputs[port];
+    if (input.optional || ports.from[port].position) continue;
+    const InInstance instance(diagnostics, model, ports.name);
+    diagnostics.error(
+        ports.row, "input " + quote(input.name) + " of " + describe(model, owner) + " is not connected",
+        "add " + named(model, owner).key + "in." + input.name +
+            " = \"SLOT\", or declare the input optional = true at " + to_string(input.position));
+  }
+}
+
+void check_output_connections(const Model& model, const PortOwner& owner, Diagnostics& diagnostics) {
+  const PortSet ports = ports_of(model, owner);
+  const Named named_owner = named(model, owner);
+  for (std::size_t port = 0; port < ports.to.size() && port < ports.outputs.size(); ++port) {
+    const OutputPort& output = ports.outputs[port];
+    if (ports.to[port].position || output.optional) continue;
+    const InInstance instance(diagnostics, model, ports.name);
+    diagnostics.warning(ports.row,
+                        "output " + quote(output.name) + " of " + named_owner.name + " goes nowhere",
+                        "add " + named_owner.key + "out." + output.name + " = \"" + output.name +
                             "\", if anybody or the panel should see it");
   }
 }
@@ -33,21 +61,60 @@ void check_output_connections(const Model& model, const std::string& owner, cons
 // All outputs that go to each slot, in table order; a slot keeps only its first writer.
 std::map<Index, std::vector<Writer>> writers_by_slot(const Model& model) {
   std::map<Index, std::vector<Writer>> writers;
-  const auto add = [&](Writer::Kind kind, Index owner, const std::vector<OutputConnection>& outputs) {
+  for (const PortOwner& owner : port_owners(model)) {
+    const std::vector<OutputConnection>& outputs = ports_of(model, owner).to;
     for (std::size_t port = 0; port < outputs.size(); ++port)
       if (outputs[port].slot)
-        writers[*outputs[port].slot].push_back({kind, owner, port, outputs[port].position});
-  };
-  for (Index i = 0; i < model.devices.size(); ++i)
-    add(Writer::Kind::device_output, i, model.devices[i].outputs);
-  for (Index i = 0; i < model.units.size(); ++i) add(Writer::Kind::unit_output, i, model.units[i].outputs);
+        writers[*outputs[port].slot].push_back({Writer::Kind::output, owner, port, outputs[port].position});
+  }
   return writers;
+}
+
+bool is_same(const Writer& one, const Writer& other) {
+  return one.position == other.position && one.owner == other.owner && one.port == other.port;
+}
+
+// One that writes at the same time as this: the first that does. Of two drivers of one device one is chosen.
+const Writer* rival_of(const Writer& writer, const Slot& slot, const std::vector<Writer>& writers) {
+  if (!writer.owner.excludes(slot.writer.owner)) return &slot.writer;
+  for (const Writer& other : writers) {
+    if (is_same(writer, other)) break;
+    if (!writer.owner.excludes(other.owner)) return &other;
+  }
+  return nullptr;
+}
+
+void check_writers(const Model& model, const Slot& slot, const std::vector<Writer>& writers,
+                   Diagnostics& diagnostics) {
+  for (const Writer& writer : writers) {
+    if (is_same(writer, slot.writer)) continue;
+    const InInstance instance(diagnostics, model, slot.name);
+    if (const Writer* rival = rival_of(writer, slot, writers); rival != nullptr) {
+      diagnostics.error(
+          writer.position,
+          "slot " + quote(slot.name) + " has two writers: " + describe(model, *rival) + " and " +
+              describe(model, writer),
+          "a slot has one writer: give this output a slot of its own; the other is connected at " +
+              to_string(rival->position));
+      continue;
+    }
+    const Index type = ports_of(model, writer.owner).outputs[writer.port].type;
+    if (type == slot.type.index) continue;
+    diagnostics.error(writer.position,
+                      describe(model, writer) + " gives " + model.types[type].name + ", but slot " +
+                          quote(slot.name) + " carries " + type_name(model, slot.type),
+                      describe(model, slot.writer) + ", connected at " + to_string(slot.writer.position) +
+                          ", is declared as " + type_name(model, slot.type) + " at " +
+                          to_string(declared_at(model, slot.writer)) + "; this output is declared at " +
+                          to_string(declared_at(model, writer)));
+  }
 }
 
 void check_inputs_of(const Model& model, const Slot& slot, bool written, Diagnostics& diagnostics) {
   for (const InputReference& input : slot.inputs) {
-    const InInstance instance(diagnostics, model, model.units[input.unit].name);
-    const InputPort& port = model.unit_types[model.units[input.unit].type].inputs[input.port];
+    const PortSet ports = ports_of(model, input.owner);
+    const InInstance instance(diagnostics, model, ports.name);
+    const InputPort& port = ports.inputs[input.port];
     if (!written) {
       std::vector<std::string> known;
       for (const Slot& other : model.slots)
@@ -81,23 +148,12 @@ void check_inputs_of(const Model& model, const Slot& slot, bool written, Diagnos
 }  // namespace
 
 void check_inputs(const Model& model, Diagnostics& diagnostics) {
-  for (const Unit& unit : model.units) {
-    const UnitType& type = model.unit_types[unit.type];
-    for (std::size_t port = 0; port < type.inputs.size(); ++port) {
-      if (type.inputs[port].optional || unit.inputs[port].position) continue;
-      const InInstance instance(diagnostics, model, unit.name);
-      const std::string& name = type.inputs[port].name;
-      diagnostics.error(unit.position,
-                        "input " + quote(name) + " of unit " + quote(unit.name) + " is not connected",
-                        "add in." + name + " = \"SLOT\", or declare the input optional = true at " +
-                            to_string(type.inputs[port].position));
-    }
-    check_output_connections(model, unit.name, unit.position, type.outputs, unit.outputs, diagnostics);
+  for (const PortOwner& owner : port_owners(model)) {
+    check_input_connections(model, owner, diagnostics);
+    // What its interface publishes a device publishes with an IO thread alone.
+    if (owner.kind != PortOwner::Kind::device || model.devices[owner.component].io_thread)
+      check_output_connections(model, owner, diagnostics);
   }
-  for (const Device& device : model.devices)
-    if (device.io_thread)
-      check_output_connections(model, device.name, device.position,
-                               model.interfaces[device.interface].outputs, device.outputs, diagnostics);
 }
 
 void check_slots(const Model& model, Diagnostics& diagnostics) {
@@ -107,21 +163,7 @@ void check_slots(const Model& model, Diagnostics& diagnostics) {
     if (slot.type.kind != SlotType::Kind::declared || slot.partial) continue;
     const auto found = writers.find(index);
     const bool written = found != writers.end();
-    if (written) {
-      const std::vector<Writer>& all = found->second;
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        if (all[i].position == slot.writer.position && all[i].owner == slot.writer.owner &&
-            all[i].kind == slot.writer.kind && all[i].port == slot.writer.port)
-          continue;
-        const InInstance instance(diagnostics, model, slot.name);
-        diagnostics.error(
-            all[i].position,
-            "slot " + quote(slot.name) + " has two writers: " + describe(model, slot.writer) + " and " +
-                describe(model, all[i]),
-            "a slot has one writer: give this output a slot of its own; the other is connected at " +
-                to_string(slot.writer.position));
-      }
-    }
+    if (written) check_writers(model, slot, found->second, diagnostics);
     check_inputs_of(model, slot, written, diagnostics);
     const InInstance instance(diagnostics, model, slot.name);
     if (written && slot.inputs.empty() && slot.doorbells.empty() && !slot.for_panel)

@@ -203,9 +203,9 @@ void emit_queue_records(const Model& model, const ApplicationNames& names, Text&
       sinks += (k == 0 ? "" : ", ") + names.sink(i, k);
       writers += (k == 0 ? "\"" : ", \"") + writer_text(model, queue.writers[k]) + "\"";
     }
-    for (const InputReference& reader : queue.readers) {
+    for (const std::string& reader : reader_texts(model, queue.readers)) {
       sources += (sources.empty() ? "" : ", ") + names.source(i);
-      readers += (readers.empty() ? "\"" : ", \"") + reader_text(model, reader) + "\"";
+      readers += (readers.empty() ? "\"" : ", \"") + reader + "\"";
     }
     emit_array("QueueSink* const", "queue_" + name + "_sinks", sinks, out);
     emit_array("constexpr const char*", "queue_" + name + "_writers", writers, out);

@@ -1,6 +1,7 @@
 // Devices and units of a generated application: storage, initial values, connections, records.
 #include "config-gen/emit/application_parts.hpp"
 #include "config-gen/emit/component.hpp"
+#include "config-gen/model/ports.hpp"
 #include "config-gen/urdf/urdf_reader.hpp"
 
 namespace flexrf::config_gen {
@@ -51,36 +52,63 @@ std::string emit_driver_runtime(const Model& model, const Device& device, const 
   return "&" + name;
 }
 
-// Connections of outputs, in the order of the table, slots and queues apart.
-struct OutputsText {
-  std::string slots;   // initialisers of SlotControl*
-  std::string queues;  // initialisers of span<QueueSink* const>
-};
-
-OutputsText emit_outputs(const ApplicationNames& names, const std::vector<OutputPort>& ports,
-                         const std::vector<OutputConnection>& connections, Writer::Kind kind, Index owner,
-                         const std::string& prefix, Text& out) {
-  OutputsText text;
-  for (Index port = 0; port < ports.size(); ++port) {
-    if (!ports[port].queue) {
-      text.slots += (text.slots.empty() ? "" : ", ") + slot_or_null(names, connections[port].slot);
-      continue;
-    }
-    const std::string sinks = names.sinks_of(connections[port], kind, owner, port);
-    const std::string name = prefix + "_" + std::to_string(port) + "_sinks";
-    emit_array("QueueSink* const", name, sinks, out);
-    text.queues += (text.queues.empty() ? "" : ", ") + array_or_none(name, sinks);
+// The members of a range and their readers, or the one reader of a plain input.
+std::string input_binding(const Model& model, const ApplicationNames& names, const PortOwner& owner,
+                          Index port, const std::string& prefix, Text& out) {
+  const PortSet ports = ports_of(model, owner);
+  const InputPort& input = ports.inputs[port];
+  const std::vector<Index>& slots = ports.from[port].slots;
+  if (slots.empty()) return "{}";
+  std::string members = "nullptr";
+  if (input.range) {
+    members = prefix + "_" + std::to_string(port) + "_members";
+    out << "alignas(cache_line) constinit Input<"
+        << application_space.of(model.types[input.type], model.types[input.type].name) << "> " << members
+        << "[" << slots.size() << "]{};\n";
   }
-  emit_array("SlotControl* const", prefix + "_outputs", text.slots, out);
-  emit_array("constexpr std::span<QueueSink* const>", prefix + "_queue_outputs", text.queues, out);
-  return text;
+  return "{" + names.reader_of(owner, port) + ", " + std::to_string(slots.size()) + ", " +
+         duration_literal(input.max_age.value_or(0)) + ", " + members + "}";
 }
 
-std::string port_binding(const ApplicationNames& names, const std::optional<Index>& thread,
-                         const std::string& prefix, const OutputsText& outputs) {
-  return "{&context_" + names.thread(thread.value_or(0)) + ", " +
-         array_or_none(prefix + "_outputs", outputs.slots) + ", " +
-         array_or_none(prefix + "_queue_outputs", outputs.queues) + "}";
+// A PortBinding of all that these owners have, one after the other: slots and queues apart, in the order of
+// their tables. Of a device they are its interface, and a driver of it.
+std::string port_binding(const Model& model, const ApplicationNames& names,
+                         const std::vector<PortOwner>& owners, const std::string& prefix, Text& out) {
+  std::string inputs, queue_inputs, outputs, queue_outputs;
+  const auto add = [](std::string& list, const std::string& one) {
+    list += (list.empty() ? "" : ", ") + one;
+  };
+  Index output = 0;
+  for (const PortOwner& owner : owners) {
+    const PortSet ports = ports_of(model, owner);
+    for (Index port = 0; port < ports.inputs.size(); ++port) {
+      if (ports.inputs[port].queue) {
+        const std::optional<Index>& queue = ports.from[port].queue;
+        add(queue_inputs, queue ? names.source(*queue) : "nullptr");
+      } else {
+        add(inputs, input_binding(model, names, owner, port, prefix, out));
+      }
+    }
+    for (Index port = 0; port < ports.outputs.size(); ++port, ++output) {
+      if (!ports.outputs[port].queue) {
+        add(outputs, slot_or_null(names, ports.to[port].slot));
+        continue;
+      }
+      const std::string sinks = names.sinks_of(ports.to[port], owner, port);
+      const std::string name = prefix + "_" + std::to_string(output) + "_sinks";
+      emit_array("QueueSink* const", name, sinks, out);
+      add(queue_outputs, array_or_none(name, sinks));
+    }
+  }
+  emit_array("constexpr InputBinding", prefix + "_inputs", inputs, out);
+  emit_array("QueueSource* const", prefix + "_queue_inputs", queue_inputs, out);
+  emit_array("SlotControl* const", prefix + "_outputs", outputs, out);
+  emit_array("constexpr std::span<QueueSink* const>", prefix + "_queue_outputs", queue_outputs, out);
+  const std::optional<Index> thread = ports_of(model, owners.front()).thread;
+  return "{&context_" + names.thread(thread.value_or(0)) + ", " + array_or_none(prefix + "_inputs", inputs) +
+         ", " + array_or_none(prefix + "_queue_inputs", queue_inputs) + ", " +
+         array_or_none(prefix + "_outputs", outputs) + ", " +
+         array_or_none(prefix + "_queue_outputs", queue_outputs) + "}";
 }
 
 // What differs in the records of units and devices without being of one of them alone.
@@ -123,14 +151,30 @@ std::string emit_resources(const Model& model, const Device& device, const std::
   return array_or_none(prefix + "_resources", list);
 }
 
-std::string emit_drivers(const Model& model, const Device& device, const std::string& prefix, Text& out) {
+// Of a driver with ports of its own; else nothing.
+std::string emit_driver_ports(const Model& model, const ApplicationNames& names, const PortOwner& owner,
+                              const std::string& prefix, Text& out) {
+  const PortSet ports = ports_of(model, owner);
+  if (ports.inputs.empty() && ports.outputs.empty()) return "";
+  const std::string binding =
+      port_binding(model, names, {{PortOwner::Kind::device, owner.component, 0}, owner}, prefix, out);
+  out << "constexpr PortBinding " << prefix << "_ports = " << binding << ";\n";
+  return "&" + prefix + "_ports";
+}
+
+std::string emit_drivers(const Model& model, const ApplicationNames& names, Index index,
+                         const std::string& prefix, Text& out) {
+  const Device& device = model.devices[index];
   const Interface& interface = model.interfaces[device.interface];
   Text records;
   const std::string common_runtime =
       emit_values(model, application_space.of(interface, block_struct_name(interface.class_name, "Runtime")),
                   prefix + "_runtime", {{&interface.runtime, &device.runtime}}, out);
-  for (const DriverChoice& choice : device.drivers) {
+  for (Index place = 0; place < device.drivers.size(); ++place) {
+    const DriverChoice& choice = device.drivers[place];
     const Driver& driver = model.drivers[choice.driver];
+    const std::string ports = emit_driver_ports(model, names, {PortOwner::Kind::driver, index, place},
+                                                prefix + "_" + driver.stem, out);
     const std::string runtime =
         driver.runtime.empty() ? common_runtime : emit_driver_runtime(model, device, choice, prefix, out);
     const std::string configuration = emit_values(
@@ -146,57 +190,23 @@ std::string emit_drivers(const Model& model, const Device& device, const std::st
             << application_space.of(driver, driver_construct_name(driver)) << ", &"
             << application_space.of(driver, driver_component_name(driver)) << ", " << configuration << ", "
             << runtime
-            << (driver.options.empty() ? ""
-                                       : ", " + application_space.of(driver, driver_options_name(driver)))
-            << "},\n";
+            << (!driver.options.empty() ? ", " + application_space.of(driver, driver_options_name(driver))
+                : !ports.empty()        ? ", {}"
+                                        : "")
+            << (ports.empty() ? "" : ", " + ports) << "},\n";
   }
   out << "constexpr DriverRecord " << prefix << "_drivers[] = {\n" << records.str() << "};\n";
   return prefix + "_drivers";
 }
 
-// The members of a range and their readers, or the one reader of a plain input.
-std::string input_binding(const Model& model, const ApplicationNames& names, Index index, Index port,
-                          const std::string& prefix, Text& out) {
-  const Unit& unit = model.units[index];
-  const InputPort& input = model.unit_types[unit.type].inputs[port];
-  const std::vector<Index>& slots = unit.inputs[port].slots;
-  if (slots.empty()) return "{}";
-  std::string members = "nullptr";
-  if (input.range) {
-    members = prefix + "_" + std::to_string(port) + "_members";
-    out << "alignas(cache_line) constinit Input<"
-        << application_space.of(model.types[input.type], model.types[input.type].name) << "> " << members
-        << "[" << slots.size() << "]{};\n";
-  }
-  return "{" + names.reader_of(index, port) + ", " + std::to_string(slots.size()) + ", " +
-         duration_literal(input.max_age.value_or(0)) + ", " + members + "}";
-}
-
 std::string emit_binding(const Model& model, const ApplicationNames& names, Index index,
                          const std::string& prefix, Text& out) {
-  const Unit& unit = model.units[index];
-  const UnitType& type = model.unit_types[unit.type];
-  std::string inputs, queue_inputs;
-  for (Index port = 0; port < type.inputs.size(); ++port) {
-    if (type.inputs[port].queue) {
-      const std::optional<Index>& queue = unit.inputs[port].queue;
-      queue_inputs += (queue_inputs.empty() ? "" : ", ") + (queue ? names.source(*queue) : "nullptr");
-    } else {
-      inputs += (inputs.empty() ? "" : ", ") + input_binding(model, names, index, port, prefix, out);
-    }
-  }
-  const std::string devices = list_of(unit.devices, [](const std::optional<Index>& device) {
+  const std::string ports = port_binding(model, names, {{PortOwner::Kind::unit, index, 0}}, prefix, out);
+  const std::string devices = list_of(model.units[index].devices, [](const std::optional<Index>& device) {
     return "&constructed_devices[" + std::to_string(device.value_or(0)) + "]";
   });
-  emit_array("constexpr InputBinding", prefix + "_inputs", inputs, out);
-  emit_array("QueueSource* const", prefix + "_queue_inputs", queue_inputs, out);
-  const OutputsText outputs =
-      emit_outputs(names, type.outputs, unit.outputs, Writer::Kind::unit_output, index, prefix, out);
   emit_array("constexpr Device* const*", prefix + "_devices", devices, out);
-  return "{" + port_binding(names, unit.thread, prefix, outputs) + ", " +
-         array_or_none(prefix + "_inputs", inputs) + ", " +
-         array_or_none(prefix + "_queue_inputs", queue_inputs) + ", " +
-         array_or_none(prefix + "_devices", devices) + "}";
+  return "{" + ports + ", " + array_or_none(prefix + "_devices", devices) + "}";
 }
 
 const char* restart_policy(Unit::Restart restart) {
@@ -245,17 +255,16 @@ void emit_devices(const Model& model, const ApplicationNames& names, Text& out,
         device.drivers, [&](const DriverChoice& choice) { return size_name(model.drivers[choice.driver]); });
     out << "\nalignas(cache_line) std::byte " << prefix << "[std::max({" << each_size << "})];\n";
     sizes.push_back("sizeof(" + prefix + ")");
-    const OutputsText outputs =
-        emit_outputs(names, interface.outputs, device.outputs, Writer::Kind::device_output, i, prefix, out);
+    const std::string ports = port_binding(model, names, {{PortOwner::Kind::device, i, 0}}, prefix, out);
     const std::string resources = emit_resources(model, device, prefix, out);
-    const std::string drivers = emit_drivers(model, device, prefix, out);
+    const std::string drivers = emit_drivers(model, names, i, prefix, out);
     const Common common{static_cast<Index>(model.units.size() + i), "device", level_of(model, device),
                         device.initialise_timeout};
     records << "    {" << common_part(names, device, common, interface.summary, prefix)
             << "},\n     {.interface = \"" << interface.class_name << "\",\n      .drivers = " << drivers
             << instead_of(device) << ",\n      .instance = &constructed_devices[" << i
-            << "],\n      .binding = {" << port_binding(names, device.thread, prefix, outputs) << ", "
-            << resources << ", nullptr},\n      .bus = " << index_or_none(device.bus)
+            << "],\n      .binding = {" << ports << ", " << resources
+            << ", nullptr},\n      .bus = " << index_or_none(device.bus)
             << ",\n      .unit = " << index_or_none(device.owner_unit) << "}},\n";
   }
   out << "\nconstexpr DeviceRecord devices_table[] = {\n" << records.str() << "};\n";

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "config-gen/model/ports.hpp"
+
 namespace flexrf::config_gen {
 namespace {
 
@@ -38,44 +40,45 @@ void ApplicationNames::place_readers(Index thread, Diagnostics& diagnostics) {
   std::vector<Index>& readers = readers_[thread];
   std::map<Index, std::size_t> shared;
   const auto each_input = [&](bool held, bool range, const auto& act) {
-    for (const Index unit : model.threads[thread].units) {
-      const std::vector<InputPort>& ports = model.unit_types[model.units[unit].type].inputs;
-      for (Index port = 0; port < ports.size(); ++port) {
-        const std::vector<Index>& slots = model.units[unit].inputs[port].slots;
-        if (slots.empty() || ports[port].hold != held || (!held && (slots.size() > 1) != range)) continue;
-        act(unit, port, slots);
+    for (const PortOwner& owner : owners_in_thread(model, model.threads[thread])) {
+      const PortSet ports = ports_of(model, owner);
+      for (Index port = 0; port < ports.inputs.size(); ++port) {
+        const std::vector<Index>& slots = ports.from[port].slots;
+        if (slots.empty() || ports.inputs[port].hold != held || (!held && (slots.size() > 1) != range))
+          continue;
+        act(owner, port, slots);
       }
     }
   };
-  each_input(false, true, [&](Index unit, Index port, const std::vector<Index>& slots) {
+  each_input(false, true, [&](const PortOwner& owner, Index port, const std::vector<Index>& slots) {
     const auto known = shared.find(slots.front());
     const std::size_t first = known == shared.end() ? readers.size() : known->second;
     for (std::size_t i = 0; i < slots.size(); ++i) {
       if (first + i == readers.size()) readers.push_back(slots[i]);
       if (readers[first + i] != slots[i]) {
         diagnostics.error(
-            model.units[unit].inputs[port].position,
-            "input '" + reader_text(model, {unit, port, {}}) + "' reads a part of what another range reads",
+            ports_of(model, owner).from[port].position,
+            "input '" + reader_text(model, {owner, port, {}}) + "' reads a part of what another range reads",
             "let both read the same range");
         return;
       }
       shared.emplace(slots[i], first + i);
     }
-    places_[{unit, port}] = {thread, first};
+    places_[{owner, port}] = {thread, first};
   });
-  each_input(false, false, [&](Index unit, Index port, const std::vector<Index>& slots) {
+  each_input(false, false, [&](const PortOwner& owner, Index port, const std::vector<Index>& slots) {
     const auto [place, is_new] = shared.try_emplace(slots.front(), readers.size());
     if (is_new) readers.push_back(slots.front());
-    places_[{unit, port}] = {thread, place->second};
+    places_[{owner, port}] = {thread, place->second};
   });
-  each_input(true, false, [&](Index unit, Index port, const std::vector<Index>& slots) {
-    places_[{unit, port}] = {thread, readers.size()};
+  each_input(true, false, [&](const PortOwner& owner, Index port, const std::vector<Index>& slots) {
+    places_[{owner, port}] = {thread, readers.size()};
     readers.insert(readers.end(), slots.begin(), slots.end());
   });
 }
 
-std::string ApplicationNames::reader_of(Index unit, Index port) const {
-  const auto& [thread, place] = places_.at({unit, port});
+std::string ApplicationNames::reader_of(const PortOwner& owner, Index port) const {
+  const auto& [thread, place] = places_.at({owner, port});
   return "&readers_" + threads_[thread] + "[" + std::to_string(place) + "]";
 }
 
@@ -93,13 +96,13 @@ std::string ApplicationNames::source(Index queue) const {
   return is_ring ? sink(queue, 0) : "&queue_" + queues_[queue];
 }
 
-std::string ApplicationNames::sinks_of(const OutputConnection& output, Writer::Kind kind, Index owner,
+std::string ApplicationNames::sinks_of(const OutputConnection& output, const PortOwner& owner,
                                        Index port) const {
   std::string list;
   for (const Index queue : output.queues) {
     const std::vector<Writer>& writers = model_.queues[queue].writers;
     for (std::size_t i = 0; i < writers.size(); ++i) {
-      if (writers[i].kind == kind && writers[i].owner == owner && writers[i].port == port) {
+      if (writers[i].owner == owner && writers[i].port == port) {
         list += (list.empty() ? "" : ", ") + sink(queue, i);
       }
     }
@@ -108,23 +111,23 @@ std::string ApplicationNames::sinks_of(const OutputConnection& output, Writer::K
 }
 
 std::string writer_text(const Model& model, const Writer& writer) {
-  switch (writer.kind) {
-    case Writer::Kind::unit_output: {
-      const Unit& unit = model.units[writer.owner];
-      return unit.name + "." + model.unit_types[unit.type].outputs[writer.port].name;
-    }
-    case Writer::Kind::device_output: {
-      const Device& device = model.devices[writer.owner];
-      return device.name + "." + model.interfaces[device.interface].outputs[writer.port].name;
-    }
-    default:
-      return "";
-  }
+  if (writer.kind != Writer::Kind::output) return "";
+  const PortSet ports = ports_of(model, writer.owner);
+  return ports.name + "." + ports.outputs[writer.port].name;
 }
 
 std::string reader_text(const Model& model, const InputReference& input) {
-  const Unit& unit = model.units[input.unit];
-  return unit.name + "." + model.unit_types[unit.type].inputs[input.port].name;
+  const PortSet ports = ports_of(model, input.owner);
+  return ports.name + "." + ports.inputs[input.port].name;
+}
+
+std::vector<std::string> reader_texts(const Model& model, const std::vector<InputReference>& readers) {
+  std::vector<std::string> texts;
+  for (const InputReference& reader : readers) {
+    std::string text = reader_text(model, reader);
+    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(std::move(text));
+  }
+  return texts;
 }
 
 }  // namespace flexrf::config_gen

@@ -24,7 +24,7 @@ class ApplicationNames {
 
   // The first reader of an input, "&readers_control[3]". An input with several slots has one per slot from
   // there on.
-  std::string reader_of(Index unit, Index port) const;
+  std::string reader_of(const PortOwner& owner, Index port) const;
   // The slots that a thread's readers read, in the order of its array.
   const std::vector<Index>& readers(Index thread) const { return readers_[thread]; }
   // Slots with an observer, in slot order, and the place of each in the array of observers.
@@ -35,7 +35,7 @@ class ApplicationNames {
   std::string sink(Index queue, std::size_t writer) const;  // "&ring_keys_0"
   std::string source(Index queue) const;                    // "&ring_keys_0", "&queue_keys"
   // The sinks of one output, one per queue that it fans out to.
-  std::string sinks_of(const OutputConnection& output, Writer::Kind kind, Index owner, Index port) const;
+  std::string sinks_of(const OutputConnection& output, const PortOwner& owner, Index port) const;
 
  private:
   const Model& model_;
@@ -43,7 +43,7 @@ class ApplicationNames {
 
   std::vector<std::string> slots_, queues_, units_, devices_, threads_;
   std::vector<std::vector<Index>> readers_;
-  std::map<std::pair<Index, Index>, std::pair<Index, std::size_t>> places_;  // unit, port: thread, place
+  std::map<std::pair<PortOwner, Index>, std::pair<Index, std::size_t>> places_;  // port: thread, place
   std::vector<Index> observers_;
   std::map<Index, std::size_t> observer_places_;
 };
@@ -51,5 +51,7 @@ class ApplicationNames {
 // "jog.target"; "" for what the executive writes on behalf of a unit or device.
 std::string writer_text(const Model& model, const Writer& writer);
 std::string reader_text(const Model& model, const InputReference& input);
+// Each once: two drivers of a device may read by ports of one name.
+std::vector<std::string> reader_texts(const Model& model, const std::vector<InputReference>& readers);
 
 }  // namespace flexrf::config_gen

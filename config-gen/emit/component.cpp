@@ -52,12 +52,6 @@ void define_needs(const BlockText& block, Text& out) {
   }
 }
 
-void define_port(std::string_view runtime, std::string_view name, std::string_view direction,
-                 std::string_view type, std::string_view summary, bool operated, Text& out) {
-  out << "    {\"" << name << "\", " << runtime << "PortDescriptor::Direction::" << direction << ", \""
-      << type << "\", " << string_literal(summary) << ", " << bool_literal(operated) << "},\n";
-}
-
 }  // namespace
 
 std::string block_struct_name(const std::string& class_name, std::string_view what) {
@@ -123,37 +117,6 @@ void define_parameters(const BlockText& block, bool exported, Text& out) {
 std::string block_initialiser(const BlockText& block) {
   if (block.empty()) return "{}";
   return "{&" + block.plain.identifier + "_descriptor, " + block.plain.identifier + "_parameters}";
-}
-
-void define_ports(const Model& model, const UnitType& unit, Text& out) {
-  if (unit.inputs.empty() && unit.outputs.empty() && unit.devices.empty()) return;
-  const std::string_view runtime = Space(unit.space).runtime();
-  out << "constexpr " << runtime << "PortDescriptor " << unit.name << "_unit_ports[] = {\n";
-  for (const InputPort& port : unit.inputs) {
-    const Type& type = model.types[port.type];
-    define_port(runtime, port.name, port.queue ? "queue_input" : "input", type.name, port.summary,
-                type.operated, out);
-  }
-  for (const OutputPort& port : unit.outputs) {
-    define_port(runtime, port.name, port.queue ? "queue_output" : "output", model.types[port.type].name,
-                port.summary, false, out);
-  }
-  for (const DevicePort& port : unit.devices) {
-    const Interface& interface = model.interfaces[port.interface];
-    define_port(runtime, port.name, "device", interface.class_name, port.summary, interface.operated, out);
-  }
-  out << "};\n";
-}
-
-void define_ports(const Model& model, const Interface& interface, const Space& space, Text& out) {
-  if (interface.outputs.empty()) return;
-  const std::string_view runtime = space.runtime();
-  out << "constexpr " << runtime << "PortDescriptor " << interface.name << "_ports[] = {\n";
-  for (const OutputPort& port : interface.outputs) {
-    define_port(runtime, port.name, port.queue ? "queue_output" : "output", model.types[port.type].name,
-                port.summary, false, out);
-  }
-  out << "};\n";
 }
 
 std::string unit_component_name(const UnitType& unit) {

@@ -1,4 +1,4 @@
-// What unit bases, interface bases and driver bases have in common: parameter blocks, ports, ComponentType.
+// What unit bases, interface bases and driver bases have in common: parameter blocks, ComponentType.
 #pragma once
 
 #include <string>
@@ -25,9 +25,6 @@ BlockText block_text(const Model& model, const std::string& class_name, const Sp
 void define_parameters(const BlockText& block, bool exported, Text& out);
 // "{&jog_runtime_descriptor, jog_runtime_parameters}", or "{}".
 std::string block_initialiser(const BlockText& block);
-
-void define_ports(const Model& model, const UnitType& unit, Text& out);
-void define_ports(const Model& model, const Interface& interface, const Space& space, Text& out);
 
 // Of a driver: the struct Options of its base; the table, and the function that fills the struct.
 void declare_options(const Driver& driver, const std::string& prefix, Text& out);

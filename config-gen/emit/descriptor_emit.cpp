@@ -7,6 +7,7 @@
 #include "config-gen/emit/emit.hpp"
 #include "config-gen/emit/plain_struct.hpp"
 #include "config-gen/model/layout.hpp"
+#include "config-gen/model/ports.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -163,19 +164,26 @@ Json port_json(const Model& model, const OutputPort& port) {
   return json;
 }
 
+Json port_json(const Model& model, const InputPort& port) {
+  Json json = {{"name", port.name}, {port.queue ? "queue" : "type", model.types[port.type].name}};
+  if (port.max_age) json["max_age_ns"] = *port.max_age;
+  if (port.hold) json["hold"] = true;
+  if (port.range) json["range"] = true;
+  if (port.history) json["history"] = true;
+  if (port.optional) json["optional"] = true;
+  json["summary"] = port.summary;
+  return json;
+}
+
+void add_ports(const Model& model, const std::vector<InputPort>& inputs,
+               const std::vector<OutputPort>& outputs, Json& json) {
+  for (const InputPort& port : inputs) json["inputs"].push_back(port_json(model, port));
+  for (const OutputPort& port : outputs) json["outputs"].push_back(port_json(model, port));
+}
+
 Json unit_type_json(const Model& model, const UnitType& type, Json& types) {
   Json json = {{"name", type.name}, {"class", type.class_name}, {"summary", type.summary}};
-  for (const InputPort& port : type.inputs) {
-    Json input = {{"name", port.name}, {port.queue ? "queue" : "type", model.types[port.type].name}};
-    if (port.max_age) input["max_age_ns"] = *port.max_age;
-    if (port.hold) input["hold"] = true;
-    if (port.range) input["range"] = true;
-    if (port.history) input["history"] = true;
-    if (port.optional) input["optional"] = true;
-    input["summary"] = port.summary;
-    json["inputs"].push_back(std::move(input));
-  }
-  for (const OutputPort& port : type.outputs) json["outputs"].push_back(port_json(model, port));
+  add_ports(model, type.inputs, type.outputs, json);
   for (const DevicePort& port : type.devices) {
     json["devices"].push_back({{"name", port.name},
                                {"interface", model.interfaces[port.interface].class_name},
@@ -196,7 +204,7 @@ Json unit_type_json(const Model& model, const UnitType& type, Json& types) {
 Json interface_json(const Model& model, const Interface& interface, Json& types) {
   Json json = {{"name", interface.class_name}, {"summary", interface.summary}};
   if (interface.bus) json["bus"] = true;
-  for (const OutputPort& port : interface.outputs) json["outputs"].push_back(port_json(model, port));
+  add_ports(model, {}, interface.outputs, json);
   add_block(model, interface.class_name, "runtime", "Runtime", {&interface.runtime}, json);
   add_block(model, interface.class_name, "feedback", "Feedback", {&interface.feedback}, json);
   for (const auto& [what, block] :
@@ -230,6 +238,7 @@ Json driver_json(const Model& model, const Driver& driver, Json& types) {
                {"actuates", driver.actuates},
                {"virtual_time", driver.virtual_time},
                {"summary", driver.summary}};
+  add_ports(model, driver.inputs, driver.outputs, json);
   add_block(model, driver.class_name, "configuration", "Configuration",
             {&interface.configuration, &driver.configuration}, json);
   add_struct(model, driver_configuration(model, driver), types);
@@ -284,7 +293,27 @@ Json output_json(const Model& model, const OutputPort& port, const OutputConnect
   return list;
 }
 
-Json unit_json(const Model& model, const Unit& unit) {
+Json input_json(const Model& model, const InputPort& port, const InputConnection& input) {
+  if (port.range) {
+    Json list = Json::array();
+    for (const Index slot : input.slots) list.push_back(model.slots[slot].name);
+    return list;
+  }
+  if (input.queue) return model.queues[*input.queue].name;
+  return input.slots.empty() ? Json(nullptr) : Json(model.slots[input.slots.front()].name);
+}
+
+// Of each port by its name the slot or queue.
+void add_connections(const Model& model, const PortOwner& owner, Json& json) {
+  const PortSet ports = ports_of(model, owner);
+  for (std::size_t i = 0; i < ports.inputs.size(); ++i)
+    json["inputs"][ports.inputs[i].name] = input_json(model, ports.inputs[i], ports.from[i]);
+  for (std::size_t i = 0; i < ports.outputs.size(); ++i)
+    json["outputs"][ports.outputs[i].name] = output_json(model, ports.outputs[i], ports.to[i]);
+}
+
+Json unit_json(const Model& model, Index index) {
+  const Unit& unit = model.units[index];
   const UnitType& type = model.unit_types[unit.type];
   Json json = {{"name", unit.name}, {"type", type.name}};
   if (unit.thread) json["thread"] = model.threads[*unit.thread].name;
@@ -293,20 +322,7 @@ Json unit_json(const Model& model, const Unit& unit) {
     json["member"] = unit.member;
     json["active"] = unit.active;
   }
-  for (std::size_t i = 0; i < type.inputs.size(); ++i) {
-    Json& input = json["inputs"][type.inputs[i].name] = nullptr;
-    const InputConnection& connection = unit.inputs[i];
-    if (connection.queue) input = model.queues[*connection.queue].name;
-    if (type.inputs[i].range) {
-      input = Json::array();
-      for (const Index slot : connection.slots) input.push_back(model.slots[slot].name);
-    } else if (!connection.slots.empty()) {
-      input = model.slots[connection.slots.front()].name;
-    }
-  }
-  for (std::size_t i = 0; i < type.outputs.size(); ++i) {
-    json["outputs"][type.outputs[i].name] = output_json(model, type.outputs[i], unit.outputs[i]);
-  }
+  add_connections(model, {PortOwner::Kind::unit, index, 0}, json);
   for (std::size_t i = 0; i < type.devices.size(); ++i) {
     if (unit.devices[i]) json["devices"][type.devices[i].name] = model.devices[*unit.devices[i]].name;
   }
@@ -332,14 +348,17 @@ Json joints_json(const UrdfChain& chain) {
   return list;
 }
 
-Json device_json(const Model& model, const Device& device) {
+Json device_json(const Model& model, Index index) {
+  const Device& device = model.devices[index];
   const Interface& interface = model.interfaces[device.interface];
   Json json = {{"name", device.name}, {"interface", interface.class_name}};
   for (std::size_t i = 0; i < interface.units.size() && i < device.units.size(); ++i)
     json["units"][interface.units[i].name] = device.units[i];
-  for (const DriverChoice& choice : device.drivers) {
+  for (Index place = 0; place < device.drivers.size(); ++place) {
+    const DriverChoice& choice = device.drivers[place];
     const Driver& driver = model.drivers[choice.driver];
     Json one = {{"driver", driver.name}, {"type", driver.stem}};
+    add_connections(model, {PortOwner::Kind::driver, index, place}, one);
     Json values = values_json(model, interface.configuration, device.configuration);
     values.update(values_json(model, driver.configuration, choice.configuration));
     if (!values.empty()) one["configuration"] = std::move(values);
@@ -349,9 +368,7 @@ Json device_json(const Model& model, const Device& device) {
   if (device.bus) json["on"] = model.devices[*device.bus].name;
   if (device.owner_unit) json["unit"] = model.units[*device.owner_unit].name;
   if (device.thread) json["thread"] = model.threads[*device.thread].name;
-  for (std::size_t i = 0; i < interface.outputs.size(); ++i) {
-    json["outputs"][interface.outputs[i].name] = output_json(model, interface.outputs[i], device.outputs[i]);
-  }
+  add_connections(model, {PortOwner::Kind::device, index, 0}, json);
   if (device.values_slot) json["values_slot"] = model.slots[*device.values_slot].name;
   if (device.feedback_slot) json["feedback_slot"] = model.slots[*device.feedback_slot].name;
   add_values(model, "runtime", interface.runtime, device.runtime, json);
@@ -364,19 +381,19 @@ Json device_json(const Model& model, const Device& device) {
   return json;
 }
 
-template <class Readers>
-Json readers_json(const Model& model, const Readers& readers) {
+Json readers_json(const Model& model, const std::vector<InputReference>& readers) {
   Json list = Json::array();
-  for (const InputReference& reader : readers) list.push_back(reader_text(model, reader));
+  for (std::string& reader : reader_texts(model, readers)) list.push_back(std::move(reader));
   return list;
 }
 
 // Of a slot of a device's parameters: the structs of drivers that have more than their interface.
 Json driver_types_json(const Model& model, const Slot& slot) {
   Json json = Json::object();
-  const bool is_runtime = slot.writer.kind == Writer::Kind::device_values;
-  if (!is_runtime && slot.writer.kind != Writer::Kind::device_feedback) return json;
-  for (const DriverChoice& choice : model.devices[slot.writer.owner].drivers) {
+  const Writer& writer = slot.writer;
+  if (writer.kind == Writer::Kind::output || writer.owner.kind != PortOwner::Kind::device) return json;
+  const bool is_runtime = writer.kind == Writer::Kind::values;
+  for (const DriverChoice& choice : model.devices[writer.owner.component].drivers) {
     const Driver& driver = model.drivers[choice.driver];
     if ((is_runtime ? driver.runtime : driver.feedback).empty()) continue;
     json[driver.name] = block_struct_name(driver.class_name, is_runtime ? "Runtime" : "Feedback");
@@ -384,7 +401,19 @@ Json driver_types_json(const Model& model, const Slot& slot) {
   return json;
 }
 
-Json slot_json(const Model& model, const Slot& slot) {
+// Of a slot that drivers write: the port of each, by driver.
+Json driver_writers_json(const Model& model, Index slot) {
+  Json json = Json::object();
+  for (const Writer& writer : writers_of(model, slot)) {
+    if (writer.owner.kind != PortOwner::Kind::driver) continue;
+    const DriverChoice& choice = model.devices[writer.owner.component].drivers[writer.owner.choice];
+    json[model.drivers[choice.driver].name] = writer_text(model, writer);
+  }
+  return json;
+}
+
+Json slot_json(const Model& model, Index index) {
+  const Slot& slot = model.slots[index];
   Json json = {{"name", slot.name},
                {"type", common_type_name(model, slot)},
                {"writer", writer_text(model, slot.writer)},
@@ -395,6 +424,8 @@ Json slot_json(const Model& model, const Slot& slot) {
                {"history", slot.history}};
   if (slot.elements > 0) json["elements"] = slot.elements;
   if (Json types = driver_types_json(model, slot); !types.empty()) json["driver_types"] = std::move(types);
+  if (Json writers = driver_writers_json(model, index); !writers.empty())
+    json["driver_writers"] = std::move(writers);
   json["summary"] = slot.summary;
   return json;
 }
@@ -485,15 +516,19 @@ Json application_json(const Model& model) {
           [&](const Interface& row) { return interface_json(model, row, types); });
   add_all("drivers", model.drivers, [&](const Driver& row) { return driver_json(model, row, types); });
   json["types"] = std::move(types);
-  add_all("devices", model.devices, [&](const Device& row) { return device_json(model, row); });
-  add_all("units", model.units, [&](const Unit& row) { return unit_json(model, row); });
+  const auto add_each = [&](const char* key, std::size_t count, const auto& make) {
+    json[key] = Json::array();
+    for (Index index = 0; index < count; ++index) json[key].push_back(make(index));
+  };
+  add_each("devices", model.devices.size(), [&](Index index) { return device_json(model, index); });
+  add_each("units", model.units.size(), [&](Index index) { return unit_json(model, index); });
   add_all("populations", model.populations, [&](const Population& row) {
     return Json{{"name", row.name}, {"capacity", row.capacity}, {"active", row.active}};
   });
   add_all("groups", model.groups, [&](const GroupInstance& row) {
     return Json{{"name", row.name}, {"table", row.table}};
   });
-  add_all("slots", model.slots, [&](const Slot& row) { return slot_json(model, row); });
+  add_each("slots", model.slots.size(), [&](Index index) { return slot_json(model, index); });
   add_all("queues", model.queues, [&](const Queue& row) { return queue_json(model, row); });
   add_all("threads", model.threads, [&](const Thread& row) { return thread_json(model, row); });
   json["panel"] = {{"connections", model.panel.connections}};

@@ -2,6 +2,7 @@
 #include <tuple>
 
 #include "config-gen/emit/component.hpp"
+#include "config-gen/emit/port_emit.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -50,6 +51,19 @@ std::string guard_check(const Interface& interface, const Driver& driver, const 
          ");\n";
 }
 
+Ports ports_of(const Interface& interface) {
+  return {{}, interface.outputs};
+}
+Ports own_ports_of(const Driver& driver) {
+  return {driver.inputs, driver.outputs};
+}
+// Of a device with this driver: the interface's first.
+Ports ports_of(const Interface& interface, const Driver& driver) {
+  Ports ports{driver.inputs, interface.outputs};
+  ports.outputs.insert(ports.outputs.end(), driver.outputs.begin(), driver.outputs.end());
+  return ports;
+}
+
 bool connects(const Interface& interface) {
   return !interface.outputs.empty() || !interface.resources.empty();
 }
@@ -87,10 +101,7 @@ std::string interface_base_header(const Model& model, const Interface& interface
   std::set<std::string> system, own{"runtime/device/device.hpp"};
   if (!runtime.empty()) add_includes(model, runtime.plain, system, own);
   if (!feedback.empty()) add_includes(model, feedback.plain, system, own);
-  for (const OutputPort& port : interface.outputs) {
-    own.insert(type_header(model.types[port.type]));
-    own.insert("runtime/blackboard/ports.hpp");
-  }
+  add_port_includes(model, ports_of(interface), own);
   for (const Resource& resource : interface.resources) own.insert(resource_header(resource.reader));
 
   Text out;
@@ -113,11 +124,7 @@ std::string interface_base_header(const Model& model, const Interface& interface
   Text members, places;
   if (!runtime.empty() || !feedback.empty())
     declare_values(runtime, feedback, base_of(interface), out, members, places);
-  for (const OutputPort& port : interface.outputs) {
-    members << "  " << prefix << (port.queue ? "QueueOutput<" : "Output<")
-            << space.of(model.types[port.type], model.types[port.type].name) << "> " << port.name
-            << ";  ///< " << comment_text(port.summary) << "\n";
-  }
+  declare_ports(model, space, ports_of(interface), members);
   for (const Resource& resource : interface.resources) {
     members << "  const " << prefix << resource_type(resource.reader) << "* " << resource.name
             << " = nullptr;  ///< " << comment_text(resource.summary) << "\n";
@@ -149,12 +156,7 @@ std::string interface_base_source(const Model& model, const Interface& interface
   }
   out << "void " << base_of(interface) << "::connect(const " << prefix << "DeviceBinding& "
       << (connects(interface) ? "binding" : "/*binding*/") << ") noexcept {\n";
-  std::size_t outputs = 0, queue_outputs = 0;
-  for (const OutputPort& port : interface.outputs) {
-    out << "  " << port.name << ".connect(binding.context, binding."
-        << (port.queue ? "queue_outputs" : "outputs") << "[" << (port.queue ? queue_outputs++ : outputs++)
-        << "]);\n";
-  }
+  connect_ports(ports_of(interface), {}, out);
   for (std::size_t i = 0; i < interface.resources.size(); ++i) {
     const Resource& resource = interface.resources[i];
     out << "  " << resource.name << " = static_cast<const " << prefix << resource_type(resource.reader)
@@ -171,6 +173,10 @@ std::string interface_base_source(const Model& model, const Interface& interface
 }
 
 namespace {
+
+bool connects(const Driver& driver) {
+  return driver.bus_interface || !own_ports_of(driver).empty();
+}
 
 std::string values_of(const Driver& driver) {
   return driver.class_name + "Values";
@@ -219,6 +225,7 @@ std::string driver_base_header(const Model& model, const Driver& driver) {
     if (!block->empty()) add_includes(model, block->plain, system, own);
   if (driver.bus_interface) own.insert(model.interfaces[*driver.bus_interface].header);
   if (!driver.options.empty()) own.insert("runtime/core/option.hpp");
+  add_port_includes(model, own_ports_of(driver), own);
 
   Text out;
   out << generated_note(driver.file) << "#pragma once\n\n"
@@ -237,11 +244,12 @@ std::string driver_base_header(const Model& model, const Driver& driver) {
   if (has_own_values || !configuration.empty()) out << "\n";
   if (!runtime.empty()) declare_own_accept(interface, face, prefix, out);
   declare_options(driver, prefix, out);
-  if (driver.bus_interface)
+  if (connects(driver))
     out << "  void connect(const " << prefix << "DeviceBinding& binding) noexcept final;\n";
+  declare_input_counters(space, own_ports_of(driver), out);
   out << "  const " << prefix << "ComponentType& component_type() const noexcept final;\n"
       << "  " << prefix << "ParameterMemory parameter_memory() noexcept final;\n";
-  if (has_own_values || driver.bus_interface || !configuration.empty() || !driver.options.empty())
+  if (has_own_values || connects(driver) || !configuration.empty() || !driver.options.empty())
     out << "\n protected:\n";
   if (has_own_values) {
     std::string shared;
@@ -261,6 +269,7 @@ std::string driver_base_header(const Model& model, const Driver& driver) {
     out << "  " << space.of(bus, bus.class_name)
         << "* bus = nullptr;  ///< What this device is reached through.\n";
   }
+  declare_ports(model, space, own_ports_of(driver), out);
   if (!configuration.empty()) out << "  Configuration configuration;\n";
   if (!driver.options.empty()) out << "  Options options() const noexcept;\n";
   out << "};\n\n";
@@ -291,7 +300,8 @@ std::string driver_base_source(const Model& model, const Driver& driver) {
   Text local;
   for (const BlockText* block : {&configuration, &runtime, &feedback})
     define_parameters(*block, false, local);
-  define_ports(model, interface, space, local);
+  const Ports ports = ports_of(interface, driver);
+  define_ports(model, space, driver.stem + "_driver_ports", ports, local);
   if (!local.str().empty()) out << "namespace {\n\n" << local.str() << "\n}  // namespace\n\n";
   out << "constinit const " << prefix << "ComponentType " << driver_component_name(driver) << "{\n    \""
       << driver.stem << "\", " << string_literal(driver.summary) << ",\n    "
@@ -301,14 +311,18 @@ std::string driver_base_source(const Model& model, const Driver& driver) {
       << ",\n    "
       << (feedback.empty() ? block_initialiser(feedback_of(model, interface), space, interface)
                            : block_initialiser(feedback))
-      << ",\n    " << (interface.outputs.empty() ? "{}" : interface.name + "_ports") << "};\n\n";
+      << ",\n    " << (ports.empty() ? "{}" : driver.stem + "_driver_ports") << "};\n\n";
   define_options(driver, prefix, out);
-  if (driver.bus_interface) {
-    const Interface& bus_interface = model.interfaces[*driver.bus_interface];
-    const std::string bus = space.of(bus_interface, bus_interface.class_name);
+  if (connects(driver)) {
     out << "void " << driver.base_class << "::connect(const " << prefix
         << "DeviceBinding& binding) noexcept {\n  " << space.of(interface, base_of(interface))
-        << "::connect(binding);\n  bus = static_cast<" << bus << "*>(binding.bus);\n}\n\n";
+        << "::connect(binding);\n";
+    if (driver.bus_interface) {
+      const Interface& bus = model.interfaces[*driver.bus_interface];
+      out << "  bus = static_cast<" << space.of(bus, bus.class_name) << "*>(binding.bus);\n";
+    }
+    connect_ports(own_ports_of(driver), interface.outputs, out);
+    out << "}\n\n";
   }
   if (!runtime.empty()) {
     out << prefix << "Status " << driver.base_class << "::accept_runtime(const void* proposed) noexcept {\n"
@@ -319,8 +333,9 @@ std::string driver_base_source(const Model& model, const Driver& driver) {
       << prefix << "ParameterMemory " << driver.base_class << "::parameter_memory() noexcept {\n  return {"
       << (configuration.empty() ? "nullptr" : "&configuration") << ", "
       << (has_runtime ? "&runtime" : "nullptr") << ", " << (has_feedback ? "&feedback" : "nullptr")
-      << "};\n}\n\n"
-      << space.close();
+      << "};\n}\n";
+  define_input_counters(space, driver.base_class, own_ports_of(driver), out);
+  out << "\n" << space.close();
   return out.take();
 }
 

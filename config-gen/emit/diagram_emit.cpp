@@ -1,6 +1,9 @@
 // The application as a picture: threads as boxes with their units in them, arrows along slots and queues.
+#include <algorithm>
+
 #include "config-gen/emit/application_names.hpp"
 #include "config-gen/emit/emit.hpp"
+#include "config-gen/model/ports.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -8,6 +11,8 @@ namespace {
 struct Arrow {
   std::string from, to, label;
   bool queue = false;
+
+  bool operator==(const Arrow&) const = default;
 };
 
 std::string unit_node(Index unit) {
@@ -17,23 +22,27 @@ std::string device_node(Index device) {
   return "device" + std::to_string(device);
 }
 
-std::string writer_node(const Writer& writer) {
-  return writer.kind == Writer::Kind::device_output ? device_node(writer.owner) : unit_node(writer.owner);
+std::string node_of(const PortOwner& owner) {
+  return owner.kind == PortOwner::Kind::unit ? unit_node(owner.component) : device_node(owner.component);
 }
 
+// Of what several drivers of a device write or read alike there is one.
 std::vector<Arrow> arrows_of(const Model& model) {
   std::vector<Arrow> arrows;
+  const auto add = [&](std::size_t before, const Writer& writer, const InputReference& input,
+                       const std::string& label, bool queue) {
+    Arrow arrow{node_of(writer.owner), node_of(input.owner), label, queue};
+    const auto first = arrows.begin() + static_cast<std::ptrdiff_t>(before);
+    if (std::find(first, arrows.end(), arrow) == arrows.end()) arrows.push_back(std::move(arrow));
+  };
   for (const Slot& slot : model.slots) {
-    for (const InputReference& input : slot.inputs) {
-      arrows.push_back({writer_node(slot.writer), unit_node(input.unit), slot.name, false});
-    }
+    const std::size_t before = arrows.size();
+    for (const InputReference& input : slot.inputs) add(before, slot.writer, input, slot.name, false);
   }
   for (const Queue& queue : model.queues) {
-    for (const Writer& writer : queue.writers) {
-      for (const InputReference& input : queue.readers) {
-        arrows.push_back({writer_node(writer), unit_node(input.unit), queue.name, true});
-      }
-    }
+    const std::size_t before = arrows.size();
+    for (const Writer& writer : queue.writers)
+      for (const InputReference& input : queue.readers) add(before, writer, input, queue.name, true);
   }
   return arrows;
 }

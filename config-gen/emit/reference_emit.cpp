@@ -2,6 +2,7 @@
 #include "config-gen/emit/application_names.hpp"
 #include "config-gen/emit/component.hpp"
 #include "config-gen/emit/emit.hpp"
+#include "config-gen/emit/port_emit.hpp"
 #include "config-gen/model/layout.hpp"
 #include "config-gen/model/words.hpp"
 
@@ -80,10 +81,11 @@ void parameters(const Model& model, std::string_view title, const std::vector<co
       << rows.str();
 }
 
-void ports(const Model& model, const UnitType& unit, Text& out) {
-  if (unit.inputs.empty() && unit.outputs.empty() && unit.devices.empty()) return;
-  out << "\n| port | | type | |\n| --- | --- | --- | --- |\n";
-  for (const InputPort& port : unit.inputs) {
+// `title`: of the first column.
+void ports(const Model& model, std::string_view title, const Ports& all, Text& out) {
+  if (all.empty()) return;
+  out << "\n| " << title << " | | type | |\n| --- | --- | --- | --- |\n";
+  for (const InputPort& port : all.inputs) {
     std::string notes;
     if (port.max_age) notes += " NULL when older than " + duration_text(*port.max_age) + ".";
     if (port.range) notes += " Of all members of a population.";
@@ -92,11 +94,11 @@ void ports(const Model& model, const UnitType& unit, Text& out) {
     out << "| `" << port.name << "` | " << (port.queue ? "queue in" : "in") << " | "
         << model.types[port.type].name << " | " << cell(port.summary) << notes << " |\n";
   }
-  for (const OutputPort& port : unit.outputs) {
+  for (const OutputPort& port : all.outputs) {
     out << "| `" << port.name << "` | " << (port.queue ? "queue out" : "out") << " | "
         << model.types[port.type].name << " | " << cell(port.summary) << " |\n";
   }
-  for (const DevicePort& port : unit.devices) {
+  for (const DevicePort& port : all.devices) {
     out << "| `" << port.name << "` | device | " << model.interfaces[port.interface].class_name << " | "
         << cell(port.summary) << " |\n";
   }
@@ -104,7 +106,7 @@ void ports(const Model& model, const UnitType& unit, Text& out) {
 
 void unit_section(const Model& model, const UnitType& unit, std::string_view heading, Text& out) {
   out << heading << " Unit `" << unit.name << "`\n\n" << unit.summary << "\n";
-  ports(model, unit, out);
+  ports(model, "port", {unit.inputs, unit.outputs, unit.devices}, out);
   parameters(model, "Configuration, read at `initialise()`:", {&unit.configuration}, out);
   parameters(model, "Runtime parameters:", {&unit.runtime}, out);
   parameters(model, "Feedback:", {&unit.feedback}, out);
@@ -119,6 +121,7 @@ void driver_section(const Model& model, const Driver& driver, std::string_view h
       << (driver.virtual_time ? "can live in virtual time" : "only in real time")
       << (driver.waits ? "; needs an IO thread" : "")
       << (driver.helper_threads > 0 ? "; has a thread of its own that may wait" : "") << ".\n";
+  ports(model, "port, beside the interface's", {driver.inputs, driver.outputs}, out);
   parameters(model,
              "Configuration, read at `initialise()`:", {&interface.configuration, &driver.configuration},
              out);
@@ -137,13 +140,7 @@ void driver_section(const Model& model, const Driver& driver, std::string_view h
 
 void interface_section(const Model& model, const Interface& interface, std::string_view heading, Text& out) {
   out << heading << " Interface " << interface.class_name << "\n\n" << interface.summary << "\n";
-  if (!interface.outputs.empty()) {
-    out << "\n| port, with an IO thread | | type | |\n| --- | --- | --- | --- |\n";
-    for (const OutputPort& port : interface.outputs) {
-      out << "| `" << port.name << "` | " << (port.queue ? "queue out" : "out") << " | "
-          << model.types[port.type].name << " | " << cell(port.summary) << " |\n";
-    }
-  }
+  ports(model, "port, with an IO thread", {{}, interface.outputs}, out);
   parameters(model, "Configuration of every driver:", {&interface.configuration}, out);
   parameters(model, "Runtime parameters:", {&interface.runtime}, out);
   parameters(model, "Feedback:", {&interface.feedback}, out);
@@ -170,8 +167,8 @@ std::string trigger_text(const Model& model, const Trigger& trigger) {
 
 std::string names_of(const std::vector<InputReference>& readers, const Model& model) {
   std::string list;
-  for (const InputReference& reader : readers) {
-    list += (list.empty() ? "`" : ", `") + reader_text(model, reader) + "`";
+  for (const std::string& reader : reader_texts(model, readers)) {
+    list += (list.empty() ? "`" : ", `") + reader + "`";
   }
   return list;
 }

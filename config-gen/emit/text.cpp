@@ -25,8 +25,8 @@ std::string shortest(Number value, const char* type, const char* suffix) {
 
 // What follows an identifier in names of its parts: "slot_" + identifier + "_memory".
 constexpr std::string_view part_names[] = {
-    "memory",  "history", "inputs",  "outputs",   "devices",  "configuration", "runtime", "drivers",
-    "members", "sinks",   "writers", "resources", "resource", "sources",       "readers", "rings"};
+    "memory", "history", "inputs",    "outputs",  "devices", "configuration", "runtime", "drivers", "members",
+    "sinks",  "writers", "resources", "resource", "sources", "readers",       "rings",   "ports"};
 
 std::string last_components(const std::filesystem::path& file, std::size_t count) {
   std::vector<std::string> parts;

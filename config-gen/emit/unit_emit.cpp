@@ -1,7 +1,6 @@
 // The generated base class of a unit, and the function that constructs the author's class.
-#include <algorithm>
-
 #include "config-gen/emit/component.hpp"
+#include "config-gen/emit/port_emit.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -17,48 +16,14 @@ Blocks blocks_of(const Model& model, const UnitType& unit) {
           block_text(model, unit.class_name, Space(unit.space), "Feedback", unit.position, {&unit.feedback})};
 }
 
-std::string port_type(const Model& model, const Space& space, const char* kind, Index type) {
-  return std::string(space.runtime()) + kind + "<" + space.of(model.types[type], model.types[type].name) +
-         ">";
-}
-
-std::string input_type(const Model& model, const Space& space, const InputPort& port) {
-  return port_type(model, space, port.queue ? "QueueInput" : port.range ? "InputRange" : "Input", port.type);
-}
-
-std::string output_type(const Model& model, const Space& space, const OutputPort& port) {
-  return port_type(model, space, port.queue ? "QueueOutput" : "Output", port.type);
-}
-
-bool has_slot_inputs(const UnitType& unit) {
-  return std::any_of(unit.inputs.begin(), unit.inputs.end(),
-                     [](const InputPort& port) { return !port.queue; });
-}
-
-// Reports ask each input by its number what it has read.
-void define_input_counters(const UnitType& unit, Text& out) {
-  if (!has_slot_inputs(unit)) return;
-  out << "\n"
-      << Space(unit.space).runtime() << "InputCounters " << unit.base_class
-      << "::input_counters(std::size_t input, std::size_t member) const noexcept {\n  switch (input) {\n";
-  std::size_t number = 0;
-  for (const InputPort& port : unit.inputs) {
-    if (!port.queue) out << "    case " << number++ << ": return " << port.name << ".counters(member);\n";
-  }
-  out << "    default: return {};\n  }\n}\n";
+Ports ports_of(const UnitType& unit) {
+  return {unit.inputs, unit.outputs, unit.devices};
 }
 
 void declare_members(const Model& model, const UnitType& unit, const Blocks& blocks, Text& out) {
   const Space space(unit.space);
   Text members;
-  for (const InputPort& port : unit.inputs) {
-    members << "  " << input_type(model, space, port) << " " << port.name << ";  ///< "
-            << comment_text(port.summary) << "\n";
-  }
-  for (const OutputPort& port : unit.outputs) {
-    members << "  " << output_type(model, space, port) << " " << port.name << ";  ///< "
-            << comment_text(port.summary) << "\n";
-  }
+  declare_ports(model, space, ports_of(unit), members);
   for (const DevicePort& port : unit.devices) {
     const Interface& interface = model.interfaces[port.interface];
     members << "  " << space.of(interface, interface.class_name) << "* " << port.name << " = nullptr;  ///< "
@@ -81,9 +46,7 @@ std::string unit_base_header(const Model& model, const UnitType& unit) {
   for (const BlockText* block : {&blocks.configuration, &blocks.runtime, &blocks.feedback}) {
     if (!block->empty()) add_includes(model, block->plain, system, own);
   }
-  for (const InputPort& port : unit.inputs) own.insert(type_header(model.types[port.type]));
-  for (const OutputPort& port : unit.outputs) own.insert(type_header(model.types[port.type]));
-  for (const DevicePort& port : unit.devices) own.insert(model.interfaces[port.interface].header);
+  add_port_includes(model, ports_of(unit), own);
   if (unit.cell_access) own.insert("runtime/executive/cell_access.hpp");
 
   Text out;
@@ -109,10 +72,7 @@ std::string unit_base_header(const Model& model, const UnitType& unit) {
       << "  " << runtime << "ParameterMemory parameter_memory() noexcept final;\n";
   if (unit.cell_access)
     out << "  " << runtime << "CellAccess* cell_access() noexcept final { return &cell; }\n";
-  if (has_slot_inputs(unit)) {
-    out << "  " << runtime
-        << "InputCounters input_counters(std::size_t input, std::size_t member) const noexcept final;\n";
-  }
+  declare_input_counters(space, ports_of(unit), out);
   if (!blocks.runtime.empty())
     out << "  " << runtime << "Status accept_runtime(const void* proposed) noexcept final;\n";
   declare_members(model, unit, blocks, out);
@@ -137,9 +97,9 @@ std::string unit_base_source(const Model& model, const UnitType& unit) {
     out << "\n";
     define_parameters(*block, false, local);
   }
-  define_ports(model, unit, local);
+  define_ports(model, space, unit.name + "_unit_ports", ports_of(unit), local);
   if (!local.str().empty()) out << "namespace {\n\n" << local.str() << "\n}  // namespace\n\n";
-  const bool has_ports = !unit.inputs.empty() || !unit.outputs.empty() || !unit.devices.empty();
+  const bool has_ports = !ports_of(unit).empty();
   out << "constinit const " << runtime << "ComponentType " << unit_component_name(unit) << "{\n    \""
       << unit.name << "\", " << string_literal(unit.summary) << ",\n    "
       << block_initialiser(blocks.configuration) << ",\n    " << block_initialiser(blocks.runtime)
@@ -148,19 +108,7 @@ std::string unit_base_source(const Model& model, const UnitType& unit) {
 
   out << "void " << unit.base_class << "::connect(const " << runtime << "UnitBinding& "
       << (has_ports ? "binding" : "/*binding*/") << ") noexcept {\n";
-  std::size_t slots = 0, queues = 0, outputs = 0, queue_outputs = 0;
-  for (const InputPort& port : unit.inputs) {
-    if (port.queue) {
-      out << "  " << port.name << ".connect(binding.queue_inputs[" << queues++ << "]);\n";
-    } else {
-      out << "  " << port.name << ".connect(binding.context, binding.inputs[" << slots++ << "]);\n";
-    }
-  }
-  for (const OutputPort& port : unit.outputs) {
-    const bool queue = port.queue;
-    out << "  " << port.name << ".connect(binding.context, binding." << (queue ? "queue_outputs" : "outputs")
-        << "[" << (queue ? queue_outputs++ : outputs++) << "]);\n";
-  }
+  connect_ports(ports_of(unit), {}, out);
   for (std::size_t i = 0; i < unit.devices.size(); ++i) {
     out << "  " << unit.devices[i].name << " = static_cast<"
         << space.of(model.interfaces[unit.devices[i].interface],
@@ -173,7 +121,7 @@ std::string unit_base_source(const Model& model, const UnitType& unit) {
       << (blocks.configuration.empty() ? "nullptr" : "&configuration") << ", "
       << (blocks.runtime.empty() ? "nullptr" : "&runtime") << ", "
       << (blocks.feedback.empty() ? "nullptr" : "&feedback") << "};\n}\n";
-  define_input_counters(unit, out);
+  define_input_counters(space, unit.base_class, ports_of(unit), out);
   if (!blocks.runtime.empty()) {
     out << "\n"
         << runtime << "Status " << unit.base_class << "::accept_runtime(const void* proposed) noexcept {\n"

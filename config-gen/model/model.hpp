@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -284,7 +285,9 @@ struct Driver {
   bool waits = false;
   std::size_t helper_threads = 0;      // of its own, which may wait
   std::optional<Index> bus_interface;  // the device must be on a bus with this interface
-  ParameterBlock configuration;        // the driver's own; the interface's come before
+  std::vector<InputPort> inputs;       // the driver's own, as the outputs; the interface's come before
+  std::vector<OutputPort> outputs;
+  ParameterBlock configuration;  // likewise
   // The driver's own, with places, size and alignment of the struct that begins with the interface's.
   ParameterBlock runtime;
   ParameterBlock feedback;
@@ -312,13 +315,28 @@ struct SlotType {
   Index index = 0;  // into types, unit_types, interfaces or drivers
 };
 
-// Who writes: output `port` of a unit or a device; or the executive on behalf of a unit or device, which
-// publishes its feedback after each step and the runtime values in force after each change.
+// Who has ports: a unit; a device, those of its interface; a device, those of one of its drivers.
+struct PortOwner {
+  enum class Kind { unit, device, driver };
+  Kind kind = Kind::unit;
+  Index component = 0;  // into units or devices, by kind
+  Index choice = 0;     // of a driver: into the device's drivers
+
+  auto operator<=>(const PortOwner&) const = default;
+  // Of two drivers of one device one is chosen.
+  bool excludes(const PortOwner& other) const {
+    return kind == Kind::driver && other.kind == Kind::driver && component == other.component &&
+           choice != other.choice;
+  }
+};
+
+// Who writes: output `port` of its owner; or the executive on behalf of a unit or device, which publishes its
+// feedback after each step and the runtime values in force after each change.
 struct Writer {
-  enum class Kind { unit_output, device_output, unit_feedback, unit_values, device_feedback, device_values };
-  Kind kind = Kind::unit_output;
-  Index owner = 0;    // into units or devices, by kind
-  Index port = 0;     // into the type's outputs; outputs only
+  enum class Kind { output, feedback, values };
+  Kind kind = Kind::output;
+  PortOwner owner;
+  Index port = 0;     // into the owner's outputs; outputs only
   Position position;  // where the connection was written
 };
 
@@ -328,15 +346,13 @@ struct SlotReader {
   enum class Kind { thread, held_input, observer };
   Kind kind = Kind::thread;
   Index thread = 0;         // thread, held_input
-  Index unit = 0;           // held_input
-  Index input = 0;          // held_input: port of the unit
   std::size_t first = 0;    // its first reader number in the slot
   std::size_t readers = 1;  // how many reader numbers it uses: 2 for held inputs
 };
 
-// One input port of one unit (each unit's cursor on the slot or queue).
+// One input port of one owner (each has its own cursor on the slot or queue).
 struct InputReference {
-  Index unit = 0;
+  PortOwner owner;
   Index port = 0;
   Position position;
 };
@@ -349,13 +365,13 @@ struct Slot {
   std::size_t elements = 0;      // of the type's resizable field; 0: it has none
   std::size_t payload_size = 0;  // of the type; 0 until the layout is known
   std::size_t payload_alignment = 1;
-  Writer writer;
-  std::vector<InputReference> inputs;  // all unit inputs that read it
+  Writer writer;                       // the first; others are other drivers of its device
+  std::vector<InputReference> inputs;  // all that read it
   std::vector<SlotReader> readers;     // threads in order, then held inputs, then the observer
   std::size_t reader_count = 0;  // sum of `readers` over all of them: the Readers of Slot<T, Readers, Loans>
   std::size_t loans = 1;
   bool observe = true;
-  bool for_panel = false;  // observe = true is written: that no unit reads it is meant
+  bool for_panel = false;  // observe = true is written: that nobody reads it is meant
   bool wall = false;
   std::size_t history = 0;       // entries, 0: none
   std::vector<Index> doorbells;  // threads that its publication releases
@@ -477,9 +493,11 @@ struct DeviceResource {
 
 struct DriverChoice {
   Index driver = 0;
-  std::vector<Literal> configuration;  // per parameter of the driver's own block
-  std::vector<Literal> runtime;        // likewise
-  std::string eds;                     // the EDS file as the row names it; empty: none
+  std::vector<InputConnection> inputs;    // per input of the driver
+  std::vector<OutputConnection> outputs;  // per output of the driver
+  std::vector<Literal> configuration;     // per parameter of the driver's own block
+  std::vector<Literal> runtime;           // likewise
+  std::string eds;                        // the EDS file as the row names it; empty: none
   Position eds_position;
 };
 

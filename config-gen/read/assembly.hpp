@@ -96,5 +96,7 @@ std::optional<std::size_t> read_stack(Row& row, Diagnostics& diagnostics);
 
 // Marks every slot that a broken row names.
 void mark_broken(Assembly& assembly, const FlatRow& row);
+// The same of the sections `in` and `out` of one table.
+void mark_broken_places(Assembly& assembly, const Node& table, const Scope& scope);
 
 }  // namespace flexrf::config_gen

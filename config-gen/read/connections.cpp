@@ -1,8 +1,7 @@
 // Slots and queues come to be by being named: by outputs first, then by inputs that hope for a writer.
 #include <algorithm>
 
-#include "config-gen/model/layout.hpp"
-#include "config-gen/model/limits.hpp"
+#include "config-gen/model/ports.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
 
@@ -15,11 +14,30 @@ struct Connection {
   Position position;
 };
 
-// All `in` or `out` connections of a row by port, with unknown ports reported.
-std::map<std::string, Connection> connections_of(Assembly& assembly, const FlatRow& flat, bool input,
-                                                 const std::vector<std::string>& ports,
-                                                 const std::string& owner) {
+// What a row connects: the ports of a unit, of a population's members alike, of a device, of one of its
+// drivers.
+struct Connected {
+  const FlatRow* row = nullptr;
+  PortOwner owner;  // the first
+  std::size_t count = 1;
+  bool population = false;
+  const Node* node = nullptr;  // with the sections `in` and `out`; null: none
+  std::string key;             // of that node within the row: "", "simulated."
+  std::string target;          // as the group's table calls it: "jog", "arm.simulated"
+  std::string declared;        // by what: "the unit type 'jog'"
+
+  PortOwner member(std::size_t number) const {
+    PortOwner one = owner;
+    one.component += number;
+    return one;
+  }
+};
+
+// All `in` or `out` connections by port, with unknown ports reported.
+std::map<std::string, Connection> connections_of(Assembly& assembly, const Connected& connected, bool input,
+                                                 const std::vector<std::string>& ports) {
   std::map<std::string, Connection> found;
+  const Scope& scope = *connected.row->scope;
   const std::string kind = input ? "input" : "output";
   const auto known = [&](const std::string& port) {
     return std::find(ports.begin(), ports.end(), port) != ports.end();
@@ -32,35 +50,39 @@ std::map<std::string, Connection> connections_of(Assembly& assembly, const FlatR
   };
   const auto unknown = [&](const std::string& port, const std::string& slot, const Position& position) {
     wrong(port, slot, position);
-    assembly.diagnostics.error(position, "unknown " + kind + " " + quote(port) + " of " + owner,
+    assembly.diagnostics.error(position, "unknown " + kind + " " + quote(port) + " of " + connected.declared,
                                suggest(port, ports, kind + "s", "it has none: remove this connection"));
   };
-  if (const Node* section = flat.node->find(input ? "in" : "out"); section != nullptr) {
+  // An interface reads nothing: that a device's row has no key `in` is said where the row is read.
+  const bool is_key = !input || connected.owner.kind != PortOwner::Kind::device;
+  const Node* section =
+      is_key && connected.node != nullptr ? connected.node->find(input ? "in" : "out") : nullptr;
+  if (section != nullptr) {
     for (const Node& child : section->children) {
       if (!known(child.key)) {
-        unknown(child.key, flat.scope->slot_name(child.text), child.key_position);
+        unknown(child.key, scope.slot_name(child.text), child.key_position);
       } else if (child.broken) {
         wrong(child.key, "", child.position);
       } else if (child.kind != Node::Kind::text) {
         wrong(child.key, "", child.position);
         assembly.diagnostics.error(child.position,
-                                   quote((input ? "in." : "out.") + child.key) +
+                                   quote(connected.key + (input ? "in." : "out.") + child.key) +
                                        " must be the name of a slot or queue, not " + kind_text(child.kind),
                                    "write it in double quotes");
       } else if (!is_slot_name(child.text)) {
-        wrong(child.key, flat.scope->slot_name(child.text), child.position);
+        wrong(child.key, scope.slot_name(child.text), child.position);
         assembly.diagnostics.error(
             child.position, quote(child.text) + " is not the name of a slot or queue",
             child.text.find('.') != std::string::npos
                 ? "slots inside of a group are reached through its ports: expose it with [port.NAME]"
                 : "names are lower_snake_case, and members of arrays are written \"tracks[3]\"");
       } else {
-        found.emplace(child.key, Connection{flat.scope->slot_name(child.text), child.position});
+        found.emplace(child.key, Connection{scope.slot_name(child.text), child.position});
       }
     }
   }
-  for (const PortBinding& binding : flat.scope->bindings) {
-    if (binding.input != input || binding.target != flat.node->key) continue;
+  for (const PortBinding& binding : scope.bindings) {
+    if (binding.input != input || binding.target != connected.target) continue;
     if (known(binding.port))
       found.emplace(binding.port, Connection{binding.slot, binding.position});
     else
@@ -104,7 +126,7 @@ Index add_queue(Assembly& assembly, const std::string& name, Index type, const P
   return assembly.model.queues.size() - 1;
 }
 
-// One output of one unit or device. A slot's second writer is kept in the connection and judged later.
+// One output of one owner. A slot's second writer is kept in the connection and judged later.
 void connect_output(Assembly& assembly, const OutputPort& port, const Connection& to, Writer writer,
                     OutputConnection& connection, const std::string& owner) {
   Model& model = assembly.model;
@@ -144,6 +166,7 @@ void connect_output(Assembly& assembly, const OutputPort& port, const Connection
   const auto known = assembly.slots.find(to.name);
   if (known != assembly.slots.end()) {
     connection.slot = known->second;
+    model.slots[known->second].loans = std::max(model.slots[known->second].loans, port.loans);
     return;
   }
   const Index slot = add_slot(assembly, to.name, port.type, to.position);
@@ -152,32 +175,15 @@ void connect_output(Assembly& assembly, const OutputPort& port, const Connection
   connection.slot = slot;
 }
 
-void connect_device_outputs(Assembly& assembly, const DeviceRow& entry) {
+void connect_outputs_of(Assembly& assembly, const Connected& connected) {
   Model& model = assembly.model;
-  const Interface& interface = model.interfaces[model.devices[entry.device].interface];
-  const std::string& name = model.devices[entry.device].name;
-  model.devices[entry.device].outputs.resize(interface.outputs.size());
-  const auto found = connections_of(assembly, *entry.row, false, names_of(interface.outputs),
-                                    "the interface " + quote(interface.class_name));
-  for (std::size_t port = 0; port < interface.outputs.size(); ++port) {
-    const auto to = found.find(interface.outputs[port].name);
-    if (to == found.end()) continue;
-    connect_output(assembly, interface.outputs[port], to->second,
-                   Writer{Writer::Kind::device_output, entry.device, port, {}},
-                   model.devices[entry.device].outputs[port], "device " + quote(name));
-  }
-}
-
-void connect_unit_outputs(Assembly& assembly, const UnitRow& entry) {
-  Model& model = assembly.model;
-  const UnitType& type = model.unit_types[model.units[entry.first].type];
-  const auto found = connections_of(assembly, *entry.row, false, names_of(type.outputs),
-                                    "the unit type " + quote(type.name));
-  for (std::size_t port = 0; port < type.outputs.size(); ++port) {
-    const OutputPort& output = type.outputs[port];
+  const std::vector<OutputPort>& ports = ports_of(model, connected.owner).outputs;
+  const auto found = connections_of(assembly, connected, false, names_of(ports));
+  for (std::size_t port = 0; port < ports.size(); ++port) {
+    const OutputPort& output = ports[port];
     const auto to = found.find(output.name);
     if (to == found.end()) continue;
-    const bool array = entry.population && !output.queue;
+    const bool array = connected.population && !output.queue;
     if (array && array_base(to->second.name) != to->second.name) {
       assembly.diagnostics.error(to->second.position,
                                  "output " + quote(output.name) +
@@ -187,16 +193,16 @@ void connect_unit_outputs(Assembly& assembly, const UnitRow& entry) {
                                  "index, and do not expose it from a "
                                  "group with a count");
       assembly.broken_places.insert(array_base(to->second.name));
-      for (std::size_t member = 0; member < entry.count; ++member)
-        model.units[entry.first + member].outputs[port].position = to->second.position;
+      for (std::size_t member = 0; member < connected.count; ++member)
+        outputs_of(model, connected.member(member))[port].position = to->second.position;
       continue;
     }
-    for (std::size_t member = 0; member < entry.count; ++member) {
-      const Index unit = entry.first + member;
+    for (std::size_t member = 0; member < connected.count; ++member) {
+      const PortOwner owner = connected.member(member);
       Connection one = to->second;
       if (array && !one.name.empty()) one.name += "[" + std::to_string(member) + "]";
-      connect_output(assembly, output, one, Writer{Writer::Kind::unit_output, unit, port, {}},
-                     model.units[unit].outputs[port], "unit " + quote(model.units[unit].name));
+      connect_output(assembly, output, one, Writer{Writer::Kind::output, owner, port, {}},
+                     outputs_of(model, owner)[port], describe(model, owner));
     }
   }
 }
@@ -236,14 +242,14 @@ std::vector<Index> slots_of(Assembly& assembly, const InputPort& port, const Con
   return {add_slot(assembly, from.name, port.type, from.position)};
 }
 
-void connect_input(Assembly& assembly, Index unit, Index port_index, const Connection& from) {
+void connect_input(Assembly& assembly, const PortOwner& of, Index port_index, const Connection& from) {
   Model& model = assembly.model;
-  const InputPort& port = model.unit_types[model.units[unit].type].inputs[port_index];
-  const std::string owner = "unit " + quote(model.units[unit].name);
-  InputConnection& connection = model.units[unit].inputs[port_index];
+  const InputPort& port = ports_of(model, of).inputs[port_index];
+  const std::string owner = describe(model, of);
+  InputConnection& connection = inputs_of(model, of)[port_index];
   connection.position = from.position;
   if (from.name.empty()) return;
-  const InputReference reference{unit, port_index, from.position};
+  const InputReference reference{of, port_index, from.position};
   if (port.queue) {
     if (const auto slot = assembly.slots.find(from.name); slot != assembly.slots.end()) {
       assembly.diagnostics.error(from.position,
@@ -273,195 +279,68 @@ void connect_input(Assembly& assembly, Index unit, Index port_index, const Conne
   for (const Index slot : connection.slots) model.slots[slot].inputs.push_back(reference);
 }
 
-// elements = 4147200, or [1920, 1080, 2], which is their product.
-std::optional<std::size_t> read_elements(Row& row, Diagnostics& diagnostics) {
-  const Node* const node = row.any("elements");
-  if (node == nullptr) return std::nullopt;
-  const auto is_count = [](const Node& one) {
-    return one.kind == Node::Kind::integer && one.integer > 0 &&
-           one.integer <= static_cast<std::int64_t>(most_elements);
-  };
-  std::size_t product = 1;
-  bool good = is_count(*node);
-  if (good) product = static_cast<std::size_t>(node->integer);
-  if (node->kind == Node::Kind::array && !node->children.empty()) {
-    good = std::all_of(node->children.begin(), node->children.end(), is_count);
-    for (const Node& one : node->children)
-      if (good) product = std::min(most_elements + 1, product * static_cast<std::size_t>(one.integer));
-  }
-  if (good && product <= most_elements) return product;
-  diagnostics.error(node->position,
-                    "'elements' of " + row.name() + " must be a whole number from 1 to " +
-                        std::to_string(most_elements) + ", or a list of such that are multiplied",
-                    "write elements = 4147200, or elements = [1920, 1080, 2]");
-  return std::nullopt;
-}
-
-void set_elements(Assembly& assembly, Slot& slot, std::size_t elements, const Position& position) {
-  const Field* const field = slot.type.kind == SlotType::Kind::declared
-                                 ? assembly.model.types[slot.type.index].resizable()
-                                 : nullptr;
-  if (field == nullptr) {
-    assembly.diagnostics.error(position,
-                               "the items of slot " + quote(slot.name) + " all have one size: " +
-                                   type_name(assembly.model, slot.type) + " has no field that is resizable",
-                               "remove 'elements'; what is as large as its slot says is the last field of a "
-                               "type, with resizable = true in the type's table");
-    return;
-  }
-  Field resized = *field;
-  resized.shape = {elements};
-  lay_out(assembly.model, resized);
-  if (resized.offset + resized.size > max_type_size) {
-    assembly.diagnostics.error(position,
-                               "an item of slot " + quote(slot.name) + " takes " +
-                                   std::to_string(resized.offset + resized.size) + " bytes, more than " +
-                                   std::to_string(max_type_size),
-                               "make 'elements' smaller");
-    return;
-  }
-  slot.elements = elements;
-}
-
-void read_slot_row(Assembly& assembly, const FlatRow& flat) {
-  Row row(*flat.node, "[slot." + flat.node->key + "]", assembly.diagnostics);
-  const auto observe = row.boolean("observe");
-  const auto wall = row.boolean("wall");
-  const auto history = row.integer("history", 1, 1 << 20);
-  const auto elements = read_elements(row, assembly.diagnostics);
-  const auto summary = row.sentence("summary");
-  row.finish();
-  const std::string name = flat.scope->slot_name(flat.node->key);
-  std::vector<Index> found;
-  if (const auto slot = assembly.slots.find(name); slot != assembly.slots.end())
-    found.push_back(slot->second);
-  if (const auto array = assembly.arrays.find(name); array != assembly.arrays.end())
-    for (const auto& [member, slot] : array->second) found.push_back(slot);
-  if (found.empty()) {
-    if (assembly.broken_places.contains(name)) return;
-    const bool queue = assembly.queues.contains(name);
-    assembly.diagnostics.error(
-        flat.node->key_position,
-        queue ? quote(flat.node->key) + " is a queue, not a slot"
-              : "unknown slot " + quote(flat.node->key) + ": no output writes it",
-        queue ? "write [queue." + flat.node->key + "]"
-              : suggest(flat.node->key, assembly.names_in(*flat.scope, assembly.slots), "slots",
-                        "slots come to be by being named in out.PORT of a unit or device"));
-    return;
-  }
-  for (const Index index : found) {
-    Slot& slot = assembly.model.slots[index];
-    slot.position = flat.node->key_position;
-    slot.observe = observe.value_or(true);
-    slot.for_panel = observe.value_or(false);
-    slot.wall = wall.value_or(false);
-    slot.history = static_cast<std::size_t>(history.value_or(0));
-    slot.summary = summary.value_or("");
-    if (elements) set_elements(assembly, slot, *elements, row.position("elements"));
+void connect_inputs_of(Assembly& assembly, const Connected& connected) {
+  const std::vector<InputPort>& ports = ports_of(assembly.model, connected.owner).inputs;
+  const auto found = connections_of(assembly, connected, true, names_of(ports));
+  for (std::size_t port = 0; port < ports.size(); ++port) {
+    const auto from = found.find(ports[port].name);
+    if (from == found.end()) continue;
+    for (std::size_t member = 0; member < connected.count; ++member)
+      connect_input(assembly, connected.member(member), port, from->second);
   }
 }
 
-// order = "arrival", or { score = "field" }.
-void read_order(Assembly& assembly, Row& row, Queue& queue) {
-  const Node* order = row.any("order");
-  if (order == nullptr || (order->kind == Node::Kind::text && order->text == "arrival")) return;
-  const Node* score = order->kind == Node::Kind::table ? order->find("score") : nullptr;
-  if (score == nullptr || score->kind != Node::Kind::text || order->children.size() != 1) {
-    assembly.diagnostics.error(order->position,
-                               "'order' of " + row.name() + " is neither \"arrival\" nor a score",
-                               "write order = \"arrival\", or order = { score = \"FIELD\" }");
-    return;
-  }
-  const Type& type = assembly.model.types[queue.type];
-  std::vector<std::string> known;
-  for (std::size_t i = 0; i < type.fields.size(); ++i) {
-    const Field& field = type.fields[i];
-    known.push_back(field.name);
-    if (field.name != score->text) continue;
-    const bool number = field.type.kind == FieldType::Kind::scalar && field.shape.empty() &&
-                        (is_integer(field.type.scalar) || is_floating(field.type.scalar));
-    if (!number)
-      assembly.diagnostics.error(
-          score->position,
-          quote(score->text) + " of " + type.name + " is not a single number, so it cannot be a score",
-          "choose a number; the field is at " + to_string(field.position));
-    queue.score = i;
-    return;
-  }
-  assembly.diagnostics.error(score->position, "unknown field " + quote(score->text) + " of " + type.name,
-                             suggest(score->text, known, "fields", "it has none: remove 'order'"));
+std::vector<Connected> connected_by(const Model& model, const UnitRow& entry) {
+  const UnitType& type = model.unit_types[model.units[entry.first].type];
+  const Node& node = *entry.row->node;
+  const PortOwner first{PortOwner::Kind::unit, entry.first, 0};
+  return {Connected{entry.row, first, entry.count, entry.population, &node, "", node.key,
+                    "the unit type " + quote(type.name)}};
 }
 
-void read_queue_row(Assembly& assembly, const FlatRow& flat) {
-  Row row(*flat.node, "[queue." + flat.node->key + "]", assembly.diagnostics);
-  const std::string name = flat.scope->slot_name(flat.node->key);
-  const auto found = assembly.queues.find(name);
-  Queue unused;
-  Queue& queue = found != assembly.queues.end() ? assembly.model.queues[found->second.front()] : unused;
-  const auto capacity = row.integer("capacity", 1, 1 << 20);
-  if (capacity) queue.capacity = static_cast<std::size_t>(*capacity);
-  if (const auto policy = row.word("policy", {"drop_newest", "drop_oldest"}))
-    queue.policy = static_cast<Queue::Policy>(*policy);
-  const auto share = row.word("share", {"jobs", "copies"});
-  queue.jobs = share == std::size_t{0};
-  queue.wall = row.boolean("wall").value_or(false);
-  queue.summary = row.sentence("summary").value_or("");
-  if (found != assembly.queues.end())
-    read_order(assembly, row, queue);
-  else
-    row.also("order");
-  row.finish();
-  if (found == assembly.queues.end()) {
-    if (assembly.broken_places.contains(name)) return;
-    const bool slot = assembly.slots.contains(name) || assembly.arrays.contains(name);
-    assembly.diagnostics.error(
-        flat.node->key_position,
-        slot ? quote(flat.node->key) + " is a slot, not a queue"
-             : "unknown queue " + quote(flat.node->key) + ": no output or input names it",
-        slot ? "write [slot." + flat.node->key + "]"
-             : suggest(flat.node->key, assembly.names_in(*flat.scope, assembly.queues), "queues",
-                       "queues come to be by being named in out.PORT of a unit or device"));
-    return;
+std::vector<Connected> connected_by(const Model& model, const DeviceRow& entry) {
+  const Node& node = *entry.row->node;
+  const Device& device = model.devices[entry.device];
+  std::vector<Connected> all;
+  for (const PortOwner& owner : owners_in_device(model, entry.device)) {
+    Connected one{entry.row, owner, 1, false, &node, "", node.key, ""};
+    if (owner.kind == PortOwner::Kind::driver) {
+      const std::string& name = model.drivers[device.drivers[owner.choice].driver].name;
+      one.node = node.find(name);
+      one.key = name + ".";
+      one.target = node.key + "." + name;
+      one.declared = "the driver " + quote(name);
+    } else {
+      one.declared = "the interface " + quote(model.interfaces[device.interface].class_name);
+    }
+    all.push_back(std::move(one));
   }
-  queue.position = flat.node->key_position;
-  if (share == std::size_t{1}) assembly.copied.insert(name);
+  return all;
+}
+
+// Devices and units in the order of their rows, whichever kind.
+template <typename Act>
+void for_each_connected(Assembly& assembly, const Act& act) {
+  std::size_t device = 0, unit = 0;
+  for (const FlatRow& row : assembly.flat.rows) {
+    const InScope in_scope(assembly.diagnostics, *row.scope);
+    std::vector<Connected> all;
+    if (device < assembly.device_rows.size() && assembly.device_rows[device].row == &row)
+      all = connected_by(assembly.model, assembly.device_rows[device++]);
+    else if (unit < assembly.unit_rows.size() && assembly.unit_rows[unit].row == &row)
+      all = connected_by(assembly.model, assembly.unit_rows[unit++]);
+    for (const Connected& connected : all) act(connected);
+  }
 }
 
 }  // namespace
 
 void connect_outputs(Assembly& assembly) {
-  // Devices and units in the order of their rows, whichever kind.
-  std::size_t device = 0, unit = 0;
-  for (const FlatRow& row : assembly.flat.rows) {
-    const InScope in_scope(assembly.diagnostics, *row.scope);
-    if (device < assembly.device_rows.size() && assembly.device_rows[device].row == &row)
-      connect_device_outputs(assembly, assembly.device_rows[device++]);
-    else if (unit < assembly.unit_rows.size() && assembly.unit_rows[unit].row == &row)
-      connect_unit_outputs(assembly, assembly.unit_rows[unit++]);
-  }
+  for_each_connected(assembly, [&](const Connected& connected) { connect_outputs_of(assembly, connected); });
 }
 
 void connect_inputs(Assembly& assembly) {
-  for (const UnitRow& entry : assembly.unit_rows) {
-    const InScope in_scope(assembly.diagnostics, *entry.row->scope);
-    const UnitType& type = assembly.model.unit_types[assembly.model.units[entry.first].type];
-    const auto found = connections_of(assembly, *entry.row, true, names_of(type.inputs),
-                                      "the unit type " + quote(type.name));
-    for (std::size_t port = 0; port < type.inputs.size(); ++port) {
-      const auto from = found.find(type.inputs[port].name);
-      if (from == found.end()) continue;
-      for (std::size_t member = 0; member < entry.count; ++member)
-        connect_input(assembly, entry.first + member, port, from->second);
-    }
-  }
-}
-
-void read_place_rows(Assembly& assembly) {
-  for (const FlatRow& row : assembly.flat.rows) {
-    const InScope in_scope(assembly.diagnostics, *row.scope);
-    if (row.kind == FlatRow::Kind::slot) read_slot_row(assembly, row);
-    if (row.kind == FlatRow::Kind::queue) read_queue_row(assembly, row);
-  }
+  for_each_connected(assembly, [&](const Connected& connected) { connect_inputs_of(assembly, connected); });
 }
 
 }  // namespace flexrf::config_gen

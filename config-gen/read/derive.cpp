@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "config-gen/model/limits.hpp"
+#include "config-gen/model/ports.hpp"
 #include "config-gen/read/assembly.hpp"
 
 namespace flexrf::config_gen {
@@ -28,7 +29,7 @@ std::optional<SlotType> largest_type(const Model& model, const Device& device, P
 
 void add_parameter_slots(Model& model) {
   const auto add = [&](const std::string& name, const Position& position, SlotType::Kind kind, Index type,
-                       Writer::Kind writer, Index owner) {
+                       Writer::Kind writer, const PortOwner& owner) {
     Slot slot;
     slot.name = name;
     slot.position = position;
@@ -39,22 +40,24 @@ void add_parameter_slots(Model& model) {
   };
   for (Index i = 0; i < model.devices.size(); ++i) {
     Device& device = model.devices[i];
+    const PortOwner owner{PortOwner::Kind::device, i, 0};
     if (const auto type = largest_type(model, device, Parameter::Kind::feedback))
       device.feedback_slot = add(device.name + ".feedback", device.position, type->kind, type->index,
-                                 Writer::Kind::device_feedback, i);
+                                 Writer::Kind::feedback, owner);
     if (const auto type = largest_type(model, device, Parameter::Kind::runtime))
-      device.values_slot = add(device.name + ".values", device.position, type->kind, type->index,
-                               Writer::Kind::device_values, i);
+      device.values_slot =
+          add(device.name + ".values", device.position, type->kind, type->index, Writer::Kind::values, owner);
   }
   for (Index i = 0; i < model.units.size(); ++i) {
     Unit& unit = model.units[i];
     const UnitType& type = model.unit_types[unit.type];
+    const PortOwner owner{PortOwner::Kind::unit, i, 0};
     if (!type.feedback.parameters.empty())
       unit.feedback_slot = add(unit.name + ".feedback", unit.position, SlotType::Kind::unit_feedback,
-                               unit.type, Writer::Kind::unit_feedback, i);
+                               unit.type, Writer::Kind::feedback, owner);
     if (!type.runtime.parameters.empty())
       unit.values_slot = add(unit.name + ".values", unit.position, SlotType::Kind::unit_runtime, unit.type,
-                             Writer::Kind::unit_values, i);
+                             Writer::Kind::values, owner);
   }
 }
 
@@ -64,42 +67,38 @@ void split_copies(Assembly& assembly) {
   if (assembly.copied.empty()) return;
   std::vector<Queue> queues;
   for (Queue& queue : model.queues) {
-    if (!assembly.copied.contains(queue.declared) || queue.readers.size() < 2) {
+    const auto readers = readers_at_work(queue);
+    if (!assembly.copied.contains(queue.declared) || readers.size() < 2) {
       assembly.queues[queue.declared] = {queues.size()};
       queues.push_back(std::move(queue));
       continue;
     }
     std::vector<Index>& copies = assembly.queues[queue.declared];
     copies.clear();
-    for (const InputReference& reader : queue.readers) {
+    for (const std::vector<InputReference>& group : readers) {
       Queue copy = queue;
-      const Unit& unit = model.units[reader.unit];
-      copy.name =
-          queue.declared + "@" + unit.name + "." + model.unit_types[unit.type].inputs[reader.port].name;
-      copy.readers = {reader};
+      const PortSet ports = ports_of(model, group.front().owner);
+      copy.name = queue.declared + "@" + ports.name + "." + ports.inputs[group.front().port].name;
+      copy.readers = group;
       copies.push_back(queues.size());
       queues.push_back(std::move(copy));
     }
   }
   model.queues = std::move(queues);
-  for (Unit& unit : model.units)
-    for (InputConnection& input : unit.inputs) input.queue.reset();
-  for (Unit& unit : model.units)
-    for (OutputConnection& output : unit.outputs) output.queues.clear();
-  for (Device& device : model.devices)
-    for (OutputConnection& output : device.outputs) output.queues.clear();
+  for (const PortOwner& owner : port_owners(model)) {
+    for (OutputConnection& output : outputs_of(model, owner)) output.queues.clear();
+    if (owner.kind == PortOwner::Kind::device) continue;
+    for (InputConnection& input : inputs_of(model, owner)) input.queue.reset();
+  }
   for (Index q = 0; q < model.queues.size(); ++q) {
     for (const InputReference& reader : model.queues[q].readers)
-      model.units[reader.unit].inputs[reader.port].queue = q;
-    for (const Writer& writer : model.queues[q].writers) {
-      auto& outputs = writer.kind == Writer::Kind::unit_output ? model.units[writer.owner].outputs
-                                                               : model.devices[writer.owner].outputs;
-      outputs[writer.port].queues.push_back(q);
-    }
+      inputs_of(model, reader.owner)[reader.port].queue = q;
+    for (const Writer& writer : model.queues[q].writers)
+      outputs_of(model, writer.owner)[writer.port].queues.push_back(q);
   }
 }
 
-// A trigger on a queue that was split: the copies that this thread's units read, else all.
+// A trigger on a queue that was split: the copies that are read in this thread, else all.
 void split_triggers(Assembly& assembly, const std::vector<std::string>& before) {
   Model& model = assembly.model;
   if (assembly.copied.empty()) return;
@@ -107,7 +106,8 @@ void split_triggers(Assembly& assembly, const std::vector<std::string>& before) 
     std::vector<Index> found;
     for (const Index q : assembly.queues[name])
       for (const InputReference& reader : model.queues[q].readers)
-        if (model.units[reader.unit].thread == thread) found.push_back(q);
+        if (ports_of(model, reader.owner).thread == thread && (found.empty() || found.back() != q))
+          found.push_back(q);
     return found.empty() ? assembly.queues[name] : found;
   };
   for (Index t = 0; t < model.threads.size(); ++t) {
@@ -131,20 +131,20 @@ void split_triggers(Assembly& assembly, const std::vector<std::string>& before) 
 void add_readers(Model& model, Slot& slot) {
   std::vector<SlotReader> held;
   for (const InputReference& input : slot.inputs) {
-    const Unit& unit = model.units[input.unit];
-    if (!unit.thread) continue;
-    if (model.unit_types[unit.type].inputs[input.port].hold) {
-      held.push_back({SlotReader::Kind::held_input, *unit.thread, input.unit, input.port, 0, 2});
+    const PortSet ports = ports_of(model, input.owner);
+    if (!ports.thread) continue;
+    if (ports.inputs[input.port].hold) {
+      held.push_back({SlotReader::Kind::held_input, *ports.thread, 0, 2});
       continue;
     }
     const bool known = std::any_of(slot.readers.begin(), slot.readers.end(),
-                                   [&](const SlotReader& r) { return r.thread == *unit.thread; });
-    if (!known) slot.readers.push_back({SlotReader::Kind::thread, *unit.thread, 0, 0, 0, 1});
+                                   [&](const SlotReader& r) { return r.thread == *ports.thread; });
+    if (!known) slot.readers.push_back({SlotReader::Kind::thread, *ports.thread, 0, 1});
   }
   std::sort(slot.readers.begin(), slot.readers.end(),
             [](const SlotReader& a, const SlotReader& b) { return a.thread < b.thread; });
   slot.readers.insert(slot.readers.end(), held.begin(), held.end());
-  if (slot.observe) slot.readers.push_back({SlotReader::Kind::observer, 0, 0, 0, 0, 1});
+  if (slot.observe) slot.readers.push_back({SlotReader::Kind::observer, 0, 0, 1});
   for (SlotReader& reader : slot.readers) {
     reader.first = slot.reader_count;
     slot.reader_count += reader.readers;

@@ -49,7 +49,7 @@ void read_io_thread(Assembly& assembly, Row& row, Index device) {
   assembly.io_threads.push_back(std::move(thread));
 }
 
-void read_drivers(Assembly& assembly, Row& row, Device& device) {
+void read_drivers(Assembly& assembly, Row& row, const Scope& scope, Device& device) {
   if (!row.has("drivers")) row.missing("drivers", "add drivers = [\"simulated\"]: the first is the default");
   const Node* names = row.list_of_texts("drivers");
   if (names == nullptr) return;
@@ -67,15 +67,22 @@ void read_drivers(Assembly& assembly, Row& row, Device& device) {
     seen.push_back(name.text);
     const Node* values = row.table(name.text);
     const auto driver = assembly.library.driver(device.interface, name.text, name.position);
-    if (!driver) continue;
+    if (!driver) {
+      if (values != nullptr) mark_broken_places(assembly, *values, scope);
+      continue;
+    }
     DriverChoice choice;
     choice.driver = *driver;
+    choice.inputs.resize(assembly.model.drivers[*driver].inputs.size());
+    choice.outputs.resize(assembly.model.drivers[*driver].outputs.size());
     const Node* configuration = nullptr;
     const Node* runtime = nullptr;
     if (values != nullptr) {
       Row own(*values, quote(name.text) + " in " + row.name(), assembly.diagnostics);
       configuration = own.table("configuration");
       runtime = own.table("runtime");
+      own.table("in");
+      own.table("out");
       if (assembly.model.drivers[*driver].takes_eds) {
         choice.eds = own.text("eds").value_or("");
         choice.eds_position = own.position("eds");
@@ -251,12 +258,13 @@ void read_device_row(Assembly& assembly, const FlatRow& flat) {
   }
   assembly.device_rows.push_back({&flat, index});
   Device& device = assembly.model.devices[index];
-  read_drivers(assembly, row, device);
+  read_drivers(assembly, row, *flat.scope, device);
   read_instead(assembly, row, device);
   read_resources(assembly, row, device);
   read_units(row, assembly.model.interfaces[*interface], device, assembly.diagnostics);
   row.text("on");
   row.table("out");
+  device.outputs.resize(assembly.model.interfaces[*interface].outputs.size());
   device.initialise_timeout = row.positive_duration("initialise_timeout").value_or(device.initialise_timeout);
   const Interface& kind = assembly.model.interfaces[*interface];
   device.configuration =

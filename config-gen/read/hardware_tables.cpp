@@ -92,17 +92,37 @@ void read_objects(Library& library, const std::string& name, const Position& pos
   driver.objects = read_object_list(file, parameters, library.diagnostics());
 }
 
-// What units are connected to is the same whichever driver a device has.
-void refuse_sections_of_interface(Row& row, const std::string& interface, Diagnostics& diagnostics) {
-  for (const char* section : {"output", "resource"}) {
-    if (!row.has(section)) continue;
-    row.also(section);
-    diagnostics.error(row.position(section),
-                      "a driver cannot have [" + std::string(section) + ".NAME]: only its interface has it",
-                      "move it to the table of the interface " + interface +
-                          ", so that every driver has it; a driver's own are only [configuration.NAME], "
-                          "[runtime.NAME] and [feedback.NAME]");
-  }
+// A device is described by the same files whichever driver it has.
+void refuse_resources(Row& row, const std::string& interface, Diagnostics& diagnostics) {
+  if (!row.has("resource")) return;
+  row.also("resource");
+  diagnostics.error(row.position("resource"),
+                    "a driver cannot have [resource.NAME]: only its interface has it",
+                    "move it to the table of the interface " + interface +
+                        ", so that every driver has it; a driver's own are [configuration.NAME], "
+                        "[runtime.NAME], [feedback.NAME], [input.NAME] and [output.NAME]");
+}
+
+// Members of one class: those of the interface's base, and of the driver's.
+void check_ports_beside(const Interface& face, const Driver& driver, const Node& root,
+                        Diagnostics& diagnostics) {
+  std::vector<std::pair<std::string, const Node*>> members;
+  add_members(root, "input", "an input", members);
+  add_members(root, "output", "an output", members);
+  check_members(Heir::interface, members, diagnostics);
+  const auto check = [&](const std::string& name, const Position& position) {
+    const auto taken = [&](const std::string& other, const Position& place) {
+      if (name == other)
+        diagnostics.error(
+            position,
+            "the name " + quote(name) + " is used twice: every driver of " + face.class_name + " has it",
+            "rename it; the other is at " + to_string(place));
+    };
+    for (const OutputPort& port : face.outputs) taken(port.name, port.position);
+    for (const Resource& resource : face.resources) taken(resource.name, resource.position);
+  };
+  for (const InputPort& port : driver.inputs) check(port.name, port.position);
+  for (const OutputPort& port : driver.outputs) check(port.name, port.position);
 }
 
 // A driver's own stand beside its interface's in one struct.
@@ -159,7 +179,7 @@ std::optional<Index> read_interface_table(Library& library, const Node& root,
 
   for (const Node* node : named_rows(library, root, "resource", "a resource"))
     interface.resources.push_back(read_resource(*node, diagnostics));
-  interface.outputs = read_outputs(library, root, true);
+  const bool complete = read_outputs(library, root, interface.outputs);
   std::vector<std::pair<std::string, const Node*>> members;
   add_members(root, "resource", "a resource", members);
   add_members(root, "output", "an output", members);
@@ -168,9 +188,7 @@ std::optional<Index> read_interface_table(Library& library, const Node& root,
   read_parameters(library, root, Parameter::Kind::runtime, interface.runtime, interface.units);
   read_parameters(library, root, Parameter::Kind::feedback, interface.feedback, interface.units);
   read_needs(library, root, interface.runtime, interface.feedback);
-  if (const Node* outputs = root.find("output");
-      outputs != nullptr && interface.outputs.size() != outputs->children.size())
-    return std::nullopt;
+  if (!complete) return std::nullopt;
 
   Model& model = library.model();
   model.interfaces.push_back(std::move(interface));
@@ -219,11 +237,12 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
       diagnostics.error(row.position("on"), quote(*bus) + " is not a bus",
                         "name an interface whose table says bus = true");
   }
-  for (const char* section : {"configuration", "runtime", "feedback", "option"}) row.also(section);
+  for (const char* section : {"input", "output", "configuration", "runtime", "feedback", "option"})
+    row.also(section);
   check_build_words(row, "libraries", "a target of the build, as \"FlexRF::can_wire\"", diagnostics);
   check_build_words(row, "packages", "what pkg-config calls a library, as \"libgpiod\"", diagnostics);
   const auto objects = row.text("objects");
-  refuse_sections_of_interface(row, interface.value_or(""), diagnostics);
+  refuse_resources(row, interface.value_or(""), diagnostics);
   row.finish();
   driver.options = read_driver_options(library, root, driver.kind);
   // A copy: further tables may be read meanwhile, and the interfaces move.
@@ -232,6 +251,8 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
     driver.interface = *index;
     face = model.interfaces[*index];
   }
+  bool complete = read_inputs(library, root, driver.inputs);
+  complete = read_outputs(library, root, driver.outputs) && complete;
   read_parameters(library, root, Parameter::Kind::configuration, driver.configuration, face.units);
   read_parameters(library, root, Parameter::Kind::runtime, driver.runtime, face.units, face.runtime);
   read_parameters(library, root, Parameter::Kind::feedback, driver.feedback, face.units, face.feedback);
@@ -240,6 +261,8 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
   check_beside(face.configuration, driver.configuration, *interface, diagnostics);
   check_beside(face.runtime, driver.runtime, *interface, diagnostics);
   check_beside(face.feedback, driver.feedback, *interface, diagnostics);
+  check_ports_beside(face, driver, root, diagnostics);
+  if (!complete) return std::nullopt;  // as of a unit
 
   if (objects) read_objects(library, *objects, row.position("objects"), driver);
 

@@ -56,8 +56,8 @@ Library::Library(Model& model, SearchPaths paths, Diagnostics& diagnostics)
   for (auto* folders : {&paths_.types, &paths_.units, &paths_.interfaces, &paths_.drivers})
     remove_repeated(*folders);
   for (fs::path& folder : paths_.library) folder = fs::weakly_canonical(folder);
-  // Types that belong to one unit or interface lie beside it.
-  for (const auto& folders : {paths_.units, paths_.interfaces})
+  // Types that belong to one unit, interface or driver lie beside it.
+  for (const auto& folders : {paths_.units, paths_.interfaces, paths_.drivers})
     for (const fs::path& folder : folders)
       for (const fs::path& inner : sorted_folders(folder))
         if (inner.filename() == "types") paths_.types.push_back(inner);

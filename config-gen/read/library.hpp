@@ -101,8 +101,9 @@ void read_parameters(Library& library, const Node& table, Parameter::Kind kind, 
 Parameter read_number(Library& library, Row& row);
 // All of `[option.N]` under `table`, of a driver of this kind.
 std::vector<DriverOption> read_driver_options(Library& library, const Node& table, Driver::Kind kind);
-// All of `[output.N]` under `table`.
-std::vector<OutputPort> read_outputs(Library& library, const Node& table, bool with_loans);
+// All of `[input.N]`, of `[output.N]` under `table`, as far as they can be used; false when some cannot.
+bool read_inputs(Library& library, const Node& table, std::vector<InputPort>& inputs);
+bool read_outputs(Library& library, const Node& table, std::vector<OutputPort>& outputs);
 
 // The rows under [kind.*], each with its name checked.
 std::vector<const Node*> named_rows(Library& library, const Node& root, std::string_view kind,

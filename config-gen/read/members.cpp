@@ -22,8 +22,8 @@ const std::vector<std::string>& inherited_by(Heir heir) {
   static const std::vector<std::string> unit =
       with({"cell", "cell_access", "input_counters", "is_idle", "reset", "step"});
   static const std::vector<std::string> device =
-      with({"bus", "descriptor", "environment", "is_closed", "is_inhibited", "make_safe", "next_event",
-            "options", "receive", "send", "set_environment", "set_inhibited"});
+      with({"bus", "descriptor", "environment", "input_counters", "is_closed", "is_inhibited", "make_safe",
+            "next_event", "options", "receive", "send", "set_environment", "set_inhibited"});
   return heir == Heir::unit ? unit : device;
 }
 

@@ -72,9 +72,12 @@ std::string parts_of_interface(const Node& root, const std::string& stem) {
 std::string parts_of_driver(const Node& root, const std::string& stem) {
   Words interfaces = texts_of(root, "interface");
   interfaces.merge(texts_of(root, "on"));
+  Words ports;
+  for (const char* kind : {"input", "output"})
+    if (root.find(kind) != nullptr) ports.insert(kind);
   return line("name", {text_of(root, "name", stem)}) + line("class", texts_of(root, "interface")) +
-         line("interfaces", interfaces) + line("libraries", texts_of(root, "libraries")) +
-         line("packages", texts_of(root, "packages"));
+         line("interfaces", interfaces) + line("ports", ports) +
+         line("libraries", texts_of(root, "libraries")) + line("packages", texts_of(root, "packages"));
 }
 
 constexpr int most_arguments = 3;  // in one text: a bound for texts that are not meant

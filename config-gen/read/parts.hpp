@@ -17,8 +17,8 @@ bool is_build_word(std::string_view word);
 //   unit:        name, interfaces (classes of its devices)
 //   interface:   name, class
 //   driver:      name (as in drivers = [...]), class (of its interface), interfaces (that class, and its
-//   bus'), libraries
-//                (targets), packages (as pkg-config calls them)
+//   bus'), ports (input,
+//                output: that it has some), libraries (targets), packages (as pkg-config calls them)
 //   application: units (types), drivers ("CLASS/NAME"), of all rows of the table and of the groups beside it.
 //   A group's argument may
 //                be each value that any instance gives it.

@@ -270,7 +270,21 @@ class Flattener {
     }
   }
 
-  // The port leads to `target` = "unit.port". If that is connected inside, its slot becomes the slot outside.
+  static std::vector<std::string> drivers_of(const Node& device) {
+    std::vector<std::string> names;
+    if (const Node* list = device.find("drivers"))
+      for (const Node& driver : list->children) names.push_back(driver.text);
+    return names;
+  }
+  // Of a device's row what it says of a driver.
+  static const Node* table_of(const Node& device, const std::string& driver) {
+    static const Node nothing_said;
+    const Node* table = device.find(driver);
+    return table != nullptr ? table : &nothing_said;
+  }
+
+  // The port leads to `target` = "unit.port", or "device.driver.port". If that is connected inside, its slot
+  // becomes the slot outside.
   void expose(Scope& scope, const Node& port, const std::string& target, bool in, const std::string& slot) {
     const Node& place = *port.find(in ? "in" : "out");
     const std::size_t dot = target.rfind('.');
@@ -284,6 +298,11 @@ class Flattener {
       for (const Node& row : section->children) {
         known.push_back(row.key);
         if (row.key == name) owner = &row;
+        if (kind != std::string_view("device")) continue;
+        for (const std::string& driver : drivers_of(row)) {
+          known.push_back(row.key + "." + driver);
+          if (known.back() == name) owner = table_of(row, driver);
+        }
       }
     }
     const InScope in_scope(diagnostics_, scope);

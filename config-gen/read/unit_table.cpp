@@ -1,4 +1,4 @@
-// Unit tables, and the ports that units and interfaces have in common.
+// Unit tables, and the ports that units, interfaces and drivers have in common.
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/library.hpp"
 #include "config-gen/read/members.hpp"
@@ -79,8 +79,14 @@ std::optional<InputPort> read_input(Library& library, const Node& node) {
 
 }  // namespace
 
-std::vector<OutputPort> read_outputs(Library& library, const Node& table, bool with_loans) {
-  std::vector<OutputPort> outputs;
+bool read_inputs(Library& library, const Node& table, std::vector<InputPort>& inputs) {
+  const auto rows = named_rows(library, table, "input", "an input");
+  for (const Node* node : rows)
+    if (auto input = read_input(library, *node)) inputs.push_back(std::move(*input));
+  return inputs.size() == rows.size();
+}
+
+bool read_outputs(Library& library, const Node& table, std::vector<OutputPort>& outputs) {
   for (const Node* node : named_rows(library, table, "output", "an output")) {
     Diagnostics& diagnostics = library.diagnostics();
     Row row(*node, "[output." + node->key + "]", diagnostics);
@@ -89,12 +95,10 @@ std::vector<OutputPort> read_outputs(Library& library, const Node& table, bool w
     output.position = node->key_position;
     output.summary = row.summary();
     const PortType port = read_port_type(library, row);
-    if (with_loans || !port.queue) {
-      output.loans = static_cast<std::size_t>(row.integer("loans", 1, 62).value_or(1));
-      if (port.queue && row.has("loans"))
-        diagnostics.error(row.position("loans"), "'loans' of " + row.name() + " is for slots, not for queues",
-                          "remove it");
-    }
+    output.loans = static_cast<std::size_t>(row.integer("loans", 1, 62).value_or(1));
+    if (port.queue && row.has("loans"))
+      diagnostics.error(row.position("loans"), "'loans' of " + row.name() + " is for slots, not for queues",
+                        "remove it");
     output.optional = row.boolean("optional").value_or(false);
     row.finish();
     if (!port.type) continue;
@@ -103,7 +107,8 @@ std::vector<OutputPort> read_outputs(Library& library, const Node& table, bool w
     output.type_position = port.position;
     outputs.push_back(std::move(output));
   }
-  return outputs;
+  const Node* rows = table.find("output");
+  return rows == nullptr || outputs.size() == rows->children.size();
 }
 
 std::optional<Index> read_unit_table(Library& library, const Node& root, const std::filesystem::path& file) {
@@ -134,13 +139,8 @@ std::optional<Index> read_unit_table(Library& library, const Node& root, const s
     row.also(section);
   row.finish();
 
-  const auto inputs = named_rows(library, root, "input", "an input");
-  for (const Node* node : inputs)
-    if (auto input = read_input(library, *node)) unit.inputs.push_back(std::move(*input));
-  unit.outputs = read_outputs(library, root, true);
-  bool complete =
-      unit.inputs.size() == inputs.size() &&
-      (root.find("output") == nullptr || unit.outputs.size() == root.find("output")->children.size());
+  bool complete = read_inputs(library, root, unit.inputs);
+  complete = read_outputs(library, root, unit.outputs) && complete;
   for (const Node* node : named_rows(library, root, "device", "a device")) {
     Row device(*node, "[device." + node->key + "]", diagnostics);
     DevicePort port{node->key, node->key_position, 0, device.summary()};

@@ -40,17 +40,24 @@ std::vector<Literal> read_values(Assembly& assembly, const Node* table, const Pa
   return values;
 }
 
-void mark_broken(Assembly& assembly, const FlatRow& row) {
-  assembly.broken_owners.insert(row.scope->prefix + row.node->key);
+void mark_broken_places(Assembly& assembly, const Node& table, const Scope& scope) {
   for (const char* direction : {"in", "out"}) {
-    const Node* section = row.node->find(direction);
+    const Node* section = table.find(direction);
     if (section == nullptr) continue;
     for (const Node& child : section->children)
       if (child.kind == Node::Kind::text)
-        assembly.broken_places.insert(array_base(row.scope->slot_name(child.text)));
+        assembly.broken_places.insert(array_base(scope.slot_name(child.text)));
   }
+}
+
+void mark_broken(Assembly& assembly, const FlatRow& row) {
+  assembly.broken_owners.insert(row.scope->prefix + row.node->key);
+  mark_broken_places(assembly, *row.node, *row.scope);
+  // Of a device also what its drivers name.
+  for (const Node& child : row.node->children) mark_broken_places(assembly, child, *row.scope);
   for (const PortBinding& binding : row.scope->bindings)
-    if (binding.target == row.node->key) assembly.broken_places.insert(array_base(binding.slot));
+    if (binding.target == row.node->key || binding.target.starts_with(row.node->key + "."))
+      assembly.broken_places.insert(array_base(binding.slot));
   if (const Node* section = row.node->find("device"))
     for (const Node& child : section->children)
       if (child.kind == Node::Kind::text) assembly.broken_owners.insert(row.scope->prefix + child.text);
