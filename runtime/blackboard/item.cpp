@@ -33,6 +33,8 @@ const char* name_of(NullReason reason) noexcept {
       return "wrong type";
     case NullReason::no_longer_kept:
       return "no longer kept";
+    case NullReason::driver_not_chosen:
+      return "driver not chosen";
   }
   return "unknown";
 }

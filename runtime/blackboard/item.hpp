@@ -10,15 +10,16 @@ namespace flexrf {
 
 /// Why a read gave the NULL item.
 enum class NullReason : std::uint8_t {
-  none,            ///< there is an item
-  nothing_yet,     ///< nobody published since the application started
-  too_old,         ///< older than the input's max_age
-  writer_stopped,  ///< the unit that writes it was stopped
-  writer_faulted,  ///< the unit that writes it is in fault
-  writer_retired,  ///< the member of a population that writes it was retired
-  not_registered,  ///< no slot of this name, or the input is not connected
-  wrong_type,      ///< the slot's type is another than the input's
-  no_longer_kept,  ///< a history no longer keeps that time
+  none,               ///< there is an item
+  nothing_yet,        ///< nobody published since the application started
+  too_old,            ///< older than the input's max_age
+  writer_stopped,     ///< the unit or device that writes it was stopped
+  writer_faulted,     ///< the unit or device that writes it is in fault
+  writer_retired,     ///< the member of a population that writes it was retired
+  not_registered,     ///< no slot of this name, or the input is not connected
+  wrong_type,         ///< the slot's type is another than the input's
+  no_longer_kept,     ///< a history no longer keeps that time
+  driver_not_chosen,  ///< only a driver writes it that was not chosen at the start
 };
 const char* name_of(NullReason reason) noexcept;
 
@@ -26,7 +27,7 @@ const char* name_of(NullReason reason) noexcept;
 enum class Freshness : std::uint8_t { null, old_item, new_item };
 
 /// State of a slot's writer, as its readers see it. Zero is the first state.
-enum class WriterState : std::uint8_t { waiting, running, stopped, faulted, retired };
+enum class WriterState : std::uint8_t { waiting, running, stopped, faulted, retired, not_chosen };
 
 /// Beside each value in its buffer.
 struct ItemHeader {
@@ -52,6 +53,8 @@ constexpr NullReason null_reason_of(WriterState state) noexcept {
       return NullReason::writer_faulted;
     case WriterState::retired:
       return NullReason::writer_retired;
+    case WriterState::not_chosen:
+      return NullReason::driver_not_chosen;
     case WriterState::waiting:
     case WriterState::running:
       break;
@@ -63,9 +66,11 @@ constexpr NullReason null_reason_of(WriterState state) noexcept {
 std::uint64_t digest_of_item(std::uint64_t so_far, const TypeDescriptor& type, const ItemHeader& header,
                              const void* value) noexcept;
 
-/// What the executive tells the ports of the unit it steps. One per thread; written by that thread only.
+/// What the executive tells the ports of what it steps. One per thread; written by that thread only.
 struct StepContext {
-  std::uint64_t step = 0;  ///< changes with every step of every unit of the thread; 0 before the first
+  /// Changes with every step of every unit of the thread, and with every call of its devices; 0 before the
+  /// first.
+  std::uint64_t step = 0;
   Time now{};  ///< the step's time: stamps what it publishes, and is what ages are measured against
 };
 

@@ -1,9 +1,9 @@
-// Ports: how a unit's step reads and writes the blackboard. Used by the unit's thread only, inside step().
+// Ports: how units and devices read and write the blackboard. Used by their thread only: inside step(), and
+// in what the executive and the unit call of a device in it.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -16,7 +16,7 @@
 
 namespace flexrf {
 
-/// One thread's hold on one slot: the buffer is held per thread, so that all units of the thread share it.
+/// One thread's hold on one slot: the buffer is held per thread, so that all that live in it share it.
 class SlotReader {
  public:
   constexpr SlotReader() noexcept = default;
@@ -126,22 +126,28 @@ struct InputBinding {
   void* members = nullptr;  ///< range inputs: `count` Input<T>, one cursor per member
 };
 
-/// What one input of a unit saw of one slot. For reports; may lag by what is being read.
+/// What one input saw of one slot. For reports; may lag by what is being read.
 struct InputCounters {
   std::uint64_t read = 0;    ///< items
   std::uint64_t missed = 0;  ///< items published between two that it read
 };
 
-/// Untyped half of an input: the cursor of one unit in one slot.
+/// Untyped half of an input: the cursor of one unit or device in one slot.
 class InputCursor {
  public:
-  /// `type`: what is read; a slot of another is as good as none.
+  /// `type`: what is read; a slot of another is as good as none. Begins anew, counters too: the next item is
+  /// new.
   void connect(const StepContext* context, SlotReader* reader, const TypeDescriptor& type,
                Duration max_age) noexcept {
     const bool fits = reader != nullptr && reader->slot()->type()->hash == type.hash;
     context_ = context;
     reader_ = fits ? reader : nullptr;
     max_age_ = max_age;
+    header_ = nullptr;
+    step_ = 0;
+    cursor_ = 0;
+    read_.store(0, std::memory_order_relaxed);
+    missed_total_.store(0, std::memory_order_relaxed);
     reason_ = fits                ? NullReason::nothing_yet
               : reader == nullptr ? NullReason::not_registered
                                   : NullReason::wrong_type;
@@ -264,8 +270,6 @@ class InputRange {
   void connect(const StepContext* context, const InputBinding& binding) noexcept {
     members_ = {static_cast<Input<T>*>(binding.members), binding.count};
     for (std::size_t i = 0; i < members_.size(); ++i) {
-      // A unit that is restarted begins with cursors of its own again.
-      std::construct_at(&members_[i]);
       members_[i].connect(context, InputBinding{binding.readers + i, 1, binding.max_age, nullptr});
     }
   }
@@ -320,7 +324,7 @@ class Loan {
   std::uint8_t buffer_ = SlotControl::none;
 };
 
-/// What a unit publishes. An unconnected output accepts and forgets.
+/// What is published. An unconnected output accepts and forgets.
 template <class T>
 class Output {
   static_assert(std::is_trivially_copyable_v<T>, "items are plain structs");
@@ -379,7 +383,7 @@ class QueueInput {
   QueueSource* source_ = nullptr;
 };
 
-/// A unit's way into one or (fan-out) several queues.
+/// A way into one or (fan-out) several queues.
 template <class T>
 class QueueOutput {
  public:

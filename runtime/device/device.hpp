@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <span>
 
-#include "runtime/blackboard/queue.hpp"
-#include "runtime/blackboard/slot.hpp"
 #include "runtime/core/option.hpp"
 #include "runtime/device/heartbeat.hpp"
 #include "runtime/unit/component.hpp"
@@ -19,7 +17,7 @@ class Device;
 enum class DriverKind : std::uint8_t { mock, simulated, real };
 const char* name_of(DriverKind kind) noexcept;
 
-/// How the generated application connects a device: ports of its own (with an IO thread), constants, its bus.
+/// How the generated application connects a device: its ports, constants, its bus.
 struct DeviceBinding : PortBinding {
   std::span<const void* const> resources;  ///< constants, in the order of the interface's table
   Device* bus = nullptr;
@@ -35,7 +33,8 @@ struct DeviceEnvironment {
 };
 
 /// Lives in one thread. receive, send, make_safe and everything a unit calls: that thread, never blocking,
-/// never allocating. initialise, stop: the lifecycle thread.
+/// never allocating. initialise, stop: the lifecycle thread. Ports are used in that thread alone: each call
+/// of receive, send and make_safe is a step to them, and what a unit calls belongs to the unit's step.
 class Device : public Component {
  public:
   /// Before the units of the thread step, buses first: take in what arrived. With an IO thread: publish it.
@@ -66,6 +65,7 @@ class Device : public Component {
 
   // ---- for the executive; the generated base implements connect()
 
+  /// Also before it is initialised again: its ports begin anew.
   virtual void connect(const DeviceBinding& binding) noexcept = 0;
   void set_environment(const DeviceEnvironment* environment) noexcept { environment_ = environment; }
   void set_inhibited(bool on) noexcept { inhibited_.store(on, std::memory_order_release); }

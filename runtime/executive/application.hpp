@@ -76,6 +76,9 @@ struct DriverRecord {
   const void* configuration;  ///< initial values from the tables; null where it has none
   const void* runtime;
   std::span<const Option> options = {};  ///< of the command line, that its table declares
+  /// Of the device with this driver, the interface's among them; null: it has none of its own, and the
+  /// device's are all.
+  const PortBinding* ports = nullptr;
 };
 
 inline constexpr std::uint8_t no_driver = 0xFF;
@@ -87,7 +90,7 @@ struct DevicePart {
   /// By DriverKind: index of the driver that a `--hardware KIND` means where none is of that kind.
   std::array<std::uint8_t, 3> instead{no_driver, no_driver, no_driver};
   Device** instance;      ///< where the constructed driver is put
-  DeviceBinding binding;  ///< bus is filled in at start
+  DeviceBinding binding;  ///< with the interface's ports; the chosen driver's and the bus come at the start
   std::uint16_t bus;      ///< index of the device that carries it, or no_index
   std::uint16_t unit;     ///< index of the unit that owns it, or no_index
 };

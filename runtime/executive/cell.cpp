@@ -218,9 +218,7 @@ Status Cell::construct_device(std::uint16_t index) {
   state.device->set_name(record.name);
   state.device->set_type_in_force(*state.type);
   state.device->set_environment(&state.environment);
-  DeviceBinding binding = record.binding;
-  if (record.bus != no_index) binding.bus = application_->device_states[record.bus].device;
-  state.device->connect(binding);
+  connect_device(index);
   // They have room for what the largest of its drivers has.
   carry(record.runtime_slot, driver.type->runtime);
   carry(record.feedback_slot, driver.type->feedback);
@@ -279,6 +277,7 @@ Status Cell::construct() {
   for (std::size_t i = 0; i < application_->units.size(); ++i)
     application_->unit_states[i].type = application_->units[i].type;
   narrow_ranges();
+  choose_ports();
   for (const ComponentIndex component : starting_order_) {
     const ComponentRecord& record = application_->component(component);
     application_->component_state(component).active.store(
@@ -378,65 +377,11 @@ bool Cell::moves_something(ComponentIndex component) const noexcept {
                      [this](std::uint16_t device) { return driver(device).actuates; });
 }
 
-void Cell::set_writer_state(ComponentIndex component, WriterState state) noexcept {
-  for (SlotControl* slot : ports_[component]->outputs) {
-    if (slot != nullptr) slot->set_writer_state(state);
-  }
-}
-
 void Cell::set_fault(ComponentIndex component, const Status& cause) noexcept {
   ComponentState& state = application_->component_state(component);
   state.fault.publish(cause);
   state.life.store(Life::fault, std::memory_order_release);
   set_writer_state(component, WriterState::faulted);
-}
-
-void Cell::commit(ComponentIndex component) noexcept {
-  const PortBinding& ports = *ports_[component];
-  for (SlotControl* slot : ports.outputs) {
-    if (slot != nullptr) slot->commit();
-  }
-  for (const std::span<QueueSink* const> sinks : ports.queue_outputs) {
-    for (QueueSink* sink : sinks) sink->commit();
-  }
-  if (SlotControl* const slot = application_->component(component).feedback_slot; slot != nullptr)
-    slot->commit();
-}
-
-void Cell::prepare_virtual_time(bool digest) noexcept {
-  for (const SlotRecord& slot : application_->slots) {
-    slot.control->set_digested(digest && !slot.wall);
-  }
-  for (const QueueRecord& queue : application_->queues) {
-    for (QueueSink* sink : queue.sinks) {
-      sink->set_digested(digest && !queue.wall);
-      sink->set_deferred(true);
-    }
-  }
-  // Values in force are published between two steps and visible at once; everything else waits for its
-  // commit.
-  const auto defer = [](SlotControl* slot) {
-    if (slot != nullptr) slot->set_deferred(true);
-  };
-  for (ComponentIndex i = 0; i < application_->component_count(); ++i) {
-    for (SlotControl* slot : ports_[i]->outputs) defer(slot);
-    defer(application_->component(i).feedback_slot);
-  }
-}
-
-std::uint64_t Cell::digest() const noexcept {
-  Digest digest;
-  for (const SlotRecord& slot : application_->slots) {
-    if (slot.wall) continue;
-    digest.add_text(slot.name);
-    digest.add(slot.control->digest());
-  }
-  for (const QueueRecord& queue : application_->queues) {
-    if (queue.wall) continue;
-    digest.add_text(queue.name);
-    for (const QueueSink* sink : queue.sinks) digest.add(sink->digest());
-  }
-  return digest.value();
 }
 
 }  // namespace flexrf

@@ -50,6 +50,9 @@ class Cell {
   /// For a restart in place: destroys and constructs a unit with the values it had; a device stays as it is.
   /// Lifecycle thread, owning the component.
   Status renew(ComponentIndex component) noexcept;
+  /// Before it is initialised, again too: the device and its bus are connected, and its ports begin anew.
+  /// Lifecycle thread, owning the device.
+  void connect_device(std::uint16_t device) noexcept;
 
   const Application& application() const noexcept { return *application_; }
   const Options& options() const noexcept { return *options_; }
@@ -75,6 +78,10 @@ class Cell {
   ComponentIndex component_count() const noexcept { return application_->component_count(); }
   /// " (driver NAME)", or "" where there is none: for messages, behind its name.
   std::string driver_text(ComponentIndex component) const;
+  /// What it reads and writes: of a device with the driver that was chosen.
+  const PortBinding& ports(ComponentIndex component) const noexcept { return *ports_[component]; }
+  /// Nobody takes from this queue: the drivers that would were not chosen.
+  bool is_abandoned(const QueueSource* source) const noexcept;
   /// The devices that move where this component does: those that belong to the unit; of a device itself.
   std::span<const std::uint16_t> devices_of(ComponentIndex component) const noexcept {
     return devices_of_[component];
@@ -158,6 +165,7 @@ class Cell {
 
  private:
   Status choose_drivers();
+  void choose_ports() noexcept;
   void narrow_ranges();
   Duration longest_step_of(const ThreadRecord& thread) const noexcept;
   Status construct_device(std::uint16_t device);

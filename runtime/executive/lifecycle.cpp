@@ -175,6 +175,7 @@ void Lifecycle::begin(ComponentIndex index) noexcept {
 
 void Lifecycle::prepare_device(std::uint16_t index) noexcept {
   DeviceState& state = cell_->application().device_states[index];
+  cell_->connect_device(index);
   state.guards.store(state.device->guards_motion(), std::memory_order_release);
   // An actuator is inhibited until its thread has seen a Start.
   state.device->set_inhibited(!cell_->control().may_move());

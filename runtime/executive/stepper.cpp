@@ -259,14 +259,19 @@ void Stepper::begin(const Release& release) noexcept {
   state_->step_began.store(nanoseconds(release.now), std::memory_order_release);
 }
 
+/// Its ports take what is newest now: a view that somebody else of this thread had ends.
+void Stepper::begin_step(Time now) noexcept {
+  context_->now = now;
+  ++context_->step;
+}
+
 void Stepper::receive(Time now) noexcept {
   if (!receives_) return;
   tick_.now = now;
-  context_->now = now;
-  ++context_->step;
   for (const std::uint16_t index : record_->devices) {
     if (!owns_device(index)) continue;
     Device& device = *application_->device_states[index].device;
+    begin_step(now);
     note_stepped(application_->devices[index].name);
     cell_->parameters(application_->devices[index].index).before_step(now);
     device.receive(tick_);
@@ -295,8 +300,7 @@ bool Stepper::step(std::size_t place, Time now) noexcept {
   tick_.number = state.steps.load(std::memory_order_relaxed);
   tick_.elapsed = tick_.number == 0 ? Duration{} : now - state.stepped_at;
   state.stepped_at = now;
-  context_->now = now;
-  ++context_->step;
+  begin_step(now);
   note_stepped(record.name);
   parameters.before_step(now);
   try {
@@ -331,12 +335,12 @@ void Stepper::send(Time now) noexcept {
   if (!receives_) return;
   tick_.now = now;
   context_->now = now;
-  ++context_->step;
   make_safe();
   for (std::size_t place = record_->devices.size(); place-- > 0;) {
     const std::uint16_t index = record_->devices[place];
     if (!owns_device(index)) continue;
     DeviceState& state = application_->device_states[index];
+    begin_step(now);
     note_stepped(application_->devices[index].name);
     state.device->send(tick_);
     note_restraint(application_->devices[index].name, *state.device, state.restraint, now);
@@ -371,6 +375,7 @@ void Stepper::make_safe() noexcept {
     DeviceState& state = application_->device_states[index];
     if (!is_to_be_safe(index) || state.safe.load(std::memory_order_relaxed) || !owns_device(index)) continue;
     if (cell_->driver(index).actuates) state.device->set_inhibited(true);
+    begin_step(context_->now);
     if (state.device->make_safe()) state.safe.store(true, std::memory_order_release);
   }
 }

@@ -50,6 +50,7 @@ class Stepper {
   ThreadState& state() noexcept { return *state_; }
 
  private:
+  void begin_step(Time now) noexcept;
   void note_stepped(const char* component) noexcept;
   void give_back() noexcept;
   void apply(const ParameterRequest& request, Time now) noexcept;

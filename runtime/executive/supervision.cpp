@@ -140,7 +140,7 @@ bool Supervision::an_event_is_handled() const noexcept {
 bool Supervision::is_quiet() const noexcept {
   for (const QueueRecord& queue : cell_->application().queues) {
     for (const QueueSource* source : queue.sources) {
-      if (!source->is_empty()) return false;
+      if (!source->is_empty() && !cell_->is_abandoned(source)) return false;
     }
   }
   // What a step took out of a queue is in nobody's hands until it ends, and the machine may stand still in

@@ -36,8 +36,8 @@ bool lacks_budget(const Application& application, const ThreadRecord& thread) no
 
 VirtualTime::Thread::Thread(Cell& cell, std::uint16_t index) : releases(cell, index) {
   for (const std::uint16_t device : record().devices) {
-    const DeviceBinding& binding = cell.application().devices[device].binding;
-    receives = receives || !binding.outputs.empty() || !binding.queue_outputs.empty();
+    const PortBinding& ports = cell.ports(cell.application().devices[device].index);
+    receives = receives || !ports.outputs.empty() || !ports.queue_outputs.empty();
   }
 }
 
@@ -153,9 +153,9 @@ void VirtualTime::commit_devices(const Thread& thread) noexcept {
 }
 
 void VirtualTime::complete(Thread& thread) noexcept {
-  if (thread.phase == Phase::receiving) {
-    commit_devices(thread);
-  } else {
+  // Of the devices also what they published in the unit's step, when it called them.
+  commit_devices(thread);
+  if (thread.phase != Phase::receiving) {
     cell_->commit(thread.record().units[thread.place]);
     ++thread.place;
   }

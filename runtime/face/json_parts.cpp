@@ -53,8 +53,9 @@ void write_queue(JsonWriter& json, const QueueFigures& queue) {
   json.end_array();
 }
 
-void write_observed(JsonWriter& json, const TypeDescriptor& type, const ObservedSlot& newest) {
-  json.member("reason", newest.reason == NullReason::none ? "" : name_of(newest.reason));
+void write_observed(JsonWriter& json, const TypeDescriptor& type, const ObservedSlot& newest,
+                    std::string_view reason) {
+  json.member("reason", reason);
   json.member("sequence", newest.header.sequence);
   json.member("sampled_at_ns", nanoseconds(newest.header.sampled_at)).key("value");
   if (newest.value == nullptr) {

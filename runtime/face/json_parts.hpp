@@ -22,6 +22,7 @@ void write_readers(JsonWriter& json, const SlotFigures& slot);
 /// names
 void write_queue(JsonWriter& json, const QueueFigures& queue);
 /// "reason", which is "" unless the slot is NULL, "sequence", "sampled_at_ns", "value"
-void write_observed(JsonWriter& json, const TypeDescriptor& type, const ObservedSlot& newest);
+void write_observed(JsonWriter& json, const TypeDescriptor& type, const ObservedSlot& newest,
+                    std::string_view reason);
 
 }  // namespace flexrf

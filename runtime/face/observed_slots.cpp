@@ -1,8 +1,28 @@
 #include "runtime/face/observed_slots.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace flexrf {
+
+std::string reason_text(const Cell& cell, std::uint16_t slot, NullReason reason) {
+  if (reason == NullReason::none) return "";
+  if (reason != NullReason::driver_not_chosen) return name_of(reason);
+  const Application& application = cell.application();
+  const SlotControl* const control = application.slots[slot].control;
+  for (const DeviceRecord& device : application.devices) {
+    std::string drivers;
+    std::size_t count = 0;
+    for (const DriverRecord& driver : device.drivers) {
+      if (driver.ports == nullptr || std::ranges::count(driver.ports->outputs, control) == 0) continue;
+      drivers += std::string(count++ == 0 ? "'" : " and '") + driver.name + "'";
+    }
+    if (count == 0) continue;
+    return (count == 1 ? "written by driver " : "written by drivers ") + drivers + " of device '" +
+           device.name + (count == 1 ? "', which was not chosen" : "', none of which was chosen");
+  }
+  return name_of(reason);
+}
 
 const ObservedSlot& ObservedSlots::read(std::uint16_t slot) {
   Cached& cached = slots_[slot];

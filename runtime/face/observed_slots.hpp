@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "runtime/executive/cell.hpp"
@@ -16,6 +17,10 @@ struct ObservedSlot {
   const void* value = nullptr;  ///< null unless reason is none
   const void* last = nullptr;   ///< of the newest item, whatever became of its writer; null: there is none
 };
+
+/// Why a slot is NULL, for people; "": it is not. Of one that only another driver would write, which and of
+/// what.
+std::string reason_text(const Cell& cell, std::uint16_t slot, NullReason reason);
 
 /// How often who subscribed to a slot is told of it, in values a second.
 struct SlotRate {
@@ -56,6 +61,10 @@ class ObservedSlots {
   const ObservedSlot& read(std::uint16_t slot);
   /// Of an observed slot whose value is had in another way, as a picture is: all but the values, as of now.
   ObservedSlot read_header(std::uint16_t slot);
+  /// Why the slot is NULL, as reason_text().
+  std::string reason(std::uint16_t slot, const ObservedSlot& seen) const {
+    return reason_text(*cell_, slot, seen.reason);
+  }
   std::size_t size(std::uint16_t slot) const noexcept {
     return cell_->application().slots[slot].control->type()->size;
   }

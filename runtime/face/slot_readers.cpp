@@ -22,19 +22,19 @@ std::uint16_t index_of(const Application& application, const SlotControl* contro
                                           : static_cast<std::uint16_t>(found - application.slots.begin());
 }
 
-std::vector<std::vector<SlotInput>> readers_of_slots(const Application& application) {
+std::vector<std::vector<SlotInput>> readers_of_slots(const Cell& cell) {
+  const Application& application = cell.application();
   std::vector<std::vector<SlotInput>> readers(application.slots.size());
-  for (std::size_t u = 0; u < application.units.size(); ++u) {
-    const UnitRecord& unit = application.units[u];
-    const std::vector<const char*> names = input_names(*unit.type);
-    for (std::size_t input = 0; input < unit.binding.inputs.size(); ++input) {
-      const InputBinding& binding = unit.binding.inputs[input];
-      for (std::uint32_t member = 0; member < binding.count; ++member) {
-        const std::uint16_t slot = index_of(application, binding.readers[member].slot());
+  for (ComponentIndex component = 0; component < cell.component_count(); ++component) {
+    const std::span<const InputBinding> inputs = cell.ports(component).inputs;
+    const std::vector<const char*> names = input_names(cell.component_type(component));
+    for (std::size_t input = 0; input < inputs.size(); ++input) {
+      for (std::uint32_t member = 0; member < inputs[input].count; ++member) {
+        const std::uint16_t slot = index_of(application, inputs[input].readers[member].slot());
         if (slot == no_index) continue;
-        const std::string name = std::string{unit.name} + "." + (input < names.size() ? names[input] : "?");
-        readers[slot].push_back(
-            {name, &application.unit_states[u], static_cast<std::uint16_t>(input), member});
+        const std::string name =
+            std::string{cell.component_name(component)} + "." + (input < names.size() ? names[input] : "?");
+        readers[slot].push_back({name, &cell, component, static_cast<std::uint16_t>(input), member});
       }
     }
   }

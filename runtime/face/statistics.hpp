@@ -112,7 +112,7 @@ FiguresOfEach<Figures> figures_of_each(const Records& records, Figures figures) 
 class Statistics {
  public:
   /// When everything is constructed.
-  explicit Statistics(const Cell& cell) : cell_(&cell), readers_(readers_of_slots(cell.application())) {}
+  explicit Statistics(const Cell& cell) : cell_(&cell), readers_(readers_of_slots(cell)) {}
 
   ComponentFigures component(ComponentIndex component) const noexcept;
   /// By its number among the devices.

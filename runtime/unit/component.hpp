@@ -3,29 +3,17 @@
 
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "base/status.hpp"
-#include "runtime/blackboard/item.hpp"
 #include "runtime/core/parameter_descriptor.hpp"
+#include "runtime/unit/port_binding.hpp"
 #include "runtime/unit/restraint.hpp"
 
 namespace flexrf {
 
-class QueueSink;
-class SlotControl;
-
 /// A component's number, as in requests: units in table order, then devices.
 using ComponentIndex = std::uint16_t;
-
-/// How the generated application connects what units and devices publish, each kind of port in the order of
-/// its table.
-struct PortBinding {
-  const StepContext* context = nullptr;                        ///< of the thread it lives in
-  std::span<SlotControl* const> outputs;                       ///< null: not connected
-  std::span<const std::span<QueueSink* const>> queue_outputs;  ///< empty span: not connected
-};
 
 class Component {
  public:
@@ -56,6 +44,11 @@ class Component {
   /// The author's accept(proposed), untyped: may refuse a set of runtime parameters as a whole. Owning
   /// thread.
   virtual Status accept_runtime(const void* /*proposed*/) noexcept { return {}; }
+  /// What its n-th input (of a slot, in the order of its table; of a range: its member) read since it was
+  /// connected: a unit when it was constructed, a device also when it was initialised. Any thread.
+  virtual InputCounters input_counters(std::size_t /*input*/, std::size_t /*member*/) const noexcept {
+    return {};
+  }
 
   void set_name(const char* name) noexcept { name_ = name; }
   /// `type` outlives the component. Before anything else asks for it.

@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include "runtime/blackboard/ports.hpp"
 #include "runtime/unit/component.hpp"
 #include "runtime/unit/tick.hpp"
 
@@ -12,11 +11,9 @@ namespace flexrf {
 class CellAccess;
 class Device;
 
-/// How the generated application connects a unit: each kind of port in the order of the unit's table.
+/// How the generated application connects a unit, in the order of the unit's table.
 struct UnitBinding : PortBinding {
-  std::span<const InputBinding> inputs;
-  std::span<QueueSource* const> queue_inputs;  ///< null: not connected
-  std::span<Device* const* const> devices;     ///< where the constructed driver is found
+  std::span<Device* const* const> devices;  ///< where the constructed driver is found
 };
 
 /// initialise, stop: the lifecycle thread, while the unit does not run. step, reset, is_idle, accept: its
@@ -35,11 +32,6 @@ class Unit : public Component {
   virtual void connect(const UnitBinding& binding) noexcept = 0;
   /// Of a unit whose table says access = "cell"; null: of others.
   virtual CellAccess* cell_access() noexcept { return nullptr; }
-  /// What the unit's n-th input (of a slot, in the order of its table; of a range: its member) read since the
-  /// unit was constructed. Any thread.
-  virtual InputCounters input_counters(std::size_t /*input*/, std::size_t /*member*/) const noexcept {
-    return {};
-  }
 };
 
 }  // namespace flexrf

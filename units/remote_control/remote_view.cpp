@@ -156,7 +156,7 @@ std::optional<RpcProblem> RemoteView::list(Fields& params, JsonWriter& json, std
 void RemoteView::write_slot(JsonWriter& json, std::uint16_t slot, const ObservedSlot& seen) const {
   const SlotRecord& record = directory_.slots()[slot];
   json.member("name", record.name).member("type", record.control->type()->name);
-  write_observed(json, *record.control->type(), seen);
+  write_observed(json, *record.control->type(), seen, slots_.reason(slot, seen));
 }
 
 std::optional<RpcProblem> RemoteView::read(Fields& params, JsonWriter& json) {

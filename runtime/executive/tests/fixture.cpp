@@ -353,7 +353,7 @@ void TestApplication::make_units() {
     record.construct = &UnitPlace::construct<Unit>;
     record.storage = place.object;
     record.storage_size = sizeof(place.object);
-    record.binding = {{&made_->contexts[thread], outputs, sinks}, inputs, sources, devices};
+    record.binding = {{&made_->contexts[thread], inputs, sources, outputs, sinks}, devices};
     record.configuration = &TestUnit::default_configuration;
     record.runtime = &TestUnit::default_settings;
     if (plan.parameters) {

@@ -18,6 +18,8 @@ ImageWorker::ImageWorker(const Cell& cell, const Directory& directory, Doorbell*
     if (!type.is_image || record.observer == nullptr || !layout.is_complete()) continue;
     slot = std::make_unique<Slot>();
     slot->name = record.name;
+    slot->not_chosen =
+        reason_text(cell, static_cast<std::uint16_t>(slots_.size() - 1), NullReason::driver_not_chosen);
     slot->layout = layout;
     slot->size = type.size;
   }
@@ -132,7 +134,9 @@ void ImageWorker::encode(std::uint16_t index, Slot& slot, std::uint32_t width) {
     slot.jpeg.assign(jpeg);
     slot.newest.header = seen.header;
   }
-  slot.cause = seen.reason == NullReason::none ? slot.encoder.cause() : name_of(seen.reason);
+  slot.cause = seen.reason == NullReason::none                ? slot.encoder.cause()
+               : seen.reason == NullReason::driver_not_chosen ? slot.not_chosen.c_str()
+                                                              : name_of(seen.reason);
   slot.newest.reason = seen.reason;
   slot.newest.size = seen.reason == NullReason::none ? slot.jpeg.size() : 0;
   ++slot.newest.version;

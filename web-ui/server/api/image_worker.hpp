@@ -66,6 +66,7 @@ class ImageWorker {
     // What was encoded last.
     Newest newest;
     std::string jpeg;
+    std::string not_chosen;  // reason_text() of a driver that was not
     const char* cause = "nobody looked at it yet";
   };
 

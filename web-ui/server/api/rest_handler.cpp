@@ -194,7 +194,7 @@ void RestHandler::write_slot(JsonWriter& json, std::uint16_t slot) {
   json.member("published", figures.published);
   // A picture is asked for as such; its bytes are no JSON.
   const ObservedSlot newest = is_picture ? parts_.slots.read_header(slot) : parts_.slots.read(slot);
-  write_observed(json, *figures.type, newest);
+  write_observed(json, *figures.type, newest, parts_.slots.reason(slot, newest));
   write_readers(json, figures);
   json.end_object();
 }

@@ -10,7 +10,7 @@ const high = 4294967296;
 /** NullReason of runtime/blackboard/item.hpp, in words. */
 const reasons = [
   '', 'nothing yet', 'too old', 'writer stopped', 'writer in fault', 'writer retired', 'not registered', 'wrong type',
-  'no longer kept',
+  'no longer kept', 'driver not chosen',
 ];
 
 export function reasonText(reason: number): string {

@@ -1,5 +1,6 @@
 // What the page knows of the application before any value arrives: components, slots, and every item that can be shown.
 import type { ItemInfo, Joint, Placement, Role, Value } from '../contract';
+import { slotUses } from './driver_ports';
 import type { Drivers } from './protocol';
 import type {
   BlockJson, DescriptorJson, DeviceJson, InterfaceJson, OverrideJson, ParameterJson, QueueJson, SlotJson, ThreadJson, UnitJson,
@@ -30,6 +31,8 @@ export interface Slot {
   readonly name: string;
   readonly json: SlotJson;
   readonly image: boolean;
+  /** Why nobody writes it with the drivers that there are. */
+  readonly unwritten?: string;
   /** Of its whole value; its members are its fields. */
   readonly item: Item;
 }
@@ -247,8 +250,8 @@ export function makeModel(json: DescriptorJson, drivers: Drivers = {}): Model {
   for (const device of json.devices) {
     if (!device.joints) continue;
     armOf.set(`component:${device.name}`, device.joints);
-    for (const slot of [...Object.values(device.outputs ?? {}).flat(), device.feedback_slot])
-      if (typeof slot === 'string') armOf.set(slot, device.joints);
+    const outputs = [device, ...device.drivers].flatMap((one) => Object.values(one.outputs ?? {}).flat());
+    for (const slot of [...outputs, device.feedback_slot]) if (typeof slot === 'string') armOf.set(slot, device.joints);
   }
   for (const unit of json.units) {
     const arms = Object.values(unit.devices ?? {}).flatMap((name) => {
@@ -267,11 +270,15 @@ export function makeModel(json: DescriptorJson, drivers: Drivers = {}): Model {
   const driverOf = (device: DeviceJson): string => drivers[device.name] ?? device.drivers[0]?.driver ?? '';
   const driverOfSlots = new Map(json.devices.flatMap((device) =>
     [device.values_slot, device.feedback_slot].map((slot) => [slot, driverOf(device)] as const)));
+  const useOf = slotUses(json, driverOf);
   json.slots.forEach((declared, index) => {
-    const slotJson = { ...declared, type: declared.driver_types?.[driverOfSlots.get(declared.name) ?? ''] ?? declared.type };
+    const { writer, readers, unwritten } = useOf(declared);
+    const slotJson = {
+      ...declared, writer, readers, type: declared.driver_types?.[driverOfSlots.get(declared.name) ?? ''] ?? declared.type,
+    };
     const type = types.get(slotJson.type);
     const slot = {
-      index, name: slotJson.name, json: slotJson, image: type?.image ?? false,
+      index, name: slotJson.name, json: slotJson, image: type?.image ?? false, ...(unwritten !== undefined && { unwritten }),
     } as { -readonly [K in keyof Slot]: Slot[K] };
     const key = `slot:${slotJson.name}`;
     const source: Source = { slot, fields: [], steps: [] };

@@ -83,11 +83,16 @@ export interface InterfaceJson extends Blocks {
   readonly outputs?: readonly PortJson[];
 }
 
-/** Runtime and feedback only where it has some of its own: then its interface's come first, at the same places. */
+/**
+ * Runtime and feedback only where it has some of its own: then its interface's come first, at the same places. Inputs and outputs
+ * are its own.
+ */
 export interface DriverJson extends Blocks {
   readonly name: string;
   readonly driver: string;
   readonly interface: string;
+  readonly inputs?: readonly PortJson[];
+  readonly outputs?: readonly PortJson[];
   readonly kind: 'mock' | 'simulated' | 'real';
   readonly actuates: boolean;
   readonly virtual_time: boolean;
@@ -138,8 +143,10 @@ export interface DeviceJson {
     readonly driver: string;
     readonly type: string;
     readonly configuration?: { readonly [name: string]: Value };
-    /** Of the driver's own. */
+    /** Of the driver's own, as the next two. */
     readonly runtime?: { readonly [name: string]: Value };
+    readonly inputs?: { readonly [port: string]: Connected };
+    readonly outputs?: { readonly [port: string]: Connected };
   }[];
   readonly on?: string;
   readonly unit?: string;
@@ -169,6 +176,8 @@ export interface SlotJson {
   /** Of a device's parameters: what it carries with each driver that has more than `type` says. */
   readonly driver_types?: { readonly [driver: string]: string };
   readonly writer: string;
+  /** Of what drivers write: the port of each. `writer` is the first. */
+  readonly driver_writers?: { readonly [driver: string]: string };
   readonly readers: readonly string[];
   readonly buffers: number;
   readonly observe: boolean;

@@ -128,7 +128,8 @@ export class Store {
     if (item.reason !== 0 || item.bytes.byteLength === 0) {
       // Of a picture that is there but cannot be encoded, the log has the cause.
       const otherwise = item.jpeg ? 'the picture cannot be shown: the log says why' : 'no value';
-      return { ...base, value: null, reason: reasonText(item.reason) || otherwise };
+      // Of a slot whose driver was not chosen all else is said by the drivers that there are.
+      return { ...base, value: null, reason: source.slot.unwritten ?? (reasonText(item.reason) || otherwise) };
     }
     if (item.jpeg) {
       state.image ??= new Blob([item.bytes as DataView<ArrayBuffer>], { type: 'image/jpeg' });

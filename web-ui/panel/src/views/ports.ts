@@ -23,13 +23,16 @@ type Connected = string | null | readonly string[] | undefined;
 
 export function portsOf(model: Model, component: Component): Port[] {
   const { json } = model;
-  const declared: { inputs?: readonly PortJson[]; outputs?: readonly PortJson[] } | undefined =
+  // Of a device its interface's, then those of the driver that it has.
+  const permitted = component.device?.drivers ?? [];
+  const driver = permitted.find((one) => one.driver === model.drivers[component.name]) ?? permitted[0];
+  const declared: readonly ({ inputs?: readonly PortJson[]; outputs?: readonly PortJson[] } | undefined)[] =
     component.kind === 'unit'
-      ? json.unit_types.find((type) => type.name === component.typeName)
-      : json.interfaces.find((face) => face.name === component.typeName);
+      ? [json.unit_types.find((type) => type.name === component.typeName)]
+      : [json.interfaces.find((face) => face.name === component.typeName), json.drivers.find((one) => one.name === driver?.type)];
   const connected = component.unit ?? component.device;
-  const inputs: { readonly [port: string]: Connected } = component.unit?.inputs ?? {};
-  const outputs: { readonly [port: string]: Connected } = connected?.outputs ?? {};
+  const inputs: { readonly [port: string]: Connected } = component.unit?.inputs ?? driver?.inputs ?? {};
+  const outputs: { readonly [port: string]: Connected } = { ...connected?.outputs, ...driver?.outputs };
 
   const port = (direction: Port['direction'], row: PortJson, to: Connected): Port => ({
     name: row.name,
@@ -43,7 +46,7 @@ export function portsOf(model: Model, component: Component): Port[] {
     })),
   });
   return [
-    ...(declared?.inputs ?? []).map((row) => port('in', row, inputs[row.name])),
-    ...(declared?.outputs ?? []).map((row) => port('out', row, outputs[row.name])),
+    ...declared.flatMap((of) => of?.inputs ?? []).map((row) => port('in', row, inputs[row.name])),
+    ...declared.flatMap((of) => of?.outputs ?? []).map((row) => port('out', row, outputs[row.name])),
   ];
 }

@@ -105,3 +105,26 @@ export const driven: DescriptorJson = {
     { ...slot('motor.feedback', 'MotorFeedback', '', []), driver_types: { can: 'CanFeedback' } },
   ],
 };
+
+const place = { type: 'Place', summary: 'A place.' };
+
+/** Whose device has drivers with ports: both write "truth", by ports of other names, the first alone "guess"; each reads. */
+export const ported: DescriptorJson = {
+  ...cell,
+  drivers: cell.drivers.map((one) =>
+    one.driver === 'can'
+      ? { ...one, inputs: [{ name: 'goal', ...place }], outputs: [{ name: 'seen', ...place }] }
+      : { ...one, inputs: [{ name: 'goal', ...place }], outputs: [{ name: 'truth', ...place }, { name: 'guess', ...place }] }),
+  devices: cell.devices.map((device) => ({
+    ...device,
+    drivers: [
+      { driver: 'model', type: 'model_motor', inputs: { goal: 'goal' }, outputs: { truth: 'truth', guess: 'guess' } },
+      { driver: 'can', type: 'can_motor', inputs: { goal: 'place[0]' }, outputs: { seen: 'truth' } },
+    ],
+  })),
+  slots: [
+    ...cell.slots.map((one) => (one.name === 'goal' || one.name === 'place[0]' ? { ...one, readers: [...one.readers, 'motor.goal'] } : one)),
+    { ...slot('truth', 'Place', 'motor.truth', []), driver_writers: { model: 'motor.truth', can: 'motor.seen' } },
+    { ...slot('guess', 'Place', 'motor.guess', []), driver_writers: { model: 'motor.guess' } },
+  ],
+};

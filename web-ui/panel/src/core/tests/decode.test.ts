@@ -65,6 +65,6 @@ describe('values', () => {
     expect(decodeField(viewOf(new Uint8Array(bytes)), 0, field, types)).toBe(expected);
   });
   it('says why there is none', () => {
-    expect([0, 4, 99].map(reasonText)).toEqual(['', 'writer in fault', 'unknown reason']);
+    expect([0, 4, 9, 99].map(reasonText)).toEqual(['', 'writer in fault', 'driver not chosen', 'unknown reason']);
   });
 });

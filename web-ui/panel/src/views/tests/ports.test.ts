@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { makeModel } from '../../core/descriptor';
 import { ownerOf, writerOf } from '../blackboard_rows';
 import { portsOf } from '../ports';
-import { cell } from '../../core/tests/cell';
+import { cell, ported } from '../../core/tests/cell';
 
 const model = makeModel(cell);
 
@@ -17,6 +17,16 @@ describe('ports', () => {
 
   it('of a device are its outputs', () => {
     expect(portsOf(model, model.components.get('motor')!)).toMatchObject([{ name: 'ticks', direction: 'out', connections: [{ name: 'ticks' }] }]);
+  });
+
+  it('of a device are also those of the driver that it has', () => {
+    const ports = (driver: string) => {
+      const chosen = makeModel(ported, { motor: driver });
+      return portsOf(chosen, chosen.components.get('motor')!)
+        .map(({ name, direction, connections }) => `${direction} ${name} ${connections.map((to) => to.name).join(' ')}`);
+    };
+    expect(ports('model')).toEqual(['in goal goal', 'out ticks ticks', 'out truth truth', 'out guess guess']);
+    expect(ports('can')).toEqual(['in goal place[0]', 'out ticks ticks', 'out seen truth']);
   });
 });
 
