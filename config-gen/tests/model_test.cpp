@@ -7,6 +7,7 @@
 #include <map>
 
 #include "config-gen/model/memory.hpp"
+#include "config-gen/model/ports.hpp"
 #include "config-gen/tests/find.hpp"
 #include "config-gen/tests/tables.hpp"
 #include "places.hpp"
@@ -189,6 +190,31 @@ void values_of_a_driver_lie_behind_its_interfaces(void**) {
   assert_string_equal(model.renames[0].to.c_str(), "valve.dither");
 }
 
+// As those of units, in groups too. Of two drivers of one device one is chosen: they share slots and copies.
+void ports_of_drivers_connect_as_those_of_units(void**) {
+  const Model& model = cell("driver-ports").model;
+  assert_string_equal(cell("driver-ports").messages.c_str(), "");
+  const Device& servo = named(model.devices, "axis[1].servo");
+  const Index truth = index_of(model.slots, "truths[1]");
+  assert_true(servo.drivers[0].outputs[0].slot == truth);
+  assert_true(servo.drivers[1].outputs[0].slot == truth);
+  assert_int_equal(writers_of(model, truth).size(), 2);
+  assert_int_equal(model.slots[truth].loans, 3);
+  assert_int_equal(model.slots[truth].reader_count, 2);  // the main thread and the observer
+  const Slot& scene = named(model.slots, "scene");
+  assert_int_equal(scene.inputs.size(), 2);
+  assert_int_equal(scene.readers.size(), 3);  // the threads of both axes and the observer
+  assert_true(scene.readers[1].thread == index_of(model.threads, "axis[1].control"));
+  assert_true(named(model.slots, "axis[1].position").readers[0].kind == SlotReader::Kind::held_input);
+  assert_int_equal(named(model.slots, "axis[1].position").reader_count, 3);
+  assert_int_equal(model.queues.size(), 2);
+  assert_string_equal(model.queues[1].name.c_str(), "orders@axis[1].servo.orders");
+  assert_int_equal(model.queues[1].readers.size(), 2);
+  assert_int_equal(readers_at_work(model.queues[1]).size(), 1);
+  assert_true(servo.drivers[0].inputs[2].queue == Index{1} && servo.drivers[1].inputs[0].queue == Index{1});
+  assert_int_equal(named(model.units, "planner").outputs[0].queues.size(), 2);
+}
+
 // 1000 units with two slots each, in ten threads.
 std::string large_table() {
   std::string text = "summary = \"Large.\"\nmemory_budget = \"64 MiB\"\n";
@@ -259,6 +285,7 @@ int main() {
                               cmocka_unit_test(children_come_before_buses),
                               cmocka_unit_test(memory_adds_up),
                               cmocka_unit_test(values_of_a_driver_lie_behind_its_interfaces),
+                              cmocka_unit_test(ports_of_drivers_connect_as_those_of_units),
                               cmocka_unit_test(a_large_application_reads_the_same_twice)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -37,16 +37,16 @@ class DeviceBench {
   explicit DeviceBench(const void* resource, std::span<QueueSink* const> sinks = {}, Device* bus = nullptr,
                        SlotControl* output = nullptr)
       : resources_{resource}, outputs_{output}, queue_outputs_{sinks} {
-    driver_.set_environment(&environment_);
-    driver_.set_inhibited(false);
     DeviceBinding binding;
-    binding.context = &context_;
     binding.outputs = outputs_;
     binding.queue_outputs = queue_outputs_;
     binding.resources = resources_;
     binding.bus = bus;
-    driver_.connect(binding);
+    connect(binding);
   }
+  /// Of a driver with ports of its own: inputs, and outputs behind those of its interface. What the spans of
+  /// `binding` refer to outlives the bench; its context is the bench's.
+  explicit DeviceBench(DeviceBinding binding) { connect(binding); }
 
   Driver& driver() { return driver_; }
   DeviceEnvironment& environment() { return environment_; }
@@ -69,14 +69,24 @@ class DeviceBench {
     ++context_.step;
     driver_.receive(tick_);
   }
-  void send() { driver_.send(tick_); }
+  void send() {
+    ++context_.step;
+    driver_.send(tick_);
+  }
 
  private:
+  void connect(DeviceBinding& binding) {
+    driver_.set_environment(&environment_);
+    driver_.set_inhibited(false);
+    binding.context = &context_;
+    driver_.connect(binding);
+  }
+
   StepContext context_;
   Tick tick_{.nominal = Time{std::chrono::seconds(1)}, .now = Time{std::chrono::seconds(1)}};
   DeviceEnvironment environment_{.seed = 1, .virtual_time = true};
-  const void* resources_[1];
-  SlotControl* outputs_[1];
+  const void* resources_[1]{};
+  SlotControl* outputs_[1]{};
   std::span<QueueSink* const> queue_outputs_[1];
   Driver driver_;
 };

@@ -1,13 +1,9 @@
 // Values of a driver's own, beside its interface's: where they lie, who is told of them, and how they are
 // kept.
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <string>
 #include <tuple>
@@ -18,6 +14,7 @@
 #include "runtime/executive/executive.hpp"
 #include "runtime/face/change.hpp"
 #include "runtime/face/component_values.hpp"
+#include "tests/generator/in_a_process.hpp"
 
 // CMocka's macros would change what the headers above declare.
 #include "tests/cmocka.hpp"
@@ -42,27 +39,6 @@ const DeviceRecord& station() {
   for (const DeviceRecord& one : cell.devices)
     if (std::strcmp(one.name, "station") == 0) return one;
   std::abort();
-}
-
-/// The application's memory is that of one run: each has a process of its own, which says what it saw.
-std::string in_a_process(const std::function<std::string()>& run) {
-  int ends[2];
-  if (::pipe(ends) != 0) return "no pipe";
-  const pid_t child = ::fork();
-  if (child == 0) {
-    const std::string text = run();
-    const bool written = ::write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
-    ::_exit(written ? 0 : 1);
-  }
-  ::close(ends[1]);
-  std::string text;
-  char part[512];
-  for (ssize_t size = 0; (size = ::read(ends[0], part, sizeof(part))) > 0;)
-    text.append(part, static_cast<std::size_t>(size));
-  ::close(ends[0]);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return status == 0 ? text : "ended with " + std::to_string(status) + ": " + text;
 }
 
 Options options(const char* driver, const std::string& file = "") {

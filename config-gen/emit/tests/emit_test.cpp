@@ -45,6 +45,8 @@ constexpr Case cases[] = {{Target::Kind::types, "cell/types", 16},
                           {Target::Kind::interface, "interfaces/station/station.toml", 3},
                           {Target::Kind::driver, "drivers/mock_station/mock_station.toml", 4},
                           {Target::Kind::driver, "drivers/metering_station/metering_station.toml", 4},
+                          {Target::Kind::driver, "drivers/model_mover/model_mover.toml", 4},
+                          {Target::Kind::application, "ports_cell/ports_cell.toml", 9},
                           {Target::Kind::application, "cell/generated_cell.toml", 9}};
 
 // What goes wrong in one case, so that no assertion jumps over the files' destructors.
@@ -136,6 +138,40 @@ void paths_do_not_say_where_the_repository_lies(void**) {
   assert_true(text_is(short_path("jog.toml"), "jog.toml"));
 }
 
+std::string file_of_driver(const char* driver, const char* file) {
+  const fs::path table = fs::path("drivers") / driver / (std::string(driver) + ".toml");
+  for (const GeneratedFile& one : generate(place::source_folder, Target::Kind::driver, table))
+    if (one.path == file) return one.contents;
+  return "no file";
+}
+
+bool has(const std::string& text, const char* part) {
+  if (text.find(part) != std::string::npos) return true;
+  print_error("'%s' is not in: %s\n", part, text.c_str());
+  return false;
+}
+
+void ports_of_a_driver_are_members_of_its_base(void**) {
+  static std::string text;
+  text = file_of_driver("model_mover", "model_mover_driver.hpp");
+  assert_true(has(text, "  flexrf::Input<flexrf::user::Mark> scene;  ///< What is around.\n"));
+  assert_true(has(text, "  flexrf::Output<flexrf::user::Mark> truth;  ///< Where it is.\n"));
+  assert_true(has(text, "  flexrf::QueueOutput<flexrf::user::Mark> calls;"));
+  assert_true(has(text, "connect(const flexrf::DeviceBinding& binding) noexcept final;"));
+  assert_true(has(text, "#include \"types/mark.hpp\"\n"));
+  text = file_of_driver("model_mover", "model_mover_driver.cpp");
+  assert_true(has(text,
+                  "  flexrf::user::MoverInterface::connect(binding);\n"
+                  "  scene.connect(binding.context, binding.input(0));\n"
+                  "  kept.connect(binding.context, binding.input(1));\n"
+                  "  missing.connect(binding.context, binding.input(2));\n"
+                  "  truth.connect(binding.context, binding.output(0));\n"
+                  "  calls.connect(binding.context, binding.queue_output(0));\n}\n"));
+  assert_true(has(text, "    case 1: return kept.counters(member);\n"));
+  text = file_of_driver("model_scenery", "model_scenery_driver.cpp");
+  assert_true(has(text, "  calls.connect(binding.queue_input(0));\n"));
+}
+
 /// What the compiler is to check of a driver's guard, "" for nothing, where its table says this of it.
 std::string checked_of(const char* driver, bool actuates) {
   const fs::path tests = fs::path(place::source_folder) / "tests/generator";
@@ -178,6 +214,7 @@ int main() {
                               cmocka_unit_test(the_hash_follows_the_contents),
                               cmocka_unit_test(literals),
                               cmocka_unit_test(identifiers_differ_as_names_do),
+                              cmocka_unit_test(ports_of_a_driver_are_members_of_its_base),
                               cmocka_unit_test(what_moves_has_to_have_the_guard_and_to_say_so),
                               cmocka_unit_test(paths_do_not_say_where_the_repository_lies)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -182,6 +182,32 @@ void a_device_stops_after_its_unit_and_starts_before_it() {
   CHECK_EQUAL(events.count_of("consumer: initialise"), 3U);
 }
 
+// [exec-85]
+void the_ports_of_a_device_begin_anew_when_it_is_initialised() {
+  std::atomic<int> news{0};
+  std::atomic<int> looks{0};
+  Machine machine([&](Cell& cell) {
+    cell.unit(Cell::producer).script.step = [](TestUnit& unit, const Tick& tick) {
+      if (tick.number == 0) unit.outputs[0].publish(Item{7, 0});
+    };
+    cell.unit(Cell::consumer).script.step = {};
+    cell.device(Cell::actuator).reads = Cell::values;
+    cell.device(Cell::actuator).script.receive = [&](TestDevice& self, const Tick&) {
+      news += self.input.latest().is_new() ? 1 : 0;
+      ++looks;
+    };
+  });
+  const Component& device = machine.executive().cell().component(actuator);
+  CHECK(RunningCell::wait_until([&] { return news == 1; }));
+  CHECK_EQUAL(device.input_counters(0, 0).read, 1U);
+  CHECK(machine.act(ComponentAction::initialise, actuator).is_ok());
+  CHECK(RunningCell::wait_until([&] { return news == 2; }));
+  CHECK_EQUAL(device.input_counters(0, 0).read, 1U);
+  const int before = looks;
+  CHECK(RunningCell::wait_until([&] { return looks > before + 5; }));
+  CHECK_EQUAL(news.load(), 2);
+}
+
 // [exec-62]
 void a_bus_stops_after_what_it_carries_and_starts_before_it() {
   constexpr ComponentIndex bus = 3;
@@ -407,6 +433,7 @@ int main() {
       CONTAINED_TEST(a_unit_without_an_actuator_stops_alone),
       CONTAINED_TEST(a_unit_is_waited_for_as_long_as_its_step_does_not_hang),
       CONTAINED_TEST(a_device_stops_after_its_unit_and_starts_before_it),
+      CONTAINED_TEST(the_ports_of_a_device_begin_anew_when_it_is_initialised),
       CONTAINED_TEST(a_bus_stops_after_what_it_carries_and_starts_before_it),
       CONTAINED_TEST(after_a_fault_initialise_constructs_it_anew),
       CONTAINED_TEST(nobody_waits_for_what_he_asked_for),

@@ -166,6 +166,47 @@ void what_is_completed_at_an_instant_is_there_for_who_is_released_in_it() {
   CHECK((seen == std::vector<std::int64_t>{-1, 0, 1, 2}));
 }
 
+// [exec-84]
+void what_a_unit_has_its_device_publish_is_visible_with_its_own() {
+  TestApplication cell;
+  const std::uint16_t values = cell.add(SlotPlan{.name = "values"});
+  const std::uint16_t device =
+      cell.add(DevicePlan{.name = "sensor", .script = {}, .actuates = false, .output = values});
+  UnitPlan first;
+  first.name = "first";
+  first.parameters = false;
+  first.budget = microseconds{300};
+  first.device = device;
+  first.script.step = [](TestUnit& self, const Tick&) { self.device->output.publish(Item{}); };
+  UnitPlan second;
+  second.name = "second";
+  second.parameters = false;
+  second.budget = microseconds{400};
+  std::vector<std::int64_t> seen;
+  UnitPlan watcher;
+  watcher.name = "watcher";
+  watcher.parameters = false;
+  watcher.inputs = {InputPlan{.slot = values}};
+  watcher.script.step = [&seen](TestUnit&, const Tick& tick) {
+    seen.push_back((tick.now - Time{std::chrono::seconds{1}}) / microseconds{1});
+  };
+  const std::vector<std::uint16_t> units{cell.add(std::move(first)), cell.add(std::move(second))};
+  const std::vector<std::uint16_t> watchers{cell.add(std::move(watcher))};
+  cell.add(ThreadPlan{.name = "working",
+                      .trigger = TriggerPlan::periodic(milliseconds{1}),
+                      .units = units,
+                      .devices = {device}});
+  cell.add(ThreadPlan{
+      .name = "watching", .trigger = TriggerPlan::on_slots({values}), .units = watchers, .devices = {}});
+  Executive executive(cell.application(), in_virtual_time(milliseconds{3}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  // The device is served for 1 us before.
+  CHECK(seen.size() >= 3);
+  CHECK_EQUAL(seen[0], 301);
+  CHECK_EQUAL(seen[1], 1301);
+  CHECK_EQUAL(seen[2], 2301);
+}
+
 // [exec-65] [exec-81]
 void units_of_a_thread_take_turns_and_threads_have_a_cpu_each() {
   Rivals cell;
@@ -240,6 +281,7 @@ int main() {
       CONTAINED_TEST(what_is_marked_wall_does_not),
       CONTAINED_TEST(at_one_instant_priority_counts_and_then_the_order_of_the_table),
       CONTAINED_TEST(what_is_completed_at_an_instant_is_there_for_who_is_released_in_it),
+      CONTAINED_TEST(what_a_unit_has_its_device_publish_is_visible_with_its_own),
       CONTAINED_TEST(units_of_a_thread_take_turns_and_threads_have_a_cpu_each),
       CONTAINED_TEST(observing_changes_nothing),
       CONTAINED_TEST(two_runs_say_the_same),

@@ -232,6 +232,7 @@ void TestApplication::make_slots() {
     }
     for (std::size_t d = 0; d < devices_.size(); ++d) {
       if (devices_[d].output == index) writer = devices_[d].name + ".output";
+      if (devices_[d].reads == index) threads.insert(thread_of_device(static_cast<std::uint16_t>(d)));
     }
     make_slot(slots_[i].name.c_str(), keep(writer), *descriptor_of<Item>,
               static_cast<std::uint8_t>(threads.size()), bells_of(&TriggerPlan::slots, index),
@@ -288,6 +289,8 @@ void TestApplication::make_devices() {
     for (std::size_t u = 0; u < units_.size(); ++u) {
       if (units_[u].device == i) owner = static_cast<std::uint16_t>(u);
     }
+    std::vector<InputBinding>& inputs = made_->inputs.emplace_back();
+    if (plan.reads != no_index) inputs.push_back({reader_of(thread, plan.reads), 1, {}, nullptr});
     std::vector<SlotControl*>& outputs = made_->outputs.emplace_back();
     if (plan.output != no_index) outputs.push_back(slot_records_[plan.output].control);
     std::vector<std::span<QueueSink* const>>& sinks = made_->sink_lists.emplace_back();
@@ -308,6 +311,7 @@ void TestApplication::make_devices() {
     record.storage_size = sizeof(place.object);
     record.instance = &made_->instances[i];
     record.binding.context = &made_->contexts[thread];
+    record.binding.inputs = inputs;
     record.binding.outputs = outputs;
     record.binding.queue_outputs = sinks;
     record.bus = plan.bus;

@@ -86,6 +86,7 @@ struct DevicePlan {
   bool actuates = true;
   bool virtual_time = true;
   std::uint16_t bus = no_index;
+  std::uint16_t reads = no_index;   ///< slot
   std::uint16_t output = no_index;  ///< slot
   std::uint16_t pushes = no_index;  ///< queue
   Duration initialise_timeout = patience;

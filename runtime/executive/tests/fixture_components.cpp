@@ -50,6 +50,11 @@ constexpr ParameterDescriptor readings_parameters[] = {parameter(readings_fields
                                                        parameter(readings_fields[1])};
 
 using Direction = PortDescriptor::Direction;
+constexpr PortDescriptor device_ports[] = {
+    {"input", Direction::input, "Item", ""},
+    {"output", Direction::output, "Item", ""},
+    {"orders", Direction::queue_output, "Item", ""},
+};
 constexpr PortDescriptor unit_ports[] = {
     {"first", Direction::input, "Item", ""},
     {"second", Direction::input, "Item", ""},
@@ -74,8 +79,8 @@ const ComponentType TestUnit::type{"test_unit",
                                    {&settings_type, settings_parameters},
                                    {&readings_type, readings_parameters},
                                    unit_ports};
-const ComponentType TestDevice::type{
-    "test_device", "A device whose behaviour is the test's.", {}, {}, {}, {}};
+const ComponentType TestDevice::type{"test_device", "A device whose behaviour is the test's.", {}, {}, {},
+                                     device_ports};
 
 // ---- events
 
@@ -165,9 +170,9 @@ bool TestDevice::make_safe() noexcept {
 }
 
 void TestDevice::connect(const DeviceBinding& binding) noexcept {
-  output.connect(binding.context, binding.outputs.empty() ? nullptr : binding.outputs[0]);
-  orders.connect(binding.context,
-                 binding.queue_outputs.empty() ? std::span<QueueSink* const>{} : binding.queue_outputs[0]);
+  input.connect(binding.context, binding.input(0));
+  output.connect(binding.context, binding.output(0));
+  orders.connect(binding.context, binding.queue_output(0));
 }
 
 }  // namespace flexrf::fixture

@@ -124,6 +124,7 @@ class TestDevice final : public Device {
   TestDevice(const DeviceScript& script, Events& events) : script_(&script), events_(&events) {}
   ~TestDevice() override { events_->add(name(), "destroy"); }
 
+  Input<Item> input;
   Output<Item> output;
   QueueOutput<Item> orders;
   double command = 0;      ///< what its unit commands
@@ -151,6 +152,9 @@ class TestDevice final : public Device {
   const ComponentType& component_type() const noexcept override { return type; }
   ParameterMemory parameter_memory() noexcept override { return {}; }
   void connect(const DeviceBinding& binding) noexcept override;
+  InputCounters input_counters(std::size_t /*input*/, std::size_t /*member*/) const noexcept override {
+    return input.counters();
+  }
 
   static const ComponentType type;
 

@@ -118,6 +118,52 @@ void units_of_one_thread_share_the_latch_of_their_own_steps() {
   CHECK(first_seen == second_seen);
 }
 
+// [exec-83]
+void each_call_of_a_device_is_a_step_to_its_ports() {
+  TestApplication cell;
+  const std::uint16_t values = cell.add(SlotPlan{.name = "values"});
+  const std::uint16_t device =
+      cell.add(DevicePlan{.name = "sensor", .script = {}, .actuates = false, .reads = values});
+  std::vector<std::int64_t> received, commanded, sent;
+  int differing = 0;
+  const auto look = [&differing](TestDevice& self, std::vector<std::int64_t>& seen) {
+    const View<Item> view = self.input.latest();
+    const View<Item> again = self.input.latest();
+    differing += again.sequence() != view.sequence() || again.is_new() != view.is_new() ? 1 : 0;
+    // A tenth more: it is new.
+    seen.push_back(view ? view->number * 10 + (view.is_new() ? 1 : 0) : -1);
+  };
+  cell.device(device).script.receive = [&](TestDevice& self, const Tick&) { look(self, received); };
+  cell.device(device).script.send = [&](TestDevice& self, const Tick&) { look(self, sent); };
+  UnitPlan unit;
+  unit.name = "writer";
+  unit.parameters = false;
+  unit.outputs = {values};
+  unit.device = device;
+  unit.script.step = [&](TestUnit& self, const Tick& tick) {
+    look(*self.device, commanded);
+    self.outputs[0].publish(Item{static_cast<std::int64_t>(tick.number), 0});
+  };
+  const std::uint16_t writer = cell.add(std::move(unit));
+  cell.add(ThreadPlan{.name = "all",
+                      .trigger = TriggerPlan::periodic(milliseconds{1}),
+                      .units = {writer},
+                      .devices = {device}});
+  Executive executive(cell.application(), in_virtual_time(milliseconds{4}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  CHECK(received.size() >= 4 && commanded.size() >= 4 && sent.size() >= 4);
+  const auto first_four = [](std::vector<std::int64_t> seen) {
+    seen.resize(4);
+    return seen;
+  };
+  // What its unit published it sees in send(), and in the next cycle knows it.
+  using Seen = std::vector<std::int64_t>;
+  CHECK((first_four(received) == Seen{-1, 0, 10, 20}));
+  CHECK((first_four(commanded) == Seen{-1, 0, 10, 20}));
+  CHECK((first_four(sent) == Seen{1, 11, 21, 31}));
+  CHECK_EQUAL(differing, 0);
+}
+
 ParameterRequest set_gain(std::uint16_t component, double gain) {
   ParameterRequest request;
   request.component = component;
@@ -233,6 +279,7 @@ int main() {
       CONTAINED_TEST(a_bus_receives_before_what_it_carries_and_sends_after_it),
       CONTAINED_TEST(a_step_sees_one_input_however_often_it_looks),
       CONTAINED_TEST(units_of_one_thread_share_the_latch_of_their_own_steps),
+      CONTAINED_TEST(each_call_of_a_device_is_a_step_to_its_ports),
       CONTAINED_TEST(requests_are_applied_between_steps_and_answered),
       CONTAINED_TEST(a_sleeping_thread_serves_requests_without_a_step),
       CONTAINED_TEST(a_button_counts_presses_since_the_last_step),

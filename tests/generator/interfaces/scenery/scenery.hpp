@@ -1,0 +1,9 @@
+#pragma once
+
+#include "scenery_interface.hpp"
+
+namespace flexrf::user {
+
+class Scenery : public SceneryInterface {};
+
+}  // namespace flexrf::user
