@@ -3,7 +3,7 @@
 #
 #   flexrf_add_types(NAME [DIRECTORY folder])                       types/*.toml
 #   flexrf_add_interface([NAME name] [SOURCES ...] [LIBRARIES ...])  NAME.toml, and types/ beside it
-#   flexrf_add_driver([NAME name] [SOURCES ...] [LIBRARIES ...])     NAME.toml
+#   flexrf_add_driver([NAME name] [SOURCES ...] [LIBRARIES ...])     NAME.toml, and types/ beside it
 #   flexrf_add_unit([NAME name] [SOURCES ...] [LIBRARIES ...])       NAME.toml, and types/ beside it
 #   flexrf_add_application([NAME name] [SOURCES ...] [LIBRARIES ...] [WITHOUT_PANEL])
 #                                                                    NAME.toml, types/, units/*/, widgets/ of its own

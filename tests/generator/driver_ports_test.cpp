@@ -224,6 +224,7 @@ void another_driver_may_write_the_same(void**) {
   assert_true(holds(seen, "why=writer stopped "));
 }
 
+// [board-45]
 void what_a_driver_that_was_not_chosen_would_write_is_null_with_the_reason(void**) {
   static std::string seen;
   seen = seen_with("still");
