@@ -226,8 +226,59 @@ void read_overrun(Assembly& assembly, Row& thread, Overrun& overrun) {
   row.finish();
 }
 
+void check_number(Assembly& assembly, const Position& position) {
+  if (assembly.model.threads.size() < max_threads) return;
+  assembly.diagnostics.give_up(
+      position, "with this row the application has more than " + std::to_string(max_threads) + " threads",
+      "those of instances of groups, of members of populations and of devices count: let one thread step "
+      "several "
+      "units");
+}
+
+// each = "tracker": a thread as this for each member of the population, called by its number.
+void add_each(Assembly& assembly, Row& row, const Scope& scope, Thread thread) {
+  Model& model = assembly.model;
+  const auto name = row.text("each");
+  const std::string full = scope.prefix + name.value_or("");
+  const auto found = assembly.populations.find(full);
+  if (found == assembly.populations.end()) {
+    thread.units_unknown = true;
+    model.threads.push_back(std::move(thread));
+    if (!name || assembly.broken_owners.contains(full)) return;
+    const Position position = row.position("each");
+    const auto unit = assembly.units.find(full);
+    if (unit == assembly.units.end()) {
+      assembly.diagnostics.error(position, "unknown population " + quote(*name) + " in " + row.name(),
+                                 suggest(*name, assembly.names_in(scope, assembly.populations), "populations",
+                                         "declare it as [unit." + *name + "] with a 'capacity'"));
+    } else if (const auto population = model.units[unit->second].population) {
+      const std::string meant = model.populations[*population].name.substr(scope.prefix.size());
+      assembly.diagnostics.error(
+          position, quote(*name) + " in " + row.name() + " is one member of a population",
+          "write each = \"" + meant + "\": a thread for each of them; or units = [\"" + *name + "\"]");
+    } else {
+      assembly.diagnostics.error(position, quote(*name) + " in " + row.name() + " is no population",
+                                 "write units = [\"" + *name + "\"], or give the unit a 'capacity'");
+    }
+    return;
+  }
+  const Population& population = model.populations[found->second];
+  for (std::size_t member = 0; member < population.capacity; ++member) {
+    check_number(assembly, thread.position);
+    Thread one = thread;
+    one.name += "[" + std::to_string(member) + "]";
+    const Index unit = population.first + member;
+    one.units = {unit};
+    if (!model.units[unit].thread) model.units[unit].thread = model.threads.size();
+    model.threads.push_back(std::move(one));
+  }
+}
+
 void read_units(Assembly& assembly, Row& row, const Scope& scope, Thread& thread, Index index) {
-  if (!row.has("units")) row.missing("units", "add units = [\"jog\"], in the order of their steps");
+  if (!row.has("units"))
+    row.missing("units",
+                "add units = [\"jog\"], in the order of their steps; or each = \"tracker\", for a thread of "
+                "each member of a population");
   const Node* names = row.list_of_texts("units");
   thread.units_unknown = names == nullptr;
   if (names == nullptr) return;
@@ -288,16 +339,20 @@ void read_thread_row(Assembly& assembly, const FlatRow& flat) {
   const auto trigger = read_trigger(assembly, row, *flat.scope);
   thread.partial = !trigger;
   if (trigger) thread.trigger = *trigger;
+  if (row.has("each") && !row.has("units")) {
+    row.also("units");
+    add_each(assembly, row, *flat.scope, std::move(thread));
+    row.finish();
+    return;
+  }
+  row.also("each");
+  if (row.has("each"))
+    assembly.diagnostics.error(row.position("each"), row.name() + " has both 'units' and 'each'",
+                               "keep 'units' for one thread that steps them in turn, 'each' for a thread of "
+                               "each member of a population");
   read_units(assembly, row, *flat.scope, thread, assembly.model.threads.size());
   row.finish();
   assembly.model.threads.push_back(std::move(thread));
-}
-
-void check_number(Assembly& assembly, const Position& position) {
-  if (assembly.model.threads.size() < max_threads) return;
-  assembly.diagnostics.give_up(
-      position, "with this row the application has more than " + std::to_string(max_threads) + " threads",
-      "those of instances of groups and of devices count: let one thread step several units");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The resolved model: readers, doorbells, queues, devices, layouts, values, memory, and a large application.
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -215,6 +216,40 @@ void ports_of_drivers_connect_as_those_of_units(void**) {
   assert_int_equal(named(model.units, "planner").outputs[0].queues.size(), 2);
 }
 
+// each = "tracker": all that the row says holds for each of them.
+void members_have_threads_of_their_own(void**) {
+  const Model& model = cell("members").model;
+  assert_string_equal(cell("members").messages.c_str(), "");
+  const char* const names[] = {"tracker[0]",   "tracker[1]",       "tracker[2]",
+                               "worker[0]",    "worker[1]",        "main",
+                               "left",         "around[0]",        "around[1]",
+                               "eyes[0].main", "eyes[0].right[0]", "eyes[0].right[1]",
+                               "eyes[1].main", "eyes[1].right[0]", "eyes[1].right[1]"};
+  assert_int_equal(model.threads.size(), std::size(names));
+  for (const char* const name : names) assert_true(has(model.threads, name));
+  for (std::size_t member = 0; member < 3; ++member) {
+    const std::string name = "tracker[" + std::to_string(member) + "]";
+    const Index index = index_of(model.threads, name);
+    const Thread& thread = model.threads[index];
+    assert_int_equal(thread.units.size(), 1);
+    assert_int_equal(thread.units[0], index_of(model.units, name));
+    assert_true(model.units[thread.units[0]].thread == index);
+    assert_int_equal(thread.priority, 5);
+    assert_int_equal(thread.deadline.value_or(0), 10'000'000);
+    assert_true(thread.overrun.policy == Overrun::Policy::fault);
+    assert_int_equal(thread.stack, 64 * 1024);
+    assert_int_equal(thread.demand, 100'000);
+    assert_string_equal(thread.summary.c_str(), "Looks for one thing.");
+    const std::vector<Index>& bells = named(model.slots, "picture").doorbells;
+    assert_true(std::find(bells.begin(), bells.end(), index) != bells.end());
+  }
+  // As they are served one after the other.
+  assert_int_equal(named(model.threads, "tracker[2]").response_time.value_or(0), 300'000);
+  assert_true(std::holds_alternative<BackoffTrigger>(named(model.threads, "worker[1]").trigger));
+  assert_true(named(model.units, "eyes[1].left[0]").thread == index_of(model.threads, "around[0]"));
+  assert_true(named(model.units, "eyes[0].right[1]").thread == index_of(model.threads, "eyes[0].right[1]"));
+}
+
 // 1000 units with two slots each, in ten threads.
 std::string large_table() {
   std::string text = "summary = \"Large.\"\nmemory_budget = \"64 MiB\"\n";
@@ -286,6 +321,7 @@ int main() {
                               cmocka_unit_test(memory_adds_up),
                               cmocka_unit_test(values_of_a_driver_lie_behind_its_interfaces),
                               cmocka_unit_test(ports_of_drivers_connect_as_those_of_units),
+                              cmocka_unit_test(members_have_threads_of_their_own),
                               cmocka_unit_test(a_large_application_reads_the_same_twice)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -14,6 +14,7 @@
 #include "runtime/face/observed_slots.hpp"
 #include "runtime/face/slot_readers.hpp"
 #include "tests/generator/in_a_process.hpp"
+#include "units/helper/helper.hpp"
 #include "units/watcher/watcher.hpp"
 
 // CMocka's macros would change what the headers above declare.
@@ -111,7 +112,7 @@ void the_descriptor_tells_of_them(void**) {
   assert_true(text_is(truth.at("writer"), "mover.truth"));
   assert_true(text_is(truth.at("driver_writers").at("model"), "mover.truth"));
   assert_true(text_is(truth.at("driver_writers").at("replay"), "mover.place"));
-  assert_int_equal(truth.at("readers").size(), 2);
+  assert_int_equal(truth.at("readers").size(), 5);
   const auto& scene = named(json.at("slots"), "name", "scene");
   // Each once, whichever drivers read by it.
   assert_true(scene.at("readers") == nlohmann::json({"mover.scene", "mover.kept", "watcher.scene"}));
@@ -163,6 +164,10 @@ std::string seen_with(const char* driver) {
     for (const SlotInput& reader : readers[place_of(cell.slots, "scene")]) {
       tell(reader.name.c_str(), reader.counters().read);
     }
+    for (const char* const helper : {"helper[0].feedback", "helper[1].feedback", "helper[2].feedback"})
+      tell(helper, last_in<HelperFeedback>(helper).steps);
+    for (const char* const thread : {"looking[0]", "looking[2]"})
+      tell(thread, cell.thread_states[place_of(cell.threads, thread)].cycles.load());
     text += "why=" + ObservedSlots(executive.cell())
                          .reason(place_of(cell.slots, "truth"),
                                  ObservedSlots(executive.cell()).read(place_of(cell.slots, "truth")));
@@ -238,6 +243,35 @@ void what_a_driver_that_was_not_chosen_would_write_is_null_with_the_reason(void*
       seen, "why=written by drivers 'model' and 'replay' of device 'mover', none of which was chosen "));
 }
 
+// ---- each = "helper"
+
+void each_member_has_a_thread_as_the_row_says(void**) {
+  for (std::size_t member = 0; member < 3; ++member) {
+    const std::string name = "looking[" + std::to_string(member) + "]";
+    const std::uint16_t place = place_of(cell.threads, name.c_str());
+    const ThreadRecord& thread = cell.threads[place];
+    assert_int_equal(thread.units.size(), 1);
+    const UnitRecord& unit = cell.units[thread.units[0]];
+    assert_int_equal(unit.member, member);
+    assert_int_equal(unit.thread, place);
+    assert_ptr_equal(unit.binding.context, thread.context);
+    assert_true(thread.trigger.kind == TriggerKind::backoff);
+    assert_int_equal(thread.trigger.longest.count(), 20'000'000);
+    assert_ptr_equal(thread.trigger.sources[0].slot, slot_named("truth").control);
+    assert_int_equal(thread.stack_size, 64 * 1024 + page);
+  }
+}
+
+void each_member_is_released_by_itself(void**) {
+  static std::string seen;
+  seen = seen_with("model");
+  assert_true(number_in(seen, "helper[0].feedback") > 150);
+  assert_true(number_in(seen, "helper[1].feedback") > 150);
+  assert_true(number_in(seen, "helper[2].feedback") == 0);  // it rests
+  assert_true(number_in(seen, "looking[0]") > 150);
+  assert_true(number_in(seen, "looking[2]") > 150);
+}
+
 void two_runs_are_the_same(void**) {
   static std::string first, again;
   for (const char* const driver : {"model", "replay"}) {
@@ -257,6 +291,8 @@ int main() {
       cmocka_unit_test(devices_read_and_write_as_units_do),
       cmocka_unit_test(another_driver_may_write_the_same),
       cmocka_unit_test(what_a_driver_that_was_not_chosen_would_write_is_null_with_the_reason),
+      cmocka_unit_test(each_member_has_a_thread_as_the_row_says),
+      cmocka_unit_test(each_member_is_released_by_itself),
       cmocka_unit_test(two_runs_are_the_same)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
