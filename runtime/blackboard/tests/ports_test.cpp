@@ -224,7 +224,7 @@ void null_says_no_longer_kept(void**) {
 }
 
 void every_reason_has_a_name(void**) {
-  for (int reason = 0; reason <= static_cast<int>(NullReason::no_longer_kept); ++reason) {
+  for (int reason = 0; reason <= static_cast<int>(NullReason::driver_not_chosen); ++reason) {
     assert_string_not_equal(name_of(static_cast<NullReason>(reason)), "unknown");
   }
   assert_string_equal(name_of(static_cast<NullReason>(200)), "unknown");
@@ -285,6 +285,33 @@ void a_range_reads_all_members_and_may_be_reconnected(void**) {
     for (Input<Sample>& member : range) count += member.is_connected() ? 1 : 0;
     assert_int_equal(count, 2);
   }
+}
+
+void an_input_that_is_connected_again_begins_anew(void**) {
+  Cell cell;
+  cell.publish(1);
+  cell.publish(2);
+  cell.step(1001);
+  assert_true(cell.input.latest().is_new());
+  cell.step(1002);
+  assert_false(cell.input.latest().is_new());
+  cell.publish(3);
+  cell.publish(4);
+  cell.input.connect(&cell.context, InputBinding{&cell.reader, 1, {}, nullptr});
+  assert_int_equal(cell.input.read(), 0);
+  cell.step(1003);
+  const View<Sample> view = cell.input.latest();
+  assert_int_equal(view->number, 4);
+  assert_true(view.is_new());
+  assert_int_equal(view.missed(), 0);
+  assert_int_equal(cell.input.read(), 1);
+}
+
+// [board-45]
+void null_says_that_the_driver_was_not_chosen(void**) {
+  Cell cell;
+  cell.slot.control().set_writer_state(WriterState::not_chosen);
+  assert_int_equal(cell.input.latest().reason(), NullReason::driver_not_chosen);
 }
 
 // [board-8] [board-9] [board-13]
@@ -392,6 +419,8 @@ int main() {
       cmocka_unit_test(a_hold_keeps_the_view_across_steps),
       cmocka_unit_test(forgetting_makes_the_item_new_again),
       cmocka_unit_test(a_range_reads_all_members_and_may_be_reconnected),
+      cmocka_unit_test(an_input_that_is_connected_again_begins_anew),
+      cmocka_unit_test(null_says_that_the_driver_was_not_chosen),
       cmocka_unit_test(an_unpublished_loan_is_discarded),
       cmocka_unit_test(an_unconnected_output_accepts_and_forgets),
       cmocka_unit_test(a_queue_output_feeds_every_audience_its_own_queue),
