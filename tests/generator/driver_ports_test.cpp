@@ -115,7 +115,7 @@ void the_descriptor_tells_of_them(void**) {
   assert_int_equal(truth.at("readers").size(), 5);
   const auto& scene = named(json.at("slots"), "name", "scene");
   // Each once, whichever drivers read by it.
-  assert_true(scene.at("readers") == nlohmann::json({"mover.scene", "mover.kept", "watcher.scene"}));
+  assert_true(scene.at("readers") == nlohmann::json::array({"mover.scene", "mover.kept", "watcher.scene"}));
 }
 
 // ---- what is seen through them
