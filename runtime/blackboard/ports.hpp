@@ -268,7 +268,9 @@ template <class T>
 class InputRange {
  public:
   void connect(const StepContext* context, const InputBinding& binding) noexcept {
-    members_ = {static_cast<Input<T>*>(binding.members), binding.count};
+    const std::span<Input<T>> members{static_cast<Input<T>*>(binding.members), binding.count};
+    // Reports may be counting meanwhile: of what is connected again it stays the same.
+    if (members.data() != members_.data()) members_ = members;
     for (std::size_t i = 0; i < members_.size(); ++i) {
       members_[i].connect(context, InputBinding{binding.readers + i, 1, binding.max_age, nullptr});
     }
