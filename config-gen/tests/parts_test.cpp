@@ -67,7 +67,7 @@ void a_driver_names_interface_bus_and_what_it_links(void**) {
                  "name pneumatic\nclass Gripper\ninterfaces GpioChip Gripper\nlibraries FlexRF::canopen\n"
                  "packages gtk+-3.0 libgpiod\n"));
   assert_true(is(parts(Target::Kind::driver, "model_mover.toml",
-                       "interface = \"Mover\"\nname = \"model\"\n[output.truth]\ntype = \"Mark\"\n"),
+                       "interface = \"Mover\"\nname = \"model\"\n[output.truth]\ntype = \"WayMark\"\n"),
                  "name model\nclass Mover\ninterfaces Mover\nports output\n"));
 }
 

@@ -102,7 +102,7 @@ void the_descriptor_tells_of_them(void**) {
   const auto& driver = named(json.at("drivers"), "name", "model_mover");
   assert_true(text_is(driver.at("inputs").at(0).at("name"), "scene"));
   assert_int_equal(driver.at("inputs").at(0).at("max_age_ns").get<int>(), 15'000'000);
-  assert_true(text_is(driver.at("outputs").at(1).at("queue"), "Mark"));
+  assert_true(text_is(driver.at("outputs").at(1).at("queue"), "WayMark"));
   const auto& device = named(json.at("devices"), "name", "mover");
   assert_true(text_is(device.at("drivers").at(0).at("inputs").at("scene"), "scene"));
   assert_true(device.at("drivers").at(0).at("inputs").at("missing").is_null());

@@ -154,11 +154,11 @@ bool has(const std::string& text, const char* part) {
 void ports_of_a_driver_are_members_of_its_base(void**) {
   static std::string text;
   text = file_of_driver("model_mover", "model_mover_driver.hpp");
-  assert_true(has(text, "  flexrf::Input<flexrf::user::Mark> scene;  ///< What is around.\n"));
-  assert_true(has(text, "  flexrf::Output<flexrf::user::Mark> truth;  ///< Where it is.\n"));
-  assert_true(has(text, "  flexrf::QueueOutput<flexrf::user::Mark> calls;"));
+  assert_true(has(text, "  flexrf::Input<flexrf::user::WayMark> scene;  ///< What is around.\n"));
+  assert_true(has(text, "  flexrf::Output<flexrf::user::WayMark> truth;  ///< Where it is.\n"));
+  assert_true(has(text, "  flexrf::QueueOutput<flexrf::user::WayMark> calls;"));
   assert_true(has(text, "connect(const flexrf::DeviceBinding& binding) noexcept final;"));
-  assert_true(has(text, "#include \"types/mark.hpp\"\n"));
+  assert_true(has(text, "#include \"types/way_mark.hpp\"\n"));
   text = file_of_driver("model_mover", "model_mover_driver.cpp");
   assert_true(has(text,
                   "  flexrf::user::MoverInterface::connect(binding);\n"

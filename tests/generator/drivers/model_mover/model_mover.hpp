@@ -13,12 +13,12 @@ class ModelMover final : public ModelMoverDriver {
     calls.push({number_, x});
   }
   void receive(const Tick& tick) noexcept override {
-    if (const View<Mark> mark = scene.latest(); mark && mark.is_new()) ++feedback.scenes;
-    Mark before;
+    if (const View<WayMark> mark = scene.latest(); mark && mark.is_new()) ++feedback.scenes;
+    WayMark before;
     if (scene.at(tick.now - std::chrono::milliseconds(20), before) == NullReason::none)
       feedback.past = before.number;
     if (kept.latest()) kept.keep();
-    if (const View<Mark> mark = kept.kept(); mark) feedback.kept = mark->number;
+    if (const View<WayMark> mark = kept.kept(); mark) feedback.kept = mark->number;
     if (missing.latest().reason() != NullReason::not_registered)
       fail(Status::error(StatusCode::internal, "not possible"));
   }

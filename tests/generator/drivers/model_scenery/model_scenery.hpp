@@ -8,9 +8,9 @@ class ModelScenery final : public ModelSceneryDriver {
  public:
   void receive(const Tick& tick) noexcept override {
     while (calls.pop()) ++feedback.calls;
-    const View<Mark> mark = truth.latest();
+    const View<WayMark> mark = truth.latest();
     feedback.reason = static_cast<std::uint8_t>(mark.reason());
-    if (Loan<Mark> loan = scene.loan(); loan) {
+    if (Loan<WayMark> loan = scene.loan(); loan) {
       *loan = {++number_, mark ? mark->x : 0.0};
       loan.publish(tick.now);
     }

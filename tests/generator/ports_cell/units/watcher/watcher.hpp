@@ -7,7 +7,7 @@ namespace flexrf::user {
 class Watcher final : public WatcherUnit {
  public:
   void step(const Tick& tick) override {
-    const View<Mark> mark = truth.latest();
+    const View<WayMark> mark = truth.latest();
     feedback.reason = static_cast<std::uint8_t>(mark.reason());
     if (!mark.is_new()) return;
     ++feedback.truths;
