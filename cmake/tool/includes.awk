@@ -46,7 +46,7 @@ is_free { next }
   else if (used == "hal" && part == "units" && included !~ "/interface/")
     refuse("a unit knows interfaces only, hal/<family>/interface/; its tests also mocks and what is simulated")
   else if (used == "hal" && part == "hal" && !within_hal())
-    refuse("of another family only its interface/, and hal/driver/ and hal/canopen/; what is imagined (mock, simulated, simulator, in_process) " \
+    refuse("of another family only its interface/, and hal/driver/ and hal/canopen/; what is imagined (mock, simulated, simulator, in_process, scene) " \
            "may use what is imagined; an arm of drives is made of drives")
 }
 
@@ -58,7 +58,7 @@ function folder(path) { return first(substr(path, length(first(path)) + 2)) }
 
 function family(path) { return folder(path) }
 
-function is_imagined(path) { return path ~ "/(mock|simulated[a-z_]*|simulator|in_process)/" }
+function is_imagined(path) { return path ~ "/(mock|simulated[a-z_]*|simulator|in_process|scene)/" }
 
 function within_hal() {
   return family(included) == family(file) || family(included) ~ "^(driver|canopen)$" || included ~ "/interface/" ||

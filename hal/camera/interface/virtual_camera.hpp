@@ -120,6 +120,14 @@ class VirtualCamera : public Base {
   static constexpr std::size_t most_controls = 4;
 
   virtual ComingPicture next_picture() noexcept { return {period(), 0, false}; }
+  /// From the middle of an exposure until its picture comes: a sensor is read out, and a wire takes its time.
+  /// A picture's time is the former.
+  virtual Duration delay() const noexcept { return {}; }
+  /// Why there is nothing that it could see, for the operator, while it is so; null: it sees. In each cycle.
+  virtual const char* blindness() noexcept { return nullptr; }
+  /// Before draw(): false when it is not known what there was to be seen at `at`. Then the picture is lost.
+  virtual bool expose(Time /*at*/) noexcept { return true; }
+  /// `at`: the middle of its exposure.
   virtual void draw(const PictureCanvas& canvas, Time at, std::uint64_t sequence) noexcept = 0;
 
   /// Before initialise().
@@ -170,10 +178,13 @@ class VirtualCamera : public Base {
 
   void follow_cable() noexcept {
     const bool occupied = cable_.occupied.load(std::memory_order_relaxed);
-    const bool usable = cable_.plugged.load(std::memory_order_relaxed) && !occupied;
+    const bool plugged = cable_.plugged.load(std::memory_order_relaxed);
+    const char* const blind = blindness();
+    const bool usable = plugged && !occupied && blind == nullptr;
     if (!usable) {
-      journal_.note_away(occupied ? "the camera is in use by another program; end that program"
-                                  : "the camera is not there; is it plugged in?");
+      journal_.note_away(occupied   ? "the camera is in use by another program; end that program"
+                         : !plugged ? "the camera is not there; is it plugged in?"
+                                    : blind);
     } else if (!streaming_) {
       journal_.begin_stream();
       count_ = 0;
@@ -204,9 +215,11 @@ class VirtualCamera : public Base {
     const bool damaged = coming_.damaged;
     plan(at);
     if (cable_.silent.load(std::memory_order_relaxed) || consume(cable_.to_lose)) return;
+    const Time exposed = at - delay();
+    if (!expose(exposed)) return;
     heard_ = now_;
     if (damaged || consume(cable_.to_damage)) return journal_.note_damaged(number, damage_of_half());
-    show(at, number);
+    show(exposed, number);
   }
 
   static bool consume(std::atomic<std::uint32_t>& count) noexcept {

@@ -62,4 +62,13 @@ class FingerModel {
   bool stuck_ = false;
 };
 
+/// As a scene tells it in each cycle: what is between the fingers stops them at this width; 0: nothing does.
+inline void meet_width(FingerModel& fingers, double width) noexcept {
+  if (width > 0) {
+    fingers.put_object(width);
+  } else {
+    fingers.take_away();
+  }
+}
+
 }  // namespace flexrf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/scene/interface/joint_samples.hpp"
 #include "hal/scene/interface/scene_arm.hpp"
 #include "motion/kinematics.hpp"
 #include "six_axis.hpp"
@@ -135,6 +136,27 @@ bool the_arm_is_where_its_chain_says() {
   return arm.joints == 6 && !arm.slides[0];
 }
 
+// A cubic is found again, whatever the time; beyond the last sample it goes on as it went.
+bool joints_move_smoothly_between_samples() {
+  const auto position = [](double time) {
+    return 0.3 + 0.5 * time - 2 * time * time + 7 * time * time * time;
+  };
+  const auto velocity = [](double time) { return 0.5 - 4 * time + 21 * time * time; };
+  const auto sample = [&](double time) {
+    JointSample told;
+    told.time = Time{duration_of(5 + time)};
+    told.position[2] = position(time);
+    told.velocity[2] = velocity(time);
+    return told;
+  };
+  for (const double time : {0.01, 0.012, 0.016, 0.017}) {
+    const auto found = joints_between(sample(0.01), sample(0.017), Time{duration_of(5 + time)});
+    if (!is_near(found[2], position(time), 1e-9) || found[1] != 0) return false;
+  }
+  const auto beyond = joints_after(sample(0.01), Time{duration_of(5.013)});
+  return is_near(beyond[2], position(0.01) + 0.003 * velocity(0.01), 1e-9);
+}
+
 bool the_hand_leaves_its_opening_free() {
   const HandModel hand;
   const auto boxes = hand_boxes(hand, 0.04);
@@ -152,6 +174,7 @@ int main() {
       cmocka_unit_test(judged<a_pose_is_found_again>),
       cmocka_unit_test(judged<a_held_part_is_carried>),
       cmocka_unit_test(judged<the_arm_is_where_its_chain_says>),
+      cmocka_unit_test(judged<joints_move_smoothly_between_samples>),
       cmocka_unit_test(judged<the_hand_leaves_its_opening_free>),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
