@@ -29,6 +29,12 @@ void SimulatedArm::take_in(const Tick& tick) noexcept {
   inject_scheduled(tick.now);
   if (!may_act()) forget();
   model_.advance(tick.now);
+  if (true_joints.is_connected()) {
+    JointState joints{};
+    joints.position_map() = model_.position();
+    joints.velocity_map() = model_.velocity();
+    true_joints.publish(joints, tick.now);
+  }
   sense();
   supervise(tick.now);
 }

@@ -1,0 +1,112 @@
+#include "hal/camera/scene/scene_camera.hpp"
+
+#include "hal/camera/interface/rgb_conversion.hpp"
+#include "hal/scene/interface/joint_samples.hpp"
+#include "motion/pose_conversion.hpp"
+
+namespace flexrf {
+namespace {
+
+JointSample sample_of(const ItemHeader& header, const JointState& state) noexcept {
+  JointSample sample;
+  sample.time = header.sampled_at;
+  sample.position = state.position;
+  sample.velocity = state.velocity;
+  return sample;
+}
+
+}  // namespace
+
+SceneCamera::SceneCamera() {
+  offer(0, "brightness", CameraControlKind::integer, -100, 100, 0);
+}
+
+Status SceneCamera::initialise() {
+  if (configuration.exposure > 1 / configuration.frame_rate) {
+    return Status::error(StatusCode::invalid_argument,
+                         "configuration.exposure (%g s) is longer than a period at %g pictures a second",
+                         configuration.exposure, configuration.frame_rate);
+  }
+  Pose told{};
+  told.position = configuration.hand_eye_position;
+  told.orientation = configuration.hand_eye_orientation;
+  if (told.orientation_map().norm() < 0.5) {
+    return Status::error(StatusCode::invalid_argument,
+                         "configuration.hand_eye_orientation is no quaternion: 0 0 0 1 turns nothing");
+  }
+  if (const Status status = VirtualCamera::initialise(); !status) return status;
+  eye_ = disturbed({.pose = to_isometry(told), .focal_length = configuration.focal_length},
+                   {.position = configuration.position_error,
+                    .orientation = configuration.orientation_error,
+                    .focal_length = configuration.focal_error},
+                   environment().seed);
+  RendererPlan plan;
+  plan.pinhole.width = configuration.width;
+  plan.pinhole.height = configuration.height;
+  plan.pinhole.focal_length = eye_.focal_length;
+  plan.pinhole.centre_column = (configuration.width - 1.0) / 2;
+  plan.pinhole.centre_row = (configuration.height - 1.0) / 2;
+  plan.hand.reach = configuration.hand_reach;
+  plan.noise = configuration.noise;
+  plan.seed = environment().seed;
+  renderer_ = std::make_unique<SceneRenderer>();
+  renderer_->begin(plan);
+  rgb_.clear();
+  if (configuration.format != PixelFormat::rgb24 && configuration.format != PixelFormat::mjpeg)
+    rgb_.resize(std::size_t{3} * configuration.width * configuration.height);
+  return {};
+}
+
+void SceneCamera::stop() {
+  VirtualCamera::stop();
+  renderer_.reset();
+  rgb_.clear();
+  rgb_.shrink_to_fit();
+}
+
+const char* SceneCamera::blindness() noexcept {
+  if (!scene.latest() || !arm.latest())
+    return "the scene that it looks into says nothing; does its device run?";
+  if (!true_joints.latest()) return "the arm that carries it does not say where it is; does its device run?";
+  return nullptr;
+}
+
+bool SceneCamera::look(Time at, SceneGlance& glance) noexcept {
+  const auto chain = arm.latest();
+  std::array<double, max_joints> joints{};
+  if (!chain || scene.at(at, glance.state) != NullReason::none || !joints_at(at, joints)) return false;
+  glance.tool = frames_of(*chain, joints).tool;
+  // What the hand holds is where the hand is now, not where it was in the scene's step before.
+  carry_held_part(glance.state, glance.tool);
+  return true;
+}
+
+bool SceneCamera::joints_at(Time at, std::array<double, max_joints>& joints) noexcept {
+  constexpr Duration nearby = std::chrono::milliseconds(50);
+  constexpr std::size_t most = 4;
+  JointState before{};
+  Time sampled_at{};
+  if (true_joints.at(at, before, &sampled_at) != NullReason::none) return false;
+  ItemHeader header{};
+  header.sampled_at = sampled_at;
+  const JointSample last = sample_of(header, before);
+  std::array<ItemHeader, most> headers{};
+  std::array<JointState, most> states{};
+  const std::size_t count =
+      true_joints.between(at + Duration{1}, at + nearby, {headers.data(), most}, states.data());
+  joints = count > 0 ? joints_between(last, sample_of(headers[0], states[0]), at) : joints_after(last, at);
+  return true;
+}
+
+void SceneCamera::draw(const PictureCanvas& canvas, Time /*at*/, std::uint64_t sequence) noexcept {
+  const bool is_rgb = canvas.format == PixelFormat::rgb24;
+  const std::span<std::uint8_t> rgb = is_rgb ? canvas.data : std::span<std::uint8_t>(rgb_);
+  renderer_->draw(glance_.state, glance_.tool * eye_.pose, glance_.tool, sequence, rgb);
+  if (const int brightness = value_of(0); brightness != 0) {
+    for (std::uint8_t& channel : rgb)
+      channel = static_cast<std::uint8_t>(std::clamp(channel + brightness, 0, 255));
+  }
+  if (!is_rgb) convert_rgb(rgb, canvas.width, canvas.height, canvas.format, canvas.data);
+}
+
+}  // namespace flexrf
