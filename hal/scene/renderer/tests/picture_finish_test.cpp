@@ -52,8 +52,8 @@ bool a_point_is_spread_and_nothing_is_lost() {
 }
 
 bool what_is_even_stays_so_to_the_edges() {
-  for (const std::uint8_t level : {0, 1, 77, 254, 255}) {
-    const Picture sharp(std::size_t{3} * width * height, level);
+  for (const int level : {0, 1, 77, 254, 255}) {
+    const Picture sharp(std::size_t{3} * width * height, static_cast<std::uint8_t>(level));
     if (finished(sharp, no_noise) != sharp) return false;
   }
   return true;

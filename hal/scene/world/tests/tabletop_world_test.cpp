@@ -45,8 +45,7 @@ bool is_partly_hidden(const SceneState& state, std::size_t part) {
         if (!other.exists()) continue;
         // Half way to an eye that looks down by 45 degrees, what is so high covers what is so far behind.
         for (double way = 0; way < obstacle.size[2]; way += 0.002) {
-          Outline point;
-          point.add({corner.x - way, corner.y});
+          const Outline point = placed(rectangle(1e-4, 1e-4), {corner.x - way, corner.y}, 0);
           covered = covered || separation_of(point, other, 0).gap < 0;
         }
       }
@@ -186,10 +185,11 @@ bool what_is_over_a_part_leaves_it_alone() {
 bool contacts_are_counted_once_each() {
   WorldBench bench;
   bench.put_parts({}, {post_at(0.40, 0)});
-  bench.jump(0.30, 0, 0.02, 0.02);
-  bench.move(0.40, 0, 0.02, 0.02);
+  // The palm is above the post.
+  bench.jump(0.30, 0, 0.045, 0.02);
+  bench.move(0.40, 0, 0.045, 0.02);
   const std::uint64_t once = bench.world.counts().contacts;  // both fingers
-  bench.move(0.30, 0, 0.02, 0.02);
+  bench.move(0.30, 0, 0.045, 0.02);
   bench.move(0.30, 0, -0.002, 0.02);
   const std::uint64_t table = bench.world.counts().contacts;
   bench.move(0.30, 0, -0.002, 0.02);

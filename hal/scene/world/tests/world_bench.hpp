@@ -1,7 +1,9 @@
 // WorldBench: a world with bodies where a test puts them, and a hand that points downwards.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "hal/scene/world/tabletop_world.hpp"
 
