@@ -95,7 +95,7 @@ void TabletopWorld::step(const HandState& hand) noexcept {
     way = std::max(way, (links.capsules[i].from - links_.capsules[i].from).norm());
     way = std::max(way, (links.capsules[i].to - links_.capsules[i].to).norm());
   }
-  const int looks = std::clamp(static_cast<int>(way / looked_at_each) + 1, 1, most_looks);
+  const int looks = static_cast<int>(std::min(way / looked_at_each, most_looks - 1.0)) + 1;
   for (int look = 1; look < looks; ++look) {
     const double part = static_cast<double>(look) / looks;
     Links there = links;
