@@ -36,6 +36,10 @@ void keep_deepest(Separation& found, const Separation& one) noexcept {
   if (one.gap < found.gap) found = one;
 }
 
+bool is_same_push(const Separation& one, const Separation& other) noexcept {
+  return std::abs(one.gap - other.gap) < touching && dot(one.normal, other.normal) > 0.9999;
+}
+
 Separation far_apart() noexcept {
   Separation found;
   found.gap = std::numeric_limits<double>::max();
@@ -116,8 +120,11 @@ bool PartPushing::push_by_solids(SceneState& state, std::span<const Solid> solid
   bool moved = false;
   for (std::size_t i = 0; i < most_parts; ++i) {
     if (!is_loose(state, i)) continue;
+    const Footprint& part = parts_[i];
+    Separation deepest = far_apart();
+    PlaneVector points;
+    int count = 0;
     for (const Solid& solid : solids) {
-      const Footprint& part = parts_[i];
       if (!heights_overlap(solid.low(), solid.high(), part) ||
           !may_overlap(solid.middle(), solid.reach(), part))
         continue;
@@ -125,11 +132,22 @@ bool PartPushing::push_by_solids(SceneState& state, std::span<const Solid> solid
       if (section.count < 3) continue;
       const Separation found = separation_of(section, part);
       if (found.gap >= -touching) continue;
-      move(state, i, found, 1);
-      rank_[i] = 1;
-      touched[i] = true;
-      moved = true;
+      // Two fingers side by side push in the middle between them, and do not turn the part by turns.
+      if (count > 0 && is_same_push(found, deepest)) {
+        points = points + found.point;
+        ++count;
+      } else if (count == 0 || found.gap < deepest.gap) {
+        deepest = found;
+        points = found.point;
+        count = 1;
+      }
     }
+    if (count == 0) continue;
+    deepest.point = points * (1.0 / count);
+    move(state, i, deepest, 1);
+    rank_[i] = 1;
+    touched[i] = true;
+    moved = true;
   }
   return moved;
 }
