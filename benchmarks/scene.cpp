@@ -22,7 +22,7 @@ Eigen::Isometry3d hand_at(double x, double y, double height) {
 Eigen::Isometry3d eye_of(const Eigen::Isometry3d& tool) {
   Eigen::Isometry3d eye = Eigen::Isometry3d::Identity();
   eye.linear() = turn_about(Eigen::Vector3d::UnitZ(), half_turn / 2);
-  eye.translation() = Eigen::Vector3d(0.055, 0, 0);
+  eye.translation() = Eigen::Vector3d(0.05, 0, 0.05);
   return tool * eye;
 }
 

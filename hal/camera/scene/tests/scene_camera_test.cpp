@@ -126,8 +126,8 @@ bool the_hand_is_where_it_was_in_the_middle_of_the_exposure() {
     if (i % 2 == 0) cell.tell_joints(cell.now());
     const auto image = cell.receive();
     if (!image) continue;
-    const double lens = CameraCell::position(image->time) + 0.055;
-    const double expected = 239.5 - 600 * (0.45 - lens) / 0.475;
+    const double lens = CameraCell::position(image->time) + 0.05;
+    const double expected = 239.5 - 600 * (0.45 - lens) / 0.425;
     if (!(std::abs(blue_row(*image) - expected) < 0.7)) return false;
     ++judged;
   }
@@ -149,8 +149,8 @@ bool what_is_held_moves_with_the_hand() {
     if (judged++ == 0) first = row;
     if (!(std::abs(row - first) < 0.3)) return false;
   }
-  // 45 mm before the lens, its upper side 375 mm below it.
-  return judged > 10 && std::abs(first - (239.5 - 600 * 0.045 / 0.375)) < 0.7;
+  // 50 mm before the lens, its upper side 325 mm below it.
+  return judged > 10 && std::abs(first - (239.5 - 600 * 0.05 / 0.325)) < 0.7;
 }
 
 bool it_waits_for_scene_and_arm() {
