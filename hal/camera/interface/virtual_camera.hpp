@@ -123,7 +123,8 @@ class VirtualCamera : public Base {
   /// From the middle of an exposure until its picture comes: a sensor is read out, and a wire takes its time.
   /// A picture's time is the former.
   virtual Duration delay() const noexcept { return {}; }
-  /// Why there is nothing that it could see, for the operator, while it is so; null: it sees. In each cycle.
+  /// Why there is nothing that it could see, for the operator, while it is so; null: it sees; "": it does
+  /// not, which is not worth telling yet. In each cycle.
   virtual const char* blindness() noexcept { return nullptr; }
   /// Before draw(): false when it is not known what there was to be seen at `at`. Then the picture is lost.
   virtual bool expose(Time /*at*/) noexcept { return true; }

@@ -51,6 +51,7 @@ Status SceneCamera::initialise() {
   plan.seed = environment().seed;
   renderer_ = std::make_unique<SceneRenderer>();
   renderer_->begin(plan);
+  waited_ = 0;
   rgb_.clear();
   if (configuration.format != PixelFormat::rgb24 && configuration.format != PixelFormat::mjpeg)
     rgb_.resize(std::size_t{3} * configuration.width * configuration.height);
@@ -64,7 +65,20 @@ void SceneCamera::stop() {
   rgb_.shrink_to_fit();
 }
 
+/// At the start scene and arm need their first cycles, too: that is no trouble.
 const char* SceneCamera::blindness() noexcept {
+  constexpr int first_cycles = 4;
+  const char* const why = missing();
+  if (why == nullptr) {
+    waited_ = first_cycles;
+  } else if (waited_ < first_cycles) {
+    ++waited_;
+    return "";
+  }
+  return why;
+}
+
+const char* SceneCamera::missing() noexcept {
   if (!scene.latest() || !arm.latest())
     return "the scene that it looks into says nothing; does its device run?";
   if (!true_joints.latest()) return "the arm that carries it does not say where it is; does its device run?";

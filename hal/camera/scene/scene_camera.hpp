@@ -38,12 +38,14 @@ class SceneCamera : public VirtualCamera<SceneCameraDriver> {
   virtual bool look(Time at, SceneGlance& glance) noexcept;
 
  private:
+  const char* missing() noexcept;
   bool joints_at(Time at, std::array<double, max_joints>& joints) noexcept;
 
   HandEye eye_;
   std::unique_ptr<SceneRenderer> renderer_;
   std::vector<std::uint8_t> rgb_;  // of a camera that gives another format
   SceneGlance glance_;
+  int waited_ = 0;  // cycles
 };
 
 }  // namespace flexrf
