@@ -8,7 +8,7 @@
 namespace flexrf::config_gen {
 
 constexpr std::size_t max_runtime_size = 4096;   // bytes of one component's runtime parameters
-constexpr std::size_t max_holds = 16;            // of one component
+constexpr std::size_t max_holds = 32;            // of one component
 constexpr std::size_t max_trigger_sources = 32;  // slots and queues that release one thread
 constexpr std::size_t min_stack = 64 * 1024;     // of a thread, bytes: what each machine can start
 constexpr std::size_t max_stack = std::size_t{1} << 30;

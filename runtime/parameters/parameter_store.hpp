@@ -23,7 +23,7 @@ namespace flexrf {
 /// Bytes of the largest struct of runtime parameters.
 inline constexpr std::size_t max_runtime_size = 4096;
 /// Hold elements of one component.
-inline constexpr std::size_t max_holds = 16;
+inline constexpr std::size_t max_holds = 32;
 /// How long a hold stays true after its last request.
 inline constexpr Duration lease_time = std::chrono::milliseconds{250};
 

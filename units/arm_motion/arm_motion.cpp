@@ -1,7 +1,5 @@
 #include "units/arm_motion/arm_motion.hpp"
 
-#include <cmath>
-
 #include "motion/pose_conversion.hpp"
 
 namespace flexrf {
@@ -14,7 +12,6 @@ void ArmMotion::use(const KinematicChain& chain) noexcept {
 
 void ArmMotion::seed(const JointVector& actual) noexcept {
   set_point_ = within_limits(*chain_, actual);
-  shifted_.reset();
   seeded_ = true;
   moving_ = false;
 }
@@ -30,32 +27,8 @@ Status ArmMotion::move_to(const Pose& target, double speed) noexcept {
     return Status::error(StatusCode::invalid_argument,
                          "no trajectory: speed or a joint's limits make no sense");
   }
-  shifted_.reset();
   time_ = 0;
   moving_ = trajectory_.end_time() > 0;
-  return {};
-}
-
-Status ArmMotion::shift(const Eigen::Vector3d& offset, double elapsed) noexcept {
-  // Many steps in a row must not add up what each may be off.
-  Eigen::Isometry3d tool = shifted_ ? *shifted_ : forward_kinematics(*chain_, set_point_);
-  tool.translation() += offset;
-  const InverseResult goal = inverse_kinematics(*chain_, tool, set_point_);
-  if (goal.outcome != InverseOutcome::converged) {
-    return Status::error(StatusCode::out_of_range, "the tool cannot go on at (%.3f, %.3f, %.3f) m: %s",
-                         tool.translation().x(), tool.translation().y(), tool.translation().z(),
-                         to_text(goal.outcome));
-  }
-  const JointVector change = goal.joints - set_point_;
-  double part = 1;
-  for (std::size_t i = 0; i < chain_->joint_count; ++i) {
-    const double distance = std::abs(change[static_cast<Eigen::Index>(i)]);
-    const double most = chain_->joints[i].velocity * elapsed;
-    if (distance * part > most) part = most / distance;
-  }
-  set_point_ += part * change;
-  shifted_.reset();
-  if (part == 1) shifted_ = tool;
   return {};
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "base/status.hpp"
 #include "motion/joint_trajectory.hpp"
 #include "types/pose.hpp"
@@ -29,11 +27,6 @@ class ArmMotion {
   /// Comes to rest on the path, within the limits.
   void stop() noexcept;
 
-  /// Moves the tool on by `offset` (m, base frame) without turning it, as one of many small steps. No motion
-  /// is under way. Where joints would be faster than their limits in `elapsed` s, it gets less far. Refused,
-  /// and stays, where it cannot go.
-  Status shift(const Eigen::Vector3d& offset, double elapsed) noexcept;
-
   bool is_moving() const noexcept { return moving_; }
 
   /// Moves the set-point on by `elapsed` s.
@@ -46,8 +39,7 @@ class ArmMotion {
   const KinematicChain* chain_ = nullptr;
   JointTrajectory trajectory_;
   JointVector set_point_ = JointVector::Zero();
-  std::optional<Eigen::Isometry3d> shifted_;  // where the last shift() wanted the tool
-  double time_ = 0;                           // s, in the trajectory
+  double time_ = 0;  // s, in the trajectory
   bool seeded_ = false;
   bool moving_ = false;
 };
