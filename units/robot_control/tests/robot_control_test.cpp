@@ -1,98 +1,13 @@
 // The unit with the simulated arm, cycle by cycle as its thread would run it.
-#include "units/robot_control/robot_control.hpp"
-
-#include <algorithm>
 #include <cmath>
 
-#include "hal/driver/device_bench.hpp"
-#include "hal/robot_arm/simulated/simulated_arm.hpp"
-#include "motion/pose_conversion.hpp"
-#include "six_axis.hpp"
 #include "tests/cmocka.hpp"
-#include "units/unit_bench.hpp"
+#include "units/robot_control/tests/robot_world.hpp"
 
 namespace {
 
 using namespace flexrf;
 using namespace flexrf::user;
-
-constexpr Duration cycle = std::chrono::milliseconds(7);
-constexpr double cycle_seconds = 0.007;
-
-struct World {
-  DeviceBench<SimulatedArm> arm{&six_axis};
-  UnitBench<RobotControl> bench;
-  SlotBench<Pose> target;
-  SlotBench<Velocity> velocity;
-  SlotBench<Pose> pose;
-  SlotBench<JointState> joints;
-  InputBinding inputs[2] = {target.input(std::chrono::milliseconds(500)),
-                            velocity.input(std::chrono::milliseconds(100))};
-  SlotBench<TargetAnswer> answer;
-  SlotControl* outputs[3] = {&pose.control(), &joints.control(), &answer.control()};
-  Device* device = &arm.driver();
-  Device* const* devices[1] = {&device};
-  Pose wanted{};
-  bool target_lives = true;
-  double hand[3] = {0, 0, 0};  // m/s
-  bool hand_lives = true;
-
-  World() {
-    UnitBinding binding;
-    binding.context = &bench.context();
-    binding.inputs = inputs;
-    binding.outputs = outputs;
-    binding.devices = devices;
-    bench.unit().connect(binding);
-    arm.configuration().noise = {};
-    ready = arm.driver().initialise().is_ok() && bench.unit().initialise().is_ok();
-    wanted = to_pose(forward_kinematics(six_axis, home_position(six_axis)));
-  }
-
-  static double home_x() {
-    return to_pose(forward_kinematics(six_axis, home_position(six_axis))).position[0];
-  }
-  // As jog and the thread do: the target every cycle, receive, step, send.
-  void run(double duration) {
-    for (double time = 0; time < duration; time += cycle_seconds) {
-      if (target_lives) target.publish(wanted, bench.now());
-      if (hand_lives) velocity.publish({{hand[0], hand[1], hand[2]}}, bench.now());
-      arm.receive(cycle);
-      bench.step(cycle);
-      arm.send();
-      watch();
-    }
-  }
-  // Set-points must never jump, whatever happens.
-  void watch() {
-    const JointVector now = bench.feedback().set_point_map();
-    if (watching) {
-      for (std::size_t i = 0; i < six_axis.joint_count; ++i) {
-        const auto index = static_cast<Eigen::Index>(i);
-        const double rate = std::abs(now[index] - last[index]) / cycle_seconds;
-        worst = std::max(worst, rate / six_axis.joints[i].velocity);
-      }
-    }
-    last = now;
-    watching = true;
-  }
-  bool at(double x, double y, double z, double tolerance = 1e-3) {
-    const auto now = pose.latest();
-    const Pose home = to_pose(forward_kinematics(six_axis, home_position(six_axis)));
-    return now && std::abs(now->position[0] - home.position[0] - x) < tolerance &&
-           std::abs(now->position[1] - home.position[1] - y) < tolerance &&
-           std::abs(now->position[2] - home.position[2] - z) < tolerance;
-  }
-  bool holding(const char* text) {
-    return bench.feedback().holding_view().find(text) != std::string_view::npos;
-  }
-  bool smooth() const { return worst <= 1.0 + 1e-9; }
-
-  bool ready = false;
-  bool watching = false;
-  JointVector last = JointVector::Zero();
-  double worst = 0;
-};
 
 bool moves_to_the_target() {
   World world;
@@ -245,7 +160,7 @@ bool a_late_cycle_is_no_jump() {
 
 // Where the set-points have the tool, without the servos' lag.
 Eigen::Vector3d commanded(World& world) {
-  return forward_kinematics(six_axis, world.bench.feedback().set_point_map()).translation();
+  return world.tool().translation();
 }
 
 bool a_hand_moves_the_tool_on_a_straight_line() {
