@@ -10,7 +10,7 @@ namespace {
 constexpr double gentle = 0.25;
 // The tool's speed is kept a little below its limit: levers change while several joints move.
 constexpr double margin = 0.95;
-// A step ends this near to its goal.
+// A joint is where it was led to when it is this near.
 constexpr double at_goal = 1e-9;  // rad or m
 
 constexpr const char* tool_too_fast = "the tool would be too fast, so the joints are slower";
@@ -105,8 +105,8 @@ void JointJog::read_rates(bool goes_on) noexcept {
       restraint_ = {joint_too_fast, std::abs(rate), joint.velocity};
       rate = std::copysign(joint.velocity, rate);
     }
-    const bool at_end =
-        rate > 0 ? axes_[i].position >= joint.upper : rate < 0 && axes_[i].position <= joint.lower;
+    const double room = rate > 0 ? joint.upper - axes_[i].position : axes_[i].position - joint.lower;
+    const bool at_end = rate != 0 && room < at_goal;
     if (at_end && !is_stepping()) restraint_ = {.reason = at_its_end};
   }
 }

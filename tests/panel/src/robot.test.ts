@@ -109,6 +109,48 @@ it('the arrows move the arm while they are held, and no longer', async () => {
   expect(Math.abs((await position())[2]! - rested[2]!)).toBeLessThan(1e-3);
 });
 
+interface RobotFeedback {
+  readonly set_point: number[];
+  readonly activity: string;
+  readonly moving: boolean;
+}
+const robot = (): Promise<RobotFeedback> => rest.feedback<RobotFeedback>('robot');
+const joints = async (): Promise<number[]> => (await rest.do('slots/joints')).body.value.position;
+/** The farthest that any joint is from another posture. */
+const apart = (one: number[], other: number[]): number => Math.max(...one.map((value, i) => Math.abs(value - other[i]!)));
+
+// As a person sees it who presses an arrow of the robot's own: the parameter is set, the target of its joints moves, the joints
+// follow and say so, and another page that only looks draws the arm elsewhere.
+it('an arrow of the robot leads from the press to the 3D view', async () => {
+  const { page } = viewer;
+  const looker = await Viewer.open(browser(), `${running.base}/#/overview`);
+  const drawn = looker.page.getByRole('img', { name: /in 3D/ });
+  await drawn.waitFor();
+  const picture = async (): Promise<string> => (await drawn.screenshot()).toString('base64');
+  await viewer.go('units', 'robot');
+  const arrow = page.locator('flexrf-item').getByRole('button', { name: '+z', exact: true });
+  await arrow.scrollIntoViewIfNeeded();
+  await unlessKeptWaiting(page, rest, async () => {
+    await atRest();
+    const before = await picture();
+    const [target, actual] = [(await robot()).set_point, await joints()];
+    const box = (await arrow.boundingBox())!;
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await expect.poll(async () => (await rest.runtime('robot'))['plus_z'], { timeout: within }).toBe(true);
+    await expect.poll(async () => (await robot()).activity, { timeout: within }).toBe('jog');
+    await expect.poll(async () => apart((await robot()).set_point, target), { timeout: within }).toBeGreaterThan(0.02);
+    await expect.poll(async () => apart(await joints(), actual), { timeout: within }).toBeGreaterThan(0.02);
+    await expect.poll(async () => (await picture()) === before, { timeout: within }).toBe(false);
+  }, () => page.mouse.up());
+  await page.mouse.up();
+  await expect.poll(async () => (await rest.runtime('robot'))['plus_z'], { timeout: within }).toBe(false);
+  await expect.poll(async () => (await robot()).moving, { timeout: within }).toBe(false);
+  await atRest();
+  expect(apart(await joints(), (await robot()).set_point)).toBeLessThan(1e-3);
+  await looker.close();
+});
+
 it('the 3D library is not loaded where no robot is shown', async () => {
   const other = await Viewer.open(browser(), `${running.base}/#/log`);
   await other.page.getByRole('log').waitFor();
