@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
 
 #include "motion/joint_tracking.hpp"
 
@@ -41,8 +44,11 @@ class GuardedMotion {
     const bool rests = motion_.is_at_rest();
     if (rests) forget();
     if (!stops_) {
-      Restraint in_the_way;
-      for (const double less : parts) {
+      // At rest nothing is in a hurry: one part in a cycle.
+      const std::size_t first = rests ? trial_ : 0;
+      const std::size_t end = rests ? first + 1 : std::size(parts);
+      for (std::size_t n = first; n < end; ++n) {
+        const double less = parts[n];
         if (less * part_ < slowest) break;
         Motion next = motion_;
         step(next, less * part_, elapsed);
@@ -52,13 +58,16 @@ class GuardedMotion {
         if (found.reason == nullptr) found = look_ahead(next, joints);
         if (found.reason == nullptr && rests) found = try_out(step, less * part_);
         if (found.reason == nullptr) {
-          accept(next, joints, less, elapsed, in_the_way);
+          accept(next, joints, less, elapsed);
           return;
         }
-        if (in_the_way.reason == nullptr) in_the_way = found;
+        if (n == first) in_the_way_ = found;
       }
-      restraint_ = in_the_way;
-      if (rests) return;
+      restraint_ = in_the_way_;
+      if (rests) {
+        trial_ = (trial_ + 1) % std::size(parts);
+        return;
+      }
       stops_ = true;
     }
     stop(elapsed);
@@ -79,9 +88,9 @@ class GuardedMotion {
   std::uint64_t emergencies() const noexcept { return emergencies_; }
 
  private:
-  static constexpr double parts[] = {1.0, 0.6, 0.3, 0.1};  // of the speed so far
-  static constexpr double slowest = 0.02;                  // of the speed asked for; else it rests
-  static constexpr double recovery = 1.0;                  // s from nothing to the whole speed
+  static constexpr double parts[] = {1.0, 0.5, 0.15};  // of the speed so far
+  static constexpr double slowest = 0.02;              // of the speed asked for; else it rests
+  static constexpr double recovery = 1.0;              // s from nothing to the whole speed
   // Parts of the joints' velocities. What looks ahead sees means over longer times than a cycle.
   static constexpr double ahead = 0.85;
   static constexpr double in_motion = 0.95;
@@ -126,13 +135,13 @@ class GuardedMotion {
     return look_ahead(motion, joints);
   }
 
-  void accept(const Motion& next, const JointVector& joints, double less, double elapsed,
-              const Restraint& in_the_way) noexcept {
+  void accept(const Motion& next, const JointVector& joints, double less, double elapsed) noexcept {
     motion_ = next;
     joints_ = joints;
-    if (in_the_way.reason != nullptr) {
+    trial_ = 0;
+    if (less < 1) {
       part_ *= less;
-      restraint_ = in_the_way;
+      restraint_ = in_the_way_;
     } else {
       part_ = std::min(1.0, part_ + elapsed / recovery);
       if (part_ == 1) restraint_ = {};
@@ -162,8 +171,10 @@ class GuardedMotion {
   const KinematicChain* chain_ = nullptr;
   Motion motion_;
   JointVector joints_ = JointVector::Zero();
-  double part_ = 1;     // of the speed asked for
-  bool stops_ = false;  // nothing else is possible, until it rests
+  double part_ = 1;         // of the speed asked for
+  std::size_t trial_ = 0;   // which of the parts is tried next at rest
+  bool stops_ = false;      // nothing else is possible, until it rests
+  Restraint in_the_way_{};  // of what was asked for last and could not be
   Restraint restraint_{};
   std::uint64_t emergencies_ = 0;
 };

@@ -1,5 +1,7 @@
 #include "units/robot_control/jog_wish.hpp"
 
+#include <iterator>
+
 namespace flexrf::user {
 namespace {
 
