@@ -163,7 +163,7 @@ bool rests_where_the_arm_ends_and_comes_back() {
   if (!world.stream.is_at_rest() || world.stream.restraint().reason == nullptr) return false;
   const JointVector rest = world.stream.set_point();
   world.run(1);
-  if (world.stream.set_point() != rest || world.position().x() < 1.2) return false;
+  if (world.stream.set_point() != rest || world.position().x() < 1.15) return false;
   world.wanted.linear = {-0.25, 0, 0};
   world.run(2);
   return world.stream.motion().velocity().x() < -0.2 && world.holds();
