@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "motion/joint_tracking.hpp"
+#include "motion/stream_limits.hpp"
 
 namespace flexrf {
 
@@ -92,9 +93,9 @@ class GuardedMotion {
   static constexpr double slowest = 0.02;              // of the speed asked for; else it rests
   static constexpr double recovery = 1.0;              // s from nothing to the whole speed
   // Parts of the joints' velocities. What looks ahead sees means over longer times than a cycle.
-  static constexpr double ahead = 0.85;
+  static constexpr double ahead = 0.75;
   static constexpr double in_motion = 0.95;
-  static constexpr int samples = 12;
+  static constexpr int samples = 20;
   static constexpr double shortest_sample = 0.005;  // s
   static constexpr int trial_steps = 5;
   static constexpr double trial_step = 0.02;  // s

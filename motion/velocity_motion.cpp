@@ -11,10 +11,10 @@ namespace {
 
 // Less is no change of velocity.
 constexpr double no_change = 1e-12;  // m/s or rad/s
-// Cosine of the angle up to which another velocity counts as one on the line.
-constexpr double on_the_line = 0.99;
+// So far beside the line, as a part of the limit, a velocity counts as one on it.
+constexpr double beside = 0.02;
 constexpr double rounding = 1e-12;
-// Lines in one call: the one that is left, the one that is taken, and one for what the angle above left over.
+// Lines in one call: the one that is left, the one that is taken, and one for what lay beside it.
 constexpr int most_lines = 4;
 
 Eigen::Vector3d no_longer_than(const Eigen::Vector3d& vector, double most) {
@@ -30,7 +30,8 @@ double LineMotion::goal_on_line(const Eigen::Vector3d& wanted, const MotionLimit
   const double coasting = acceleration_ * std::abs(acceleration_) / (2 * limits.jerk);
   const Eigen::Vector3d rest = wanted - velocity_ - coasting * line_;
   const double along = line_.dot(rest);
-  if (std::abs(along) < on_the_line * rest.norm()) return coasting;
+  // This does not change on the line: however often one asks, the way is the same.
+  if ((rest - along * line_).norm() > beside * limits.velocity) return coasting;
   // The foot of the perpendicular from a velocity within the limit may lie beyond it, and not by rounding.
   const double change = coasting + along;
   return (velocity_ + change * line_).norm() <= limits.velocity * (1 + rounding) ? change : coasting;
