@@ -107,7 +107,10 @@ void JointJog::read_rates(bool goes_on) noexcept {
     }
     const double room = rate > 0 ? joint.upper - axes_[i].position : axes_[i].position - joint.lower;
     const bool at_end = rate != 0 && room < at_goal;
-    if (at_end && !is_stepping()) restraint_ = {.reason = at_its_end};
+    if (at_end && !is_stepping()) {
+      restraint_ = {.reason = at_its_end};
+      rate = 0;
+    }
   }
 }
 
@@ -118,7 +121,7 @@ void JointJog::keep_to_tool_speed() noexcept {
     asked += jacobian.col(index_of(i)).head<3>().norm() * std::abs(rates_[index_of(i)]);
   if (asked <= margin * tool_speed_) return;
   rates_ *= margin * tool_speed_ / asked;
-  restraint_ = {tool_too_fast, asked, margin * tool_speed_};
+  if (restraint_.reason == nullptr) restraint_ = {tool_too_fast, asked, margin * tool_speed_};
 }
 
 JointJog::Axes JointJog::moved_on(double elapsed) const noexcept {
