@@ -18,8 +18,8 @@ namespace flexrf {
 // rest, a motion begins only when it may go on for a while: there is no creeping into a limit.
 //
 // Motion: a PoseMotion or a VelocityMotion; a plain value, so that the way ahead is walked by a copy. One
-// thread; nothing allocates. A cycle takes some tens of microseconds while nothing is in the way, ten times
-// as long at worst.
+// thread; nothing allocates. A cycle takes some tens of microseconds while nothing is in the way, and
+// three times as long where something is.
 template <class Motion>
 class GuardedMotion {
  public:
