@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "base/status.hpp"
 #include "motion/pose_stream.hpp"
 #include "units/robot_control/jog_wish.hpp"
 #include "units/robot_control/joint_jog.hpp"

@@ -8,6 +8,7 @@
 
 #include <array>
 
+#include "base/status.hpp"
 #include "motion/axis_motion.hpp"
 #include "units/robot_control/motion_source.hpp"
 

@@ -1,6 +1,7 @@
 // ToolJog: a hand moves and turns the tool, by arrows and inputs, as long as it wants.
 #pragma once
 
+#include "base/status.hpp"
 #include "motion/velocity_stream.hpp"
 #include "units/robot_control/motion_source.hpp"
 
