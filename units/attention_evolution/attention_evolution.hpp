@@ -1,0 +1,65 @@
+// AttentionEvolution: tells Evolution what the population did, and has done what Evolution wishes.
+#pragma once
+
+#include <array>
+
+#include "attention_evolution_unit.hpp"
+#include "runtime/log/log.hpp"
+#include "units/vision/evolution.hpp"
+
+namespace flexrf::user {
+
+class AttentionEvolution final : public AttentionEvolutionUnit {
+ public:
+  Status initialise() override;
+  void step(const Tick& tick) override;
+
+ private:
+  static constexpr std::size_t most_recognisers = 16;
+  /// A runtime parameter of the members: its place in their table.
+  struct Place {
+    std::uint16_t parameter = no_parameter;
+    bool is_whole = false;
+  };
+
+  Status find_population() noexcept;
+  Status find_parameters() noexcept;
+  Place place_of(std::string_view name) const noexcept;
+  bool is_active(std::size_t member) const noexcept;
+
+  bool look_at_members() noexcept;
+  void read_verdicts() noexcept;
+  void take(const VisionVerdict& verdict) noexcept;
+  void look_at_hand() noexcept;
+
+  void fulfil(const Wish& wish, Time now) noexcept;
+  void hear_answers() noexcept;
+  void press_buttons() noexcept;
+  void save_generation() noexcept;
+  void write_saved() noexcept;
+  void restore_next(Time now) noexcept;
+  void restore_member(std::size_t member, Time now) noexcept;
+  void send(ParameterRequest& request, std::size_t member, Time now) noexcept;
+  void add_genes(ParameterRequest& request, const Genes& genes) const noexcept;
+  void add_state(ParameterRequest& request, std::uint32_t identity, bool probation) const noexcept;
+  void complain(const char* trouble) noexcept;
+  void publish() noexcept;
+  EvolutionRules rules() const noexcept;
+
+  Evolution evolution_;
+  std::array<Place, gene_count> gene_places_{};
+  Place identity_place_;
+  Place probation_place_;
+  Genes table_genes_{};  // of members that have not reported yet
+  std::size_t capacity_ = 0;
+  ComponentIndex first_ = 0;
+  std::array<std::uint64_t, most_recognisers> read_{};
+  std::uint64_t last_frame_ = 0;
+  Wish asked_;                           // whose answer has not come
+  std::uint64_t correlation_ = 0;        // of the request under way; 0: none is
+  std::size_t restored_ = most_members;  // next member to bring back; most_members: none
+  bool writes_saved_ = false;
+  LogLimit troubles_;
+};
+
+}  // namespace flexrf::user

@@ -1,0 +1,320 @@
+#include "units/object_tracks/object_tracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "units/vision/attention_genes.hpp"
+
+namespace flexrf::user {
+namespace {
+
+constexpr double table_around = 0.010;  // m, of a predicted region; as much again where it is not well known
+constexpr double least_seen = 0.6;      // part of a predicted region that lies within the picture
+
+double height_of(std::uint16_t kind) {
+  const auto parts = known_parts();
+  return kind < parts.size() ? parts[kind].height : 0.0;
+}
+
+int symmetry_of(std::uint16_t kind) {
+  const auto parts = known_parts();
+  return kind < parts.size() ? parts[kind].symmetry : 0;
+}
+
+}  // namespace
+
+Status ObjectTracks::initialise() {
+  list_ = {};
+  beside_ = {};
+  read_ = {};
+  is_changed_ = false;
+  if (verdicts.size() > most_recognisers)
+    return Status::error(StatusCode::invalid_argument,
+                         "%s: there are at most %zu recognisers; give the population a smaller capacity",
+                         name(), most_recognisers);
+  const auto& blind = configuration.camera.blind;
+  blind_ = {static_cast<int>(blind[0]), static_cast<int>(blind[1]), static_cast<int>(blind[2]),
+            static_cast<int>(blind[3])};
+  return check_camera(configuration.camera);
+}
+
+void ObjectTracks::step(const Tick& /*tick*/) {
+  if (runtime.forget > 0)
+    for (std::size_t i = 0; i < most_tracks; ++i) end(i);
+  read_verdicts();
+  trust_the_promoted();
+  const auto of = features.latest();
+  if (of && of.is_new()) {
+    list_.frame = of->frame;
+    predict_to(of->time);
+    post(*of, of.sampled_at());
+    is_changed_ = true;
+  }
+  if (is_changed_) publish();
+  is_changed_ = false;
+}
+
+void ObjectTracks::read_verdicts() noexcept {
+  std::size_t recogniser = 0;
+  for (auto& one : verdicts) {
+    std::uint64_t& read = read_[recogniser++];
+    const auto list = one.latest();
+    if (!list || !list.is_new()) continue;
+    // A recogniser that was constructed anew begins at 0 again.
+    if (list->count < read) read = 0;
+    const std::uint64_t kept = list->verdicts.size();
+    if (list->count - read > kept) {
+      feedback.unread += list->count - read - kept;
+      read = list->count - kept;
+    }
+    for (; read < list->count; ++read) take(list->verdicts[read % kept]);
+  }
+}
+
+void ObjectTracks::take(const VisionVerdict& verdict) noexcept {
+  const VisionRegion& region = verdict.region;
+  if (verdict.verdict != VisualClass::nothing && verdict.position_map().allFinite() &&
+      std::isfinite(verdict.angle)) {
+    const std::size_t place = nearest_to(verdict);
+    if (place < most_tracks) {
+      measure(place, verdict);
+    } else if (!verdict.repeated) {
+      begin(verdict);
+    }
+  }
+  // The last of a region's verdicts: was the track there that was expected?
+  if (region.track == 0 || verdict.part + 1 < verdict.parts) return;
+  const std::size_t expected = track_of(region.track);
+  if (expected < most_tracks && list_.tracks[expected].measured_at < region.time) miss(expected, region.time);
+}
+
+/// Of the same kind and within its gate; most_tracks: none is.
+std::size_t ObjectTracks::nearest_to(const VisionVerdict& verdict) const noexcept {
+  std::size_t nearest = most_tracks;
+  double least = 1e9;
+  for (std::size_t i = 0; i < most_tracks; ++i) {
+    const ObjectTrack& track = list_.tracks[i];
+    if (track.found != verdict.verdict || track.kind != verdict.kind) continue;
+    // An obstacle's middle moves as more or less of it is seen.
+    const double gate = runtime.gate + std::min(3 * beside_[i].filter.deviation(), runtime.gate) +
+                        (track.found == VisualClass::obstacle ? 0.5 * track.radius : 0.0);
+    const double distance = (beside_[i].filter.position() - verdict.position_map()).norm();
+    if (distance > gate || distance >= least) continue;
+    least = distance;
+    nearest = i;
+  }
+  return nearest;
+}
+
+std::size_t ObjectTracks::track_of(std::uint32_t identity) const noexcept {
+  for (std::size_t i = 0; i < most_tracks; ++i)
+    if (list_.tracks[i].found != VisualClass::nothing && list_.tracks[i].identity == identity) return i;
+  return most_tracks;
+}
+
+void ObjectTracks::measure(std::size_t place, const VisionVerdict& verdict) noexcept {
+  ObjectTrack& track = list_.tracks[place];
+  Beside& beside = beside_[place];
+  const VisionRegion& region = verdict.region;
+  trust(track, region);
+  is_changed_ = true;
+  // Once a picture, however many regions showed it; and pictures go on.
+  if (verdict.repeated || region.time <= track.measured_at) return;
+  if (region.time > beside.time) {
+    beside.filter.predict(seconds(Duration{region.time - beside.time}), runtime.belt, noise());
+    beside.time = region.time;
+  }
+  beside.filter.correct(verdict.position_map(), verdict.angle, symmetry_of(track.kind), noise());
+  track.residual = verdict.residual;
+  track.radius = verdict.radius;
+  track.measured_at = region.time;
+  track.misses = 0;
+  ++track.frames;
+  ++feedback.measurements;
+  track.confirmed = track.confirmed || track.frames >= runtime.confirm_frames;
+}
+
+void ObjectTracks::begin(const VisionVerdict& verdict) noexcept {
+  const VisionRegion& region = verdict.region;
+  const auto free = std::find_if(list_.tracks.begin(), list_.tracks.end(), [](const ObjectTrack& track) {
+    return track.found == VisualClass::nothing;
+  });
+  if (free == list_.tracks.end()) {
+    ++feedback.refused;
+    restrain("all places for tracks are taken: what was found is not followed");
+    return;
+  }
+  const auto place = static_cast<std::size_t>(free - list_.tracks.begin());
+  ObjectTrack& track = *free;
+  track = {};
+  track.identity = next_identity_++;
+  track.found = verdict.verdict;
+  track.kind = verdict.kind;
+  track.radius = verdict.radius;
+  track.residual = verdict.residual;
+  track.measured_at = region.time;
+  track.frames = 1;
+  track.confirmed = runtime.confirm_frames <= 1;
+  track.member = region.member;
+  track.member_identity = region.identity;
+  Beside& beside = beside_[place];
+  beside = {};
+  beside.filter.begin(verdict.position_map(), verdict.angle, runtime.belt, noise());
+  beside.time = region.time;
+  ++feedback.measurements;
+  is_changed_ = true;
+  if (region.member != no_member) {
+    trust(track, region);
+  } else if (const std::size_t beside_it = track_of(region.track); beside_it < most_tracks) {
+    // It was seen where another one was looked for, which lends it its member.
+    const ObjectTrack& other = list_.tracks[beside_it];
+    track.member = other.member;
+    track.member_identity = other.member_identity;
+    track.trusted = other.trusted;
+  }
+}
+
+/// By the first member that is not on probation.
+void ObjectTracks::trust(ObjectTrack& track, const VisionRegion& region) noexcept {
+  if (track.trusted || region.member == no_member || region.probation) return;
+  track.trusted = true;
+  track.member = region.member;
+  track.member_identity = region.identity;
+}
+
+void ObjectTracks::trust_the_promoted() noexcept {
+  const auto members = generation.latest();
+  if (!members) return;
+  for (ObjectTrack& track : list_.tracks) {
+    if (track.found == VisualClass::nothing || track.trusted || track.member >= members->members.size())
+      continue;
+    const AttentionMember& member = members->members[track.member];
+    if (!member.active || member.probation || member.identity != track.member_identity) continue;
+    track.trusted = true;
+    is_changed_ = true;
+  }
+}
+
+/// Once a picture.
+void ObjectTracks::miss(std::size_t place, std::int64_t time) noexcept {
+  if (beside_[place].missed_at == time) return;
+  beside_[place].missed_at = time;
+  is_changed_ = true;
+  if (++list_.tracks[place].misses < runtime.lost_after) return;
+  ++feedback.lost;
+  end(place);
+}
+
+void ObjectTracks::end(std::size_t place) noexcept {
+  is_changed_ = is_changed_ || list_.tracks[place].found != VisualClass::nothing;
+  list_.tracks[place] = {};
+  beside_[place] = {};
+}
+
+void ObjectTracks::predict_to(std::int64_t time) noexcept {
+  list_.time = time;
+  for (std::size_t i = 0; i < most_tracks; ++i) {
+    ObjectTrack& track = list_.tracks[i];
+    if (track.found == VisualClass::nothing) continue;
+    if (seconds(Duration{time - track.measured_at}) > runtime.forget_after) {
+      end(i);
+      continue;
+    }
+    Beside& beside = beside_[i];
+    if (time <= beside.time) continue;
+    beside.filter.predict(seconds(Duration{time - beside.time}), runtime.belt, noise());
+    beside.time = time;
+  }
+}
+
+void ObjectTracks::post(const VisualFeatures& of, Time sampled_at) noexcept {
+  Pose tool{};
+  if (tool_pose_at(tool_poses, Time{Duration{of.time}}, tool) != NullReason::none) {
+    constexpr const char* trouble =
+        "where the tool was when the picture was taken is not known: its slot needs a history that reaches "
+        "back";
+    feedback.set_trouble(trouble);
+    log_warning(troubles_, name(), "{}", trouble);
+    return;
+  }
+  feedback.set_trouble({});
+  const CameraView view(configuration.camera, tool);
+  for (std::size_t i = 0; i < most_tracks; ++i) {
+    const ObjectTrack& track = list_.tracks[i];
+    if (track.found == VisualClass::nothing) continue;
+    const double rested = seconds(Duration{of.time - track.measured_at});
+    if (track.found == VisualClass::obstacle && track.confirmed && rested < runtime.obstacle_rest) continue;
+    VisionRegion region{};
+    region.frame = of.frame;
+    region.time = of.time;
+    region.score = 1 + std::max(rested, 0.0);
+    region.expected = {beside_[i].filter.position().x(), beside_[i].filter.position().y(),
+                       beside_[i].filter.angle()};
+    if (!predict_region(track, view, region)) continue;
+    if (tracked_regions.push(region, sampled_at))
+      ++feedback.posted;
+    else
+      ++feedback.dropped;
+  }
+}
+
+/// False: the picture does not show its place.
+bool ObjectTracks::predict_region(const ObjectTrack& track, const CameraView& view,
+                                  VisionRegion& region) const noexcept {
+  const Eigen::Vector3d place(region.expected[0], region.expected[1], height_of(track.kind));
+  Eigen::Vector2d pixel;
+  if (!view.to_picture(place, pixel)) return false;
+  const std::size_t index = track_of(track.identity);
+  const double half =
+      (track.radius + table_around + std::min(3 * beside_[index].filter.deviation(), table_around)) *
+      view.pixels_per_metre(place);
+  const auto& camera = configuration.camera;
+  if (pixel.x() < 0 || pixel.y() < 0 || pixel.x() >= camera.width || pixel.y() >= camera.height ||
+      half > 4000)
+    return false;
+  const PixelRectangle whole{static_cast<int>(pixel.x() - half), static_cast<int>(pixel.y() - half),
+                             static_cast<int>(2 * half) + 1, static_cast<int>(2 * half) + 1};
+  const PixelRectangle seen =
+      common_part(whole, {0, 0, static_cast<int>(camera.width), static_cast<int>(camera.height)});
+  if (seen.is_empty()) return false;
+  const PixelRectangle hidden = common_part(seen, blind_);
+  const int hidden_area = hidden.is_empty() ? 0 : hidden.width * hidden.height;
+  if (seen.width * seen.height - hidden_area < least_seen * whole.width * whole.height) return false;
+  region.left = static_cast<std::uint16_t>(seen.left);
+  region.top = static_cast<std::uint16_t>(seen.top);
+  region.width = static_cast<std::uint16_t>(seen.width);
+  region.height = static_cast<std::uint16_t>(seen.height);
+  region.member = no_member;
+  region.track = track.identity;
+  region.kind = track.kind;
+  return true;
+}
+
+void ObjectTracks::publish() noexcept {
+  list_.count = 0;
+  feedback.confirmed = feedback.targets = 0;
+  for (std::size_t i = 0; i < most_tracks; ++i) {
+    ObjectTrack& track = list_.tracks[i];
+    if (track.found == VisualClass::nothing) continue;
+    const ObjectFilter& filter = beside_[i].filter;
+    track.position_map() = filter.position();
+    track.velocity_map() = filter.velocity();
+    track.angle = filter.angle();
+    track.deviation = filter.deviation();
+    track.may_be_target = track.found == VisualClass::target && track.confirmed && track.trusted;
+    ++list_.count;
+    if (track.confirmed) ++feedback.confirmed;
+    if (track.may_be_target) ++feedback.targets;
+  }
+  feedback.tracks = list_.count;
+  tracks.publish(list_);
+}
+
+FilterNoise ObjectTracks::noise() const noexcept {
+  FilterNoise noise;
+  noise.measured_position = runtime.measurement;
+  noise.drift = runtime.drift;
+  return noise;
+}
+
+}  // namespace flexrf::user

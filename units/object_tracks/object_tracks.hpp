@@ -1,0 +1,55 @@
+// ObjectTracks: a bounded list of what lies on the table, each thing with a filter of its own.
+#pragma once
+
+#include <array>
+
+#include "object_tracks_unit.hpp"
+#include "runtime/log/log.hpp"
+#include "units/vision/camera_view.hpp"
+#include "units/vision/object_filter.hpp"
+#include "units/vision/part_model.hpp"
+#include "units/vision/region_bitmap.hpp"
+
+namespace flexrf::user {
+
+class ObjectTracks final : public ObjectTracksUnit {
+ public:
+  Status initialise() override;
+  void step(const Tick& tick) override;
+
+ private:
+  static constexpr std::size_t most_tracks = 32;
+  static constexpr std::size_t most_recognisers = 16;
+  /// What is known of a track beside what is told of it.
+  struct Beside {
+    ObjectFilter filter;
+    std::int64_t time = 0;       // ns, that the filter has come to
+    std::int64_t missed_at = 0;  // ns, the last picture in which it was not there
+  };
+
+  void read_verdicts() noexcept;
+  void take(const VisionVerdict& verdict) noexcept;
+  std::size_t nearest_to(const VisionVerdict& verdict) const noexcept;
+  std::size_t track_of(std::uint32_t identity) const noexcept;
+  void measure(std::size_t place, const VisionVerdict& verdict) noexcept;
+  void begin(const VisionVerdict& verdict) noexcept;
+  void trust(ObjectTrack& track, const VisionRegion& region) noexcept;
+  void miss(std::size_t place, std::int64_t time) noexcept;
+  void end(std::size_t place) noexcept;
+  void trust_the_promoted() noexcept;
+  void predict_to(std::int64_t time) noexcept;
+  void post(const VisualFeatures& of, Time sampled_at) noexcept;
+  bool predict_region(const ObjectTrack& track, const CameraView& view, VisionRegion& region) const noexcept;
+  void publish() noexcept;
+  FilterNoise noise() const noexcept;
+
+  TrackList list_{};
+  std::array<Beside, most_tracks> beside_{};
+  std::array<std::uint64_t, most_recognisers> read_{};  // verdicts of each recogniser
+  std::uint32_t next_identity_ = 1;
+  PixelRectangle blind_;
+  LogLimit troubles_;
+  bool is_changed_ = false;
+};
+
+}  // namespace flexrf::user

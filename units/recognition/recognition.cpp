@@ -1,0 +1,232 @@
+#include "units/recognition/recognition.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "units/vision/attention_genes.hpp"
+#include "units/vision/camera_view.hpp"
+#include "units/vision/integral_images.hpp"
+
+namespace flexrf::user {
+namespace {
+
+// Attention's windows fit what they show closely; around it the table has to be seen.
+constexpr int margin_share = 4;  // of a region's side, on each side
+// A region holds what another one held if its middle is so near to the region's, as part of its side.
+constexpr double near_the_middle = 0.3;
+// Jobs of pictures that are gone are put away so many at a time, that a step ends.
+constexpr int most_outdated = 64;
+// Of luminance and of opponent colours, 0 to 255: less differs on a bare table by noise, texture and light.
+constexpr double flat_variance = 9;
+constexpr double flat_colour = 1.5;
+
+PixelRectangle rectangle_of(const VisionRegion& job) {
+  const PixelRectangle own{job.left, job.top, job.width, job.height};
+  if (job.member == no_member) return own;
+  const int across = own.width / margin_share;
+  const int down = own.height / margin_share;
+  return {own.left - across, own.top - down, own.width + 2 * across, own.height + 2 * down};
+}
+
+bool has_usable_size(const CameraFrame& frame) {
+  return frame.format == PixelFormat::rgb24 && frame.width == picture_width &&
+         frame.height == picture_height && frame.stride >= picture_row_bytes &&
+         std::uint64_t{frame.stride} * (picture_height - 1) + picture_row_bytes <= frame.data().size();
+}
+
+VisionVerdict verdict_of(const VisionRegion& job, const Finding& finding) {
+  VisionVerdict verdict{};
+  verdict.region = job;
+  verdict.verdict = finding.found;
+  verdict.kind = finding.kind;
+  verdict.position_map() = finding.pose.position;
+  verdict.angle = finding.pose.angle;
+  verdict.radius = finding.radius;
+  verdict.residual = finding.residual;
+  verdict.support = finding.support;
+  verdict.pixel_map() = finding.pixel;
+  verdict.parts = 1;
+  return verdict;
+}
+
+}  // namespace
+
+Status Recognition::initialise() {
+  finder_.prepare(known_parts(), configuration.darkest_shadow);
+  const auto& blind = configuration.camera.blind;
+  blind_ = {static_cast<int>(blind[0]), static_cast<int>(blind[1]), static_cast<int>(blind[2]),
+            static_cast<int>(blind[3])};
+  reset();
+  return check_camera(configuration.camera);
+}
+
+/// The count of verdicts goes on: who reads them has seen those of before.
+void Recognition::reset() noexcept {
+  finder_.forget();
+  waiting_.reset();
+  feedback = {};
+}
+
+/// Slots are read after the first job was taken: its picture was published before it, so it is there.
+void Recognition::step(const Tick& /*tick*/) {
+  const std::uint64_t before = list_.count;
+  std::uint32_t done = 0;
+  for (int outdated = 0; done < runtime.jobs && outdated < most_outdated;) {
+    const bool has_waited = waiting_.has_value();
+    const std::optional<VisionRegion> job = next_job();
+    if (!job) break;
+    const auto newest = frames.latest();
+    if (newest && job->frame > newest->sequence && !has_waited) {
+      // Of a picture that came since this step began to look.
+      waiting_ = job;
+      break;
+    }
+    if (answer(*job))
+      ++done;
+    else
+      ++outdated;
+  }
+  feedback.done += done;
+  if (list_.count != before) verdicts.publish(list_);
+}
+
+std::optional<VisionRegion> Recognition::next_job() noexcept {
+  if (waiting_) return std::exchange(waiting_, std::nullopt);
+  if (auto job = tracked_regions.pop()) return job;
+  return regions.pop();
+}
+
+/// The newest picture, or the one that was kept; null: neither is it.
+const CameraFrame* Recognition::frame_of(std::uint64_t sequence) noexcept {
+  if (const auto kept = frames.kept(); kept && kept->sequence == sequence) return &*kept;
+  const auto newest = frames.latest();
+  if (!newest || newest->sequence != sequence) return nullptr;
+  frames.keep();
+  return &*newest;
+}
+
+/// False: nobody can answer it any more.
+bool Recognition::answer(const VisionRegion& job) noexcept {
+  const CameraFrame* const frame = frame_of(job.frame);
+  if (frame == nullptr || !has_usable_size(*frame)) {
+    ++feedback.outdated;
+    return false;
+  }
+  Pose tool{};
+  if (const NullReason reason = tool_pose_at(tool_poses, Time{Duration{frame->time}}, tool);
+      reason != NullReason::none) {
+    ++feedback.outdated;
+    complain(
+        "where the tool was when the picture was taken is not known: its slot needs a history that reaches "
+        "back");
+    return false;
+  }
+  feedback.set_trouble({});
+  if (job.member != no_member) {
+    if (const VisionVerdict* const known = find_answered(job); known != nullptr) {
+      VisionVerdict verdict = *known;
+      verdict.region = job;
+      verdict.repeated = true;
+      verdict.pixels = 0;
+      verdict.part = 0;
+      verdict.parts = 1;
+      ++feedback.repeated;
+      note(verdict);
+      return true;
+    }
+  }
+  VisionVerdict nothing = verdict_of(job, Finding{});
+  nothing.pixel = {job.left + 0.5 * job.width, job.top + 0.5 * job.height};
+  if (is_flat(job)) {
+    ++feedback.nothing;
+    note(nothing);
+    return true;
+  }
+  const CameraView view(configuration.camera, tool);
+  const PictureView picture{frame->data().data(), frame->stride, static_cast<int>(frame->width),
+                            static_cast<int>(frame->height)};
+  Finding expected;
+  if (job.track != 0) {
+    expected.kind = job.kind;
+    expected.pose.position = {job.expected[0], job.expected[1]};
+    expected.pose.angle = job.expected[2];
+  }
+  const auto findings = finder_.find(picture, rectangle_of(job), blind_, view, expected,
+                                     {runtime.least_support, runtime.most_residual, runtime.least_obstacle});
+  feedback.pixels += finder_.pixels();
+  nothing.pixels = finder_.pixels();
+  if (findings.empty()) {
+    ++feedback.nothing;
+    note(nothing);
+  }
+  std::uint8_t part = 0;
+  for (const Finding& finding : findings) {
+    VisionVerdict verdict = verdict_of(job, finding);
+    verdict.pixels = part == 0 ? finder_.pixels() : 0;
+    verdict.part = part++;
+    verdict.parts = static_cast<std::uint8_t>(findings.size());
+    ++(finding.found == VisualClass::target ? feedback.targets : feedback.obstacles);
+    note(verdict);
+  }
+  return true;
+}
+
+/// The features of its picture say that there is but the table. Where they are of another picture: unknown.
+bool Recognition::is_flat(const VisionRegion& job) noexcept {
+  const auto of = features.latest();
+  if (!of || of->frame != job.frame) return false;
+  const FeatureWindow window{job.left / 2U, job.top / 2U,
+                             std::min((job.left + job.width) / 2U, feature_width),
+                             std::min((job.top + job.height) / 2U, feature_height)};
+  if (window.right <= window.left || window.bottom <= window.top) return false;
+  const double area = window.area();
+  // A window that large is never flat, and its squares do not fit.
+  if (area > 60000) return false;
+  const double mean = window_sum(of->luminance, window) / area;
+  const double variance = window_sum(of->luminance_squared, window) / area - mean * mean;
+  const FeatureWindow all{0, 0, feature_width, feature_height};
+  const auto differs = [&](const auto& sums) {
+    return std::abs(window_sum(sums, window) / area - window_sum(sums, all) / all.area());
+  };
+  return variance < flat_variance && differs(of->red_green) < flat_colour &&
+         differs(of->yellow_blue) < flat_colour;
+}
+
+/// What was measured in the same picture in the middle of this region, by whichever recogniser.
+const VisionVerdict* Recognition::find_answered(const VisionRegion& job) noexcept {
+  if (const VisionVerdict* const own = find_in(list_, job); own != nullptr) return own;
+  for (auto& other : answered) {
+    const auto list = other.latest();
+    if (!list) continue;
+    if (const VisionVerdict* const found = find_in(*list, job); found != nullptr) return found;
+  }
+  return nullptr;
+}
+
+const VisionVerdict* Recognition::find_in(const VisionVerdicts& list,
+                                          const VisionRegion& job) const noexcept {
+  const std::uint64_t kept = std::min<std::uint64_t>(list.count, list.verdicts.size());
+  for (std::uint64_t i = 0; i < kept; ++i) {
+    const VisionVerdict& verdict = list.verdicts[(list.count - 1 - i) % list.verdicts.size()];
+    if (verdict.region.frame != job.frame || verdict.verdict == VisualClass::nothing || verdict.repeated)
+      continue;
+    const double across = verdict.pixel[0] - (job.left + 0.5 * job.width);
+    const double down = verdict.pixel[1] - (job.top + 0.5 * job.height);
+    if (std::max(std::abs(across), std::abs(down)) < near_the_middle * std::max(job.width, job.height))
+      return &verdict;
+  }
+  return nullptr;
+}
+
+void Recognition::note(const VisionVerdict& verdict) noexcept {
+  list_.verdicts[list_.count % list_.verdicts.size()] = verdict;
+  ++list_.count;
+}
+
+void Recognition::complain(const char* trouble) noexcept {
+  feedback.set_trouble(trouble);
+  log_warning(troubles_, name(), "{}", trouble);
+}
+
+}  // namespace flexrf::user

@@ -1,0 +1,35 @@
+// Recognition: one recogniser. It takes jobs, looks at their regions, and publishes verdicts.
+#pragma once
+
+#include <optional>
+
+#include "recognition_unit.hpp"
+#include "runtime/log/log.hpp"
+#include "units/vision/part_finder.hpp"
+
+namespace flexrf::user {
+
+class Recognition final : public RecognitionUnit {
+ public:
+  Status initialise() override;
+  void reset() noexcept override;
+  void step(const Tick& tick) override;
+
+ private:
+  std::optional<VisionRegion> next_job() noexcept;
+  const CameraFrame* frame_of(std::uint64_t sequence) noexcept;
+  bool is_flat(const VisionRegion& job) noexcept;
+  bool answer(const VisionRegion& job) noexcept;
+  const VisionVerdict* find_answered(const VisionRegion& job) noexcept;
+  const VisionVerdict* find_in(const VisionVerdicts& list, const VisionRegion& job) const noexcept;
+  void note(const VisionVerdict& verdict) noexcept;
+  void complain(const char* trouble) noexcept;
+
+  PartFinder finder_;
+  VisionVerdicts list_{};
+  std::optional<VisionRegion> waiting_;  // a job whose picture this step does not see
+  PixelRectangle blind_;
+  LogLimit troubles_;
+};
+
+}  // namespace flexrf::user

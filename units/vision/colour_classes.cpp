@@ -1,0 +1,70 @@
+#include "units/vision/colour_classes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexrf::user {
+namespace {
+
+// Distances of chromaticity, whose channels add up to 1.
+constexpr double off_the_line = 0.09;    // from table to part: no mixture of the two
+constexpr double like_the_table = 0.12;  // light is no more coloured than that
+
+Eigen::Vector3d colour_of(SurfaceColour colour) {
+  return {static_cast<double>(colour.red), static_cast<double>(colour.green),
+          static_cast<double>(colour.blue)};
+}
+
+Eigen::Vector3d chromaticity(const Eigen::Vector3d& colour) {
+  return colour / std::max(colour.sum(), 1.0);
+}
+
+std::uint8_t judge(const Eigen::Vector3d& colour, std::span<const PartModel> parts,
+                   const Eigen::Vector3d& table, double darkest_shadow) {
+  const Eigen::Vector3d neutral = chromaticity(table);
+  const Eigen::Vector3d offset = chromaticity(colour) - neutral;
+  double nearest = off_the_line;
+  std::size_t kind = parts.size();
+  bool is_nearer_to_part = false;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Eigen::Vector3d line = chromaticity(colour_of(parts[i].colour)) - neutral;
+    const double along = offset.dot(line) / line.squaredNorm();
+    const double off = (offset - std::clamp(along, 0.0, 1.3) * line).norm();
+    if (off >= nearest) continue;
+    nearest = off;
+    kind = i;
+    is_nearer_to_part = along >= 0.5;
+  }
+  if (kind == parts.size()) return class_foreign;
+  if (is_nearer_to_part) return static_cast<std::uint8_t>(class_first_part + kind);
+  return colour.sum() < darkest_shadow * table.sum() ? class_foreign : class_table;
+}
+
+}  // namespace
+
+void ColourClasses::prepare(std::span<const PartModel> parts, SurfaceColour table,
+                            double darkest_shadow) noexcept {
+  table_ = table;
+  constexpr double width = 256.0 / levels;
+  std::size_t place = 0;
+  for (std::uint32_t red = 0; red < levels; ++red)
+    for (std::uint32_t green = 0; green < levels; ++green)
+      for (std::uint32_t blue = 0; blue < levels; ++blue)
+        classes_[place++] = judge({(red + 0.5) * width, (green + 0.5) * width, (blue + 0.5) * width}, parts,
+                                  colour_of(table), darkest_shadow);
+}
+
+bool ColourClasses::balance_of(const std::array<std::uint32_t, 3>& seen,
+                               WhiteBalance& balance) const noexcept {
+  const Eigen::Vector3d known = colour_of(table_);
+  const Eigen::Vector3d now(seen[0], seen[1], seen[2]);
+  // Outside of this there is no light to see by, or too much.
+  if (now.minCoeff() < 16 || now.maxCoeff() > 250) return false;
+  if ((chromaticity(now) - chromaticity(known)).norm() > like_the_table) return false;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    balance.gain[static_cast<std::size_t>(i)] =
+        static_cast<std::uint32_t>(std::lround(256 * known[i] / now[i]));
+  return true;
+}
+
+}  // namespace flexrf::user

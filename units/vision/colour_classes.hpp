@@ -1,0 +1,55 @@
+// ColourClasses: what a pixel's colour says it is a picture of, whatever the light.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "units/vision/part_model.hpp"
+
+namespace flexrf::user {
+
+/// Class of a pixel: the table, something foreign, or first_part + kind.
+inline constexpr std::uint8_t class_table = 0;
+inline constexpr std::uint8_t class_foreign = 1;
+inline constexpr std::uint8_t class_first_part = 2;
+
+/// Factors that bring the table's colour under the present light to what it is known to be; in 1/256.
+struct WhiteBalance {
+  std::array<std::uint32_t, 3> gain{256, 256, 256};
+};
+
+/// Colours by their chromaticity (each channel's part of the sum), so that shade changes nothing: a pixel
+/// between the table's and a part's, as at a blurred edge, belongs to the nearer one. What is off all lines
+/// from the table to a part is foreign, and so is what is neutral and darker than a shadow.
+class ColourClasses {
+ public:
+  /// `darkest_shadow`: part of the table's brightness below which nothing is a shadow. Makes a table of all
+  /// colours, which takes some milliseconds.
+  void prepare(std::span<const PartModel> parts, SurfaceColour table, double darkest_shadow) noexcept;
+
+  std::uint8_t of(const std::uint8_t* rgb, const WhiteBalance& balance) const noexcept {
+    const std::uint32_t red = balanced(rgb[0], balance.gain[0]);
+    const std::uint32_t green = balanced(rgb[1], balance.gain[1]);
+    const std::uint32_t blue = balanced(rgb[2], balance.gain[2]);
+    return classes_[(red << 2 * bits) | (green << bits) | blue];
+  }
+
+  /// From what is taken as the table's colour now. False, and `balance` as it was: it is none that light
+  /// makes of the table.
+  bool balance_of(const std::array<std::uint32_t, 3>& seen, WhiteBalance& balance) const noexcept;
+
+ private:
+  static constexpr std::uint32_t bits = 5;  // of each channel
+  static constexpr std::uint32_t levels = 1U << bits;
+
+  static std::uint32_t balanced(std::uint32_t value, std::uint32_t gain) noexcept {
+    const std::uint32_t level = value * gain >> (8 + 8 - bits);
+    return level < levels ? level : levels - 1;
+  }
+
+  std::array<std::uint8_t, std::size_t{levels} * levels * levels> classes_{};
+  SurfaceColour table_;
+};
+
+}  // namespace flexrf::user

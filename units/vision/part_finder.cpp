@@ -1,0 +1,176 @@
+#include "units/vision/part_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace flexrf::user {
+namespace {
+
+constexpr double coarse_width = 0.008;  // m, of the weights when starts are compared
+constexpr double fine_width = 0.005;    // m, when the best are improved
+constexpr int iterations = 8;
+constexpr std::size_t finalists = 4;       // starts that are improved
+constexpr std::size_t coarse_points = 48;  // by which starts are compared
+constexpr double least_filled = 0.9;       // of a part's inside that has its colour
+constexpr double explained = 0.002;  // m: such a point of the contour belongs to the part that was found
+constexpr int parts_of_a_blob = 3;
+constexpr int table_around = 12;  // pixels, around what was found at a rectangle's border
+constexpr int largest_side = 2 * RegionBitmap::side;
+
+}  // namespace
+
+void PartFinder::prepare(std::span<const PartModel> parts, double darkest_shadow) noexcept {
+  parts_ = parts.first(std::min(parts.size(), most_kinds));
+  classes_.prepare(parts_, known_table_colour(), darkest_shadow);
+  bitmap_.forget();
+}
+
+std::span<const Finding> PartFinder::find(const PictureView& picture, const PixelRectangle& rectangle,
+                                          const PixelRectangle& blind, const CameraView& view,
+                                          const Finding& expected, const FindingLimits& limits) noexcept {
+  count_ = 0;
+  pixels_ = 0;
+  look(picture, rectangle, blind);
+  // Attention's windows are on a grid: what lies across the border is brought to the middle, once.
+  if (!bitmap_.blobs().empty() && bitmap_.is_cut(bitmap_.blobs()[0], picture)) {
+    const PixelRectangle box = bitmap_.box_of(bitmap_.blobs()[0]);
+    const int side = std::min(2 * std::max(box.width, box.height) + 2 * table_around, largest_side);
+    look(picture, {box.left + (box.width - side) / 2, box.top + (box.height - side) / 2, side, side}, blind);
+  }
+  for (const Blob& blob : bitmap_.blobs()) {
+    if (blob.pixel_class == class_foreign)
+      find_obstacle(blob, view, limits);
+    else
+      find_parts(blob, view, expected, limits);
+  }
+  return {findings_.data(), count_};
+}
+
+void PartFinder::look(const PictureView& picture, const PixelRectangle& rectangle,
+                      const PixelRectangle& blind) noexcept {
+  bitmap_.take(picture, rectangle, blind, classes_);
+  pixels_ += static_cast<std::uint32_t>(bitmap_.columns() * bitmap_.rows());
+}
+
+/// The parts of one kind in a blob, one after the other; each takes its points of the contour away.
+void PartFinder::find_parts(const Blob& blob, const CameraView& view, const Finding& expected,
+                            const FindingLimits& limits) noexcept {
+  const std::size_t kind = blob.pixel_class - class_first_part;
+  const PartModel& part = parts_[kind];
+  if (!contour_.follow(bitmap_, blob, view, part.height)) return;
+  const double share = contour_.area() / part.area;
+  // Less than this of a part is not enough to say.
+  if (share < 0.3) return;
+  bool any = false;
+  for (int i = 0; i < parts_of_a_blob && count_ < most_findings; ++i) {
+    if (share - i < 0.3) return;
+    starts_.clear();
+    if (i == 0 && expected.kind == kind) starts_.add(expected.pose);
+    if (i == 0 && share < 1.35) starts_.add_around(part, contour_.middle());
+    if (i > 0 || share < 0.85 || share > 1.15) starts_.add_at_corners(part, contour_.points());
+    const OutlineFit fit = best_fit(part, blob, view);
+    if (fit.support < limits.least_support || fit.residual > limits.most_residual) break;
+    any = true;
+    Finding& finding = findings_[count_++];
+    finding = {};
+    finding.found = VisualClass::target;
+    finding.kind = static_cast<std::uint16_t>(kind);
+    finding.pose = fit.pose;
+    finding.radius = part.radius;
+    finding.residual = fit.residual;
+    finding.support = fit.support;
+    view.to_picture({fit.pose.position.x(), fit.pose.position.y(), part.height}, finding.pixel);
+    for (ContourPoint& point : contour_.points())
+      if (distance_from(part, fit.pose, point.position) < explained) point.is_edge = false;
+  }
+  // Of a part's colour, and too large to be one that is partly hidden.
+  if (!any && share > 1.5) find_obstacle(blob, view, limits);
+}
+
+/// The best of all starts that fills its outline; support 0: none does.
+OutlineFit PartFinder::best_fit(const PartModel& part, const Blob& blob, const CameraView& view) noexcept {
+  const auto points = contour_.points();
+  const std::size_t stride = std::max<std::size_t>(points.size() / coarse_points, 1);
+  struct Candidate {
+    double agreement = 0;
+    const OutlinePose* pose = nullptr;
+  };
+  std::array<Candidate, finalists> best{};
+  for (const OutlinePose& start : starts_.all()) {
+    Candidate candidate{agreement(part, start, points, coarse_width, stride), &start};
+    for (Candidate& one : best)
+      if (candidate.agreement > one.agreement) std::swap(candidate, one);
+  }
+  OutlineFit fit;
+  double score = 0;
+  for (const Candidate& candidate : best) {
+    if (candidate.pose == nullptr) continue;
+    const OutlineFit one = fit_outline(part, *candidate.pose, points, fine_width, iterations);
+    if (one.support * one.support <= score) continue;
+    const double inside = filled(part, one.pose, blob, view);
+    if (inside < least_filled) continue;
+    // Of two that are seen as well the one that lies nearer.
+    const double one_score = one.support * one.support * inside / (1 + one.residual / 0.002);
+    if (one_score <= score) continue;
+    score = one_score;
+    fit = one;
+  }
+  return fit;
+}
+
+/// Part of the outline's inside where the blob is. What lies at the border of what was looked at does not
+/// count.
+double PartFinder::filled(const PartModel& part, const OutlinePose& pose, const Blob& blob,
+                          const CameraView& view) const noexcept {
+  constexpr int half = 3;
+  const double step = part.radius / (half + 0.5);
+  const double cosine = std::cos(pose.angle);
+  const double sine = std::sin(pose.angle);
+  int looked = 0;
+  int within = 0;
+  for (int row = -half; row <= half; ++row) {
+    for (int column = -half; column <= half; ++column) {
+      const Eigen::Vector2d own(column * step, row * step);
+      if (!is_within(part, {}, own) || distance_from(part, {}, own) < explained) continue;
+      const Eigen::Vector2d at = pose.position + Eigen::Vector2d(cosine * own.x() - sine * own.y(),
+                                                                 sine * own.x() + cosine * own.y());
+      Eigen::Vector2d pixel;
+      if (!view.to_picture({at.x(), at.y(), part.height}, pixel)) continue;
+      const int cell_column =
+          static_cast<int>(std::floor((pixel.x() - bitmap_.rectangle().left) / bitmap_.scale()));
+      const int cell_row =
+          static_cast<int>(std::floor((pixel.y() - bitmap_.rectangle().top) / bitmap_.scale()));
+      if (cell_column < 0 || cell_row < 0 || cell_column >= bitmap_.columns() || cell_row >= bitmap_.rows())
+        continue;
+      ++looked;
+      if (bitmap_.label(cell_column, cell_row) == blob.label) ++within;
+    }
+  }
+  return looked == 0 ? 0.0 : static_cast<double>(within) / looked;
+}
+
+void PartFinder::find_obstacle(const Blob& blob, const CameraView& view,
+                               const FindingLimits& limits) noexcept {
+  if (count_ == most_findings) return;
+  const Eigen::Vector2d pixel = pixel_of(blob.middle_column, blob.middle_row);
+  Eigen::Vector2d place;
+  if (!view.to_plane(pixel.x(), pixel.y(), 0, place)) return;
+  const double per_metre = view.pixels_per_metre({place.x(), place.y(), 0}) / bitmap_.scale();
+  if (!(per_metre > 0) || blob.area < limits.least_obstacle * per_metre * per_metre) return;
+  Finding& finding = findings_[count_++];
+  finding = {};
+  finding.found = VisualClass::obstacle;
+  finding.pose.position = place;
+  finding.radius = std::hypot(blob.right - blob.left + 1, blob.bottom - blob.top + 1) / (2 * per_metre);
+  finding.support = 1;
+  finding.pixel = pixel;
+}
+
+/// Of a place in the bitmap, in cells.
+Eigen::Vector2d PartFinder::pixel_of(double column, double row) const noexcept {
+  return {bitmap_.rectangle().left + column * bitmap_.scale(),
+          bitmap_.rectangle().top + row * bitmap_.scale()};
+}
+
+}  // namespace flexrf::user

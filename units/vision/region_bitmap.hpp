@@ -1,0 +1,112 @@
+// RegionBitmap: a rectangle of a picture, each of its pixels told apart by colour, and the blobs of one
+// class.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "units/vision/colour_classes.hpp"
+
+namespace flexrf::user {
+
+/// In pixels of the camera's picture.
+struct PixelRectangle {
+  int left = 0;
+  int top = 0;
+  int width = 0;
+  int height = 0;
+
+  int right() const noexcept { return left + width; }
+  int bottom() const noexcept { return top + height; }
+  bool is_empty() const noexcept { return width <= 0 || height <= 0; }
+};
+
+/// What both cover; empty where they do not meet.
+PixelRectangle common_part(const PixelRectangle& one, const PixelRectangle& other) noexcept;
+
+/// rgb24, rows `stride` bytes apart.
+struct PictureView {
+  const std::uint8_t* pixels = nullptr;
+  std::size_t stride = 0;
+  int width = 0;
+  int height = 0;
+
+  const std::uint8_t* at(int column, int row) const noexcept {
+    return pixels + static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column) * 3;
+  }
+};
+
+/// Pixels of one class that hang together by their sides. Cells, which are pixels or squares of them.
+struct Blob {
+  std::uint8_t pixel_class = class_table;
+  std::uint8_t label = 0;
+  int area = 0;
+  int left = 0;  ///< bounding box, right and bottom inclusive
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+  int first_column = 0;  ///< of the first cell in its first row
+  double middle_column = 0;
+  double middle_row = 0;
+};
+
+/// At most 160 x 160 cells. Of a rectangle that is larger each cell is the first pixel of a square of them.
+/// Of one thread; allocates nothing.
+class RegionBitmap {
+ public:
+  static constexpr int side = 160;
+  static constexpr std::size_t most_blobs = 8;
+  static constexpr int least_area = 24;  ///< of a blob; what is smaller is noise
+
+  /// Takes the rectangle, which lies within the picture, and finds its blobs, the largest first, at most 8.
+  /// The table's colour is the median along the rectangle's border, where that can be the table; else that of
+  /// the region before. Nothing is seen in `blind`.
+  void take(const PictureView& picture, const PixelRectangle& rectangle, const PixelRectangle& blind,
+            const ColourClasses& classes) noexcept;
+
+  /// Forgets the light.
+  void forget() noexcept { balance_ = {}; }
+
+  std::span<const Blob> blobs() const noexcept { return {blobs_.data(), blob_count_}; }
+  const PixelRectangle& rectangle() const noexcept { return rectangle_; }
+  int columns() const noexcept { return columns_; }
+  int rows() const noexcept { return rows_; }
+  int scale() const noexcept { return scale_; }  ///< pixels along a cell's side
+  /// Of the blob that a cell belongs to, 0: none. Outside of the bitmap 0.
+  std::uint8_t label(int column, int row) const noexcept {
+    return column < 0 || row < 0 || column >= columns_ || row >= rows_ ? std::uint8_t{0}
+                                                                       : labels_[place(column, row)];
+  }
+  /// The blob's bounding box lies at the rectangle's border, where the picture goes on.
+  bool is_cut(const Blob& blob, const PictureView& picture) const noexcept;
+  /// The blob's bounding box in pixels.
+  PixelRectangle box_of(const Blob& blob) const noexcept;
+
+ private:
+  static std::size_t place(int column, int row) noexcept {
+    return static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column);
+  }
+  void classify(const PictureView& picture, const PixelRectangle& blind,
+                const ColourClasses& classes) noexcept;
+  std::array<std::uint32_t, 3> border_colour(const PictureView& picture) noexcept;
+  void find_blobs() noexcept;
+  Blob flood(int column, int row, std::uint8_t label) noexcept;
+  void keep(const Blob& blob) noexcept;
+
+  std::array<std::uint8_t, std::size_t{side} * side> classes_{};
+  std::array<std::uint8_t, std::size_t{side} * side> labels_{};
+  std::array<std::uint16_t, std::size_t{side} * side>
+      waiting_{};  // cells of a blob whose neighbours were not seen
+  std::array<std::array<std::uint16_t, 256>, 3> histogram_{};
+  std::array<Blob, most_blobs> blobs_{};
+  std::size_t blob_count_ = 0;
+  PixelRectangle rectangle_;
+  WhiteBalance balance_;
+  int columns_ = 0;
+  int rows_ = 0;
+  int scale_ = 1;
+};
+
+}  // namespace flexrf::user

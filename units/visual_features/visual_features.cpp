@@ -1,0 +1,117 @@
+#include "units/visual_features/visual_features.hpp"
+
+namespace flexrf::user {
+namespace {
+
+// So many pictures in a row that go on from each other are a camera that counts anew.
+constexpr std::uint32_t new_count = 10;
+constexpr double least_deviation = 12;  // of luminance, 0 to 255: below it edges are the sensor's own noise
+
+}  // namespace
+
+Status FeatureExtraction::initialise() {
+  extractor_.forget();
+  heard_ = Time{};
+  sequence_ = other_sequence_ = 0;
+  others_ = 0;
+  any_ = false;
+  feedback.state = PictureState::waiting;
+  feedback.set_trouble({});
+  return {};
+}
+
+void FeatureExtraction::step(const Tick& tick) {
+  if (heard_ == Time{}) heard_ = tick.now;
+  const auto frame = frames.latest();
+  if (!frame || !frame.is_new()) {
+    if (tick.now - heard_ < duration_of(runtime.silence)) return;
+    extractor_.forget();
+    note(PictureState::silent, frame || frame.reason() == NullReason::nothing_yet
+                                   ? "no picture comes: look at the camera's device"
+                                   : "there is no camera: its device was stopped or is in fault");
+    return;
+  }
+  heard_ = tick.now;
+  feedback.missed += frame.missed();
+  if (!has_usable_format(*frame)) {
+    refuse(PictureState::wrong_format,
+           "a picture is not rgb24 of 640x480: set the camera's format, width and height so");
+  } else if (is_in_order(*frame)) {
+    extract(*frame, frame.sampled_at());
+  }
+}
+
+bool FeatureExtraction::has_usable_format(const CameraFrame& frame) const noexcept {
+  return frame.format == PixelFormat::rgb24 && frame.width == picture_width &&
+         frame.height == picture_height && frame.stride >= picture_row_bytes &&
+         std::uint64_t{frame.stride} * (picture_height - 1) + picture_row_bytes <= frame.data().size();
+}
+
+/// The count rises from picture to picture, also when the camera was away.
+bool FeatureExtraction::is_in_order(const CameraFrame& frame) noexcept {
+  if (!any_ || frame.sequence > sequence_) {
+    any_ = true;
+    others_ = 0;
+    sequence_ = frame.sequence;
+    return true;
+  }
+  if (frame.sequence == sequence_) {
+    refuse(PictureState::frozen, "the camera repeats a picture: its count stands");
+    return false;
+  }
+  others_ = others_ > 0 && frame.sequence > other_sequence_ ? others_ + 1 : 1;
+  other_sequence_ = frame.sequence;
+  if (others_ < new_count) {
+    refuse(PictureState::out_of_order, "a picture is older than one that came before it");
+    return false;
+  }
+  log_info(name(), "the camera counts its pictures anew, from {}", frame.sequence);
+  others_ = 0;
+  sequence_ = frame.sequence;
+  return true;
+}
+
+void FeatureExtraction::extract(const CameraFrame& frame, Time sampled_at) noexcept {
+  auto loan = features.loan();
+  if (!loan) {
+    refuse(PictureState::good, "the features' slot is not connected, or has no buffer left");
+    return;
+  }
+  const PictureStatistics of = extractor_.extract(frame.data().data(), frame.stride, *loan);
+  feedback.brightness = of.brightness / 255;
+  feedback.deviation = of.deviation / 255;
+  feedback.edge = of.deviation > 0 ? of.edge / of.deviation : 0.0;
+  if (feedback.brightness < runtime.black) {
+    refuse(PictureState::black, "the picture is black: is the lens covered, or the light out?");
+    return;
+  }
+  if (of.deviation > least_deviation && feedback.edge > runtime.noise) {
+    refuse(PictureState::noise, "the picture is noise: look at the camera and its cable");
+    return;
+  }
+  loan->frame = frame.sequence;
+  loan->time = frame.time;
+  loan.publish(sampled_at);
+  ++feedback.pictures;
+  note(PictureState::good, "");
+}
+
+/// What was refused is nothing to compare the next picture with.
+void FeatureExtraction::refuse(PictureState state, const char* trouble) noexcept {
+  ++feedback.refused;
+  extractor_.forget();
+  note(state, trouble);
+}
+
+void FeatureExtraction::note(PictureState state, const char* trouble) noexcept {
+  if (feedback.state == state && feedback.trouble_view() == trouble) return;
+  const bool was_well = feedback.state == PictureState::good || feedback.state == PictureState::waiting;
+  feedback.state = state;
+  feedback.set_trouble(trouble);
+  if (trouble[0] != '\0')
+    log_warning(said_[static_cast<std::size_t>(state)], name(), "{}", trouble);
+  else if (!was_well)
+    log_info(name(), "pictures are good again");
+}
+
+}  // namespace flexrf::user
