@@ -109,7 +109,10 @@ Wish Evolution::next_picture(const EvolutionRules& rules, bool may_change) noexc
     return wish;
   }
   replaces_ = false;
-  return make_child(rules);
+  const std::uint64_t held_back = held_back_;
+  const Wish birth = make_child(rules);
+  // Where a child would be too dear the worst goes, and the next generation has one.
+  return held_back_ > held_back ? make_room(rules) : birth;
 }
 
 /// Trusted when it was judged long enough and is good enough; retired when it was judged twice as long and is

@@ -23,7 +23,7 @@ struct Finding {
 
 /// What a part has to be like to be taken as one.
 struct FindingLimits {
-  double least_support = 0.5;     ///< part of its outline that is seen
+  double least_support = 0.58;    ///< part of its outline that is seen
   double most_residual = 0.0015;  ///< m
   double least_obstacle = 2e-4;   ///< m^2 on the table: what is smaller is nothing
 };

@@ -1,0 +1,346 @@
+#include "units/object_tracks/object_tracks.hpp"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "tests/cmocka.hpp"
+#include "units/vision/attention_genes.hpp"
+#include "units/vision/tests/drawn_table.hpp"
+#include "units/vision/tests/vision_bench.hpp"
+
+namespace {
+
+using namespace flexrf;
+using namespace flexrf::user;
+
+const Pose tool = tool_above(0.45, 0, 0.45);
+constexpr Duration frame_period = std::chrono::milliseconds(33);
+
+struct World {
+  UnitBench<ObjectTracks> bench;
+  SlotBench<VisualFeatures> features;
+  RangeBench<VisionVerdicts, 2> verdicts;
+  HistoryBench<Pose, 16> tool_poses;
+  SlotBench<AttentionGeneration> generation;
+  SlotBench<TrackList> tracks;
+  JobBench jobs;
+  InputBinding inputs[4] = {features.input(), verdicts.input(), tool_poses.input(), generation.input()};
+  SlotControl* outputs[1] = {&tracks.control()};
+  std::span<QueueSink* const> queue_outputs[1] = {jobs.sinks()};
+  VisualFeatures of{};
+  VisionVerdicts list{};
+  std::vector<VisionRegion> posted;
+  Pose where = tool;
+  bool tells_pose = true;
+
+  World() {
+    UnitBinding binding;
+    binding.context = &bench.context();
+    binding.inputs = inputs;
+    binding.outputs = outputs;
+    binding.queue_outputs = queue_outputs;
+    bench.unit().connect(binding);
+    static_cast<ObjectTracksConfiguration*>(bench.unit().parameter_memory().configuration)->camera =
+        camera_of_tests();
+    initialised = bench.unit().initialise().is_ok();
+  }
+  /// The next picture; its verdicts are given in the step after it.
+  void picture(Duration after = frame_period) {
+    bench.step(after);
+    ++of.frame;
+    of.time = nanoseconds(bench.now());
+    if (tells_pose) tool_poses.publish(where, bench.now());
+    features.publish(of, bench.now());
+    step();
+    posted.clear();
+    while (const auto job = jobs.pop()) posted.push_back(*job);
+  }
+  void step() { bench.step(std::chrono::microseconds(1)); }
+  VisionVerdict seen(double x, double y, std::uint16_t kind = 0) {
+    VisionVerdict verdict{};
+    verdict.region.frame = of.frame;
+    verdict.region.time = of.time;
+    verdict.region.member = 1;
+    verdict.region.identity = 6;
+    verdict.verdict = kind == no_kind ? VisualClass::obstacle : VisualClass::target;
+    verdict.kind = kind;
+    verdict.position = {x, y};
+    verdict.angle = 0.3;
+    verdict.radius = 0.03;
+    verdict.parts = 1;
+    return verdict;
+  }
+  void add(const VisionVerdict& verdict) { list.verdicts[list.count++ % list.verdicts.size()] = verdict; }
+  void tell() {
+    verdicts.publish(0, list, bench.now());
+    step();
+  }
+  void tell(const VisionVerdict& verdict) {
+    add(verdict);
+    tell();
+  }
+  /// Seen in so many pictures.
+  void follow(int pictures, double x, double y, std::uint16_t kind = 0, bool probation = false) {
+    for (int i = 0; i < pictures; ++i) {
+      picture();
+      VisionVerdict verdict = seen(x, y, kind);
+      verdict.region.probation = probation;
+      tell(verdict);
+    }
+  }
+  ObjectTrack first() {
+    const auto now = tracks.latest();
+    if (now)
+      for (const ObjectTrack& track : now->tracks)
+        if (track.found != VisualClass::nothing) return track;
+    return {};
+  }
+  std::uint32_t count() {
+    const auto now = tracks.latest();
+    return now ? now->count : 0;
+  }
+  bool initialised = false;
+};
+
+bool five_pictures_confirm() {
+  const auto world = std::make_unique<World>();
+  world->follow(4, 0.42, 0.03);
+  const ObjectTrack before = world->first();
+  world->follow(1, 0.42, 0.03);
+  const ObjectTrack after = world->first();
+  return world->initialised && !before.confirmed && !before.may_be_target && after.confirmed &&
+         after.may_be_target && after.frames == 5 && after.identity == before.identity &&
+         world->count() == 1 && after.member == 1 && after.member_identity == 6 &&
+         std::abs(after.position[0] - 0.42) < 1e-9 && std::abs(after.angle - 0.3) < 1e-9;
+}
+
+bool a_picture_counts_once() {
+  const auto world = std::make_unique<World>();
+  world->picture();
+  for (int i = 0; i < 10; ++i) world->tell(world->seen(0.42, 0.03));
+  return world->first().frames == 1 && world->count() == 1;
+}
+
+bool probation_moves_nothing() {
+  const auto world = std::make_unique<World>();
+  world->follow(20, 0.42, 0.03, 0, true);
+  const ObjectTrack untrusted = world->first();
+  // It is measured at its predicted place as well, which makes it no better.
+  world->picture();
+  VisionVerdict predicted = world->seen(0.42, 0.03);
+  predicted.region.member = no_member;
+  predicted.region.track = untrusted.identity;
+  world->tell(predicted);
+  const ObjectTrack measured = world->first();
+  world->follow(1, 0.42, 0.03);
+  return untrusted.confirmed && !untrusted.may_be_target && !measured.may_be_target &&
+         measured.frames == 21 && world->first().may_be_target;
+}
+
+bool who_passes_probation_is_trusted_afterwards() {
+  const auto world = std::make_unique<World>();
+  world->follow(6, 0.42, 0.03, 0, true);
+  AttentionGeneration population{};
+  population.members[1].active = true;
+  population.members[1].identity = 7;  // another one in the same place
+  world->generation.publish(population, world->bench.now());
+  world->step();
+  const bool other = world->first().may_be_target;
+  population.members[1].identity = 6;
+  population.members[1].probation = true;
+  world->generation.publish(population, world->bench.now());
+  world->step();
+  const bool still = world->first().may_be_target;
+  population.members[1].probation = false;
+  world->generation.publish(population, world->bench.now());
+  world->step();
+  return !other && !still && world->first().may_be_target;
+}
+
+/// What is found beside a track in its predicted region is trusted as that is.
+bool trust_is_lent() {
+  const auto world = std::make_unique<World>();
+  world->follow(5, 0.42, 0.03, 0, true);
+  const ObjectTrack known = world->first();
+  world->picture();
+  VisionVerdict beside = world->seen(0.46, 0.03);
+  beside.region.member = no_member;
+  beside.region.track = known.identity;
+  world->tell(beside);
+  const auto now = world->tracks.latest();
+  return now && now->count == 2 && !now->tracks[1].trusted && now->tracks[1].member == 1;
+}
+
+bool what_is_gone_is_lost() {
+  const auto world = std::make_unique<World>();
+  world->follow(6, 0.42, 0.03);
+  for (int i = 0; i < 8; ++i) {
+    if (world->count() != 1) return false;
+    world->picture();
+    VisionVerdict nothing = world->seen(0, 0);
+    nothing.verdict = VisualClass::nothing;
+    nothing.region.member = no_member;
+    nothing.region.track = world->first().identity;
+    world->tell(nothing);
+    world->tell(nothing);  // once a picture
+  }
+  return world->count() == 0 && world->bench.feedback().lost == 1;
+}
+
+bool what_nobody_looked_for_is_not_lost() {
+  const auto world = std::make_unique<World>();
+  world->follow(6, 0.42, 0.03);
+  for (int i = 0; i < 100; ++i) world->picture();
+  const bool there = world->count() == 1 && world->first().misses == 0;
+  world->picture(std::chrono::seconds(61));
+  return there && world->count() == 0;
+}
+
+bool its_place_in_the_next_picture_is_posted() {
+  const auto world = std::make_unique<World>();
+  world->follow(6, 0.42, 0.03);
+  world->where = tool_above(0.47, 0.02, 0.4);
+  world->picture();
+  if (world->posted.size() != 1) return false;
+  const VisionRegion region = world->posted[0];
+  Eigen::Vector2d pixel(0, 0);
+  CameraView(camera_of_tests(), world->where).to_picture({0.42, 0.03, 0.025}, pixel);
+  const bool at_place = std::abs(pixel.x() - region.left - 0.5 * region.width) < 2 &&
+                        std::abs(pixel.y() - region.top - 0.5 * region.height) < 2;
+  world->where = tool_above(0.1, 0.8, 0.4);  // looks elsewhere
+  world->picture();
+  return at_place && region.frame == world->of.frame - 1 && region.member == no_member && region.track == 1 &&
+         region.kind == 0 && region.score >= 1 && region.score < 1.2 &&
+         std::abs(region.expected[0] - 0.42) < 1e-9 && world->posted.empty() && world->count() == 1;
+}
+
+bool obstacles_are_left_in_peace_for_a_while() {
+  const auto world = std::make_unique<World>();
+  world->follow(6, 0.42, 0.03, no_kind);
+  world->picture();
+  const bool rests = world->posted.empty();
+  for (int i = 0; i < 7; ++i) world->picture();
+  return rests && world->posted.size() == 1 && world->first().found == VisualClass::obstacle &&
+         !world->first().may_be_target;
+}
+
+bool without_the_tools_pose_nothing_is_predicted() {
+  const auto world = std::make_unique<World>();
+  world->follow(6, 0.42, 0.03);
+  world->tells_pose = false;
+  world->picture(std::chrono::milliseconds(200));
+  return world->posted.empty() && !world->bench.feedback().trouble_view().empty() && world->count() == 1;
+}
+
+bool kinds_and_places_are_told_apart() {
+  const auto world = std::make_unique<World>();
+  world->picture();
+  world->add(world->seen(0.42, 0.03, 0));
+  world->add(world->seen(0.42, 0.03, 1));
+  world->add(world->seen(0.42, 0.03, no_kind));
+  world->add(world->seen(0.46, 0.03, 0));
+  world->tell();
+  const bool four = world->count() == 4;
+  world->picture();
+  world->add(world->seen(0.461, 0.03, 0));
+  world->add(world->seen(0.421, 0.03, 0));
+  world->tell();
+  return four && world->count() == 4;
+}
+
+bool a_full_list_takes_no_more_and_says_so() {
+  const auto world = std::make_unique<World>();
+  world->picture();
+  for (int i = 0; i < 40; ++i) {
+    world->add(world->seen(0.3 + 0.05 * (i % 8), -0.2 + 0.05 * (i / 8)));
+    if (i % 20 == 19) world->tell();
+  }
+  return world->count() == 32 && world->bench.feedback().refused == 8 &&
+         world->bench.unit().take_restraint().reason != nullptr;
+}
+
+bool verdicts_that_were_overwritten_are_counted() {
+  const auto world = std::make_unique<World>();
+  world->picture();
+  for (int i = 0; i < 40; ++i) world->add(world->seen(0.42, 0.03));
+  world->tell();
+  const bool counted = world->bench.feedback().unread == 8;
+  // A recogniser that begins anew is heard from its first verdict on.
+  world->list = {};
+  world->tell(world->seen(0.5, -0.1));
+  return counted && world->count() == 2;
+}
+
+bool what_is_no_number_is_no_track() {
+  const auto world = std::make_unique<World>();
+  world->picture();
+  world->tell(world->seen(std::nan(""), 0.03));
+  VisionVerdict verdict = world->seen(0.42, 0.03);
+  verdict.angle = INFINITY;
+  world->tell(verdict);
+  return world->count() == 0;
+}
+
+bool forgetting_empties_the_list() {
+  const auto world = std::make_unique<World>();
+  world->follow(6, 0.42, 0.03);
+  world->bench.runtime().forget = 1;
+  world->step();
+  world->bench.runtime().forget = 0;
+  const bool empty = world->count() == 0;
+  world->follow(1, 0.42, 0.03);
+  return empty && world->first().identity == 2;
+}
+
+bool on_a_belt_it_is_expected_further_on() {
+  const auto world = std::make_unique<World>();
+  world->bench.runtime().belt = true;
+  double x = 0.36;
+  for (int i = 0; i < 30; ++i) {
+    world->picture();
+    world->tell(world->seen(x, 0));
+    x += 0.003;  // about 91 mm/s
+  }
+  world->picture();
+  return world->count() == 1 && std::abs(world->first().velocity[0] - 0.091) < 0.01 &&
+         world->posted.size() == 1 && std::abs(world->posted[0].expected[0] - x) < 0.001;
+}
+
+/// In here, so that a failing assertion jumps over no destructor.
+template <bool (*holds)()>
+void check(void**) {
+  assert_true(holds());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      {"five pictures confirm", check<five_pictures_confirm>, nullptr, nullptr, nullptr},
+      {"a picture counts once", check<a_picture_counts_once>, nullptr, nullptr, nullptr},
+      {"probation moves nothing", check<probation_moves_nothing>, nullptr, nullptr, nullptr},
+      {"who passes probation is trusted afterwards", check<who_passes_probation_is_trusted_afterwards>,
+       nullptr, nullptr, nullptr},
+      {"trust is lent", check<trust_is_lent>, nullptr, nullptr, nullptr},
+      {"what is gone is lost", check<what_is_gone_is_lost>, nullptr, nullptr, nullptr},
+      {"what nobody looked for is not lost", check<what_nobody_looked_for_is_not_lost>, nullptr, nullptr,
+       nullptr},
+      {"its place in the next picture is posted", check<its_place_in_the_next_picture_is_posted>, nullptr,
+       nullptr, nullptr},
+      {"obstacles are left in peace for a while", check<obstacles_are_left_in_peace_for_a_while>, nullptr,
+       nullptr, nullptr},
+      {"without the tools pose nothing is predicted", check<without_the_tools_pose_nothing_is_predicted>,
+       nullptr, nullptr, nullptr},
+      {"kinds and places are told apart", check<kinds_and_places_are_told_apart>, nullptr, nullptr, nullptr},
+      {"a full list takes no more and says so", check<a_full_list_takes_no_more_and_says_so>, nullptr,
+       nullptr, nullptr},
+      {"verdicts that were overwritten are counted", check<verdicts_that_were_overwritten_are_counted>,
+       nullptr, nullptr, nullptr},
+      {"what is no number is no track", check<what_is_no_number_is_no_track>, nullptr, nullptr, nullptr},
+      {"forgetting empties the list", check<forgetting_empties_the_list>, nullptr, nullptr, nullptr},
+      {"on a belt it is expected further on", check<on_a_belt_it_is_expected_further_on>, nullptr, nullptr,
+       nullptr},
+  };
+  return cmocka_run_group_tests_name("object tracks", tests, nullptr, nullptr);
+}

@@ -1,0 +1,289 @@
+#include "units/recognition/recognition.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include "tests/cmocka.hpp"
+#include "units/vision/attention_genes.hpp"
+#include "units/vision/integral_images.hpp"
+#include "units/vision/tests/drawn_table.hpp"
+#include "units/vision/tests/vision_bench.hpp"
+
+namespace {
+
+using namespace flexrf;
+using namespace flexrf::user;
+
+const Pose tool = tool_above(0.45, 0, 0.45);
+const OutlinePose block_pose{{0.42, 0.03}, 0.5};
+const OutlinePose disc_pose{{0.50, -0.04}, 0};
+
+struct World {
+  UnitBench<Recognition> bench;
+  FrameBench frames;
+  SlotBench<VisualFeatures> features;
+  HistoryBench<Pose, 16> tool_poses;
+  RangeBench<VisionVerdicts, 2> answered;
+  JobBench tracked;
+  JobBench found;
+  SlotBench<VisionVerdicts> verdicts;
+  InputBinding inputs[4] = {frames.input(), features.input(), tool_poses.input(), answered.input()};
+  QueueSource* sources[2] = {tracked.source(), found.source()};
+  SlotControl* outputs[1] = {&verdicts.control()};
+  DrawnTable table{tool};
+  std::uint64_t frame = 0;
+
+  World() {
+    UnitBinding binding;
+    binding.context = &bench.context();
+    binding.inputs = inputs;
+    binding.queue_inputs = sources;
+    binding.outputs = outputs;
+    bench.unit().connect(binding);
+    static_cast<RecognitionConfiguration*>(bench.unit().parameter_memory().configuration)->camera =
+        camera_of_tests();
+    initialised = bench.unit().initialise().is_ok();
+    table.put(known_parts()[0], block_pose);
+    table.put(known_parts()[1], disc_pose);
+    frames.draw(table.picture(4));
+    give();
+  }
+  /// The next picture, of the same.
+  void give() {
+    step();
+    tool_poses.publish(tool, bench.now());
+    frames.publish(++frame, bench.now());
+  }
+  void step() { bench.step(std::chrono::milliseconds(33)); }
+  VisionRegion job_at(const Eigen::Vector2d& place, double size = 0.07) {
+    const PixelRectangle at = table.around(place, size);
+    VisionRegion job{};
+    job.left = static_cast<std::uint16_t>(at.left);
+    job.top = static_cast<std::uint16_t>(at.top);
+    job.width = static_cast<std::uint16_t>(at.width);
+    job.height = static_cast<std::uint16_t>(at.height);
+    job.frame = frame;
+    job.member = 2;
+    job.identity = 5;
+    job.probation = true;
+    job.kind = no_kind;
+    job.score = 0.5;
+    return job;
+  }
+  std::uint64_t count() {
+    const auto list = verdicts.latest();
+    return list ? list->count : 0;
+  }
+  VisionVerdict last() {
+    const auto list = verdicts.latest();
+    return list && list->count > 0 ? list->verdicts[(list->count - 1) % list->verdicts.size()]
+                                   : VisionVerdict{};
+  }
+  bool last_is(std::uint16_t kind, const OutlinePose& pose) {
+    const VisionVerdict verdict = last();
+    return verdict.verdict == VisualClass::target && verdict.kind == kind &&
+           (verdict.position_map() - pose.position).norm() < 0.001;
+  }
+  bool initialised = false;
+};
+
+bool a_job_is_answered() {
+  const auto world = std::make_unique<World>();
+  world->found.push(world->job_at(block_pose.position));
+  world->step();
+  const VisionVerdict verdict = world->last();
+  return world->initialised && world->count() == 1 && world->last_is(0, block_pose) &&
+         std::abs(verdict.angle - block_pose.angle) < 2 * degree && verdict.region.member == 2 &&
+         verdict.region.identity == 5 && verdict.region.probation && verdict.parts == 1 &&
+         verdict.pixels > 1000 && verdict.support > 0.9 && verdict.residual < 0.001 && verdict.radius > 0.02;
+}
+
+bool without_a_job_nothing_is_said() {
+  const auto world = std::make_unique<World>();
+  world->step();
+  return world->count() == 0 && world->bench.feedback().done == 0;
+}
+
+bool what_is_tracked_comes_first_however_it_scores() {
+  const auto world = std::make_unique<World>();
+  world->bench.runtime().jobs = 1;
+  VisionRegion loud = world->job_at(block_pose.position);
+  loud.score = 1000;
+  world->found.push(loud);
+  VisionRegion tracked = world->job_at(disc_pose.position);
+  tracked.member = no_member;
+  tracked.track = 4;
+  tracked.kind = 1;
+  tracked.expected = {disc_pose.position.x(), disc_pose.position.y(), 0};
+  world->tracked.push(tracked);
+  world->step();
+  const bool first = world->count() == 1 && world->last_is(1, disc_pose) && world->last().region.track == 4;
+  world->step();
+  return first && world->count() == 2 && world->last_is(0, block_pose);
+}
+
+/// By this recogniser, and by another one; but a track's place is measured in any case.
+bool the_same_is_not_measured_twice() {
+  const auto world = std::make_unique<World>();
+  world->found.push(world->job_at(block_pose.position));
+  world->step();
+  const std::uint64_t pixels = world->bench.feedback().pixels;
+  world->found.push(world->job_at(block_pose.position + Eigen::Vector2d(0.005, 0)));
+  world->step();
+  const bool own = world->count() == 2 && world->last().repeated && world->last_is(0, block_pose) &&
+                   world->last().pixels == 0 && world->bench.feedback().pixels == pixels;
+  VisionVerdicts others{};
+  others.count = 1;
+  others.verdicts[0] = world->last();
+  others.verdicts[0].repeated = false;
+  others.verdicts[0].kind = 1;
+  others.verdicts[0].position = {0.5, -0.04};
+  Eigen::Vector2d pixel(0, 0);
+  world->table.view().to_picture({0.50, -0.04, 0.02}, pixel);
+  others.verdicts[0].pixel = {pixel.x(), pixel.y()};
+  world->answered.publish(1, others, world->bench.now());
+  world->found.push(world->job_at(disc_pose.position));
+  world->step();
+  const bool other =
+      world->last().repeated && world->last_is(1, disc_pose) && world->last().region.member == 2;
+  VisionRegion tracked = world->job_at(disc_pose.position);
+  tracked.member = no_member;
+  world->tracked.push(tracked);
+  world->step();
+  return own && other && !world->last().repeated && world->last_is(1, disc_pose) &&
+         world->bench.feedback().repeated == 2;
+}
+
+/// Of the next picture it is something else.
+bool the_next_picture_is_measured_anew() {
+  const auto world = std::make_unique<World>();
+  world->found.push(world->job_at(block_pose.position));
+  world->step();
+  world->give();
+  world->found.push(world->job_at(block_pose.position));
+  world->step();
+  return world->count() == 2 && !world->last().repeated;
+}
+
+bool jobs_of_pictures_that_are_gone_are_put_away() {
+  const auto world = std::make_unique<World>();
+  VisionRegion late = world->job_at(block_pose.position);
+  world->found.push(late);
+  world->step();  // keeps the picture
+  world->give();
+  world->found.push(late);
+  world->step();
+  const bool kept = world->count() == 2;
+  world->give();
+  world->found.push(world->job_at(disc_pose.position));
+  world->step();  // keeps this one
+  world->found.push(late);
+  late.frame = 0;
+  world->found.push(late);
+  world->step();
+  return kept && world->count() == 3 && world->bench.feedback().outdated == 2;
+}
+
+/// It waits for its picture for one step, and no longer: a picture that never comes holds up nobody.
+bool a_job_may_be_ahead_of_its_picture() {
+  const auto world = std::make_unique<World>();
+  VisionRegion early = world->job_at(block_pose.position);
+  early.frame = world->frame + 1;
+  world->found.push(early);
+  world->step();
+  const bool waits = world->count() == 0 && world->bench.feedback().outdated == 0;
+  world->give();
+  world->step();
+  const bool done = world->count() == 1 && world->last_is(0, block_pose);
+  early.frame = world->frame + 100;
+  world->found.push(early);
+  world->found.push(world->job_at(disc_pose.position));
+  world->step();
+  world->step();
+  return waits && done && world->count() == 2 && world->last_is(1, disc_pose) &&
+         world->bench.feedback().outdated == 1;
+}
+
+bool without_the_tools_pose_it_says_so() {
+  const auto world = std::make_unique<World>();
+  world->frames.publish(++world->frame, world->bench.now() + std::chrono::seconds(5));
+  world->found.push(world->job_at(block_pose.position));
+  world->step();
+  const bool told = world->count() == 0 && !world->bench.feedback().trouble_view().empty();
+  world->give();
+  world->found.push(world->job_at(block_pose.position));
+  world->step();
+  return told && world->count() == 1 && world->bench.feedback().trouble_view().empty();
+}
+
+bool what_is_flat_is_not_even_looked_at() {
+  const auto world = std::make_unique<World>();
+  FeatureExtractor extractor;
+  const auto of = std::make_unique<VisualFeatures>();
+  extractor.extract(world->frames.frame().data().data(), 1920, *of);
+  of->frame = world->frame;
+  world->features.publish(*of, world->bench.now());
+  world->found.push(world->job_at({0.36, -0.10}));
+  world->step();
+  const bool flat = world->count() == 1 && world->last().verdict == VisualClass::nothing &&
+                    world->last().pixels == 0 && world->bench.feedback().pixels == 0;
+  world->found.push(world->job_at(block_pose.position));
+  world->step();
+  return flat && world->last_is(0, block_pose);
+}
+
+bool any_job_ends_well() {
+  const auto world = std::make_unique<World>();
+  world->bench.runtime().jobs = 16;
+  for (const PixelRectangle at : {PixelRectangle{65535, 65535, 65535, 65535}, PixelRectangle{0, 0, 0, 0},
+                                  PixelRectangle{0, 0, 65535, 65535}, PixelRectangle{630, 470, 5, 900}}) {
+    VisionRegion job = world->job_at(block_pose.position);
+    job.left = static_cast<std::uint16_t>(at.left);
+    job.top = static_cast<std::uint16_t>(at.top);
+    job.width = static_cast<std::uint16_t>(at.width);
+    job.height = static_cast<std::uint16_t>(at.height);
+    job.track = 1;
+    job.kind = 77;
+    job.expected = {1e300, -1e300, std::nan("")};
+    world->found.push(job);
+  }
+  world->step();
+  return world->bench.feedback().done == 4;
+}
+
+void answers(void**) {
+  assert_true(a_job_is_answered());
+  assert_true(without_a_job_nothing_is_said());
+}
+void tracked_first(void**) {
+  assert_true(what_is_tracked_comes_first_however_it_scores());
+}
+void repeated(void**) {
+  assert_true(the_same_is_not_measured_twice());
+  assert_true(the_next_picture_is_measured_anew());
+}
+void outdated(void**) {
+  assert_true(jobs_of_pictures_that_are_gone_are_put_away());
+}
+void early(void**) {
+  assert_true(a_job_may_be_ahead_of_its_picture());
+}
+void no_pose(void**) {
+  assert_true(without_the_tools_pose_it_says_so());
+}
+void flat(void**) {
+  assert_true(what_is_flat_is_not_even_looked_at());
+}
+void any_job(void**) {
+  assert_true(any_job_ends_well());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(answers),  cmocka_unit_test(tracked_first),
+                              cmocka_unit_test(repeated), cmocka_unit_test(outdated),
+                              cmocka_unit_test(early),    cmocka_unit_test(no_pose),
+                              cmocka_unit_test(flat),     cmocka_unit_test(any_job)};
+  return cmocka_run_group_tests_name("recognition", tests, nullptr, nullptr);
+}

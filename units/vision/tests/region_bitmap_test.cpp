@@ -1,0 +1,152 @@
+#include "units/vision/region_bitmap.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include "tests/cmocka.hpp"
+#include "units/vision/tests/drawn_table.hpp"
+
+namespace {
+
+using namespace flexrf::user;
+
+constexpr PixelRectangle nowhere{};
+
+struct World {
+  DrawnTable table;
+  ColourClasses classes;
+  RegionBitmap bitmap;
+
+  World() { classes.prepare(known_parts(), known_table_colour(), 0.56); }
+  void take(const PixelRectangle& rectangle, const PixelRectangle& blind = nowhere, double noise = 0) {
+    bitmap.take(table.picture(noise), rectangle, blind, classes);
+  }
+  std::size_t blobs_of(std::uint8_t pixel_class) const {
+    std::size_t count = 0;
+    for (const Blob& blob : bitmap.blobs())
+      if (blob.pixel_class == pixel_class) ++count;
+    return count;
+  }
+};
+
+std::uint8_t class_of(std::size_t kind) {
+  return static_cast<std::uint8_t>(class_first_part + kind);
+}
+
+bool each_kind_is_told_by_its_colour(std::array<double, 3> light, double noise) {
+  const auto world = std::make_unique<World>();
+  world->table.light = light;
+  world->table.clear();
+  const auto parts = known_parts();
+  for (std::size_t kind = 0; kind < parts.size(); ++kind)
+    world->table.put(parts[kind], {{0.36 + 0.06 * static_cast<double>(kind), 0.01}, 0.3});
+  for (std::size_t kind = 0; kind < parts.size(); ++kind) {
+    world->take(world->table.around({0.36 + 0.06 * static_cast<double>(kind), 0.01}, 0.058), nowhere, noise);
+    if (world->blobs_of(class_of(kind)) != 1 || world->bitmap.blobs()[0].pixel_class != class_of(kind))
+      return false;
+  }
+  return true;
+}
+
+bool a_bare_table_has_no_blobs(double light) {
+  const auto world = std::make_unique<World>();
+  world->table.light = {light, light, light};
+  world->table.clear();
+  world->take({200, 100, 140, 140}, nowhere, 6);
+  return world->bitmap.blobs().empty();
+}
+
+/// A shadow of 0.7 of the light is table, what is darker than that is foreign.
+bool shadows_are_no_obstacles() {
+  const auto world = std::make_unique<World>();
+  world->table.put(rectangle_of_tests(0.04, 0.04, 0, {105, 101, 94}), {{0.45, 0.02}, 0});
+  world->take(world->table.around({0.45, 0.02}, 0.1));
+  const bool shadow = world->bitmap.blobs().empty();
+  world->table.put(rectangle_of_tests(0.04, 0.04, 0.05, {70, 70, 75}), {{0.45, 0.02}, 0});
+  world->take(world->table.around({0.45, 0.02}, 0.1));
+  return shadow && world->blobs_of(class_foreign) == 1;
+}
+
+bool what_is_blind_is_not_seen() {
+  const auto world = std::make_unique<World>();
+  world->table.put(known_parts()[1], {{0.45, 0.02}, 0});
+  const PixelRectangle rectangle = world->table.around({0.45, 0.02}, 0.08);
+  world->take(rectangle);
+  const bool seen = world->bitmap.blobs().size() == 1;
+  world->take(rectangle, rectangle);
+  return seen && world->bitmap.blobs().empty();
+}
+
+bool a_blob_at_the_border_is_cut() {
+  const auto world = std::make_unique<World>();
+  world->table.put(known_parts()[0], {{0.45, 0.02}, 0});
+  const PixelRectangle whole = world->table.around({0.45, 0.02}, 0.1);
+  world->take(whole);
+  const bool not_cut = !world->bitmap.is_cut(world->bitmap.blobs()[0], world->table.picture());
+  world->take({whole.left + whole.width / 2, whole.top, whole.width, whole.height});
+  return not_cut && world->bitmap.blobs().size() == 1 &&
+         world->bitmap.is_cut(world->bitmap.blobs()[0], world->table.picture());
+}
+
+/// Half of the border shows a part: the light is taken from before.
+bool light_is_remembered_where_the_border_is_no_table() {
+  const auto world = std::make_unique<World>();
+  world->table.light = {0.6, 0.6, 0.6};
+  world->table.clear();
+  world->table.put(known_parts()[0], {{0.45, 0.02}, 0});
+  world->take(world->table.around({0.45, 0.02}, 0.1));
+  world->take(world->table.around({0.45, 0.02}, 0.02));
+  return world->blobs_of(class_of(0)) == 1;
+}
+
+bool any_rectangle_ends_well() {
+  const auto world = std::make_unique<World>();
+  for (const PixelRectangle rectangle :
+       {PixelRectangle{-50, -50, 60, 60}, PixelRectangle{700, 10, 50, 50}, PixelRectangle{0, 0, 0, 0},
+        PixelRectangle{10, 10, -5, 20}, PixelRectangle{0, 0, 640, 480}, PixelRectangle{639, 479, 1, 1},
+        PixelRectangle{-32768, -32768, 65535, 65535}}) {
+    world->take(rectangle, nowhere, 200);
+    if (world->bitmap.columns() > RegionBitmap::side || world->bitmap.rows() > RegionBitmap::side ||
+        world->bitmap.blobs().size() > RegionBitmap::most_blobs)
+      return false;
+    for (std::size_t i = 1; i < world->bitmap.blobs().size(); ++i)
+      if (world->bitmap.blobs()[i].area > world->bitmap.blobs()[i - 1].area) return false;
+  }
+  return true;
+}
+
+void colours(void**) {
+  assert_true(each_kind_is_told_by_its_colour({1, 1, 1}, 0));
+  assert_true(each_kind_is_told_by_its_colour({1, 1, 1}, 8));
+  assert_true(each_kind_is_told_by_its_colour({0.4, 0.4, 0.4}, 3));
+  assert_true(each_kind_is_told_by_its_colour({1.1, 1.0, 0.8}, 3));
+}
+void bare_table(void**) {
+  assert_true(a_bare_table_has_no_blobs(1));
+  assert_true(a_bare_table_has_no_blobs(0.4));
+}
+void shadows(void**) {
+  assert_true(shadows_are_no_obstacles());
+}
+void blind(void**) {
+  assert_true(what_is_blind_is_not_seen());
+}
+void cut(void**) {
+  assert_true(a_blob_at_the_border_is_cut());
+}
+void light(void**) {
+  assert_true(light_is_remembered_where_the_border_is_no_table());
+}
+void rectangles(void**) {
+  assert_true(any_rectangle_ends_well());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(colours),   cmocka_unit_test(bare_table),
+                              cmocka_unit_test(shadows),   cmocka_unit_test(blind),
+                              cmocka_unit_test(cut),       cmocka_unit_test(light),
+                              cmocka_unit_test(rectangles)};
+  return cmocka_run_group_tests_name("region bitmap", tests, nullptr, nullptr);
+}
