@@ -8,8 +8,8 @@
 namespace flexrf::user {
 namespace {
 
-constexpr double nearest = 1e-3;  // m ahead of the camera
-constexpr Duration reach = std::chrono::milliseconds(50);
+constexpr double least_ahead = 1e-3;  // m ahead of the camera
+constexpr Duration beside_a_picture = std::chrono::milliseconds(50);
 
 }  // namespace
 
@@ -39,28 +39,29 @@ bool CameraView::to_plane(double column, double row, double z, Eigen::Vector2d& 
   const Eigen::Vector3d ahead((column - principal_.x()) / focal_, (row - principal_.y()) / focal_, 1.0);
   const Eigen::Vector3d ray = axes_ * ahead;
   const double above = position_.z() - z;
-  if (!(above > nearest) || !(ray.z() < -1e-6)) return false;
+  if (!(above > least_ahead) || !(ray.z() < -1e-6)) return false;
   point = position_.head<2>() - ray.head<2>() * (above / ray.z());
   return true;
 }
 
 bool CameraView::to_picture(const Eigen::Vector3d& point, Eigen::Vector2d& pixel) const noexcept {
   const Eigen::Vector3d seen = axes_.transpose() * (point - position_);
-  if (!(seen.z() >= nearest)) return false;
+  if (!(seen.z() >= least_ahead)) return false;
   pixel = principal_ + seen.head<2>() * (focal_ / seen.z());
   return true;
 }
 
 double CameraView::pixels_per_metre(const Eigen::Vector3d& point) const noexcept {
   const double ahead = axes_.col(2).dot(point - position_);
-  return ahead >= nearest ? focal_ / ahead : 0.0;
+  return ahead >= least_ahead ? focal_ / ahead : 0.0;
 }
 
 NullReason tool_pose_at(const Input<Pose>& poses, Time time, Pose& pose) noexcept {
   // A control cycle of 2 ms and more has all of its poses in here.
   std::array<ItemHeader, 56> headers{};
   std::array<Pose, 56> values{};
-  const std::size_t count = poses.between(time - reach, time + reach, headers, values.data());
+  const std::size_t count =
+      poses.between(time - beside_a_picture, time + beside_a_picture, headers, values.data());
   if (count == 0) {
     const NullReason reason = poses.at(time, pose);
     return reason == NullReason::none ? NullReason::too_old : reason;

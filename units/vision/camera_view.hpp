@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 
+#include "base/status.hpp"
 #include "base/time.hpp"
 #include "runtime/blackboard/ports.hpp"
 #include "types/camera_model.hpp"

@@ -7,11 +7,11 @@
 namespace flexrf::user {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double least_turn = 35 * pi / 180;       // of a corner of a contour
-constexpr double most_difference = 30 * pi / 180;  // of two corners that may be one
-constexpr double around_a_corner = 0.007;          // m along the contour, each way
-constexpr std::size_t places_along = 24;           // of a part without corners
+constexpr double half_turn = std::numbers::pi;
+constexpr double least_turn = 35 * half_turn / 180;       // of a corner of a contour
+constexpr double most_difference = 30 * half_turn / 180;  // of two corners that may be one
+constexpr double around_a_corner = 0.007;                 // m along the contour, each way
+constexpr std::size_t places_along = 24;                  // of a part without corners
 
 double angle_of(const Eigen::Vector2d& vector) {
   return std::atan2(vector.y(), vector.x());
@@ -43,8 +43,8 @@ bool PoseStarts::add(const OutlinePose& pose) noexcept {
 }
 
 void PoseStarts::add_around(const PartModel& part, const Eigen::Vector2d& middle) noexcept {
-  const double range = part.symmetry == 0 ? 0 : 2 * pi / part.symmetry;
-  const int angles = std::max(1, static_cast<int>(std::lround(range / (pi / 6))));
+  const double range = part.symmetry == 0 ? 0 : 2 * half_turn / part.symmetry;
+  const int angles = std::max(1, static_cast<int>(std::lround(range / (half_turn / 6))));
   for (int i = 0; i < angles; ++i) {
     OutlinePose pose;
     pose.angle = range * i / angles;
