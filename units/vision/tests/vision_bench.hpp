@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "runtime/blackboard/history.hpp"
 #include "runtime/blackboard/job_queue.hpp"
