@@ -157,6 +157,29 @@ void what_lies_there_is_followed_and_members_come_and_go() {
   cell.run();
 }
 
+void the_member_of_the_target_in_hand_is_left_alone() {
+  VisionCell cell;
+  ObjectTrack target{};
+  cell.when(
+      "a target", [&] { return cell.eye().pictures > 60; },
+      [&] {
+        for (const ObjectTrack& track : cell.newest<TrackList>("tracks").tracks)
+          if (track.may_be_target) target = track;
+        CHECK(target.may_be_target);
+        cell.set("eye", "track", target.identity);
+      });
+  cell.when(
+      "many generations", [&] { return cell.evolution().generation > 25; },
+      [&] {
+        const AttentionMember member = cell.newest<AttentionGeneration>("generation").members[target.member];
+        CHECK(member.active);
+        CHECK(member.is_protected);
+        CHECK_EQUAL(member.identity, target.member_identity);
+        CHECK(cell.evolution().deaths > 3);
+      });
+  cell.run();
+}
+
 void a_covered_lens_is_told_and_passes() {
   VisionCell cell;
   std::uint64_t then = 0;
@@ -261,6 +284,7 @@ int main() {
   using namespace flexrf::whole;
   const CMUnitTest tests[] = {
       TEST_APART(what_lies_there_is_followed_and_members_come_and_go),
+      TEST_APART(the_member_of_the_target_in_hand_is_left_alone),
       TEST_APART(a_covered_lens_is_told_and_passes),
       TEST_APART(a_person_freezes_saves_and_brings_back),
       TEST_APART(the_same_seed_makes_the_same_run),

@@ -33,18 +33,34 @@ std::span<const Finding> PartFinder::find(const PictureView& picture, const Pixe
   pixels_ = 0;
   look(picture, rectangle, blind);
   // Attention's windows are on a grid: what lies across the border is brought to the middle, once.
-  if (!bitmap_.blobs().empty() && bitmap_.is_cut(bitmap_.blobs()[0], picture)) {
-    const PixelRectangle box = bitmap_.box_of(bitmap_.blobs()[0]);
+  if (const Blob* const blob = central_blob(); blob != nullptr && bitmap_.is_cut(*blob, picture)) {
+    const PixelRectangle box = bitmap_.box_of(*blob);
     const int side = std::min(2 * std::max(box.width, box.height) + 2 * table_around, largest_side);
     look(picture, {box.left + (box.width - side) / 2, box.top + (box.height - side) / 2, side, side}, blind);
   }
+  const Blob* const central = central_blob();
   for (const Blob& blob : bitmap_.blobs()) {
-    if (blob.pixel_class == class_foreign)
-      find_obstacle(blob, view, limits);
-    else
+    // Of an obstacle at the border nobody knows where its middle is.
+    if (blob.pixel_class != class_foreign)
       find_parts(blob, view, expected, limits);
+    else if (&blob == central || !bitmap_.is_cut(blob, picture))
+      find_obstacle(blob, view, limits);
   }
   return {findings_.data(), count_};
+}
+
+/// That lies nearest to the middle of what was looked at; null: there is none.
+const Blob* PartFinder::central_blob() const noexcept {
+  const Blob* nearest = nullptr;
+  double least = 0;
+  for (const Blob& blob : bitmap_.blobs()) {
+    const double distance = std::hypot(0.5 * (blob.left + blob.right + 1 - bitmap_.columns()),
+                                       0.5 * (blob.top + blob.bottom + 1 - bitmap_.rows()));
+    if (nearest != nullptr && distance >= least) continue;
+    nearest = &blob;
+    least = distance;
+  }
+  return nearest;
 }
 
 void PartFinder::look(const PictureView& picture, const PixelRectangle& rectangle,

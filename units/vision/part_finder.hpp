@@ -47,6 +47,7 @@ class PartFinder {
   void forget() noexcept { bitmap_.forget(); }
 
  private:
+  const Blob* central_blob() const noexcept;
   void look(const PictureView& picture, const PixelRectangle& rectangle,
             const PixelRectangle& blind) noexcept;
   void find_parts(const Blob& blob, const CameraView& view, const Finding& expected,
