@@ -135,14 +135,15 @@ OutlineFit PartFinder::best_fit(const PartModel& part, const Blob& blob, const C
   return fit;
 }
 
-/// Part of the outline's inside where the blob is. What lies at the border of what was looked at does not
-/// count.
+/// Part of the outline's inside where the blob is, and not the table. What something else hides does not
+/// count, nor what lies beyond the border of what was looked at; but half of it has to be seen.
 double PartFinder::filled(const PartModel& part, const OutlinePose& pose, const Blob& blob,
                           const CameraView& view) const noexcept {
   constexpr int half = 3;
   const double step = part.radius / (half + 0.5);
   const double cosine = std::cos(pose.angle);
   const double sine = std::sin(pose.angle);
+  int all = 0;
   int looked = 0;
   int within = 0;
   for (int row = -half; row <= half; ++row) {
@@ -151,19 +152,22 @@ double PartFinder::filled(const PartModel& part, const OutlinePose& pose, const 
       if (!is_within(part, {}, own) || distance_from(part, {}, own) < explained) continue;
       const Eigen::Vector2d at = pose.position + Eigen::Vector2d(cosine * own.x() - sine * own.y(),
                                                                  sine * own.x() + cosine * own.y());
+      ++all;
       Eigen::Vector2d pixel;
       if (!view.to_picture({at.x(), at.y(), part.height}, pixel)) continue;
-      const int cell_column =
-          static_cast<int>(std::floor((pixel.x() - bitmap_.rectangle().left) / bitmap_.scale()));
-      const int cell_row =
-          static_cast<int>(std::floor((pixel.y() - bitmap_.rectangle().top) / bitmap_.scale()));
+      const auto cell_of = [this](double position, int first) {
+        return static_cast<int>(std::floor((position - first) / bitmap_.scale()));
+      };
+      const int cell_column = cell_of(pixel.x(), bitmap_.rectangle().left);
+      const int cell_row = cell_of(pixel.y(), bitmap_.rectangle().top);
       if (cell_column < 0 || cell_row < 0 || cell_column >= bitmap_.columns() || cell_row >= bitmap_.rows())
         continue;
-      ++looked;
-      if (bitmap_.label(cell_column, cell_row) == blob.label) ++within;
+      const std::uint8_t label = bitmap_.label(cell_column, cell_row);
+      if (label == blob.label) ++within;
+      if (label == blob.label || label == 0) ++looked;
     }
   }
-  return looked == 0 ? 0.0 : static_cast<double>(within) / looked;
+  return 2 * within < all || looked == 0 ? 0.0 : static_cast<double>(within) / looked;
 }
 
 void PartFinder::find_obstacle(const Blob& blob, const CameraView& view,

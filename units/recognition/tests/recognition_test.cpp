@@ -51,6 +51,9 @@ struct World {
   /// The next picture, of the same.
   void give() {
     step();
+    publish();
+  }
+  void publish() {
     tool_poses.publish(tool, bench.now());
     frames.publish(++frame, bench.now());
   }
@@ -192,7 +195,7 @@ bool a_job_may_be_ahead_of_its_picture() {
   world->found.push(early);
   world->step();
   const bool waits = world->count() == 0 && world->bench.feedback().outdated == 0;
-  world->give();
+  world->publish();
   world->step();
   const bool done = world->count() == 1 && world->last_is(0, block_pose);
   early.frame = world->frame + 100;

@@ -173,7 +173,7 @@ bool expectations_do_no_harm() {
 }
 
 const flexrf::Pose above = tool_above(0.45, 0, 0.45);
-const flexrf::Pose tilted = tool_above(0.45, 0.08, 0.42, 10 * degree);
+const flexrf::Pose tilted = tool_above(0.45, 0.08, 0.42, -10 * degree);
 
 void blocks(void**) {
   assert_true(a_single_part_is_measured(block, above));
