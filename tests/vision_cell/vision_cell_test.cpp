@@ -194,11 +194,12 @@ void a_covered_lens_is_told_and_passes() {
         cell.set("eye", "covered", false);
       });
   cell.when(
-      "good ones again", [&] { return cell.features().pictures > then + 10; },
+      "good ones again",
       [&] {
-        CHECK_EQUAL(cell.features().state, PictureState::good);
-        CHECK_EQUAL(cell.newest<TrackList>("tracks").count, laid_parts.size() + 1);
-      });
+        return cell.features().pictures > then + 10 && cell.features().state == PictureState::good &&
+               cell.newest<TrackList>("tracks").count == laid_parts.size() + 1;
+      },
+      [] {});
   cell.run();
 }
 

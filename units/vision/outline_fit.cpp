@@ -7,10 +7,12 @@
 namespace flexrf::user {
 namespace {
 
-constexpr double narrowest = 0.0012;  // m, of the weights' width: two pixels or so
-constexpr double beside = 0.0016;     // m: such a point supports the outline
-constexpr double least_facing = 0.5;  // cosine of the angle between two that face the same way
-constexpr std::size_t stations = 64;  // of the outline, that are looked at for support
+constexpr double narrowest = 0.0012;         // m, of the weights' width: two pixels or so
+constexpr double beside = 0.0016;            // m: such a point supports the outline
+constexpr double least_facing = 0.5;         // cosine of the angle between two that face the same way
+constexpr std::size_t points_at_first = 64;  // by which it is brought near
+constexpr std::size_t points_at_last = 128;  // of the last two iterations
+constexpr std::size_t stations = 64;         // of the outline, that are looked at for support
 
 /// Of a point from the outline, in the outline's frame.
 struct Closest {
@@ -72,11 +74,13 @@ struct Frame {
 };
 
 /// One step of Gauss and Newton. False: the points do not say where to go.
-bool improve(const PartModel& part, OutlinePose& pose, std::span<const ContourPoint> points, double width) {
+bool improve(const PartModel& part, OutlinePose& pose, std::span<const ContourPoint> points, double width,
+             std::size_t stride) {
   const Frame frame(pose);
   Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
-  for (const ContourPoint& point : points) {
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    const ContourPoint& point = points[i];
     if (!point.is_edge) continue;
     const Eigen::Vector2d own = frame.to_own(point.position);
     const Closest closest = closest_on(part, own, frame.turned_back(point.normal));
@@ -159,14 +163,17 @@ OutlineFit fit_outline(const PartModel& part, const OutlinePose& start, std::spa
   OutlineFit fit;
   fit.pose = start;
   double now = width;
+  const std::size_t coarse = std::max<std::size_t>(points.size() / points_at_first, 1);
+  const std::size_t fine = std::max<std::size_t>(points.size() / points_at_last, 1);
   for (int i = 0; i < iterations; ++i) {
-    if (!improve(part, fit.pose, points, now)) return fit;
+    if (!improve(part, fit.pose, points, now, i + 2 < iterations ? coarse : fine)) return fit;
     now = std::max(0.6 * now, narrowest);
   }
   const Frame frame(fit.pose);
   double squares = 0;
   double weights = 0;
-  for (const ContourPoint& point : points) {
+  for (std::size_t i = 0; i < points.size(); i += fine) {
+    const ContourPoint& point = points[i];
     if (!point.is_edge) continue;
     const Closest closest = closest_on(part, frame.to_own(point.position), frame.turned_back(point.normal));
     const double weight = biweight(closest.distance_squared, 2 * narrowest);

@@ -12,8 +12,13 @@ constexpr double fine_width = 0.005;    // m, when the best are improved
 constexpr int iterations = 8;
 constexpr std::size_t finalists = 4;       // starts that are improved
 constexpr std::size_t coarse_points = 48;  // by which starts are compared
-constexpr double least_filled = 0.9;       // of a part's inside that has its colour
-constexpr double explained = 0.002;  // m: such a point of the contour belongs to the part that was found
+constexpr double least_share = 0.3;        // of a part's area that has to be seen
+constexpr double most_alone = 1.15;        // parts' areas in a blob of one part
+constexpr double support_alone = 0.9;
+constexpr double support_among_others = 0.65;
+constexpr double beyond_doubt = 0.97;  // so good a fit ends the search
+constexpr double least_filled = 0.9;   // of a part's inside that has its colour
+constexpr double explained = 0.002;    // m: such a point of the contour belongs to the part that was found
 constexpr int parts_of_a_blob = 3;
 constexpr int table_around = 12;  // pixels, around what was found at a rectangle's border
 constexpr int largest_side = 2 * RegionBitmap::side;
@@ -69,7 +74,8 @@ void PartFinder::look(const PictureView& picture, const PixelRectangle& rectangl
   pixels_ += static_cast<std::uint32_t>(bitmap_.columns() * bitmap_.rows());
 }
 
-/// The parts of one kind in a blob, one after the other; each takes its points of the contour away.
+/// The parts of one kind in a blob, one after the other; each takes its points of the contour away. Where the
+/// one that is expected is there, it is all that was asked for.
 void PartFinder::find_parts(const Blob& blob, const CameraView& view, const Finding& expected,
                             const FindingLimits& limits) noexcept {
   const std::size_t kind = blob.pixel_class - class_first_part;
@@ -77,31 +83,45 @@ void PartFinder::find_parts(const Blob& blob, const CameraView& view, const Find
   if (!contour_.follow(bitmap_, blob, view, part.height)) return;
   const double share = contour_.area() / part.area;
   // Less than this of a part is not enough to say.
-  if (share < 0.3) return;
+  if (share < least_share) return;
+  if (expected.kind == kind) {
+    const OutlineFit fit = fit_outline(part, expected.pose, contour_.points(), fine_width, iterations);
+    // Of one that stands alone all of the outline is seen.
+    const double support = share < most_alone ? support_alone : support_among_others;
+    if (fit.support >= support && fit.residual <= limits.most_residual &&
+        filled(part, fit.pose, blob, view) >= least_filled)
+      return note(part, kind, fit, view);
+  }
   bool any = false;
   for (int i = 0; i < parts_of_a_blob && count_ < most_findings; ++i) {
-    if (share - i < 0.3) return;
+    if (share - i < least_share) return;
     starts_.clear();
     if (i == 0 && expected.kind == kind) starts_.add(expected.pose);
     if (i == 0 && share < 1.35) starts_.add_around(part, contour_.middle());
-    if (i > 0 || share < 0.85 || share > 1.15) starts_.add_at_corners(part, contour_.points());
+    if (i > 0 || share < 0.85 || share > most_alone) starts_.add_at_corners(part, contour_.points());
     const OutlineFit fit = best_fit(part, blob, view);
     if (fit.support < limits.least_support || fit.residual > limits.most_residual) break;
     any = true;
-    Finding& finding = findings_[count_++];
-    finding = {};
-    finding.found = VisualClass::target;
-    finding.kind = static_cast<std::uint16_t>(kind);
-    finding.pose = fit.pose;
-    finding.radius = part.radius;
-    finding.residual = fit.residual;
-    finding.support = fit.support;
-    view.to_picture({fit.pose.position.x(), fit.pose.position.y(), part.height}, finding.pixel);
+    note(part, kind, fit, view);
     for (ContourPoint& point : contour_.points())
       if (distance_from(part, fit.pose, point.position) < explained) point.is_edge = false;
   }
   // Of a part's colour, and too large to be one that is partly hidden.
   if (!any && share > 1.5) find_obstacle(blob, view, limits);
+}
+
+void PartFinder::note(const PartModel& part, std::size_t kind, const OutlineFit& fit,
+                      const CameraView& view) noexcept {
+  if (count_ == most_findings) return;
+  Finding& finding = findings_[count_++];
+  finding = {};
+  finding.found = VisualClass::target;
+  finding.kind = static_cast<std::uint16_t>(kind);
+  finding.pose = fit.pose;
+  finding.radius = part.radius;
+  finding.residual = fit.residual;
+  finding.support = fit.support;
+  view.to_picture({fit.pose.position.x(), fit.pose.position.y(), part.height}, finding.pixel);
 }
 
 /// The best of all starts that fills its outline; support 0: none does.
@@ -112,6 +132,7 @@ OutlineFit PartFinder::best_fit(const PartModel& part, const Blob& blob, const C
     double agreement = 0;
     const OutlinePose* pose = nullptr;
   };
+  // The best first.
   std::array<Candidate, finalists> best{};
   for (const OutlinePose& start : starts_.all()) {
     Candidate candidate{agreement(part, start, points, coarse_width, stride), &start};
@@ -121,7 +142,7 @@ OutlineFit PartFinder::best_fit(const PartModel& part, const Blob& blob, const C
   OutlineFit fit;
   double score = 0;
   for (const Candidate& candidate : best) {
-    if (candidate.pose == nullptr) continue;
+    if (candidate.pose == nullptr) break;
     const OutlineFit one = fit_outline(part, *candidate.pose, points, fine_width, iterations);
     if (one.support * one.support <= score) continue;
     const double inside = filled(part, one.pose, blob, view);
@@ -131,6 +152,7 @@ OutlineFit PartFinder::best_fit(const PartModel& part, const Blob& blob, const C
     if (one_score <= score) continue;
     score = one_score;
     fit = one;
+    if (one.support >= beyond_doubt && inside >= beyond_doubt) break;
   }
   return fit;
 }

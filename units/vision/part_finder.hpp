@@ -52,6 +52,7 @@ class PartFinder {
             const PixelRectangle& blind) noexcept;
   void find_parts(const Blob& blob, const CameraView& view, const Finding& expected,
                   const FindingLimits& limits) noexcept;
+  void note(const PartModel& part, std::size_t kind, const OutlineFit& fit, const CameraView& view) noexcept;
   void find_obstacle(const Blob& blob, const CameraView& view, const FindingLimits& limits) noexcept;
   OutlineFit best_fit(const PartModel& part, const Blob& blob, const CameraView& view) noexcept;
   double filled(const PartModel& part, const OutlinePose& pose, const Blob& blob,
