@@ -104,7 +104,7 @@ int run(int argument_count, char** arguments) {
     for (const auto& member : attention) member->look();
   };
   const auto finder = std::make_unique<PartFinder>();
-  finder->prepare(known_parts(), 0.56);
+  finder->prepare(known_parts(), 0.4);
   std::size_t found = 0;
   const auto measure_all = [&] {
     found = 0;

@@ -9,6 +9,11 @@ namespace {
 // Distances of chromaticity, whose channels add up to 1.
 constexpr double off_the_line = 0.09;    // from table to part: no mixture of the two
 constexpr double like_the_table = 0.12;  // light is no more coloured than that
+constexpr double like_a_shadow = 0.020;
+// Where the sum of a pixel's channels is less its noise counts for more.
+constexpr double usual_sum = 150;
+// Part of the table's brightness: what is brighter is the table, whatever dims it.
+constexpr double brightest_shadow = 0.7;
 
 Eigen::Vector3d colour_of(SurfaceColour colour) {
   return {static_cast<double>(colour.red), static_cast<double>(colour.green),
@@ -20,7 +25,7 @@ Eigen::Vector3d chromaticity(const Eigen::Vector3d& colour) {
 }
 
 std::uint8_t judge(const Eigen::Vector3d& colour, std::span<const PartModel> parts,
-                   const Eigen::Vector3d& table, double darkest_shadow) {
+                   const Eigen::Vector3d& table) {
   const Eigen::Vector3d neutral = chromaticity(table);
   const Eigen::Vector3d offset = chromaticity(colour) - neutral;
   double nearest = off_the_line;
@@ -37,7 +42,7 @@ std::uint8_t judge(const Eigen::Vector3d& colour, std::span<const PartModel> par
   }
   if (kind == parts.size()) return class_foreign;
   if (is_nearer_to_part) return static_cast<std::uint8_t>(class_first_part + kind);
-  return colour.sum() < darkest_shadow * table.sum() ? class_foreign : class_table;
+  return colour.sum() < brightest_shadow * table.sum() ? class_dark : class_table;
 }
 
 }  // namespace
@@ -45,13 +50,25 @@ std::uint8_t judge(const Eigen::Vector3d& colour, std::span<const PartModel> par
 void ColourClasses::prepare(std::span<const PartModel> parts, SurfaceColour table,
                             double darkest_shadow) noexcept {
   table_ = table;
+  darkest_shadow_ = darkest_shadow;
   constexpr double width = 256.0 / levels;
   std::size_t place = 0;
   for (std::uint32_t red = 0; red < levels; ++red)
     for (std::uint32_t green = 0; green < levels; ++green)
       for (std::uint32_t blue = 0; blue < levels; ++blue)
         classes_[place++] = judge({(red + 0.5) * width, (green + 0.5) * width, (blue + 0.5) * width}, parts,
-                                  colour_of(table), darkest_shadow);
+                                  colour_of(table));
+}
+
+bool ColourClasses::is_shadow(const std::array<std::uint32_t, 3>& sums, std::uint32_t count,
+                              const WhiteBalance& balance) const noexcept {
+  const Eigen::Vector3d raw = Eigen::Vector3d(sums[0], sums[1], sums[2]) / count;
+  const Eigen::Vector3d colour(raw[0] * balance.gain[0] / 256, raw[1] * balance.gain[1] / 256,
+                               raw[2] * balance.gain[2] / 256);
+  const Eigen::Vector3d table = colour_of(table_);
+  if (colour.sum() < darkest_shadow_ * table.sum()) return false;
+  const double tolerated = like_a_shadow * std::max(1.0, usual_sum / std::max(raw.sum(), 1.0));
+  return (chromaticity(colour) - chromaticity(table)).norm() < tolerated;
 }
 
 bool ColourClasses::balance_of(const std::array<std::uint32_t, 3>& seen,

@@ -66,11 +66,15 @@ std::array<std::uint32_t, 3> RegionBitmap::border_colour(const PictureView& pict
 void RegionBitmap::classify(const PictureView& picture, const PixelRectangle& blind,
                             const ColourClasses& classes) noexcept {
   for (int row = 0; row < rows_; ++row) {
-    const std::uint8_t* pixel = picture.at(rectangle_.left, rectangle_.top + row * scale_);
     std::uint8_t* const to = classes_.data() + place(0, row);
-    for (int column = 0; column < columns_;
-         ++column, pixel += std::size_t{3} * static_cast<std::size_t>(scale_))
-      to[column] = classes.of(pixel, balance_);
+    for (int column = 0; column < columns_; ++column) {
+      const int x = rectangle_.left + column * scale_;
+      const int y = rectangle_.top + row * scale_;
+      const std::uint8_t found = classes.of(picture.at(x, y), balance_);
+      to[column] = found != class_dark                 ? found
+                   : is_shadow(picture, x, y, classes) ? class_table
+                                                       : class_foreign;
+    }
   }
   const PixelRectangle hidden = common_part(rectangle_, blind);
   if (hidden.is_empty()) return;
@@ -79,6 +83,18 @@ void RegionBitmap::classify(const PictureView& picture, const PixelRectangle& bl
   for (int row = (hidden.top - rectangle_.top) / scale_; row <= last_row; ++row)
     for (int column = (hidden.left - rectangle_.left) / scale_; column <= last_column; ++column)
       classes_[place(column, row)] = class_table;
+}
+
+/// By the mean of four pixels, which has half of the noise.
+bool RegionBitmap::is_shadow(const PictureView& picture, int column, int row,
+                             const ColourClasses& classes) const noexcept {
+  const int right = std::min(column + 1, picture.width - 1);
+  const int below = std::min(row + 1, picture.height - 1);
+  std::array<std::uint32_t, 3> sums{};
+  for (const std::uint8_t* const pixel :
+       {picture.at(column, row), picture.at(right, row), picture.at(column, below), picture.at(right, below)})
+    for (std::size_t i = 0; i < 3; ++i) sums[i] += pixel[i];
+  return classes.is_shadow(sums, 4, balance_);
 }
 
 void RegionBitmap::find_blobs() noexcept {

@@ -90,6 +90,8 @@ class RegionBitmap {
   }
   void classify(const PictureView& picture, const PixelRectangle& blind,
                 const ColourClasses& classes) noexcept;
+  bool is_shadow(const PictureView& picture, int column, int row,
+                 const ColourClasses& classes) const noexcept;
   std::array<std::uint32_t, 3> border_colour(const PictureView& picture) noexcept;
   void find_blobs() noexcept;
   Blob flood(int column, int row, std::uint8_t label) noexcept;

@@ -17,7 +17,7 @@ constexpr std::size_t bracket = 3;
 
 struct World {
   explicit World(const flexrf::Pose& tool = tool_above(0.45, 0, 0.45)) : table(tool) {
-    finder.prepare(known_parts(), 0.56);
+    finder.prepare(known_parts(), 0.4);
   }
   void put(std::size_t kind, const OutlinePose& pose) { table.put(known_parts()[kind], pose); }
   std::span<const Finding> find(const PixelRectangle& rectangle, double noise = 4,

@@ -17,7 +17,7 @@ struct World {
   ColourClasses classes;
   RegionBitmap bitmap;
 
-  World() { classes.prepare(known_parts(), known_table_colour(), 0.56); }
+  World() { classes.prepare(known_parts(), known_table_colour(), 0.4); }
   void take(const PixelRectangle& rectangle, const PixelRectangle& blind = nowhere, double noise = 0) {
     bitmap.take(table.picture(noise), rectangle, blind, classes);
   }
@@ -56,15 +56,22 @@ bool a_bare_table_has_no_blobs(double light) {
   return world->bitmap.blobs().empty();
 }
 
-/// A shadow of 0.7 of the light is table, what is darker than that is foreign.
-bool shadows_are_no_obstacles() {
+/// A shadow as dark as a grey obstacle is table, the obstacle is foreign, and so is what is darker than a
+/// shadow and of the table's colour.
+bool shadows_are_no_obstacles(double light) {
   const auto world = std::make_unique<World>();
-  world->table.put(rectangle_of_tests(0.04, 0.04, 0, {105, 101, 94}), {{0.45, 0.02}, 0});
-  world->take(world->table.around({0.45, 0.02}, 0.1));
+  world->table.light = {light, light, light};
+  world->table.clear();
+  const PixelRectangle around = world->table.around({0.45, 0.02}, 0.1);
+  world->table.put(rectangle_of_tests(0.04, 0.04, 0, {72, 70, 65}), {{0.45, 0.02}, 0});
+  world->take(around, nowhere, 3);
   const bool shadow = world->bitmap.blobs().empty();
-  world->table.put(rectangle_of_tests(0.04, 0.04, 0.05, {70, 70, 75}), {{0.45, 0.02}, 0});
-  world->take(world->table.around({0.45, 0.02}, 0.1));
-  return shadow && world->blobs_of(class_foreign) == 1;
+  world->table.put(rectangle_of_tests(0.04, 0.04, 0.01, {70, 70, 75}), {{0.45, 0.02}, 0});
+  world->take(around, nowhere, 3);
+  const bool grey = world->blobs_of(class_foreign) == 1 && world->bitmap.blobs().size() == 1;
+  world->table.put(rectangle_of_tests(0.04, 0.04, 0.01, {45, 43, 40}), {{0.45, 0.02}, 0});
+  world->take(around, nowhere, 3);
+  return shadow && grey && world->blobs_of(class_foreign) == 1;
 }
 
 bool what_is_blind_is_not_seen() {
@@ -126,7 +133,8 @@ void bare_table(void**) {
   assert_true(a_bare_table_has_no_blobs(0.4));
 }
 void shadows(void**) {
-  assert_true(shadows_are_no_obstacles());
+  assert_true(shadows_are_no_obstacles(1));
+  assert_true(shadows_are_no_obstacles(0.6));
 }
 void blind(void**) {
   assert_true(what_is_blind_is_not_seen());
