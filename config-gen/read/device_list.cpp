@@ -311,7 +311,6 @@ class Lists {
     }
     good_ = check_name(node, "a list of devices", true, diagnostics_) && good_;
     Row row(node, "[device_list." + node.key + "]", diagnostics_);
-    if (is_misspelt(node, row)) return;
     const auto name =
         row.required_text("file", "add file = \"io_list.csv\", relative to the application's folder");
     const auto list = name ? read_file(*name, row.position("file")) : std::nullopt;
@@ -323,20 +322,6 @@ class Lists {
     auto rows = reader.read();
     good_ = good_ && !reader.failed();
     if (rows) std::move(rows->begin(), rows->end(), std::back_inserter(devices.children));
-  }
-
-  // All other keys are the devices', and judged with them.
-  bool is_misspelt(const Node& node, const Row& row) {
-    if (row.has("file")) return false;
-    for (const Node& child : node.children) {
-      Hint hint = suggest(child.key, {"file"}, "keys", "");
-      if (!hint.replacement || !hint.replacement->doubt.empty()) continue;
-      diagnostics_.error(child.key_position, "unknown key " + quote(child.key) + " in " + row.name(),
-                         std::move(hint));
-      good_ = false;
-      return true;
-    }
-    return false;
   }
 
   std::optional<CsvTable> read_file(const std::string& name, const Position& position) {

@@ -1,6 +1,7 @@
 #include "config-gen/read/row.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/quantity_text.hpp"
 #include "config-gen/model/limits.hpp"
@@ -174,7 +175,21 @@ void Row::finish() {
 }
 
 void Row::missing(std::string_view key, std::string_view hint) {
+  if (is_misspelt(key)) return;
   diagnostics_.error(position(), name_ + " has no " + quote(key), std::string(hint));
+}
+
+bool Row::is_misspelt(std::string_view key) {
+  for (const Node& child : table_.children) {
+    if (std::find(asked_.begin(), asked_.end(), child.key) != asked_.end()) continue;
+    Hint near = suggest(child.key, {std::string(key)}, "keys", "");
+    if (!near.replacement || !near.replacement->doubt.empty()) continue;
+    diagnostics_.error(child.key_position, "unknown key " + quote(child.key) + " in " + name_,
+                       std::move(near));
+    also(child.key);
+    return true;
+  }
+  return false;
 }
 
 void Row::wrong_kind(const Node& value, std::string_view key, std::string_view expected,

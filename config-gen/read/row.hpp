@@ -48,11 +48,14 @@ class Row {
   // Reports every key that was not asked for.
   void finish();
 
+  // Where a key stands here that can only be a slip for the missing one, that is told instead.
   void missing(std::string_view key, std::string_view hint);
   void wrong_kind(const Node& value, std::string_view key, std::string_view expected, std::string_view hint);
 
  private:
   const Node* find(std::string_view key);
+  // Told here, and not once more by finish().
+  bool is_misspelt(std::string_view key);
 
   const Node& table_;
   std::string name_;
