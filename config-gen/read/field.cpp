@@ -258,6 +258,12 @@ void check_limits(const ParameterBlock& block, const ParameterBlock& before, Dia
   }
 }
 
+std::vector<const Field*> fields_of(const ParameterBlock& block) {
+  std::vector<const Field*> fields;
+  for (const Parameter& parameter : block.parameters) fields.push_back(&parameter.field);
+  return fields;
+}
+
 }  // namespace
 
 std::optional<Field> read_field(Library& library, Row& row, const std::vector<std::string>& words,
@@ -335,11 +341,12 @@ void read_parameters(Library& library, const Node& root, Parameter::Kind kind, P
                                                                      : "feedback";
   for (const Node* node : named_rows(library, root, section, "a parameter"))
     block.parameters.push_back(read_parameter(library, *node, kind, section, choices));
-  lay_out(library.model(), block, before);
-  std::vector<const Field*> fields;
-  for (const ParameterBlock* const part : {&before, &std::as_const(block)})
-    for (const Parameter& parameter : part->parameters) fields.push_back(&parameter.field);
-  check_fields(fields, library.diagnostics());
+  // A configuration's struct is laid out where it is written, over both blocks.
+  if (kind == Parameter::Kind::configuration)
+    lay_out(library.model(), block);
+  else
+    lay_out(library.model(), block, before);
+  check_fields(fields_of(block), library.diagnostics(), fields_of(before));
   if (kind == Parameter::Kind::runtime) check_limits(block, before, library.diagnostics());
 }
 

@@ -128,10 +128,6 @@ void check_ports_beside(const Interface& face, const Driver& driver, const Node&
 // A driver's own stand beside its interface's in one struct.
 void check_beside(const ParameterBlock& common, const ParameterBlock& own, const std::string& interface,
                   Diagnostics& diagnostics) {
-  std::vector<const Field*> fields;
-  for (const ParameterBlock* block : {&common, &own})
-    for (const Parameter& parameter : block->parameters) fields.push_back(&parameter.field);
-  check_fields(fields, diagnostics);
   for (const Parameter& parameter : own.parameters)
     for (const Parameter& other : common.parameters)
       if (parameter.field.name == other.field.name)
@@ -253,7 +249,8 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
   }
   bool complete = read_inputs(library, root, driver.inputs);
   complete = read_outputs(library, root, driver.outputs) && complete;
-  read_parameters(library, root, Parameter::Kind::configuration, driver.configuration, face.units);
+  read_parameters(library, root, Parameter::Kind::configuration, driver.configuration, face.units,
+                  face.configuration);
   read_parameters(library, root, Parameter::Kind::runtime, driver.runtime, face.units, face.runtime);
   read_parameters(library, root, Parameter::Kind::feedback, driver.feedback, face.units, face.feedback);
   read_needs(library, root, driver.runtime, driver.feedback, face);

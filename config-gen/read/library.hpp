@@ -94,7 +94,7 @@ std::optional<Index> read_driver_table(Library& library, const Node& root, const
 // row chooses.
 std::optional<Field> read_field(Library& library, Row& row, const std::vector<std::string>& words = {},
                                 std::string* word = nullptr, const std::vector<UnitChoice>& choices = {});
-// `before`: of a driver, its interface's parameters of this kind, which its own struct begins with.
+// `before`: of a driver, its interface's parameters of this kind, beside which its own stand in one struct.
 void read_parameters(Library& library, const Node& table, Parameter::Kind kind, ParameterBlock& block,
                      const std::vector<UnitChoice>& choices = {}, const ParameterBlock& before = {});
 // Unit of measure and range of a number that is no parameter.

@@ -65,18 +65,28 @@ void check_members(Heir heir, const std::vector<std::pair<std::string, const Nod
   }
 }
 
-void check_fields(const std::vector<const Field*>& fields, Diagnostics& diagnostics) {
-  std::map<std::string, const Field*> accessors;
-  for (const Field* field : fields)
-    for (const std::string& accessor : accessors_of(*field)) accessors.emplace(accessor, field);
-  for (const Field* field : fields) {
-    const auto taken = accessors.find(field->name);
-    if (taken != accessors.end())
-      diagnostics.error(field->position,
-                        quote(field->name) + " cannot stand beside " + quote(taken->second->name) +
+void check_fields(const std::vector<const Field*>& fields, Diagnostics& diagnostics,
+                  const std::vector<const Field*>& before) {
+  using Accessors = std::map<std::string, const Field*>;
+  const auto accessors = [](const std::vector<const Field*>& of) {
+    Accessors found;
+    for (const Field* field : of)
+      for (const std::string& accessor : accessors_of(*field)) found.emplace(accessor, field);
+    return found;
+  };
+  const auto check = [&diagnostics](const Field& field, const Accessors& taken) {
+    const auto other = taken.find(field.name);
+    if (other != taken.end())
+      diagnostics.error(field.position,
+                        quote(field.name) + " cannot stand beside " + quote(other->second->name) +
                             ", whose accessor has this name",
-                        "rename one; the other is at " + to_string(taken->second->position));
-  }
+                        "rename one; the other is at " + to_string(other->second->position));
+  };
+  const Accessors own = accessors(fields);
+  const Accessors earlier = accessors(before);
+  for (const Field* field : fields) check(*field, own);
+  for (const Field* field : fields) check(*field, earlier);
+  for (const Field* field : before) check(*field, own);
 }
 
 }  // namespace flexrf::config_gen

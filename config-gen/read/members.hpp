@@ -18,7 +18,9 @@ void add_members(const Node& table, std::string_view section, const std::string&
 void check_members(Heir heir, const std::vector<std::pair<std::string, const Node*>>& members,
                    Diagnostics& diagnostics);
 
-// Fields of one struct, beside the functions that other fields bring (pose_map() beside pose).
-void check_fields(const std::vector<const Field*>& fields, Diagnostics& diagnostics);
+// Fields of one struct, beside the functions that other fields bring (pose_map() beside pose). `before` stand
+// in the same struct, and were judged already.
+void check_fields(const std::vector<const Field*>& fields, Diagnostics& diagnostics,
+                  const std::vector<const Field*>& before = {});
 
 }  // namespace flexrf::config_gen
