@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -417,6 +418,16 @@ std::size_t errors_of(const Diagnostics& diagnostics) {
       all.begin(), all.end(), [](const Diagnostic& one) { return one.severity == Severity::error; }));
 }
 
+// What a word that is corrected lets be seen: a row that was broken is judged with the others, and a key that
+// was not known counts.
+const std::map<std::string, std::set<std::string>>& uncovered() {
+  static const std::map<std::string, std::set<std::string>> kinds = {
+      {"many-at-once.case", {"unit ' is in no thread"}},
+      {"unknown-interface.case", {"[device.arm] has no '", "device ' has no owner"}},
+      {"unknown-key-of-thread.case", {"unit ' in real-time thread ' has no '"}}};
+  return kinds;
+}
+
 struct Counts {
   std::size_t changed = 0;
   std::size_t mended = 0;
@@ -430,13 +441,18 @@ bool is_no_worse(const fs::path& file, Counts& counts) {
   const Diagnostics after = Cell::judge();
   const Files fixed = files_in("cell");
   std::string wrong;
-  if (errors_of(after) > errors_of(before)) wrong = "there are more errors";
-  const auto kinds = kinds_of(before);
-  for (const std::string& kind : kinds_of(after))
-    if (!kinds.contains(kind)) wrong = "a new kind of error: " + kind;
-  if (first.good == after.failed()) wrong = "what it returns is not so";
-  if (fixed != files && errors_of(after) == errors_of(before))
+  const auto known = uncovered().find(file.filename().string());
+  const std::set<std::string> expected = known != uncovered().end() ? known->second : std::set<std::string>{};
+  if (expected.empty() && errors_of(after) > errors_of(before)) wrong = "there are more errors";
+  if (expected.empty() && fixed != files && errors_of(after) == errors_of(before))
     wrong = "it changed something, and mended nothing";
+  const auto kinds_before = kinds_of(before);
+  const auto kinds_after = kinds_of(after);
+  for (const std::string& kind : kinds_after)
+    if (!kinds_before.contains(kind) && !expected.contains(kind)) wrong = "a new kind of error: " + kind;
+  for (const std::string& kind : expected)
+    if (!kinds_after.contains(kind)) wrong = "no longer uncovered: " + kind;
+  if (first.good == after.failed()) wrong = "what it returns is not so";
   for (const auto& [name, text] : files)
     if (!name.ends_with(".toml") && !name.ends_with(".csv") && fixed.at(name) != text)
       wrong = "it changed " + name;
