@@ -26,7 +26,7 @@ struct ItemHead {
   std::int64_t sampled_at;
   std::uint8_t reason;
   std::uint8_t kind;
-  std::uint16_t zero;
+  std::uint16_t scaled_by;  // of a JPEG
   std::uint32_t missed;
 };
 static_assert(sizeof(ItemHead) == 32);
@@ -41,14 +41,14 @@ std::uint32_t missed(const Seen& seen, std::uint64_t sequence) noexcept {
 }
 
 ItemHead head_of(const SlotSubscription& subscription, const ItemHeader& header, NullReason reason,
-                 std::size_t size, std::uint8_t kind) noexcept {
+                 std::size_t size, std::uint8_t kind, std::uint16_t scaled_by) noexcept {
   return {subscription.slot,
           static_cast<std::uint32_t>(size),
           header.sequence,
           nanoseconds(header.sampled_at),
           static_cast<std::uint8_t>(reason),
           kind,
-          0,
+          scaled_by,
           missed(subscription.seen, header.sequence)};
 }
 
@@ -133,7 +133,7 @@ bool FrameWriter::write_item(SlotSubscription& subscription) {
   const ObservedSlot& newest = slots_->read(subscription.slot);
   if (is_known(subscription.seen, newest.header.sequence, newest.reason)) return false;
   const std::size_t size = newest.value == nullptr ? 0 : slots_->size(subscription.slot);
-  append(message_, head_of(subscription, newest.header, newest.reason, size, kind_value));
+  append(message_, head_of(subscription, newest.header, newest.reason, size, kind_value, 0));
   if (size != 0) message_.append(static_cast<const char*>(newest.value), size);
   pad(message_);
   subscription.seen = {newest.header.sequence, newest.reason, true};
@@ -148,7 +148,8 @@ bool FrameWriter::write_picture(SlotSubscription& subscription) {
   const char* cause = "";
   images_->copy(subscription.slot, message_, newest, cause);
   const std::size_t size = message_.size() - begin - sizeof(ItemHead);
-  const ItemHead head = head_of(subscription, newest.header, newest.reason, size, kind_jpeg);
+  const ItemHead head = head_of(subscription, newest.header, newest.reason, size, kind_jpeg,
+                                size == 0 ? std::uint16_t{0} : newest.scaled_by);
   std::memcpy(message_.data() + begin, &head, sizeof(head));
   pad(message_);
   subscription.seen = {newest.header.sequence, newest.reason, true};

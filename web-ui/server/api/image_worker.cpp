@@ -133,6 +133,7 @@ void ImageWorker::encode(std::uint16_t index, Slot& slot, std::uint32_t width) {
     slot.encoded_width = width;
     slot.jpeg.assign(jpeg);
     slot.newest.header = seen.header;
+    slot.newest.scaled_by = slot.encoder.scaled_by();
   }
   slot.cause = seen.reason == NullReason::none                ? slot.encoder.cause()
                : seen.reason == NullReason::driver_not_chosen ? slot.not_chosen.c_str()

@@ -40,8 +40,9 @@ class ImageWorker {
   struct Newest {
     ItemHeader header{};
     NullReason reason = NullReason::nothing_yet;
-    std::uint64_t version = 0;  ///< rises with each look at the slot; 0: not looked yet
-    std::size_t size = 0;       ///< bytes of the JPEG; 0: there is none
+    std::uint64_t version = 0;    ///< rises with each look at the slot; 0: not looked yet
+    std::size_t size = 0;         ///< bytes of the JPEG; 0: there is none
+    std::uint16_t scaled_by = 0;  ///< by how much each of its sides is smaller than the image's
   };
   Newest newest(std::uint16_t slot) const;
   /// Appends the JPEG; false: there is none, as `cause` says (it lives for ever).

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <string_view>
 
 #include "runtime/parameters/value_access.hpp"
@@ -152,6 +153,7 @@ std::string_view PictureEncoder::pass_on(const PictureLayout& layout, const void
     cause_ = "the picture is not the JPEG that it says it is";
     return {};
   }
+  scaled_by_ = 1;
   return {data, static_cast<std::size_t>(*size)};
 }
 
@@ -162,6 +164,7 @@ std::string_view PictureEncoder::encode(const PictureLayout& layout, const void*
   const auto& formats = layout.format->type->values;
   const std::string_view format = number < formats.size() ? formats[number].name : "";
   cause_ = "";
+  scaled_by_ = 0;
   if (columns == 0 || rows == 0) {
     cause_ = "the picture is empty";
   } else if (format == "mjpeg") {
@@ -194,6 +197,8 @@ std::string_view PictureEncoder::encode(const PictureLayout& layout, const void*
     cause_ = "the picture could not be encoded";
     return {};
   }
+  static_assert(largest_side <= std::numeric_limits<std::uint16_t>::max());
+  scaled_by_ = static_cast<std::uint16_t>(by);
   return {reinterpret_cast<const char*>(buffer), size};
 }
 

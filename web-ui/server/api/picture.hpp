@@ -39,6 +39,8 @@ class PictureEncoder {
   /// that makes it at most `width` pixels wide. The JPEG is valid until the next call; empty: cause() says
   /// why there is none.
   std::string_view encode(const PictureLayout& layout, const void* image, std::uint32_t width);
+  /// By how much each side of the last JPEG is smaller than the image's: 1 and more, 0 where there is none.
+  std::uint16_t scaled_by() const noexcept { return scaled_by_; }
   const char* cause() const noexcept { return cause_; }
 
  private:
@@ -49,6 +51,7 @@ class PictureEncoder {
 
   void* compressor_ = nullptr;
   const char* cause_ = "";
+  std::uint16_t scaled_by_ = 0;
   std::size_t columns_ = 0;
   std::size_t rows_ = 0;
   int pixel_format_ = 0;

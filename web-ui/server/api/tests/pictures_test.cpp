@@ -225,6 +225,7 @@ void what_is_a_jpeg_already_is_passed_on() {
   const std::string_view jpeg = encoder.encode(layout, &picture, 16);
   CHECK_EQUAL(jpeg.size(), 7U);
   CHECK(jpeg.data() == reinterpret_cast<const char*>(picture.data));
+  CHECK_EQUAL(encoder.scaled_by(), 1);
   const auto is_refused = [&] {
     return encoder.encode(layout, &picture, 16).empty() && std::strstr(encoder.cause(), "JPEG") != nullptr;
   };
@@ -246,6 +247,7 @@ void it_is_no_larger_than_it_is_shown() {
     const Decoded decoded = decode(encoder.encode(layout, picture.get(), 30));
     CHECK_EQUAL(decoded.width, 21);
     CHECK_EQUAL(decoded.height, 16);
+    CHECK_EQUAL(encoder.scaled_by(), 3);
     CHECK(is_near(decoded.at(18, 8, 1), is_grey(format) ? 200 : 255));
   }
 }
@@ -256,6 +258,7 @@ void what_is_no_picture_says_why() {
   PictureEncoder encoder;
   CHECK(encoder.encode(layout, picture.get(), 640).empty());
   CHECK_CONTAINS(encoder.cause(), "empty");
+  CHECK_EQUAL(encoder.scaled_by(), 0);
   draw(*picture, none);
   CHECK(encoder.encode(layout, picture.get(), 640).empty());
   CHECK_CONTAINS(encoder.cause(), "format");
@@ -324,6 +327,7 @@ void pictures_come_to_all_who_look() {
     CHECK_EQUAL(at<std::uint64_t>(item, 40), 1U);
     const Decoded decoded = decode(std::string_view{item}.substr(64, at<std::uint32_t>(item, 36)));
     CHECK_EQUAL(decoded.width, 64);  // for the one who sees it largest
+    CHECK_EQUAL(at<std::uint16_t>(item, 58), 1);
     link->frames.clear();
   }
   const Answer picture = rig.request(Method::get, "slots/camera/image", a_viewer, "", "", "", "width=64");
