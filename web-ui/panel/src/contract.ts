@@ -58,6 +58,8 @@ export interface Reading {
   readonly age: number;
   /** A JPEG of an image slot. */
   readonly image?: Blob;
+  /** By how much each of its sides is smaller than the slot's picture; without it: not. */
+  readonly scaledBy?: number;
 }
 
 export type Outcome = { ok: true; values?: { [path: string]: Value } } | { ok: false; detail: string; parameter?: string };
@@ -112,6 +114,81 @@ export interface WidgetHost {
   joints(device: string): readonly Joint[];
 }
 
+/** Things that a slot tells of, to be drawn. Fields are paths, as "region.left" or "pixel[0]": of a thing, but `count`. */
+export interface Things {
+  readonly name: string;
+  readonly label?: string;
+  /** Whether they are drawn as long as nobody chose. */
+  readonly shown: boolean;
+  /** Several: of the members of a population, all of one type. */
+  readonly slots: readonly string[];
+  /** Which field of the slot's value lists them; without one the value is the only thing. */
+  readonly list?: string;
+  /** A field beside the list: so many of it are in use, from its beginning. */
+  readonly count?: string;
+  /** A thing whose field has this value is none. */
+  readonly empty?: { readonly field: string; readonly value: number | boolean | string };
+  /** What is written beside each. */
+  readonly text: readonly string[];
+  /** A bool: of a thing of which it is false nobody knows whether it is there. */
+  readonly certain?: string;
+  /** A bool that says the contrary. */
+  readonly doubtful?: string;
+}
+
+/** Rectangles over a picture: the row [widget.NAME.overlay.NAME]. */
+export interface Overlay extends Things {
+  /** Left, top, width and height, in pixels of the slot's picture. */
+  readonly rectangle: readonly string[];
+  /** An enumeration, a bool, or a whole number, of which `classes` are the names from 0 on. */
+  readonly class?: string;
+  readonly classes?: readonly string[];
+  /** A number: the more, the thicker the line. */
+  readonly weight?: string;
+  /** Where it tells of which picture it is, ns; without it that is when the slot's item was sampled. */
+  readonly time?: { readonly of: 'slot' | 'thing'; readonly field: string };
+}
+
+/** What bodies of one kind look like: upright prisms. */
+export interface BodyKind {
+  readonly name: string;
+  /** Of the field `kind`. */
+  readonly value: number | string;
+  /** Corners about the body's place, counter-clockwise, m. */
+  readonly outline?: readonly (readonly number[])[];
+  /** Round instead, m; a text is the field that tells it. */
+  readonly radius?: number | string;
+  /** m. */
+  readonly height: number;
+  /** "#2850c8" */
+  readonly colour: string;
+}
+
+/** Bodies around a robot, in its own frame: the row [widget.NAME.bodies.NAME]. */
+export interface Bodies extends Things {
+  /** x and y, m; or x, y and z of the lower face. */
+  readonly position: string;
+  /** By which the outline is turned about z, rad. */
+  readonly angle?: string;
+  readonly kind: string;
+  readonly kinds: readonly BodyKind[];
+}
+
+/** A frame of reference beside a robot: the row [widget.NAME.frame.NAME]. */
+export interface ReferenceFrame {
+  readonly name: string;
+  readonly label?: string;
+  readonly shown: boolean;
+  /** With `position` (m) and `orientation` (x, y, z, w), in the robot's own frame. */
+  readonly slot?: string;
+  /** Or of the robot. */
+  readonly link?: string;
+  /** Where it is in the slot's or the link's. */
+  readonly mount?: { readonly position: readonly number[]; readonly orientation: readonly number[] };
+  /** What a camera sees that looks along z: pixels, and up to which depth it is drawn, m. */
+  readonly frustum?: { readonly width: number; readonly height: number; readonly focal_length: number; readonly depth: number };
+}
+
 /** Where the application's table placed a widget, and what it gave it: the row [widget.NAME]. */
 export interface Placement {
   readonly name: string;
@@ -122,6 +199,11 @@ export interface Placement {
   readonly parameters: { readonly [role: string]: string };
   readonly device?: string;
   readonly options: { readonly [name: string]: Value };
+  /** Of an image. */
+  readonly overlays?: readonly Overlay[];
+  /** Of a robot. */
+  readonly bodies?: readonly Bodies[];
+  readonly frames?: readonly ReferenceFrame[];
 }
 
 /** Every widget is a custom element with these properties; the core sets them before it is connected. */

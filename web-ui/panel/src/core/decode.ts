@@ -28,6 +28,8 @@ export interface FrameItem {
   /** As NullReason; 0: there is a value. */
   readonly reason: number;
   readonly jpeg: boolean;
+  /** By how much a JPEG was scaled down. */
+  readonly scaledBy: number;
   /** Items that this connection never saw since its last frame with this slot. */
   readonly missed: number;
 }
@@ -69,6 +71,7 @@ export function decodeFrame(buffer: ArrayBuffer): Frame | undefined {
       sampledAt: readI64(view, at + 16),
       reason: view.getUint8(at + 24),
       jpeg: view.getUint8(at + 25) === 1,
+      scaledBy: view.getUint16(at + 26, true),
       missed: view.getUint32(at + 28, true),
     });
     at = value + Math.ceil(size / 8) * 8;

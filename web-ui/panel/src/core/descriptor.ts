@@ -385,9 +385,8 @@ export function makeModel(json: DescriptorJson, drivers: Drivers = {}): Model {
   }
 
   const placements = (json.widgets ?? []).map((row): Placement => ({
-    name: row.name, kind: row.kind, label: row.label ?? labelOf(row.name), place: row.place ?? 'overview',
+    ...row, label: row.label ?? labelOf(row.name), place: row.place ?? 'overview',
     slots: row.slots ?? {}, parameters: row.parameters ?? {}, options: row.options ?? {},
-    ...(row.device !== undefined && { device: row.device }),
   }));
 
   const find = (key: string): Item | undefined => {

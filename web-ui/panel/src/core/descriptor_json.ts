@@ -1,5 +1,5 @@
 // descriptor.json as config-gen writes it (config-gen/emit/descriptor_emit.cpp).
-import type { Role, Value } from '../contract';
+import type { Placement, Role, Value } from '../contract';
 
 export interface FieldJson {
   readonly name: string;
@@ -213,7 +213,7 @@ export interface ThreadJson {
 }
 
 /** A row [widget.NAME]. */
-export interface WidgetJson {
+export interface WidgetJson extends Pick<Placement, 'overlays' | 'bodies' | 'frames'> {
   readonly name: string;
   readonly kind: string;
   /** Made by widgets/KIND.js of the application. */

@@ -133,7 +133,7 @@ export class Store {
     }
     if (item.jpeg) {
       state.image ??= new Blob([item.bytes as DataView<ArrayBuffer>], { type: 'image/jpeg' });
-      return { ...base, value: null, reason: '', image: state.image };
+      return { ...base, value: null, reason: '', image: state.image, scaledBy: item.scaledBy };
     }
     const value = this.#decode(source, item.bytes);
     return value === undefined ? { ...base, value: null, reason: 'wrong type' } : { ...base, value, reason: '' };

@@ -1,10 +1,20 @@
-// A slot of an image type, as JPEGs no wider than they are shown.
-import { css, html } from 'lit';
+// A slot of an image type, as JPEGs no wider than they are shown. What its row draws over it is in overlays/.
+import { css, html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
-import type { Reading } from '../contract';
+import type { Overlay, Reading } from '../contract';
 import { listen } from '../core/listen';
+import { loadPart } from '../core/parts';
+import { textOfError } from '../core/reasons';
+import type { Overlays, Picture } from './overlays/overlays';
 import { widgetStyles } from './styles';
 import { WidgetBase } from './widget_base';
+
+/** A JPEG that is shown or will be, of which picture of the slot. */
+interface Shown {
+  readonly image: Blob;
+  readonly time: number;
+  readonly scaledBy: number;
+}
 
 /** Widths are asked for in these steps, so that a resize does not ask at each pixel. */
 const width_step = 64;
@@ -14,6 +24,7 @@ export class ImageView extends WidgetBase {
     widgetStyles,
     css`
       .picture {
+        position: relative;
         flex: 1 1 100%;
         min-height: 4rem;
         background: var(--track);
@@ -26,9 +37,19 @@ export class ImageView extends WidgetBase {
       img:not([src]) {
         visibility: hidden;
       }
-      :host([stale]) img,
-      .absent img {
+      svg {
+        position: absolute;
+        inset: 0;
+        width: 100%;
+        height: 100%;
+        pointer-events: none;
+      }
+      :host([stale]) :is(img, svg),
+      .absent :is(img, svg) {
         filter: grayscale(1) opacity(0.5);
+      }
+      .below {
+        flex: 1 1 100%;
       }
     `,
   ];
@@ -36,13 +57,23 @@ export class ImageView extends WidgetBase {
   private endWatch: (() => void) | undefined;
   private address = '';
   /** While the browser decodes one the newest waits. */
-  private decodes = false;
-  private waiting: Blob | undefined;
+  private decodes: Shown | undefined;
+  private waiting: Shown | undefined;
+  private layer: Overlays | undefined;
+  /** What is seen now. */
+  private picture: Picture | undefined;
 
   protected override render(): TemplateResult {
+    const hasOverlays = this.overlays.length > 0;
     return this.frame(html`<div class="picture">
-      <img alt=${`${this.label}. ${this.item?.summary ?? ''}`} @load=${() => this.presentNext()} @error=${() => this.presentNext()} />
-    </div>`);
+        <img alt=${`${this.label}. ${this.item?.summary ?? ''}`} @load=${() => this.present(this.decoded())} @error=${() => this.present(undefined)} />
+        ${hasOverlays ? html`<svg aria-hidden="true" preserveAspectRatio="none"></svg>` : nothing}
+      </div>
+      ${hasOverlays ? html`<div class="below"></div>` : nothing}`);
+  }
+
+  private get overlays(): readonly Overlay[] {
+    return this.placement?.overlays ?? [];
   }
 
   protected override begin(): void {
@@ -52,6 +83,21 @@ export class ImageView extends WidgetBase {
   protected override firstUpdated(): void {
     super.firstUpdated();
     this.measure();
+    if (this.overlays.length > 0) void this.addOverlays();
+  }
+
+  private async addOverlays(): Promise<void> {
+    try {
+      const { Overlays } = await loadPart(() => import('./overlays/overlays'));
+      const { host, overlays, label } = this;
+      this.layer = Object.assign(new Overlays(), { host, overlays, label, svg: this.find<SVGElement>('.picture svg') });
+      this.find('.below').append(this.layer);
+      Object.assign(this.layer, { active: this.width > 0, width: this.find('.picture').clientWidth });
+      this.layer.present(this.picture);
+    } catch (error) {
+      this.note = `Nothing is drawn over the picture: ${textOfError(error)}`;
+      this.requestUpdate();
+    }
   }
 
   /** Asks for the width that is shown, and again when that changes. */
@@ -71,6 +117,7 @@ export class ImageView extends WidgetBase {
 
   private ask(shown: number): void {
     if (!this.item || shown === 0) return;
+    if (this.layer) Object.assign(this.layer, { active: true, width: shown });
     const most = typeof this.options['width'] === 'number' ? this.options['width'] : Number.POSITIVE_INFINITY;
     const width = Math.min(most, Math.ceil((shown * window.devicePixelRatio) / width_step) * width_step);
     if (width === this.width) return;
@@ -87,8 +134,10 @@ export class ImageView extends WidgetBase {
     this.endWatch?.();
     this.endWatch = undefined;
     this.width = 0;
-    this.decodes = false;
+    this.decodes = undefined;
     this.waiting = undefined;
+    this.picture = undefined;
+    if (this.layer) this.layer.active = false;
     this.revoke();
     this.renderRoot.querySelector('img')?.removeAttribute('src');
   }
@@ -98,19 +147,33 @@ export class ImageView extends WidgetBase {
     if (!this.hasUpdated) return;
     this.find('.picture').classList.toggle('absent', !reading.image);
     if (!reading.image) return;
-    this.waiting = reading.image;
+    this.waiting = { image: reading.image, time: reading.sampledAt, scaledBy: reading.scaledBy || 1 };
     if (!this.decodes) this.presentNext();
   }
 
   /** The picture is its own value. */
   protected override show(): void {}
 
+  private decoded(): Picture | undefined {
+    if (!this.decodes) return undefined;
+    const { time, scaledBy } = this.decodes;
+    const { naturalWidth, naturalHeight } = this.find<HTMLImageElement>('img');
+    return { time, width: naturalWidth * scaledBy, height: naturalHeight * scaledBy };
+  }
+
+  /** The browser shows it from now on: what belongs to it is drawn over it. */
+  private present(picture: Picture | undefined): void {
+    this.picture = picture;
+    this.layer?.present(picture);
+    this.presentNext();
+  }
+
   private presentNext(): void {
     const { address: old, waiting } = this;
-    this.decodes = waiting !== undefined;
+    this.decodes = waiting;
     this.waiting = undefined;
     if (waiting === undefined) return;
-    this.address = URL.createObjectURL(waiting);
+    this.address = URL.createObjectURL(waiting.image);
     this.find<HTMLImageElement>('img').src = this.address;
     if (old !== '') URL.revokeObjectURL(old);
   }

@@ -10,12 +10,12 @@ const viewOf = (bytes: Uint8Array): DataView => new DataView(bytes.buffer);
 describe('decodeFrame', () => {
   it('reads the headers and finds each value', () => {
     const frame = decodeFrame(frameOf([
-      { slot: 3, sequence: 8, sampledAt: 900_000_000, jpeg: true, bytes: new Uint8Array([1, 2, 3]) },
+      { slot: 3, sequence: 8, sampledAt: 900_000_000, jpeg: true, scaledBy: 3, bytes: new Uint8Array([1, 2, 3]) },
       { slot: 1, reason: 3 },
     ]));
     expect(frame?.hash).toBe(sample.hash);
     expect(frame).toMatchObject({ serverTime: 1_000_000_000, dropped: 2, number: 7 });
-    expect(frame?.items[0]).toMatchObject({ slot: 3, sequence: 8, sampledAt: 900_000_000, jpeg: true, missed: 5, reason: 0 });
+    expect(frame?.items[0]).toMatchObject({ slot: 3, sequence: 8, sampledAt: 900_000_000, jpeg: true, scaledBy: 3, missed: 5, reason: 0 });
     expect(frame?.items[0]?.bytes.byteLength).toBe(3);
     expect(frame?.items[1]).toMatchObject({ slot: 1, reason: 3 });
   });

@@ -86,6 +86,7 @@ export interface SampleItem {
   readonly sampledAt?: number;
   readonly reason?: number;
   readonly jpeg?: boolean;
+  readonly scaledBy?: number;
   readonly bytes?: Uint8Array;
 }
 
@@ -109,6 +110,7 @@ export function frameOf(items: readonly SampleItem[], serverTime = 1_000_000_000
     view.setBigInt64(at + 16, BigInt(item.sampledAt ?? serverTime), true);
     view.setUint8(at + 24, item.reason ?? 0);
     view.setUint8(at + 25, item.jpeg ? 1 : 0);
+    view.setUint16(at + 26, item.scaledBy ?? 0, true);
     view.setUint32(at + 28, 5, true);
     new Uint8Array(buffer).set(bytes, at + 32);
     at += 32 + padded(bytes.length);

@@ -74,7 +74,8 @@ describe('store', () => {
     expect(store.reading(item('jog.step'))).toMatchObject({ value: null, reason: 'wrong type' });
   });
   it('hands out an image, the same as long as it is the same', () => {
-    arrive([{ slot: 3, jpeg: true, bytes: new Uint8Array([0xff, 0xd8]) }]);
+    arrive([{ slot: 3, jpeg: true, scaledBy: 2, bytes: new Uint8Array([0xff, 0xd8]) }]);
+    expect(store.reading(item('slot:camera'))?.scaledBy).toBe(2);
     const image = store.reading(item('slot:camera'))?.image;
     expect(image).toMatchObject({ size: 2, type: 'image/jpeg' });
     expect(store.reading(item('slot:camera'))?.image).toBe(image);
