@@ -20,6 +20,7 @@
 
 #include "base/cpu_role.hpp"
 #include "config-gen/model/object_list.hpp"
+#include "config-gen/model/panel_layers.hpp"
 #include "config-gen/model/position.hpp"
 #include "config-gen/model/register_map.hpp"
 #include "config-gen/model/urdf_chain.hpp"
@@ -601,6 +602,10 @@ struct PanelWidget {
   Roles parameters;  // role, and "jog.step", "jog.configuration.limit" or "jog.feedback.presses"
   std::optional<Index> device;
   std::vector<std::pair<std::string, Option>> options;
+  std::vector<PanelOverlay> overlays;  // of an image
+  std::vector<PanelBodies> bodies;     // of a robot, as the next
+  std::vector<PanelFrame> frames;
+  std::string base;  // the robot's link in which bodies and frames are told
   std::string summary;
 };
 

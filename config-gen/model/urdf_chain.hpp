@@ -45,8 +45,10 @@ struct UrdfMesh {
 struct UrdfChain {
   std::string name;
   std::vector<UrdfJoint> joints;
-  UrdfTransform tool;            // in the frame of the last joint
-  std::vector<UrdfMesh> meshes;  // each once, of the whole robot
+  UrdfTransform tool;              // in the frame of the last joint
+  std::vector<UrdfMesh> meshes;    // each once, of the whole robot
+  std::vector<std::string> links;  // of the whole robot
+  std::string base;                // the link that poses are told in
 };
 
 }  // namespace flexrf::config_gen

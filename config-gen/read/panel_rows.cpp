@@ -3,7 +3,9 @@
 
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
+#include "config-gen/read/panel_fields.hpp"
 #include "config-gen/read/panel_files.hpp"
+#include "config-gen/read/panel_layers.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -128,12 +130,12 @@ void Reader::check_kind(Row& row, PanelWidget& widget) {
   if (!kind) return;
   widget.kind = *kind;
   if (contains(built_in_kinds(), *kind)) return;
+  widget.custom = true;
   if (!is_snake_case(*kind)) {
     assembly_.diagnostics.error(row.position("kind"), quote(*kind) + " is not a name for a kind of widget",
                                 "names are lower_snake_case: small letters, digits and single underscores");
     return;
   }
-  widget.custom = true;
   const std::filesystem::path file =
       assembly_.model.application->file.parent_path() / "widgets" / (*kind + ".js");
   if (std::filesystem::is_regular_file(file)) {
@@ -174,11 +176,7 @@ void Reader::read_slots(Row& row, PanelWidget& widget) {
       if (!assembly_.broken_places.contains(array_base(child->text)))
         assembly_.diagnostics.error(child->position, "unknown slot " + quote(child->text),
                                     suggest(child->text, names_.slots, "slots", "there is none"));
-    } else if (!found->observe) {
-      assembly_.diagnostics.error(child->position,
-                                  "the slot " + quote(child->text) + " is not observed: no panel can show it",
-                                  "remove observe = false from its row at " + to_string(found->position));
-    } else {
+    } else if (check_observed(assembly_, *found, child->position)) {
       widget.slots.emplace_back(child->key, child->text);
     }
   }
@@ -275,6 +273,7 @@ void Reader::read_widget(const Node& node) {
   read_parameters(row, widget);
   read_device(row, widget);
   read_options(row, widget);
+  read_layers(assembly_, row, widget);
   row.finish();
   assembly_.model.panel.widgets.push_back(std::move(widget));
 }

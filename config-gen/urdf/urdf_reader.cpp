@@ -47,6 +47,8 @@ class Reader {
     chain_.meshes = document_.meshes();
     const auto path = find_path(document_, row_, diagnostics_);
     if (!path) return std::nullopt;
+    for (const auto& [name, link] : document_.links()) chain_.links.push_back(name);
+    chain_.base = row_.base ? row_.base->link : document_.roots().front();
     UrdfTransform pending = path->start;  // fixed joints since the last movable one
     for (const DocumentJoint* joint : path->joints) {
       pending = compose(pending, joint->origin);

@@ -204,6 +204,8 @@ export interface Placement {
   /** Of a robot. */
   readonly bodies?: readonly Bodies[];
   readonly frames?: readonly ReferenceFrame[];
+  /** The robot's link in whose frame bodies and frames are told. */
+  readonly base?: string;
 }
 
 /** Every widget is a custom element with these properties; the core sets them before it is connected. */

@@ -213,7 +213,7 @@ export interface ThreadJson {
 }
 
 /** A row [widget.NAME]. */
-export interface WidgetJson extends Pick<Placement, 'overlays' | 'bodies' | 'frames'> {
+export interface WidgetJson extends Pick<Placement, 'overlays' | 'bodies' | 'frames' | 'base'> {
   readonly name: string;
   readonly kind: string;
   /** Made by widgets/KIND.js of the application. */
