@@ -9,6 +9,7 @@ namespace flexrf::user {
 namespace {
 
 constexpr double table_around = 0.010;  // m, of a predicted region; as much again where it is not well known
+constexpr double most_pixels = 4000;    // of half a rectangle's side: what is larger is too near to tell
 constexpr double least_seen = 0.6;      // part of a predicted region that lies within the picture
 
 double height_of(std::uint16_t kind) {
@@ -28,6 +29,7 @@ Status ObjectTracks::initialise() {
   beside_ = {};
   read_ = {};
   is_changed_ = false;
+  sees_ = false;
   if (verdicts.size() > most_recognisers)
     return Status::error(StatusCode::invalid_argument,
                          "%s: there are at most %zu recognisers; give the population a smaller capacity",
@@ -229,7 +231,8 @@ void ObjectTracks::predict_to(std::int64_t time) noexcept {
 
 void ObjectTracks::post(const VisualFeatures& of, Time sampled_at) noexcept {
   Pose tool{};
-  if (tool_pose_at(tool_poses, Time{Duration{of.time}}, tool) != NullReason::none) {
+  sees_ = tool_pose_at(tool_poses, Time{Duration{of.time}}, tool) == NullReason::none;
+  if (!sees_) {
     constexpr const char* trouble =
         "where the tool was when the picture was taken is not known: its slot needs a history that reaches "
         "back";
@@ -238,7 +241,7 @@ void ObjectTracks::post(const VisualFeatures& of, Time sampled_at) noexcept {
     return;
   }
   feedback.set_trouble({});
-  const CameraView view(configuration.camera, tool);
+  view_ = CameraView(configuration.camera, tool);
   for (std::size_t i = 0; i < most_tracks; ++i) {
     const ObjectTrack& track = list_.tracks[i];
     if (track.found == VisualClass::nothing) continue;
@@ -250,7 +253,7 @@ void ObjectTracks::post(const VisualFeatures& of, Time sampled_at) noexcept {
     region.score = 1 + std::max(rested, 0.0);
     region.expected = {beside_[i].filter.position().x(), beside_[i].filter.position().y(),
                        beside_[i].filter.angle()};
-    if (!predict_region(track, view, region)) continue;
+    if (!predict_region(track, region)) continue;
     if (tracked_regions.push(region, sampled_at))
       ++feedback.posted;
     else
@@ -258,19 +261,38 @@ void ObjectTracks::post(const VisualFeatures& of, Time sampled_at) noexcept {
   }
 }
 
+/// As the position is published, for who shows the picture.
+void ObjectTracks::place_in_picture(ObjectTrack& track) const noexcept {
+  track.left = track.top = track.width = track.height = 0;
+  const Eigen::Vector3d place(track.position[0], track.position[1], height_of(track.kind));
+  Eigen::Vector2d pixel;
+  if (!sees_ || !view_.to_picture(place, pixel)) return;
+  const double half = track.radius * view_.pixels_per_metre(place);
+  if (half > most_pixels || pixel.cwiseAbs().maxCoeff() > 2 * most_pixels) return;
+  const auto& camera = configuration.camera;
+  const PixelRectangle seen =
+      common_part({static_cast<int>(pixel.x() - half), static_cast<int>(pixel.y() - half),
+                   static_cast<int>(2 * half) + 1, static_cast<int>(2 * half) + 1},
+                  {0, 0, static_cast<int>(camera.width), static_cast<int>(camera.height)});
+  if (seen.is_empty()) return;
+  track.left = static_cast<std::uint16_t>(seen.left);
+  track.top = static_cast<std::uint16_t>(seen.top);
+  track.width = static_cast<std::uint16_t>(seen.width);
+  track.height = static_cast<std::uint16_t>(seen.height);
+}
+
 /// False: the picture does not show its place.
-bool ObjectTracks::predict_region(const ObjectTrack& track, const CameraView& view,
-                                  VisionRegion& region) const noexcept {
+bool ObjectTracks::predict_region(const ObjectTrack& track, VisionRegion& region) const noexcept {
   const Eigen::Vector3d place(region.expected[0], region.expected[1], height_of(track.kind));
   Eigen::Vector2d pixel;
-  if (!view.to_picture(place, pixel)) return false;
+  if (!view_.to_picture(place, pixel)) return false;
   const std::size_t index = track_of(track.identity);
   const double half =
       (track.radius + table_around + std::min(3 * beside_[index].filter.deviation(), table_around)) *
-      view.pixels_per_metre(place);
+      view_.pixels_per_metre(place);
   const auto& camera = configuration.camera;
   if (pixel.x() < 0 || pixel.y() < 0 || pixel.x() >= camera.width || pixel.y() >= camera.height ||
-      half > 4000)
+      half > most_pixels)
     return false;
   const PixelRectangle whole{static_cast<int>(pixel.x() - half), static_cast<int>(pixel.y() - half),
                              static_cast<int>(2 * half) + 1, static_cast<int>(2 * half) + 1};
@@ -301,6 +323,7 @@ void ObjectTracks::publish() noexcept {
     track.velocity_map() = filter.velocity();
     track.angle = filter.angle();
     track.deviation = filter.deviation();
+    place_in_picture(track);
     track.may_be_target = track.found == VisualClass::target && track.confirmed && track.trusted;
     ++list_.count;
     if (track.confirmed) ++feedback.confirmed;

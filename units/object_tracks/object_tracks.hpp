@@ -39,7 +39,8 @@ class ObjectTracks final : public ObjectTracksUnit {
   void trust_the_promoted() noexcept;
   void predict_to(std::int64_t time) noexcept;
   void post(const VisualFeatures& of, Time sampled_at) noexcept;
-  bool predict_region(const ObjectTrack& track, const CameraView& view, VisionRegion& region) const noexcept;
+  void place_in_picture(ObjectTrack& track) const noexcept;
+  bool predict_region(const ObjectTrack& track, VisionRegion& region) const noexcept;
   void publish() noexcept;
   FilterNoise noise() const noexcept;
 
@@ -48,6 +49,8 @@ class ObjectTracks final : public ObjectTracksUnit {
   std::array<std::uint64_t, most_recognisers> read_{};  // verdicts of each recogniser
   std::uint32_t next_identity_ = 1;
   PixelRectangle blind_;
+  CameraView view_;    // when the list's picture was taken
+  bool sees_ = false;  // that is known
   LogLimit troubles_;
   bool is_changed_ = false;
 };

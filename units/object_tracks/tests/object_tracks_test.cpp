@@ -215,6 +215,42 @@ bool its_place_in_the_next_picture_is_posted() {
          std::abs(region.expected[0] - 0.42) < 1e-9 && world->posted.empty() && world->count() == 1;
 }
 
+/// For who draws it: where the list's own picture shows it.
+bool its_place_in_this_picture_is_told() {
+  const auto world = std::make_unique<World>();
+  world->follow(6, 0.42, 0.03);
+  world->where = tool_above(0.47, 0.02, 0.4);
+  world->picture();
+  const ObjectTrack seen = world->first();
+  const CameraView view(camera_of_tests(), world->where);
+  const Eigen::Vector3d place(0.42, 0.03, 0.025);
+  Eigen::Vector2d pixel(0, 0);
+  view.to_picture(place, pixel);
+  const double side = 2 * 0.03 * view.pixels_per_metre(place);
+  const bool at_place = std::abs(pixel.x() - seen.left - 0.5 * seen.width) < 2 &&
+                        std::abs(pixel.y() - seen.top - 0.5 * seen.height) < 2 &&
+                        std::abs(seen.width - side) < 2 && std::abs(seen.height - side) < 2;
+  // A little later it was measured elsewhere in the same picture.
+  world->tell(world->seen(0.43, 0.03));
+  const bool moved = world->first().left != seen.left && world->first().width == seen.width;
+  // At the picture's end half of it is seen, farther on nothing; and without the tool's pose nothing is
+  // known.
+  world->where = tool_above(0.47 + pixel.x() / view.pixels_per_metre(place), 0.02, 0.4);
+  world->picture();
+  const ObjectTrack half = world->first();
+  world->where = tool_above(0.1, 0.8, 0.4);
+  world->picture();
+  const ObjectTrack away = world->first();
+  world->where = tool_above(0.47, 0.02, 0.4);
+  world->picture();
+  const bool again = world->first().width > 0;
+  world->tells_pose = false;
+  world->picture(std::chrono::milliseconds(200));
+  return at_place && moved && half.left == 0 && half.width > 0 && half.width < 0.7 * side &&
+         std::abs(half.height - side) < 2 && away.width == 0 && away.height == 0 && again &&
+         world->first().width == 0 && world->count() == 1;
+}
+
 bool obstacles_are_left_in_peace_for_a_while() {
   const auto world = std::make_unique<World>();
   world->follow(6, 0.42, 0.03, no_kind);
@@ -328,6 +364,8 @@ int main() {
        nullptr},
       {"its place in the next picture is posted", check<its_place_in_the_next_picture_is_posted>, nullptr,
        nullptr, nullptr},
+      {"its place in this picture is told", check<its_place_in_this_picture_is_told>, nullptr, nullptr,
+       nullptr},
       {"obstacles are left in peace for a while", check<obstacles_are_left_in_peace_for_a_while>, nullptr,
        nullptr, nullptr},
       {"without the tools pose nothing is predicted", check<without_the_tools_pose_nothing_is_predicted>,
