@@ -3,6 +3,7 @@ import { css, html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { Overlay, Value, WidgetHost } from '../../contract';
 import { EndingElement } from '../ending_element';
+import { layerStyles } from '../layer_styles';
 import { LiveText } from '../live_text';
 import { widgetStyles } from '../styles';
 import { fieldOf, isCertain, itemKey, numberOf, textOf, titleOf } from '../things';
@@ -51,80 +52,11 @@ export interface Picture {
 export class Overlays extends EndingElement {
   static override styles = [
     widgetStyles,
+    layerStyles,
     css`
-      :host {
-        padding: 0;
-        content-visibility: visible;
-      }
-      ul {
-        list-style: none;
-        margin: 4px 0;
-        padding: 0;
-      }
-      li {
-        display: flex;
-        flex-wrap: wrap;
-        align-items: center;
-        gap: 0 1em;
-      }
-      label {
-        display: inline-flex;
-        align-items: center;
-        gap: 0.4em;
-        min-height: var(--target);
-        min-width: 8rem;
-        cursor: pointer;
-      }
-      input {
-        min-width: 24px;
-        min-height: 24px;
-      }
-      .sample {
-        display: inline-flex;
-        align-items: center;
-        gap: 0.4em;
-        margin-inline-end: 1em;
-      }
       .sample svg {
         width: 36px;
         height: 14px;
-      }
-      /* A place of its own: what it says changes with each picture, and moves nothing. */
-      .state {
-        flex: 1 1 14rem;
-        min-height: 1.35em;
-        color: var(--muted);
-      }
-      .state.old {
-        color: var(--alarm);
-        font-weight: 600;
-      }
-      .scroll {
-        overflow: auto;
-        max-height: 20rem;
-      }
-      table {
-        border-collapse: collapse;
-      }
-      caption {
-        text-align: start;
-        color: var(--muted);
-      }
-      th,
-      td {
-        text-align: start;
-        font-weight: 400;
-        padding: 1px 1em 1px 0;
-      }
-      td.number {
-        text-align: end;
-      }
-      summary {
-        min-height: max(24px, calc(var(--target) * 0.75));
-        cursor: pointer;
-      }
-      summary:focus-visible {
-        outline: 3px solid var(--focus);
       }
     `,
   ];
@@ -299,7 +231,7 @@ export class Overlays extends EndingElement {
     const state = this.states[index];
     if (!state || state.text === text) return;
     state.text = text;
-    this.renderRoot.querySelectorAll('.state')[index]?.classList.toggle('old', old);
+    this.renderRoot.querySelectorAll('.state')[index]?.classList.toggle('abnormal', old);
   }
 
   private toggle(layer: Layer, shown: boolean): void {

@@ -1,9 +1,9 @@
 // Widget of kind "robot": the arm in 3D as its joints are now, and the joints as a table for those who cannot see it.
 //
 // [widget.NAME] kind = "robot", device = the arm, slots.joints = a slot with a field `position`, rad or m from the base to
-// the tool (JointState, RobotArmFeedback).
+// the tool (JointState, RobotArmFeedback). Rows of bodies and frames around it are in surroundings_list.ts.
 import { css, html, nothing, type CSSResultGroup } from 'lit';
-import type { ItemInfo, Joint, Value } from '../../contract';
+import type { ItemInfo, Joint, Placement, Value } from '../../contract';
 import { loadPart } from '../../core/parts';
 import { textOfError } from '../../core/reasons';
 import { displayUnits, formatNumber } from '../../core/units';
@@ -11,6 +11,7 @@ import { LiveText } from '../live_text';
 import { widgetStyles } from '../styles';
 import { WidgetBase } from '../widget_base';
 import type { RobotScene } from './scene';
+import type { SurroundingsList } from './surroundings_list';
 
 /** A table that is read needs no 60 values a second. */
 const table_period_ms = 250;
@@ -69,6 +70,20 @@ export class RobotWidget extends WidgetBase {
         color: var(--stale);
         font-style: italic;
       }
+      .labels {
+        position: absolute;
+        inset: 0;
+        pointer-events: none;
+      }
+      .labels > span {
+        position: absolute;
+        inset: 0 auto auto 0;
+        padding: 0 3px;
+        border-radius: 2px;
+        background: color-mix(in srgb, var(--surface) 80%, transparent);
+        font-size: 0.8em;
+        white-space: nowrap;
+      }
       section {
         position: relative;
       }
@@ -116,6 +131,7 @@ export class RobotWidget extends WidgetBase {
   private positions: readonly number[] = [];
   private cells: LiveText[] = [];
   private scene: RobotScene | undefined;
+  private list: SurroundingsList | undefined;
   /** Why there is no 3D view; empty while there is one, or none yet. */
   private trouble = '';
   private tableAt = 0;
@@ -133,6 +149,7 @@ export class RobotWidget extends WidgetBase {
     this.generation += 1;
     clearTimeout(this.tableTimer);
     this.tableTimer = undefined;
+    if (this.list) this.list.view = undefined;
     this.scene?.dispose();
     this.scene = undefined;
     this.renewCanvas();
@@ -154,6 +171,24 @@ export class RobotWidget extends WidgetBase {
     this.renderRoot.querySelector('.stage')!.prepend(this.makeCanvas());
     super.firstUpdated();
     void this.build(this.generation);
+    if (this.placement?.bodies || this.placement?.frames) void this.addList(this.placement);
+  }
+
+  private async addList(placement: Placement): Promise<void> {
+    try {
+      const { SurroundingsList } = await loadPart(() => import('./surroundings_list'));
+      this.list = Object.assign(new SurroundingsList(), { host: this.host, placement, label: this.label });
+      this.find('.around').append(this.list);
+      this.surround();
+    } catch (error) {
+      this.note = `Nothing is drawn around the robot: ${textOfError(error)}`;
+      this.requestUpdate();
+    }
+  }
+
+  /** Once both are there: what the list tells is drawn in the scene. */
+  private surround(): void {
+    if (this.list && this.scene && this.placement) this.list.view = this.scene.surround(this.placement, this.find('.labels'));
   }
 
   /** The position of the joints, whatever else the slot holds. */
@@ -174,7 +209,7 @@ export class RobotWidget extends WidgetBase {
   protected override render(): unknown {
     return html`
       <section aria-label=${this.label}>
-        <div class="stage" ?hidden=${this.trouble !== ''}></div>
+        <div class="stage" ?hidden=${this.trouble !== ''}><div class="labels" aria-hidden="true"></div></div>
         <div class="views" role="group" aria-label="View of ${this.label}" ?hidden=${this.trouble !== ''}>
           ${views.map((view) => html`
             <button aria-label=${view.name} title=${view.name} @click=${() => this.scene && view.act(this.scene)}>${view.sign}</button>
@@ -184,6 +219,7 @@ export class RobotWidget extends WidgetBase {
           <button @click=${() => this.again()}>Try again</button></p>`}
         <p class="abnormal ${this.trouble === '' ? 'over' : ''}" id="absence"></p>
         ${this.note === '' ? nothing : html`<p class="abnormal">${this.note}</p>`}
+        <div class="around"></div>
         <details ?open=${this.trouble !== ''}>
           <summary>Joints as a table</summary>
           ${this.table()}
@@ -286,6 +322,7 @@ export class RobotWidget extends WidgetBase {
       this.scene = new RobotScene({ canvas, colours });
       this.scene.load(text);
       this.scene.setJoints(this.named());
+      this.surround();
       this.follow(this.scene, canvas);
     } catch (error) {
       this.scene?.dispose();

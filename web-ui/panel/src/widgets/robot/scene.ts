@@ -1,10 +1,12 @@
-// The 3D scene of one robot. The only file that knows three.js: it comes with a chunk of its own, when it is shown.
+// The 3D scene of one robot. It and surroundings.ts alone know three.js: they come with a chunk of their own, when one is shown.
 import {
   AmbientLight, Box3, DirectionalLight, GridHelper, LoadingManager, Material, MathUtils, Mesh, PerspectiveCamera, Scene, Spherical,
   Vector3, WebGLRenderer, type Object3D,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
+import type { Placement } from '../../contract';
+import { Surroundings, type SurroundingsView } from './surroundings';
 
 /** Where the files of robots lie: a URDF names its meshes relative to it, or as package://NAME/PATH. */
 const folder = '/application/robots/';
@@ -31,13 +33,18 @@ export class RobotScene {
   private readonly renderer: WebGLRenderer;
   private readonly controls: OrbitControls;
   private readonly end = new AbortController();
+  private readonly axisColour: string;
   private robot: URDFRobot | undefined;
+  private surroundings: Surroundings | undefined;
+  /** Link in whose frame they are told. */
+  private base = '';
   private frame = 0;
   private shown = true;
   /** The person chose another view: a new size leaves it alone. */
   private chosen = false;
 
   constructor({ canvas, colours }: SceneOptions) {
+    this.axisColour = colours.axis;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(globalThis.devicePixelRatio, most_pixels));
     this.camera.up.set(0, 0, 1); // z is up in robotics
@@ -85,6 +92,14 @@ export class RobotScene {
       moved = joint.setJointValue(position) || moved;
     }
     if (moved) this.invalidate();
+  }
+
+  /** What is drawn around the robot; words come into `labels`, which lies over the canvas. */
+  surround({ bodies = [], frames = [], base = '' }: Placement, labels: HTMLElement): SurroundingsView {
+    this.surroundings = new Surroundings(bodies, frames, this.axisColour, labels, () => this.invalidate());
+    this.base = base;
+    this.scene.add(this.surroundings.object);
+    return this.surroundings;
   }
 
   resize(width: number, height: number): void {
@@ -137,6 +152,7 @@ export class RobotScene {
     this.end.abort();
     cancelAnimationFrame(this.frame);
     this.controls.dispose();
+    this.surroundings?.dispose();
     this.scene.traverse(free);
     this.renderer.dispose();
     this.renderer.forceContextLoss();
@@ -163,7 +179,12 @@ export class RobotScene {
   private draw(): void {
     cancelAnimationFrame(this.frame);
     this.frame = 0;
+    const { robot, surroundings } = this;
+    robot?.updateMatrixWorld();
+    surroundings?.follow(robot?.links[this.base] ?? robot, (name) => robot?.links[name]);
     this.renderer.render(this.scene, this.camera);
+    const { clientWidth, clientHeight } = this.renderer.domElement;
+    surroundings?.write(this.camera, clientWidth, clientHeight);
   }
 }
 

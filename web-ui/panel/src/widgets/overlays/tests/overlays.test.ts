@@ -98,10 +98,10 @@ describe('overlays of an image', { timeout: 30_000 }, () => {
     await see(200);
     expect(marks()[0]!.opacity).toBeLessThan(0.5);
     expect(states()).toEqual(['⚠ 1, up to 0.10 s older than the picture']);
-    expect(inside('.state')[0]!.classList.contains('old')).toBe(true);
+    expect(inside('.state')[0]!.classList.contains('abnormal')).toBe(true);
     await tell('tracks', { time: 200 * ms, tracks: [track({ left: 120 })] });
     expect(marks()).toMatchObject([{ x: 120, opacity: 1 }]);
-    expect(inside('.state')[0]!.classList.contains('old')).toBe(false);
+    expect(inside('.state')[0]!.classList.contains('abnormal')).toBe(false);
     await see(800);
     expect(marks()).toEqual([]);
     expect(states()).toEqual(['⚠ nothing of this picture; the last is 0.60 s older']);
