@@ -83,7 +83,8 @@ void test_good_chain(void**) {
     return chain.name == "two" && chain.joints.size() == 2 && chain.joints[0].axis[2] == 1.0 &&
            chain.joints[0].origin.position[2] == 1.0 && chain.joints[0].home == 0.5 &&
            chain.joints[1].axis[0] == 1.0 && chain.tool.position[0] == 0.5 && chain.tool.rotation[1] == 1.0 &&
-           chain.tool.rotation[3] == -1.0 && chain.tool.rotation[0] == 0.0;
+           chain.tool.rotation[3] == -1.0 && chain.tool.rotation[0] == 0.0 &&
+           chain.links == std::vector<std::string>{"arm", "base", "tip", "tool"};
   }();
   assert_true(good);
 }
@@ -319,15 +320,16 @@ void test_frames_are_named(void**) {
     std::ostringstream text;
     text << all.chain->joints.size() << " from " << all.chain->joints[0].origin.position[0] << " "
          << all.chain->joints[0].origin.position[1] << " " << all.chain->joints[0].origin.position[2]
-         << " to " << all.chain->tool.position[0] << " " << all.chain->tool.position[2];
+         << " to " << all.chain->tool.position[0] << " " << all.chain->tool.position[2] << " in "
+         << all.chain->base;
     return text.str();
   };
   lines.base.erase(lines.base.find("<link name='sensor'/>"));
-  assert_string_equal(read().c_str(), "2 from 0 0 1 to 0.5 0");
+  assert_string_equal(read().c_str(), "2 from 0 0 1 to 0.5 0 in base");
   row.base = frame("beside", 8);
-  assert_string_equal(read().c_str(), "2 from -1 -2 -2 to 0.5 0");
+  assert_string_equal(read().c_str(), "2 from -1 -2 -2 to 0.5 0 in beside");
   row.tool = frame("camera", 9);
-  assert_string_equal(read().c_str(), "1 from -1 -2 -2 to 0 4");
+  assert_string_equal(read().c_str(), "1 from -1 -2 -2 to 0 4 in beside");
   row.base = frame("arm", 8);
   row.tool = frame("beside", 9);
   assert_true(yields(lines, "cell.toml:9:8", "link 'beside' does not hang on the base 'arm'",
