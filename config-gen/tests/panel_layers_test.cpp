@@ -20,7 +20,8 @@ const Json& widget(std::size_t index) {
 }
 
 bool is(const Json& json, const char* expected) {
-  if (json == Json::parse(expected)) return true;
+  // Objects whose members stand in another order are the same.
+  if (nlohmann::json::parse(json.dump()) == nlohmann::json::parse(expected)) return true;
   print_message("got %s\n", json.dump(1).c_str());
   return false;
 }
