@@ -105,7 +105,7 @@ it('the same stands in a table', async () => {
   await page.getByText('What is drawn, as a table').click();
   const table = page.getByRole('table', { name: /^Eye: 2 drawn/ });
   await expect.poll(() => table.getByRole('row').count(), { timeout: within }).toBe(3);
-  await expect.poll(() => table.innerText(), { timeout: within }).toMatch(/Sights\s+ball\s+8\s+200\s+160\s+50\s+50\s+no/);
+  await expect.poll(() => table.innerText(), { timeout: within }).toMatch(/Sights\s+ball\s+8\s+200\s+160\s+50\s+50\s+1\s+no/);
   expect(await violations(page)).toEqual([]);
 });
 

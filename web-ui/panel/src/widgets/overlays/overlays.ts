@@ -2,6 +2,7 @@
 import { css, html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { Overlay, Value, WidgetHost } from '../../contract';
+import { significantText } from '../../core/units';
 import { EndingElement } from '../ending_element';
 import { layerStyles } from '../layer_styles';
 import { LiveText } from '../live_text';
@@ -39,6 +40,8 @@ interface Drawn extends Mark {
   readonly kind: string;
   readonly said: string;
   readonly age: number;
+  /** As the slot tells it; NaN: it does not. */
+  readonly weighs: number;
 }
 
 export interface Picture {
@@ -123,7 +126,7 @@ export class Overlays extends EndingElement {
       const classes = this.classesOf(overlay);
       const layer = {
         overlay, classes, first, title: titleOf(overlay), shown: overlay.shown, end: [],
-        histories: new Map(overlay.slots.map((slot) => [slot, new OverlayHistory(overlay)])),
+        histories: new Map(overlay.slots.map((slot) => [slot, new OverlayHistory(overlay)] as const)),
       };
       first += classes.length + 1;
       return layer;
@@ -202,11 +205,11 @@ export class Overlays extends EndingElement {
       const kind = this.classOf(layer, thing);
       const certain = isCertain(overlay, thing);
       const said = textOf(overlay, thing);
-      const weight = weights[i] ?? Number.NaN;
+      const weighs = weights[i] ?? Number.NaN;
       drawn.push({
-        ...box, layer, age, certain, said, stroke: strokeOf(layer.first + kind), kind: words(layer.classes[kind] ?? nameless),
+        ...box, layer, age, certain, said, weighs, stroke: strokeOf(layer.first + kind), kind: words(layer.classes[kind] ?? nameless),
         text: certain ? said : `${said}?`, old: age > 0,
-        weight: overlay.weight === undefined ? undefined : heaviest > 0 && weight > 0 ? weight / heaviest : 0,
+        weight: overlay.weight === undefined ? undefined : heaviest > 0 && weighs > 0 ? weighs / heaviest : 0,
       });
     });
   }
@@ -300,7 +303,7 @@ export class Overlays extends EndingElement {
           <caption>${this.label}: ${this.drawn.length} drawn, in pixels of the picture${left > 0 ? `; ${left} more than these` : ''}</caption>
           <thead>
             <tr>
-              ${['Overlay', 'Kind', 'Text', 'Left', 'Top', 'Width', 'Height', 'Certain', 'Older than the picture'].map((name) => html`<th scope="col">${name}</th>`)}
+              ${['Overlay', 'Kind', 'Text', 'Left', 'Top', 'Width', 'Height', 'Weight', 'Certain', 'Older than the picture'].map((name) => html`<th scope="col">${name}</th>`)}
             </tr>
           </thead>
           <tbody>
@@ -310,6 +313,7 @@ export class Overlays extends EndingElement {
                 <td>${one.kind}</td>
                 <td>${one.said}</td>
                 ${[one.left, one.top, one.width, one.height].map((value) => html`<td class="number">${Math.round(value)}</td>`)}
+                <td class="number">${Number.isFinite(one.weighs) ? significantText(one.weighs, 3) : ''}</td>
                 <td>${one.certain ? 'yes' : 'no'}</td>
                 <td>${one.old ? seconds(one.age) : 'no'}</td>
               </tr>

@@ -200,7 +200,7 @@ describe('overlays of an image', { timeout: 30_000 }, () => {
     details.dispatchEvent(new Event('toggle'));
     await settled(layer());
     const rows = inside('tbody tr').map((row) => [...row.children].map((cell) => cell.textContent!.trim()).join(' '));
-    expect(rows).toEqual(['Tracks target 4 100 60 40 30 yes no', 'Tracks obstacle 9 12 60 40 30 no no']);
+    expect(rows).toEqual(['Tracks target 4 100 60 40 30  yes no', 'Tracks obstacle 9 12 60 40 30  no no']);
     expect(inside('caption')[0]!.textContent).toContain('Eye: 2 drawn');
     // What was drawn since is in it within half a second, and no sooner.
     vi.useFakeTimers();
