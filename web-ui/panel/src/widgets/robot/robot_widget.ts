@@ -322,8 +322,8 @@ export class RobotWidget extends WidgetBase {
       this.scene = new RobotScene({ canvas, colours });
       this.scene.load(text);
       this.scene.setJoints(this.named());
-      this.surround();
       this.follow(this.scene, canvas);
+      this.surround();
     } catch (error) {
       this.scene?.dispose();
       this.scene = undefined;

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { Matrix4, Mesh, PerspectiveCamera, type LineSegments, type MeshPhongMaterial } from 'three';
+import { Matrix4, Mesh, PerspectiveCamera, type MeshPhongMaterial, type Object3D } from 'three';
 import type { Bodies, Placement, ReferenceFrame } from '../../../contract';
 import { FakeHost, settled } from '../../tests/fake_host';
 import { bodiesOf, type Body } from '../bodies';
@@ -74,7 +74,7 @@ describe('in the scene', () => {
     base.matrixWorld.makeTranslation(1, 0, 0);
     const hand = new Mesh();
     hand.matrixWorld.makeTranslation(0, 2, 0);
-    const [, camera_object, tool_object] = around.object.children as [object, LineSegments, LineSegments];
+    const [, camera_object, tool_object] = around.object.children as [Object3D, Object3D, Object3D];
     around.follow(base, () => hand);
     expect([camera_object.visible, tool_object.visible]).toEqual([false, false]);
     around.setFrame(0, { position: [0, 0, 0.5], orientation: [0, 0, 0, 2] });
