@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "spotter_unit.hpp"
-#include "units/eye/eye.hpp"
+#include "tests/panel/sight_cell/seen_rectangles.hpp"
 
 namespace flexrf::user {
 
