@@ -92,7 +92,7 @@ const FieldNeed whole_number{"a whole number",
 const FieldNeed number{"a number", [](const Model&, const FieldPlace& place) { return is_number(place); }};
 const FieldNeed pixels{"a number of pixels", [](const Model&, const FieldPlace& place) {
                          const std::string& unit = place.field->unit;
-                         return is_number(place) && (unit.empty() || unit == "px" || unit == "1");
+                         return is_number(place) && (unit.empty() || unit == "px");
                        }};
 const FieldNeed nanoseconds{"an i64 in ns", [](const Model&, const FieldPlace& place) {
                               return is_scalar(place) && place.field->type.scalar == Scalar::i64 &&

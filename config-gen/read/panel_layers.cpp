@@ -51,7 +51,7 @@ void read_sort(Assembly& assembly, Row& row, ThingRow& things, PanelOverlay& ove
         row.position("classes"),
         place ? "'classes' of " + row.name() + " names what " + quote(overlay.sort) + " has names for"
               : "'classes' of " + row.name() + " names the numbers of no field",
-        place ? "remove it: a whole number needs names, no other 'class'"
+        place ? "remove it: names are for the numbers of a whole number"
               : "add class = \"FIELD\": a whole number, of which these are the names from 0 on");
   }
 }
