@@ -80,6 +80,25 @@ it('says why there are no positions', async () => {
   expect(text()).toContain('writer stopped');
 });
 
+it('tells what is around it, without 3D too, and asks for that no longer once it is gone', { timeout: 30_000 }, async () => {
+  const place_key = 'slot:place[0]';
+  place({ 'robots/motor.urdf': urdf });
+  widget.remove();
+  const row = {
+    name: 'things', shown: true, slots: ['place[0]'], text: [], position: 'at', kind: 'kind',
+    kinds: [{ name: 'box', value: 'box', radius: 1, height: 1, colour: '#000000' }],
+  };
+  widget = Object.assign(new RobotWidget(), { host: fake.host, placement: { ...widget.placement!, bodies: [row] } });
+  document.body.append(widget);
+  const list = () => widget.shadowRoot!.querySelector('flexrf-surroundings');
+  await vi.waitFor(() => expect(list()).not.toBeNull(), { timeout: 20_000 });
+  expect(fake.isWatched(place_key)).toBe(true);
+  fake.value(place_key, reading({ at: [1, 2], kind: 'box' }));
+  await vi.waitFor(() => expect(list()!.shadowRoot!.querySelector('.state')!.textContent).toBe('1'));
+  widget.remove();
+  expect(fake.isWatched(place_key)).toBe(false);
+});
+
 it('asks for nothing once it is gone', async () => {
   place({ 'robots/motor.urdf': urdf });
   expect(fake.isWatched(key)).toBe(true);
