@@ -37,6 +37,9 @@ export class ImageView extends WidgetBase {
       img:not([src]) {
         visibility: hidden;
       }
+      img[hidden] {
+        display: none;
+      }
       svg {
         position: absolute;
         inset: 0;
@@ -66,10 +69,25 @@ export class ImageView extends WidgetBase {
   protected override render(): TemplateResult {
     const hasOverlays = this.overlays.length > 0;
     return this.frame(html`<div class="picture">
-        <img alt=${`${this.label}. ${this.item?.summary ?? ''}`} @load=${() => this.present(this.decoded())} @error=${() => this.present(undefined)} />
-        ${hasOverlays ? html`<svg aria-hidden="true" preserveAspectRatio="none"></svg>` : nothing}
+        ${this.image(false)}
+        ${hasOverlays ? html`${this.image(true)}<svg aria-hidden="true" preserveAspectRatio="none"></svg>` : nothing}
       </div>
       ${hasOverlays ? html`<div class="below"></div>` : nothing}`);
+  }
+
+  private image(hidden: boolean): TemplateResult {
+    return html`<img
+      ?hidden=${hidden}
+      decoding="sync"
+      alt=${`${this.label}. ${this.item?.summary ?? ''}`}
+      @load=${(event: Event) => this.present(event.target as HTMLImageElement, this.decodes)}
+      @error=${(event: Event) => this.present(event.target as HTMLImageElement, undefined)}
+    />`;
+  }
+
+  /** Where the next picture is decoded. With overlays that is out of sight: it and what lies over it come into sight together. */
+  private get next(): HTMLImageElement {
+    return this.renderRoot.querySelector<HTMLImageElement>('img[hidden]') ?? this.find<HTMLImageElement>('img');
   }
 
   private get overlays(): readonly Overlay[] {
@@ -139,7 +157,7 @@ export class ImageView extends WidgetBase {
     this.picture = undefined;
     if (this.layer) this.layer.active = false;
     this.revoke();
-    this.renderRoot.querySelector('img')?.removeAttribute('src');
+    this.renderRoot.querySelectorAll('img').forEach((image) => image.removeAttribute('src'));
   }
 
   protected override take(reading: Reading): void {
@@ -154,17 +172,14 @@ export class ImageView extends WidgetBase {
   /** The picture is its own value. */
   protected override show(): void {}
 
-  private decoded(): Picture | undefined {
-    if (!this.decodes) return undefined;
-    const { time, scaledBy } = this.decodes;
-    const { naturalWidth, naturalHeight } = this.find<HTMLImageElement>('img');
-    return { time, width: naturalWidth * scaledBy, height: naturalHeight * scaledBy };
-  }
-
-  /** The browser shows it from now on: what belongs to it is drawn over it. */
-  private present(picture: Picture | undefined): void {
-    this.picture = picture;
-    this.layer?.present(picture);
+  /** The browser has decoded it, or could not: undefined. */
+  private present(image: HTMLImageElement, shown: Shown | undefined): void {
+    if (image.hidden) {
+      this.renderRoot.querySelectorAll('img').forEach((one) => (one.hidden = one !== image));
+    }
+    const { naturalWidth, naturalHeight } = image;
+    this.picture = shown && { time: shown.time, width: naturalWidth * shown.scaledBy, height: naturalHeight * shown.scaledBy };
+    this.layer?.present(this.picture);
     this.presentNext();
   }
 
@@ -174,7 +189,7 @@ export class ImageView extends WidgetBase {
     this.waiting = undefined;
     if (waiting === undefined) return;
     this.address = URL.createObjectURL(waiting.image);
-    this.find<HTMLImageElement>('img').src = this.address;
+    this.next.src = this.address;
     if (old !== '') URL.revokeObjectURL(old);
   }
 

@@ -6,7 +6,8 @@ const namespace = 'http://www.w3.org/2000/svg';
 const thin = 1.5; // px of the screen
 const thick = 4;
 const plain = 2.5;
-const letters = 12;
+const letters = 14;
+const seam_width = 2.5;
 
 export interface Mark {
   readonly left: number;
@@ -48,6 +49,7 @@ export class Painter {
     setAttribute(this.svg, 'viewBox', `0 0 ${width} ${height}`);
     if (shown > 0) this.#scale = width / shown;
     setAttribute(this.svg, 'font-size', String(letters * this.#scale));
+    setAttribute(this.svg, 'stroke-width', String(seam_width * this.#scale)); // of texts
   }
 
   draw(marks: readonly Mark[]): void {
@@ -66,7 +68,7 @@ export class Painter {
       whole,
       behind: make('rect', whole, { ...line, stroke: seam }),
       line: make('rect', whole, line),
-      text: make('text', whole, { stroke: seam, 'stroke-width': '3', 'paint-order': 'stroke', 'vector-effect': 'non-scaling-stroke' }),
+      text: make('text', whole, { stroke: seam, 'paint-order': 'stroke', 'stroke-linejoin': 'round', 'font-weight': '600' }),
     };
   }
 

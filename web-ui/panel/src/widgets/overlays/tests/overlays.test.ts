@@ -41,7 +41,7 @@ const states = (): string[] => inside('.state').map((state) => state.textContent
 /** The camera's picture of this time is seen; 320 pixels wide, half as wide as it was. */
 async function see(time: number): Promise<void> {
   host.publish('slot:camera', null, { image: new Blob(['1']), sampledAt: time * ms, scaledBy: 2 });
-  shown.find('img').dispatchEvent(new Event('load'));
+  shown.find('img[hidden]').dispatchEvent(new Event('load'));
   await settled();
 }
 async function tell(slot: string, value: object | null, time = 0): Promise<void> {
@@ -51,8 +51,9 @@ async function tell(slot: string, value: object | null, time = 0): Promise<void>
 interface DrawnMark { readonly x: number; readonly text: string; readonly opacity: number; readonly stroke: string; readonly dashes: string; readonly thickness: number }
 const marks = (): DrawnMark[] =>
   [...shown.root.querySelectorAll('.picture svg > g')].filter((mark) => mark.getAttribute('visibility') === 'visible').map((mark) => {
-    const [behind, line] = [...mark.querySelectorAll('rect')] as [Element, Element];
-    expect(behind.getAttribute('x')).toBe(line.getAttribute('x'));
+    const [behind, front] = mark.querySelectorAll('rect');
+    const line = front!;
+    expect(behind!.getAttribute('x')).toBe(line.getAttribute('x'));
     return {
       x: Number(line.getAttribute('x')), text: mark.querySelector('text')!.textContent ?? '', opacity: Number(mark.getAttribute('opacity')),
       stroke: line.getAttribute('stroke')!, dashes: line.getAttribute('stroke-dasharray')!, thickness: Number(line.getAttribute('stroke-width')),
@@ -105,6 +106,18 @@ describe('overlays of an image', { timeout: 30_000 }, () => {
     await see(800);
     expect(marks()).toEqual([]);
     expect(states()).toEqual(['⚠ nothing of this picture; the last is 0.60 s older']);
+  });
+
+  it('shows a picture no sooner than what lies over it', async () => {
+    await place(tracks);
+    const images = (): string[] => [...shown.root.querySelectorAll<HTMLImageElement>('img')].map((image) => `${image.src} ${image.hidden}`);
+    URL.createObjectURL = (blob) => `blob:${(blob as Blob).size}`;
+    await see(100);
+    expect(images()).toEqual([' true', 'blob:1 false']);
+    host.publish('slot:camera', null, { image: new Blob(['12']), sampledAt: 133 * ms });
+    expect(images()).toEqual(['blob:2 true', 'blob:1 false']);
+    shown.find('img[hidden]').dispatchEvent(new Event('load'));
+    expect(images()).toEqual(['blob:2 false', 'blob:1 true']);
   });
 
   it('waits for a picture whose things came before it', async () => {
