@@ -10,6 +10,7 @@ BEGIN {
   may["units"] = "base runtime motion units hal"
   may["config-gen"] = "base config-gen"
   may["web-ui"] = "base runtime web-ui"
+  may["image"] = "base image"
   # Of runtime/, from below; run stands above these. What a folder's library links follows it (runtime/*/CMakeLists.txt).
   within["core"] = "core"
   within["log"] = "core log"
@@ -37,7 +38,7 @@ is_free { next }
   included = $2
   used = first(included)
   if (is_unit_test && (used == "tests" || (used == "hal" && (family(included) == "driver" || is_imagined(included))))) next
-  if (used !~ "^(base|runtime|motion|hal|units|config-gen|web-ui|apps|tests|benchmarks)$") next  # generated
+  if (used !~ "^(base|runtime|motion|hal|units|config-gen|web-ui|image|apps|tests|benchmarks)$") next  # generated
   if (index(" " may[part] " ", " " used " ") == 0)
     refuse(part "/ may include only " may[part])
   else if (used == "runtime" && part == "runtime" && (folder(file) in within) &&

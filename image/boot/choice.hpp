@@ -54,11 +54,12 @@ struct Choice {
 
 /// What GRUB told the kernel's command line about this boot. RAUC reads the same `rauc.slot=`.
 struct Running {
-  std::optional<Slot> slot;  ///< `rauc.slot=`
-  std::string
-      why;  ///< `flexrf.boot=`: confirmed, trial, only, fallback, unknown or manual; empty if none of these
-  std::uint64_t trial =
-      0;  ///< `flexrf.trial=`: the choice's, as GRUB read it; 0 if it is not there or no number
+  /// `rauc.slot=`
+  std::optional<Slot> slot;
+  /// `flexrf.boot=`: confirmed, trial, only, fallback, unknown or manual; empty if it is none of these.
+  std::string why;
+  /// `flexrf.trial=`: the choice's, as GRUB read it; 0 if it is not there or no number.
+  std::uint64_t trial = 0;
 };
 
 /// Of a word that is there twice the last counts.

@@ -15,7 +15,8 @@ namespace flexrf::boot {
 
 inline ScriptCommands read_script(const char* path) {
   std::ifstream file(path);
-  return parse_script({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+  const std::string source{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return parse_script(source);
 }
 
 inline std::string path_on_esp(const std::string& name) {

@@ -167,7 +167,7 @@ void every_part_of_what_is_possible_occurs() {
   const Bench bench(recording);
   std::set<std::string> combinations;
   std::set<std::string> tears;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+  for (std::uint64_t seed = 0; seed < 1200; ++seed) {
     const std::string disk = bench.disk_after(remains_after(bench.log(), 4, seed));
     CHECK_EQUAL(disk.substr(0, 512), marked_bytes(0, 0));
     std::string tear;
