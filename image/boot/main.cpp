@@ -24,13 +24,11 @@ constexpr const char* usage =
     "Says and sets which of the two versions on this disk boots, and repairs what says so.\n";
 constexpr const char* options_help =
     "options:\n"
-    "  --folder DIR               where the files are; else /boot/efi/flexrf\n"
+    "  --folder DIR                where the files are; else /boot/efi/flexrf\n"
     "  --kernel-command-line FILE  tells which slot runs; else /proc/cmdline\n"
-    "  --notice FILE              what was said stands there afterwards, for the panel; no file if nothing "
-    "was\n"
-    "Exit code: 0 done; 1 wrong usage; 2 something was damaged and is repaired; 3 something cannot be read, "
-    "written or\n"
-    "locked; 4 refused, as the state does not allow it.\n";
+    "  --notice FILE               holds afterwards what was said, for the panel; no file if nothing was\n"
+    "Exit code: 0 done; 1 wrong usage; 2 something was damaged and is repaired; 3 something cannot be read,\n"
+    "written or locked; 4 refused, as the state does not allow it.\n";
 
 constexpr std::chrono::seconds lock_wait{10};
 

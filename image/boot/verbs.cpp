@@ -137,8 +137,7 @@ std::optional<std::string> misuse_of(const std::vector<std::string>& words) {
 const char* const verbs_help =
     "RAUC's, as its custom backend for boot loaders:\n"
     "  get-primary                the slot that is meant to boot: A or B\n"
-    "  set-primary SLOT           means this one; unless it is confirmed, that begins a trial of three "
-    "attempts\n"
+    "  set-primary SLOT           means this one; unless it is confirmed, a trial of three attempts begins\n"
     "  get-state SLOT             good if it is whole, else bad\n"
     "  set-state SLOT good|bad    good: confirm; bad: unmark-whole\n"
     "others:\n"

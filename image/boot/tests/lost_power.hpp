@@ -64,8 +64,7 @@ class LostPowerDisk final : public Medium {
   void spend();
 
   Files on_disk_;
-  std::map<std::string, std::vector<std::string>>
-      in_memory_;  // what was written since the last flush, in order
+  std::map<std::string, std::vector<std::string>> in_memory_;  // written since the last flush, in order
   std::array<bool, 2> is_whole_on_disk_{};
   std::array<bool, 2> is_whole_in_memory_{};
   int flushes_ = 0;
