@@ -171,7 +171,7 @@ void a_trial_has_three_attempts() {
     CHECK_EQUAL(running.why, "fallback");
     CHECK_EQUAL(running.trial, 41u);
   }
-  // A confirmed slot is not counted, and another trial begins with none.
+  // Another trial begins with no attempts.
   files[copy_names[0]] = files[copy_names[1]] = block_of(Choice{44, Slot::a, 44, {whole, confirmed}});
   CHECK_EQUAL(switch_on(script(), files).why, "trial");
 }
