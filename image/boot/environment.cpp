@@ -24,6 +24,16 @@ bool Environment::has_two_equal_copies() const noexcept {
   return copies_[0].damage && copies_[1].damage && copies_[0].choice == copies_[1].choice;
 }
 
+std::string Environment::damages() const {
+  std::string text;
+  for (std::size_t i = 0; i < copies_.size(); ++i) {
+    if (copies_[i].damage) continue;
+    if (!text.empty()) text += "; ";
+    text.append(copy_names[i]).append(" is damaged: ").append(copies_[i].damage.cause());
+  }
+  return text;
+}
+
 Status Environment::write(Choice next) {
   std::size_t first = 0;
   if (newest_) {

@@ -30,7 +30,10 @@ class Environment {
   bool has_two_equal_copies() const noexcept;
   /// Why a copy is none; ok for one that is.
   const Status& damage_of(std::size_t copy) const noexcept { return copies_[copy].damage; }
-  std::size_t newest_copy() const noexcept { return *newest_; }
+
+  /// Which copies are none, and why, for a person: "choice0.env is damaged: its checksum does not match;
+  /// ...".
+  std::string damages() const;
 
   const Attempts& attempts() const noexcept { return attempts_; }
   const Status& damage_of_attempts() const noexcept { return attempts_damage_; }

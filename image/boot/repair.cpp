@@ -11,12 +11,12 @@ class Report {
  public:
   void note(std::string line) { outcome_.said.push_back(std::move(line)); }
   /// After an attempt to make something whole: how that went.
-  void conclude(const std::string& found, const Status& mended, const std::string& remedy) {
+  void conclude(std::string found, const Status& mended, const std::string& remedy) {
     if (mended) {
-      note(found + "; " + remedy);
+      note(found.append("; ").append(remedy));
       if (outcome_.exit == Exit::done) outcome_.exit = Exit::repaired;
     } else {
-      fail(found + ", and could not be mended: " + mended.cause());
+      fail(found.append(", and could not be mended: ").append(mended.cause()));
     }
   }
   void fail(std::string line) {
@@ -30,57 +30,56 @@ class Report {
 };
 
 std::string slot_text(Slot slot) {
-  return std::string("slot ") + letter_of(slot);
+  std::string text = "slot ";
+  return text += letter_of(slot);
 }
 
 void mend_attempts(Environment& environment, Report& report) {
   if (environment.damage_of_attempts()) return;
-  const std::string found =
-      std::string(attempts_name) + " is damaged: " + environment.damage_of_attempts().cause();
+  std::string found = attempts_name;
+  found.append(" is damaged: ").append(environment.damage_of_attempts().cause());
   report.conclude(found, environment.write(Attempts{}),
                   "written anew, so attempts are counted from the first again");
 }
 
 // The attempts first: a trial of the new choice may have the number of one that they have counted.
 void begin_anew(Environment& environment, const Running& running, Report& report) {
-  const std::string found = std::string("no copy of the boot choice can be read (") + copy_names[0] + ": " +
-                            environment.damage_of(0).cause() + "; " + copy_names[1] + ": " +
-                            environment.damage_of(1).cause() + ")";
+  std::string found = environment.damages().insert(0, "no copy of the boot choice can be read: ");
   if (!running.slot) {
-    report.fail(found +
-                ", and the kernel's command line has no rauc.slot=A or =B that tells which slot runs");
+    report.fail(
+        found.append(", and the kernel's command line has no rauc.slot=A or =B that tells which slot runs"));
     return;
   }
   const Status reset = environment.write(Attempts{});
-  report.conclude(found, environment.write(choice_of_running(*running.slot)),
-                  slot_text(*running.slot) + " runs and is kept, to be confirmed again; " +
-                      slot_text(other(*running.slot)) + " is out of use until a version is installed there");
-  if (!reset) report.fail(std::string(attempts_name) + " cannot be written: " + reset.cause());
+  std::string remedy = slot_text(*running.slot);
+  remedy.append(" runs and is kept, to be confirmed again; ").append(slot_text(other(*running.slot)));
+  remedy.append(" is out of use until a version is installed there");
+  report.conclude(found, environment.write(choice_of_running(*running.slot)), remedy);
+  if (!reset) report.fail(std::string("attempts cannot be forgotten: ").append(reset.cause()));
 }
 
 void mend_copies(Environment& environment, Report& report) {
   if (environment.has_two_equal_copies()) return;
-  const std::size_t copy = 1 - environment.newest_copy();
-  const Status damage = environment.damage_of(copy);
+  const std::string damages = environment.damages();
   const Status written = environment.write_other_copy();
-  if (damage)
+  if (damages.empty())
     report.conclude("the last change of the boot choice was cut short", written, "completed");
   else
-    report.conclude(std::string(copy_names[copy]) + " is damaged: " + damage.cause(), written,
-                    "written anew from the other copy");
+    report.conclude(damages, written, "written anew from the other copy");
 }
 
 void look_at_marks(Environment& environment, const Running& running, Report& report) {
   const Choice& choice = environment.choice();
   if (!running.slot || choice.of(*running.slot).is_whole) return;
+  std::string runs = slot_text(*running.slot);
   if (choice.of(other(*running.slot)).is_whole) {
-    report.note(slot_text(*running.slot) + " runs but is not marked as whole; next time " +
-                slot_text(other(*running.slot)) + " boots");
+    runs.append(" runs but is not marked as whole; next time ").append(slot_text(other(*running.slot)));
+    report.note(runs.append(" boots"));
     return;
   }
   report.conclude("no slot is marked as whole",
                   environment.write(with_whole_mark(with_primary(choice, *running.slot), *running.slot)),
-                  slot_text(*running.slot) + " runs, and has the mark now");
+                  runs.append(" runs, and has the mark now"));
 }
 
 }  // namespace

@@ -153,17 +153,12 @@ Outcome perform(const std::vector<std::string>& words, Medium& medium, const Run
   if (words[0] == "create") return create(medium);
   Environment environment(medium);
   if (words[0] == "repair") return repair(environment, running);
+  std::string damages = environment.damages();
   if (!environment.has_choice())
-    return failed(Exit::failed, std::string("no copy of the boot choice can be read (") + copy_names[0] +
-                                    ": " + environment.damage_of(0).cause() + "; " + copy_names[1] + ": " +
-                                    environment.damage_of(1).cause() + "); run 'repair'");
-  std::vector<std::string> damages;
-  for (std::size_t i = 0; i < copy_names.size(); ++i)
-    if (!environment.damage_of(i))
-      damages.push_back(std::string(copy_names[i]) + " is damaged: " + environment.damage_of(i).cause() +
-                        "; the other copy counts");
+    return failed(Exit::failed,
+                  damages.insert(0, "no copy of the boot choice can be read: ").append("; run 'repair'"));
   Outcome outcome = with_choice(environment, medium, words, running);
-  outcome.said.insert(outcome.said.begin(), damages.begin(), damages.end());
+  if (!damages.empty()) outcome.said.insert(outcome.said.begin(), damages.append("; the other copy counts"));
   return outcome;
 }
 

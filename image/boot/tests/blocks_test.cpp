@@ -65,8 +65,8 @@ void grub_reads_the_same() {
     CHECK_EQUAL(variables->size(), 3u);
     CHECK_EQUAL((*variables)["choice"], (*variables)["mirror"]);
     CHECK_EQUAL((*variables)["choice"].substr(11, 1), std::string(1, letter_of(choice.primary)));
-    CHECK_EQUAL((*variables)["choice"].substr(23, 2).front() == '1', choice.of(Slot::a).is_whole);
-    CHECK_EQUAL((*variables)["choice"].substr(26, 2).back() == '1', choice.of(Slot::b).is_confirmed);
+    CHECK_EQUAL((*variables)["choice"].substr(24, 2).front() == '1', choice.of(Slot::a).is_whole);
+    CHECK_EQUAL((*variables)["choice"].substr(27, 2).back() == '1', choice.of(Slot::b).is_confirmed);
   }
 }
 

@@ -40,11 +40,11 @@ void expect_start(GrubMachine& machine, const std::string& slot, const std::stri
 }
 
 // What GRUB can know of the attempts, and do about them.
-enum class Counting { of_another_trial, none, one, two, three, damaged, missing, read_only, lost };
+enum class Counting { of_another_trial, no_attempt, one, two, three, damaged, missing, read_only, lost };
 
 bool may_try(Counting counting) {
-  return counting == Counting::of_another_trial || counting == Counting::none || counting == Counting::one ||
-         counting == Counting::two;
+  return counting == Counting::of_another_trial || counting == Counting::no_attempt ||
+         counting == Counting::one || counting == Counting::two;
 }
 
 void set_up(GrubMachine& machine, Counting counting, std::uint64_t trial) {
@@ -53,14 +53,14 @@ void set_up(GrubMachine& machine, Counting counting, std::uint64_t trial) {
     case Counting::of_another_trial:
       file = block_of(Attempts{trial + 1, 3, Slot::a});
       break;
-    case Counting::none:
+    case Counting::no_attempt:
     case Counting::one:
     case Counting::two:
     case Counting::three:
-      file = block_of(
-          Attempts{trial, static_cast<unsigned>(counting) - static_cast<unsigned>(Counting::none), Slot::a});
+      file = block_of(Attempts{
+          trial, static_cast<unsigned>(counting) - static_cast<unsigned>(Counting::no_attempt), Slot::a});
       // With none of this trial's, GRUB has written of another one, if ever.
-      if (counting == Counting::none) file = block_of(Attempts{});
+      if (counting == Counting::no_attempt) file = block_of(Attempts{});
       break;
     case Counting::damaged:
       file[3] = 'x';
@@ -286,7 +286,7 @@ void damaged_bytes_lead_to_a_whole_slot() {
     const Running running = switch_on(script(), files);
     CHECK(running.slot.has_value());
     CHECK(choice.of(*running.slot).is_whole);
-    if (counts) CHECK(*running.slot == *expected_of(choice, Counting::none).first);
+    if (counts) CHECK(*running.slot == *expected_of(choice, Counting::no_attempt).first);
   }
 }
 

@@ -104,8 +104,9 @@ class Lexer {
       if (here() == '$') {
         read_variable(word, true);
       } else {
-        word.push_back({std::string(1, here()), false, true});
-        ++place_;
+        const std::size_t end = std::min(source_.find_first_of("\"$\n\\", place_), source_.size());
+        word.push_back({std::string(source_.substr(place_, end - place_)), false, true});
+        place_ = end;
       }
     }
     if (place_ == source_.size()) refuse("a quote does not end");
