@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -22,17 +23,35 @@ bool is_before(std::uint64_t ticket, std::uint64_t other) noexcept {
   return static_cast<std::int64_t>((ticket - other) << state_bits) < 0;
 }
 
+constexpr std::int64_t largest_integer = std::int64_t{1} << 60;
+
 std::uint64_t rank_of_integer(std::int64_t score) noexcept {
-  constexpr std::int64_t limit = std::int64_t{1} << 60;
-  return static_cast<std::uint64_t>(std::clamp(score, -limit, limit) + 2 * limit);
+  return static_cast<std::uint64_t>(std::clamp(score, -largest_integer, largest_integer) +
+                                    2 * largest_integer);
 }
+
+double score_of_integer(std::uint64_t rank) noexcept {
+  return static_cast<double>(static_cast<std::int64_t>(rank) - 2 * largest_integer);
+}
+
+constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63;
 
 /// The bits of a double order as the doubles do once negative ones are inverted.
 std::uint64_t rank_of_real(double score) noexcept {
   if (std::isnan(score)) return 0;
-  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
   const auto bits = std::bit_cast<std::uint64_t>(score + 0.0);  // −0 becomes 0
-  return ((bits & sign) != 0 ? ~bits : bits | sign) >> state_bits;
+  return ((bits & sign_bit) != 0 ? ~bits : bits | sign_bit) >> state_bits;
+}
+
+double score_of_real(std::uint64_t rank) noexcept {
+  if (rank == 0) return std::numeric_limits<double>::quiet_NaN();
+  const std::uint64_t bits = rank << state_bits;
+  return std::bit_cast<double>((bits & sign_bit) != 0 ? bits ^ sign_bit : ~bits & ~state_mask);
+}
+
+/// NaN is the lowest.
+bool is_higher(double one, double other) noexcept {
+  return std::isnan(other) ? !std::isnan(one) : one > other;
 }
 
 }  // namespace
@@ -58,6 +77,11 @@ std::uint64_t JobQueue::rank_of(const void* value) const noexcept {
         }
       });
   }
+}
+
+double JobQueue::score_of(std::uint64_t rank) const noexcept {
+  const bool is_real = order_.scalar == Scalar::f32 || order_.scalar == Scalar::f64;
+  return is_real ? score_of_real(rank) : score_of_integer(rank);
 }
 
 bool JobQueue::ranks_above(const Candidate& one, const Candidate& other) const noexcept {
@@ -99,6 +123,27 @@ std::uint32_t JobQueue::fill() const noexcept {
     if ((memory_.cells[index].word.load(std::memory_order_acquire) & state_mask) == full) ++sum;
   }
   return sum;
+}
+
+std::uint32_t JobQueue::scores(std::span<double> scores) const noexcept {
+  if (!order_.by_score || scores.empty()) return 0;
+  // A heap whose first is the lowest: it makes room for what is higher.
+  double* const first = scores.data();
+  std::uint32_t count = 0;
+  for (std::uint32_t index = 0; index < memory_.count; ++index) {
+    const std::uint64_t word = memory_.cells[index].word.load(std::memory_order_acquire);
+    if ((word & state_mask) != full) continue;
+    const double score = score_of(word >> state_bits);
+    if (count == scores.size()) {
+      if (!is_higher(score, *first)) continue;
+      std::pop_heap(first, first + count, is_higher);
+      --count;
+    }
+    first[count++] = score;
+    std::push_heap(first, first + count, is_higher);
+  }
+  std::sort_heap(first, first + count, is_higher);
+  return count;
 }
 
 bool JobQueue::has_empty_cell() const noexcept {

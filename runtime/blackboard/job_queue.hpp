@@ -60,6 +60,9 @@ class JobQueue final : public QueueSource {
 
   bool pop(void* value, ItemHeader& header) noexcept override;
   std::uint32_t fill() const noexcept override;
+  bool is_by_score() const noexcept override { return order_.by_score; }
+  /// As they rank: without what does not count of them. N loads.
+  std::uint32_t scores(std::span<double> scores) const noexcept override;
   std::uint64_t arrivals() const noexcept override { return arrivals_.load(std::memory_order_acquire); }
   const TypeDescriptor* type() const noexcept override { return type_; }
   std::uint32_t capacity() const noexcept { return memory_.count; }
@@ -82,6 +85,7 @@ class JobQueue final : public QueueSource {
   }
   /// The score of a value as a rank of 62 bits: a higher one is a higher rank.
   std::uint64_t rank_of(const void* value) const noexcept;
+  double score_of(std::uint64_t rank) const noexcept;
   bool ranks_above(const Candidate& one, const Candidate& other) const noexcept;
   Candidate look_at(std::uint32_t index) const noexcept;
   bool has_empty_cell() const noexcept;

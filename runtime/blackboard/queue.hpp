@@ -51,6 +51,12 @@ class QueueSource {
   /// How many items wait. Any thread; may be out of date at once.
   virtual std::uint32_t fill() const noexcept = 0;
   bool is_empty() const noexcept { return fill() == 0; }
+  /// Whether items come out by a score.
+  virtual bool is_by_score() const noexcept { return false; }
+  /// Scores of items that wait, the highest first: as many as there are, or as `scores` has room for. How
+  /// many that were; 0 unless is_by_score(). Any thread: reads what each writer made visible of an item's
+  /// rank, writes nothing, and may be out of date at once.
+  virtual std::uint32_t scores(std::span<double> /*scores*/) const noexcept { return 0; }
   /// Grows with every visible push: what a trigger compares. Any thread.
   virtual std::uint64_t arrivals() const noexcept = 0;
   virtual const TypeDescriptor* type() const noexcept = 0;

@@ -1,5 +1,6 @@
 #include "runtime/face/json_parts.hpp"
 
+#include <array>
 #include <utility>
 
 #include "runtime/core/value_json.hpp"
@@ -42,7 +43,15 @@ void write_readers(JsonWriter& json, const SlotFigures& slot) {
 }
 
 void write_queue(JsonWriter& json, const QueueFigures& queue) {
-  json.member("capacity", queue.record->capacity).member("fill", queue.fill).key("writers").begin_array();
+  json.member("capacity", queue.record->capacity).member("fill", queue.fill);
+  if (queue.is_by_score()) {
+    std::array<double, most_scores> scores{};
+    const std::uint32_t count = queue.scores(scores);
+    json.key("scores").begin_array();
+    for (std::uint32_t i = 0; i < count; ++i) json.value(scores[i]);
+    json.end_array();
+  }
+  json.key("writers").begin_array();
   for (std::size_t i = 0; i < queue.writer_count(); ++i) {
     const auto [name, counters] = queue.writer(i);
     json.begin_object().member("name", name).member("pushed", counters.pushed);

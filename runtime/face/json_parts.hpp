@@ -1,6 +1,8 @@
 // Parts of JSON that several ways in write alike.
 #pragma once
 
+#include <cstddef>
+
 #include "base/json_writer.hpp"
 #include "runtime/face/observed_slots.hpp"
 #include "runtime/face/statistics.hpp"
@@ -18,8 +20,10 @@ void write_cycles(JsonWriter& json, const ThreadFigures& thread);
 void write_thread(JsonWriter& json, const ThreadFigures& thread);
 /// "readers": a list of {"name", "read", "missed"}
 void write_readers(JsonWriter& json, const SlotFigures& slot);
-/// "capacity", "fill", "writers": a list of {"name", "pushed", "popped", "dropped"}, "readers": a list of
-/// names
+/// Scores of a queue that are told at most: the highest.
+inline constexpr std::size_t most_scores = 64;
+/// "capacity", "fill", of a queue by score "scores" of what waits, the highest first; "writers": a list of
+/// {"name", "pushed", "popped", "dropped"}, "readers": a list of names
 void write_queue(JsonWriter& json, const QueueFigures& queue);
 /// "reason", which is "" unless the slot is NULL, "sequence", "sampled_at_ns", "value"
 void write_observed(JsonWriter& json, const TypeDescriptor& type, const ObservedSlot& newest,

@@ -68,9 +68,9 @@ SlotFigures Statistics::slot(std::size_t slot) const noexcept {
 }
 
 QueueFigures Statistics::queue(std::size_t queue) const noexcept {
-  const QueueRecord& record = cell_->application().queues[queue];
-  // All readers of one queue draw from the same.
-  return {&record, record.sources.empty() ? 0 : record.sources[0]->fill()};
+  QueueFigures figures{&cell_->application().queues[queue], 0};
+  if (const QueueSource* const source = figures.source(); source != nullptr) figures.fill = source->fill();
+  return figures;
 }
 
 std::vector<std::optional<Duration>> response_estimates(const Cell& cell, bool realtime) {

@@ -74,6 +74,15 @@ struct QueueFigures {
   std::uint32_t fill;  ///< items that wait in it
 
   std::size_t writer_count() const noexcept { return record->sinks.size(); }
+  /// All readers of one queue draw from the same; null: nobody reads it.
+  const QueueSource* source() const noexcept {
+    return record->sources.empty() ? nullptr : record->sources[0];
+  }
+  bool is_by_score() const noexcept { return source() != nullptr && source()->is_by_score(); }
+  /// As QueueSource::scores().
+  std::uint32_t scores(std::span<double> scores) const noexcept {
+    return source() == nullptr ? 0 : source()->scores(scores);
+  }
   QueueWriterFigures writer(std::size_t writer) const noexcept {
     return {record->writers[writer], record->sinks[writer]->counters()};
   }

@@ -1,12 +1,15 @@
 // What every outsider of a cell shares: finding by name, looking at slots, making requests of what is
 // written.
+#include <cstddef>
 #include <cstring>
 #include <functional>
 #include <optional>
 
 #include "base/quantity_text.hpp"
+#include "runtime/blackboard/job_queue.hpp"
 #include "runtime/face/change.hpp"
 #include "runtime/face/component_values.hpp"
+#include "runtime/face/json_parts.hpp"
 #include "runtime/face/statistics.hpp"
 
 // CMocka's macros would change what the headers above declare.
@@ -165,6 +168,50 @@ void what_is_counted_is_had_of_each_part() {
   CHECK_EQUAL(counters.popped, 0U);
 }
 
+std::string written(const QueueRecord& record) {
+  QueueFigures figures{&record, 0};
+  if (figures.source() != nullptr) figures.fill = figures.source()->fill();
+  JsonWriter json{std::string{}};
+  json.begin_object();
+  write_queue(json, figures);
+  json.end_object();
+  return json.release();
+}
+
+void a_queue_by_score_tells_what_waits_in_it() {
+  constexpr std::size_t many = most_scores + 6;
+  JobQueueMemory<Item, many> memory{};
+  const JobOrder order{true, Scalar::f64, offsetof(Item, value)};
+  JobQueue queue{&item_type, memory.view(), DropPolicy::drop_newest, order};
+  JobSink sink{&queue};
+  QueueSink* const sinks[] = {&sink};
+  const char* const writers[] = {"one.orders"};
+  QueueSource* const sources[] = {&queue};
+  const char* const readers[] = {"two.orders"};
+  const QueueRecord record{"jobs", "", &item_type, many, sinks, writers, sources, readers, false};
+  CHECK_CONTAINS(written(record), R"("capacity":70,"fill":0,"scores":[],"writers":[{"name":"one.orders")");
+  for (const double level : {0.25, 2.0, -1.0}) {
+    const Item item{1, level};
+    CHECK(sink.push(&item, Time{}));
+  }
+  CHECK_CONTAINS(written(record), R"("fill":3,"scores":[2,0.25,-1],"writers")");
+  for (int level = 3; level < static_cast<int>(most_scores) + 6; ++level) {
+    const Item item{1, static_cast<double>(level)};
+    CHECK(sink.push(&item, Time{}));
+  }
+  // All are counted; the highest are told.
+  const std::string full = written(record);
+  CHECK_CONTAINS(full, R"("fill":70,"scores":[69,68,)");
+  CHECK_CONTAINS(full, R"(,7,6],"writers")");
+
+  JobQueue unordered{&item_type, memory.view(), DropPolicy::drop_newest};
+  QueueSource* const others[] = {&unordered};
+  const QueueRecord other{"jobs", "", &item_type, many, {}, {}, others, readers, false};
+  CHECK(written(other).find("scores") == std::string::npos);
+  const QueueRecord unread{"jobs", "", &item_type, many, {}, {}, {}, {}, false};
+  CHECK_CONTAINS(written(unread), R"("fill":0,"writers":[],"readers":[])");
+}
+
 template <class Range, class Name>
 std::string names_of(const Range& range, const Name& name) {
   std::string names;
@@ -301,6 +348,7 @@ int main() {
       CONTAINED_TEST(a_slot_is_read_once_in_a_turn_with_the_reason_when_there_is_nothing),
       CONTAINED_TEST(a_slot_that_is_not_observed_says_so),
       CONTAINED_TEST(what_is_counted_is_had_of_each_part),
+      CONTAINED_TEST(a_queue_by_score_tells_what_waits_in_it),
       CONTAINED_TEST(all_of_a_kind_come_in_the_order_of_their_table),
       CONTAINED_TEST(restraints_have_one_wording),
       CONTAINED_TEST(what_is_not_saved_has_one_wording),

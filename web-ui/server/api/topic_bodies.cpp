@@ -1,5 +1,6 @@
 #include "web-ui/server/api/topic_bodies.hpp"
 
+#include <algorithm>
 #include <ctime>
 
 #include "runtime/face/json_parts.hpp"
@@ -61,7 +62,13 @@ TopicBodies::TopicBodies(const Cell& cell)
     : cell_(&cell),
       statistics_(cell),
       response_estimates_(response_estimates(cell, cell.options().realtime)),
-      figures_(response_estimates_.size()) {}
+      figures_(response_estimates_.size()) {
+  constexpr std::size_t longest_score = 25;  // "-1.7976931348623157e+308,"
+  for (const QueueFigures& queue : statistics_.queues()) {
+    if (queue.is_by_score())
+      room_of_scores_ += longest_score * std::min<std::size_t>(queue.record->capacity, most_scores);
+  }
+}
 
 std::string_view TopicBodies::body(Topic topic, Time now) {
   Body& body = bodies_[static_cast<std::size_t>(topic)];
@@ -74,7 +81,7 @@ std::string_view TopicBodies::body(Topic topic, Time now) {
   body.text = json.release();
   // Nearly all of it are names, which stay: numbers that grow, also by a standstill, find room from now on.
   if (body.version == 0) {
-    body.text.reserve(2 * body.text.size());
+    body.text.reserve(2 * body.text.size() + (topic == Topic::queues ? room_of_scores_ : 0));
     body.former.reserve(body.text.capacity());
   }
   if (body.version == 0 || body.text != body.former) ++body.version;

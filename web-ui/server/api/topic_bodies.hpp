@@ -61,6 +61,7 @@ class TopicBodies {
   std::vector<std::optional<Duration>> response_estimates_;  // per thread
   std::vector<KernelFigures> figures_;                       // per thread, looked up once a second
   Time figures_at_{};
+  std::size_t room_of_scores_ = 0;  // bytes that those of all queues take at most
 };
 
 const char* name_of(Topic topic) noexcept;

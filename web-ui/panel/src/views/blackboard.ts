@@ -7,6 +7,7 @@ import { words } from '../widgets/value_text';
 import { ownerOf, slotColumns, SlotRow, type SlotCounters } from './blackboard_rows';
 import { countText, rateText } from './durations';
 import { RateMeters } from './rates';
+import { scoreBars, type Scores } from './score_bars';
 import { table } from './table';
 import { addressOf, ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
@@ -15,8 +16,15 @@ import { hasAll, wordsOf } from './wanted_words';
 /** A row of topic "queues". */
 interface QueueCounters {
   readonly name: string;
+  /** Items that wait. */
+  readonly fill: number;
+  /** Of a queue that is ordered by a score: of what waits, the highest first. */
+  readonly scores?: Scores;
   readonly writers: readonly { readonly name: string; readonly pushed: number; readonly popped: number; readonly dropped: number }[];
 }
+
+/** Of a queue that has room for more the bars become narrower when they come. */
+const most_bars = 32;
 
 @customElement('flexrf-blackboard')
 export class Blackboard extends ViewBase {
@@ -61,6 +69,26 @@ export class Blackboard extends ViewBase {
         width: 100cqw;
         max-width: 64rem;
         padding-inline: 1.5em 8px;
+      }
+      .scores-cell {
+        white-space: nowrap;
+        /* There also while nothing waits: what is beside it stays where it is. */
+        min-width: 13rem;
+      }
+      svg.scores {
+        width: 6rem;
+        height: 1.35em;
+        vertical-align: bottom;
+        background: var(--field);
+        fill: var(--fill);
+      }
+      .score-range {
+        color: var(--muted);
+      }
+      @media (forced-colors: active) {
+        svg.scores {
+          fill: CanvasText;
+        }
       }
       .filter {
         display: flex;
@@ -172,30 +200,34 @@ export class Blackboard extends ViewBase {
     const queues = this.core.model.queues.filter((queue) =>
       hasAll([queue.name, queue.type, ...queue.writers, ...queue.readers].join(' '), this.words));
     if (this.core.model.queues.length === 0) return nothing;
+    const scores = this.hasScores ? ['Scores'] : [];
     return html`
       <h3 id="queues-title">Queues</h3>
       <div class="scroll ${this.age}" tabindex="0" role="region" aria-labelledby="queues-title">
         ${table(
           'Each item goes to one reader; a line for each writer',
-          ['Queue', 'Type', 'Capacity', 'When full', 'Writer', 'Pushed', 'Rate', 'Taken', 'Dropped', 'Readers'],
+          ['Queue', 'Waiting', ...scores, 'Capacity', 'When full', 'Type', 'Writer', 'Pushed', 'Rate', 'Taken', 'Dropped', 'Readers'],
           repeat(queues, (queue) => queue.name, (queue) => queue.writers.map((name, i) => this.queueRow(queue, name, i))),
-          ['Capacity', 'Pushed', 'Rate', 'Taken', 'Dropped'],
+          ['Waiting', 'Capacity', 'Pushed', 'Rate', 'Taken', 'Dropped'],
         )}
       </div>
     `;
   }
 
   private queueRow(queue: QueueJson, writer: string, index: number): unknown {
-    const counters = this.queues.get(queue.name)?.writers[index];
+    const figures = this.queues.get(queue.name);
+    const counters = figures?.writers[index];
     const count = (value: number | undefined): string => (value === undefined ? '–' : countText(value));
     const dropped = counters !== undefined && counters.dropped > 0;
     return html`
       <tr>
         ${index === 0
           ? html`<th scope="rowgroup" rowspan=${queue.writers.length} title=${queue.summary}>${queue.name}</th>
-              <td rowspan=${queue.writers.length}>${queue.type}</td>
+              <td rowspan=${queue.writers.length} class="number">${count(figures?.fill)}</td>
+              ${this.hasScores ? html`<td rowspan=${queue.writers.length} class="scores-cell">${scoresOf(queue, figures)}</td>` : nothing}
               <td rowspan=${queue.writers.length} class="number">${queue.capacity}</td>
-              <td rowspan=${queue.writers.length}>${words(queue.policy)}</td>`
+              <td rowspan=${queue.writers.length}>${words(queue.policy)}</td>
+              <td rowspan=${queue.writers.length}>${queue.type}</td>`
           : nothing}
         <td>${this.portLink(writer)}</td>
         <td class="number">${count(counters?.pushed)}</td>
@@ -207,6 +239,10 @@ export class Blackboard extends ViewBase {
           : nothing}
       </tr>
     `;
+  }
+
+  private get hasScores(): boolean {
+    return this.core.model.queues.some((queue) => queue.score !== undefined);
   }
 
   private portLink(port: string): unknown {
@@ -249,6 +285,11 @@ export class Blackboard extends ViewBase {
       this.renderRoot.querySelector('#queues-title')?.scrollIntoView();
     }
   }
+}
+
+function scoresOf(queue: QueueJson, figures: QueueCounters | undefined): unknown {
+  if (queue.score === undefined || figures?.scores === undefined) return nothing;
+  return scoreBars(figures.scores, figures.fill, Math.min(queue.capacity, most_bars), queue.score);
 }
 
 function listOf<Row>(body: unknown): Row[] {

@@ -120,12 +120,32 @@ describe('the blackboard', () => {
   it('shows queues, a line for each writer, and what was dropped', async () => {
     await shown();
     fake.topic('queues', [
-      { name: 'jobs', writers: [{ name: 'motor.jobs', pushed: 9, popped: 7, dropped: 0 }, { name: 'axis[1].more', pushed: 5, popped: 1, dropped: 4 }] },
+      { name: 'jobs', fill: 3, writers: [{ name: 'motor.jobs', pushed: 9, popped: 7, dropped: 0 }, { name: 'axis[1].more', pushed: 5, popped: 1, dropped: 4 }] },
     ]);
     await view.updateComplete;
     const lines = [...view.shadowRoot!.querySelectorAll('tbody:not(#slots) tr')].map((line) => line.textContent!.replace(/\s+/g, ' ').trim());
-    expect(lines[0]).toContain('drop oldest');
+    expect(lines[0]).toMatch(/^jobs 3 4 drop oldest Place motor\.jobs/);
     expect(lines[1]).toContain('▲ 4');
+    expect(view.shadowRoot!.querySelector('.scores-cell')).toBeNull(); // none is ordered by a score
+  });
+
+  it('shows the scores of what waits, of a queue that is ordered by them', async () => {
+    fake = new FakeCore({ ...cell, queues: cell.queues.map((queue) => ({ ...queue, share: 'jobs', score: 'urgency' })) });
+    await shown();
+    const told = async (fill: number, scores: (number | null)[]): Promise<void> => {
+      fake.topic('queues', [{ name: 'jobs', fill, scores, writers: [] }]);
+      await view.updateComplete;
+    };
+    const cellOf = (): Element => view.shadowRoot!.querySelector('.scores-cell')!;
+    expect(cellOf().textContent!.trim()).toBe('');
+    await told(3, [2, 0.25, -1]);
+    expect(cellOf().textContent!.trim()).toBe('2 to −1');
+    expect(cellOf().querySelector('svg')!.getAttribute('aria-label')).toBe('urgency of what waits: 2 to −1');
+    expect(cellOf().querySelector('svg')!.getAttribute('viewBox')).toBe('0 0 4 100');
+    await told(70, [2, 1]);
+    expect(cellOf().querySelector('svg')!.getAttribute('aria-label')).toBe('urgency of what waits, the highest 2: 2 to 1');
+    await told(0, []);
+    expect(cellOf().textContent!.trim()).toBe('');
   });
 
   it('ends everything it began, and begins anew', async () => {
