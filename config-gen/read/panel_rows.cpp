@@ -6,15 +6,17 @@
 #include "config-gen/read/panel_fields.hpp"
 #include "config-gen/read/panel_files.hpp"
 #include "config-gen/read/panel_layers.hpp"
+#include "config-gen/read/panel_lists.hpp"
 
 namespace flexrf::config_gen {
 namespace {
 
 const std::vector<std::string>& built_in_kinds() {
   static const std::vector<std::string> kinds = {
-      "number",  "vector",       "matrix",    "lamp",       "enumeration", "text",   "image", "gauge",
-      "pose_2d", "robot",        "histogram", "structure",  "records",     "button", "hold",  "toggle",
-      "slider",  "number_field", "select",    "text_field", "array_field", "jog_pad"};
+      "number",  "vector",     "matrix",      "lamp",    "enumeration", "text",
+      "image",   "gauge",      "pose_2d",     "robot",   "histogram",   "structure",
+      "records", "button",     "hold",        "toggle",  "slider",      "number_field",
+      "select",  "text_field", "array_field", "jog_pad", "population",  "timeline"};
   return kinds;
 }
 
@@ -274,6 +276,8 @@ void Reader::read_widget(const Node& node) {
   read_device(row, widget);
   read_options(row, widget);
   read_layers(assembly_, row, widget);
+  if (widget.kind == "population") check_population_row(assembly_, row, widget);
+  if (widget.kind == "timeline") check_timeline_row(assembly_, row);
   row.finish();
   assembly_.model.panel.widgets.push_back(std::move(widget));
 }
