@@ -14,6 +14,7 @@
 #include "runtime/executive/control.hpp"
 #include "runtime/executive/narrowed_type.hpp"
 #include "runtime/executive/options.hpp"
+#include "runtime/executive/step_trace.hpp"
 #include "runtime/parameters/audit_intake.hpp"
 #include "runtime/parameters/parameter_store.hpp"
 #include "runtime/parameters/request.hpp"
@@ -114,6 +115,13 @@ class Cell {
   void note_configuration(ComponentIndex component);
   RuntimeParameters& parameters(ComponentIndex component) noexcept { return parameters_[component]; }
 
+  /// From here on somebody may ask for the steps that threads take. Main thread, before any of them runs.
+  void keep_step_traces() {
+    if (step_traces_ == nullptr) step_traces_ = std::make_unique<StepTraces>(application_->threads.size());
+  }
+  /// Null: nobody may.
+  StepTraces* step_traces() noexcept { return step_traces_.get(); }
+
   // ---- for who keeps the configuration file
 
   /// The values in the component's memory are those of the file, which gives the marked ones. Main thread,
@@ -201,6 +209,7 @@ class Cell {
   };
   std::unique_ptr<ConfigurationSettings[]> configuration_settings_;
   std::atomic<std::uint64_t> settings_revision_{0};
+  std::unique_ptr<StepTraces> step_traces_;
   ValueSaver* saver_ = nullptr;
 };
 

@@ -20,6 +20,11 @@ Release Releases::take(const Due& due, Time now) noexcept {
   const bool periodic = record_->trigger.kind == TriggerKind::period && !due.timed_out;
   const Release release{periodic ? due.at : now, now, due.fired, due.timed_out};
   trigger_.released(release.nominal, now);
+  if (record_->trigger.kind == TriggerKind::backoff) {
+    ThreadState& state = stepper_.state();
+    state.backoff_mean.store(trigger_.backoff().mean().count(), std::memory_order_relaxed);
+    state.backoff_spread.store(trigger_.backoff().spread().count(), std::memory_order_relaxed);
+  }
   return release;
 }
 

@@ -79,6 +79,9 @@ struct ThreadState {
   std::atomic<const char*> stepped{nullptr};  ///< unit or device that its thread is busy with; null: none
   std::atomic<std::uint64_t> turns{0};  ///< with a step or without: that it runs at all; see HeartbeatWatch
   std::atomic<std::int32_t> thread_id{0};  ///< kernel's, for /proc
+  // Of a thread that polls by back-off: what it learned of the time between arrivals, ns; 0 before.
+  std::atomic<std::int64_t> backoff_mean{0};
+  std::atomic<std::int64_t> backoff_spread{0};
   // What the kernel counted from the thread's first wait to its end; filled in at the end.
   std::atomic<std::uint64_t> minor_faults{0};
   std::atomic<std::uint64_t> major_faults{0};

@@ -227,6 +227,7 @@ Time Stepper::run(const Release& release) noexcept {
   begin(release);
   receive(release.now);
   Time now = release.now;
+  StepTrace* const trace = asked_trace(now);
   for (std::size_t place = 0; place < record_->units.size(); ++place) {
     if (!step(place, now)) continue;
     // One reading of the clock ends this step's measurement and stamps the next step.
@@ -237,11 +238,20 @@ Time Stepper::run(const Release& release) noexcept {
     if (took > unit.execution_maximum.load(std::memory_order_relaxed)) {
       unit.execution_maximum.store(took, std::memory_order_relaxed);
     }
+    if (trace != nullptr) [[unlikely]]
+      trace->note({record_->units[place], now, Duration{took}});
     now = ended;
   }
   send(now);
   state_->step_began.store(0, std::memory_order_release);
   return receives_ ? MonotonicClock::now() : now;
+}
+
+/// Null while nobody asks.
+StepTrace* Stepper::asked_trace(Time now) const noexcept {
+  StepTraces* const traces = cell_->step_traces();
+  if (traces == nullptr) return nullptr;
+  return traces->asked(static_cast<std::size_t>(record_ - application_->threads.data()), now);
 }
 
 void Stepper::begin(const Release& release) noexcept {

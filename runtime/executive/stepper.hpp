@@ -50,6 +50,7 @@ class Stepper {
   ThreadState& state() noexcept { return *state_; }
 
  private:
+  StepTrace* asked_trace(Time now) const noexcept;
   void begin_step(Time now) noexcept;
   void note_stepped(const char* component) noexcept;
   void give_back() noexcept;

@@ -44,6 +44,8 @@ class Trigger {
   std::uint64_t finished(Time ended, OverrunPolicy policy) noexcept;
 
   Time last_release() const noexcept { return last_; }
+  /// What it learned, where it polls by back-off.
+  const Backoff& backoff() const noexcept { return backoff_; }
   /// Descriptor whose readability releases the thread, or −1.
   int descriptor() const noexcept;
 

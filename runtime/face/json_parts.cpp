@@ -19,6 +19,16 @@ void write_cycles(JsonWriter& json, const ThreadFigures& thread) {
   json.member("longest_standstill_ns", thread.longest_standstill.count());
 }
 
+void write_backoff(JsonWriter& json, const ThreadFigures& thread) {
+  json.key("backoff");
+  if (thread.record->trigger.kind != TriggerKind::backoff) {
+    json.null();
+    return;
+  }
+  json.begin_object().member("mean_ns", thread.backoff_mean.count());
+  json.member("spread_ns", thread.backoff_spread.count()).end_object();
+}
+
 void write_thread(JsonWriter& json, const ThreadFigures& thread) {
   json.member("name", thread.record->name).member("priority", thread.record->priority);
   write_cycles(json, thread);
@@ -28,6 +38,7 @@ void write_thread(JsonWriter& json, const ThreadFigures& thread) {
     write_quantiles(json, *measured);
     json.end_object();
   }
+  write_backoff(json, thread);
   json.member("budget_ns", thread.record->budget.count());
   json.member("deadline_ns", thread.record->deadline.count());
 }

@@ -15,8 +15,10 @@ namespace flexrf {
 void write_quantiles(JsonWriter& json, const Histogram& histogram);
 /// "cycles", "overruns", "skipped", "skipped_time_ns", "longest_standstill_ns"
 void write_cycles(JsonWriter& json, const ThreadFigures& thread);
-/// "name", "priority", what write_cycles() writes, "lateness" and "execution" with their quantiles,
-/// "budget_ns", "deadline_ns"
+/// "backoff": {"mean_ns", "spread_ns"} of a thread that polls by back-off, else null
+void write_backoff(JsonWriter& json, const ThreadFigures& thread);
+/// "name", "priority", what write_cycles() writes, "lateness" and "execution" with their quantiles, what
+/// write_backoff() writes, "budget_ns", "deadline_ns"
 void write_thread(JsonWriter& json, const ThreadFigures& thread);
 /// "readers": a list of {"name", "read", "missed"}
 void write_readers(JsonWriter& json, const SlotFigures& slot);

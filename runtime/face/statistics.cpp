@@ -55,6 +55,8 @@ ThreadFigures Statistics::thread(std::size_t thread) const noexcept {
           state.allocations.load(std::memory_order_relaxed),
           &state.lateness,
           &state.execution,
+          Duration{state.backoff_mean.load(std::memory_order_relaxed)},
+          Duration{state.backoff_spread.load(std::memory_order_relaxed)},
           state.minor_faults.load(std::memory_order_relaxed),
           state.major_faults.load(std::memory_order_relaxed),
           state.voluntary_switches.load(std::memory_order_relaxed),

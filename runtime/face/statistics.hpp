@@ -49,6 +49,9 @@ struct ThreadFigures {
   std::uint64_t allocations;
   const Histogram* lateness;
   const Histogram* execution;
+  // What back-off learned of the time between arrivals; 0: nothing yet, or it does not poll.
+  Duration backoff_mean;
+  Duration backoff_spread;
   // What the kernel counted from the thread's first wait to its end; nothing before that.
   std::uint64_t minor_faults;
   std::uint64_t major_faults;

@@ -269,6 +269,30 @@ void feedback_is_published_after_the_step() {
   CHECK(false);
 }
 
+/// Who steps when, while somebody asks, and only then.
+void steps_are_traced_while_somebody_asks() {
+  Cell cell;
+  RunningCell running(cell);
+  flexrf::Cell& inside = running.executive().cell();
+  inside.keep_step_traces();
+  running.start();
+  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::producer).steps > 5; }));
+  std::vector<TracedStep> steps(StepTrace::most);
+  const StepTrace& trace = inside.step_traces()->of(Cell::producing);
+  CHECK_EQUAL(trace.copy(Time{}, steps).count, 0U);
+  const Time asked_at = MonotonicClock::now();
+  inside.step_traces()->ask(asked_at + std::chrono::seconds{60});
+  CHECK(RunningCell::wait_until([&] { return trace.copy(Time{}, steps).count > 5; }));
+  inside.step_traces()->ask(Time{});
+  const std::size_t count = trace.copy(Time{}, steps).count;
+  for (std::size_t i = 0; i < count; ++i) {
+    CHECK_EQUAL(steps[i].unit, Cell::producer);
+    CHECK(steps[i].begin >= asked_at - std::chrono::seconds{1} && steps[i].took.count() >= 0);
+    if (i > 0) CHECK(steps[i].begin >= steps[i - 1].begin + steps[i - 1].took);
+  }
+  CHECK_EQUAL(running.finish().exit_code, 0);
+}
+
 }  // namespace
 }  // namespace flexrf::fixture
 
@@ -284,6 +308,7 @@ int main() {
       CONTAINED_TEST(a_sleeping_thread_serves_requests_without_a_step),
       CONTAINED_TEST(a_button_counts_presses_since_the_last_step),
       CONTAINED_TEST(feedback_is_published_after_the_step),
+      CONTAINED_TEST(steps_are_traced_while_somebody_asks),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

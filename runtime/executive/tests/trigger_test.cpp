@@ -305,6 +305,10 @@ void back_off_finds_every_item_of_a_steady_source_soon() {
   CHECK(missed <= 10);
   std::sort(ages.begin(), ages.end());
   CHECK(ages[ages.size() / 2] < milliseconds{1});
+  const Duration learned{cell.thread_state(Cell::consuming).backoff_mean.load()};
+  CHECK(learned > milliseconds{9} && learned < milliseconds{11});
+  CHECK(cell.thread_state(Cell::consuming).backoff_spread.load() > 0);
+  CHECK_EQUAL(cell.thread_state(Cell::producing).backoff_mean.load(), 0);
 }
 
 // [exec-13]

@@ -88,6 +88,19 @@ export interface Joint {
   readonly range?: readonly [number, number];
 }
 
+/** A unit, as the tables connect it. */
+export interface UnitInfo {
+  readonly name: string;
+  /** Among all units, in the order of the tables: its number in the list `steps`. */
+  readonly index: number;
+  readonly thread: string;
+  /** By output port the slot that it publishes into; of one that is not connected, or goes into a queue: none. */
+  readonly outputs: { readonly [port: string]: string };
+}
+
+/** Lists of what the application counts, as docs/panel-protocol.md has them. */
+export type ListName = 'components' | 'slots' | 'queues' | 'threads' | 'steps';
+
 /** What a widget is given. The same for built-in and custom ones. */
 export interface WidgetHost {
   /**
@@ -112,6 +125,11 @@ export interface WidgetHost {
   file(path: string): Promise<Response>;
   /** Of an arm, from base to tool: in the order in which slots carry their positions. */
   joints(device: string): readonly Joint[];
+  /** The members of the population of this name, in their order, or the unit of this name; none: there is no such. */
+  units(name: string): readonly UnitInfo[];
+  /** The newest list, `rate` times a second (at most 10, default 2) if it is another; once at once if it is known. Ends with the
+   *  returned function. */
+  watchList(name: ListName, callback: (list: unknown) => void, rate?: number): () => void;
 }
 
 /** Things that a slot tells of, to be drawn. Fields are paths, as "region.left" or "pixel[0]": of a thing, but `count`. */

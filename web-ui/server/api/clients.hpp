@@ -60,8 +60,8 @@ struct SlotSubscription {
   Seen seen;
 };
 
-enum class Topic : std::uint8_t { components, slots, queues, threads, log };
-inline constexpr std::size_t topic_count = 5;
+enum class Topic : std::uint8_t { components, slots, queues, threads, steps, log };
+inline constexpr std::size_t topic_count = 6;
 
 struct TopicSubscription {
   Duration interval{};  ///< zero: not subscribed

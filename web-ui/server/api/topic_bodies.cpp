@@ -52,22 +52,33 @@ const char* name_of(Topic topic) noexcept {
       return "queues";
     case Topic::threads:
       return "threads";
+    case Topic::steps:
+      return "steps";
     case Topic::log:
       return "log";
   }
   return "unknown";
 }
 
-TopicBodies::TopicBodies(const Cell& cell)
+TopicBodies::TopicBodies(Cell& cell)
     : cell_(&cell),
       statistics_(cell),
       response_estimates_(response_estimates(cell, cell.options().realtime)),
-      figures_(response_estimates_.size()) {
+      figures_(response_estimates_.size()),
+      steps_(std::min(StepTrace::most, most_steps / std::max<std::size_t>(figures_.size(), 1))) {
+  cell.keep_step_traces();
   constexpr std::size_t longest_score = 25;  // "-1.7976931348623157e+308,"
   for (const QueueFigures& queue : statistics_.queues()) {
     if (queue.is_by_score())
       room_of_scores_ += longest_score * std::min<std::size_t>(queue.record->capacity, most_scores);
   }
+}
+
+/// Beyond twice what the first one takes.
+std::size_t TopicBodies::room_to_grow(Topic topic) const noexcept {
+  constexpr std::size_t usual_step = 24;  // "123,1234567890,123456789,"
+  if (topic == Topic::queues) return room_of_scores_;
+  return topic == Topic::steps ? usual_step * steps_.size() * figures_.size() : 0;
 }
 
 std::string_view TopicBodies::body(Topic topic, Time now) {
@@ -81,7 +92,7 @@ std::string_view TopicBodies::body(Topic topic, Time now) {
   body.text = json.release();
   // Nearly all of it are names, which stay: numbers that grow, also by a standstill, find room from now on.
   if (body.version == 0) {
-    body.text.reserve(2 * body.text.size() + (topic == Topic::queues ? room_of_scores_ : 0));
+    body.text.reserve(2 * body.text.size() + room_to_grow(topic));
     body.former.reserve(body.text.capacity());
   }
   if (body.version == 0 || body.text != body.former) ++body.version;
@@ -101,6 +112,8 @@ void TopicBodies::write(JsonWriter& json, Topic topic, Time now) {
       return write_queues(json);
     case Topic::threads:
       return write_threads(json, now);
+    case Topic::steps:
+      return write_steps(json, now);
     case Topic::log:
       break;
   }
@@ -178,11 +191,30 @@ void TopicBodies::write_threads(JsonWriter& json, Time now) {
     write_known(json, "cpu", figures_[i].cpu);
     write_known(json, "cpu_time_ns", cpu_time(thread.id));
     json.member("minor_faults", figures_[i].minor_faults).member("major_faults", figures_[i].major_faults);
+    write_backoff(json, thread);
     json.key("lateness");
     write_histogram(json, *thread.lateness);
     json.key("execution");
     write_histogram(json, *thread.execution);
     json.end_object();
+  }
+  json.end_array();
+}
+
+void TopicBodies::write_steps(JsonWriter& json, Time now) {
+  StepTraces& traces = *cell_->step_traces();
+  traces.ask(now + traced_for);
+  const std::span<const ThreadRecord> threads = cell_->application().threads;
+  json.begin_array();
+  for (std::size_t i = 0; i < threads.size(); ++i) {
+    const auto [count, cut] = traces.of(i).copy(now - told_for, steps_);
+    const std::span<const TracedStep> told = std::span<const TracedStep>{steps_}.first(count);
+    const Time begin = told.empty() ? Time{} : told[0].begin;
+    json.begin_object().member("thread", threads[i].name).member("begin_ns", nanoseconds(begin));
+    json.member("cut", cut).key("steps").begin_array();
+    for (const TracedStep& step : told)
+      json.value(step.unit).value((step.begin - begin).count()).value(step.took.count());
+    json.end_array().end_object();
   }
   json.end_array();
 }

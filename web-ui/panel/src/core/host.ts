@@ -1,5 +1,5 @@
 // What every widget is given: the core behind the contract of widgets.
-import type { Hold, Joint, Outcome, Reading, SetOptions, Value, WidgetHost } from '../contract';
+import type { Hold, Joint, ListName, Outcome, Reading, SetOptions, UnitInfo, Value, WidgetHost } from '../contract';
 import { sameValue } from './same_value';
 import type { ConfigurationValues } from './configuration';
 import type { Item } from './descriptor';
@@ -14,6 +14,8 @@ import type { Subscriptions } from './subscriptions';
 export interface HostParts {
   readonly item: (key: string) => Item | undefined;
   readonly joints: (device: string) => readonly Joint[];
+  readonly units: (name: string) => readonly UnitInfo[];
+  readonly watchList: (name: ListName, callback: (list: unknown) => void, rate?: number) => () => void;
   readonly store: Store;
   readonly subscriptions: Subscriptions;
   readonly configuration: ConfigurationValues;
@@ -126,6 +128,14 @@ export class Host implements WidgetHost {
 
   joints(device: string): readonly Joint[] {
     return this.parts.joints(device);
+  }
+
+  units(name: string): readonly UnitInfo[] {
+    return this.parts.units(name);
+  }
+
+  watchList(name: ListName, callback: (list: unknown) => void, rate?: number): () => void {
+    return this.parts.watchList(name, callback, rate);
   }
 
   async file(path: string): Promise<Response> {

@@ -1,5 +1,5 @@
 // What the server says in JSON, as docs/panel-protocol.md has it.
-import type { Role, Value } from '../contract';
+import type { ListName, Role, Value } from '../contract';
 
 /** RFC 9457. */
 export interface Problem {
@@ -105,7 +105,7 @@ export interface LogLine {
   readonly text: string;
 }
 
-export type TopicName = 'components' | 'slots' | 'queues' | 'threads' | 'log';
+export type TopicName = ListName | 'log';
 
 export type ServerEvent =
   | Hello

@@ -23,6 +23,8 @@ export interface BuiltInWidgets {
   registerBuiltIn(register: RegisterWidget): void;
   /** All others, in a chunk of their own. */
   registerFurther(register: RegisterWidget): Promise<void>;
+  /** One that comes by itself; undefined: the panel has none of this kind beside those. */
+  loadApart(kind: string): Promise<WidgetClass | undefined>;
   /** `item.widget` where it fits or is none of the built-in ones, or else what suits the item's type. */
   kindOf(item: ItemInfo): string;
   /** The kind of a row [widget.NAME] where that fits its item, or else what suits the item's type. */
@@ -100,14 +102,21 @@ export class Registry {
     await this.#further;
   }
 
+  async #loadOwn(kind: string): Promise<WidgetClass | undefined> {
+    const builtIn = await this.#builtIns();
+    return loadPart(() => builtIn.loadApart(kind));
+  }
+
   #load(kind: string): Promise<void> {
     if (!kindPattern.test(kind)) return Promise.reject(new Error(`"${kind}" is no name of a widget`));
     let loading = this.#loading.get(kind);
     if (!loading) {
-      loading = this.loadCustom(`/application/widgets/${kind}.js`).then((module) => {
-        if (module.register) module.register(this.register);
-        else if (module.default) this.register(kind, module.default);
-      });
+      loading = this.#loadOwn(kind).then((element) => element
+        ? this.register(kind, element)
+        : this.loadCustom(`/application/widgets/${kind}.js`).then((module) => {
+          if (module.register) module.register(this.register);
+          else if (module.default) this.register(kind, module.default);
+        }));
       this.#loading.set(kind, loading);
       loading.catch(() => this.#loading.delete(kind)); // another try, once the file is there
     }

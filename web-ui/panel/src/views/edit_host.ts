@@ -1,6 +1,6 @@
 // What widgets of configuration parameters are given as their host: they show the configuration in force, or the draft
 // while it is being edited, and what they set goes into the draft. All else is the page's own host.
-import type { Hold, ItemInfo, Joint, Outcome, Reading, SetOptions, Value, WidgetHost } from '../contract';
+import type { Hold, ItemInfo, Joint, ListName, Outcome, Reading, SetOptions, UnitInfo, Value, WidgetHost } from '../contract';
 import { sameValue } from '../core/same_value';
 import { partOf, partsOf } from '../core/value_path';
 import { added } from '../core/watchers';
@@ -110,6 +110,14 @@ export class EditHost implements WidgetHost {
 
   joints(device: string): readonly Joint[] {
     return this.base.joints(device);
+  }
+
+  units(name: string): readonly UnitInfo[] {
+    return this.base.units(name);
+  }
+
+  watchList(name: ListName, callback: (list: unknown) => void, rate?: number): () => void {
+    return this.base.watchList(name, callback, rate);
   }
 
   file(path: string): Promise<Response> {

@@ -25,6 +25,8 @@ export interface ThreadRow {
   /** Which one it runs on, where it is pinned to one. */
   readonly cpu: number | null;
   readonly cpu_time_ns: number | null;
+  /** Of one that polls by back-off: what it learned of the time between arrivals; 0: nothing yet. */
+  readonly backoff?: { readonly mean_ns: number; readonly spread_ns: number } | null;
   readonly lateness: DurationHistogram;
   readonly execution: DurationHistogram;
 }
@@ -175,6 +177,12 @@ export class Threads extends ViewBase {
               </dd>
               <dt>Releases</dt>
               <dd>${countText(row.cycles)}, ${rateText(rates?.cycles ?? null)}</dd>
+              ${row.backoff == null
+                ? nothing
+                : html`<dt>Learned interval</dt>
+                    <dd>
+                      ${row.backoff.mean_ns === 0 ? 'not known yet' : `${durationText(row.backoff.mean_ns)} ± ${durationText(row.backoff.spread_ns)}`}
+                    </dd>`}
               <dt>Overruns</dt>
               <dd>${abnormal(row.overruns)}</dd>
               <dt>Skipped</dt>

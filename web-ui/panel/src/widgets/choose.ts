@@ -54,9 +54,11 @@ const fits: { readonly [kind: string]: Fit } = {
   },
   jog_pad: { needs: 'a row [widget.NAME] with holds among its parameters', fits: () => false },
   robot: { needs: 'a row [widget.NAME] with a device and a slot of its joints', fits: () => false },
+  population: { needs: 'a row [widget.NAME] with a slot of members', fits: () => false },
+  timeline: { needs: 'a row [widget.NAME] with populations or units', fits: () => false },
 };
 /** Made of several items, which only a row [widget.NAME] can name. */
-const several: ReadonlySet<string> = new Set(['jog_pad', 'robot']);
+const several: ReadonlySet<string> = new Set(['jog_pad', 'robot', 'population', 'timeline']);
 
 /** Of an item, by its type alone. */
 export function defaultKind(item: ItemInfo): string {

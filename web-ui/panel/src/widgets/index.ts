@@ -1,5 +1,5 @@
 // The widgets that a first view needs, in one chunk; those that change something or draw come with a second one.
-import type { RegisterWidget } from '../contract';
+import type { RegisterWidget, WidgetElement } from '../contract';
 import { ArrayReadout } from './array_readout';
 import { Lamp } from './lamp';
 import { NumberReadout } from './number_readout';
@@ -18,6 +18,17 @@ export function registerBuiltIn(register: RegisterWidget): void {
   register('text', TextReadout);
   register('structure', Structure);
   register('records', Records);
+}
+
+/** Kinds that few applications show: each is loaded by itself. */
+const apart: { readonly [kind: string]: (() => Promise<new () => WidgetElement>) | undefined } = {
+  population: async () => (await import('./population')).Population,
+  timeline: async () => (await import('./timeline')).Timeline,
+};
+
+/** undefined: there is no such kind, or it is one of the others. */
+export async function loadApart(kind: string): Promise<(new () => WidgetElement) | undefined> {
+  return Object.hasOwn(apart, kind) ? apart[kind]?.() : undefined;
 }
 
 /** All others; needed for any item that can be changed, whatever its kind of widget. */

@@ -183,6 +183,7 @@ describe('the core', () => {
     const builtIn: BuiltInWidgets = {
       registerBuiltIn: (register) => register('plain', class extends HTMLElement { host!: WidgetHost; }),
       registerFurther: () => Promise.resolve(),
+      loadApart: () => Promise.resolve(undefined),
       kindOf: () => 'plain',
       placedKind: () => 'plain',
     };

@@ -8,6 +8,7 @@ function builtIn(): BuiltInWidgets {
   return {
     registerBuiltIn: (register) => register('number', element()),
     registerFurther: vi.fn<BuiltInWidgets['registerFurther']>((register) => Promise.resolve(register('slider', element()))),
+    loadApart: vi.fn<BuiltInWidgets['loadApart']>((kind) => Promise.resolve(kind === 'crowd' ? element() : undefined)),
     kindOf: (item) => item.widget ?? 'number',
     placedKind: (_host, placement) => placement.kind,
   };
@@ -28,6 +29,17 @@ describe('registry', () => {
     const registry = new Registry(() => Promise.resolve(builtIn()), load);
     await Promise.all([registry.create('jog_arrows'), registry.create('jog_arrows')]);
     expect(load).toHaveBeenCalledExactlyOnceWith('/application/widgets/jog_arrows.js');
+  });
+  it('loads a widget that comes by itself once, and asks the application for none of its kind', async () => {
+    const widgets = builtIn();
+    const load = vi.fn(() => Promise.resolve({ default: element() }));
+    const registry = new Registry(() => Promise.resolve(widgets), load);
+    const [one] = await Promise.all([registry.create('crowd'), registry.create('crowd')]);
+    expect(one!.localName).toBe('flexrf-widget-crowd');
+    expect(widgets.loadApart).toHaveBeenCalledExactlyOnceWith('crowd');
+    expect(load).not.toHaveBeenCalled();
+    await registry.create('slider');
+    expect(widgets.loadApart).toHaveBeenCalledOnce();
   });
   it('takes several kinds from one module', async () => {
     const registry = new Registry(() => Promise.resolve(builtIn()), () => Promise.resolve({

@@ -1,12 +1,21 @@
 // A host whose every side the test holds in its hands.
 import { vi } from 'vitest';
-import type { Hold, ItemInfo, Outcome, Reading, SetOptions, Value, WidgetElement, WidgetHost } from '../../contract';
+import type {
+  Hold, ItemInfo, ListName, Outcome, Reading, RegisterWidget, SetOptions, UnitInfo, Value, WidgetElement, WidgetHost,
+} from '../../contract';
 import { kindOf, registerBuiltIn } from '..';
 import { Newest } from '../../core/newest';
 import { tagOf } from '../../core/registry';
 import { registerFurther } from '../further';
+import { Population } from '../population';
+import { Timeline } from '../timeline';
 
-for (const registerAll of [registerBuiltIn, registerFurther]) {
+const registerApart = (register: RegisterWidget): void => {
+  register('population', Population);
+  register('timeline', Timeline);
+};
+
+for (const registerAll of [registerBuiltIn, registerFurther, registerApart]) {
   registerAll((kind, element) => {
     if (!customElements.get(tagOf(kind))) customElements.define(tagOf(kind), element);
   });
@@ -53,6 +62,9 @@ export class FakeHost implements WidgetHost {
   readonly hold = vi.fn<(key: string) => Promise<Hold>>(async () => makeHold());
   readonly file = vi.fn(async () => new Response());
   readonly joints = () => [];
+  /** By population. */
+  readonly populations = new Map<string, readonly UnitInfo[]>();
+  readonly lists = new Map<ListName, Set<(list: unknown) => void>>();
 
   watch(key: string, callback: (reading: Reading) => void, options: { rate?: number; width?: number } = {}): () => void {
     const watch = { key, callback, options };
@@ -65,6 +77,19 @@ export class FakeHost implements WidgetHost {
     this.sequence += 1;
     const reading: Reading = { value, reason: '', sampledAt: 0, sequence: this.sequence, age: 0, ...more };
     this.watches.filter((watch) => watch.key === key).forEach((watch) => watch.callback(reading));
+  }
+
+  units(name: string): readonly UnitInfo[] {
+    return this.populations.get(name) ?? [];
+  }
+  watchList(name: ListName, callback: (list: unknown) => void): () => void {
+    const watchers = this.lists.get(name) ?? new Set<(list: unknown) => void>();
+    this.lists.set(name, watchers.add(callback));
+    return () => watchers.delete(callback);
+  }
+  /** The application counts so. */
+  count(name: ListName, list: unknown): void {
+    this.lists.get(name)?.forEach((callback) => callback(list));
   }
 
   item(key: string): ItemInfo | undefined {
