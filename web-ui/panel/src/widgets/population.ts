@@ -195,7 +195,7 @@ export class Population extends WidgetBase {
   private weightsOf(item: ItemInfo | undefined): Weight[] {
     if (!item) return [];
     const names = namesIn(this.options, 'weight_names');
-    const single = item.members ?? Array.from({ length: Math.min(item.shape[0] ?? 0, most_cells) }, (_, i) => {
+    const single: readonly ItemInfo[] = item.members ?? Array.from({ length: Math.min(item.shape[0] ?? 0, most_cells) }, (_, i) => {
       const name = names[i];
       const first = this.members[0];
       // A parameter of the members has a range.
