@@ -142,7 +142,8 @@ Result<Choice> choice_in(std::string_view block) {
 std::string block_of(const Attempts& attempts) {
   std::string block{signature};
   block += "attempted=" + digits_of(attempts.trial) + "\nattempts=" + std::to_string(attempts.count) +
-           "\nlast=" + letter_of(attempts.last) + '\n';
+           "\nlast=" + letter_of(attempts.last) +
+           "\nfailed=" + (attempts.failed ? letter_of(*attempts.failed) : '0') + '\n';
   block.append(block_size - block.size(), '#');
   return block;
 }
@@ -152,10 +153,11 @@ Result<Attempts> attempts_in(std::string_view block) {
   const auto trial = Rest(value_in(block, "\nattempted=")).take_counter();
   const std::string_view count = value_in(block, "\nattempts=");
   const auto last = slot_named(value_in(block, "\nlast="));
+  const auto failed = slot_named(value_in(block, "\nfailed="));  // anything else than 0 is found below
   if (!trial || count.size() != 1 || count[0] < '0' || count[0] > static_cast<char>('0' + most_attempts) ||
       !last)
     return damage("what it says are no attempts");
-  const Attempts attempts{*trial, static_cast<unsigned>(count[0] - '0'), *last};
+  const Attempts attempts{*trial, static_cast<unsigned>(count[0] - '0'), *last, failed};
   if (block_of(attempts) != block) return damage("there is something else than filling behind its attempts");
   return attempts;
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,12 +19,12 @@ namespace flexrf::boot {
 inline constexpr std::size_t sector_size = 512;
 inline constexpr std::size_t block_size = 2 * sector_size;
 
-/// What GRUB writes: how often it tried the trial, and the slot that it took last when no choice could be
-/// read.
+/// What GRUB writes.
 struct Attempts {
-  std::uint64_t trial = 0;
-  unsigned count = 0;  ///< 0 to most_attempts
-  Slot last = Slot::b;
+  std::uint64_t trial = 0;     ///< the trial that was tried last, by its counter
+  unsigned count = 0;          ///< how often, 0 to most_attempts
+  Slot last = Slot::b;         ///< taken last when no choice could be read
+  std::optional<Slot> failed;  ///< could not be started, so the next start tries the other one
 
   friend bool operator==(const Attempts&, const Attempts&) = default;
 };

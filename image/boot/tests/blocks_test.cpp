@@ -51,9 +51,9 @@ void what_is_written_reads_back() {
   }
   for (unsigned count = 0; count <= most_attempts; ++count) {
     for (const Slot last : {Slot::a, Slot::b}) {
-      const Result<Attempts> read = attempts_in(block_of(Attempts{last_counter, count, last}));
+      const Result<Attempts> read = attempts_in(block_of(Attempts{last_counter, count, last, other(last)}));
       CHECK(read);
-      CHECK(*read == (Attempts{last_counter, count, last}));
+      CHECK(*read == (Attempts{last_counter, count, last, other(last)}));
     }
   }
 }
@@ -76,14 +76,18 @@ void what_grub_counts_is_read() {
   CHECK(grub_set(block, "attempted", "0000000041"));
   CHECK(grub_set(block, "attempts", "2"));
   CHECK(grub_set(block, "last", "A"));
+  CHECK(grub_set(block, "failed", "B"));
+  CHECK(attempts_in(block));
+  CHECK(attempts_in(block)->failed == Slot::b);
+  CHECK(grub_set(block, "failed", "0"));
   const Result<Attempts> read = attempts_in(block);
   CHECK(read);
-  CHECK(*read == (Attempts{41, 2, Slot::a}));
+  CHECK(*read == (Attempts{41, 2, Slot::a, {}}));
 }
 
 void any_bit_that_flips_is_noticed() {
   const std::string good = block_of(Choice{42, Slot::b, 41, {Marks{true, true}, Marks{true, false}}});
-  const std::string good_attempts = block_of(Attempts{41, 2, Slot::a});
+  const std::string good_attempts = block_of(Attempts{41, 2, Slot::a, {}});
   for (std::size_t bit = 0; bit < 8 * block_size; ++bit) {
     std::string block = good;
     block[bit / 8] = static_cast<char>(block[bit / 8] ^ (1 << (bit % 8)));
@@ -92,7 +96,7 @@ void any_bit_that_flips_is_noticed() {
     block[bit / 8] = static_cast<char>(block[bit / 8] ^ (1 << (bit % 8)));
     const Result<Attempts> attempts = attempts_in(block);
     // There is no checksum that GRUB could keep: another digit is another number.
-    CHECK(!attempts || !(*attempts == Attempts{41, 2, Slot::a}));
+    CHECK(!attempts || !(*attempts == Attempts{41, 2, Slot::a, {}}));
   }
 }
 

@@ -51,14 +51,14 @@ void set_up(GrubMachine& machine, Counting counting, std::uint64_t trial) {
   std::string& file = machine.files[path_on_esp(attempts_name)];
   switch (counting) {
     case Counting::of_another_trial:
-      file = block_of(Attempts{trial + 1, 3, Slot::a});
+      file = block_of(Attempts{trial + 1, 3, Slot::a, {}});
       break;
     case Counting::no_attempt:
     case Counting::one:
     case Counting::two:
     case Counting::three:
       file = block_of(Attempts{
-          trial, static_cast<unsigned>(counting) - static_cast<unsigned>(Counting::no_attempt), Slot::a});
+          trial, static_cast<unsigned>(counting) - static_cast<unsigned>(Counting::no_attempt), Slot::a, {}});
       // With none of this trial's, GRUB has written of another one, if ever.
       if (counting == Counting::no_attempt) file = block_of(Attempts{});
       break;
@@ -155,7 +155,7 @@ void the_newer_copy_counts() {
 }
 
 void a_trial_has_three_attempts() {
-  Files files = files_of({42, Slot::b, 41, {confirmed, whole}}, {40, 3, Slot::b});
+  Files files = files_of({42, Slot::b, 41, {confirmed, whole}}, {40, 3, Slot::b, {}});
   for (int attempt = 1; attempt <= 3; ++attempt) {
     const Running running = switch_on(script(), files);
     CHECK(running.slot == Slot::b);
@@ -163,7 +163,7 @@ void a_trial_has_three_attempts() {
     CHECK_EQUAL(running.trial, 41u);
     const Result<Attempts> counted = attempts_in(files[attempts_name]);
     CHECK(counted);
-    CHECK(*counted == (Attempts{41, static_cast<unsigned>(attempt), Slot::b}));
+    CHECK(*counted == (Attempts{41, static_cast<unsigned>(attempt), Slot::b, {}}));
   }
   for (int boot = 0; boot < 3; ++boot) {
     const Running running = switch_on(script(), files);
@@ -210,6 +210,38 @@ void a_slot_is_started_with_what_it_wants() {
     take_away(lame, Slot::b, file);
     expect_start(lame, "A", "fallback");
   }
+}
+
+// A kernel that is loaded and cannot be started leaves a restart as the only way on; then the other slot has
+// its turn, once.
+void a_slot_that_fails_halfway_gives_way() {
+  for (const char* file : {"initrd.img", "vmlinuz"}) {
+    const bool is_halfway = std::string(file) == "initrd.img";
+    GrubMachine machine = machine_with(files_of({42, Slot::b, 41, {confirmed, confirmed}}, {}));
+    machine.unreadable.insert(std::string("(hd0,gpt4)/") + file);
+    for (int round = 0; round < 2; ++round) {
+      if (is_halfway) {
+        CHECK(machine.start(script()).has_restarted);
+        const Result<Attempts> attempts = attempts_in(machine.files[path_on_esp(attempts_name)]);
+        CHECK(attempts);
+        CHECK(attempts->failed == Slot::b);
+      }
+      expect_start(machine, "A", "fallback");
+    }
+    // Of a disk that can be read again nothing is left.
+    machine.unreadable.clear();
+    expect_start(machine, "B", "confirmed");
+  }
+  // With no other slot it is tried again and again, and so it is where nothing can be noted.
+  GrubMachine lone = machine_with(files_of({42, Slot::b, 41, {none, confirmed}}, {}));
+  lone.unreadable.insert("(hd0,gpt4)/initrd.img");
+  for (int round = 0; round < 3; ++round) CHECK(lone.start(script()).has_restarted);
+  lone.unreadable.clear();
+  expect_start(lone, "B", "confirmed");
+  GrubMachine read_only = machine_with(files_of({42, Slot::b, 41, {confirmed, confirmed}}, {}));
+  read_only.can_write = false;
+  read_only.unreadable.insert("(hd0,gpt4)/initrd.img");
+  for (int round = 0; round < 2; ++round) CHECK(read_only.start(script()).has_restarted);
 }
 
 // The slots are those of GRUB's own disk: a second disk of the same kind does not matter.
@@ -327,6 +359,7 @@ int main() {
       CONTAINED_TEST(a_trial_has_three_attempts),
       CONTAINED_TEST(with_nothing_to_trust_the_slots_take_turns),
       CONTAINED_TEST(a_slot_is_started_with_what_it_wants),
+      CONTAINED_TEST(a_slot_that_fails_halfway_gives_way),
       CONTAINED_TEST(the_slots_are_on_grubs_own_disk),
       CONTAINED_TEST(all_but_the_default_needs_the_password),
       CONTAINED_TEST(damaged_bytes_lead_to_a_whole_slot),

@@ -22,8 +22,8 @@ bool test(const GrubMachine& machine, Words words) {
   if (words.back() != "]") throw ScriptError("a test without its end");
   words.pop_back();
   if (words.size() == 3 && words[1] == "-s") {
-    const std::string* const file = file_at(machine, words[2]);
-    return file != nullptr && !file->empty();
+    const auto file = machine.files.find(words[2]);  // looks at the size, and reads nothing
+    return file != machine.files.end() && !file->second.empty();
   }
   if (words.size() != 4) throw ScriptError("a test of another form than those known here");
   if (words[2] == "=") return words[1] == words[3];
@@ -110,6 +110,10 @@ bool set(GrubMachine& machine, const Words& words) {
 
 bool linux_kernel(GrubMachine& machine, Started& started, const Words& words) {
   if (words.size() < 2 || file_at(machine, words[1]) == nullptr) return false;
+  // Seen with GRUB 2.06: setting the new one unloads the old one, and frees the command line that is the new
+  // one's by then.
+  if (!started.kernel.empty())
+    throw ScriptError("a second kernel, which GRUB would start without its command line");
   started.kernel = words[1];
   started.options.assign(words.begin() + 2, words.end());
   started.initrd.clear();

@@ -75,7 +75,7 @@ void rauc_installs() {
 void each_choice_begins_a_trial_of_its_own() {
   LostPowerDisk disk = new_disk();
   answer(disk, {"set-primary", "B"});
-  disk.put(attempts_name, block_of(Attempts{2, 3, Slot::b}));
+  disk.put(attempts_name, block_of(Attempts{2, 3, Slot::b, {}}));
   CHECK_CONTAINS(answer(disk, {"status"}), "trial=0000000002\nattempts=3\n");
   answer(disk, {"mark-whole", "B", "B"});
   CHECK_CONTAINS(answer(disk, {"status"}), "trial=0000000002\nattempts=3\n");
@@ -190,7 +190,7 @@ void with_no_copy_left_what_runs_is_kept() {
   LostPowerDisk disk = new_disk();
   disk.put(copy_names[0], "");
   disk.put(copy_names[1], std::string(3, 'x'));
-  disk.put(attempts_name, block_of(Attempts{1, 3, Slot::b}));
+  disk.put(attempts_name, block_of(Attempts{1, 3, Slot::b, {}}));
   const Outcome outcome = perform({"get-primary"}, disk, {});
   CHECK(outcome.exit == Exit::failed);
   CHECK_CONTAINS(outcome.said.front(), "run 'repair'");
@@ -249,7 +249,7 @@ void damaged_bytes_are_survived() {
     LostPowerDisk disk = new_disk();
     const std::string good = block_of(Choice{9, Slot::b, 8, {Marks{true, true}, Marks{true, false}}});
     for (const char* name : {copy_names[0], copy_names[1], attempts_name}) {
-      std::string bytes = name == attempts_name ? block_of(Attempts{8, 1, Slot::b}) : good;
+      std::string bytes = name == attempts_name ? block_of(Attempts{8, 1, Slot::b, {}}) : good;
       switch (below(4)) {
         case 0:
           break;
