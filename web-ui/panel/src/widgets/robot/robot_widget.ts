@@ -84,6 +84,11 @@ export class RobotWidget extends WidgetBase {
         font-size: 0.8em;
         white-space: nowrap;
       }
+      .labels > .letter {
+        padding: 0;
+        background: none;
+        color: var(--muted);
+      }
       section {
         position: relative;
       }

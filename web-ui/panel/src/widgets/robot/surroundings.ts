@@ -4,6 +4,7 @@ import {
   type Camera, type Object3D,
 } from 'three';
 import type { Bodies, ReferenceFrame } from '../../contract';
+import { titleOf } from '../things';
 import type { Body } from './bodies';
 import { circle, prism } from './prism';
 
@@ -35,6 +36,14 @@ interface Row {
   readonly kinds: readonly Kind[];
   readonly meshes: Mesh[];
   bodies: readonly Body[];
+}
+
+/** Words in the scene, and where. */
+interface Words {
+  readonly text: string;
+  readonly at: Vector3;
+  /** Of an axis: plain. */
+  readonly isLetter: boolean;
 }
 
 interface Frame {
@@ -141,6 +150,7 @@ export class Surroundings implements SurroundingsView {
       element.hidden = !isSeen;
       if (!one || !isSeen) return;
       if (element.textContent !== one.text) element.textContent = one.text;
+      element.classList.toggle('letter', one.isLetter);
       element.style.transform = `translate(${(((at.x + 1) * width) / 2).toFixed(1)}px, ${(((1 - at.y) * height) / 2).toFixed(1)}px) translate(-50%, -100%)`;
     });
   }
@@ -152,19 +162,21 @@ export class Surroundings implements SurroundingsView {
     this.labels.replaceChildren();
   }
 
-  /** Words, and where in the scene they belong. */
-  #wanted(): { readonly text: string; readonly at: Vector3 }[] {
-    const wanted: { text: string; at: Vector3 }[] = [];
+  #wanted(): Words[] {
+    const wanted: Words[] = [];
+    const add = (text: string, at: Vector3, { matrix }: Group, isLetter = false): void => {
+      wanted.push({ text, at: at.applyMatrix4(matrix), isLetter });
+    };
     for (const { bodies, kinds } of this.#rows) {
       for (const { text, certain, place: [x, y, z], kind } of bodies) {
         const words = certain ? text : `${text}?`;
-        if (words !== '') wanted.push({ text: words, at: new Vector3(x, y, z + (kinds[kind]?.height ?? 0)).applyMatrix4(this.#around.matrix) });
+        if (words !== '') add(words, new Vector3(x, y, z + (kinds[kind]?.height ?? 0)), this.#around);
       }
     }
     for (const { declared, object } of this.#frames) {
       if (!object.visible) continue;
-      wanted.push({ text: declared.label ?? declared.name, at: new Vector3().applyMatrix4(object.matrix) });
-      axis_names.forEach((text, i) => wanted.push({ text, at: new Vector3().setComponent(i, axis_length * 1.1).applyMatrix4(object.matrix) }));
+      add(titleOf(declared), new Vector3(), object);
+      axis_names.forEach((text, i) => add(text, new Vector3().setComponent(i, axis_length * 1.1), object, true));
     }
     return wanted;
   }
