@@ -75,11 +75,11 @@ it('each rectangle lies on what it is about, picture after picture', async () =>
 });
 
 it('what is not found any more is said to be old, and goes', async () => {
-  await expect.poll(() => state('Sights'), { timeout: within }).toBe('2');
+  await expect.poll(() => state('Sights'), { timeout: within }).toBe('2 drawn');
   await setStopped(beside, 0, true);
   // The other still looks.
   await expect.poll(drawn, { timeout: within }).toEqual(['8?']);
-  expect(await state('Sights')).toBe('1');
+  expect(await state('Sights')).toBe('1 drawn');
   await setStopped(beside, 1, true);
   await expect.poll(() => state('Sights'), { timeout: within }).toMatch(/^⚠ nothing of this picture; the last is \d+\.\d\d s older$/);
   expect(await drawn()).toEqual([]);
@@ -97,7 +97,7 @@ it('each overlay is switched by mouse or keys, and one that is hidden is not ask
   const second = row('Second alone').getByRole('checkbox');
   await second.focus();
   await viewer.page.keyboard.press('Space');
-  await expect.poll(() => state('Second alone'), { timeout: within }).toBe('1');
+  await expect.poll(() => state('Second alone'), { timeout: within }).toBe('1 drawn');
   expect(await drawn()).toEqual(['']);
 });
 

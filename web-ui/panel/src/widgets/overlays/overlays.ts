@@ -226,8 +226,8 @@ export class Overlays extends EndingElement {
     const freshest = Math.min(...known);
     if (freshest > longest) return { text: `⚠ nothing of this picture; the last is ${seconds(freshest)} older`, old: true };
     const oldest = Math.max(freshest, ...drawn.map((one) => one.age));
-    if (oldest > 0) return { text: `⚠ ${drawn.length}, up to ${seconds(oldest)} older than the picture`, old: true };
-    return { text: String(drawn.length), old: false };
+    if (oldest > 0) return { text: `⚠ ${drawn.length} drawn, up to ${seconds(oldest)} older than the picture`, old: true };
+    return { text: `${drawn.length} drawn`, old: false };
   }
 
   private say(index: number, { text, old }: { readonly text: string; readonly old: boolean }): void {

@@ -90,7 +90,7 @@ export class SurroundingsList extends EndingElement {
         state: () => {
           if (all().every((one) => one.reason !== '')) return `— ${all()[0]?.reason ?? ''}`;
           const leftOut = all().reduce((sum, one) => sum + one.leftOut, 0);
-          const count = String(all().reduce((sum, one) => sum + one.bodies.length, 0));
+          const count = `${all().reduce((sum, one) => sum + one.bodies.length, 0)} drawn`;
           return leftOut > 0 ? `${count}; ⚠ ${leftOut} of no known kind or place` : count;
         },
       };

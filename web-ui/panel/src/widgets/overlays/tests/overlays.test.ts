@@ -86,7 +86,7 @@ describe('overlays of an image', { timeout: 30_000 }, () => {
     await tell('tracks', { time: 100 * ms, tracks: [track(), track({ found: 'nothing' }), track({ id: 5, left: 300, found: 'obstacle' })] });
     expect(shown.find('.picture svg').getAttribute('viewBox')).toBe('0 0 640 480');
     expect(marks().map(({ x, text, opacity }) => ({ x, text, opacity }))).toEqual([{ x: 100, text: '4', opacity: 1 }, { x: 300, text: '5', opacity: 1 }]);
-    expect(states()).toEqual(['2']);
+    expect(states()).toEqual(['2 drawn']);
     const [target, obstacle] = marks();
     expect(target!.stroke).not.toBe(obstacle!.stroke);
     expect(target!.dashes).not.toBe(obstacle!.dashes);
@@ -98,7 +98,7 @@ describe('overlays of an image', { timeout: 30_000 }, () => {
     await tell('tracks', { time: 100 * ms, tracks: [track()] });
     await see(200);
     expect(marks()[0]!.opacity).toBeLessThan(0.5);
-    expect(states()).toEqual(['⚠ 1, up to 0.10 s older than the picture']);
+    expect(states()).toEqual(['⚠ 1 drawn, up to 0.10 s older than the picture']);
     expect(inside('.state')[0]!.classList.contains('abnormal')).toBe(true);
     await tell('tracks', { time: 200 * ms, tracks: [track({ left: 120 })] });
     expect(marks()).toMatchObject([{ x: 120, opacity: 1 }]);
@@ -140,7 +140,7 @@ describe('overlays of an image', { timeout: 30_000 }, () => {
     expect(heavy).toBe(4);
     expect(light).toBeCloseTo(1.5 + 2.5 / 4, 9);
     expect(none).toBe(1.5);
-    expect(states()).toEqual(['3']);
+    expect(states()).toEqual(['3 drawn']);
     await tell('report[1]', null);
     expect(marks().map((mark) => mark.x)).toEqual([50]);
   });

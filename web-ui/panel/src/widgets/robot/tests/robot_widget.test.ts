@@ -94,7 +94,7 @@ it('tells what is around it, without 3D too, and asks for that no longer once it
   await vi.waitFor(() => expect(list()).not.toBeNull(), { timeout: 20_000 });
   expect(fake.isWatched(place_key)).toBe(true);
   fake.value(place_key, reading({ at: [1, 2], kind: 'box' }));
-  await vi.waitFor(() => expect(list()!.shadowRoot!.querySelector('.state')!.textContent).toBe('1'));
+  await vi.waitFor(() => expect(list()!.shadowRoot!.querySelector('.state')!.textContent).toBe('1 drawn'));
   widget.remove();
   expect(fake.isWatched(place_key)).toBe(false);
 });

@@ -146,7 +146,7 @@ describe('the list of them', () => {
     await tell('tracks[0]', list(track()));
     await tell('tracks[1]', list(track({ id: 5 }), track({ kind: 9 })));
     expect(view.setBodies.mock.lastCall?.[1].map((body) => body.text)).toEqual(['4', '5']);
-    expect(states()[0]).toBe('2; ⚠ 1 of no known kind or place');
+    expect(states()[0]).toBe('2 drawn; ⚠ 1 of no known kind or place');
     await tell('tracks[1]', null, 'writer stopped');
     expect(view.setBodies.mock.lastCall?.[1].map((body) => body.text)).toEqual(['4']);
     await tell('tracks[0]', null, 'writer stopped');
