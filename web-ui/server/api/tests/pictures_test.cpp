@@ -245,9 +245,7 @@ void it_is_no_larger_than_it_is_shown() {
   for (const Format format : shown_formats) {
     draw(*picture, format);
     const Decoded decoded = decode(encoder.encode(layout, picture.get(), 30));
-    CHECK_EQUAL(decoded.width, 21);
-    CHECK_EQUAL(decoded.height, 16);
-    CHECK_EQUAL(encoder.scaled_by(), 3);
+    CHECK(decoded.width == 21 && decoded.height == 16 && encoder.scaled_by() == 3);
     CHECK(is_near(decoded.at(18, 8, 1), is_grey(format) ? 200 : 255));
   }
 }
