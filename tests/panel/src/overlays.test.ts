@@ -1,6 +1,6 @@
 // What is found in a picture lies over that picture, and around the arm in 3D: on the page of a cell whose pictures and finds are known.
 import { beforeEach, expect, it } from 'vitest';
-import { screenshot, useBrowser, useOperator, violations, within, type Rest, type Viewer } from './harness';
+import { Viewer, screenshot, useBrowser, useOperator, violations, within, type Application, type Rest } from './harness';
 
 const browser = useBrowser();
 
@@ -10,9 +10,10 @@ const setStopped = (rest: Rest, member: number, stopped: boolean) =>
 const operator = useOperator(browser, 'sight_cell', ['overview'], async ({ beside }) => {
   for (const member of [0, 1]) await setStopped(beside, member, false);
 });
+let running: Application;
 let viewer: Viewer;
 let beside: Rest;
-beforeEach(() => { ({ viewer, beside } = operator); });
+beforeEach(() => { ({ running, viewer, beside } = operator); });
 
 const eye = () => viewer.page.locator('flexrf-widget-image');
 const row = (name: string) => eye().locator('flexrf-overlays li').filter({ has: viewer.page.getByRole('checkbox', { name, exact: true }) });
@@ -129,4 +130,24 @@ it('the same stands around the arm', async () => {
   await expect.poll(() => cell.getByRole('table', { name: /2 bodies/ }).innerText(), { timeout: within })
     .toMatch(/Sights\s+box\s+7\s+400\.0 mm\s+−300\.0 mm\s+0 mm\s+28\.65 °\s+yes/);
   expect(await violations(page)).toEqual([]);
+});
+
+it('fits onto a phone, with its tables open', async () => {
+  const other = await Viewer.open(browser(), `${running.base}/#/overview`, { size: 'phone', touch: true, dark: true });
+  const { page } = other;
+  await page.getByText('What is drawn, as a table').click();
+  await page.getByRole('table', { name: /^Eye/ }).waitFor();
+  await page.getByText('Bodies as a table').click();
+  await page.getByRole('table', { name: /2 bodies/ }).waitFor();
+  for (const name of ['flexrf-overlays', 'flexrf-surroundings']) {
+    const lists = page.locator(name);
+    const card = await page.locator('main').evaluate((main) => main.getBoundingClientRect().right);
+    const edges = await lists.evaluate((list) =>
+      ['.state', '.scroll'].map((one) => list.shadowRoot!.querySelector(one)!.getBoundingClientRect().right));
+    expect(Math.max(...edges), name).toBeLessThanOrEqual(card);
+    await lists.locator('summary').scrollIntoViewIfNeeded();
+    await screenshot(page, name);
+  }
+  expect(await violations(page)).toEqual([]);
+  await other.close();
 });

@@ -51,8 +51,10 @@ export class ImageView extends WidgetBase {
       .absent :is(img, svg) {
         filter: grayscale(1) opacity(0.5);
       }
+      /* A wide table scrolls within it. */
       .below {
         flex: 1 1 100%;
+        contain: inline-size;
       }
     `,
   ];
