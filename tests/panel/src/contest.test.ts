@@ -63,7 +63,7 @@ describe('a population', () => {
 
 describe('a timeline', () => {
   it('shows who worked when over the last frames, what came of it, and what back-off learned', async () => {
-    await timeline().getByText(/^Last 10 frames, [\d.]+ ms: each begins with a step of pulse/).waitFor();
+    await timeline().getByText(/Last 10 frames, [\d.]+ ms: each begins with a step of pulse/).waitFor();
     for (const name of ['runner[0]', 'fetcher[0]', 'judge']) {
       const bar = timeline().getByRole('img', { name: new RegExp(`^${name.replace(/[[\]]/g, '\\$&')}: [1-9]\\d* steps, [\\d.]+ ms a frame$`) });
       await bar.waitFor();
@@ -97,7 +97,7 @@ describe('both', () => {
     it(`are accessible, and within the window, at the size of a ${size}`, async () => {
       const other = await Viewer.open(browser(), operator.running.base, { size, touch: size === 'phone' });
       await other.go('overview');
-      await other.page.getByText(/^Last 10 frames/).waitFor();
+      await other.page.getByText(/Last 10 frames/).waitFor();
       await other.page.getByText('trial, fresh').waitFor();
       await screenshot(other.page, 'contest-overview');
       expect(await other.page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
