@@ -65,13 +65,13 @@ describe('a timeline', () => {
   it('shows who worked when over the last frames, what came of it, and what back-off learned', async () => {
     await timeline().getByText(/Last 10 frames, [\d.]+ ms: each begins with a step of pulse/).waitFor();
     for (const name of ['runner[0]', 'fetcher[0]', 'judge']) {
-      const bar = timeline().getByRole('img', { name: new RegExp(`^${name.replace(/[[\]]/g, '\\$&')}: [1-9]\\d* steps, [\\d.]+ ms a frame$`) });
+      const bar = timeline().getByRole('img', { name: new RegExp(`^${name.replace(/[[\]]/g, '\\$&')}: [1-9]\\d* steps, [\\d.]+ [mµ]s per frame$`) });
       await bar.waitFor();
       expect(await bar.locator('.busy').getAttribute('d')).toMatch(/^M/);
     }
-    await timeline().getByRole('img', { name: 'runner[3]: 0 steps, 0 ms a frame' }).waitFor();
+    await timeline().getByRole('img', { name: 'runner[3]: 0 steps, 0 ms per frame' }).waitFor();
     const row = timeline().getByRole('row', { name: 'fetcher[0]' });
-    await expect.poll(() => row.innerText(), { timeout: within }).toMatch(/\d+\s+fresh\s+[\d.]+ ms ± [\d.]+ ms/);
+    await expect.poll(() => row.innerText(), { timeout: within }).toMatch(/\d+\s+fresh\s+[\d.]+ [mµ]s ± [\d.]+ [mµ]s/);
     await screenshot(viewer.page, 'contest-timeline');
   });
 });

@@ -26,6 +26,9 @@ export function chosenFeedback(model: Model): readonly Item[] {
   return lists.flat().filter((item) => chosen.has(item));
 }
 
+/** Tables of many columns. */
+const wideKinds: ReadonlySet<string> = new Set(['population', 'timeline']);
+
 @customElement('flexrf-overview')
 export class Overview extends ViewBase {
   static override styles = [
@@ -84,7 +87,7 @@ export class Overview extends ViewBase {
         ${this.stateCard()}
         <section><h3>Configuration file</h3>${this.saver()}</section>
         ${placed.placements.map((placement) => html`
-          <section><h3>${placement.label}</h3>
+          <section class=${wideKinds.has(placement.kind) ? 'wide' : ''}><h3>${placement.label}</h3>
             <flexrf-placement .core=${this.core} .placement=${placement}></flexrf-placement></section>`)}
         ${placed.items.length > 0 ? html`<section><h3>Values</h3>${this.items(placed.items)}</section>` : nothing}
         ${nothingPlaced ? this.feedback(chosenFeedback(model)) : nothing}

@@ -244,7 +244,7 @@ export class Population extends WidgetBase {
       </th>
       <td class="state"></td>
       ${this.columns.map((_, i) => html`<td class="value"></td>
-        ${i === 0 ? html`<td><svg viewBox="0 -4 100 108" preserveAspectRatio="none" aria-hidden="true"><path d="" /></svg></td>` : nothing}`)}
+        ${i === 0 ? html`<td><svg viewBox="-3 -6 106 112" preserveAspectRatio="none" aria-hidden="true"><path d="" /></svg></td>` : nothing}`)}
       ${this.weights.map(() => html`<td class="weight"><span class="bar" aria-hidden="true"><i></i></span><span class="value"></span></td>`)}
     </tr>`;
   }

@@ -34,8 +34,10 @@ interface Field {
   readonly quantity: Quantity;
 }
 
-function milliseconds(nanoseconds: number): string {
-  return `${significantText(nanoseconds / 1e6, 3)} ms`;
+/** "33.3 ms", "4.66 µs". */
+function timeText(nanoseconds: number): string {
+  const isShort = nanoseconds > 0 && nanoseconds < 1e5;
+  return `${significantText(nanoseconds / (isShort ? 1e3 : 1e6), 3)} ${isShort ? 'µs' : 'ms'}`;
 }
 
 export class Timeline extends WidgetBase {
@@ -91,11 +93,11 @@ export class Timeline extends WidgetBase {
         background: var(--field);
       }
       .frame {
-        stroke: var(--border);
+        stroke: var(--track);
         vector-effect: non-scaling-stroke;
       }
       .busy {
-        fill: var(--fill);
+        fill: var(--text);
       }
       .missing {
         color: var(--warning);
@@ -180,7 +182,7 @@ export class Timeline extends WidgetBase {
       <table>
         <caption>
           ${known > 0
-            ? `Last ${known} frames, ${milliseconds(to - from)}: each begins with a step of ${this.beat!.name}`
+            ? `Last ${known} frames, ${timeText(to - from)}: each begins with a step of ${this.beat!.name}`
             : `Waits for steps of ${this.beat?.name ?? 'no unit'}`}
           <span class="missing">${isMissing ? '▲ some steps are missing' : nothing}</span>
         </caption>
@@ -188,7 +190,7 @@ export class Timeline extends WidgetBase {
           <tr>
             <th scope="col">Unit</th>
             <th scope="col" class="work">Work</th>
-            <th scope="col" class="number">A frame</th>
+            <th scope="col" class="number">Per frame</th>
             ${this.fields.map(({ path, item, quantity }) => html`<th scope="col">${item?.label ?? words(lastOf(path))} ${quantity.unit}</th>`)}
             ${waits ? html`<th scope="col">Learned interval</th>` : nothing}
           </tr>
@@ -209,13 +211,13 @@ export class Timeline extends WidgetBase {
     const work = this.trace.work(unit, from, to);
     const busy = work.reduce((sum: number, one: Work) => sum + one.end - one.begin, 0) / (frames.length - 1);
     const lines = frames.map((at) => `M${((width * (at - from)) / (to - from)).toFixed(1)} 0V10`).join('');
-    const label = `${unit.name}: ${work.length} steps, ${milliseconds(busy)} a frame`;
+    const label = `${unit.name}: ${work.length} steps, ${timeText(busy)} per frame`;
     return html`<td class="work">
         <svg viewBox="0 0 ${width} 10" preserveAspectRatio="none" role="img" aria-label=${label}>
           ${svg`<path class="frame" d=${lines} /><path class="busy" d=${workPath(work, from, to, width)} />`}
         </svg>
       </td>
-      <td class="number">${work.length === 0 ? dash : milliseconds(busy)}</td>`;
+      <td class="number">${work.length === 0 ? dash : timeText(busy)}</td>`;
   }
 
   private result(unit: UnitInfo): unknown {
@@ -245,6 +247,6 @@ export class Timeline extends WidgetBase {
   private backoffText(unit: UnitInfo): string {
     const backoff = this.backoffOf(unit);
     if (!backoff) return '';
-    return backoff.mean_ns === 0 ? 'not known yet' : `${milliseconds(backoff.mean_ns)} ± ${milliseconds(backoff.spread_ns)}`;
+    return backoff.mean_ns === 0 ? 'not known yet' : `${timeText(backoff.mean_ns)} ± ${timeText(backoff.spread_ns)}`;
   }
 }

@@ -86,7 +86,7 @@ export class WorkTrace {
 
 /** Bars in a box `width` wide and 10 high, each seen however short it was; those that would touch are one. */
 export function workPath(work: readonly Work[], from: number, to: number, width: number): string {
-  const least = width / 500;
+  const least = width / 400;
   const x = (time: number): number => (width * (Math.min(to, Math.max(from, time)) - from)) / (to - from);
   let path = '';
   let [begin, end] = [0, -1];

@@ -38,7 +38,7 @@ describe('a timeline', () => {
     ]);
     const drawn = [...shown.root.querySelectorAll('svg')];
     expect(drawn.map((one) => one.getAttribute('aria-label'))).toEqual([
-      'runner[0]: 1 steps, 2 ms a frame', 'runner[1]: 0 steps, 0 ms a frame', 'judge: 1 steps, 1 ms a frame',
+      'runner[0]: 1 steps, 2 ms per frame', 'runner[1]: 0 steps, 0 ms per frame', 'judge: 1 steps, 1 ms per frame',
     ]);
     expect(drawn[0]!.querySelector('.busy')!.getAttribute('d')).toBe('M100.0 0H300.0V10H100.0z');
     expect(drawn[0]!.querySelector('.frame')!.getAttribute('d')).toBe('M0.0 0V10M500.0 0V10M1000.0 0V10');
@@ -52,7 +52,7 @@ describe('a timeline', () => {
     host.publish('slot:efforts[0]', { count: 4, last });
     host.publish('slot:efforts[1]', { count: 0, last });
     await settled(shown.widget);
-    expect([...shown.root.querySelectorAll('thead th')].map((head) => head.textContent!.trim())).toEqual(['Unit', 'Work', 'A frame', 'Mood', 'Number']);
+    expect([...shown.root.querySelectorAll('thead th')].map((head) => head.textContent!.trim())).toEqual(['Unit', 'Work', 'Per frame', 'Mood', 'Number']);
     expect(rows(shown).map((row) => row.slice(3))).toEqual([['tired', '11'], ['—', '—'], ['—', '—']]);
     host.publish('slot:efforts[0]', { count: 5, last });
     host.publish('slot:efforts[1]', null, { reason: 'writer retired' });
@@ -69,6 +69,9 @@ describe('a timeline', () => {
     host.count('threads', threads(33.333 * ms));
     await settled(shown.widget);
     expect(rows(shown).map((row) => row.at(-1))).toEqual(['33.3 ms ± 0.25 ms', '33.3 ms ± 0.25 ms', '']);
+    host.count('threads', threads(42_100));
+    await settled(shown.widget);
+    expect(rows(shown)[0]!.at(-1)).toBe('42.1 µs ± 0.25 ms');
   });
 
   it('says where steps are missing, and ends what it began', async () => {

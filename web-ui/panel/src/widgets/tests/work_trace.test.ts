@@ -59,7 +59,7 @@ describe('bars of work', () => {
   });
 
   it('are seen however short it was, and are one where they would touch', () => {
-    expect(workPath([{ begin: 10, end: 10 }], 0, 1000, 1000)).toBe('M10.0 0H12.0V10H10.0z');
+    expect(workPath([{ begin: 10, end: 10 }], 0, 1000, 1000)).toBe('M10.0 0H12.5V10H10.0z');
     expect(workPath([{ begin: 10, end: 11 }, { begin: 12, end: 13 }, { begin: 900, end: 910 }], 0, 1000, 1000))
       .toBe('M10.0 0H13.0V10H10.0zM900.0 0H910.0V10H900.0z');
     expect(workPath([], 0, 1, 1000)).toBe('');
