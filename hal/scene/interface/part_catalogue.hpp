@@ -26,7 +26,9 @@ struct Outline {
   std::array<PlaneVector, most_corners> corners{};
   std::size_t count = 0;
 
-  constexpr std::span<const PlaneVector> all() const noexcept { return {corners.data(), count}; }
+  constexpr std::span<const PlaneVector> all() const& noexcept { return {corners.data(), count}; }
+  /// A loop over it would outlive what it looks at.
+  constexpr std::span<const PlaneVector> all() const&& = delete;
   constexpr void add(PlaneVector corner) noexcept { corners[count++] = corner; }
 };
 

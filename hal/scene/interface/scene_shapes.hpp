@@ -19,7 +19,9 @@ struct OutlinePieces {
   std::array<Outline, 2> pieces{};
   std::size_t count = 0;
 
-  std::span<const Outline> all() const noexcept { return {pieces.data(), count}; }
+  std::span<const Outline> all() const& noexcept { return {pieces.data(), count}; }
+  /// As of an outline.
+  std::span<const Outline> all() const&& = delete;
 };
 OutlinePieces pieces_of(const SceneBody& body) noexcept;
 

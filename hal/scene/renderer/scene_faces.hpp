@@ -29,7 +29,8 @@ void visit_body(const SceneBody& body, const Visit& visit) noexcept {
   const auto at = [&pose](PlaneVector corner, double z) -> Eigen::Vector3d {
     return pose * Eigen::Vector3d(corner.x, corner.y, z);
   };
-  for (const Outline& piece : pieces_of(body).all()) {
+  const OutlinePieces pieces = pieces_of(body);
+  for (const Outline& piece : pieces.all()) {
     for (const double z : {height, 0.0}) {
       face.count = 0;
       face.normal = pose.linear().col(2) * (z > 0 ? 1.0 : -1.0);

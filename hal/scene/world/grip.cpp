@@ -23,7 +23,8 @@ Slice slice_of(const SceneBody& body, const FingerSpace& space, double turn) noe
   const PlaneVector place = PlaneVector{body.position[0], body.position[1]} - space.middle;
   Extent held{std::numeric_limits<double>::max(), -std::numeric_limits<double>::max()};
   slice.along = held;
-  for (const Outline& piece : pieces_of(body).all()) {
+  const OutlinePieces pieces = pieces_of(body);
+  for (const Outline& piece : pieces.all()) {
     Outline between = placed(piece, place, body.angle + turn);
     between = cut_by(between, across * space.half_width, across);
     between = cut_by(between, across * -space.half_width, -across);

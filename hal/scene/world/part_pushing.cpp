@@ -65,7 +65,8 @@ Footprint footprint_of(const SceneBody& body) noexcept {
     const Eigen::Isometry3d pose = pose_of(body);
     footprint.low = std::numeric_limits<double>::max();
     footprint.high = -footprint.low;
-    for (const PlaneVector corner : outline_of(body).all()) {
+    const Outline outline = outline_of(body);
+    for (const PlaneVector corner : outline.all()) {
       for (const double height : {0.0, body.size[2]}) {
         const double z = (pose * Eigen::Vector3d(corner.x, corner.y, height)).z();
         footprint.low = std::min(footprint.low, z);

@@ -82,7 +82,8 @@ bool pieces_are_convex_and_make_the_whole() {
   for (const PartModel& model : part_catalogue) {
     const SceneBody body = part_at(model.kind, {0.4, 0.1}, 0.3);
     double sum = 0;
-    for (const Outline& piece : pieces_of(body).all()) {
+    const OutlinePieces pieces = pieces_of(body);
+    for (const Outline& piece : pieces.all()) {
       sum += area_of(piece);
       for (std::size_t i = 0; i < piece.count; ++i) {
         const PlaneVector one = piece.corners[i];
