@@ -88,14 +88,13 @@ export interface Joint {
   readonly range?: readonly [number, number];
 }
 
-/** A unit, as the tables connect it. */
-export interface UnitInfo {
+/** A unit, as descriptor.json has it: as much as widgets may use. */
+export interface UnitTable {
   readonly name: string;
-  /** Among all units, in the order of the tables: its number in the list `steps`. */
-  readonly index: number;
-  readonly thread: string;
-  /** By output port the slot that it publishes into; of one that is not connected, or goes into a queue: none. */
-  readonly outputs: { readonly [port: string]: string };
+  readonly population?: string;
+  readonly thread?: string;
+  /** By output port the slot or the queue; null: it is not connected. */
+  readonly outputs?: { readonly [port: string]: string | null | readonly string[] };
 }
 
 /** Lists of what the application counts, as docs/panel-protocol.md has them. */
@@ -125,8 +124,8 @@ export interface WidgetHost {
   file(path: string): Promise<Response>;
   /** Of an arm, from base to tool: in the order in which slots carry their positions. */
   joints(device: string): readonly Joint[];
-  /** The members of the population of this name, in their order, or the unit of this name; none: there is no such. */
-  units(name: string): readonly UnitInfo[];
+  /** All of the application, in the order of the tables; members of a population follow each other. */
+  readonly units: readonly UnitTable[];
   /** The newest list, `rate` times a second (at most 10, default 2) if it is another; once at once if it is known. Ends with the
    *  returned function. */
   watchList(name: ListName, callback: (list: unknown) => void, rate?: number): () => void;

@@ -1,5 +1,5 @@
 // What the page knows of the application before any value arrives: components, slots, and every item that can be shown.
-import type { ItemInfo, Joint, Placement, Role, UnitInfo, Value } from '../contract';
+import type { ItemInfo, Joint, Placement, Role, Value } from '../contract';
 import { slotUses } from './driver_ports';
 import type { Drivers } from './protocol';
 import type {
@@ -77,8 +77,6 @@ export interface Model {
   item(key: string): Item | undefined;
   /** Of an arm, from base to tool; none of another device. */
   joints(device: string): readonly Joint[];
-  /** The members of a population, or the unit of this name. */
-  units(name: string): readonly UnitInfo[];
   /** What the tables placed there ("overview"), in their order; items that are hidden are left out. */
   placed(place: string): { readonly items: readonly Item[]; readonly placements: readonly Placement[] };
 }
@@ -391,15 +389,6 @@ export function makeModel(json: DescriptorJson, drivers: Drivers = {}): Model {
     slots: row.slots ?? {}, parameters: row.parameters ?? {}, options: row.options ?? {},
   }));
 
-  const unitInfos = json.units.map((unit, index) => ({
-    population: unit.population,
-    info: {
-      name: unit.name, index, thread: unit.thread ?? '',
-      outputs: Object.fromEntries(Object.entries(unit.outputs ?? {}).filter((output): output is [string, string] =>
-        typeof output[1] === 'string' && slotsByName.has(output[1]))),
-    },
-  }));
-
   const find = (key: string): Item | undefined => {
     const known = items.get(key);
     if (known) return known;
@@ -418,7 +407,6 @@ export function makeModel(json: DescriptorJson, drivers: Drivers = {}): Model {
     queues: json.queues, threads: json.threads, menus, placements,
     item: find,
     joints: (device) => components.get(device)?.device?.joints ?? [],
-    units: (name) => unitInfos.filter(({ population, info }) => population === name || info.name === name).map(({ info }) => info),
     placed: (place) => ({
       items: [...items.values()].filter((item) => item.place === place && !item.hidden),
       placements: placements.filter((placement) => placement.place === place),

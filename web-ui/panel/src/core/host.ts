@@ -1,5 +1,5 @@
 // What every widget is given: the core behind the contract of widgets.
-import type { Hold, Joint, ListName, Outcome, Reading, SetOptions, UnitInfo, Value, WidgetHost } from '../contract';
+import type { Hold, Joint, ListName, Outcome, Reading, SetOptions, UnitTable, Value, WidgetHost } from '../contract';
 import { sameValue } from './same_value';
 import type { ConfigurationValues } from './configuration';
 import type { Item } from './descriptor';
@@ -14,7 +14,7 @@ import type { Subscriptions } from './subscriptions';
 export interface HostParts {
   readonly item: (key: string) => Item | undefined;
   readonly joints: (device: string) => readonly Joint[];
-  readonly units: (name: string) => readonly UnitInfo[];
+  readonly units: () => readonly UnitTable[];
   readonly watchList: (name: ListName, callback: (list: unknown) => void, rate?: number) => () => void;
   readonly store: Store;
   readonly subscriptions: Subscriptions;
@@ -42,6 +42,7 @@ export class Host implements WidgetHost {
   constructor(private readonly parts: HostParts) {}
 
   get stale(): boolean { return this.parts.stale(); }
+  get units(): readonly UnitTable[] { return this.parts.units(); }
 
   item(key: string): Item | undefined {
     return this.parts.item(key);
@@ -128,10 +129,6 @@ export class Host implements WidgetHost {
 
   joints(device: string): readonly Joint[] {
     return this.parts.joints(device);
-  }
-
-  units(name: string): readonly UnitInfo[] {
-    return this.parts.units(name);
   }
 
   watchList(name: ListName, callback: (list: unknown) => void, rate?: number): () => void {

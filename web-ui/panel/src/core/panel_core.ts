@@ -83,7 +83,7 @@ export class PanelCore implements Core {
     this.host = new Host({
       item: (key) => this.#model?.item(key),
       joints: (device) => this.#model?.joints(device) ?? [],
-      units: (name) => this.#model?.units(name) ?? [],
+      units: () => this.#model?.json.units ?? [],
       watchList: (name, callback, rate) => this.watchTopic(name, callback, rate),
       store: this.#store,
       subscriptions: this.#subscriptions,

@@ -16,15 +16,15 @@ import type { ItemInfo, Placement, RegisterWidget, WidgetElement, WidgetHost } f
 import { loadPart } from './parts';
 
 type WidgetClass = new () => WidgetElement;
+/** A kind of the panel's that comes by itself; undefined: there is none. */
+export type LoadWidget = (kind: string) => Promise<WidgetClass | undefined>;
 
 /** What src/widgets/index.ts exports. */
 export interface BuiltInWidgets {
   /** Those that a first view needs. */
   registerBuiltIn(register: RegisterWidget): void;
-  /** All others, in a chunk of their own. */
-  registerFurther(register: RegisterWidget): Promise<void>;
-  /** One that comes by itself; undefined: the panel has none of this kind beside those. */
-  loadApart(kind: string): Promise<WidgetClass | undefined>;
+  /** All others, in a chunk of their own; gives what loads those that come by themselves. */
+  registerFurther(register: RegisterWidget): Promise<LoadWidget>;
   /** `item.widget` where it fits or is none of the built-in ones, or else what suits the item's type. */
   kindOf(item: ItemInfo): string;
   /** The kind of a row [widget.NAME] where that fits its item, or else what suits the item's type. */
@@ -46,7 +46,7 @@ export const kindPattern = /^[a-z][a-z0-9_-]*$/;
 export class Registry {
   #kinds = new Map<string, string>();
   #builtIn: Promise<BuiltInWidgets> | undefined;
-  #further: Promise<void> | undefined;
+  #further: Promise<LoadWidget> | undefined;
   #loading = new Map<string, Promise<void>>();
 
   constructor(
@@ -95,23 +95,18 @@ export class Registry {
     return this.#builtIn;
   }
 
-  async #furtherOnes(): Promise<void> {
+  async #furtherOnes(): Promise<LoadWidget> {
     const builtIn = await this.#builtIns();
     this.#further ??= loadPart(() => builtIn.registerFurther(this.register));
     this.#further.catch(() => { this.#further = undefined; });
-    await this.#further;
-  }
-
-  async #loadOwn(kind: string): Promise<WidgetClass | undefined> {
-    const builtIn = await this.#builtIns();
-    return loadPart(() => builtIn.loadApart(kind));
+    return this.#further;
   }
 
   #load(kind: string): Promise<void> {
     if (!kindPattern.test(kind)) return Promise.reject(new Error(`"${kind}" is no name of a widget`));
     let loading = this.#loading.get(kind);
     if (!loading) {
-      loading = this.#loadOwn(kind).then((element) => element
+      loading = this.#furtherOnes().then((load) => load(kind)).then((element) => element
         ? this.register(kind, element)
         : this.loadCustom(`/application/widgets/${kind}.js`).then((module) => {
           if (module.register) module.register(this.register);

@@ -64,21 +64,6 @@ export class DisplayUnits {
 /** The units of this page. */
 export const displayUnits = new DisplayUnits(typeof localStorage === 'undefined' ? undefined : localStorage);
 
-/**
- * A number for people: `digits` significant ones, no exponent between 1e-4 and 1e9, integers whole.
- * With the same number of decimals for all values of one range, so that a live number does not jump about.
- */
-export function formatNumber(value: number, options: { digits?: number; range?: readonly [number, number]; integer?: boolean } = {}): string {
-  if (!Number.isFinite(value)) return Number.isNaN(value) ? 'not a number' : value > 0 ? '∞' : '−∞';
-  if (options.integer) return String(Math.round(value)).replace('-', '−');
-  const digits = options.digits ?? 4;
-  const largest = options.range ? Math.max(Math.abs(options.range[0]), Math.abs(options.range[1])) : Math.abs(value);
-  if (largest !== 0 && (largest >= 1e9 || largest < 1e-4)) return value.toExponential(digits - 1).replaceAll('-', '−');
-  const decimals = largest === 0 ? 0 : Math.max(0, digits - 1 - Math.floor(Math.log10(largest)));
-  const text = value.toFixed(Math.min(decimals, 9));
-  return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', '−');
-}
-
 /** A number that nothing is known of: at most so many significant digits, and none that it does not need. */
 export function significantText(value: number, digits: number): string {
   return String(Number(value.toPrecision(digits))).replaceAll('-', '−');

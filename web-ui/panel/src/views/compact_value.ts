@@ -1,7 +1,7 @@
 // A value in one short line, for a table's cell.
 import type { ItemInfo, Value } from '../contract';
+import { formatNumber } from '../core/format_number';
 import type { DisplayUnits } from '../core/units';
-import { formatNumber } from '../core/units';
 
 const longest = 96;
 

@@ -3,7 +3,7 @@ import { css, html, nothing } from 'lit';
 import { customElement, property } from 'lit/decorators.js';
 import { repeat } from 'lit/directives/repeat.js';
 import type { Component, Item } from '../core/descriptor';
-import { formatNumber } from '../core/units';
+import { formatNumber } from '../core/format_number';
 import { remedyOf } from '../core/words';
 import { componentRows, stateText, type ComponentRow } from './component_actions';
 import './component_buttons';

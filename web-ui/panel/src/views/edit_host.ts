@@ -1,6 +1,6 @@
 // What widgets of configuration parameters are given as their host: they show the configuration in force, or the draft
 // while it is being edited, and what they set goes into the draft. All else is the page's own host.
-import type { Hold, ItemInfo, Joint, ListName, Outcome, Reading, SetOptions, UnitInfo, Value, WidgetHost } from '../contract';
+import type { Hold, ItemInfo, Joint, ListName, Outcome, Reading, SetOptions, UnitTable, Value, WidgetHost } from '../contract';
 import { sameValue } from '../core/same_value';
 import { partOf, partsOf } from '../core/value_path';
 import { added } from '../core/watchers';
@@ -112,8 +112,8 @@ export class EditHost implements WidgetHost {
     return this.base.joints(device);
   }
 
-  units(name: string): readonly UnitInfo[] {
-    return this.base.units(name);
+  get units(): readonly UnitTable[] {
+    return this.base.units;
   }
 
   watchList(name: ListName, callback: (list: unknown) => void, rate?: number): () => void {

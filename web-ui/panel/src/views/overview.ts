@@ -26,9 +26,6 @@ export function chosenFeedback(model: Model): readonly Item[] {
   return lists.flat().filter((item) => chosen.has(item));
 }
 
-/** Tables of many columns. */
-const wideKinds: ReadonlySet<string> = new Set(['population', 'timeline']);
-
 @customElement('flexrf-overview')
 export class Overview extends ViewBase {
   static override styles = [
@@ -50,7 +47,10 @@ export class Overview extends ViewBase {
       section h3 {
         margin-block: 0.4em;
       }
-      .wide {
+      /* Tables of many columns, too. */
+      .wide,
+      [data-kind='population'],
+      [data-kind='timeline'] {
         grid-column: 1 / -1;
       }
       .items {
@@ -87,7 +87,7 @@ export class Overview extends ViewBase {
         ${this.stateCard()}
         <section><h3>Configuration file</h3>${this.saver()}</section>
         ${placed.placements.map((placement) => html`
-          <section class=${wideKinds.has(placement.kind) ? 'wide' : ''}><h3>${placement.label}</h3>
+          <section data-kind=${placement.kind}><h3>${placement.label}</h3>
             <flexrf-placement .core=${this.core} .placement=${placement}></flexrf-placement></section>`)}
         ${placed.items.length > 0 ? html`<section><h3>Values</h3>${this.items(placed.items)}</section>` : nothing}
         ${nothingPlaced ? this.feedback(chosenFeedback(model)) : nothing}

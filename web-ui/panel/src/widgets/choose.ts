@@ -22,6 +22,9 @@ const members = (item: ItemInfo): string[] =>
 const named = (item: ItemInfo, names: readonly string[]): boolean => names.every((name) => members(item).includes(name));
 const isImage = (item: ItemInfo): boolean => item.kind === 'slot' && named(item, ['width', 'height', 'format', 'data']);
 
+/** Made of several items, which only a row [widget.NAME] can name. */
+const rowOnly: Fit = { needs: 'a row [widget.NAME] of its own', fits: () => false };
+
 const fits: { readonly [kind: string]: Fit } = {
   number: { needs: 'a number', fits: number },
   vector: { needs: 'a vector', fits: (item) => item.shape.length === 1 && item.scalar !== 'structure' },
@@ -52,13 +55,8 @@ const fits: { readonly [kind: string]: Fit } = {
     needs: 'a vector or matrix of numbers that can be changed',
     fits: (item) => editable(item) && (numbers(item, 1) || numbers(item, 2)),
   },
-  jog_pad: { needs: 'a row [widget.NAME] with holds among its parameters', fits: () => false },
-  robot: { needs: 'a row [widget.NAME] with a device and a slot of its joints', fits: () => false },
-  population: { needs: 'a row [widget.NAME] with a slot of members', fits: () => false },
-  timeline: { needs: 'a row [widget.NAME] with populations or units', fits: () => false },
+  jog_pad: rowOnly, robot: rowOnly, population: rowOnly, timeline: rowOnly,
 };
-/** Made of several items, which only a row [widget.NAME] can name. */
-const several: ReadonlySet<string> = new Set(['jog_pad', 'robot', 'population', 'timeline']);
 
 /** Of an item, by its type alone. */
 export function defaultKind(item: ItemInfo): string {
@@ -110,7 +108,7 @@ export function placedItem(host: WidgetHost, placement: Placement): ItemInfo | u
 
 /** The kind that shows a row [widget.NAME]: its own where that fits. */
 export function placedKind(host: WidgetHost, placement: Placement): string {
-  const item = several.has(placement.kind) ? undefined : placedItem(host, placement);
+  const item = fits[placement.kind] === rowOnly ? undefined : placedItem(host, placement);
   return item ? kindOf({ ...item, widget: placement.kind }) : placement.kind;
 }
 

@@ -1,5 +1,7 @@
 // The widgets that change something or draw: a chunk of its own, loaded when the first of them is shown.
 import type { RegisterWidget } from '../contract';
+import { loadPart } from '../core/parts';
+import type { LoadWidget } from '../core/registry';
 import { RobotWidget } from './robot/robot_widget';
 import { ArrayField } from './array_field';
 import { Button } from './button';
@@ -15,7 +17,13 @@ import { Slider } from './slider';
 import { TextField } from './text_field';
 import { Toggle } from './toggle';
 
-export function registerFurther(register: RegisterWidget): void {
+/** Kinds that few applications show: each is loaded by itself. */
+const apart = new Map<string, () => ReturnType<LoadWidget>>([
+  ['population', async () => (await import('./population')).Population],
+  ['timeline', async () => (await import('./timeline')).Timeline],
+]);
+
+export function registerFurther(register: RegisterWidget): LoadWidget {
   register('image', ImageView);
   register('histogram', Histogram);
   register('gauge', Gauge);
@@ -30,4 +38,8 @@ export function registerFurther(register: RegisterWidget): void {
   register('array_field', ArrayField);
   register('jog_pad', JogPad);
   register('robot', RobotWidget);
+  return async (kind) => {
+    const load = apart.get(kind);
+    return load && loadPart(load);
+  };
 }

@@ -1,5 +1,6 @@
 // The widgets that a first view needs, in one chunk; those that change something or draw come with a second one.
-import type { RegisterWidget, WidgetElement } from '../contract';
+import type { RegisterWidget } from '../contract';
+import type { LoadWidget } from '../core/registry';
 import { ArrayReadout } from './array_readout';
 import { Lamp } from './lamp';
 import { NumberReadout } from './number_readout';
@@ -20,18 +21,7 @@ export function registerBuiltIn(register: RegisterWidget): void {
   register('records', Records);
 }
 
-/** Kinds that few applications show: each is loaded by itself. */
-const apart: { readonly [kind: string]: (() => Promise<new () => WidgetElement>) | undefined } = {
-  population: async () => (await import('./population')).Population,
-  timeline: async () => (await import('./timeline')).Timeline,
-};
-
-/** undefined: there is no such kind, or it is one of the others. */
-export async function loadApart(kind: string): Promise<(new () => WidgetElement) | undefined> {
-  return Object.hasOwn(apart, kind) ? apart[kind]?.() : undefined;
-}
-
-/** All others; needed for any item that can be changed, whatever its kind of widget. */
-export async function registerFurther(register: RegisterWidget): Promise<void> {
-  (await import('./further')).registerFurther(register);
+/** All others; needed for any item that can be changed, whatever its kind of widget. Gives those that come by themselves. */
+export async function registerFurther(register: RegisterWidget): Promise<LoadWidget> {
+  return (await import('./further')).registerFurther(register);
 }

@@ -11,6 +11,7 @@ import { historyOf, linePath, type Judged } from './member_history';
 import { Quantity } from './quantity';
 import { nameIn, namesIn } from './row_options';
 import { barStyles, widgetStyles } from './styles';
+import { unitsOf } from './units_of';
 import { scalarText, words } from './value_text';
 import { WidgetBase, dash } from './widget_base';
 
@@ -174,7 +175,7 @@ export class Population extends WidgetBase {
     }
     const list = this.host.item(`${this.item?.key}.${this.listName}`);
     const population = nameIn(this.options, 'population');
-    this.members = population === undefined ? [] : this.host.units(population).map((unit) => unit.name);
+    this.members = population === undefined ? [] : unitsOf(this.host, population).map((unit) => unit.name);
     const places = Math.min(list?.shape[0] ?? 0, most_cells);
     this.rows = this.members.length > 0 ? Math.min(places, this.members.length) : places;
     const fields = (list && this.host.item(`${list.key}[0]`)?.members) ?? [];

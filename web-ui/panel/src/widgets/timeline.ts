@@ -1,7 +1,7 @@
 // Which unit worked when: members of populations and units, a row each, over the last frames; beside it what each came to.
 import { css, html, nothing, svg } from 'lit';
 import type { TemplateResult } from 'lit';
-import type { ItemInfo, Reading, UnitInfo, Value } from '../contract';
+import type { ItemInfo, Reading, Value } from '../contract';
 import { addressOfRoute } from '../core/route';
 import { significantText } from '../core/units';
 import { lastOf, partOf, partsOf } from '../core/value_path';
@@ -9,6 +9,7 @@ import { arrayStyles } from './array_readout';
 import { Quantity } from './quantity';
 import { nameIn, namesIn } from './row_options';
 import { widgetStyles } from './styles';
+import { unitsOf, type UnitInfo } from './units_of';
 import { absence, scalarText, words } from './value_text';
 import { WidgetBase, dash } from './widget_base';
 import { workPath, WorkTrace, type Work } from './work_trace';
@@ -125,8 +126,8 @@ export class Timeline extends WidgetBase {
 
   protected override prepare(): void {
     super.prepare();
-    this.units = namesIn(this.options, 'rows').flatMap((name) => this.host.units(name)).slice(0, most_rows);
-    this.beat = this.host.units(nameIn(this.options, 'frame') ?? '')[0];
+    this.units = namesIn(this.options, 'rows').flatMap((name) => unitsOf(this.host, name)).slice(0, most_rows);
+    this.beat = unitsOf(this.host, nameIn(this.options, 'frame') ?? '')[0];
     const slot = this.units.map((unit) => this.slotOf(unit)).find((name) => name !== undefined);
     const list = nameIn(this.options, 'list');
     const root = list === undefined ? `slot:${slot}` : `slot:${slot}.${list}[0]`;

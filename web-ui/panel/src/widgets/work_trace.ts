@@ -1,5 +1,5 @@
 // What the threads' steps were, as the list `steps` tells it again and again: put together into one account.
-import type { UnitInfo } from '../contract';
+import type { UnitInfo } from './units_of';
 
 /** Of one thread in the list `steps`. */
 export interface ThreadSteps {

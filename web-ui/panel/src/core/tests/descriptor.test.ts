@@ -158,13 +158,4 @@ describe('words', () => {
     expect(makeModel({ ...sample, unit_types: types, units: [{ ...unit, overrides }] }).item('jog.step')?.step).toBe(0.002);
     expect(makeModel(sample).item('jog.step')).not.toHaveProperty('step');
   });
-
-  it('knows the units of a population in their order, or one, with the slots that they write', () => {
-    const made = makeModel({ ...cell, units: cell.units.map((unit) => ({ ...unit, outputs: { place: 'place[0]', jobs: 'jobs', none: null, several: ['wide'] } })) });
-    expect(made.units('axis')).toEqual([0, 1].map((index) => ({
-      name: `axis[${index}]`, index, thread: 'control', outputs: { place: 'place[0]' },
-    })));
-    expect(made.units('axis[1]').map((unit) => unit.index)).toEqual([1]);
-    expect(made.units('nobody')).toEqual([]);
-  });
 });

@@ -57,7 +57,7 @@ export class FakeCore {
     reset: async () => ({ ok: true }),
     item: (key) => this.model.item(key),
     joints: (device) => this.model.joints(device),
-    units: (name) => this.model.units(name),
+    units: [],
     watchList: (name, callback) => this.watchTopic(name, callback),
     locked: () => this.denied,
     watchAccess: (callback) => {

@@ -33,7 +33,7 @@ afterEach(() => vi.unstubAllGlobals());
 
 function hostOf(known: Model): Host {
   return new Host({
-    item: (key) => known.item(key), joints: (device) => known.joints(device), units: (name) => known.units(name), store, subscriptions,
+    item: (key) => known.item(key), joints: (device) => known.joints(device), units: () => known.json.units, store, subscriptions,
     watchList: () => () => undefined,
     configuration: new ConfigurationValues(fetchValues),
     holds: new Holds({ request: request as never, send: () => true, nextId: () => 1, listen: () => () => undefined }),

@@ -182,8 +182,7 @@ describe('the core', () => {
     missing.host = other;
     const builtIn: BuiltInWidgets = {
       registerBuiltIn: (register) => register('plain', class extends HTMLElement { host!: WidgetHost; }),
-      registerFurther: () => Promise.resolve(),
-      loadApart: () => Promise.resolve(undefined),
+      registerFurther: () => Promise.resolve(() => Promise.resolve(undefined)),
       kindOf: () => 'plain',
       placedKind: () => 'plain',
     };

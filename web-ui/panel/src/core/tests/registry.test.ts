@@ -1,14 +1,19 @@
-import { describe, expect, it, vi } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
 import type { WidgetElement } from '../../contract';
-import { Registry, type BuiltInWidgets } from '../registry';
+import { Registry, type BuiltInWidgets, type LoadWidget } from '../registry';
 
 const element = (): new () => WidgetElement => class extends HTMLElement {} as unknown as new () => WidgetElement;
+
+const apart = vi.fn<LoadWidget>((kind) => Promise.resolve(kind === 'crowd' ? element() : undefined));
+afterEach(() => void apart.mockClear());
 
 function builtIn(): BuiltInWidgets {
   return {
     registerBuiltIn: (register) => register('number', element()),
-    registerFurther: vi.fn<BuiltInWidgets['registerFurther']>((register) => Promise.resolve(register('slider', element()))),
-    loadApart: vi.fn<BuiltInWidgets['loadApart']>((kind) => Promise.resolve(kind === 'crowd' ? element() : undefined)),
+    registerFurther: vi.fn<BuiltInWidgets['registerFurther']>((register) => {
+      register('slider', element());
+      return Promise.resolve(apart);
+    }),
     kindOf: (item) => item.widget ?? 'number',
     placedKind: (_host, placement) => placement.kind,
   };
@@ -36,10 +41,10 @@ describe('registry', () => {
     const registry = new Registry(() => Promise.resolve(widgets), load);
     const [one] = await Promise.all([registry.create('crowd'), registry.create('crowd')]);
     expect(one!.localName).toBe('flexrf-widget-crowd');
-    expect(widgets.loadApart).toHaveBeenCalledExactlyOnceWith('crowd');
+    expect(apart).toHaveBeenCalledExactlyOnceWith('crowd');
     expect(load).not.toHaveBeenCalled();
     await registry.create('slider');
-    expect(widgets.loadApart).toHaveBeenCalledOnce();
+    expect(apart).toHaveBeenCalledOnce();
   });
   it('takes several kinds from one module', async () => {
     const registry = new Registry(() => Promise.resolve(builtIn()), () => Promise.resolve({

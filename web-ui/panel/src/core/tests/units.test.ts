@@ -1,5 +1,6 @@
 import { describe, expect, it, vi } from 'vitest';
-import { DisplayUnits, formatNumber } from '../units';
+import { formatNumber } from '../format_number';
+import { DisplayUnits } from '../units';
 
 describe('display units', () => {
   it('are those of a workshop unless SI is chosen', () => {

@@ -1,7 +1,7 @@
 // A host whose every side the test holds in its hands.
 import { vi } from 'vitest';
 import type {
-  Hold, ItemInfo, ListName, Outcome, Reading, RegisterWidget, SetOptions, UnitInfo, Value, WidgetElement, WidgetHost,
+  Hold, ItemInfo, ListName, Outcome, Reading, RegisterWidget, SetOptions, UnitTable, Value, WidgetElement, WidgetHost,
 } from '../../contract';
 import { kindOf, registerBuiltIn } from '..';
 import { Newest } from '../../core/newest';
@@ -62,8 +62,7 @@ export class FakeHost implements WidgetHost {
   readonly hold = vi.fn<(key: string) => Promise<Hold>>(async () => makeHold());
   readonly file = vi.fn(async () => new Response());
   readonly joints = () => [];
-  /** By population. */
-  readonly populations = new Map<string, readonly UnitInfo[]>();
+  units: readonly UnitTable[] = [];
   readonly lists = new Map<ListName, Set<(list: unknown) => void>>();
 
   watch(key: string, callback: (reading: Reading) => void, options: { rate?: number; width?: number } = {}): () => void {
@@ -79,9 +78,6 @@ export class FakeHost implements WidgetHost {
     this.watches.filter((watch) => watch.key === key).forEach((watch) => watch.callback(reading));
   }
 
-  units(name: string): readonly UnitInfo[] {
-    return this.populations.get(name) ?? [];
-  }
   watchList(name: ListName, callback: (list: unknown) => void): () => void {
     const watchers = this.lists.get(name) ?? new Set<(list: unknown) => void>();
     this.lists.set(name, watchers.add(callback));

@@ -31,7 +31,7 @@ beforeEach(() => {
   host.items.set('judge.save', makeParameter({ key: 'judge.save', label: 'Save them', scalar: 'button' }));
   host.items.set('runner[0].pace', makeParameter({ key: 'runner[0].pace', label: 'Pace', range: [0, 2] }));
   host.items.set('runner[0].rest', makeParameter({ key: 'runner[0].rest', label: 'Rest', range: [-1, 1] }));
-  host.populations.set('runner', [0, 1, 2].map((index) => ({ name: `runner[${index}]`, index, thread: 'running', outputs: {} })));
+  host.units = [0, 1, 2].map((index) => ({ name: `runner[${index}]`, population: 'runner', thread: 'running' }));
 });
 afterEach(() => document.body.replaceChildren());
 

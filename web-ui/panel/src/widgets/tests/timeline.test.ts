@@ -10,9 +10,12 @@ let host: FakeHost;
 
 beforeEach(() => {
   host = new FakeHost();
-  host.populations.set('pulse', [{ name: 'pulse', index: 0, thread: 'main', outputs: {} }]);
-  host.populations.set('runner', [1, 2].map((index) => ({ name: `runner[${index - 1}]`, index, thread: 'running', outputs: { effort: `efforts[${index - 1}]` } })));
-  host.populations.set('judge', [{ name: 'judge', index: 3, thread: 'main', outputs: { standing: 'standing' } }]);
+  host.units = [
+    { name: 'pulse', thread: 'main', outputs: { beat: 'beat' } },
+    ...[0, 1].map((index) => ({ name: `runner[${index}]`, population: 'runner', thread: 'running', outputs: { effort: `efforts[${index}]`, jobs: 'jobs' } })),
+    { name: 'judge', thread: 'main', outputs: { standing: 'standing', effort: null } },
+  ];
+  for (const name of ['efforts[0]', 'efforts[1]', 'standing']) host.items.set(`slot:${name}`, makeItem({ key: `slot:${name}` }));
   host.items.set('slot:efforts[0].last[0].mood', makeItem({ key: 'slot:efforts[0].last[0].mood', label: 'Mood', scalar: 'enumeration' }));
   host.items.set('slot:efforts[0].last[0].entrant.number', makeItem({ key: 'slot:efforts[0].last[0].entrant.number', label: 'Number', scalar: 'u32', unit: '' }));
 });

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import type { UnitInfo } from '../../contract';
+import type { UnitInfo } from '../units_of';
 import { workPath, WorkTrace } from '../work_trace';
 
 const unit = (index: number, thread = 'work'): UnitInfo => ({ name: `u${index}`, index, thread, outputs: {} });
