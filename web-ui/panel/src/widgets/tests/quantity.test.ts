@@ -1,6 +1,7 @@
 import { afterEach, describe, expect, it } from 'vitest';
 import type { ItemInfo } from '../../contract';
-import { displayUnits, formatNumber } from '../../core/units';
+import { formatNumber } from '../../core/format_number';
+import { displayUnits } from '../../core/units';
 import { isWide, Quantity } from '../quantity';
 import { sameValue } from '../../core/same_value';
 import { anyText } from '../value_text';
