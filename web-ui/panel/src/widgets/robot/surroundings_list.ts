@@ -2,7 +2,8 @@
 import { css, html, nothing } from 'lit';
 import type { TemplateResult } from 'lit';
 import type { Placement, Reading, WidgetHost } from '../../contract';
-import { displayUnits, formatNumber } from '../../core/units';
+import { formatNumber } from '../../core/format_number';
+import { displayUnits } from '../../core/units';
 import { EndingElement } from '../ending_element';
 import { layerStyles } from '../layer_styles';
 import { LiveText } from '../live_text';
