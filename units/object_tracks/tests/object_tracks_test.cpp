@@ -289,7 +289,8 @@ bool a_full_list_takes_no_more_and_says_so() {
   const auto world = std::make_unique<World>();
   world->picture();
   for (int i = 0; i < 40; ++i) {
-    world->add(world->seen(0.3 + 0.05 * (i % 8), -0.2 + 0.05 * (i / 8)));
+    const int row = i / 8;
+    world->add(world->seen(0.3 + 0.05 * (i % 8), -0.2 + 0.05 * row));
     if (i % 20 == 19) world->tell();
   }
   return world->count() == 32 && world->bench.feedback().refused == 8 &&
