@@ -112,6 +112,7 @@ bool JobQueue::pop(void* value_out, ItemHeader& header) noexcept {
     header = cell.header;
     std::memcpy(value_out, value(best.cell), type_->size);
     cell.owner->popped_.fetch_add(1, std::memory_order_relaxed);
+    departures_.fetch_add(1, std::memory_order_release);
     cell.word.store(empty, std::memory_order_release);
     return true;
   }

@@ -64,6 +64,8 @@ class JobQueue final : public QueueSource {
   /// As they rank: without what does not count of them. N loads.
   std::uint32_t scores(std::span<double> scores) const noexcept override;
   std::uint64_t arrivals() const noexcept override { return arrivals_.load(std::memory_order_acquire); }
+  /// By whichever reader.
+  std::uint64_t departures() const noexcept override { return departures_.load(std::memory_order_acquire); }
   const TypeDescriptor* type() const noexcept override { return type_; }
   std::uint32_t capacity() const noexcept { return memory_.count; }
   /// So that tests can see the wrap-around. Before the start.
@@ -103,6 +105,7 @@ class JobQueue final : public QueueSource {
 
   alignas(64) std::atomic<std::uint64_t> tickets_{0};
   std::atomic<std::uint64_t> arrivals_{0};
+  std::atomic<std::uint64_t> departures_{0};
 };
 
 /// One writer's way into a JobQueue, with its counters.

@@ -59,6 +59,8 @@ class QueueSource {
   virtual std::uint32_t scores(std::span<double> /*scores*/) const noexcept { return 0; }
   /// Grows with every visible push: what a trigger compares. Any thread.
   virtual std::uint64_t arrivals() const noexcept = 0;
+  /// Grows with every item that a reader took: what tells a trigger whether a step took any. Any thread.
+  virtual std::uint64_t departures() const noexcept = 0;
   virtual const TypeDescriptor* type() const noexcept = 0;
 
  protected:

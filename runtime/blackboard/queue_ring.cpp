@@ -101,4 +101,10 @@ std::uint64_t RingSet::arrivals() const noexcept {
   return sum;
 }
 
+std::uint64_t RingSet::departures() const noexcept {
+  std::uint64_t sum = 0;
+  for (const QueueRing* ring : rings_) sum += ring->departures();
+  return sum;
+}
+
 }  // namespace flexrf

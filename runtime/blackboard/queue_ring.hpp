@@ -51,6 +51,8 @@ class QueueRing final : public QueueSink, public QueueSource {
   bool pop(void* value, ItemHeader& header) noexcept override;
   std::uint32_t fill() const noexcept override;
   std::uint64_t arrivals() const noexcept override { return visible_.load(std::memory_order_acquire); }
+  /// What was overwritten leaves, too, when the reader skips it.
+  std::uint64_t departures() const noexcept override { return read_.load(std::memory_order_acquire); }
 
   std::uint32_t capacity() const noexcept { return memory_.capacity; }
   /// So that tests can see the wrap-around: positions begin here. Before the start.
@@ -108,6 +110,7 @@ class RingSet final : public QueueSource {
   bool pop(void* value, ItemHeader& header) noexcept override;
   std::uint32_t fill() const noexcept override;
   std::uint64_t arrivals() const noexcept override;
+  std::uint64_t departures() const noexcept override;
   const TypeDescriptor* type() const noexcept override { return type_; }
 
  private:

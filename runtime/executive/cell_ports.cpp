@@ -22,16 +22,13 @@ void Cell::choose_ports() noexcept {
 }
 
 bool Cell::is_abandoned(const QueueSource* source) const noexcept {
-  const auto takes = [source](const PortBinding& ports) {
-    return std::find(ports.queue_inputs.begin(), ports.queue_inputs.end(), source) !=
-           ports.queue_inputs.end();
-  };
   bool another_would = false;
   for (const DeviceRecord& device : application_->devices)
     for (const DriverRecord& driver : device.drivers)
-      another_would = another_would || (driver.ports != nullptr && takes(*driver.ports));
-  return another_would &&
-         std::none_of(ports_.begin(), ports_.end(), [&](const PortBinding* ports) { return takes(*ports); });
+      another_would = another_would || (driver.ports != nullptr && driver.ports->takes_from(source));
+  return another_would && std::none_of(ports_.begin(), ports_.end(), [source](const PortBinding* ports) {
+           return ports->takes_from(source);
+         });
 }
 
 void Cell::connect_device(std::uint16_t index) noexcept {

@@ -1,11 +1,33 @@
 #include "runtime/executive/releases.hpp"
 
+#include <algorithm>
+
 namespace flexrf {
+namespace {
+
+/// By the trigger's bits. The drivers are chosen by now.
+std::uint32_t own_queues(const Cell& cell, const ThreadRecord& thread) noexcept {
+  const auto takes_from = [&](const QueueSource* queue) {
+    return std::any_of(thread.units.begin(), thread.units.end(),
+                       [&](std::uint16_t unit) { return cell.ports(unit).takes_from(queue); }) ||
+           std::any_of(thread.devices.begin(), thread.devices.end(), [&](std::uint16_t device) {
+             return cell.ports(cell.application().devices[device].index).takes_from(queue);
+           });
+  };
+  std::uint32_t own = 0;
+  for (std::size_t i = 0; i < thread.trigger.sources.size(); ++i) {
+    const QueueSource* const queue = thread.trigger.sources[i].queue;
+    if (queue != nullptr && takes_from(queue)) own |= std::uint32_t{1} << i;
+  }
+  return own;
+}
+
+}  // namespace
 
 Releases::Releases(Cell& cell, std::uint16_t thread)
     : record_(&cell.application().threads[thread]),
       stepper_(cell, thread),
-      trigger_(record_->trigger, cell.application()),
+      trigger_(record_->trigger, cell.application(), own_queues(cell, *record_)),
       accounting_(*record_, cell.application().thread_states[thread]) {}
 
 Due Releases::next(Time now, bool readable) noexcept {

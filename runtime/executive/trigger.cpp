@@ -16,9 +16,11 @@ Status check_triggers(const Application& application) {
   return {};
 }
 
-Trigger::Trigger(const TriggerRecord& record, const Application& application) noexcept
+Trigger::Trigger(const TriggerRecord& record, const Application& application,
+                 std::uint32_t own_queues) noexcept
     : record_(&record),
       application_(&application),
+      own_queues_(own_queues),
       backoff_(BackoffLimits{record.shortest, record.longest, std::max<std::uint32_t>(record.tries, 1)}) {}
 
 void Trigger::begin(Time start) noexcept {
@@ -27,6 +29,8 @@ void Trigger::begin(Time start) noexcept {
   poll_at_ = start;
   advanced();
   cursors_ = seen_;
+  taken_ = taken();
+  judged_ = false;
 }
 
 std::uint64_t Trigger::count_of(std::size_t source) const noexcept {
@@ -41,6 +45,42 @@ std::uint32_t Trigger::advanced() noexcept {
     if (seen_[i] != cursors_[i]) fired |= std::uint32_t{1} << i;
   }
   return fired;
+}
+
+std::uint64_t Trigger::taken() const noexcept {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < record_->sources.size(); ++i) {
+    const std::uint32_t bit = std::uint32_t{1} << i;
+    if ((own_queues_ & bit) != 0) sum += record_->sources[i].queue->departures();
+  }
+  return sum;
+}
+
+std::uint32_t Trigger::waiting() const noexcept {
+  std::uint32_t queues = 0;
+  for (std::size_t i = 0; i < record_->sources.size(); ++i) {
+    const std::uint32_t bit = std::uint32_t{1} << i;
+    if ((own_queues_ & bit) != 0 && !record_->sources[i].queue->is_empty()) queues |= bit;
+  }
+  return queues;
+}
+
+/// Own queues in which the last step left something that is still there. The first look after a release
+/// judges its step; what comes later is an arrival.
+std::uint32_t Trigger::left_behind(Time now) noexcept {
+  if (!judged_) {
+    judged_ = true;
+    left_ = waiting();
+    const bool is_backoff = record_->kind == TriggerKind::backoff;
+    const Duration soonest = is_backoff ? record_->shortest : record_->min_interval;
+    const Duration first = is_backoff ? soonest : std::max(soonest, first_pause);
+    const Duration longest = is_backoff ? record_->longest : std::max(soonest, longest_pause);
+    const bool took = taken() != taken_;
+    pause_ = took || left_ == 0 ? Duration{} : std::clamp(2 * pause_, first, longest);
+    // The pause counts from the end of the step: a long one must not follow on itself.
+    offer_at_ = std::max(last_ + soonest, now + pause_);
+  }
+  return left_ == 0 ? 0 : left_ & waiting();
 }
 
 Due Trigger::due(Time now, bool readable) noexcept {
@@ -66,9 +106,14 @@ void Trigger::add_timeout(Due& due) const noexcept {
 }
 
 Due Trigger::due_by_sources(Time now) noexcept {
+  const std::uint32_t arrived = advanced();
+  const std::uint32_t left = left_behind(now);
   Due due;
-  due.fired = advanced();
-  if (due.fired != 0) due.at = std::max(now, last_ + record_->min_interval);
+  due.fired = arrived | left;
+  if (arrived != 0)
+    due.at = std::max(now, last_ + record_->min_interval);
+  else if (left != 0)
+    due.at = std::max(now, offer_at_);
   add_timeout(due);
   return due;
 }
@@ -92,13 +137,16 @@ Due Trigger::due_by_device(Time now, bool readable) const noexcept {
 }
 
 Due Trigger::due_by_backoff(Time now) noexcept {
-  if (!found_ && now < poll_at_) return Due{poll_at_, 0, false};
+  const Time offer_at = left_behind(now) != 0 ? offer_at_ : Time::max();
+  if (!found_ && now < std::min(poll_at_, offer_at)) return Due{std::min(poll_at_, offer_at), 0, false};
   advanced();
   if (found_) return Due{now, 1, false};
   const std::uint64_t arrived = seen_[0] - cursors_[0];
   if (arrived == 0) {
-    poll_at_ = backoff_.miss(now);
-    return Due{poll_at_, 0, false};
+    if (now >= poll_at_) poll_at_ = backoff_.miss(now);
+    // An offer is no arrival: the rhythm that is learned is the writer's.
+    if (now >= offer_at) return Due{now, 1, false};
+    return Due{std::min(poll_at_, offer_at), 0, false};
   }
   // A slot tells when its item came about; of a queue only the poll's time is known.
   const SlotControl* slot = record_->sources[0].slot;
@@ -110,6 +158,10 @@ Due Trigger::due_by_backoff(Time now) noexcept {
 void Trigger::released(Time nominal, Time now) noexcept {
   last_ = now;
   found_ = false;
+  judged_ = false;
+  taken_ = taken();
+  // An offer may come just before a poll.
+  if (record_->kind == TriggerKind::backoff) poll_at_ = std::max(poll_at_, now + record_->shortest);
   if (record_->kind == TriggerKind::period) next_ = nominal + record_->period;
   for (std::size_t i = 0; i < record_->sources.size(); ++i) cursors_[i] = seen_[i];
 }

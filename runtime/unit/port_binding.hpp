@@ -1,6 +1,7 @@
 // How the generated application connects what units and devices read and publish.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 
@@ -27,6 +28,10 @@ struct PortBinding {
   }
   SlotControl* output(std::size_t number) const noexcept {
     return number < outputs.size() ? outputs[number] : nullptr;
+  }
+  /// Whether it has this queue's items.
+  bool takes_from(const QueueSource* source) const noexcept {
+    return std::find(queue_inputs.begin(), queue_inputs.end(), source) != queue_inputs.end();
   }
   std::span<QueueSink* const> queue_output(std::size_t number) const noexcept {
     return number < queue_outputs.size() ? queue_outputs[number] : std::span<QueueSink* const>{};

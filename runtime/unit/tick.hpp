@@ -13,7 +13,7 @@ struct Tick {
   Duration lateness{};            ///< now - nominal
   Duration elapsed{};             ///< since this unit's step before, 0 at its first
   std::uint64_t number = 0;       ///< steps of this unit before this one
-  std::uint32_t fired = 0;        ///< bit n: the n-th source of the thread's trigger fired
+  std::uint32_t fired = 0;        ///< bit n: the trigger's n-th source fired, or items wait in that queue
   bool timed_out = false;         ///< released by the trigger's timeout
   bool finishing = false;         ///< no more input will come: complete what is begun
   bool stop_requested = false;    ///< controlled stop: come to rest within stop_timeout, then be idle

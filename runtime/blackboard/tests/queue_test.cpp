@@ -64,6 +64,7 @@ void items_come_out_once_and_in_order(void**) {
     assert_int_equal(pop(ring.ring), 0);
   }
   assert_int_equal(ring.ring.arrivals(), next_in - 1);
+  assert_int_equal(ring.ring.departures(), next_out - 1);
   assert_counters(ring.ring, next_in - 1, next_in - 1, 0);
 }
 
@@ -167,6 +168,7 @@ void rings_are_drained_in_table_order(void**) {
   assert_int_equal(pop(set), 11);
   assert_int_equal(pop(set), 12);
   assert_int_equal(pop(set), 21);
+  assert_int_equal(set.departures(), 3);
   first.push(13);
   assert_int_equal(pop(set), 13);
   assert_int_equal(pop(set), 22);
@@ -212,6 +214,7 @@ void jobs_of_several_writers_come_out_in_order_of_arrival(void**) {
     assert_int_equal(jobs.queue.fill(), number - expected);
   }
   assert_int_equal(jobs.queue.arrivals(), number - 1);
+  assert_int_equal(jobs.queue.departures(), expected - 1);
   assert_int_equal(jobs.one.counters().pushed + jobs.two.counters().pushed, number - 1);
   assert_int_equal(jobs.one.counters().popped + jobs.two.counters().popped, expected - 1);
 }

@@ -254,6 +254,7 @@ void TestApplication::make_queues() {
     }
     for (const DevicePlan& device : devices_) {
       if (device.pushes == index) writers.push_back(keep(device.name + ".orders"));
+      if (device.pops == index) readers.push_back(keep(device.name + ".jobs"));
     }
     auto& rings = made_->memory.emplace_back(zeroed(writers.size() * sizeof(void*)));
     auto** ring_list = static_cast<QueueRing**>(rings.get());
@@ -293,6 +294,8 @@ void TestApplication::make_devices() {
     if (plan.reads != no_index) inputs.push_back({reader_of(thread, plan.reads), 1, {}, nullptr});
     std::vector<SlotControl*>& outputs = made_->outputs.emplace_back();
     if (plan.output != no_index) outputs.push_back(slot_records_[plan.output].control);
+    std::vector<QueueSource*>& sources = made_->sources.emplace_back();
+    if (plan.pops != no_index) sources.push_back(made_->queue_records[plan.pops].sources[0]);
     std::vector<std::span<QueueSink* const>>& sinks = made_->sink_lists.emplace_back();
     if (plan.pushes != no_index) sinks.push_back(made_->sink(plan.pushes, next[plan.pushes]));
     const DriverRecord& driver = made_->drivers.emplace_back(
@@ -312,6 +315,7 @@ void TestApplication::make_devices() {
     record.instance = &made_->instances[i];
     record.binding.context = &made_->contexts[thread];
     record.binding.inputs = inputs;
+    record.binding.queue_inputs = sources;
     record.binding.outputs = outputs;
     record.binding.queue_outputs = sinks;
     record.bus = plan.bus;

@@ -88,6 +88,7 @@ struct DevicePlan {
   std::uint16_t bus = no_index;
   std::uint16_t reads = no_index;   ///< slot
   std::uint16_t output = no_index;  ///< slot
+  std::uint16_t pops = no_index;    ///< queue
   std::uint16_t pushes = no_index;  ///< queue
   Duration initialise_timeout = patience;
   std::span<const Option> options = {};  ///< of the command line

@@ -172,6 +172,7 @@ bool TestDevice::make_safe() noexcept {
 void TestDevice::connect(const DeviceBinding& binding) noexcept {
   input.connect(binding.context, binding.input(0));
   output.connect(binding.context, binding.output(0));
+  jobs.connect(binding.queue_input(0));
   orders.connect(binding.context, binding.queue_output(0));
 }
 

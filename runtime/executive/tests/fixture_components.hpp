@@ -126,6 +126,7 @@ class TestDevice final : public Device {
 
   Input<Item> input;
   Output<Item> output;
+  QueueInput<Item> jobs;
   QueueOutput<Item> orders;
   double command = 0;      ///< what its unit commands
   double position = 0;     ///< follows the command while not inhibited

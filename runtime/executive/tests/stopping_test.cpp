@@ -235,12 +235,17 @@ void a_slow_threads_devices_have_as_long_as_its_steps() {
 /// Input that ends after ten jobs, which are left in a queue that is emptied slowly.
 // [stop-29] [stop-71]
 void at_the_end_of_input_queues_are_drained() {
-  for (const bool simulated : {true, false}) {
+  const TriggerPlan periodic = TriggerPlan::periodic(milliseconds{2});
+  // Nothing arrives any more, and its reader is to take what waits all the same.
+  const TriggerPlan by_queue = TriggerPlan::on_slots({}, {Cell::jobs});
+  const std::pair<bool, TriggerPlan> runs[] = {
+      {true, periodic}, {false, periodic}, {true, by_queue}, {false, by_queue}};
+  for (const auto& [simulated, trigger] : runs) {
     Cell cell;
     std::atomic<std::int64_t> pushed{0};
     std::int64_t popped = 0;
     bool told = false;
-    cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{2});
+    cell.thread(Cell::consuming).trigger = trigger;
     cell.device(Cell::actuator).script.is_closed = [&] { return pushed >= 10; };
     cell.unit(Cell::producer).script.step = [&](TestUnit& unit, const Tick& tick) {
       if (tick.number < 15 && !tick.finishing && unit.orders.push(Item{})) ++pushed;

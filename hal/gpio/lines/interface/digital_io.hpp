@@ -20,7 +20,8 @@ class DigitalIo : public Actuator<DigitalIoInterface> {
   virtual std::optional<DigitalState> state() const noexcept = 0;
 
   /// The next change of an input, oldest first, bounces too [digital-io-2]. With the queue `edges` connected
-  /// they go there instead [digital-io-6].
+  /// they go there instead [digital-io-6]. What it has no room for waits, and is not forgotten when no other
+  /// change comes [digital-io-8].
   virtual std::optional<DigitalEdge> read_edge() noexcept = 0;
 
   /// What an output shall be, from the end of the cycle until the next command [digital-io-3]. Without effect

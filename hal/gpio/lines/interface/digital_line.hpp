@@ -32,6 +32,7 @@ class DigitalLine {
   void receive(Time now) noexcept;
   std::optional<DigitalState> state() const noexcept;
   std::optional<DigitalEdge> read_edge() noexcept;
+  bool has_edges() const noexcept { return edges_count_ > 0; }
   void command(bool on) noexcept;
   void forget() noexcept { commanded_.reset(); }
   void send(Time now) noexcept;

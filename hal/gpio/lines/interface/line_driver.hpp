@@ -2,6 +2,8 @@
 // on.
 #pragma once
 
+#include <algorithm>
+
 #include "base/text.hpp"
 #include "hal/gpio/lines/interface/digital_line.hpp"
 
@@ -20,17 +22,23 @@ class LineDriver : public Base {
                                    .emergency_stop = set.emergency_stop,
                                    .safe_value = set.safe_value});
   }
-  void stop() override { line_.close(); }
+  void stop() override {
+    line_.close();
+    retry_at_ = Time::max();
+  }
 
   bool guards_motion() const noexcept override { return this->configuration.emergency_stop; }
   bool demands_safe_state() const noexcept override { return line_.demands_safe_state(); }
   int descriptor() const noexcept override { return line_.descriptor(); }
-  Time next_event() const noexcept override { return line_.next_event(); }
+  Time next_event() const noexcept override { return std::min(line_.next_event(), retry_at_); }
 
   std::optional<DigitalState> state() const noexcept override { return line_.state(); }
   std::optional<DigitalEdge> read_edge() noexcept override { return line_.read_edge(); }
 
  private:
+  /// How soon it asks to be called again for edges that the queue had no room for: nothing else may come.
+  static constexpr Duration retry_interval = std::chrono::milliseconds(5);
+
   void take_in(const Tick& tick) noexcept override {
     line_.receive(tick.now);
     if (const auto now = line_.state()) this->level.publish(*now);
@@ -39,6 +47,7 @@ class LineDriver : public Base {
       if (!edge) break;
       this->edges.push(*edge, Time{Duration{edge->at}});
     }
+    retry_at_ = this->edges.is_connected() && line_.has_edges() ? tick.now + retry_interval : Time::max();
     line_.fill(this->feedback);
   }
   bool is_signal() const noexcept override { return this->configuration.signal; }
@@ -51,6 +60,7 @@ class LineDriver : public Base {
   bool become_safe() noexcept override { return line_.make_safe(); }
 
   DigitalLine line_;
+  Time retry_at_ = Time::max();
 };
 
 }  // namespace flexrf

@@ -1,5 +1,7 @@
 #include "hal/operator/keyboard/conformance/keyboard_conformance.hpp"
 
+#include <poll.h>
+
 #include <algorithm>
 
 #include "hal/operator/keyboard/interface/key_tracker.hpp"
@@ -103,6 +105,26 @@ Verdict a_full_queue_loses_nothing(KeyboardWorld& world) {
                  world.keyboard().is_closed() == world.can_end());
 }
 
+/// By its descriptor, or by the time that it names.
+bool asks_to_be_called_again(const Keyboard& keyboard) {
+  if (keyboard.next_event() != Time::max()) return true;
+  pollfd watched{keyboard.descriptor(), POLLIN, 0};
+  constexpr int longest_wait = 1000;  // ms
+  return watched.fd >= 0 && poll(&watched, 1, longest_wait) == 1;
+}
+
+// The reader comes when every press is with the driver, and nothing else is pressed.
+// [keyboard-5]
+Verdict what_has_no_room_asks_again(KeyboardWorld& world) {
+  world.will_press(letters(12), false);
+  QueueBench<KeyEvent, 4> queue;
+  if (!world.start(queue.sinks())) return Verdict::failed;
+  for (int cycle = 0; cycle < patience; ++cycle) world.receive();
+  if (queue.ring().fill() != 4) return Verdict::failed;
+  while (queue.pop()) continue;
+  return verdict(asks_to_be_called_again(world.keyboard()));
+}
+
 /// What is down becomes these keys.
 bool held_become(KeyboardWorld& world, const std::vector<KeyEvent>& keys) {
   for (int cycle = 0; cycle < long_patience; ++cycle) {
@@ -194,6 +216,7 @@ int run_keyboard_conformance(const char* driver, MakeKeyboardWorld make) {
       {"closes after its last key", judged<closes_after_its_last_key>, nullptr, nullptr, nullptr},
       {"stays open while keys may come", judged<stays_open_while_keys_may_come>, nullptr, nullptr, nullptr},
       {"a full queue loses nothing", judged<a_full_queue_loses_nothing>, nullptr, nullptr, nullptr},
+      {"what has no room asks again", judged<what_has_no_room_asks_again>, nullptr, nullptr, nullptr},
       {"a key is held until it is let go", judged<a_key_is_held_until_it_is_let_go>, nullptr, nullptr,
        nullptr},
       {"no key is held once it is unplugged", judged<no_key_is_held_once_it_is_unplugged>, nullptr, nullptr,

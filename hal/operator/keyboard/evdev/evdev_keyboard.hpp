@@ -21,6 +21,10 @@ class EvdevKeyboard final : public EvdevKeyboardDriver {
   std::optional<KeyEvent> read() noexcept override;
   std::optional<HeldKeys> held_keys() const noexcept override { return tracker_.held(); }
   int descriptor() const noexcept override { return port_.descriptor(); }
+  /// Presses that the queue had no room for: the kernel no longer announces them.
+  Time next_event() const noexcept override {
+    return keys.is_connected() && taken_ != pressed_ ? now() + retry_interval : Time::max();
+  }
 
  private:
   static constexpr std::size_t capacity = 256;

@@ -19,7 +19,8 @@ class Keyboard : public KeyboardInterface {
   virtual std::optional<HeldKeys> held_keys() const noexcept { return std::nullopt; }
 
   /// With an IO thread: publishes what is down, and what was pressed, as much as the queue has room for. The
-  /// rest waits where it is, so that no key press is lost however fast they come [keyboard-4].
+  /// rest waits where it is, so that no key press is lost however fast they come [keyboard-4], and asks to be
+  /// called again when no other key comes [keyboard-5].
   void receive(const Tick& tick) noexcept override {
     now_ = tick.now;
     for (int n = 0; n < most_keys_per_cycle && keys.is_connected() && keys.has_room(); ++n) {

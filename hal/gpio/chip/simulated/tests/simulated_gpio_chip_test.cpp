@@ -155,6 +155,43 @@ void edges_go_to_the_queue_where_one_is_connected(void**) {
   assert_false(read);
 }
 
+// [digital-io-8]
+void edges_that_a_full_queue_has_no_room_for_are_not_forgotten(void**) {
+  int count = 0;
+  bool asked = true;
+  bool rests = false;
+  {
+    QueueBench<DigitalEdge, 2> queue;
+    DeviceBench<SimulatedGpioChip> chip{nullptr};
+    DeviceBench<SimulatedDigitalIo> reed{nullptr, queue.sinks(), &chip.driver()};
+    configure_line(reed, {}, "REED");
+    const auto receive = [&](Duration elapsed) {
+      chip.receive(elapsed);
+      reed.receive(elapsed);
+    };
+    if (chip.driver().initialise() && reed.driver().initialise()) {
+      receive(cycle);
+      for (int i = 0; i < 6; ++i) {
+        chip.driver().line("REED").drive(i % 2 == 0);
+        receive(cycle);
+      }
+      // Nothing changes any more: from here on the line is called when it asks.
+      for (int i = 0; i < 2; ++i) {
+        const Time next = reed.driver().next_event();
+        asked = asked && next > reed.now() && next <= reed.now() + std::chrono::milliseconds(5);
+        if (!asked) break;
+        while (queue.pop()) ++count;
+        receive(next - reed.now());
+      }
+      while (queue.pop()) ++count;
+      rests = reed.driver().next_event() == Time::max();
+    }
+  }
+  assert_true(asked);
+  assert_int_equal(count, 6);
+  assert_true(rests);
+}
+
 // [gpio-chip-5]
 void a_line_is_one_devices(void**) {
   StatusCode code = StatusCode::ok;
@@ -178,6 +215,7 @@ int main() {
       cmocka_unit_test(inputs_that_are_high_from_the_start),
       cmocka_unit_test(a_wire_that_is_none_is_told),
       cmocka_unit_test(edges_go_to_the_queue_where_one_is_connected),
+      cmocka_unit_test(edges_that_a_full_queue_has_no_room_for_are_not_forgotten),
       cmocka_unit_test(a_line_is_one_devices),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
