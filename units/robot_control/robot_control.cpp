@@ -54,7 +54,10 @@ void RobotControl::step(const Tick& tick) {
     idle_ = true;
     return;
   }
-  const char* const held = !state                  ? "the arm no longer tells its joint positions"
+  char broken[sizeof(RobotLead::holding)];
+  std::snprintf(broken, sizeof(broken), "the arm is in fault: %.200s", arm->fault().cause());
+  const char* const held = !arm->fault().is_ok()   ? broken
+                           : !state                ? "the arm no longer tells its joint positions"
                            : tick.motion_inhibited ? "motion is inhibited"
                            : tick.stop_requested   ? "stop requested"
                                                    : nullptr;
@@ -175,6 +178,18 @@ void RobotControl::tell(const MotionSource* chosen, const View<Pose>& wanted, co
   feedback.activity = activity();
   feedback.stepping = steps_.is_wanted();
   feedback.set_point_map() = set_point_;
+  publish_lead();
+}
+
+void RobotControl::publish_lead() noexcept {
+  RobotLead said{};
+  said.activity = feedback.activity;
+  said.mode = runtime.mode;
+  said.moving = feedback.moving;
+  said.stepping = feedback.stepping;
+  said.in_fault = !arm->fault().is_ok();
+  said.set_holding(feedback.holding_view());
+  led_by.publish(said);
 }
 
 /// feedback.holding: the first of what there is to say.

@@ -37,6 +37,7 @@ class RobotControl final : public RobotControlUnit {
   bool is_moving() const noexcept { return active_ != nullptr && !active_->is_at_rest(); }
   double elapsed_in(const Tick& tick) noexcept;
   void command(double elapsed) noexcept;
+  void publish_lead() noexcept;
   void publish(const JointState& state) noexcept;
   StreamLimits hand_limits() const noexcept;
   StreamLimits servo_limits() const noexcept;

@@ -133,8 +133,13 @@ bool stops_without_sensors() {
   world.wanted.position[2] -= 0.4;
   world.run(0.15);
   world.arm.driver().inject(SimulatedArm::Fault::sensors_lost);
+  world.run(0.05);
+  const auto before = world.led_by.latest();
+  const bool is_told = world.holding("no longer tells") && before && !before->in_fault;
   world.run(1.0);
-  return !world.bench.feedback().moving && world.holding("no longer tells") && world.smooth();
+  const auto after = world.led_by.latest();
+  return is_told && !world.bench.feedback().moving && world.holding("the arm is in fault: ") && after &&
+         after->in_fault && world.smooth();
 }
 
 // A cycle that comes half a second late delays the motion.

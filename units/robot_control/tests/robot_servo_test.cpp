@@ -1,5 +1,6 @@
 // The pose stream: who follows it when, and that the arm holds when the camera that makes it is lost.
 #include <cmath>
+#include <string_view>
 
 #include "tests/cmocka.hpp"
 #include "units/robot_control/tests/robot_world.hpp"
@@ -135,6 +136,30 @@ bool has_its_place_among_the_others() {
   return world.at(0, 0, -0.1) && world.smooth();
 }
 
+// Who makes the stream has to know when a hand is at the arm.
+bool tells_who_leads() {
+  Cell cell;
+  cell.stream = beside_home(0, 0.1, 0);
+  cell.run(0.3);
+  auto said = cell.led_by.latest();
+  if (!said || said->activity != RobotActivity::servo || !said->moving) return false;
+  cell.run(2.0);
+  said = cell.led_by.latest();
+  if (!said || said->moving || said->mode != ControlMode::automatic) return false;
+  if (!cell.choose(ControlMode::shared)) return false;
+  cell.bench.runtime().plus_z = true;
+  cell.run(0.3);
+  said = cell.led_by.latest();
+  if (!said || said->activity != RobotActivity::jog || !said->moving) return false;
+  cell.bench.runtime().plus_z = false;
+  cell.run(2.0);
+  if (!cell.choose(ControlMode::manual)) return false;
+  cell.run(0.1);
+  said = cell.led_by.latest();
+  return said && said->mode == ControlMode::manual &&
+         std::string_view{said->holding.data()}.find("not followed in manual") != std::string_view::npos;
+}
+
 bool a_stop_brakes_it() {
   Cell cell;
   cell.stream = beside_home(0, 0.3, 0);
@@ -165,6 +190,7 @@ int main() {
       {"out of reach is told", passes<out_of_reach_is_told>, nullptr, nullptr, nullptr},
       {"manual does not follow it", passes<manual_does_not_follow_it_and_says_so>, nullptr, nullptr, nullptr},
       {"its place among the others", passes<has_its_place_among_the_others>, nullptr, nullptr, nullptr},
+      {"tells who leads", passes<tells_who_leads>, nullptr, nullptr, nullptr},
       {"a stop brakes it", passes<a_stop_brakes_it>, nullptr, nullptr, nullptr},
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

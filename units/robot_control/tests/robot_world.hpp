@@ -32,7 +32,8 @@ struct World {
                             turning.input(std::chrono::milliseconds(100)),
                             joint_jog.input(std::chrono::milliseconds(100)), servo.input()};
   SlotBench<TargetAnswer> answer;
-  SlotControl* outputs[3] = {&pose.control(), &joints.control(), &answer.control()};
+  SlotBench<RobotLead> led_by;
+  SlotControl* outputs[4] = {&pose.control(), &joints.control(), &answer.control(), &led_by.control()};
   Device* device = &arm.driver();
   Device* const* devices[1] = {&device};
   Pose wanted{};
