@@ -22,6 +22,13 @@ void ArmModel::reset(const KinematicChain& chain, double lag) {
   command_ = position_;
 }
 
+void ArmModel::restart(const KinematicChain& chain, double lag) {
+  const bool stands_somewhere = chain_ == &chain;
+  const JointVector where = position();
+  reset(chain, lag);
+  if (stands_somewhere) position_ = command_ = within_limits(chain, where);
+}
+
 void ArmModel::follow(const JointVector& positions) {
   holding_ = false;
   command_ = within_limits(*chain_, positions);

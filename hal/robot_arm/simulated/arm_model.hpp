@@ -12,6 +12,8 @@ class ArmModel {
  public:
   /// At rest in the chain's home posture. `lag` in s, above 0.
   void reset(const KinematicChain& chain, double lag);
+  /// Likewise, but where it is, as an arm whose control begins anew; in the home posture only at first.
+  void restart(const KinematicChain& chain, double lag);
 
   /// Follow these positions (rad or m, finite) from now on, as far as the limits allow.
   void follow(const JointVector& positions);

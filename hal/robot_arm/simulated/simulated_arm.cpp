@@ -12,7 +12,7 @@ bool is_due(double after, Time started, Time now) {
 }  // namespace
 
 Status SimulatedArm::initialise() {
-  model_.reset(*chain, configuration.servo_lag);
+  model_.restart(*chain, configuration.servo_lag);
   model_.stick(static_cast<int>(configuration.stuck_joint) - 1);
   random_.seed(environment().seed);
   noise_.reset();

@@ -85,6 +85,30 @@ bool a_stuck_joint_stays() {
   return model.position()[2] == home_position(six_axis)[2] && std::abs(model.position()[1] - goal[1]) < 1e-6;
 }
 
+// As an arm whose control begins anew.
+bool what_is_restarted_stays_where_it_is() {
+  DeviceBench<SimulatedArm> bench(&six_axis);
+  bench.configuration().noise = {};
+  if (!bench.driver().initialise()) return false;
+  JointPositions goal{};
+  goal.position_map() = home_position(six_axis);
+  goal.position[0] += 0.3;
+  for (int k = 0; k < 200; ++k) {
+    bench.receive(std::chrono::milliseconds(7));
+    bench.driver().command(goal);
+    bench.send();
+  }
+  bench.driver().inject(SimulatedArm::Fault::drives_trip);
+  bench.receive(std::chrono::milliseconds(7));
+  const bool tripped = !bench.driver().fault().is_ok();
+  bench.driver().clear_fault();
+  if (!bench.driver().initialise()) return false;
+  bench.receive(std::chrono::milliseconds(7));
+  const auto told = bench.driver().state();
+  return tripped && told && std::abs(told->position[0] - goal.position[0]) < 1e-3 &&
+         std::abs(told->velocity[0]) < 1e-6;
+}
+
 // What the sensors say of an arm at rest.
 std::array<double, 8> first_reading(std::uint64_t seed, double noise) {
   DeviceBench<SimulatedArm> bench(&six_axis);
@@ -144,6 +168,9 @@ void cadence_does_not_matter(void**) {
 void stuck_joint(void**) {
   assert_true(a_stuck_joint_stays());
 }
+void a_restart_is_no_jump(void**) {
+  assert_true(what_is_restarted_stays_where_it_is());
+}
 void noise_is_seeded(void**) {
   assert_true(the_seed_makes_the_noise());
 }
@@ -162,6 +189,7 @@ int main() {
       cmocka_unit_test(lag_is_first_order),
       cmocka_unit_test(cadence_does_not_matter),
       cmocka_unit_test(stuck_joint),
+      cmocka_unit_test(a_restart_is_no_jump),
       cmocka_unit_test(noise_is_seeded),
       cmocka_unit_test(noise_of_each_joint),
       cmocka_unit_test(faults_are_injected),
