@@ -35,7 +35,7 @@ class CameraBench {
   SlotControl* slot() { return slot_ == nullptr ? nullptr : &slot_->control(); }
   /// As the executive does with a request.
   Status set_controls(std::string_view controls) {
-    CameraRuntime proposed = bench_.runtime();
+    auto proposed = bench_.runtime();
     set_text(proposed.controls, controls);
     Status status = bench_.driver().accept_runtime(&proposed);
     if (status) bench_.runtime() = proposed;

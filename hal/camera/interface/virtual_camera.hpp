@@ -17,6 +17,7 @@
 #include "hal/camera/interface/jpeg_maker.hpp"
 #include "hal/camera/interface/picture_size.hpp"
 #include "runtime/blackboard/sized_slot.hpp"
+#include "types/camera_fault.hpp"
 
 namespace flexrf {
 
@@ -57,10 +58,13 @@ class VirtualCamera : public Base {
       return status;
     if (Status status = check_settings(controls_, text_view(this->runtime.controls)); !status) return status;
     jpegs_.reset();
+    small_jpegs_.reset();
     if (set.format == PixelFormat::mjpeg) {
-      jpegs_ = std::make_unique<JpegMaker>();
-      if (Status status = jpegs_->begin(set.width, set.height); !status) return status;
+      if (Status status = begin_jpegs(jpegs_, set.width, set.height); !status) return status;
+      if (Status status = begin_jpegs(small_jpegs_, half_of(set.width), half_of(set.height)); !status)
+        return status;
     }
+    given_.reset();
     journal_.restart(this->name());
     streaming_ = false;
     now_ = Time{};
@@ -81,7 +85,8 @@ class VirtualCamera : public Base {
     own_.reset();
   }
 
-  Status accept(const CameraRuntime& proposed) override {
+  using Base::accept;
+  Status accept(const typename Base::Runtime& proposed) override {
     return check_settings(controls_, text_view(proposed.controls));
   }
 
@@ -120,6 +125,8 @@ class VirtualCamera : public Base {
   static constexpr std::size_t most_controls = 4;
 
   virtual ComingPicture next_picture() noexcept { return {period(), 0, false}; }
+  /// What is wrong with it now. Of `black` and `noise` draw() takes care, of the others nobody else.
+  virtual CameraFault injected_fault() const noexcept { return CameraFault::none; }
   /// From the middle of an exposure until its picture comes: a sensor is read out, and a wire takes its time.
   /// A picture's time is the former.
   virtual Duration delay() const noexcept { return {}; }
@@ -128,7 +135,7 @@ class VirtualCamera : public Base {
   virtual const char* blindness() noexcept { return nullptr; }
   /// Before draw(): false when it is not known what there was to be seen at `at`. Then the picture is lost.
   virtual bool expose(Time /*at*/) noexcept { return true; }
-  /// `at`: the middle of its exposure.
+  /// `at`: the middle of its exposure. The canvas may be smaller than what was asked for.
   virtual void draw(const PictureCanvas& canvas, Time at, std::uint64_t sequence) noexcept = 0;
 
   /// Before initialise().
@@ -151,6 +158,25 @@ class VirtualCamera : public Base {
   static constexpr int most_per_cycle = 8;
   /// So many pictures a camera keeps for who comes late.
   static constexpr int most_waiting = 3;
+  /// Of one with a low frame rate.
+  static constexpr Duration slow_period = std::chrono::seconds(1);
+  /// Out of order each second picture is as many older than the one that would have come.
+  static constexpr std::uint32_t steps_back = 2;
+
+  /// A picture that was given.
+  struct Given {
+    Time at{};  // the middle of its exposure
+    std::uint64_t sequence = 0;
+  };
+
+  static Status begin_jpegs(std::unique_ptr<JpegMaker>& jpegs, std::uint32_t width, std::uint32_t height) {
+    jpegs = std::make_unique<JpegMaker>();
+    return jpegs->begin(width, height);
+  }
+  /// An even number, as some formats need it; of less than 4 there is no half.
+  static constexpr std::uint32_t half_of(std::uint32_t length) noexcept {
+    return length < 4 ? length : length / 4 * 2;
+  }
   /// How soon it is noticed that the camera is back.
   static constexpr Duration looking_interval = std::chrono::milliseconds(50);
 
@@ -179,7 +205,8 @@ class VirtualCamera : public Base {
 
   void follow_cable() noexcept {
     const bool occupied = cable_.occupied.load(std::memory_order_relaxed);
-    const bool plugged = cable_.plugged.load(std::memory_order_relaxed);
+    const bool plugged =
+        cable_.plugged.load(std::memory_order_relaxed) && injected_fault() != CameraFault::unplugged;
     const char* const blind = blindness();
     const bool usable = plugged && !occupied && blind == nullptr;
     if (!usable) {
@@ -206,21 +233,29 @@ class VirtualCamera : public Base {
 
   void plan(Time after) noexcept {
     coming_ = next_picture();
+    if (injected_fault() == CameraFault::low_frame_rate) coming_.after = std::max(coming_.after, slow_period);
     due_ = coming_.after == Duration::max() ? Time::max() : after + coming_.after;
   }
 
   void take() noexcept {
     const Time at = due_;
+    if (injected_fault() == CameraFault::frozen && given_) {
+      plan(at);
+      heard_ = now_;
+      return show_again();
+    }
     count_ += coming_.skipped;
     const std::uint32_t number = count_++;
     const bool damaged = coming_.damaged;
     plan(at);
     if (cable_.silent.load(std::memory_order_relaxed) || consume(cable_.to_lose)) return;
-    const Time exposed = at - delay();
+    const bool is_late = injected_fault() == CameraFault::out_of_order && number % 2 == 0;
+    const std::uint32_t back = is_late ? steps_back : 0;
+    const Time exposed = at - delay() - back * period();
     if (!expose(exposed)) return;
     heard_ = now_;
     if (damaged || consume(cable_.to_damage)) return journal_.note_damaged(number, damage_of_half());
-    show(exposed, number);
+    show(exposed, number, back);
   }
 
   static bool consume(std::atomic<std::uint32_t>& count) noexcept {
@@ -238,10 +273,22 @@ class VirtualCamera : public Base {
         .damage;
   }
 
-  void show(Time at, std::uint32_t number) noexcept {
+  /// `back`: so much less than it should be is the count that readers see.
+  void show(Time at, std::uint32_t number, std::uint32_t back) noexcept {
+    give(at, [this, number, back] {
+      const std::uint64_t sequence = journal_.note_whole(number);
+      return sequence - std::min<std::uint64_t>(back, sequence);
+    });
+  }
+  void show_again() noexcept {
+    give(given_->at, [this] { return given_->sequence; });
+  }
+
+  /// `count`: asked for its sequence only when there is room for the picture.
+  void give(Time at, auto count) noexcept {
     if (own_) {
       CameraFrame& own = **own_;
-      fill(own, at, journal_.note_whole(number));
+      fill(own, at, count());
       image_ = CameraImage{.data = own.data().first(own.size),
                            .width = own.width,
                            .height = own.height,
@@ -250,23 +297,25 @@ class VirtualCamera : public Base {
                            .time = at,
                            .sequence = own.sequence};
     } else if (auto loan = this->frames.loan()) {
-      fill(*loan, at, journal_.note_whole(number));
+      fill(*loan, at, count());
       loan.publish(at);
     }
   }
 
   void fill(CameraFrame& frame, Time at, std::uint64_t sequence) noexcept {
     const auto& set = this->configuration;
+    const bool is_small = injected_fault() == CameraFault::wrong_size;
     const std::span<std::uint8_t> data = frame.data();
-    frame.width = set.width;
-    frame.height = set.height;
+    frame.width = is_small ? half_of(set.width) : set.width;
+    frame.height = is_small ? half_of(set.height) : set.height;
     frame.format = set.format;
-    frame.stride = row_bytes(set.format, set.width);
+    frame.stride = row_bytes(set.format, frame.width);
     frame.time = nanoseconds(at);
     frame.sequence = sequence;
-    if (jpegs_ != nullptr) {
-      draw({jpegs_->canvas(), frame.width, frame.height, PixelFormat::rgb24}, at, sequence);
-      const auto jpeg = jpegs_->make(data.size());
+    given_ = {at, sequence};
+    if (JpegMaker* const jpegs = is_small ? small_jpegs_.get() : jpegs_.get(); jpegs != nullptr) {
+      draw({jpegs->canvas(), frame.width, frame.height, PixelFormat::rgb24}, at, sequence);
+      const auto jpeg = jpegs->make(data.size());
       frame.size = static_cast<std::uint32_t>(jpeg.size());
       std::copy_n(jpeg.begin(), frame.size, data.begin());
     } else {
@@ -298,6 +347,8 @@ class VirtualCamera : public Base {
   std::array<char, 256> controls_in_force_{};
   std::optional<SizedItem<CameraFrame>> own_;  // of one that belongs to a unit
   std::unique_ptr<JpegMaker> jpegs_;           // of one that gives mjpeg
+  std::unique_ptr<JpegMaker> small_jpegs_;     // likewise, of pictures of the wrong size
+  std::optional<Given> given_;                 // last
   std::optional<CameraImage> image_;
   ComingPicture coming_;
   std::uint32_t count_ = 0;  // the camera's

@@ -1,5 +1,7 @@
 #include "hal/camera/scene/scene_camera.hpp"
 
+#include <random>
+
 #include "hal/camera/interface/rgb_conversion.hpp"
 #include "hal/scene/interface/joint_samples.hpp"
 #include "motion/pose_conversion.hpp"
@@ -13,6 +15,22 @@ JointSample sample_of(const ItemHeader& header, const JointState& state) noexcep
   sample.position = state.position;
   sample.velocity = state.velocity;
   return sample;
+}
+
+struct PictureSize {
+  std::size_t width = 0;
+  std::size_t height = 0;
+};
+
+/// What is left of a picture when only each n-th pixel of each m-th row is, in front of the rest.
+void thin_out(std::span<std::uint8_t> rgb, const PictureSize& whole, const PictureSize& small) noexcept {
+  constexpr std::size_t channels = 3;
+  const std::size_t across = whole.width / small.width;
+  const std::size_t down = whole.height / small.height;
+  auto to = rgb.begin();
+  for (std::size_t row = 0; row < small.height; ++row)
+    for (std::size_t column = 0; column < small.width; ++column)
+      to = std::copy_n(&rgb[channels * (row * down * whole.width + column * across)], channels, to);
 }
 
 }  // namespace
@@ -52,9 +70,7 @@ Status SceneCamera::initialise() {
   renderer_ = std::make_unique<SceneRenderer>();
   renderer_->begin(plan);
   waited_ = 0;
-  rgb_.clear();
-  if (configuration.format != PixelFormat::rgb24 && configuration.format != PixelFormat::mjpeg)
-    rgb_.resize(std::size_t{3} * configuration.width * configuration.height);
+  rgb_.resize(std::size_t{3} * configuration.width * configuration.height);
   return {};
 }
 
@@ -113,14 +129,39 @@ bool SceneCamera::joints_at(Time at, std::array<double, max_joints>& joints) noe
 }
 
 void SceneCamera::draw(const PictureCanvas& canvas, Time /*at*/, std::uint64_t sequence) noexcept {
+  const bool is_whole = canvas.width == configuration.width && canvas.height == configuration.height;
   const bool is_rgb = canvas.format == PixelFormat::rgb24;
-  const std::span<std::uint8_t> rgb = is_rgb ? canvas.data : std::span<std::uint8_t>(rgb_);
-  renderer_->draw(glance_.state, glance_.tool * eye_.pose, glance_.tool, sequence, rgb);
-  if (const int brightness = value_of(0); brightness != 0) {
-    for (std::uint8_t& channel : rgb)
-      channel = static_cast<std::uint8_t>(std::clamp(channel + brightness, 0, 255));
+  const std::span<std::uint8_t> rgb = is_whole && is_rgb ? canvas.data : std::span<std::uint8_t>(rgb_);
+  switch (injected_fault()) {
+    case CameraFault::black:
+      std::fill(rgb.begin(), rgb.end(), std::uint8_t{0});
+      break;
+    case CameraFault::noise:
+      draw_noise(rgb, sequence);
+      break;
+    default:
+      draw_scene(rgb, sequence);
   }
-  if (!is_rgb) convert_rgb(rgb, canvas.width, canvas.height, canvas.format, canvas.data);
+  if (!is_whole) thin_out(rgb, {configuration.width, configuration.height}, {canvas.width, canvas.height});
+  if (!is_rgb) {
+    convert_rgb(rgb, canvas.width, canvas.height, canvas.format, canvas.data);
+  } else if (!is_whole) {
+    std::copy_n(rgb.begin(), canvas.data.size(), canvas.data.begin());
+  }
+}
+
+void SceneCamera::draw_scene(std::span<std::uint8_t> rgb, std::uint64_t sequence) noexcept {
+  renderer_->draw(glance_.state, glance_.tool * eye_.pose, glance_.tool, sequence, rgb);
+  const int brightness = value_of(0);
+  if (brightness == 0) return;
+  for (std::uint8_t& channel : rgb)
+    channel = static_cast<std::uint8_t>(std::clamp(channel + brightness, 0, 255));
+}
+
+void SceneCamera::draw_noise(std::span<std::uint8_t> rgb, std::uint64_t sequence) const noexcept {
+  std::minstd_rand random(static_cast<std::uint32_t>(environment().seed + sequence));
+  constexpr int low_bits = 8;  // of a linear generator these are the worst
+  for (std::uint8_t& channel : rgb) channel = static_cast<std::uint8_t>(random() >> low_bits);
 }
 
 }  // namespace flexrf

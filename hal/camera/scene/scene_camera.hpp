@@ -20,7 +20,7 @@ struct SceneGlance {
 
 /// A picture shows scene and arm in the middle of its exposure, and comes one period later: until then the
 /// joints are known before and after it. Its control `brightness` is added to every channel. While scene or
-/// arm say nothing, it is as one that is not there.
+/// arm say nothing, it is as one that is not there. It can be given faults.
 class SceneCamera : public VirtualCamera<SceneCameraDriver> {
  public:
   SceneCamera();
@@ -30,6 +30,7 @@ class SceneCamera : public VirtualCamera<SceneCameraDriver> {
 
  protected:
   Duration delay() const noexcept final { return period(); }
+  CameraFault injected_fault() const noexcept final { return runtime.injected_fault; }
   const char* blindness() noexcept override;
   bool expose(Time at) noexcept final { return look(at, glance_); }
   void draw(const PictureCanvas& canvas, Time at, std::uint64_t sequence) noexcept final;
@@ -38,12 +39,14 @@ class SceneCamera : public VirtualCamera<SceneCameraDriver> {
   virtual bool look(Time at, SceneGlance& glance) noexcept;
 
  private:
+  void draw_scene(std::span<std::uint8_t> rgb, std::uint64_t sequence) noexcept;
+  void draw_noise(std::span<std::uint8_t> rgb, std::uint64_t sequence) const noexcept;
   const char* missing() noexcept;
   bool joints_at(Time at, std::array<double, max_joints>& joints) noexcept;
 
   HandEye eye_;
   std::unique_ptr<SceneRenderer> renderer_;
-  std::vector<std::uint8_t> rgb_;  // of a camera that gives another format
+  std::vector<std::uint8_t> rgb_;  // a picture that is given in another format or size
   SceneGlance glance_;
   int waited_ = 0;  // cycles
 };
