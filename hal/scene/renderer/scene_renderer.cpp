@@ -23,8 +23,9 @@ std::uint8_t level(double value) noexcept {
   return static_cast<std::uint8_t>(std::clamp(value + 0.5, 0.0, 255.0));
 }
 
-std::array<std::uint8_t, 4> lit(BodyColour colour, double light) noexcept {
-  return {level(colour.red * light), level(colour.green * light), level(colour.blue * light), 0};
+/// `light`: its red, green and blue.
+std::array<std::uint8_t, 4> lit(BodyColour colour, const Eigen::Vector3d& light) noexcept {
+  return {level(colour.red * light[0]), level(colour.green * light[1]), level(colour.blue * light[2]), 0};
 }
 
 }  // namespace
@@ -69,7 +70,8 @@ void SceneRenderer::draw(const SceneState& state, const Eigen::Isometry3d& camer
   view.from_camera = camera.linear();
   view.eye = camera.translation();
   view.light = state.light_map();
-  view.light_intensity = state.light_intensity;
+  for (std::size_t i = 0; i < 3; ++i)
+    view.light_colour[static_cast<Eigen::Index>(i)] = state.light_intensity * (1 + state.light_tint[i]);
   colour_count_ = 0;
   std::fill(nearness_.begin(), nearness_.end(), 0.0F);
   const auto hand = hand_boxes(plan_.hand, state.opening);
@@ -189,7 +191,7 @@ void SceneRenderer::draw_face(const View& view, const SceneFace& face) noexcept 
   if (count < 3) return;
   const auto material = static_cast<std::uint16_t>(first_face + colour_count_);
   const double light = from_all_around + from_the_light * std::max(0.0, face.normal.dot(view.light));
-  colours_[material] = lit(face.colour, light * view.light_intensity);
+  colours_[material] = lit(face.colour, light * view.light_colour);
   // 1/z of a plane is linear in the picture: with its normal n, all points X have n.X = d, and X is z times
   // the direction of its pixel.
   const Eigen::Vector3d normal = view.to_camera.linear() * face.normal;
@@ -218,8 +220,8 @@ void SceneRenderer::draw_face(const View& view, const SceneFace& face) noexcept 
 
 void SceneRenderer::make_shades(const View& view) noexcept {
   const double up = std::max(0.0, view.light.z());
-  const double dark = from_all_around * view.light_intensity;
-  const double bright = (from_all_around + from_the_light * up) * view.light_intensity;
+  const Eigen::Vector3d dark = from_all_around * view.light_colour;
+  const Eigen::Vector3d bright = (from_all_around + from_the_light * up) * view.light_colour;
   for (std::size_t value = 0; value < 256; ++value) {
     const double grain = 1 + texture_contrast * (static_cast<double>(value) - 128) / 64;
     shades_[0][value] = lit(table_colour, grain * bright);

@@ -60,7 +60,7 @@ class SceneRenderer {
     Eigen::Matrix3d from_camera;  // directions
     Eigen::Vector3d eye;          // in the scene's frame
     Eigen::Vector3d light;        // towards it
-    double light_intensity = 1;
+    Eigen::Vector3d light_colour;
   };
   using Shades = std::array<std::array<std::uint8_t, 4>, 256>;  // rgb, by the texture's value
 

@@ -35,6 +35,7 @@ void TabletopScene::receive(const Tick& tick) noexcept {
 
 void TabletopScene::do_as_a_person_asks() noexcept {
   world_.set_light(runtime.light_intensity, runtime.light_azimuth, runtime.light_elevation);
+  world_.set_light_tint(runtime.light_tint);
   world_.cover_lens(runtime.cover_lens);
   const PlaneVector place{runtime.place[0], runtime.place[1]};
   if (runtime.push_part > 0)

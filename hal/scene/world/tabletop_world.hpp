@@ -60,6 +60,8 @@ class TabletopWorld {
   /// The camera's lens, and the light: how bright, and from where, in rad about z and above the table.
   void cover_lens(bool on) noexcept { state_.lens_covered = on; }
   void set_light(double intensity, double azimuth, double elevation) noexcept;
+  /// By how much of itself each of red, green and blue is more than in white light; -0.5 to 0.5.
+  void set_light_tint(const std::array<double, 3>& tint) noexcept { state_.light_tint = tint; }
 
   const SceneState& state() const noexcept { return state_; }
   const TabletopCounts& counts() const noexcept { return counts_; }

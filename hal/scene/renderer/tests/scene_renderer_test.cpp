@@ -223,6 +223,23 @@ bool more_light_makes_it_brighter() {
   return std::abs(dim * 2 - usual) < 12 && studio.at(320, 240).sum() > usual * 3 / 2;
 }
 
+// Table and bodies alike.
+bool tinted_light_colours_all_it_falls_on() {
+  Studio studio;
+  studio.state.parts[0] = part_at(SceneKind::block, {0.5, 0}, 0);
+  studio.take();
+  const Pixel table = studio.at(320, 300);
+  const Pixel block = studio.at(Eigen::Vector3d(0.5, 0, 0.025));
+  studio.state.light_tint = {0.2, 0, -0.3};
+  studio.take();
+  const auto is_tinted = [](const Pixel& before, const Pixel& after) {
+    return std::abs(after.red - 1.2 * before.red) < 2 && after.green == before.green &&
+           std::abs(after.blue - 0.7 * before.blue) < 2;
+  };
+  return block.blue > block.red && is_tinted(table, studio.at(320, 300)) &&
+         is_tinted(block, studio.at(Eigen::Vector3d(0.5, 0, 0.025)));
+}
+
 bool above_the_table_is_nothing() {
   Studio studio;
   studio.look_at({0, 0, 0.3}, {1, 0, 0.3});
@@ -276,6 +293,7 @@ int main() {
       cmocka_unit_test(judged<bins_are_outlined>),
       cmocka_unit_test(judged<the_hand_is_in_the_picture>),
       cmocka_unit_test(judged<more_light_makes_it_brighter>),
+      cmocka_unit_test(judged<tinted_light_colours_all_it_falls_on>),
       cmocka_unit_test(judged<above_the_table_is_nothing>),
       cmocka_unit_test(judged<the_same_input_gives_the_same_bytes>),
       cmocka_unit_test(judged<a_covered_lens_sees_black_and_noise>),

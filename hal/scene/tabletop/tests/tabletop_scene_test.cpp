@@ -191,9 +191,11 @@ bool buttons_do_as_they_say() {
   if (cell.state().parts[4].position == before.position) return false;
   cell.bench().runtime().cover_lens = true;
   cell.bench().runtime().light_intensity = 0.5;
+  cell.bench().runtime().light_tint = {0.1, 0, -0.2};
   cell.bench().runtime().lay_table = 1;
   cell.cycles();
-  return cell.state().lens_covered && cell.state().light_intensity == 0.5 && cell.told().parts_on_table == 12;
+  return cell.state().lens_covered && cell.state().light_intensity == 0.5 &&
+         cell.state().light_tint[2] == -0.2 && cell.told().parts_on_table == 12;
 }
 
 bool links_of_no_joint_are_refused() {

@@ -213,9 +213,11 @@ bool a_person_does_as_asked() {
   if (world.remove_obstacles() != nullptr || world.counts().obstacles != 0) return false;
   world.cover_lens(true);
   world.set_light(1.5, 0, half_turn / 4);
+  world.set_light_tint({0.2, 0, -0.3});
   const SceneState& state = world.state();
-  return state.lens_covered && state.light_intensity == 1.5 &&
-         std::abs(state.light[2] - std::sqrt(0.5)) < 1e-12 && state.light[1] == 0;
+  return state.lens_covered && state.light_intensity == 1.5 && state.light_tint[0] == 0.2 &&
+         state.light_tint[2] == -0.3 && std::abs(state.light[2] - std::sqrt(0.5)) < 1e-12 &&
+         state.light[1] == 0;
 }
 
 }  // namespace
