@@ -5,6 +5,8 @@ namespace {
 
 // So many pictures in a row that go on from each other are a camera that counts anew.
 constexpr std::uint32_t new_count = 10;
+// So many good ones in a row are said to be well again: one in between does not mend a camera.
+constexpr std::uint32_t well_again = 10;
 constexpr double least_deviation = 12;  // of luminance, 0 to 255: below it edges are the sensor's own noise
 
 }  // namespace
@@ -15,6 +17,7 @@ Status FeatureExtraction::initialise() {
   sequence_ = other_sequence_ = 0;
   others_ = 0;
   any_ = false;
+  good_ = 0;
   feedback.state = PictureState::waiting;
   feedback.set_trouble({});
   return {};
@@ -26,9 +29,12 @@ void FeatureExtraction::step(const Tick& tick) {
   if (!frame || !frame.is_new()) {
     if (tick.now - heard_ < duration_of(runtime.silence)) return;
     extractor_.forget();
-    note(PictureState::silent, frame || frame.reason() == NullReason::nothing_yet
-                                   ? "no picture comes: look at the camera's device"
-                                   : "there is no camera: its device was stopped or is in fault");
+    comes_seldom_ = feedback.state == PictureState::silent && (comes_seldom_ || good_ > 0);
+    good_ = 0;
+    const bool has_writer = frame || frame.reason() == NullReason::nothing_yet;
+    note(PictureState::silent, !has_writer     ? "there is no camera: its device was stopped or is in fault"
+                               : comes_seldom_ ? "pictures come too seldom: look at the camera's device"
+                                               : "no picture comes: look at the camera's device");
     return;
   }
   heard_ = tick.now;
@@ -93,12 +99,14 @@ void FeatureExtraction::extract(const CameraFrame& frame, Time sampled_at) noexc
   loan->time = frame.time;
   loan.publish(sampled_at);
   ++feedback.pictures;
-  note(PictureState::good, "");
+  ++good_;
+  if (feedback.state == PictureState::waiting || good_ >= well_again) note(PictureState::good, "");
 }
 
 /// What was refused is nothing to compare the next picture with.
 void FeatureExtraction::refuse(PictureState state, const char* trouble) noexcept {
   ++feedback.refused;
+  good_ = 0;
   extractor_.forget();
   note(state, trouble);
 }

@@ -1,7 +1,8 @@
 // FeatureExtraction: integral images of the camera's pictures, and a judgement of whether they can be used.
 //
 // What is refused is not published: who reads the features sees the last good ones grow old. Each state is
-// said once in the log when it begins, and once when pictures are good again.
+// said once in the log when it begins, and once when pictures are good again. A good picture is used at once;
+// that all is well is said after some in a row, as pictures out of order are good and refused by turns.
 #pragma once
 
 #include <array>
@@ -31,6 +32,8 @@ class FeatureExtraction final : public FeatureExtractionUnit {
   // Of pictures out of order: where a camera began to count anew they are in order among themselves.
   std::uint64_t other_sequence_ = 0;
   std::uint32_t others_ = 0;
+  std::uint32_t good_ = 0;        // in a row
+  bool comes_seldom_ = false;     // while it is silent, some pictures came
   std::array<LogLimit, 8> said_;  // of each state
 };
 

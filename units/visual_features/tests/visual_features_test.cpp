@@ -61,6 +61,10 @@ struct World {
     bench.step(frame_period);
   }
   void give() { give(++sequence); }
+  /// So many that all is said to be well again.
+  void give_some() {
+    for (int i = 0; i < 10; ++i) give();
+  }
   PictureState state() { return bench.feedback().state; }
   std::uint64_t used() { return bench.feedback().pictures; }
   bool is_refused_as(PictureState state_wanted) {
@@ -95,9 +99,11 @@ bool is_refused_and_told(PictureState expected, const char* told, void (*spoil)(
       world->is_refused_as(expected) && !second.has_heard(told) && world->bench.feedback().refused == 2;
   LogEar third;
   world->draw(world->table.picture(4));
+  for (int i = 0; i < 9; ++i) world->give();
+  const bool waits = world->is_refused_as(expected) && !third.has_heard("good again") && world->used() == 10;
   world->give();
-  return refused && once && world->state() == PictureState::good && third.has_heard("good again") &&
-         world->used() == 2;
+  return refused && once && waits && world->state() == PictureState::good && third.has_heard("good again") &&
+         world->used() == 11;
 }
 
 bool a_picture_that_repeats_is_frozen() {
@@ -105,8 +111,9 @@ bool a_picture_that_repeats_is_frozen() {
   world->give(5);
   world->give(5);
   const bool frozen = world->is_refused_as(PictureState::frozen) && world->used() == 1;
-  world->give(6);
-  return frozen && world->state() == PictureState::good && world->used() == 2;
+  world->sequence = 5;
+  world->give_some();
+  return frozen && world->state() == PictureState::good && world->used() == 11;
 }
 
 bool pictures_out_of_order_are_refused() {
@@ -116,7 +123,26 @@ bool pictures_out_of_order_are_refused() {
   world->give(11);
   const bool refused = world->is_refused_as(PictureState::out_of_order);
   world->give(13);
-  return refused && world->state() == PictureState::good && world->used() == 3;
+  return refused && world->used() == 3;
+}
+
+/// Each second one is used, and the operator reads one state all the while, and one line in the log.
+bool good_ones_in_between_do_not_hide_what_is_wrong() {
+  const auto world = std::make_unique<World>();
+  world->give(1);
+  world->give(3);
+  world->give(2);
+  LogEar later;
+  for (std::uint64_t i = 5; i < 65; i += 2) {
+    world->give(i);
+    if (!world->is_refused_as(PictureState::out_of_order)) return false;
+    world->give(i - 1);
+  }
+  const bool used = world->used() == 32 && world->bench.feedback().refused == 31;
+  const bool quiet = !later.has_heard("good again") && !later.has_heard("older");
+  world->sequence = 64;
+  world->give_some();
+  return used && quiet && world->state() == PictureState::good;
 }
 
 /// What goes on from itself for long enough is a camera that counts anew; what jumps about is not.
@@ -126,7 +152,7 @@ bool a_camera_may_count_anew() {
   for (std::uint64_t i = 0; i < 9; ++i) world->give(i);
   const bool refused = world->is_refused_as(PictureState::out_of_order) && world->used() == 1;
   world->give(9);
-  const bool taken = world->state() == PictureState::good && world->used() == 2;
+  const bool taken = world->used() == 2;
   for (std::uint64_t i = 0; i < 30; ++i) world->give(i % 2 + 3);
   return refused && taken && world->used() == 2;
 }
@@ -138,10 +164,33 @@ bool silence_is_noticed() {
   const bool patient = world->state() == PictureState::waiting;
   world->bench.step(std::chrono::milliseconds(200));
   const bool silent = world->is_refused_as(PictureState::silent);
-  world->give();
+  world->give_some();
   const bool good = world->state() == PictureState::good;
   world->bench.step(std::chrono::milliseconds(600));
   return patient && silent && good && world->is_refused_as(PictureState::silent);
+}
+
+/// One picture a second: each is used, and it is no camera that works.
+bool pictures_that_come_too_seldom_are_told() {
+  const auto world = std::make_unique<World>();
+  const auto says = [&](std::string_view text) {
+    return world->is_refused_as(PictureState::silent) &&
+           world->bench.feedback().trouble_view().find(text) != std::string_view::npos;
+  };
+  world->give();
+  world->bench.step(std::chrono::milliseconds(600));
+  const bool none = says("no picture comes");
+  for (int i = 0; i < 3; ++i) {
+    world->give();
+    if (!world->is_refused_as(PictureState::silent)) return false;
+    world->bench.step(std::chrono::milliseconds(600));
+    if (!says("too seldom")) return false;
+  }
+  const bool used = world->used() == 4;
+  world->give_some();
+  const bool good = world->state() == PictureState::good;
+  world->bench.step(std::chrono::milliseconds(600));
+  return none && used && good && says("no picture comes");
 }
 
 /// What lies between two pictures that were refused is no motion.
@@ -198,9 +247,11 @@ void frozen(void**) {
 void order(void**) {
   assert_true(pictures_out_of_order_are_refused());
   assert_true(a_camera_may_count_anew());
+  assert_true(good_ones_in_between_do_not_hide_what_is_wrong());
 }
 void silence(void**) {
   assert_true(silence_is_noticed());
+  assert_true(pictures_that_come_too_seldom_are_told());
 }
 void comparison(void**) {
   assert_true(nothing_is_compared_with_what_was_refused());
