@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "units/vision/hidden_part.hpp"
+
 namespace flexrf::user {
 namespace {
 
@@ -38,9 +40,6 @@ Status Attention::initialise() {
         StatusCode::invalid_argument,
         "%s: there are at most %zu members of attention; give the population a smaller capacity", name(),
         most_members);
-  const auto& blind = configuration.camera.blind;
-  blind_ = {static_cast<int>(blind[0]), static_cast<int>(blind[1]), static_cast<int>(blind[2]),
-            static_cast<int>(blind[3])};
   reset();
   return check_camera(configuration.camera);
 }
@@ -56,6 +55,8 @@ void Attention::reset() noexcept {
 void Attention::step(const Tick& /*tick*/) {
   const auto of = features.latest();
   if (!of || !of.is_new()) return;
+  const auto hand = in_hand.latest();
+  blind_ = hidden_part(configuration.camera, hand ? &*hand : nullptr);
   find_expected(*of);
   rate_windows(*of);
   condense(*of);

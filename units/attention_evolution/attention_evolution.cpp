@@ -26,7 +26,10 @@ double number_in(const void* values, const FieldDescriptor& field) {
 Status AttentionEvolution::initialise() {
   read_ = {};
   last_frame_ = correlation_ = 0;
+  judged_generation_ = findings_ = 0;
+  begins_anew_ = finds_nothing_ = needs_newcomer_ = false;
   restored_ = most_members;
+  varied_ = 0;
   writes_saved_ = false;
   if (const Status status = find_population(); !status) return status;
   return find_parameters();
@@ -81,10 +84,6 @@ AttentionEvolution::Place AttentionEvolution::place_of(std::string_view paramete
   return {};
 }
 
-bool AttentionEvolution::is_active(std::size_t member) const noexcept {
-  return cell.cell().application().unit_states[first_ + member].active.load(std::memory_order_acquire);
-}
-
 void AttentionEvolution::step(const Tick& tick) {
   const bool is_new_picture = look_at_members();
   look_at_hand();
@@ -94,7 +93,9 @@ void AttentionEvolution::step(const Tick& tick) {
   press_buttons();
   const bool may_change = !runtime.frozen && correlation_ == 0 && restored_ == most_members;
   if (is_new_picture) fulfil(evolution_.next_picture(rules(), may_change), tick.now);
+  look_at_all(may_change && correlation_ == 0, tick.now);
   if (restored_ < most_members && correlation_ == 0) restore_next(tick.now);
+  if (varied_ < capacity_ && may_change && correlation_ == 0) vary_next(tick.now);
   publish();
 }
 
@@ -136,32 +137,34 @@ void AttentionEvolution::read_verdicts() noexcept {
 }
 
 void AttentionEvolution::take(const VisionVerdict& verdict) noexcept {
-  const VisionRegion& region = verdict.region;
-  if (region.member >= capacity_) return;
-  if (verdict.part == 0) evolution_.note_judged(region.member, region.identity, region.frame, verdict.pixels);
-  if (verdict.verdict == VisualClass::nothing) return;
-  Sighting seen;
-  seen.position = verdict.position_map();
-  seen.is_target = verdict.verdict == VisualClass::target;
-  evolution_.note_sighting(region.member, region.identity, region.frame, seen, rules());
+  if (verdict.region.member < capacity_ && verdict.verdict != VisualClass::nothing) ++findings_;
+  evolution_.note_verdict(verdict, rules());
 }
 
+/// What is held is no longer followed on the table; the member that found it is left alone all the same.
 void AttentionEvolution::look_at_hand() noexcept {
   for (std::size_t i = 0; i < capacity_; ++i) evolution_.note_target_in_hand(i, false);
   const auto hand = in_hand.latest();
-  const auto list = tracks.latest();
-  if (!hand || !list || hand->track == 0) return;
-  for (const ObjectTrack& track : list->tracks) {
-    if (track.found == VisualClass::nothing || track.identity != hand->track || track.member >= capacity_)
-      continue;
-    if (evolution_.member(track.member).identity == track.member_identity)
-      evolution_.note_target_in_hand(track.member, true);
+  if (!hand || hand->track == 0) {
+    in_hand_ = {};
+    return;
   }
+  if (const auto list = tracks.latest())
+    for (const ObjectTrack& track : list->tracks)
+      if (track.found != VisualClass::nothing && track.identity == hand->track) in_hand_ = track;
+  if (in_hand_.identity != hand->track || in_hand_.member >= capacity_) return;
+  if (evolution_.member(in_hand_.member).identity == in_hand_.member_identity)
+    evolution_.note_target_in_hand(in_hand_.member, true);
 }
 
 // ---- what shall be done
 
-void AttentionEvolution::fulfil(const Wish& wish, Time now) noexcept {
+void AttentionEvolution::fulfil(Wish wish, Time now) noexcept {
+  if (wish.kind == WishKind::clone && !runs(wish.member)) {
+    wish.member = free_place();
+    if (wish.member == most_members)
+      return complain("there is no place for a child: those that are free are in fault or stopped");
+  }
   if (wish.kind == WishKind::none) return;
   ParameterRequest request;
   switch (wish.kind) {
@@ -211,6 +214,7 @@ void AttentionEvolution::hear_answers() noexcept {
   while (cell.take_answer(answer)) {
     if (answer.correlation != correlation_) continue;  // of before a restart
     correlation_ = 0;
+    begins_anew_ = false;
     const Wish done = std::exchange(asked_, Wish{});
     if (answer.kind != AnswerKind::accepted) {
       ++feedback.refused;
@@ -269,6 +273,21 @@ void AttentionEvolution::write_saved() noexcept {
   if (const auto begun = cell.save_values(); !begun) complain(begun.status().cause());
 }
 
+/// Members that all look at the same see no more than one of them. So at the start all but the first are made
+/// different, one request at a time; those that somebody changed, or kept, stay as they are.
+void AttentionEvolution::vary_next(Time now) noexcept {
+  for (; varied_ < capacity_; ++varied_) {
+    const Evolution::Member& member = evolution_.member(varied_);
+    const bool is_of_table = member.active && member.identity == 0 && member.genes == table_genes_;
+    if (varied_ == 0 || !is_of_table || configuration.variety == 0) continue;
+    ParameterRequest request;
+    request.kind = RequestKind::set;
+    add_genes(request, evolution_.varied(table_genes_, configuration.variety));
+    send(request, varied_++, now);
+    return;
+  }
+}
+
 /// One request at a time, until a member needs none.
 void AttentionEvolution::restore_next(Time now) noexcept {
   while (restored_ < most_members && correlation_ == 0) {
@@ -323,6 +342,7 @@ void AttentionEvolution::publish() noexcept {
     told.parent = member.parent;
     told.frames = member.frames;
     told.fitness = 1e6 * member.fitness();
+    told.standing = member.standing();
     told.cost = declared_cost(member.genes);
     told.genes = member.genes;
     ++feedback.active;
@@ -334,7 +354,8 @@ void AttentionEvolution::publish() noexcept {
   feedback.generation = now.generation;
   feedback.cost = evolution_.declared_cost_of_all();
   feedback.held_back = evolution_.held_back();
-  feedback.restoring = restored_ < most_members || (correlation_ != 0 && asked_.kind == WishKind::none);
+  const bool has_asked_to_restore = correlation_ != 0 && asked_.kind == WishKind::none && !begins_anew_;
+  feedback.restoring = restored_ < most_members || has_asked_to_restore;
   if (feedback.cost > runtime.cost_cap)
     restrain("members cost more by declaration than all together may", feedback.cost, runtime.cost_cap);
   generation.publish(now);
@@ -351,6 +372,7 @@ EvolutionRules AttentionEvolution::rules() const noexcept {
   rules.tournament = runtime.tournament;
   rules.memory = runtime.memory;
   rules.obstacle_worth = runtime.obstacle_worth;
+  rules.least_overlap = runtime.least_overlap;
   return rules;
 }
 

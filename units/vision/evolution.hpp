@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "types/vision_verdict.hpp"
 #include "units/vision/attention_genes.hpp"
 
 namespace flexrf::user {
@@ -20,15 +21,16 @@ struct GeneRange {
 };
 
 struct EvolutionRules {
-  std::uint32_t generation_frames = 60;  ///< pictures from one generation to the next
-  std::uint32_t probation_frames = 60;   ///< in which a new member is judged before it is trusted
-  double probation_floor = 0.5;          ///< fitness it has to have, as part of the trusted members' mean
-  std::uint32_t wanted = 8;              ///< members that shall be active
-  double cost_cap = 2e6;                 ///< declared cost of a picture, all members together, in values
-  double mutation = 0.15;                ///< standard deviation of a gene's change, as part of its range
-  std::uint32_t tournament = 3;          ///< members of which the best becomes a parent
-  double memory = 0.8;                   ///< what a judgement counts a generation later
-  double obstacle_worth = 0.25;          ///< of an obstacle; a target counts 1
+  std::uint32_t generation_frames = 30;  ///< pictures from one generation to the next
+  std::uint32_t probation_frames = 30;   ///< in which a new member is judged before it is trusted
+  double probation_floor = 1.0;  ///< what it has to find, as part of what the trusted ones do for its cost
+  std::uint32_t wanted = 8;      ///< members that shall be active
+  double cost_cap = 2e6;         ///< declared cost of a picture, all members together, in values
+  double mutation = 0.15;        ///< standard deviation of a gene's largest changes, as part of its range
+  std::uint32_t tournament = 3;  ///< members of which the best becomes a parent
+  double memory = 0.9;           ///< what a judgement counts a generation later
+  double obstacle_worth = 0.25;  ///< of an obstacle; a target counts 1
+  double least_overlap = 0.5;    ///< of region and thing, that the region counts as holding it
 };
 
 /// One thing that a region held.
@@ -63,9 +65,14 @@ class Evolution {
     std::uint32_t frames = 0;  ///< in which it was judged
     double objects = 0;        ///< worth of those it found, older ones counting less
     double cost = 0;           ///< likewise
+    double found = 0;          ///< as objects, of pictures that are settled
+    double expected = 0;       ///< what the trusted would have found in these pictures at its cost
     Genes genes{};
 
     double fitness() const noexcept { return cost > 0 ? objects / cost : 0.0; }
+    /// Against the trusted ones, in the same pictures: 1 as they on average. What members are chosen by: how
+    /// much there is to be found changes more from picture to picture than from member to member.
+    double standing() const noexcept { return expected > 0 ? found / expected : 0.0; }
   };
 
   void begin(std::uint64_t seed, std::span<const GeneRange, gene_count> ranges) noexcept;
@@ -82,6 +89,9 @@ class Evolution {
   void note_picture(std::size_t member, std::uint32_t identity, std::uint64_t frame, double values) noexcept;
   /// A region of the member's in that picture was judged, which took so many pixels. Once for each region.
   void note_judged(std::size_t member, std::uint32_t identity, std::uint64_t frame, double pixels) noexcept;
+  /// What recognition says of a region: that it was judged, and what it held. A region holds what it fits: a
+  /// large one with something small in it has told nobody where that is.
+  void note_verdict(const VisionVerdict& verdict, const EvolutionRules& rules) noexcept;
   /// It held this.
   void note_sighting(std::size_t member, std::uint32_t identity, std::uint64_t frame, const Sighting& seen,
                      const EvolutionRules& rules) noexcept;
@@ -91,6 +101,9 @@ class Evolution {
   /// After each picture: what is wanted of the population, at most one thing, and nothing while `may_change`
   /// is false, as when it is frozen or the last wish was not answered yet.
   Wish next_picture(const EvolutionRules& rules, bool may_change) noexcept;
+
+  /// The genes changed at random, by `deviation` (a standard deviation, as part of each one's range).
+  Genes varied(const Genes& genes, double deviation) noexcept { return mutated(genes, deviation); }
 
   /// For a member that comes by another way, as a saved one.
   std::uint32_t new_identity() noexcept { return next_identity_++; }
@@ -109,21 +122,28 @@ class Evolution {
     std::uint32_t identity = 0;
     bool is_open = false;
     bool is_judged = false;
+    bool is_settled = false;
     double values = 0;
+    double cost = 0;   ///< of what was judged
+    double worth = 0;  ///< of what was found
     std::array<Sighting, most_regions> seen{};
     std::size_t seen_count = 0;
   };
   static constexpr std::size_t pictures_kept = 16;
+  /// So many pictures later its verdicts are in.
+  static constexpr std::uint64_t settled_after = 5;
 
   Picture* find(std::size_t member, std::uint32_t identity, std::uint64_t frame) noexcept;
   bool is_protected(std::size_t member) const noexcept {
     return members_[member].is_target_in_hand || members_[member].is_among_the_best;
   }
   bool is_established(std::size_t member) const noexcept {
-    return members_[member].active && !members_[member].probation && members_[member].cost > 0;
+    return members_[member].active && !members_[member].probation && members_[member].expected > 0;
   }
   std::size_t active_count() const noexcept;
-  double mean_fitness() const noexcept;
+  void settle_pictures() noexcept;
+  bool oldest_to_settle(std::uint64_t& frame) const noexcept;
+  void settle(std::uint64_t frame) noexcept;
   void mark_the_best() noexcept;
   Wish judge_probation(const EvolutionRules& rules) noexcept;
   Wish make_room(const EvolutionRules& rules) noexcept;
@@ -137,6 +157,7 @@ class Evolution {
   RandomSource random_{0};
   std::uint64_t generation_ = 0;
   std::uint64_t held_back_ = 0;
+  std::uint64_t newest_ = 0;  // picture
   std::uint32_t frames_of_generation_ = 0;
   std::uint32_t next_identity_ = 1;
   bool replaces_ = false;  // a generation has ended: one member may go, and one come

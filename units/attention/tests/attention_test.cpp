@@ -146,10 +146,10 @@ bool cost_is_declared_and_told() {
   const auto world = three_parts();
   world->look();
   const auto told = world->report.latest();
-  const auto grids = window_grids(20, 0.4);
+  const auto grids = window_grids(32, 0.35);
   const auto expected = static_cast<std::uint32_t>(values_per_window * window_count(grids));
   return told && told->pixels == expected && told->count == world->regions.size() && told->frame == 1 &&
-         told->genes[gene_smallest] == 20 && told->genes[gene_regions] == 6 &&
+         told->genes[gene_smallest] == 32 && told->genes[gene_regions] == 8 &&
          world->bench.feedback().cost == expected;
 }
 
