@@ -4,13 +4,19 @@
 #include <cmath>
 
 #include "units/vision/attention_genes.hpp"
+#include "units/vision/hidden_part.hpp"
 
 namespace flexrf::user {
 namespace {
 
 constexpr double table_around = 0.010;  // m, of a predicted region; as much again where it is not well known
 constexpr double most_pixels = 4000;    // of half a rectangle's side: what is larger is too near to tell
-constexpr double least_seen = 0.6;      // part of a predicted region that lies within the picture
+// Of what goes on behind the picture's border only a piece has a place: it lies somewhere within the
+// obstacle.
+constexpr double all_of_an_outline = 0.99;
+constexpr double place_of_a_piece = 0.02;    // m, standard deviation
+constexpr double place_of_obstacle = 0.003;  // m, likewise, of one that is seen wholly
+constexpr double least_seen = 0.6;           // part of a predicted region that lies within the picture
 
 double height_of(std::uint16_t kind) {
   const auto parts = known_parts();
@@ -20,6 +26,10 @@ double height_of(std::uint16_t kind) {
 int symmetry_of(std::uint16_t kind) {
   const auto parts = known_parts();
   return kind < parts.size() ? parts[kind].symmetry : 0;
+}
+
+bool is_piece(const VisionVerdict& verdict) {
+  return verdict.verdict == VisualClass::obstacle && verdict.support < all_of_an_outline;
 }
 
 }  // namespace
@@ -34,15 +44,16 @@ Status ObjectTracks::initialise() {
     return Status::error(StatusCode::invalid_argument,
                          "%s: there are at most %zu recognisers; give the population a smaller capacity",
                          name(), most_recognisers);
-  const auto& blind = configuration.camera.blind;
-  blind_ = {static_cast<int>(blind[0]), static_cast<int>(blind[1]), static_cast<int>(blind[2]),
-            static_cast<int>(blind[3])};
   return check_camera(configuration.camera);
 }
 
 void ObjectTracks::step(const Tick& /*tick*/) {
   if (runtime.forget > 0)
     for (std::size_t i = 0; i < most_tracks; ++i) end(i);
+  const auto hand = in_hand.latest();
+  blind_ = hidden_part(configuration.camera, hand ? &*hand : nullptr);
+  if (hand && hand->holds)
+    if (const std::size_t held = track_of(hand->track); held < most_tracks) end(held);
   read_verdicts();
   trust_the_promoted();
   const auto of = features.latest();
@@ -97,9 +108,12 @@ std::size_t ObjectTracks::nearest_to(const VisionVerdict& verdict) const noexcep
   for (std::size_t i = 0; i < most_tracks; ++i) {
     const ObjectTrack& track = list_.tracks[i];
     if (track.found != verdict.verdict || track.kind != verdict.kind) continue;
+    double gate = runtime.gate + std::min(3 * beside_[i].filter.deviation(), runtime.gate);
     // An obstacle's middle moves as more or less of it is seen.
-    const double gate = runtime.gate + std::min(3 * beside_[i].filter.deviation(), runtime.gate) +
-                        (track.found == VisualClass::obstacle ? 0.5 * track.radius : 0.0);
+    if (is_piece(verdict) || (track.found == VisualClass::obstacle && !beside_[i].is_whole))
+      gate += std::max(track.radius, verdict.radius);
+    else if (track.found == VisualClass::obstacle)
+      gate += 0.5 * track.radius;
     const double distance = (beside_[i].filter.position() - verdict.position_map()).norm();
     if (distance > gate || distance >= least) continue;
     least = distance;
@@ -126,14 +140,47 @@ void ObjectTracks::measure(std::size_t place, const VisionVerdict& verdict) noex
     beside.filter.predict(seconds(Duration{region.time - beside.time}), runtime.belt, noise());
     beside.time = region.time;
   }
-  beside.filter.correct(verdict.position_map(), verdict.angle, symmetry_of(track.kind), noise());
+  if (track.found == VisualClass::obstacle) {
+    measure_obstacle(track, beside, verdict);
+  } else {
+    beside.filter.correct(verdict.position_map(), verdict.angle, symmetry_of(track.kind), noise());
+    track.radius = verdict.radius;
+  }
   track.residual = verdict.residual;
-  track.radius = verdict.radius;
   track.measured_at = region.time;
   track.misses = 0;
   ++track.frames;
   ++feedback.measurements;
   track.confirmed = track.confirmed || track.frames >= runtime.confirm_frames;
+}
+
+/// A piece of one that was seen wholly says that it is there, and nothing of its place.
+void ObjectTracks::measure_obstacle(ObjectTrack& track, Beside& beside,
+                                    const VisionVerdict& verdict) noexcept {
+  if (is_piece(verdict) && beside.is_whole) return;
+  const SeenFoot foot{verdict.position_map(), verdict.radius, verdict.body_height, verdict.lean_map()};
+  FilterNoise noise = noise_of(verdict);
+  if (is_piece(verdict)) {
+    beside.filter.correct(foot.middle, 0, 0, noise);
+    track.radius = std::max(track.radius, foot.radius);
+    return;
+  }
+  if (runtime.belt && beside.is_whole) {
+    beside.filter.correct(foot.middle, 0, 0, noise);
+    track.radius = foot.radius;
+    return;
+  }
+  if (beside.is_whole) {
+    beside.foot.drift(runtime.drift * std::sqrt(seconds(Duration{verdict.region.time - track.measured_at})));
+    beside.foot.correct(foot, noise.measured_position);
+  } else {
+    beside.foot.begin(foot, noise.measured_position);
+  }
+  beside.is_whole = true;
+  noise.measured_position = beside.foot.deviation();
+  beside.filter.begin(beside.foot.middle(), 0, runtime.belt, noise);
+  track.radius = beside.foot.radius();
+  track.body_height = beside.foot.height();
 }
 
 void ObjectTracks::begin(const VisionVerdict& verdict) noexcept {
@@ -153,6 +200,7 @@ void ObjectTracks::begin(const VisionVerdict& verdict) noexcept {
   track.found = verdict.verdict;
   track.kind = verdict.kind;
   track.radius = verdict.radius;
+  track.body_height = verdict.body_height;
   track.residual = verdict.residual;
   track.measured_at = region.time;
   track.frames = 1;
@@ -161,7 +209,8 @@ void ObjectTracks::begin(const VisionVerdict& verdict) noexcept {
   track.member_identity = region.identity;
   Beside& beside = beside_[place];
   beside = {};
-  beside.filter.begin(verdict.position_map(), verdict.angle, runtime.belt, noise());
+  beside.filter.begin(verdict.position_map(), verdict.angle, runtime.belt, noise_of(verdict));
+  if (track.found == VisualClass::obstacle) measure_obstacle(track, beside, verdict);
   beside.time = region.time;
   ++feedback.measurements;
   is_changed_ = true;
@@ -338,6 +387,14 @@ FilterNoise ObjectTracks::noise() const noexcept {
   noise.measured_position = runtime.measurement;
   noise.drift = runtime.drift;
   return noise;
+}
+
+FilterNoise ObjectTracks::noise_of(const VisionVerdict& verdict) const noexcept {
+  FilterNoise own = noise();
+  if (verdict.verdict == VisualClass::obstacle)
+    own.measured_position =
+        std::max(own.measured_position, is_piece(verdict) ? place_of_a_piece : place_of_obstacle);
+  return own;
 }
 
 }  // namespace flexrf::user

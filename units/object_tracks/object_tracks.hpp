@@ -6,6 +6,7 @@
 #include "object_tracks_unit.hpp"
 #include "runtime/log/log.hpp"
 #include "units/vision/camera_view.hpp"
+#include "units/vision/foot_filter.hpp"
 #include "units/vision/object_filter.hpp"
 #include "units/vision/part_model.hpp"
 #include "units/vision/region_bitmap.hpp"
@@ -23,8 +24,10 @@ class ObjectTracks final : public ObjectTracksUnit {
   /// What is known of a track beside what is told of it.
   struct Beside {
     ObjectFilter filter;
+    FootFilter foot;             // of an obstacle that is_whole
     std::int64_t time = 0;       // ns, that the filter has come to
     std::int64_t missed_at = 0;  // ns, the last picture in which it was not there
+    bool is_whole = false;       // an obstacle that some picture showed wholly
   };
 
   void read_verdicts() noexcept;
@@ -32,6 +35,7 @@ class ObjectTracks final : public ObjectTracksUnit {
   std::size_t nearest_to(const VisionVerdict& verdict) const noexcept;
   std::size_t track_of(std::uint32_t identity) const noexcept;
   void measure(std::size_t place, const VisionVerdict& verdict) noexcept;
+  void measure_obstacle(ObjectTrack& track, Beside& beside, const VisionVerdict& verdict) noexcept;
   void begin(const VisionVerdict& verdict) noexcept;
   void trust(ObjectTrack& track, const VisionRegion& region) noexcept;
   void miss(std::size_t place, std::int64_t time) noexcept;
@@ -43,6 +47,7 @@ class ObjectTracks final : public ObjectTracksUnit {
   bool predict_region(const ObjectTrack& track, VisionRegion& region) const noexcept;
   void publish() noexcept;
   FilterNoise noise() const noexcept;
+  FilterNoise noise_of(const VisionVerdict& verdict) const noexcept;
 
   TrackList list_{};
   std::array<Beside, most_tracks> beside_{};

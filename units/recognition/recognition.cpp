@@ -1,11 +1,13 @@
 #include "units/recognition/recognition.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "units/vision/attention_genes.hpp"
 #include "units/vision/camera_view.hpp"
+#include "units/vision/hidden_part.hpp"
 #include "units/vision/integral_images.hpp"
 
 namespace flexrf::user {
@@ -29,13 +31,48 @@ PixelRectangle rectangle_of(const VisionRegion& job) {
   return {own.left - across, own.top - down, own.width + 2 * across, own.height + 2 * down};
 }
 
+/// Nothing was found where all of the job's region was looked at. Not by its pixels were judged what is flat,
+/// nor for all that may be there the region of a track.
+bool covers(const VisionVerdict& nothing, const VisionRegion& job) {
+  if (nothing.pixels == 0 || nothing.region.member == no_member) return false;
+  const PixelRectangle seen = rectangle_of(nothing.region);
+  return seen.left <= job.left && seen.top <= job.top && seen.left + seen.width >= job.left + job.width &&
+         seen.top + seen.height >= job.top + job.height;
+}
+
 bool has_usable_size(const CameraFrame& frame) {
   return frame.format == PixelFormat::rgb24 && frame.width == picture_width &&
          frame.height == picture_height && frame.stride >= picture_row_bytes &&
          std::uint64_t{frame.stride} * (picture_height - 1) + picture_row_bytes <= frame.data().size();
 }
 
-VisionVerdict verdict_of(const VisionRegion& job, const Finding& finding) {
+/// What shows it in the picture: of a part all corners, below and above; of an obstacle, whose shape nobody
+/// knows, what was seen of it.
+PixelRectangle shown(const Finding& finding, const CameraView& view) {
+  if (finding.found == VisualClass::obstacle) return finding.box;
+  Eigen::AlignedBox2d box;
+  if (finding.found == VisualClass::target) {
+    const PartModel& part = known_parts()[finding.kind];
+    const Eigen::Rotation2Dd turn(finding.pose.angle);
+    for (const Eigen::Vector2d& corner : part.outline()) {
+      const Eigen::Vector2d at = finding.pose.position + turn * corner;
+      for (const double z : {0.0, part.height}) {
+        Eigen::Vector2d pixel;
+        if (view.to_picture({at.x(), at.y(), z}, pixel)) box.extend(pixel);
+      }
+    }
+  }
+  if (box.isEmpty()) return {};
+  constexpr double far = 4 * picture_width;
+  const Eigen::Vector2d from = box.min().cwiseMax(-far);
+  const Eigen::Vector2d to = box.max().cwiseMin(far);
+  const PixelRectangle whole{static_cast<int>(std::floor(from.x())), static_cast<int>(std::floor(from.y())),
+                             static_cast<int>(std::ceil(to.x()) - std::floor(from.x())),
+                             static_cast<int>(std::ceil(to.y()) - std::floor(from.y()))};
+  return common_part(whole, {0, 0, int{picture_width}, int{picture_height}});
+}
+
+VisionVerdict verdict_of(const VisionRegion& job, const Finding& finding, const PixelRectangle& box) {
   VisionVerdict verdict{};
   verdict.region = job;
   verdict.verdict = finding.found;
@@ -43,9 +80,17 @@ VisionVerdict verdict_of(const VisionRegion& job, const Finding& finding) {
   verdict.position_map() = finding.pose.position;
   verdict.angle = finding.pose.angle;
   verdict.radius = finding.radius;
+  verdict.body_height = finding.height;
+  verdict.lean_map() = finding.lean;
   verdict.residual = finding.residual;
   verdict.support = finding.support;
   verdict.pixel_map() = finding.pixel;
+  if (!box.is_empty()) {
+    verdict.left = static_cast<std::uint16_t>(box.left);
+    verdict.top = static_cast<std::uint16_t>(box.top);
+    verdict.width = static_cast<std::uint16_t>(box.width);
+    verdict.height = static_cast<std::uint16_t>(box.height);
+  }
   verdict.parts = 1;
   return verdict;
 }
@@ -54,9 +99,6 @@ VisionVerdict verdict_of(const VisionRegion& job, const Finding& finding) {
 
 Status Recognition::initialise() {
   finder_.prepare(known_parts(), configuration.darkest_shadow);
-  const auto& blind = configuration.camera.blind;
-  blind_ = {static_cast<int>(blind[0]), static_cast<int>(blind[1]), static_cast<int>(blind[2]),
-            static_cast<int>(blind[3])};
   reset();
   return check_camera(configuration.camera);
 }
@@ -64,12 +106,15 @@ Status Recognition::initialise() {
 /// The count of verdicts goes on: who reads them has seen those of before.
 void Recognition::reset() noexcept {
   finder_.forget();
+  lit_.reset();
   waiting_.reset();
   feedback = {};
 }
 
 /// Slots are read after the first job was taken: its picture was published before it, so it is there.
 void Recognition::step(const Tick& /*tick*/) {
+  const auto hand = in_hand.latest();
+  blind_ = hidden_part(configuration.camera, hand ? &*hand : nullptr);
   const std::uint64_t before = list_.count;
   std::uint32_t done = 0;
   for (int outdated = 0; done < runtime.jobs && outdated < most_outdated;) {
@@ -131,12 +176,14 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
       verdict.pixels = 0;
       verdict.part = 0;
       verdict.parts = 1;
+      if (verdict.verdict == VisualClass::nothing)
+        verdict.pixel = {job.left + 0.5 * job.width, job.top + 0.5 * job.height};
       ++feedback.repeated;
       note(verdict);
       return true;
     }
   }
-  VisionVerdict nothing = verdict_of(job, Finding{});
+  VisionVerdict nothing = verdict_of(job, Finding{}, {});
   nothing.pixel = {job.left + 0.5 * job.width, job.top + 0.5 * job.height};
   if (is_flat(job)) {
     ++feedback.nothing;
@@ -146,14 +193,19 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
   const CameraView view(configuration.camera, tool);
   const PictureView picture{frame->data().data(), frame->stride, static_cast<int>(frame->width),
                             static_cast<int>(frame->height)};
+  if (lit_ != job.frame) {
+    lit_ = job.frame;
+    if (!finder_.look_at_light(picture, blind_)) ++feedback.unlit;
+  }
   Finding expected;
   if (job.track != 0) {
     expected.kind = job.kind;
     expected.pose.position = {job.expected[0], job.expected[1]};
     expected.pose.angle = job.expected[2];
   }
-  const auto findings = finder_.find(picture, rectangle_of(job), blind_, view, expected,
-                                     {runtime.least_support, runtime.most_residual, runtime.least_obstacle});
+  const auto findings = finder_.find(
+      picture, rectangle_of(job), blind_, view, expected,
+      {runtime.least_support, runtime.most_residual, runtime.least_obstacle, runtime.obstacle_height});
   feedback.pixels += finder_.pixels();
   nothing.pixels = finder_.pixels();
   if (findings.empty()) {
@@ -162,7 +214,7 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
   }
   std::uint8_t part = 0;
   for (const Finding& finding : findings) {
-    VisionVerdict verdict = verdict_of(job, finding);
+    VisionVerdict verdict = verdict_of(job, finding, shown(finding, view));
     verdict.pixels = part == 0 ? finder_.pixels() : 0;
     verdict.part = part++;
     verdict.parts = static_cast<std::uint8_t>(findings.size());
@@ -209,8 +261,11 @@ const VisionVerdict* Recognition::find_in(const VisionVerdicts& list,
   const std::uint64_t kept = std::min<std::uint64_t>(list.count, list.verdicts.size());
   for (std::uint64_t i = 0; i < kept; ++i) {
     const VisionVerdict& verdict = list.verdicts[(list.count - 1 - i) % list.verdicts.size()];
-    if (verdict.region.frame != job.frame || verdict.verdict == VisualClass::nothing || verdict.repeated)
+    if (verdict.region.frame != job.frame || verdict.repeated) continue;
+    if (verdict.verdict == VisualClass::nothing) {
+      if (covers(verdict, job)) return &verdict;
       continue;
+    }
     const double across = verdict.pixel[0] - (job.left + 0.5 * job.width);
     const double down = verdict.pixel[1] - (job.top + 0.5 * job.height);
     if (std::max(std::abs(across), std::abs(down)) < near_the_middle * std::max(job.width, job.height))

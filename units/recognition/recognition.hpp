@@ -28,6 +28,7 @@ class Recognition final : public RecognitionUnit {
   PartFinder finder_;
   VisionVerdicts list_{};
   std::optional<VisionRegion> waiting_;  // a job whose picture this step does not see
+  std::optional<std::uint64_t> lit_;     // the picture that the light was taken from
   PixelRectangle blind_;
   LogLimit troubles_;
 };

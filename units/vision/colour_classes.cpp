@@ -50,6 +50,8 @@ std::uint8_t judge(const Eigen::Vector3d& colour, std::span<const PartModel> par
 void ColourClasses::prepare(std::span<const PartModel> parts, SurfaceColour table,
                             double darkest_shadow) noexcept {
   table_ = table;
+  table_sum_ = colour_of(table).sum();
+  table_chromaticity_ = chromaticity(colour_of(table));
   darkest_shadow_ = darkest_shadow;
   constexpr double width = 256.0 / levels;
   std::size_t place = 0;
@@ -62,22 +64,30 @@ void ColourClasses::prepare(std::span<const PartModel> parts, SurfaceColour tabl
 
 bool ColourClasses::is_shadow(const std::array<std::uint32_t, 3>& sums, std::uint32_t count,
                               const WhiteBalance& balance) const noexcept {
-  const Eigen::Vector3d raw = Eigen::Vector3d(sums[0], sums[1], sums[2]) / count;
-  const Eigen::Vector3d colour(raw[0] * balance.gain[0] / 256, raw[1] * balance.gain[1] / 256,
-                               raw[2] * balance.gain[2] / 256);
-  const Eigen::Vector3d table = colour_of(table_);
-  if (colour.sum() < darkest_shadow_ * table.sum()) return false;
-  const double tolerated = like_a_shadow * std::max(1.0, usual_sum / std::max(raw.sum(), 1.0));
-  return (chromaticity(colour) - chromaticity(table)).norm() < tolerated;
+  // All by the sum, so that nothing is divided.
+  const Eigen::Vector3d colour(static_cast<double>(sums[0]) * balance.gain[0],
+                               static_cast<double>(sums[1]) * balance.gain[1],
+                               static_cast<double>(sums[2]) * balance.gain[2]);
+  const double sum = colour.sum();
+  if (sum < darkest_shadow_ * table_sum_ * 256 * count) return false;
+  const auto raw = static_cast<double>(sums[0] + sums[1] + sums[2]);
+  const double usual = usual_sum * count;
+  const double tolerated = like_a_shadow * (raw < usual ? sum * usual / std::max(raw, 1.0) : sum);
+  return (colour - table_chromaticity_ * sum).squaredNorm() < tolerated * tolerated;
 }
 
-bool ColourClasses::balance_of(const std::array<std::uint32_t, 3>& seen,
-                               WhiteBalance& balance) const noexcept {
+bool ColourClasses::may_be_table(const std::array<std::uint32_t, 3>& sums) const noexcept {
+  return (chromaticity(
+              {static_cast<double>(sums[0]), static_cast<double>(sums[1]), static_cast<double>(sums[2])}) -
+          table_chromaticity_)
+             .squaredNorm() < like_the_table * like_the_table;
+}
+
+bool ColourClasses::balance_of(const Eigen::Vector3d& now, WhiteBalance& balance) const noexcept {
   const Eigen::Vector3d known = colour_of(table_);
-  const Eigen::Vector3d now(seen[0], seen[1], seen[2]);
   // Outside of this there is no light to see by, or too much.
   if (now.minCoeff() < 16 || now.maxCoeff() > 250) return false;
-  if ((chromaticity(now) - chromaticity(known)).norm() > like_the_table) return false;
+  if ((chromaticity(now) - table_chromaticity_).norm() > like_the_table) return false;
   for (Eigen::Index i = 0; i < 3; ++i)
     balance.gain[static_cast<std::size_t>(i)] =
         static_cast<std::uint32_t>(std::lround(256 * known[i] / now[i]));

@@ -44,7 +44,10 @@ class ColourClasses {
 
   /// From what is taken as the table's colour now. False, and `balance` as it was: it is none that light
   /// makes of the table.
-  bool balance_of(const std::array<std::uint32_t, 3>& seen, WhiteBalance& balance) const noexcept;
+  bool balance_of(const Eigen::Vector3d& now, WhiteBalance& balance) const noexcept;
+
+  /// Whether light can make that of the table: by the chromaticity of pixels that were added up.
+  bool may_be_table(const std::array<std::uint32_t, 3>& sums) const noexcept;
 
  private:
   static constexpr std::uint32_t bits = 5;  // of each channel
@@ -57,6 +60,8 @@ class ColourClasses {
 
   std::array<std::uint8_t, std::size_t{levels} * levels * levels> classes_{};
   SurfaceColour table_;
+  Eigen::Vector3d table_chromaticity_ = Eigen::Vector3d::Zero();
+  double table_sum_ = 0;
   double darkest_shadow_ = 0;
 };
 

@@ -40,9 +40,16 @@ bool Contour::follow(const RegionBitmap& bitmap, const Blob& blob, const CameraV
   return count_ >= 8;
 }
 
+double Contour::seen() const noexcept {
+  const auto edges = std::count_if(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(count_),
+                                   [](const ContourPoint& point) { return point.is_edge; });
+  return count_ == 0 ? 0.0 : static_cast<double>(edges) / static_cast<double>(count_);
+}
+
 /// Along the sides of cells (crack code), from the upper side of the first cell.
 bool Contour::trace(const RegionBitmap& bitmap, const Blob& blob) noexcept {
   step_count_ = 0;
+  meets_blind_ = false;
   int x = blob.first_column;
   int y = blob.top;
   std::size_t heading = 0;
@@ -55,8 +62,10 @@ bool Contour::trace(const RegionBitmap& bitmap, const Blob& blob) noexcept {
     Step& one = steps_[step_count_++];
     one.column = static_cast<float>(x) + 0.5F * static_cast<float>(step.x);
     one.row = static_cast<float>(y) + 0.5F * static_cast<float>(step.y);
-    // Behind the side of a cell at the border nobody looked.
-    one.is_edge = step.x == 0 ? x > 0 && x < bitmap.columns() : y > 0 && y < bitmap.rows();
+    // At the border of what was looked at nobody knows whether the part goes on.
+    const Direction outside = ahead[heading].left;
+    one.is_edge = bitmap.is_seen(x + outside.x, y + outside.y);
+    meets_blind_ = meets_blind_ || bitmap.is_blind(x + outside.x, y + outside.y);
     x += step.x;
     y += step.y;
     if (!is_inside(ahead[heading].right)) {

@@ -38,6 +38,10 @@ class Contour {
   std::span<ContourPoint> points() noexcept { return {points_.data(), count_}; }
   /// Enclosed by the points, m^2.
   double area() const noexcept { return area_; }
+  /// Part of the points that are an edge, and not where what was looked at ends.
+  double seen() const noexcept;
+  /// It runs along what is blind.
+  bool meets_blind() const noexcept { return meets_blind_; }
   const Eigen::Vector2d& middle() const noexcept { return middle_; }  ///< centroid of that
 
  private:
@@ -55,6 +59,7 @@ class Contour {
   std::size_t step_count_ = 0;
   std::array<ContourPoint, most_points> points_{};
   std::size_t count_ = 0;
+  bool meets_blind_ = false;
   double area_ = 0;
   Eigen::Vector2d middle_ = Eigen::Vector2d::Zero();
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace flexrf::user {
 namespace {
@@ -21,8 +22,22 @@ struct Closest {
   double distance = 0;                                  // along that; above 0: outside
 };
 
+/// What looks the same at every angle is a circle. A point in its middle is as far from all of it.
+Closest closest_on_circle(double radius, const Eigen::Vector2d& point, const Eigen::Vector2d& normal) {
+  Closest best;
+  const double from_middle = point.norm();
+  const Eigen::Vector2d outwards =
+      from_middle > 1e-9 ? Eigen::Vector2d(point / from_middle) : Eigen::Vector2d(1, 0);
+  if (normal.dot(outwards) < least_facing * normal.norm()) return best;
+  best.distance = from_middle - radius;
+  best.distance_squared = best.distance * best.distance;
+  best.direction = outwards;
+  return best;
+}
+
 /// `normal` zero: whichever way it faces.
 Closest closest_on(const PartModel& part, const Eigen::Vector2d& point, const Eigen::Vector2d& normal) {
+  if (part.symmetry == 0) return closest_on_circle(part.perimeter / (2 * std::numbers::pi), point, normal);
   Closest best;
   for (std::size_t i = 0; i < part.corner_count; ++i) {
     const Eigen::Vector2d& from = part.corners[i];

@@ -4,16 +4,21 @@
 #include <cmath>
 #include <utility>
 
+#include "units/vision/obstacle_foot.hpp"
+
 namespace flexrf::user {
 namespace {
 
 constexpr double coarse_width = 0.008;  // m, of the weights when starts are compared
 constexpr double fine_width = 0.005;    // m, when the best are improved
 constexpr int iterations = 8;
-constexpr std::size_t finalists = 4;       // starts that are improved
-constexpr std::size_t coarse_points = 48;  // by which starts are compared
-constexpr double least_share = 0.3;        // of a part's area that has to be seen
-constexpr double most_alone = 1.15;        // parts' areas in a blob of one part
+constexpr double expected_width = 0.003;  // m, when one is where it is expected
+constexpr int expected_iterations = 4;
+constexpr std::size_t finalists = 4;          // starts that are improved
+constexpr std::size_t coarse_points = 48;     // by which starts are compared
+constexpr double least_share = 0.3;           // of a part's area that has to be seen
+constexpr double least_of_an_obstacle = 1.5;  // parts' areas: more than of one that is partly hidden
+constexpr double most_alone = 1.15;           // parts' areas in a blob of one part
 constexpr double support_alone = 0.9;
 constexpr double support_among_others = 0.65;
 constexpr double beyond_doubt = 0.97;  // so good a fit ends the search
@@ -28,7 +33,7 @@ constexpr int largest_side = 2 * RegionBitmap::side;
 void PartFinder::prepare(std::span<const PartModel> parts, double darkest_shadow) noexcept {
   parts_ = parts.first(std::min(parts.size(), most_kinds));
   classes_.prepare(parts_, known_table_colour(), darkest_shadow);
-  bitmap_.forget();
+  light_.forget();
 }
 
 std::span<const Finding> PartFinder::find(const PictureView& picture, const PixelRectangle& rectangle,
@@ -46,16 +51,18 @@ std::span<const Finding> PartFinder::find(const PictureView& picture, const Pixe
   const Blob* const central = central_blob();
   for (const Blob& blob : bitmap_.blobs()) {
     // Of an obstacle at the border nobody knows where its middle is.
-    if (blob.pixel_class != class_foreign)
-      find_parts(blob, view, expected, limits);
-    else if (&blob == central || !bitmap_.is_cut(blob, picture))
-      find_obstacle(blob, view, limits);
+    const bool may_be_obstacle = &blob == central || !bitmap_.is_cut(blob, picture);
+    const bool is_part = blob.pixel_class != class_foreign && find_parts(blob, view, expected, limits);
+    if (!is_part && may_be_obstacle) find_obstacle(blob, view, limits);
   }
   return {findings_.data(), count_};
 }
 
-/// That lies nearest to the middle of what was looked at; null: there is none.
+/// That covers the middle of what was looked at, or else lies nearest to it; null: there is none.
 const Blob* PartFinder::central_blob() const noexcept {
+  const std::uint8_t label = bitmap_.label(bitmap_.columns() / 2, bitmap_.rows() / 2);
+  for (const Blob& blob : bitmap_.blobs())
+    if (blob.label == label) return &blob;
   const Blob* nearest = nullptr;
   double least = 0;
   for (const Blob& blob : bitmap_.blobs()) {
@@ -70,31 +77,35 @@ const Blob* PartFinder::central_blob() const noexcept {
 
 void PartFinder::look(const PictureView& picture, const PixelRectangle& rectangle,
                       const PixelRectangle& blind) noexcept {
-  bitmap_.take(picture, rectangle, blind, classes_);
+  bitmap_.take(picture, rectangle, blind, classes_, light_.balance());
   pixels_ += static_cast<std::uint32_t>(bitmap_.columns() * bitmap_.rows());
 }
 
 /// The parts of one kind in a blob, one after the other; each takes its points of the contour away. Where the
-/// one that is expected is there, it is all that was asked for.
-void PartFinder::find_parts(const Blob& blob, const CameraView& view, const Finding& expected,
+/// one that is expected is there, it is all that was asked for. False: it is too large to be a part, and none
+/// is in it.
+bool PartFinder::find_parts(const Blob& blob, const CameraView& view, const Finding& expected,
                             const FindingLimits& limits) noexcept {
   const std::size_t kind = blob.pixel_class - class_first_part;
   const PartModel& part = parts_[kind];
-  if (!contour_.follow(bitmap_, blob, view, part.height)) return;
+  if (!contour_.follow(bitmap_, blob, view, part.height)) return true;
   const double share = contour_.area() / part.area;
   // Less than this of a part is not enough to say.
-  if (share < least_share) return;
+  if (share < least_share) return true;
   if (expected.kind == kind) {
-    const OutlineFit fit = fit_outline(part, expected.pose, contour_.points(), fine_width, iterations);
+    const OutlineFit fit =
+        fit_outline(part, expected.pose, contour_.points(), expected_width, expected_iterations);
     // Of one that stands alone all of the outline is seen.
     const double support = share < most_alone ? support_alone : support_among_others;
     if (fit.support >= support && fit.residual <= limits.most_residual &&
-        filled(part, fit.pose, blob, view) >= least_filled)
-      return note(part, kind, fit, view);
+        filled(part, fit.pose, blob, view) >= least_filled) {
+      note(part, kind, fit, view);
+      return true;
+    }
   }
   bool any = false;
   for (int i = 0; i < parts_of_a_blob && count_ < most_findings; ++i) {
-    if (share - i < least_share) return;
+    if (share - i < least_share) return true;
     starts_.clear();
     if (i == 0 && expected.kind == kind) starts_.add(expected.pose);
     if (i == 0 && share < 1.35) starts_.add_around(part, contour_.middle());
@@ -106,8 +117,8 @@ void PartFinder::find_parts(const Blob& blob, const CameraView& view, const Find
     for (ContourPoint& point : contour_.points())
       if (distance_from(part, fit.pose, point.position) < explained) point.is_edge = false;
   }
-  // Of a part's colour, and too large to be one that is partly hidden.
-  if (!any && share > 1.5) find_obstacle(blob, view, limits);
+  // What goes on behind the hand may be what the hand holds: it is larger than on the table, as it is nearer.
+  return any || share < least_of_an_obstacle || contour_.meets_blind();
 }
 
 void PartFinder::note(const PartModel& part, std::size_t kind, const OutlineFit& fit,
@@ -118,6 +129,7 @@ void PartFinder::note(const PartModel& part, std::size_t kind, const OutlineFit&
   finding.found = VisualClass::target;
   finding.kind = static_cast<std::uint16_t>(kind);
   finding.pose = fit.pose;
+  finding.height = part.height;
   finding.radius = part.radius;
   finding.residual = fit.residual;
   finding.support = fit.support;
@@ -182,8 +194,7 @@ double PartFinder::filled(const PartModel& part, const OutlinePose& pose, const 
       };
       const int cell_column = cell_of(pixel.x(), bitmap_.rectangle().left);
       const int cell_row = cell_of(pixel.y(), bitmap_.rectangle().top);
-      if (cell_column < 0 || cell_row < 0 || cell_column >= bitmap_.columns() || cell_row >= bitmap_.rows())
-        continue;
+      if (!bitmap_.is_seen(cell_column, cell_row)) continue;
       const std::uint8_t label = bitmap_.label(cell_column, cell_row);
       if (label == blob.label) ++within;
       if (label == blob.label || label == 0) ++looked;
@@ -195,18 +206,19 @@ double PartFinder::filled(const PartModel& part, const OutlinePose& pose, const 
 void PartFinder::find_obstacle(const Blob& blob, const CameraView& view,
                                const FindingLimits& limits) noexcept {
   if (count_ == most_findings) return;
-  const Eigen::Vector2d pixel = pixel_of(blob.middle_column, blob.middle_row);
-  Eigen::Vector2d place;
-  if (!view.to_plane(pixel.x(), pixel.y(), 0, place)) return;
-  const double per_metre = view.pixels_per_metre({place.x(), place.y(), 0}) / bitmap_.scale();
-  if (!(per_metre > 0) || blob.area < limits.least_obstacle * per_metre * per_metre) return;
+  if (!contour_.follow(bitmap_, blob, view, 0) || contour_.area() < limits.least_obstacle) return;
+  ObstacleFoot foot;
+  if (!find_foot(contour_.points(), view, limits.obstacle_height, foot)) return;
   Finding& finding = findings_[count_++];
   finding = {};
   finding.found = VisualClass::obstacle;
-  finding.pose.position = place;
-  finding.radius = std::hypot(blob.right - blob.left + 1, blob.bottom - blob.top + 1) / (2 * per_metre);
-  finding.support = 1;
-  finding.pixel = pixel;
+  finding.pose.position = foot.middle;
+  finding.height = limits.obstacle_height;
+  finding.radius = foot.radius;
+  finding.lean = foot.lean;
+  finding.support = contour_.seen();
+  finding.pixel = pixel_of(blob.middle_column, blob.middle_row);
+  finding.box = bitmap_.box_of(blob);
 }
 
 /// Of a place in the bitmap, in cells.

@@ -12,19 +12,38 @@ int cells(int pixels, int scale) {
   return (pixels + scale - 1) / scale;
 }
 
-}  // namespace
+using BitRow = std::array<std::uint64_t, 3>;
 
-PixelRectangle common_part(const PixelRectangle& one, const PixelRectangle& other) noexcept {
-  PixelRectangle both;
-  both.left = std::max(one.left, other.left);
-  both.top = std::max(one.top, other.top);
-  both.width = std::min(one.right(), other.right()) - both.left;
-  both.height = std::min(one.bottom(), other.bottom()) - both.top;
-  return both;
+BitRow both(const BitRow& one, const BitRow& other) {
+  return {one[0] & other[0], one[1] & other[1], one[2] & other[2]};
+}
+BitRow either(const BitRow& one, const BitRow& other) {
+  return {one[0] | other[0], one[1] | other[1], one[2] | other[2]};
+}
+/// Each cell gets what its left neighbour has; the first one `first`.
+BitRow moved_up(const BitRow& row, bool first) {
+  return {row[0] << 1 | (first ? 1U : 0U), row[1] << 1 | row[0] >> 63, row[2] << 1 | row[1] >> 63};
+}
+/// Each cell gets what its right neighbour has; the last one what lies behind the row.
+BitRow moved_down(const BitRow& row) {
+  return {row[0] >> 1 | row[1] << 63, row[1] >> 1 | row[2] << 63, row[2] >> 1 | std::uint64_t{1} << 63};
+}
+/// Sets what lies behind the last cell.
+void fill_behind(BitRow& row, int columns) {
+  for (std::size_t word = 0; word < row.size(); ++word) {
+    const int from = columns - static_cast<int>(64 * word);
+    if (from <= 0)
+      row[word] = ~std::uint64_t{0};
+    else if (from < 64)
+      row[word] |= ~std::uint64_t{0} << from;
+  }
 }
 
+}  // namespace
+
 void RegionBitmap::take(const PictureView& picture, const PixelRectangle& rectangle,
-                        const PixelRectangle& blind, const ColourClasses& classes) noexcept {
+                        const PixelRectangle& blind, const ColourClasses& classes,
+                        const WhiteBalance& balance) noexcept {
   rectangle_ = common_part(rectangle, {0, 0, picture.width, picture.height});
   blob_count_ = 0;
   columns_ = rows_ = 0;
@@ -33,39 +52,18 @@ void RegionBitmap::take(const PictureView& picture, const PixelRectangle& rectan
   scale_ = cells(std::max(rectangle_.width, rectangle_.height), side);
   columns_ = cells(rectangle_.width, scale_);
   rows_ = cells(rectangle_.height, scale_);
-  classes.balance_of(border_colour(picture), balance_);  // else the light is as it was
+  balance_ = balance;
   classify(picture, blind, classes);
+  drop_edges();
   find_blobs();
-}
-
-/// The median of each channel along the border: right while less than half of it shows something else.
-std::array<std::uint32_t, 3> RegionBitmap::border_colour(const PictureView& picture) noexcept {
-  for (auto& channel : histogram_) channel.fill(0);
-  std::uint32_t count = 0;
-  const auto add = [&](int column, int row) {
-    const std::uint8_t* const pixel = picture.at(column, row);
-    for (std::size_t i = 0; i < 3; ++i) ++histogram_[i][pixel[i]];
-    ++count;
-  };
-  for (int column = rectangle_.left; column < rectangle_.right(); ++column) {
-    add(column, rectangle_.top);
-    add(column, rectangle_.bottom() - 1);
-  }
-  for (int row = rectangle_.top; row < rectangle_.bottom(); ++row) {
-    add(rectangle_.left, row);
-    add(rectangle_.right() - 1, row);
-  }
-  std::array<std::uint32_t, 3> median{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::uint32_t below = 0;
-    while ((below += histogram_[i][median[i]]) * 2 < count) ++median[i];
-  }
-  return median;
 }
 
 void RegionBitmap::classify(const PictureView& picture, const PixelRectangle& blind,
                             const ColourClasses& classes) noexcept {
+  first_foreign_ = rows_;
+  last_foreign_ = -1;
   for (int row = 0; row < rows_; ++row) {
+    bool any = false;
     std::uint8_t* const to = classes_.data() + place(0, row);
     for (int column = 0; column < columns_; ++column) {
       const int x = rectangle_.left + column * scale_;
@@ -74,7 +72,11 @@ void RegionBitmap::classify(const PictureView& picture, const PixelRectangle& bl
       to[column] = found != class_dark                 ? found
                    : is_shadow(picture, x, y, classes) ? class_table
                                                        : class_foreign;
+      any = any || to[column] == class_foreign;
     }
+    if (!any) continue;
+    first_foreign_ = std::min(first_foreign_, row);
+    last_foreign_ = row;
   }
   const PixelRectangle hidden = common_part(rectangle_, blind);
   if (hidden.is_empty()) return;
@@ -82,7 +84,7 @@ void RegionBitmap::classify(const PictureView& picture, const PixelRectangle& bl
   const int last_row = (hidden.bottom() - 1 - rectangle_.top) / scale_;
   for (int row = (hidden.top - rectangle_.top) / scale_; row <= last_row; ++row)
     for (int column = (hidden.left - rectangle_.left) / scale_; column <= last_column; ++column)
-      classes_[place(column, row)] = class_table;
+      classes_[place(column, row)] = class_unseen;
 }
 
 /// By the mean of four pixels, which has half of the noise.
@@ -97,13 +99,49 @@ bool RegionBitmap::is_shadow(const PictureView& picture, int column, int row,
   return classes.is_shadow(sums, 4, balance_);
 }
 
+/// Opening (Serra 1982) with squares of three cells: what is foreign shrinks by one cell, and what is left
+/// grows by one. Of what is not seen nobody knows, so it lets things be.
+void RegionBitmap::drop_edges() noexcept {
+  const int first = std::max(first_foreign_ - 1, 0);
+  const int last = std::min(last_foreign_ + 1, rows_ - 1);
+  for (int row = first; row <= last; ++row) {
+    BitRow& bits = foreign_[static_cast<std::size_t>(row)];
+    bits = {};
+    for (int column = 0; column < columns_; ++column) {
+      const std::uint8_t of = classes_[place(column, row)];
+      const std::uint64_t bit = of == class_foreign || of == class_unseen ? 1 : 0;
+      bits[static_cast<std::size_t>(column) / 64] |= bit << (static_cast<std::size_t>(column) % 64);
+    }
+    fill_behind(bits, columns_);
+  }
+  for (int row = first_foreign_; row <= last_foreign_; ++row) {
+    BitRow all = foreign_[static_cast<std::size_t>(row)];
+    for (const int other : {row - 1, row + 1})
+      if (other >= 0 && other < rows_) all = both(all, foreign_[static_cast<std::size_t>(other)]);
+    kept_[static_cast<std::size_t>(row)] = both(all, both(moved_up(all, true), moved_down(all)));
+  }
+  for (int row = first_foreign_; row <= last_foreign_; ++row) {
+    BitRow any_of = kept_[static_cast<std::size_t>(row)];
+    for (const int other : {row - 1, row + 1})
+      if (other >= first_foreign_ && other <= last_foreign_)
+        any_of = either(any_of, kept_[static_cast<std::size_t>(other)]);
+    any_of = either(any_of, either(moved_up(any_of, false), moved_down(any_of)));
+    for (int column = 0; column < columns_; ++column) {
+      std::uint8_t& of = classes_[place(column, row)];
+      const auto at = static_cast<std::size_t>(column);
+      if (of == class_foreign && (any_of[at / 64] >> (at % 64) & 1) == 0) of = class_table;
+    }
+  }
+}
+
 void RegionBitmap::find_blobs() noexcept {
   for (int row = 0; row < rows_; ++row)
     std::fill_n(labels_.begin() + static_cast<std::ptrdiff_t>(place(0, row)), columns_, std::uint8_t{0});
   std::uint8_t label = 0;
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
-      if (classes_[place(column, row)] == class_table || labels_[place(column, row)] != 0) continue;
+      const std::uint8_t of = classes_[place(column, row)];
+      if (of == class_table || of == class_unseen || labels_[place(column, row)] != 0) continue;
       // Labels are used up only by what is large enough to be looked at.
       const std::uint8_t own =
           label + 1 < dropped_label ? static_cast<std::uint8_t>(label + 1) : dropped_label;

@@ -8,35 +8,9 @@
 #include <span>
 
 #include "units/vision/colour_classes.hpp"
+#include "units/vision/picture_view.hpp"
 
 namespace flexrf::user {
-
-/// In pixels of the camera's picture.
-struct PixelRectangle {
-  int left = 0;
-  int top = 0;
-  int width = 0;
-  int height = 0;
-
-  int right() const noexcept { return left + width; }
-  int bottom() const noexcept { return top + height; }
-  bool is_empty() const noexcept { return width <= 0 || height <= 0; }
-};
-
-/// What both cover; empty where they do not meet.
-PixelRectangle common_part(const PixelRectangle& one, const PixelRectangle& other) noexcept;
-
-/// rgb24, rows `stride` bytes apart.
-struct PictureView {
-  const std::uint8_t* pixels = nullptr;
-  std::size_t stride = 0;
-  int width = 0;
-  int height = 0;
-
-  const std::uint8_t* at(int column, int row) const noexcept {
-    return pixels + static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column) * 3;
-  }
-};
 
 /// Pixels of one class that hang together by their sides. Cells, which are pixels or squares of them.
 struct Blob {
@@ -61,13 +35,10 @@ class RegionBitmap {
   static constexpr int least_area = 24;  ///< of a blob; what is smaller is noise
 
   /// Takes the rectangle, which lies within the picture, and finds its blobs, the largest first, at most 8.
-  /// The table's colour is the median along the rectangle's border, where that can be the table; else that of
-  /// the region before. Nothing is seen in `blind`.
+  /// Nothing is seen in `blind`. What is foreign and nowhere more than two cells wide is a blurred edge,
+  /// which mixes two colours, and becomes the table.
   void take(const PictureView& picture, const PixelRectangle& rectangle, const PixelRectangle& blind,
-            const ColourClasses& classes) noexcept;
-
-  /// Forgets the light.
-  void forget() noexcept { balance_ = {}; }
+            const ColourClasses& classes, const WhiteBalance& balance) noexcept;
 
   std::span<const Blob> blobs() const noexcept { return {blobs_.data(), blob_count_}; }
   const PixelRectangle& rectangle() const noexcept { return rectangle_; }
@@ -76,8 +47,14 @@ class RegionBitmap {
   int scale() const noexcept { return scale_; }  ///< pixels along a cell's side
   /// Of the blob that a cell belongs to, 0: none. Outside of the bitmap 0.
   std::uint8_t label(int column, int row) const noexcept {
-    return column < 0 || row < 0 || column >= columns_ || row >= rows_ ? std::uint8_t{0}
-                                                                       : labels_[place(column, row)];
+    return is_inside(column, row) ? labels_[place(column, row)] : std::uint8_t{0};
+  }
+  /// Whether it lies within what was looked at, and not in what is blind.
+  bool is_seen(int column, int row) const noexcept {
+    return is_inside(column, row) && classes_[place(column, row)] != class_unseen;
+  }
+  bool is_blind(int column, int row) const noexcept {
+    return is_inside(column, row) && classes_[place(column, row)] == class_unseen;
   }
   /// The blob's bounding box lies at the rectangle's border, where the picture goes on.
   bool is_cut(const Blob& blob, const PictureView& picture) const noexcept;
@@ -85,6 +62,13 @@ class RegionBitmap {
   PixelRectangle box_of(const Blob& blob) const noexcept;
 
  private:
+  static constexpr std::uint8_t class_unseen = 0xFE;
+  /// A bit for each cell.
+  using BitRow = std::array<std::uint64_t, (side + 63) / 64>;
+
+  bool is_inside(int column, int row) const noexcept {
+    return column >= 0 && row >= 0 && column < columns_ && row < rows_;
+  }
   static std::size_t place(int column, int row) noexcept {
     return static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column);
   }
@@ -92,7 +76,7 @@ class RegionBitmap {
                 const ColourClasses& classes) noexcept;
   bool is_shadow(const PictureView& picture, int column, int row,
                  const ColourClasses& classes) const noexcept;
-  std::array<std::uint32_t, 3> border_colour(const PictureView& picture) noexcept;
+  void drop_edges() noexcept;
   void find_blobs() noexcept;
   Blob flood(int column, int row, std::uint8_t label) noexcept;
   void keep(const Blob& blob) noexcept;
@@ -101,11 +85,14 @@ class RegionBitmap {
   std::array<std::uint8_t, std::size_t{side} * side> labels_{};
   std::array<std::uint16_t, std::size_t{side} * side>
       waiting_{};  // cells of a blob whose neighbours were not seen
-  std::array<std::array<std::uint16_t, 256>, 3> histogram_{};
+  std::array<BitRow, side> foreign_{};
+  std::array<BitRow, side> kept_{};
   std::array<Blob, most_blobs> blobs_{};
   std::size_t blob_count_ = 0;
   PixelRectangle rectangle_;
   WhiteBalance balance_;
+  int first_foreign_ = 0;  // rows with something foreign
+  int last_foreign_ = -1;
   int columns_ = 0;
   int rows_ = 0;
   int scale_ = 1;

@@ -101,6 +101,51 @@ bool a_job_is_answered() {
          verdict.pixels > 1000 && verdict.support > 0.9 && verdict.residual < 0.001 && verdict.radius > 0.02;
 }
 
+/// What shows the block in the picture, from its corners below and above; and of nothing there is no such
+/// place.
+bool a_verdict_tells_where_the_picture_shows_it() {
+  const auto world = std::make_unique<World>();
+  world->found.push(world->job_at(block_pose.position));
+  world->step();
+  const VisionVerdict block = world->last();
+  double left = 1e9;
+  double top = 1e9;
+  double right = 0;
+  double bottom = 0;
+  const Eigen::Rotation2Dd turn(block_pose.angle);
+  for (const Eigen::Vector2d& corner : known_parts()[0].outline()) {
+    const Eigen::Vector2d at = block_pose.position + turn * corner;
+    for (const double z : {0.0, known_parts()[0].height}) {
+      Eigen::Vector2d pixel(0, 0);
+      world->table.view().to_picture({at.x(), at.y(), z}, pixel);
+      left = std::min(left, pixel.x());
+      right = std::max(right, pixel.x());
+      top = std::min(top, pixel.y());
+      bottom = std::max(bottom, pixel.y());
+    }
+  }
+  world->found.push(world->job_at({0.42, -0.1}));
+  world->step();
+  const VisionVerdict nothing = world->last();
+  return std::abs(block.left - left) < 3 && std::abs(block.top - top) < 3 &&
+         std::abs(block.left + block.width - right) < 3 && std::abs(block.top + block.height - bottom) < 3 &&
+         nothing.verdict == VisualClass::nothing && nothing.width == 0;
+}
+
+bool an_obstacle_is_shown_as_it_is_seen() {
+  const auto world = std::make_unique<World>();
+  world->table.put(rectangle_of_tests(0.05, 0.05, 0.01, {70, 70, 75}), {{0.45, 0.12}, 0});
+  world->frames.draw(world->table.picture(4));
+  world->give();
+  world->found.push(world->job_at({0.45, 0.12}, 0.08));
+  world->step();
+  const VisionVerdict verdict = world->last();
+  const PixelRectangle there = world->table.around({0.45, 0.12}, 0.05);
+  return verdict.verdict == VisualClass::obstacle && std::abs(verdict.left - there.left) < 6 &&
+         std::abs(verdict.top - there.top) < 6 && std::abs(verdict.width - there.width) < 8 &&
+         std::abs(verdict.height - there.height) < 8;
+}
+
 bool without_a_job_nothing_is_said() {
   const auto world = std::make_unique<World>();
   world->step();
@@ -155,6 +200,23 @@ bool the_same_is_not_measured_twice() {
   world->step();
   return own && other && !world->last().repeated && world->last_is(1, disc_pose) &&
          world->bench.feedback().repeated == 2;
+}
+
+/// Where nothing was found nothing is looked for again, as long as all of it was looked at.
+bool where_nothing_was_nothing_is_looked_for_again() {
+  const auto world = std::make_unique<World>();
+  const Eigen::Vector2d empty(0.42, -0.1);
+  world->found.push(world->job_at(empty));
+  world->step();
+  const std::uint64_t pixels = world->bench.feedback().pixels;
+  world->found.push(world->job_at(empty + Eigen::Vector2d(0.003, 0), 0.06));
+  world->step();
+  const bool covered = world->count() == 2 && world->last().repeated &&
+                       world->last().verdict == VisualClass::nothing &&
+                       world->bench.feedback().pixels == pixels && world->bench.feedback().repeated == 1;
+  world->found.push(world->job_at(empty, 0.12));
+  world->step();
+  return pixels > 0 && covered && !world->last().repeated && world->bench.feedback().pixels > pixels;
 }
 
 /// Of the next picture it is something else.
@@ -256,6 +318,8 @@ bool any_job_ends_well() {
 
 void answers(void**) {
   assert_true(a_job_is_answered());
+  assert_true(a_verdict_tells_where_the_picture_shows_it());
+  assert_true(an_obstacle_is_shown_as_it_is_seen());
   assert_true(without_a_job_nothing_is_said());
 }
 void tracked_first(void**) {
@@ -263,6 +327,7 @@ void tracked_first(void**) {
 }
 void repeated(void**) {
   assert_true(the_same_is_not_measured_twice());
+  assert_true(where_nothing_was_nothing_is_looked_for_again());
   assert_true(the_next_picture_is_measured_anew());
 }
 void outdated(void**) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "tests/cmocka.hpp"
+#include "units/vision/table_light.hpp"
 #include "units/vision/tests/drawn_table.hpp"
 
 namespace {
@@ -15,11 +16,14 @@ constexpr PixelRectangle nowhere{};
 struct World {
   DrawnTable table;
   ColourClasses classes;
+  TableLight light;
   RegionBitmap bitmap;
 
   World() { classes.prepare(known_parts(), known_table_colour(), 0.4); }
   void take(const PixelRectangle& rectangle, const PixelRectangle& blind = nowhere, double noise = 0) {
-    bitmap.take(table.picture(noise), rectangle, blind, classes);
+    const PictureView picture = table.picture(noise);
+    light.look(picture, nowhere, classes);
+    bitmap.take(picture, rectangle, blind, classes, light.balance());
   }
   std::size_t blobs_of(std::uint8_t pixel_class) const {
     std::size_t count = 0;
@@ -74,6 +78,33 @@ bool shadows_are_no_obstacles(double light) {
   return shadow && grey && world->blobs_of(class_foreign) == 1;
 }
 
+/// A blue part in a shadow: between the two colours there is one as that of a grey obstacle.
+bool a_blurred_edge_is_not_foreign() {
+  const auto world = std::make_unique<World>();
+  world->table.put(rectangle_of_tests(0.12, 0.12, 0, {78, 75, 70}), {{0.45, 0.02}, 0});
+  const PixelRectangle around = world->table.around({0.45, 0.02}, 0.1);
+  world->table.put(rectangle_of_tests(0.052, 0.032, 0, {70, 80, 110}), {{0.45, 0.02}, 0.4});
+  world->table.put(rectangle_of_tests(0.05, 0.03, 0, known_parts()[0].colour), {{0.45, 0.02}, 0.4});
+  world->take(around, nowhere, 3);
+  return world->blobs_of(class_of(0)) == 1 && world->bitmap.blobs().size() == 1;
+}
+
+/// What is as narrow at a border may go on behind it; else it is dropped.
+bool a_narrow_strip_is_kept_at_a_border_only() {
+  const auto world = std::make_unique<World>();
+  const double pixel = 1 / world->table.view().pixels_per_metre({0.45, 0.02, 0});
+  world->table.put(rectangle_of_tests(0.06, 2 * pixel, 0, {20, 20, 90}), {{0.45, 0.02}, 0});
+  const PixelRectangle around = world->table.around({0.45, 0.02}, 0.1);
+  world->take(around);
+  const bool dropped = world->bitmap.blobs().empty();
+  Eigen::Vector2d on_it(0, 0);
+  world->table.view().to_picture({0.45, 0.02, 0}, on_it);
+  world->take({around.left, static_cast<int>(on_it.y()), around.width, 60});
+  const bool at_the_border = world->blobs_of(class_foreign) == 1;
+  world->take(around, {0, 0, 640, static_cast<int>(on_it.y())});
+  return dropped && at_the_border && world->blobs_of(class_foreign) == 1;
+}
+
 bool what_is_blind_is_not_seen() {
   const auto world = std::make_unique<World>();
   world->table.put(known_parts()[1], {{0.45, 0.02}, 0});
@@ -93,17 +124,6 @@ bool a_blob_at_the_border_is_cut() {
   world->take({whole.left + whole.width / 2, whole.top, whole.width, whole.height});
   return not_cut && world->bitmap.blobs().size() == 1 &&
          world->bitmap.is_cut(world->bitmap.blobs()[0], world->table.picture());
-}
-
-/// Half of the border shows a part: the light is taken from before.
-bool light_is_remembered_where_the_border_is_no_table() {
-  const auto world = std::make_unique<World>();
-  world->table.light = {0.6, 0.6, 0.6};
-  world->table.clear();
-  world->table.put(known_parts()[0], {{0.45, 0.02}, 0});
-  world->take(world->table.around({0.45, 0.02}, 0.1));
-  world->take(world->table.around({0.45, 0.02}, 0.02));
-  return world->blobs_of(class_of(0)) == 1;
 }
 
 bool any_rectangle_ends_well() {
@@ -136,14 +156,15 @@ void shadows(void**) {
   assert_true(shadows_are_no_obstacles(1));
   assert_true(shadows_are_no_obstacles(0.6));
 }
+void edges(void**) {
+  assert_true(a_blurred_edge_is_not_foreign());
+  assert_true(a_narrow_strip_is_kept_at_a_border_only());
+}
 void blind(void**) {
   assert_true(what_is_blind_is_not_seen());
 }
 void cut(void**) {
   assert_true(a_blob_at_the_border_is_cut());
-}
-void light(void**) {
-  assert_true(light_is_remembered_where_the_border_is_no_table());
 }
 void rectangles(void**) {
   assert_true(any_rectangle_ends_well());
@@ -153,8 +174,8 @@ void rectangles(void**) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(colours),   cmocka_unit_test(bare_table),
-                              cmocka_unit_test(shadows),   cmocka_unit_test(blind),
-                              cmocka_unit_test(cut),       cmocka_unit_test(light),
+                              cmocka_unit_test(shadows),   cmocka_unit_test(edges),
+                              cmocka_unit_test(blind),     cmocka_unit_test(cut),
                               cmocka_unit_test(rectangles)};
   return cmocka_run_group_tests_name("region bitmap", tests, nullptr, nullptr);
 }
