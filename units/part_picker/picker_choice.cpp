@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "units/part_picker/picker_machine.hpp"
+#include "units/part_picker/picker_rules.hpp"
+#include "units/vision/part_model.hpp"
+
+namespace flexrf::user {
+
+void PickerMachine::choose(bool has_surveyed) noexcept {
+  const ObjectTrack* best = nullptr;
+  Grasp best_grasp;
+  double least = std::numeric_limits<double>::infinity();
+  const char* blocked_by = nullptr;
+  bool out_of_reach = false;
+  for (const ObjectTrack& track : view_->tracks->tracks) {
+    if (needs_survey_ || view_->nobody_looks || !is_candidate(track)) continue;
+    if (!is_in_reach(track)) {
+      out_of_reach = true;
+      continue;
+    }
+    const auto grasp =
+        free_grasp(track, *view_->tracks, plan_.hand_angle, plan_.hand, ample_room(), blocked_by);
+    if (!grasp) continue;
+    const double cost = cost_of(*grasp);
+    if (cost >= least) continue;
+    least = cost;
+    best = &track;
+    best_grasp = *grasp;
+  }
+  if (best != nullptr) {
+    track_ = *best;
+    grasp_ = best_grasp;
+    if (begin_way(over_part().head<2>())) {
+      ++counters_.approaches;
+      needs_opening_ = true;
+      return enter(PickerState::approaching);
+    }
+    blocked_by = paths_.why();
+    leave_alone(track_.identity);
+  }
+  track_ = {};
+  if (!has_surveyed) {
+    if (begin_way(plan_.look_out.head<2>())) return enter(PickerState::surveying);
+    return fail(PickerState::blocked, paths_.why());
+  }
+  const PickerState idle = blocked_by != nullptr ? PickerState::blocked
+                           : out_of_reach        ? PickerState::unreachable
+                                                 : PickerState::waiting;
+  const char* const why =
+      blocked_by != nullptr ? blocked_by
+      : out_of_reach        ? "all parts that are seen lie beyond the arm's reach, or where it may not go"
+      : view_->nobody_looks ? "no member of attention runs, so nobody looks for what is new"
+                            : "no part is seen that is not left alone";
+  if (state_ != idle || !is_watching_) enter(idle, why);
+  cause_ = why;
+  is_watching_ = true;
+}
+
+/// What is seen from afar is a bit elsewhere from near by: a way that is just free is not begun.
+HandRoom PickerMachine::ample_room() const noexcept {
+  HandRoom room = plan_.room;
+  room.to_obstacles += 0.004;
+  room.to_parts += 0.003;
+  return room;
+}
+
+bool PickerMachine::is_candidate(const ObjectTrack& track) const noexcept {
+  return track.identity != 0 && track.found == VisualClass::target && track.may_be_target &&
+         track.kind < plan_.bins.size() && !is_left_alone(track.identity) && !is_in_bin(track);
+}
+
+bool PickerMachine::is_left_alone(std::uint32_t identity) const noexcept {
+  return std::any_of(left_alone_.begin(), left_alone_.end(), [&](const LeftAlone& one) {
+    return one.identity == identity && view_->now < one.until;
+  });
+}
+
+void PickerMachine::leave_alone(std::uint32_t identity) noexcept {
+  left_alone_[next_left_alone_] = {identity, view_->now + wishes_->rest};
+  next_left_alone_ = (next_left_alone_ + 1) % left_alone_.size();
+}
+
+bool PickerMachine::is_in_reach(const ObjectTrack& track) const noexcept {
+  const Eigen::Vector2d place = track.position_map();
+  const double distance = (place - plan_.base).norm();
+  return distance >= plan_.nearest && distance <= plan_.farthest && !kept_out_.is_kept_out(place);
+}
+
+/// It was brought there already, or lies where parts are brought.
+bool PickerMachine::is_in_bin(const ObjectTrack& track) const noexcept {
+  const Eigen::Vector2d place = track.position_map();
+  return std::any_of(plan_.bins.begin(), plan_.bins.end(), [&](const PickerBin& bin) {
+    return ((place - bin.middle).cwiseAbs().array() < bin.size.array() / 2).all();
+  });
+}
+
+/// In s, roughly.
+double PickerMachine::cost_of(const Grasp& grasp) const noexcept {
+  const double narrow = grasp.width + 2 * plan_.room.beside_part - grasp.opening;
+  return (grasp.middle - tip().head<2>()).norm() / picker::travel_speed +
+         std::abs(turn_between(hand_angle(), grasp.angle)) / picker::turn_speed + 20 * narrow;
+}
+
+/// The part's place as it is known by now. False: it is no longer followed.
+bool PickerMachine::follow_track() noexcept {
+  if (is_frozen_) return true;
+  const auto& tracks = view_->tracks->tracks;
+  const auto found = std::find_if(tracks.begin(), tracks.end(), [&](const ObjectTrack& track) {
+    return track.identity == track_.identity && track.found == VisualClass::target &&
+           track.kind == track_.kind;
+  });
+  if (found == tracks.end()) return false;
+  const double before = track_.angle;
+  track_ = *found;
+  track_.angle = picker::nearest_angle(found->angle, before, known_parts()[track_.kind].symmetry);
+  const double opening = grasp_.opening;
+  grasp_ = grasp_of(track_, grasp_.number, grasp_.angle);
+  grasp_.opening = opening;
+  return true;
+}
+
+/// The way that was free may be so no longer: then the part is taken in another way, if there is one.
+const char* PickerMachine::what_blocks_now() noexcept {
+  if (is_frozen_ || !view_->tracks_are_new) return nullptr;
+  Grasp grasp = grasp_;
+  const char* blocked = what_blocks(grasp, track_, *view_->tracks, plan_.hand, plan_.room);
+  if (blocked != nullptr && state_ != PickerState::descending) {
+    if (const auto other =
+            free_grasp(track_, *view_->tracks, plan_.hand_angle, plan_.hand, plan_.room, blocked)) {
+      blocked = nullptr;
+      grasp = *other;
+    }
+  }
+  if (blocked != nullptr) return blocked;
+  const bool needs_opening = std::abs(grasp.opening - grasp_.opening) > 1e-4;
+  const bool is_wider = grasp.number == grasp_.number && grasp.opening > grasp_.opening;
+  if (needs_opening && !is_wider) {
+    grasp_ = grasp;
+    needs_opening_ = true;
+  } else if (grasp.number != grasp_.number) {
+    grasp_ = grasp;
+  }
+  return nullptr;
+}
+
+/// A place in the bin beside which nothing stands.
+bool PickerMachine::find_spot() noexcept {
+  const PickerBin& bin = plan_.bins[track_.kind];
+  const double part = known_parts()[track_.kind].radius;
+  const Eigen::Vector2d room = (bin.size / 2 - Eigen::Vector2d::Constant(part + 0.005)).cwiseMax(0);
+  constexpr std::array<double, 3> places{0, 1, -1};
+  const double hand = std::hypot(plan_.hand.palm_length, plan_.hand.palm_width) / 2;
+  for (const double x : places) {
+    for (const double y : places) {
+      const Eigen::Vector2d middle = bin.middle + Eigen::Vector2d(x * room.x(), y * room.y());
+      const auto stands_there = [&](const ObjectTrack& track) {
+        return track.identity != 0 && track.found == VisualClass::obstacle && track.confirmed &&
+               (Eigen::Vector2d(track.position_map()) - middle).norm() <
+                   hand + track.radius + plan_.room.to_obstacles;
+      };
+      const auto& tracks = view_->tracks->tracks;
+      if (std::any_of(tracks.begin(), tracks.end(), stands_there)) continue;
+      spot_ = middle + grasp_.middle - Eigen::Vector2d(track_.position_map());
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace flexrf::user

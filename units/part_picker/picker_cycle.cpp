@@ -1,0 +1,182 @@
+#include <algorithm>
+
+#include "units/part_picker/picker_machine.hpp"
+#include "units/part_picker/picker_rules.hpp"
+
+namespace flexrf::user {
+
+void PickerMachine::survey() noexcept {
+  const bool is_there = go(plan_.look_out, plan_.hand_angle);
+  if (is_there) moved_ = entered_ = view_->now;  // it got there, and looks as long as the camera takes
+  // As long as more is found there may be still more.
+  const std::size_t known = confirmed_things();
+  if (!is_there || known > known_) pictures_ = 0;
+  known_ = known;
+  if (pictures_ < wishes_->survey_pictures) return;
+  needs_survey_ = false;
+  since_survey_ = 0;
+  choose(true);
+}
+
+std::size_t PickerMachine::confirmed_things() const noexcept {
+  const auto& tracks = view_->tracks->tracks;
+  return static_cast<std::size_t>(std::count_if(tracks.begin(), tracks.end(), [](const ObjectTrack& track) {
+    return track.found != VisualClass::nothing && track.confirmed;
+  }));
+}
+
+/// At the look-out, until something changes.
+void PickerMachine::watch() noexcept {
+  aim(plan_.look_out, plan_.hand_angle);
+  if (view_->tracks_are_new) choose(true);
+}
+
+void PickerMachine::approach() noexcept {
+  if (!follow_track()) return fail(PickerState::target_lost, "it is no longer followed");
+  if (const char* const blocked = what_blocks_now(); blocked != nullptr)
+    return fail(PickerState::blocked, blocked);
+  if (has_left(over_part()) && !begin_way(over_part().head<2>()))
+    return fail(PickerState::blocked, paths_.why());
+  const bool is_there = go(over_part(), grasp_.angle);
+  // Not before the hand is up: what was released last lies between its fingers.
+  if (has_risen_ && needs_opening_) open_for_grasp();
+  if (!is_there) return;
+  measured_frames_ = track_.frames;
+  enter(PickerState::looking);
+  aim(over_part(), grasp_.angle);
+}
+
+void PickerMachine::look() noexcept {
+  if (!follow_track()) return fail(PickerState::target_lost, "it is not where it was");
+  if (const char* const blocked = what_blocks_now(); blocked != nullptr)
+    return fail(PickerState::blocked, blocked);
+  if (has_left(over_part())) {
+    enter(PickerState::approaching);
+    return approach();
+  }
+  aim(over_part(), grasp_.angle);
+  if (needs_opening_) return open_for_grasp();
+  const bool is_measured = track_.frames >= measured_frames_ + wishes_->look_pictures;
+  if (is_measured && is_at(over_part(), picker::arrives) && is_turned(grasp_.angle) &&
+      !view_->gripper.moving) {
+    is_frozen_ = false;
+    is_straight_ = false;
+    return enter(PickerState::descending);
+  }
+  if (view_->now - entered_ <= wishes_->patience) return;
+  leave_alone(track_.identity);
+  fail(PickerState::target_lost,
+       is_measured ? "the hand does not come to rest above it" : "it is not measured from near by");
+}
+
+void PickerMachine::descend() noexcept {
+  if (!follow_track()) return fail(PickerState::target_lost, "it was lost on the way down");
+  if (const char* const blocked = what_blocks_now(); blocked != nullptr)
+    return fail(PickerState::blocked, blocked);
+  if ((grasp_.middle - way_begin_).norm() > plan_.room.slant + picker::follows)
+    return fail(PickerState::target_lost, "it was moved away");
+  if (needs_opening_) open_for_grasp();
+  // From there the camera no longer sees all of the part.
+  is_straight_ = is_straight_ || is_at(at_grasp(plan_.straight_height), picker::passes_straight);
+  is_frozen_ = is_straight_;
+  const Eigen::Vector3d goal = at_grasp(is_straight_ ? 0 : plan_.straight_height);
+  aim(goal, grasp_.angle);
+  if (!is_straight_) return;
+  if (!is_at(goal, picker::arrives_at_grasp) && !(view_->arm_rests && is_at(goal, picker::rests_near)))
+    return;
+  held_ = track_;
+  held_grasp_ = grasp_;
+  enter(PickerState::closing);
+  act_ = PickerAct::close;
+}
+
+void PickerMachine::close() noexcept {
+  aim(at_grasp(0), grasp_.angle);
+  if (view_->now == entered_ || view_->gripper.moving) return;
+  if (view_->gripper.object == GripperObject::gripped) {
+    in_hand_ = true;
+    return enter(PickerState::lifting);
+  }
+  ++counters_.failed_grasps;
+  if (failed_track_ == track_.identity) leave_alone(track_.identity);
+  failed_track_ = track_.identity;
+  fail(PickerState::grasp_failed, "the fingers closed on nothing");
+}
+
+/// False: it is not held any more, and that was told.
+bool PickerMachine::keeps_part() noexcept {
+  if (view_->gripper.object == GripperObject::gripped || view_->gripper.moving) return true;
+  in_hand_ = false;
+  ++counters_.lost_parts;
+  fail(PickerState::part_lost, "it fell out of the fingers");
+  return false;
+}
+
+void PickerMachine::lift() noexcept {
+  if (!keeps_part()) return;
+  const Eigen::Vector3d goal(grasp_.middle.x(), grasp_.middle.y(), plan_.travel_height);
+  aim(goal, grasp_.angle);
+  if (tip().z() < plan_.travel_height - picker::passes_height) return;
+  begin_carrying();
+  if (state_ == PickerState::carrying) carry();
+}
+
+void PickerMachine::begin_carrying() noexcept {
+  const char* const why = !find_spot()        ? "an obstacle stands in the bin"
+                          : !begin_way(spot_) ? paths_.why()
+                                              : "";
+  if (*why == '\0') return enter(PickerState::carrying);
+  if (state_ != PickerState::blocked) return fail(PickerState::blocked, why);
+  cause_ = why;
+}
+
+void PickerMachine::carry() noexcept {
+  if (!keeps_part()) return;
+  if (view_->tracks_are_new && !find_spot())
+    return fail(PickerState::blocked, "an obstacle stands in the bin");
+  if (has_left(over_bin(0)) && !begin_way(spot_)) return fail(PickerState::blocked, paths_.why());
+  if (!go(over_bin(plan_.travel_height), grasp_.angle)) return;
+  enter(PickerState::lowering);
+  lower();
+}
+
+void PickerMachine::lower() noexcept {
+  if (!keeps_part()) return;
+  const Eigen::Vector3d goal = over_bin(plan_.drop_height);
+  aim(goal, grasp_.angle);
+  if (!is_at(goal, picker::arrives)) return;
+  enter(PickerState::releasing);
+  open(std::min(grasp_.width + 2 * plan_.room.beside_part, plan_.hand.widest));
+}
+
+void PickerMachine::release() noexcept {
+  aim(over_bin(plan_.drop_height), grasp_.angle);
+  if (view_->now == entered_) return;
+  if (view_->gripper.opening < grasp_.width + picker::lets_go && view_->gripper.moving) return;
+  in_hand_ = false;
+  ++counters_.binned;
+  ++since_survey_;
+  if (wishes_->survey_after > 0 && since_survey_ >= wishes_->survey_after) needs_survey_ = true;
+  if (binned_ != Time{}) counters_.cycle_time = seconds(view_->now - binned_);
+  binned_ = view_->now;
+  // Nothing new is begun without sight, or when a person wants it to wait.
+  if (view_->tracks == nullptr) return enter(PickerState::no_sight);
+  if (!wishes_->pick) return enter(PickerState::retreating);
+  choose(false);
+}
+
+void PickerMachine::rise_and_go_on() noexcept {
+  const double height = std::max(plan_.travel_height, tip().z());
+  aim({way_begin_.x(), way_begin_.y(), height}, hand_angle());
+  if (!in_hand_ && state_ != PickerState::retreating && view_->now - entered_ < picker::shown) return;
+  if (tip().z() < plan_.travel_height - picker::passes_height) return;
+  if (in_hand_) {
+    if (!keeps_part()) return;
+    if (state_ == PickerState::blocked && !view_->tracks_are_new) return;
+    return begin_carrying();
+  }
+  binned_ = Time{};
+  choose(false);
+}
+
+}  // namespace flexrf::user

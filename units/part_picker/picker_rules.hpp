@@ -1,0 +1,92 @@
+// What PickerMachine goes by: distances, times, and which of its states need what. Private to it.
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "base/time.hpp"
+#include "types/picker_state.hpp"
+
+namespace flexrf::user::picker {
+
+// Via points are passed within these distances: the arm need not stop there. In m.
+inline constexpr double passes_height = 0.02;
+inline constexpr double passes_point = 0.03;
+inline constexpr double passes_over = 0.012;
+inline constexpr double passes_straight = 0.008;
+// Where it has to be: as near as joint sensors tell. In m and rad.
+inline constexpr double arrives = 0.006;
+inline constexpr double arrives_at_grasp = 0.002;
+inline constexpr double arrives_turned = 0.03;
+// An arm that rests so near to where it should be has arrived as far as it will.
+inline constexpr double rests_near = 0.004;
+// A goal that moves farther than this sideways is gone to anew, over all that stands there.
+inline constexpr double follows = 0.012;
+// The arm rests elsewhere for so long: it does not get there.
+inline constexpr Duration stuck = std::chrono::milliseconds(1500);
+// Who has led the arm by hand may go on.
+inline constexpr Duration hand_pause = std::chrono::milliseconds(500);
+// So many pictures in a row have to tell something before the arm moves by what it sees again.
+inline constexpr std::uint32_t sees_again = 5;
+// So long a failure is shown at least.
+inline constexpr Duration shown = std::chrono::milliseconds(500);
+// So much wider than the part the fingers have to be to have let it go, in m.
+inline constexpr double lets_go = 0.012;
+// Pictures of before are looked at until then.
+inline constexpr Duration picture_age = std::chrono::milliseconds(150);
+// Time and cost of ways, roughly.
+inline constexpr double travel_speed = 0.6;  // m/s
+inline constexpr double turn_speed = 2.0;    // rad/s
+
+/// The angle that looks the same as `angle` and is nearest to `before`.
+inline double nearest_angle(double angle, double before, int symmetry) {
+  if (symmetry == 0) return before;
+  return before + std::remainder(angle - before, 2 * std::numbers::pi / symmetry);
+}
+
+inline bool needs_sight(PickerState state) {
+  switch (state) {
+    case PickerState::surveying:
+    case PickerState::waiting:
+    case PickerState::approaching:
+    case PickerState::looking:
+    case PickerState::descending:
+    case PickerState::lifting:
+    case PickerState::carrying:
+    case PickerState::lowering:
+    case PickerState::retreating:
+    case PickerState::target_lost:
+    case PickerState::unreachable:
+    case PickerState::blocked:
+    case PickerState::grasp_failed:
+    case PickerState::part_lost:
+      return true;
+    default:
+      return false;
+  }
+}
+
+inline bool is_on_way(PickerState state) {
+  switch (state) {
+    case PickerState::surveying:
+    case PickerState::approaching:
+    case PickerState::descending:
+    case PickerState::lifting:
+    case PickerState::carrying:
+    case PickerState::lowering:
+    case PickerState::retreating:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// To a part that is not in the hand yet.
+inline bool is_on_way_to_part(PickerState state) {
+  return state == PickerState::approaching || state == PickerState::looking ||
+         state == PickerState::descending;
+}
+
+}  // namespace flexrf::user::picker
