@@ -9,6 +9,7 @@
 #include <iostream>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "config-gen/emit/text.hpp"
 #include "config-gen/model/target.hpp"
@@ -207,10 +208,49 @@ void what_moves_has_to_have_the_guard_and_to_say_so(void**) {
   assert_true(text_is(checked_of("mock_link", false), ""));
 }
 
+/// The cell's picture; `apart`: one member of its population `worker` runs in another thread than the others.
+std::string picture_of_the_cell(bool apart) {
+  const fs::path tests = fs::path(place::source_folder) / "tests/generator";
+  const SearchPaths paths{
+      {tests / "cell/types"}, {tests / "cell/units"}, {tests / "interfaces"}, {tests / "drivers"}, {}};
+  Diagnostics diagnostics;
+  Model model = read({Target::Kind::application, tests / "cell/generated_cell.toml"}, paths, diagnostics);
+  check(model, diagnostics);
+  if (apart) {
+    const Index member = model.populations.front().first + 1;
+    Unit& unit = model.units[member];
+    std::erase(model.threads[*unit.thread].units, member);
+    unit.thread = 0;
+    model.threads[0].units.push_back(member);
+  }
+  return diagram_mermaid(model);
+}
+
+std::size_t count_of(const std::string& text, std::string_view part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+void a_population_is_drawn_as_one(void**) {
+  static std::string text;
+  text = picture_of_the_cell(false);
+  assert_true(has(text, "(\"worker x 3\")\n"));
+  assert_int_equal(count_of(text, "worker"), 1);
+  assert_int_equal(count_of(text, "-->|\"places\"|"), 1);
+  assert_int_equal(count_of(text, "==>|\"jobs\"|"), 1);
+  // Where its members run matters when they do not run alike.
+  text = picture_of_the_cell(true);
+  assert_int_equal(count_of(text, "(\"worker["), 3);
+  assert_int_equal(count_of(text, "-->|\"places["), 3);
+  assert_int_equal(count_of(text, "==>|\"jobs\"|"), 3);
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(same_tables_same_bytes),
+                              cmocka_unit_test(a_population_is_drawn_as_one),
                               cmocka_unit_test(the_hash_follows_the_contents),
                               cmocka_unit_test(literals),
                               cmocka_unit_test(identifiers_differ_as_names_do),
