@@ -176,11 +176,14 @@ int Report::finish() {
     if (row.has_goal) {
       json.member("goal", row.goal).member("at_least", row.at_least).member("met", is_met(row));
     }
-    if (!row.floor.empty()) json.member("ours", row.ours).member("floor", row.floor);
+    if (!row.ours.empty() || !row.floor.empty()) json.member("ours", row.ours).member("floor", row.floor);
     json.member("note", row.note).end_object();
   }
+  json.end_array().key("remarks").begin_array();
+  for (const std::string& remark : remarks_) json.value(remark);
   json.end_array().end_object();
   std::fputs(table.text("  ").c_str(), stdout);
+  for (const std::string& remark : remarks_) std::printf("  - %s\n", remark.c_str());
   if (json_file_.empty()) return 0;
   std::ofstream file{json_file_};
   file << json.take();

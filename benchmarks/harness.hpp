@@ -141,6 +141,8 @@ class Report {
   void add(Row row);
   void add_ratio(std::string what, const Pairs& pairs, double goal, const char* unit,
                  const std::string& note = "", Goal kind = Goal::at_most);
+  /// A line below the table: what no row can hold, as each failure with its cause.
+  void remark(std::string line) { remarks_.push_back(std::move(line)); }
   /// Prints everything, writes the JSON; the process's exit code: 0, or 1 when the file could not be written.
   int finish();
 
@@ -149,6 +151,7 @@ class Report {
   std::string json_file_;
   bool quick_ = false;
   std::vector<Row> rows_;
+  std::vector<std::string> remarks_;
 };
 
 /// printf into a string.

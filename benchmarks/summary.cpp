@@ -65,7 +65,8 @@ std::vector<std::string> conditions_of(const Json& results) {
   return lines;
 }
 
-std::string markdown(const std::vector<std::string>& conditions, const std::vector<Line>& lines) {
+std::string markdown(const std::vector<std::string>& conditions, const std::vector<Line>& lines,
+                     const std::vector<std::string>& remarks) {
   std::string result;
   for (const std::string& line : conditions) result += line + "\n\n";
   for (const bool judged : {true, false}) {
@@ -80,6 +81,8 @@ std::string markdown(const std::vector<std::string>& conditions, const std::vect
                        : "| " + line.what + " | " + line.measured + " | " + line.interval + " |\n";
     }
   }
+  if (!remarks.empty()) result += "\nOf these, one by one:\n\n";
+  for (const std::string& remark : remarks) result += "- " + remark + "\n";
   return result;
 }
 
@@ -109,6 +112,7 @@ int run(int argument_count, char** arguments) {
   const std::string folder = arguments[1];
   Json results = Json::array();
   std::vector<Line> lines;
+  std::vector<std::string> remarks;
   for (int i = 2; i < argument_count; ++i) {
     std::ifstream file{folder + "/" + arguments[i] + ".json"};
     const Json result = file ? Json::parse(file, nullptr, false) : Json{};
@@ -117,12 +121,13 @@ int run(int argument_count, char** arguments) {
       continue;
     }
     for (const Json& row : result["rows"]) lines.push_back(line_of(row));
+    for (const Json& remark : result.value("remarks", Json::array())) remarks.push_back(remark);
     results.push_back(result);
   }
   const std::vector<std::string> conditions = conditions_of(results);
   std::fputs(plain(conditions, lines).c_str(), stdout);
   const bool written = write(folder + "/results.json", results.dump(2) + "\n");
-  return write(folder + "/results.md", markdown(conditions, lines)) && written ? 0 : 1;
+  return write(folder + "/results.md", markdown(conditions, lines, remarks)) && written ? 0 : 1;
 }
 
 }  // namespace

@@ -108,6 +108,7 @@ int run(int argument_count, char** arguments) {
   std::size_t found = 0;
   const auto measure_all = [&] {
     found = 0;
+    finder->look_at_light(picture, {});
     for (const LaidPart& part : parts) {
       Finding expected;
       expected.kind = static_cast<std::uint16_t>(part.kind);
