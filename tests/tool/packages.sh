@@ -20,8 +20,8 @@ expect "calls" "$(<"$calls")" "*apt-get *update*apt-get *-y*install --no-install
 : >"$calls"
 flexrf run <<<"wd"
 expect "exit code of the second run" "$status" 0
-expect "calls of the second run" "$(<"$calls")" "dpkg-query *"$'\n'"ninja *keyboard"
-expect "what the second run says" "$errors" "flexrf: built keyboard (release): *"
+expect "calls of the second run" "$(<"$calls")" "dpkg-query *"$'\n'"ninja *visual-servoing"
+expect "what the second run says" "$errors" "flexrf: built visual-servoing (release): *"
 
 printf 'g++\n' >"$work/installed"
 touch "$work/no_network"

@@ -14,7 +14,7 @@ chmod +x "$tree/build/release/web-ui/server/access/flexrf-password"
 
 flexrf password <<<"a secret"
 expect "exit code" "$status" 0
-expect "arguments and input" "$output" "arguments: $tree/apps/keyboard/panel-users"$'\n'"input: a secret"
+expect "arguments and input" "$output" "arguments: $tree/apps/visual-servoing/panel-users"$'\n'"input: a secret"
 expect "target" "$(grep ^ninja "$calls")" "ninja -C $tree/build/release flexrf-password"
 
 flexrf password --role operator --user ann keyboard-single <<<"a secret"

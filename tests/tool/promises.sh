@@ -76,4 +76,13 @@ says "a line that was copied" hal/robot_arm/interface/arm.hpp:1 "\[robot-arm-1\]
 rm "$tree/hal/robot_arm/interface/arm.hpp"
 is_good "all is as it was"
 
+# ---- of two topics in one document
+
+write docs/visual-servoing.md 'It picks `[picker-1]`.' 'In trouble it holds `[trouble-1]`.'
+write tests/visual_servoing/cell_test.cpp '// [picker-1]' 'void picks() {}' '// [trouble-1]' 'void holds() {}'
+is_good "a document of two topics"
+write docs/visual-servoing.md 'It picks `[picker-1]`.' 'In trouble it holds `[trouble-1]`. It stops `[stop-3]`.'
+says "an id of neither" docs/visual-servoing.md:2 "\[stop-3\] is no promise of this file" "its promises are called \[picker-1\] and so on"
+rm "$tree/docs/visual-servoing.md" "$tree/tests/visual_servoing/cell_test.cpp"
+
 finish

@@ -9,11 +9,12 @@ expect "how it was built" "$(<"$work/errors")" "*built keyboard (release): *"
 
 flexrf run -- 0 'two words' --keys </dev/null
 expect "arguments of the default application" "$output" "arguments: 0 two words --keys*"
+expect "the default application" "$errors" "*built visual-servoing (release): *"
 flexrf run keyboard-single -- 0 -- x </dev/null
 expect "arguments of a named application" "$output" "arguments: 0 -- x*"
 expect "target" "$(<"$calls")" "*ninja *build/release keyboard-single*"
 
-configuration=$tree/apps/keyboard/config.xml
+configuration=$tree/apps/visual-servoing/config.xml
 touch "$configuration"
 flexrf run -- 0 x </dev/null
 expect "configuration file of the application" "$output" "arguments: --config $configuration 0 x*"
@@ -25,7 +26,7 @@ flexrf run keyboard-single -- 0 </dev/null
 expect "an application without one" "$output" "arguments: 0"$'\n'*
 rm "$configuration"
 
-users=$tree/apps/keyboard/panel-users
+users=$tree/apps/visual-servoing/panel-users
 touch "$users"
 flexrf run -- 0 x </dev/null
 expect "passwords of the application" "$output" "arguments: --panel-users $users 0 x*"

@@ -12,10 +12,11 @@ export STAND_IN=$work
 export FLEXRF_CACHE=$work/cache
 failures=0
 
-mkdir -p "$tree/apps/keyboard" "$tree/apps/keyboard-single" "$tree/cmake" "$work/bin"
+mkdir -p "$tree"/apps/{keyboard,keyboard-single,visual-servoing} "$tree/cmake" "$work/bin"
 cp "$repository/flexrf" "$repository/packages.txt" "$repository/CMakePresets.json" "$tree/"
 cp -r "$repository/cmake/tool" "$tree/cmake/"
-touch "$tree/apps/keyboard/keyboard.toml" "$tree/apps/keyboard-single/keyboard_single.toml" "$calls"
+touch "$tree/apps/keyboard/keyboard.toml" "$tree/apps/keyboard-single/keyboard_single.toml" \
+  "$tree/apps/visual-servoing/visual_servoing.toml" "$calls"
 
 stand_in() {  # stand_in NAME: a program of that name, whose body is read from standard input
   {

@@ -7,7 +7,7 @@ import { fileURLToPath } from 'node:url';
 const build = process.env['FLEXRF_BUILD'] ?? fileURLToPath(new URL('../../../../build/release', import.meta.url));
 
 const ownApplications = ['panel_cell', 'brief_session', 'sight_cell', 'contest'] as const;
-export type ApplicationName = 'keyboard' | 'keyboard-single' | (typeof ownApplications)[number];
+export type ApplicationName = 'keyboard' | 'keyboard-single' | 'pick-station' | 'visual-servoing' | (typeof ownApplications)[number];
 
 export function executableOf(name: ApplicationName): string {
   const own: readonly string[] = ownApplications;

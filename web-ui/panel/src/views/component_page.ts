@@ -32,6 +32,10 @@ export class ComponentPage extends ViewBase {
       section {
         max-width: 64rem;
       }
+      /* Of many columns. */
+      section:is([data-kind='population'], [data-kind='timeline']) {
+        max-width: none;
+      }
       .item {
         display: block;
         padding-block: 4px;
@@ -174,7 +178,7 @@ export class ComponentPage extends ViewBase {
     const others = items.filter((item) => item.component !== this.component.name);
     return html`
       ${repeat(placements, (one) => one.name, (one) => html`
-        <section aria-label=${one.label}>
+        <section data-kind=${one.kind} aria-label=${one.label}>
           <h3>${one.label}</h3>
           <flexrf-placement .core=${this.core} .placement=${one}></flexrf-placement>
         </section>
