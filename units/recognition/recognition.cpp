@@ -31,11 +31,12 @@ PixelRectangle rectangle_of(const VisionRegion& job) {
   return {own.left - across, own.top - down, own.width + 2 * across, own.height + 2 * down};
 }
 
-/// Nothing was found where all of the job's region was looked at. Not by its pixels were judged what is flat,
-/// nor for all that may be there the region of a track.
+/// Nothing was found in a region that has all of the job's within it: what lies there was seen with all that
+/// is around it. What is flat was not judged by its pixels, and in a track's region only the expected is
+/// looked for.
 bool covers(const VisionVerdict& nothing, const VisionRegion& job) {
-  if (nothing.pixels == 0 || nothing.region.member == no_member) return false;
-  const PixelRectangle seen = rectangle_of(nothing.region);
+  const VisionRegion& seen = nothing.region;
+  if (nothing.pixels == 0 || seen.member == no_member) return false;
   return seen.left <= job.left && seen.top <= job.top && seen.left + seen.width >= job.left + job.width &&
          seen.top + seen.height >= job.top + job.height;
 }
