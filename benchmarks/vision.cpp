@@ -113,8 +113,8 @@ int run(int argument_count, char** arguments) {
       Finding expected;
       expected.kind = static_cast<std::uint16_t>(part.kind);
       expected.pose = part.pose;
-      const auto findings =
-          finder->find(picture, table->around(part.pose.position, 0.075), {}, table->view(), expected, {});
+      const auto findings = finder->measure(picture, Glance::none(table->around(part.pose.position, 0.075)),
+                                            {}, table->view(), expected, {});
       for (const Finding& finding : findings)
         if ((finding.pose.position - part.pose.position).norm() < 0.001) ++found;
     }

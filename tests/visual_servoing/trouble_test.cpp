@@ -47,13 +47,13 @@ void all_members_are_unfit() {
       .when(
           "it is told", [&] { return !trouble.evolution.warning_view().empty(); },
           [&] {
-            CHECK_CONTAINS(trouble.evolution.warning_view(), "no member found anything for a generation");
+            CHECK_CONTAINS(trouble.evolution.warning_view(), "no member found anything for 5 generations");
             CHECK_EQUAL(trouble.picker.approaches, 0U);
           })
       .when("it goes to a part", [&] { return trouble.picker.approaches > 0; })
       .when("the warning is gone", [&] { return trouble.evolution.warning_view().empty(); });
   CHECK_EQUAL(trouble.run(), 0);
-  CHECK(was_said("no member found anything for a generation"));
+  CHECK(was_said("no member found anything for 5 generations"));
 }
 
 /// Others begin in free places.

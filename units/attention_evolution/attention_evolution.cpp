@@ -27,6 +27,7 @@ Status AttentionEvolution::initialise() {
   read_ = {};
   last_frame_ = correlation_ = 0;
   judged_generation_ = findings_ = 0;
+  barren_ = 0;
   begins_anew_ = finds_nothing_ = needs_newcomer_ = false;
   restored_ = most_members;
   varied_ = 0;

@@ -74,7 +74,8 @@ class AttentionEvolution final : public AttentionEvolutionUnit {
   bool begins_anew_ = false;  // the request under way is for a first member
   std::uint64_t judged_generation_ = 0;
   std::uint64_t findings_ = 0;  // of all members, in the generation under way
-  bool finds_nothing_ = false;  // nobody did in the one before
+  std::uint32_t barren_ = 0;    // generations before it in which nobody found anything
+  bool finds_nothing_ = false;  // in too many of them
   bool needs_newcomer_ = false;
   LogLimit troubles_;
   std::array<LogLimit, 5> warnings_;  // of each

@@ -3,6 +3,12 @@
 #include "units/attention_evolution/attention_evolution.hpp"
 
 namespace flexrf::user {
+namespace {
+
+// Generations without a finding, one after the other. For less the camera looks elsewhere, as over a bin.
+constexpr std::uint32_t barren_to_tell = 5;
+
+}  // namespace
 
 /// Nothing can be done with others: they have to be initialised by a person first.
 bool AttentionEvolution::runs(std::size_t member) const noexcept {
@@ -32,7 +38,8 @@ void AttentionEvolution::look_at_all(bool may_change, Time now) noexcept {
   }
   if (evolution_.generation() != judged_generation_) {
     judged_generation_ = evolution_.generation();
-    finds_nothing_ = any_active && findings_ == 0;
+    barren_ = any_active && findings_ == 0 ? barren_ + 1 : 0;
+    finds_nothing_ = barren_ >= barren_to_tell;
     needs_newcomer_ = finds_nothing_ && !has_table_genes();
     findings_ = 0;
   }
@@ -94,9 +101,8 @@ void AttentionEvolution::warn(Warning warning) noexcept {
 const char* AttentionEvolution::text_of(Warning warning) noexcept {
   switch (warning) {
     case Warning::nothing_found:
-      return "no member found anything for a generation: is the table empty, or are their weights unfit? "
-             "Back to "
-             "the saved generation brings good ones";
+      return "no member found anything for 5 generations: is the table empty, or are their weights unfit? "
+             "Back to the saved generation brings good ones";
     case Warning::all_out_of_service:
       return "all members are in fault or stopped: initialise them on their pages, then give Start";
     case Warning::frozen_empty:

@@ -17,6 +17,9 @@ namespace {
 constexpr int margin_share = 4;  // of a region's side, on each side
 // A region holds what another one held if its middle is so near to the region's, as part of its side.
 constexpr double near_the_middle = 0.3;
+// Two boxes show the same if they have so much of the larger one in common.
+constexpr double the_same = 0.6;
+constexpr double within = 0.9;  // of a piece, to belong to what was measured
 // Jobs of pictures that are gone are put away so many at a time, that a step ends.
 constexpr int most_outdated = 64;
 // Of luminance and of opponent colours, 0 to 255: less differs on a bare table by noise, texture and light.
@@ -39,6 +42,26 @@ bool covers(const VisionVerdict& nothing, const VisionRegion& job) {
   if (nothing.pixels == 0 || seen.member == no_member) return false;
   return seen.left <= job.left && seen.top <= job.top && seen.left + seen.width >= job.left + job.width &&
          seen.top + seen.height >= job.top + job.height;
+}
+
+/// What was measured lies in the middle of the job's region, or nothing was found where it is.
+bool answers(const VisionVerdict& verdict, const VisionRegion& job) {
+  if (verdict.verdict == VisualClass::nothing) return covers(verdict, job);
+  const double across = verdict.pixel[0] - (job.left + 0.5 * job.width);
+  const double down = verdict.pixel[1] - (job.top + 0.5 * job.height);
+  return std::max(std::abs(across), std::abs(down)) < near_the_middle * std::max(job.width, job.height);
+}
+
+/// What was measured is what lies in the middle of what a glance saw, or that is a piece of it.
+bool shows(const VisionVerdict& verdict, const Glance& at) {
+  const bool is_of_class = verdict.verdict == VisualClass::target
+                               ? at.pixel_class == class_first_part + verdict.kind
+                               : verdict.verdict == VisualClass::obstacle && at.pixel_class == class_foreign;
+  if (!is_of_class) return false;
+  const PixelRectangle box{verdict.left, verdict.top, verdict.width, verdict.height};
+  const int common = common_part(box, at.middle).area();
+  return at.is_cut ? common > within * at.middle.area()
+                   : common > the_same * std::max(box.area(), at.middle.area());
 }
 
 bool has_usable_size(const CameraFrame& frame) {
@@ -169,18 +192,11 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
     return false;
   }
   feedback.set_trouble({});
-  if (job.member != no_member) {
-    if (const VisionVerdict* const known = find_answered(job); known != nullptr) {
-      VisionVerdict verdict = *known;
-      verdict.region = job;
-      verdict.repeated = true;
-      verdict.pixels = 0;
-      verdict.part = 0;
-      verdict.parts = 1;
-      if (verdict.verdict == VisualClass::nothing)
-        verdict.pixel = {job.left + 0.5 * job.width, job.top + 0.5 * job.height};
-      ++feedback.repeated;
-      note(verdict);
+  const bool is_tracked = job.member == no_member;
+  if (!is_tracked) {
+    const auto same = [&job](const VisionVerdict& verdict) { return answers(verdict, job); };
+    if (const VisionVerdict* const known = find_answered(job.frame, same); known != nullptr) {
+      repeat(job, *known);
       return true;
     }
   }
@@ -204,8 +220,16 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
     expected.pose.position = {job.expected[0], job.expected[1]};
     expected.pose.angle = job.expected[2];
   }
-  const auto findings = finder_.find(
-      picture, rectangle_of(job), blind_, view, expected,
+  Glance at = Glance::none(rectangle_of(job));
+  if (!is_tracked) {
+    if (const VisionVerdict* const known = glance(picture, job, at); known != nullptr) {
+      feedback.pixels += at.pixels;
+      repeat(job, *known);
+      return true;
+    }
+  }
+  const auto findings = finder_.measure(
+      picture, at, blind_, view, expected,
       {runtime.least_support, runtime.most_residual, runtime.least_obstacle, runtime.obstacle_height});
   feedback.pixels += finder_.pixels();
   nothing.pixels = finder_.pixels();
@@ -246,33 +270,49 @@ bool Recognition::is_flat(const VisionRegion& job) noexcept {
          differs(of->yellow_blue) < flat_colour;
 }
 
-/// What was measured in the same picture in the middle of this region, by whichever recogniser.
-const VisionVerdict* Recognition::find_answered(const VisionRegion& job) noexcept {
-  if (const VisionVerdict* const own = find_in(list_, job); own != nullptr) return own;
+/// What was measured in that picture and is the same, by whichever recogniser; null: there is none.
+template <class Same>
+const VisionVerdict* Recognition::find_answered(std::uint64_t frame, const Same& same) noexcept {
+  const auto find_in = [&](const VisionVerdicts& list) -> const VisionVerdict* {
+    const std::uint64_t kept = std::min<std::uint64_t>(list.count, list.verdicts.size());
+    for (std::uint64_t i = 0; i < kept; ++i) {
+      const VisionVerdict& verdict = list.verdicts[(list.count - 1 - i) % list.verdicts.size()];
+      if (verdict.region.frame == frame && !verdict.repeated && same(verdict)) return &verdict;
+    }
+    return nullptr;
+  };
+  if (const VisionVerdict* const own = find_in(list_); own != nullptr) return own;
   for (auto& other : answered) {
     const auto list = other.latest();
     if (!list) continue;
-    if (const VisionVerdict* const found = find_in(*list, job); found != nullptr) return found;
+    if (const VisionVerdict* const found = find_in(*list); found != nullptr) return found;
   }
   return nullptr;
 }
 
-const VisionVerdict* Recognition::find_in(const VisionVerdicts& list,
-                                          const VisionRegion& job) const noexcept {
-  const std::uint64_t kept = std::min<std::uint64_t>(list.count, list.verdicts.size());
-  for (std::uint64_t i = 0; i < kept; ++i) {
-    const VisionVerdict& verdict = list.verdicts[(list.count - 1 - i) % list.verdicts.size()];
-    if (verdict.region.frame != job.frame || verdict.repeated) continue;
-    if (verdict.verdict == VisualClass::nothing) {
-      if (covers(verdict, job)) return &verdict;
-      continue;
-    }
-    const double across = verdict.pixel[0] - (job.left + 0.5 * job.width);
-    const double down = verdict.pixel[1] - (job.top + 0.5 * job.height);
-    if (std::max(std::abs(across), std::abs(down)) < near_the_middle * std::max(job.width, job.height))
-      return &verdict;
-  }
-  return nullptr;
+/// What was measured of what a glance at the job's region saw, by whichever recogniser; null: nothing, or it
+/// saw nothing.
+const VisionVerdict* Recognition::glance(const PictureView& picture, const VisionRegion& job,
+                                         Glance& at) noexcept {
+  const auto same = [&at](const VisionVerdict& verdict) { return shows(verdict, at); };
+  at = finder_.glance(picture, rectangle_of(job), blind_);
+  const VisionVerdict* known = at.is_empty() ? nullptr : find_answered(job.frame, same);
+  if (known != nullptr || !at.is_cut) return known;
+  at = finder_.glance_around(picture, at, blind_);
+  return at.is_empty() ? nullptr : find_answered(job.frame, same);
+}
+
+void Recognition::repeat(const VisionRegion& job, const VisionVerdict& known) noexcept {
+  VisionVerdict verdict = known;
+  verdict.region = job;
+  verdict.repeated = true;
+  verdict.pixels = 0;
+  verdict.part = 0;
+  verdict.parts = 1;
+  if (verdict.verdict == VisualClass::nothing)
+    verdict.pixel = {job.left + 0.5 * job.width, job.top + 0.5 * job.height};
+  ++feedback.repeated;
+  note(verdict);
 }
 
 void Recognition::note(const VisionVerdict& verdict) noexcept {

@@ -20,8 +20,10 @@ class Recognition final : public RecognitionUnit {
   const CameraFrame* frame_of(std::uint64_t sequence) noexcept;
   bool is_flat(const VisionRegion& job) noexcept;
   bool answer(const VisionRegion& job) noexcept;
-  const VisionVerdict* find_answered(const VisionRegion& job) noexcept;
-  const VisionVerdict* find_in(const VisionVerdicts& list, const VisionRegion& job) const noexcept;
+  template <class Same>
+  const VisionVerdict* find_answered(std::uint64_t frame, const Same& same) noexcept;
+  const VisionVerdict* glance(const PictureView& picture, const VisionRegion& job, Glance& at) noexcept;
+  void repeat(const VisionRegion& job, const VisionVerdict& known) noexcept;
   void note(const VisionVerdict& verdict) noexcept;
   void complain(const char* trouble) noexcept;
 

@@ -9,9 +9,6 @@ namespace {
 // Distances of chromaticity, whose channels add up to 1.
 constexpr double off_the_line = 0.09;    // from table to part: no mixture of the two
 constexpr double like_the_table = 0.12;  // light is no more coloured than that
-constexpr double like_a_shadow = 0.020;
-// Where the sum of a pixel's channels is less its noise counts for more.
-constexpr double usual_sum = 150;
 // Part of the table's brightness: what is brighter is the table, whatever dims it.
 constexpr double brightest_shadow = 0.7;
 
@@ -50,9 +47,8 @@ std::uint8_t judge(const Eigen::Vector3d& colour, std::span<const PartModel> par
 void ColourClasses::prepare(std::span<const PartModel> parts, SurfaceColour table,
                             double darkest_shadow) noexcept {
   table_ = table;
-  table_sum_ = colour_of(table).sum();
   table_chromaticity_ = chromaticity(colour_of(table));
-  darkest_shadow_ = darkest_shadow;
+  darkest_shadow_ = darkest_shadow * colour_of(table).sum() * 256;
   constexpr double width = 256.0 / levels;
   std::size_t place = 0;
   for (std::uint32_t red = 0; red < levels; ++red)
@@ -62,18 +58,13 @@ void ColourClasses::prepare(std::span<const PartModel> parts, SurfaceColour tabl
                                   colour_of(table));
 }
 
-bool ColourClasses::is_shadow(const std::array<std::uint32_t, 3>& sums, std::uint32_t count,
-                              const WhiteBalance& balance) const noexcept {
-  // All by the sum, so that nothing is divided.
-  const Eigen::Vector3d colour(static_cast<double>(sums[0]) * balance.gain[0],
-                               static_cast<double>(sums[1]) * balance.gain[1],
-                               static_cast<double>(sums[2]) * balance.gain[2]);
-  const double sum = colour.sum();
-  if (sum < darkest_shadow_ * table_sum_ * 256 * count) return false;
-  const auto raw = static_cast<double>(sums[0] + sums[1] + sums[2]);
-  const double usual = usual_sum * count;
-  const double tolerated = like_a_shadow * (raw < usual ? sum * usual / std::max(raw, 1.0) : sum);
-  return (colour - table_chromaticity_ * sum).squaredNorm() < tolerated * tolerated;
+void ColourClasses::find_places(const WhiteBalance& balance, Places& places) noexcept {
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    for (std::uint32_t value = 0; value < 256; ++value) {
+      const std::uint32_t level = std::min(value * balance.gain[channel] >> (8 + 8 - bits), levels - 1);
+      places[channel][value] = static_cast<std::uint16_t>(level << bits * (2 - channel));
+    }
+  }
 }
 
 bool ColourClasses::may_be_table(const std::array<std::uint32_t, 3>& sums) const noexcept {

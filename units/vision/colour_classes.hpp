@@ -19,6 +19,8 @@ inline constexpr std::uint8_t class_dark = 0xFF;
 /// Factors that bring the table's colour under the present light to what it is known to be; in 1/256.
 struct WhiteBalance {
   std::array<std::uint32_t, 3> gain{256, 256, 256};
+
+  bool operator==(const WhiteBalance&) const = default;
 };
 
 /// Colours by their chromaticity (each channel's part of the sum), so that shade changes nothing: a pixel
@@ -31,16 +33,33 @@ class ColourClasses {
   /// colours, which takes some milliseconds; class_dark is one of its answers.
   void prepare(std::span<const PartModel> parts, SurfaceColour table, double darkest_shadow) noexcept;
 
-  std::uint8_t of(const std::uint8_t* rgb, const WhiteBalance& balance) const noexcept {
-    const std::uint32_t red = balanced(rgb[0], balance.gain[0]);
-    const std::uint32_t green = balanced(rgb[1], balance.gain[1]);
-    const std::uint32_t blue = balanced(rgb[2], balance.gain[2]);
-    return classes_[(red << 2 * bits) | (green << bits) | blue];
+  /// What each value of a channel adds to a colour's place among all colours, by a white balance.
+  using Places = std::array<std::array<std::uint16_t, 256>, 3>;
+  static void find_places(const WhiteBalance& balance, Places& places) noexcept;
+
+  std::uint8_t of(const std::uint8_t* rgb, const Places& places) const noexcept {
+    return classes_[std::size_t{places[0][rgb[0]]} + places[1][rgb[1]] + places[2][rgb[2]]];
   }
 
   /// Of `count` pixels that were added up, channel by channel.
   bool is_shadow(const std::array<std::uint32_t, 3>& sums, std::uint32_t count,
-                 const WhiteBalance& balance) const noexcept;
+                 const WhiteBalance& balance) const noexcept {
+    // All by the sum, so that nothing is divided.
+    const double red = static_cast<double>(sums[0]) * balance.gain[0];
+    const double green = static_cast<double>(sums[1]) * balance.gain[1];
+    const double blue = static_cast<double>(sums[2]) * balance.gain[2];
+    const double sum = red + green + blue;
+    if (sum < darkest_shadow_ * count) return false;
+    const double off_red = red - table_chromaticity_[0] * sum;
+    const double off_green = green - table_chromaticity_[1] * sum;
+    const double off_blue = blue - table_chromaticity_[2] * sum;
+    const double off = off_red * off_red + off_green * off_green + off_blue * off_blue;
+    const double tolerated = like_a_shadow * sum;
+    const auto raw = static_cast<double>(sums[0] + sums[1] + sums[2]);
+    const double usual = usual_sum * count;
+    return raw < usual ? off * raw * raw < tolerated * tolerated * usual * usual
+                       : off < tolerated * tolerated;
+  }
 
   /// From what is taken as the table's colour now. False, and `balance` as it was: it is none that light
   /// makes of the table.
@@ -50,19 +69,16 @@ class ColourClasses {
   bool may_be_table(const std::array<std::uint32_t, 3>& sums) const noexcept;
 
  private:
+  static constexpr double like_a_shadow = 0.020;  // distance of chromaticity, whose channels add up to 1
+  // Where the sum of a pixel's channels is less its noise counts for more.
+  static constexpr double usual_sum = 150;
   static constexpr std::uint32_t bits = 5;  // of each channel
   static constexpr std::uint32_t levels = 1U << bits;
-
-  static std::uint32_t balanced(std::uint32_t value, std::uint32_t gain) noexcept {
-    const std::uint32_t level = value * gain >> (8 + 8 - bits);
-    return level < levels ? level : levels - 1;
-  }
 
   std::array<std::uint8_t, std::size_t{levels} * levels * levels> classes_{};
   SurfaceColour table_;
   Eigen::Vector3d table_chromaticity_ = Eigen::Vector3d::Zero();
-  double table_sum_ = 0;
-  double darkest_shadow_ = 0;
+  double darkest_shadow_ = 0;  // sum of the channels, in 1/256
 };
 
 }  // namespace flexrf::user

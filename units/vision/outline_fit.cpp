@@ -13,7 +13,6 @@ constexpr double beside = 0.0016;            // m: such a point supports the out
 constexpr double least_facing = 0.5;         // cosine of the angle between two that face the same way
 constexpr std::size_t points_at_first = 64;  // by which it is brought near
 constexpr std::size_t points_at_last = 128;  // of the last two iterations
-constexpr std::size_t stations = 64;         // of the outline, that are looked at for support
 
 /// Of a point from the outline, in the outline's frame.
 struct Closest {
@@ -39,29 +38,22 @@ Closest closest_on_circle(double radius, const Eigen::Vector2d& point, const Eig
 Closest closest_on(const PartModel& part, const Eigen::Vector2d& point, const Eigen::Vector2d& normal) {
   if (part.symmetry == 0) return closest_on_circle(part.perimeter / (2 * std::numbers::pi), point, normal);
   Closest best;
-  for (std::size_t i = 0; i < part.corner_count; ++i) {
-    const Eigen::Vector2d& from = part.corners[i];
-    const Eigen::Vector2d side = part.corners[i + 1 == part.corner_count ? 0 : i + 1] - from;
-    const double length_squared = side.squaredNorm();
-    const Eigen::Vector2d outwards(side.y(), -side.x());
-    // Compared without a root, as most sides are not the one.
-    const double facing = normal.dot(outwards);
-    if (facing < 0 || facing * facing < least_facing * least_facing * length_squared * normal.squaredNorm())
-      continue;
-    const Eigen::Vector2d offset = point - from;
-    const double along = std::clamp(offset.dot(side) / length_squared, 0.0, 1.0);
-    const Eigen::Vector2d away = offset - along * side;
-    const double distance_squared = away.squaredNorm();
+  const double least = least_facing * normal.norm();
+  for (const OutlineSide& side : part.all_sides()) {
+    if (normal.dot(side.outwards) < least) continue;
+    const Eigen::Vector2d offset = point - side.from;
+    const double along = offset.dot(side.along);
+    const double across = offset.dot(side.outwards);
+    // Beyond the side's end the distance is that to its corner.
+    const double beyond = along < 0 ? along : std::max(along - side.length, 0.0);
+    const double distance_squared = across * across + beyond * beyond;
     if (distance_squared >= best.distance_squared) continue;
     best.distance_squared = distance_squared;
-    best.direction = outwards / std::sqrt(length_squared);
-    best.distance = away.dot(best.direction);
-    // Beyond the side's end the distance is that to its corner.
-    if (along <= 0.0 || along >= 1.0) {
-      const double distance = std::sqrt(distance_squared);
-      if (distance > 1e-9) best.direction = away / distance;
-      best.distance = distance > 1e-9 ? distance : 0.0;
-    }
+    best.direction = side.outwards;
+    best.distance = across;
+    if (beyond == 0.0) continue;
+    best.distance = std::sqrt(distance_squared);
+    best.direction = (across * side.outwards + beyond * side.along) / best.distance;
   }
   return best;
 }
@@ -133,27 +125,19 @@ double support_of(const PartModel& part, const OutlinePose& pose, std::span<cons
   std::size_t count = 0;
   for (const ContourPoint& point : points)
     if (point.is_edge && count < own.size()) own[count++] = frame.to_own(point.position);
-  std::size_t side = 0;
+  // Both go around the outline, so the next station's point is about where the last one's was.
   std::size_t supported = 0;
-  double begin = 0;  // of the side, along the outline
-  for (std::size_t i = 0; i < stations; ++i) {
-    const double at = part.perimeter * (static_cast<double>(i) + 0.5) / stations;
-    Eigen::Vector2d along = part.corners[(side + 1) % part.corner_count] - part.corners[side];
-    double length = along.norm();
-    while (at > begin + length && side + 1 < part.corner_count) {
-      begin += length;
-      ++side;
-      along = part.corners[(side + 1) % part.corner_count] - part.corners[side];
-      length = along.norm();
-    }
-    const Eigen::Vector2d station = part.corners[side] + along * ((at - begin) / length);
+  std::size_t last = 0;
+  for (const Eigen::Vector2d& station : part.stations) {
     for (std::size_t k = 0; k < count; ++k) {
-      if ((own[k] - station).squaredNorm() > beside * beside) continue;
+      const std::size_t at = last + k < count ? last + k : last + k - count;
+      if ((own[at] - station).squaredNorm() > beside * beside) continue;
       ++supported;
+      last = at;
       break;
     }
   }
-  return static_cast<double>(supported) / stations;
+  return static_cast<double>(supported) / outline_stations;
 }
 
 }  // namespace

@@ -26,7 +26,20 @@ constexpr double least_filled = 0.9;   // of a part's inside that has its colour
 constexpr double explained = 0.002;    // m: such a point of the contour belongs to the part that was found
 constexpr int parts_of_a_blob = 3;
 constexpr int table_around = 12;  // pixels, around what was found at a rectangle's border
+constexpr int glance_cells = 56;  // along a side, at most
+constexpr int table_beside = 4;   // pixels, around what a glance saw, and a cell
 constexpr int largest_side = 2 * RegionBitmap::side;
+
+/// Pixels along a cell's side.
+int glance_scale(const PixelRectangle& rectangle) {
+  return std::max(2, (std::max(rectangle.width, rectangle.height) + glance_cells - 1) / glance_cells);
+}
+
+/// A square that should hold all of what is in this box and goes on beyond.
+PixelRectangle around_cut(const PixelRectangle& box) {
+  const int side = std::min(2 * std::max(box.width, box.height) + 2 * table_around, largest_side);
+  return {box.left + (box.width - side) / 2, box.top + (box.height - side) / 2, side, side};
+}
 
 }  // namespace
 
@@ -36,19 +49,44 @@ void PartFinder::prepare(std::span<const PartModel> parts, double darkest_shadow
   light_.forget();
 }
 
-std::span<const Finding> PartFinder::find(const PictureView& picture, const PixelRectangle& rectangle,
-                                          const PixelRectangle& blind, const CameraView& view,
-                                          const Finding& expected, const FindingLimits& limits) noexcept {
-  count_ = 0;
-  pixels_ = 0;
-  look(picture, rectangle, blind);
-  // Attention's windows are on a grid: what lies across the border is brought to the middle, once.
-  if (const Blob* const blob = central_blob(); blob != nullptr && bitmap_.is_cut(*blob, picture)) {
-    const PixelRectangle box = bitmap_.box_of(*blob);
-    const int side = std::min(2 * std::max(box.width, box.height) + 2 * table_around, largest_side);
-    look(picture, {box.left + (box.width - side) / 2, box.top + (box.height - side) / 2, side, side}, blind);
+Glance PartFinder::glance(const PictureView& picture, const PixelRectangle& rectangle,
+                          const PixelRectangle& blind) noexcept {
+  Glance seen;
+  seen.pixels = look(picture, rectangle, blind, glance_scale(rectangle));
+  const Blob* const blob = blob_in_the_middle_of(rectangle);
+  if (blob == nullptr) return seen;
+  seen.pixel_class = blob->pixel_class;
+  seen.is_cut = bitmap_.is_cut(*blob, picture);
+  seen.middle = bitmap_.box_of(*blob);
+  const PixelRectangle near = widened(seen.middle, table_around);
+  for (const Blob& other : bitmap_.blobs()) {
+    const PixelRectangle box = bitmap_.box_of(other);
+    if (!common_part(box, near).is_empty()) seen.rectangle = around_both(seen.rectangle, box);
   }
-  const Blob* const central = central_blob();
+  const int border = table_beside + bitmap_.scale();
+  seen.rectangle = common_part(widened(seen.rectangle, border), bitmap_.rectangle());
+  return seen;
+}
+
+Glance PartFinder::glance_around(const PictureView& picture, const Glance& cut,
+                                 const PixelRectangle& blind) noexcept {
+  Glance seen = glance(picture, around_cut(cut.middle), blind);
+  seen.pixels += cut.pixels;
+  return seen;
+}
+
+std::span<const Finding> PartFinder::measure(const PictureView& picture, const Glance& at,
+                                             const PixelRectangle& blind, const CameraView& view,
+                                             const Finding& expected, const FindingLimits& limits) noexcept {
+  count_ = 0;
+  pixels_ = at.pixels + look(picture, at.rectangle, blind);
+  PixelRectangle middle = at.middle;
+  if (const Blob* const blob = blob_in_the_middle_of(middle);
+      blob != nullptr && bitmap_.is_cut(*blob, picture)) {
+    middle = around_cut(bitmap_.box_of(*blob));
+    pixels_ += look(picture, middle, blind);
+  }
+  const Blob* const central = blob_in_the_middle_of(middle);
   for (const Blob& blob : bitmap_.blobs()) {
     // Of an obstacle at the border nobody knows where its middle is.
     const bool may_be_obstacle = &blob == central || !bitmap_.is_cut(blob, picture);
@@ -58,16 +96,19 @@ std::span<const Finding> PartFinder::find(const PictureView& picture, const Pixe
   return {findings_.data(), count_};
 }
 
-/// That covers the middle of what was looked at, or else lies nearest to it; null: there is none.
-const Blob* PartFinder::central_blob() const noexcept {
-  const std::uint8_t label = bitmap_.label(bitmap_.columns() / 2, bitmap_.rows() / 2);
+/// That covers the middle of the rectangle, or else lies nearest to it; null: there is none.
+const Blob* PartFinder::blob_in_the_middle_of(const PixelRectangle& rectangle) const noexcept {
+  const PixelRectangle within = common_part(rectangle, bitmap_.rectangle());
+  const double column = (within.left + 0.5 * within.width - bitmap_.rectangle().left) / bitmap_.scale();
+  const double row = (within.top + 0.5 * within.height - bitmap_.rectangle().top) / bitmap_.scale();
+  const std::uint8_t label = bitmap_.label(static_cast<int>(column), static_cast<int>(row));
   for (const Blob& blob : bitmap_.blobs())
     if (blob.label == label) return &blob;
   const Blob* nearest = nullptr;
   double least = 0;
   for (const Blob& blob : bitmap_.blobs()) {
-    const double distance = std::hypot(0.5 * (blob.left + blob.right + 1 - bitmap_.columns()),
-                                       0.5 * (blob.top + blob.bottom + 1 - bitmap_.rows()));
+    const double distance =
+        std::hypot(0.5 * (blob.left + blob.right + 1) - column, 0.5 * (blob.top + blob.bottom + 1) - row);
     if (nearest != nullptr && distance >= least) continue;
     nearest = &blob;
     least = distance;
@@ -75,10 +116,11 @@ const Blob* PartFinder::central_blob() const noexcept {
   return nearest;
 }
 
-void PartFinder::look(const PictureView& picture, const PixelRectangle& rectangle,
-                      const PixelRectangle& blind) noexcept {
-  bitmap_.take(picture, rectangle, blind, classes_, light_.balance());
-  pixels_ += static_cast<std::uint32_t>(bitmap_.columns() * bitmap_.rows());
+/// How many pixels that were.
+std::uint32_t PartFinder::look(const PictureView& picture, const PixelRectangle& rectangle,
+                               const PixelRectangle& blind, int least_scale) noexcept {
+  bitmap_.take(picture, rectangle, blind, classes_, light_.balance(), least_scale);
+  return static_cast<std::uint32_t>(bitmap_.columns() * bitmap_.rows());
 }
 
 /// The parts of one kind in a blob, one after the other; each takes its points of the contour away. Where the

@@ -33,6 +33,24 @@ struct FindingLimits {
   double obstacle_height = 0.09;  ///< m: so high an obstacle is thought to be
 };
 
+/// What lies in a rectangle of a picture, by one of four pixels or fewer: enough to tell that there is
+/// nothing, or that it is known, for a small part of what it takes to measure it.
+struct Glance {
+  PixelRectangle rectangle;                ///< of what has to be measured, with some of the table around
+  PixelRectangle middle;                   ///< of what lies in the middle of it; empty: nothing is seen
+  std::uint8_t pixel_class = class_table;  ///< of that
+  bool is_cut = false;                     ///< it goes on beyond what was looked at
+  std::uint32_t pixels = 0;                ///< that were looked at
+
+  /// To measure in a whole rectangle without a glance.
+  static Glance none(const PixelRectangle& rectangle) noexcept {
+    Glance all;
+    all.rectangle = all.middle = rectangle;
+    return all;
+  }
+  bool is_empty() const noexcept { return middle.is_empty(); }
+};
+
 /// Of one thread; allocates nothing. Bounded: one rectangle, looked at a second time where a blob went on
 /// behind it; 4 findings, of one blob 3, each of at most 96 starts.
 class PartFinder {
@@ -48,19 +66,26 @@ class PartFinder {
     return light_.look(picture, blind, classes_);
   }
 
-  /// `expected`: what is expected here, of kind no_kind: nothing is.
-  std::span<const Finding> find(const PictureView& picture, const PixelRectangle& rectangle,
-                                const PixelRectangle& blind, const CameraView& view, const Finding& expected,
-                                const FindingLimits& limits) noexcept;
+  /// A rectangle is about what lies in its middle: in the answer is that, and what lies beside it.
+  Glance glance(const PictureView& picture, const PixelRectangle& rectangle,
+                const PixelRectangle& blind) noexcept;
 
-  /// That the last find() looked at.
+  /// Of something that is cut: once more, in a square that should hold the rest of it.
+  Glance glance_around(const PictureView& picture, const Glance& cut, const PixelRectangle& blind) noexcept;
+
+  /// `expected`: what is expected here, of kind no_kind: nothing is.
+  std::span<const Finding> measure(const PictureView& picture, const Glance& at, const PixelRectangle& blind,
+                                   const CameraView& view, const Finding& expected,
+                                   const FindingLimits& limits) noexcept;
+
+  /// That the last measure() looked at, and its glance.
   std::uint32_t pixels() const noexcept { return pixels_; }
   void forget() noexcept { light_.forget(); }
 
  private:
-  const Blob* central_blob() const noexcept;
-  void look(const PictureView& picture, const PixelRectangle& rectangle,
-            const PixelRectangle& blind) noexcept;
+  const Blob* blob_in_the_middle_of(const PixelRectangle& rectangle) const noexcept;
+  std::uint32_t look(const PictureView& picture, const PixelRectangle& rectangle, const PixelRectangle& blind,
+                     int least_scale = 1) noexcept;
   bool find_parts(const Blob& blob, const CameraView& view, const Finding& expected,
                   const FindingLimits& limits) noexcept;
   void note(const PartModel& part, std::size_t kind, const OutlineFit& fit, const CameraView& view) noexcept;

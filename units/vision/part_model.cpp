@@ -21,11 +21,24 @@ PartModel complete(PartModel part) {
     const double cross = from.x() * to.y() - from.y() * to.x();
     twice += cross;
     moment += (from + to) * cross;
-    part.perimeter += (to - from).norm();
+    OutlineSide& side = part.sides[i];
+    side.from = from;
+    side.length = (to - from).norm();
+    side.along = (to - from) / side.length;
+    side.outwards = {side.along.y(), -side.along.x()};
+    part.perimeter += side.length;
     part.radius = std::max(part.radius, from.norm());
   }
   part.area = twice / 2;
   part.middle = moment / (3 * twice);
+  std::size_t side = 0;
+  double begin = 0;  // of the side, along the outline
+  for (std::size_t i = 0; i < outline_stations; ++i) {
+    const double at = part.perimeter * (static_cast<double>(i) + 0.5) / outline_stations;
+    while (at > begin + part.sides[side].length && side + 1 < part.corner_count)
+      begin += part.sides[side++].length;
+    part.stations[i] = part.sides[side].from + part.sides[side].along * (at - begin);
+  }
   return part;
 }
 

@@ -10,6 +10,7 @@
 namespace flexrf::user {
 
 inline constexpr std::size_t most_corners = 24;
+inline constexpr std::size_t outline_stations = 64;
 inline constexpr std::size_t most_kinds = 8;
 inline constexpr std::uint16_t no_kind = 0xFFFF;  ///< in verdicts and tracks: it is no known part
 
@@ -18,6 +19,14 @@ struct SurfaceColour {
   std::uint8_t red = 0;
   std::uint8_t green = 0;
   std::uint8_t blue = 0;
+};
+
+/// Of an outline, from one corner to the next.
+struct OutlineSide {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();
+  Eigen::Vector2d along = Eigen::Vector2d::Zero();     ///< unit vector
+  Eigen::Vector2d outwards = Eigen::Vector2d::Zero();  ///< unit vector
+  double length = 0;                                   ///< m
 };
 
 /// An upright prism on the table.
@@ -29,12 +38,15 @@ struct PartModel {
   SurfaceColour colour;
   int symmetry = 1;  ///< turned by a whole turn over this it looks the same; 0: turned by anything
   // What follows from the outline.
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();  ///< centroid, m
-  double area = 0;                                   ///< m^2
-  double perimeter = 0;                              ///< m
-  double radius = 0;                                 ///< about the outline's origin, m
+  std::array<OutlineSide, most_corners> sides{};             ///< each begins at the corner of its number
+  std::array<Eigen::Vector2d, outline_stations> stations{};  ///< places as far apart along it
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();          ///< centroid, m
+  double area = 0;                                           ///< m^2
+  double perimeter = 0;                                      ///< m
+  double radius = 0;                                         ///< about the outline's origin, m
 
   std::span<const Eigen::Vector2d> outline() const noexcept { return {corners.data(), corner_count}; }
+  std::span<const OutlineSide> all_sides() const noexcept { return {sides.data(), corner_count}; }
 };
 
 /// The parts that recognition knows; a kind's number in verdicts and tracks is its place here.

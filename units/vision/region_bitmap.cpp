@@ -1,6 +1,7 @@
 #include "units/vision/region_bitmap.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace flexrf::user {
 namespace {
@@ -28,6 +29,10 @@ BitRow moved_up(const BitRow& row, bool first) {
 BitRow moved_down(const BitRow& row) {
   return {row[0] >> 1 | row[1] << 63, row[1] >> 1 | row[2] << 63, row[2] >> 1 | std::uint64_t{1} << 63};
 }
+void set(BitRow& row, int column) {
+  const auto at = static_cast<std::size_t>(column);
+  row[at / 64] |= std::uint64_t{1} << (at % 64);
+}
 /// Sets what lies behind the last cell.
 void fill_behind(BitRow& row, int columns) {
   for (std::size_t word = 0; word < row.size(); ++word) {
@@ -43,16 +48,20 @@ void fill_behind(BitRow& row, int columns) {
 
 void RegionBitmap::take(const PictureView& picture, const PixelRectangle& rectangle,
                         const PixelRectangle& blind, const ColourClasses& classes,
-                        const WhiteBalance& balance) noexcept {
+                        const WhiteBalance& balance, int least_scale) noexcept {
   rectangle_ = common_part(rectangle, {0, 0, picture.width, picture.height});
   blob_count_ = 0;
   columns_ = rows_ = 0;
   scale_ = 1;
   if (rectangle_.is_empty()) return;
-  scale_ = cells(std::max(rectangle_.width, rectangle_.height), side);
+  scale_ = std::max(cells(std::max(rectangle_.width, rectangle_.height), side), least_scale);
+  least_cells_ = static_cast<std::uint32_t>(std::max(least_area / (scale_ * scale_), 6));
   columns_ = cells(rectangle_.width, scale_);
   rows_ = cells(rectangle_.height, scale_);
-  balance_ = balance;
+  if (balance_ != balance) {
+    balance_ = balance;
+    ColourClasses::find_places(balance_, places_);
+  }
   classify(picture, blind, classes);
   drop_edges();
   find_blobs();
@@ -63,18 +72,18 @@ void RegionBitmap::classify(const PictureView& picture, const PixelRectangle& bl
   first_foreign_ = rows_;
   last_foreign_ = -1;
   for (int row = 0; row < rows_; ++row) {
-    bool any = false;
+    BitRow& foreign = foreign_[static_cast<std::size_t>(row)];
+    foreign = {};
     std::uint8_t* const to = classes_.data() + place(0, row);
+    const int y = rectangle_.top + row * scale_;
     for (int column = 0; column < columns_; ++column) {
       const int x = rectangle_.left + column * scale_;
-      const int y = rectangle_.top + row * scale_;
-      const std::uint8_t found = classes.of(picture.at(x, y), balance_);
-      to[column] = found != class_dark                 ? found
-                   : is_shadow(picture, x, y, classes) ? class_table
-                                                       : class_foreign;
-      any = any || to[column] == class_foreign;
+      std::uint8_t found = classes.of(picture.at(x, y), places_);
+      if (found == class_dark) found = is_shadow(picture, x, y, classes) ? class_table : class_foreign;
+      to[column] = found;
+      if (found == class_foreign) set(foreign, column);
     }
-    if (!any) continue;
+    if ((foreign[0] | foreign[1] | foreign[2]) == 0) continue;
     first_foreign_ = std::min(first_foreign_, row);
     last_foreign_ = row;
   }
@@ -82,9 +91,12 @@ void RegionBitmap::classify(const PictureView& picture, const PixelRectangle& bl
   if (hidden.is_empty()) return;
   const int last_column = (hidden.right() - 1 - rectangle_.left) / scale_;
   const int last_row = (hidden.bottom() - 1 - rectangle_.top) / scale_;
-  for (int row = (hidden.top - rectangle_.top) / scale_; row <= last_row; ++row)
-    for (int column = (hidden.left - rectangle_.left) / scale_; column <= last_column; ++column)
+  for (int row = (hidden.top - rectangle_.top) / scale_; row <= last_row; ++row) {
+    for (int column = (hidden.left - rectangle_.left) / scale_; column <= last_column; ++column) {
       classes_[place(column, row)] = class_unseen;
+      set(foreign_[static_cast<std::size_t>(row)], column);
+    }
+  }
 }
 
 /// By the mean of four pixels, which has half of the noise.
@@ -92,11 +104,16 @@ bool RegionBitmap::is_shadow(const PictureView& picture, int column, int row,
                              const ColourClasses& classes) const noexcept {
   const int right = std::min(column + 1, picture.width - 1);
   const int below = std::min(row + 1, picture.height - 1);
-  std::array<std::uint32_t, 3> sums{};
-  for (const std::uint8_t* const pixel :
-       {picture.at(column, row), picture.at(right, row), picture.at(column, below), picture.at(right, below)})
-    for (std::size_t i = 0; i < 3; ++i) sums[i] += pixel[i];
-  return classes.is_shadow(sums, 4, balance_);
+  const std::uint8_t* const above_left = picture.at(column, row);
+  const std::uint8_t* const above_right = picture.at(right, row);
+  const std::uint8_t* const below_left = picture.at(column, below);
+  const std::uint8_t* const below_right = picture.at(right, below);
+  // Written out: it is asked of each dark pixel.
+  const auto sum = [&](std::size_t channel) {
+    return std::uint32_t{above_left[channel]} + above_right[channel] + below_left[channel] +
+           below_right[channel];
+  };
+  return classes.is_shadow({sum(0), sum(1), sum(2)}, 4, balance_);
 }
 
 /// Opening (Serra 1982) with squares of three cells: what is foreign shrinks by one cell, and what is left
@@ -104,16 +121,7 @@ bool RegionBitmap::is_shadow(const PictureView& picture, int column, int row,
 void RegionBitmap::drop_edges() noexcept {
   const int first = std::max(first_foreign_ - 1, 0);
   const int last = std::min(last_foreign_ + 1, rows_ - 1);
-  for (int row = first; row <= last; ++row) {
-    BitRow& bits = foreign_[static_cast<std::size_t>(row)];
-    bits = {};
-    for (int column = 0; column < columns_; ++column) {
-      const std::uint8_t of = classes_[place(column, row)];
-      const std::uint64_t bit = of == class_foreign || of == class_unseen ? 1 : 0;
-      bits[static_cast<std::size_t>(column) / 64] |= bit << (static_cast<std::size_t>(column) % 64);
-    }
-    fill_behind(bits, columns_);
-  }
+  for (int row = first; row <= last; ++row) fill_behind(foreign_[static_cast<std::size_t>(row)], columns_);
   for (int row = first_foreign_; row <= last_foreign_; ++row) {
     BitRow all = foreign_[static_cast<std::size_t>(row)];
     for (const int other : {row - 1, row + 1})
@@ -126,75 +134,105 @@ void RegionBitmap::drop_edges() noexcept {
       if (other >= first_foreign_ && other <= last_foreign_)
         any_of = either(any_of, kept_[static_cast<std::size_t>(other)]);
     any_of = either(any_of, either(moved_up(any_of, false), moved_down(any_of)));
-    for (int column = 0; column < columns_; ++column) {
-      std::uint8_t& of = classes_[place(column, row)];
-      const auto at = static_cast<std::size_t>(column);
-      if (of == class_foreign && (any_of[at / 64] >> (at % 64) & 1) == 0) of = class_table;
+    const BitRow& foreign = foreign_[static_cast<std::size_t>(row)];
+    for (std::size_t word = 0; word < foreign.size(); ++word) {
+      for (std::uint64_t dropped = foreign[word] & ~any_of[word]; dropped != 0; dropped &= dropped - 1) {
+        const int column = static_cast<int>(64 * word) + std::countr_zero(dropped);
+        if (column >= columns_) break;
+        std::uint8_t& of = classes_[place(column, row)];
+        if (of == class_foreign) of = class_table;
+      }
     }
   }
 }
 
+/// Cells of one class beside each other in a row are a run; runs of one class that touch from row to row are
+/// a blob (Rosenfeld and Pfaltz 1966, by runs). Labels are used up only by what is large enough to be looked
+/// at.
 void RegionBitmap::find_blobs() noexcept {
-  for (int row = 0; row < rows_; ++row)
-    std::fill_n(labels_.begin() + static_cast<std::ptrdiff_t>(place(0, row)), columns_, std::uint8_t{0});
+  find_runs();
   std::uint8_t label = 0;
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      const std::uint8_t of = classes_[place(column, row)];
-      if (of == class_table || of == class_unseen || labels_[place(column, row)] != 0) continue;
-      // Labels are used up only by what is large enough to be looked at.
-      const std::uint8_t own =
-          label + 1 < dropped_label ? static_cast<std::uint8_t>(label + 1) : dropped_label;
-      const Blob blob = flood(column, row, own);
-      if (own == dropped_label || blob.area < least_area) continue;
-      label = own;
-      keep(blob);
+  for (std::size_t i = 0; i < run_count_; ++i) {
+    Run& run = runs_[i];
+    if (run.first != i) {
+      run.label = runs_[run.first].label;
+    } else if (label + 1 == dropped_label || run.area < least_cells_) {
+      run.label = dropped_label;
+    } else {
+      run.label = ++label;
+      keep(run);
     }
+    std::fill(labels_.begin() + static_cast<std::ptrdiff_t>(place(run.from, run.row)),
+              labels_.begin() + static_cast<std::ptrdiff_t>(place(run.to, run.row)), run.label);
   }
 }
 
-/// The cells of the blob that this one belongs to, which is the first of it from above. One that turns out to
-/// be too small gets the label of what nobody looks at.
-Blob RegionBitmap::flood(int column, int row, std::uint8_t label) noexcept {
-  Blob blob;
-  blob.pixel_class = classes_[place(column, row)];
-  blob.label = label;
-  blob.left = blob.right = blob.first_column = column;
-  blob.top = blob.bottom = row;
-  // Each cell is put in here once, and stays.
-  std::size_t found = 0;
-  const auto reach = [&](int to_column, int to_row) {
-    const std::size_t to = place(to_column, to_row);
-    if (classes_[to] != blob.pixel_class || labels_[to] != 0) return;
-    labels_[to] = label;
-    waiting_[found++] = static_cast<std::uint16_t>(to);
+/// In the order of rows. Afterwards each knows the first run of its blob, which has the figures of all of it.
+void RegionBitmap::find_runs() noexcept {
+  run_count_ = 0;
+  std::size_t above = 0;  // the first run of the row above
+  for (int row = 0; row < rows_; ++row) {
+    const std::size_t begin = run_count_;
+    std::size_t upper = above;
+    const std::uint8_t* const classes = classes_.data() + place(0, row);
+    std::fill_n(labels_.data() + place(0, row), columns_, std::uint8_t{0});
+    for (int column = 0; column < columns_;) {
+      const int from = column;
+      const std::uint8_t of = classes[from];
+      while (++column < columns_ && classes[column] == of) {
+      }
+      if (of == class_table || of == class_unseen || run_count_ == runs_.size()) continue;
+      Run& run = runs_[run_count_];
+      run = {static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(column),
+             static_cast<std::uint8_t>(row), of, static_cast<std::uint16_t>(run_count_)};
+      ++run_count_;
+      while (upper < begin && runs_[upper].to <= from) ++upper;
+      for (std::size_t i = upper; i < begin && runs_[i].from < column; ++i)
+        if (runs_[i].pixel_class == of) join(i, run_count_ - 1);
+    }
+    above = begin;
+  }
+  for (std::size_t i = 0; i < run_count_; ++i) {
+    Run& run = runs_[i];
+    run.first = runs_[run.first].first;  // that of a run before this one, which knows already
+    runs_[run.first].add(run);
+  }
+}
+
+/// Two runs of one blob. The first of all its runs stands for it.
+void RegionBitmap::join(std::size_t one, std::size_t other) noexcept {
+  const auto first_of = [this](std::size_t run) {
+    while (runs_[run].first != run) run = runs_[run].first = runs_[runs_[run].first].first;
+    return run;
   };
-  double columns = 0;
-  double rows = 0;
-  reach(column, row);
-  for (std::size_t next = 0; next < found; ++next) {
-    const int x = waiting_[next] % side;
-    const int y = waiting_[next] / side;
-    columns += x;
-    rows += y;
-    blob.left = std::min(blob.left, x);
-    blob.right = std::max(blob.right, x);
-    blob.bottom = std::max(blob.bottom, y);
-    if (x > 0) reach(x - 1, y);
-    if (x + 1 < columns_) reach(x + 1, y);
-    if (y > 0) reach(x, y - 1);
-    if (y + 1 < rows_) reach(x, y + 1);
-  }
-  blob.area = static_cast<int>(found);
-  blob.middle_column = columns / blob.area + 0.5;
-  blob.middle_row = rows / blob.area + 0.5;
-  if (blob.area < least_area)
-    for (std::size_t i = 0; i < found; ++i) labels_[waiting_[i]] = dropped_label;
-  return blob;
+  one = first_of(one);
+  other = first_of(other);
+  runs_[std::max(one, other)].first = static_cast<std::uint16_t>(std::min(one, other));
 }
 
-/// In order of size; the smallest goes where there are too many.
-void RegionBitmap::keep(const Blob& blob) noexcept {
+void RegionBitmap::Run::add(const Run& other) noexcept {
+  const std::uint32_t length = std::uint32_t{other.to} - other.from;
+  area += length;
+  columns += length * (std::uint32_t{other.from} + other.to - 1) / 2;
+  rows += length * other.row;
+  left = std::min(left, other.from);
+  right = std::max(right, static_cast<std::uint8_t>(other.to - 1));
+  bottom = other.row;
+}
+
+/// The blob that this run is the first of. In order of size; the smallest goes where there are too many.
+void RegionBitmap::keep(const Run& first) noexcept {
+  Blob blob;
+  blob.pixel_class = first.pixel_class;
+  blob.label = first.label;
+  blob.area = static_cast<int>(first.area);
+  blob.left = first.left;
+  blob.top = first.row;
+  blob.right = first.right;
+  blob.bottom = first.bottom;
+  blob.first_column = first.from;
+  blob.middle_column = static_cast<double>(first.columns) / first.area + 0.5;
+  blob.middle_row = static_cast<double>(first.rows) / first.area + 0.5;
   std::size_t at = blob_count_;
   while (at > 0 && blobs_[at - 1].area < blob.area) --at;
   if (at == most_blobs) return;

@@ -32,13 +32,13 @@ class RegionBitmap {
  public:
   static constexpr int side = 160;
   static constexpr std::size_t most_blobs = 8;
-  static constexpr int least_area = 24;  ///< of a blob; what is smaller is noise
+  static constexpr int least_area = 24;  ///< pixels of a blob, but 6 cells at least; less is noise
 
   /// Takes the rectangle, which lies within the picture, and finds its blobs, the largest first, at most 8.
   /// Nothing is seen in `blind`. What is foreign and nowhere more than two cells wide is a blurred edge,
-  /// which mixes two colours, and becomes the table.
+  /// which mixes two colours, and becomes the table. `least_scale`: pixels along a cell's side, at least.
   void take(const PictureView& picture, const PixelRectangle& rectangle, const PixelRectangle& blind,
-            const ColourClasses& classes, const WhiteBalance& balance) noexcept;
+            const ColourClasses& classes, const WhiteBalance& balance, int least_scale = 1) noexcept;
 
   std::span<const Blob> blobs() const noexcept { return {blobs_.data(), blob_count_}; }
   const PixelRectangle& rectangle() const noexcept { return rectangle_; }
@@ -63,6 +63,26 @@ class RegionBitmap {
 
  private:
   static constexpr std::uint8_t class_unseen = 0xFE;
+  /// What has more is noise: of the rest nothing is seen.
+  static constexpr std::size_t most_runs = 4096;
+
+  struct Run {
+    std::uint8_t from = 0;
+    std::uint8_t to = 0;  // exclusive
+    std::uint8_t row = 0;
+    std::uint8_t pixel_class = class_table;
+    std::uint16_t first = 0;  // the first run of its blob, or one that leads there
+    std::uint8_t label = 0;
+    // Of all the blob, with its first run only.
+    std::uint8_t left = side;
+    std::uint8_t right = 0;
+    std::uint8_t bottom = 0;
+    std::uint32_t area = 0;
+    std::uint32_t columns = 0;  // sums over all cells
+    std::uint32_t rows = 0;
+
+    void add(const Run& other) noexcept;
+  };
   /// A bit for each cell.
   using BitRow = std::array<std::uint64_t, (side + 63) / 64>;
 
@@ -78,24 +98,27 @@ class RegionBitmap {
                  const ColourClasses& classes) const noexcept;
   void drop_edges() noexcept;
   void find_blobs() noexcept;
-  Blob flood(int column, int row, std::uint8_t label) noexcept;
-  void keep(const Blob& blob) noexcept;
+  void find_runs() noexcept;
+  void join(std::size_t one, std::size_t other) noexcept;
+  void keep(const Run& first) noexcept;
 
   std::array<std::uint8_t, std::size_t{side} * side> classes_{};
   std::array<std::uint8_t, std::size_t{side} * side> labels_{};
-  std::array<std::uint16_t, std::size_t{side} * side>
-      waiting_{};  // cells of a blob whose neighbours were not seen
+  std::array<Run, most_runs> runs_{};
+  std::size_t run_count_ = 0;
   std::array<BitRow, side> foreign_{};
   std::array<BitRow, side> kept_{};
   std::array<Blob, most_blobs> blobs_{};
   std::size_t blob_count_ = 0;
   PixelRectangle rectangle_;
-  WhiteBalance balance_;
+  WhiteBalance balance_{{0, 0, 0}};  // that places_ was made for; no light has this one
+  ColourClasses::Places places_{};
   int first_foreign_ = 0;  // rows with something foreign
   int last_foreign_ = -1;
   int columns_ = 0;
   int rows_ = 0;
   int scale_ = 1;
+  std::uint32_t least_cells_ = least_area;
 };
 
 }  // namespace flexrf::user

@@ -293,7 +293,7 @@ Score measure(int tables, std::uint64_t seed, bool causes) {
 
 Score& measured() {
   static Score score = [] {
-    Score of_all = measure(20, 1, false);
+    Score of_all = measure(30, 1, false);
     print(of_all);
     return of_all;
   }();

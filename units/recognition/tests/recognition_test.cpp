@@ -202,6 +202,56 @@ bool the_same_is_not_measured_twice() {
          world->bench.feedback().repeated == 2;
 }
 
+/// A glance tells that a region shows a corner of what was measured; another part of the same kind is another
+/// one, and so is what lies in the box of a part and is of another colour.
+bool a_piece_of_what_is_known_is_not_measured_again() {
+  const auto world = std::make_unique<World>();
+  world->found.push(world->job_at(block_pose.position));
+  world->step();
+  const std::uint64_t pixels = world->bench.feedback().pixels;
+  const Eigen::Vector2d corner =
+      block_pose.position + Eigen::Rotation2Dd(block_pose.angle) * known_parts()[0].corners[0];
+  world->found.push(world->job_at(corner, 0.025));
+  world->step();
+  const std::uint64_t glanced = world->bench.feedback().pixels - pixels;
+  return world->count() == 2 && world->last().repeated && world->last_is(0, block_pose) && glanced > 0 &&
+         glanced < pixels / 2;
+}
+
+bool another_of_the_same_kind_is_measured() {
+  const auto world = std::make_unique<World>();
+  const OutlinePose other{block_pose.position + Eigen::Vector2d(0.06, 0.02), 0.2};
+  world->table.put(known_parts()[0], other);
+  world->frames.draw(world->table.picture(4));
+  world->give();
+  world->found.push(world->job_at(block_pose.position, 0.05));
+  world->step();
+  world->found.push(world->job_at(other.position, 0.05));
+  world->step();
+  return !world->last().repeated && world->last_is(0, other);
+}
+
+bool what_lies_in_the_box_of_a_part_is_measured() {
+  const auto world = std::make_unique<World>();
+  constexpr std::size_t bracket = 3;
+  const OutlinePose pose{{0.46, 0.08}, 0};
+  const PartModel& model = known_parts()[bracket];
+  world->table.put(model, pose);
+  // In the corner of the L: that is the middle of its box, and not of the L.
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& at : model.outline()) box.extend(at);
+  const Eigen::Vector2d free =
+      pose.position + 2 * box.center() - model.middle + Eigen::Vector2d(0.004, 0.004);
+  world->table.put(rectangle_of_tests(0.014, 0.014, 0.01, {70, 70, 75}), {free, 0});
+  world->frames.draw(world->table.picture(4));
+  world->give();
+  world->found.push(world->job_at(pose.position + model.middle, 0.09));
+  world->step();
+  world->found.push(world->job_at(free, 0.016));
+  world->step();
+  return world->last().verdict != VisualClass::target || !world->last().repeated;
+}
+
 /// Where nothing was found nothing is looked for again, as long as all of it was looked at.
 bool where_nothing_was_nothing_is_looked_for_again() {
   const auto world = std::make_unique<World>();
@@ -327,6 +377,9 @@ void tracked_first(void**) {
 }
 void repeated(void**) {
   assert_true(the_same_is_not_measured_twice());
+  assert_true(a_piece_of_what_is_known_is_not_measured_again());
+  assert_true(another_of_the_same_kind_is_measured());
+  assert_true(what_lies_in_the_box_of_a_part_is_measured());
   assert_true(where_nothing_was_nothing_is_looked_for_again());
   assert_true(the_next_picture_is_measured_anew());
 }

@@ -1,7 +1,13 @@
 #include "units/vision/region_bitmap.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include "tests/cmocka.hpp"
 #include "units/vision/table_light.hpp"
@@ -126,6 +132,62 @@ bool a_blob_at_the_border_is_cut() {
          world->bitmap.is_cut(world->bitmap.blobs()[0], world->table.picture());
 }
 
+/// A picture of squares, each of the table's or one of two parts' colours: the blobs are those that one finds
+/// by walking from square to square.
+bool blobs_are_what_hangs_together(std::uint32_t seed) {
+  constexpr int squares = 24;
+  constexpr int size = 5;  // pixels of a square's side
+  constexpr int side = squares * size;
+  std::minstd_rand random{seed};
+  std::array<int, squares * squares> kinds{};  // 0: the table
+  for (int& kind : kinds) kind = static_cast<int>(random() % 4) == 3 ? 0 : static_cast<int>(random() % 3);
+  std::vector<std::uint8_t> pixels;
+  const auto colour_of = [](int kind) {
+    return kind == 0 ? known_table_colour() : known_parts()[static_cast<std::size_t>(kind - 1)].colour;
+  };
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const SurfaceColour colour =
+          colour_of(kinds[static_cast<std::size_t>(row / size * squares + column / size)]);
+      pixels.insert(pixels.end(), {colour.red, colour.green, colour.blue});
+    }
+  }
+  std::vector<int> areas;  // squares of each blob
+  std::array<bool, squares * squares> seen{};
+  for (std::size_t first = 0; first < kinds.size(); ++first) {
+    if (seen[first] || kinds[first] == 0) continue;
+    std::vector<std::size_t> found{first};
+    seen[first] = true;
+    for (std::size_t next = 0; next < found.size(); ++next) {
+      const int column = static_cast<int>(found[next]) % squares;
+      const int row = static_cast<int>(found[next]) / squares;
+      for (const auto& [x, y] :
+           {std::pair{column - 1, row}, {column + 1, row}, {column, row - 1}, {column, row + 1}}) {
+        if (x < 0 || y < 0 || x == squares || y == squares) continue;
+        const auto to = static_cast<std::size_t>(y * squares + x);
+        if (seen[to] || kinds[to] != kinds[first]) continue;
+        seen[to] = true;
+        found.push_back(to);
+      }
+    }
+    areas.push_back(static_cast<int>(found.size()) * size * size);
+  }
+  std::sort(areas.begin(), areas.end(), std::greater<>{});
+  const auto world = std::make_unique<World>();
+  world->bitmap.take({pixels.data(), side * 3, side, side}, {0, 0, side, side}, nowhere, world->classes, {});
+  const auto blobs = world->bitmap.blobs();
+  if (blobs.size() != std::min(areas.size(), RegionBitmap::most_blobs)) return false;
+  for (std::size_t i = 0; i < blobs.size(); ++i) {
+    int cells = 0;
+    for (int row = blobs[i].top; row <= blobs[i].bottom; ++row)
+      for (int column = blobs[i].left; column <= blobs[i].right; ++column)
+        if (world->bitmap.label(column, row) == blobs[i].label) ++cells;
+    if (blobs[i].area != areas[i] || cells != areas[i]) return false;
+    if (world->bitmap.label(blobs[i].first_column, blobs[i].top) != blobs[i].label) return false;
+  }
+  return true;
+}
+
 bool any_rectangle_ends_well() {
   const auto world = std::make_unique<World>();
   for (const PixelRectangle rectangle :
@@ -166,6 +228,9 @@ void blind(void**) {
 void cut(void**) {
   assert_true(a_blob_at_the_border_is_cut());
 }
+void connected(void**) {
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) assert_true(blobs_are_what_hangs_together(seed));
+}
 void rectangles(void**) {
   assert_true(any_rectangle_ends_well());
 }
@@ -176,6 +241,6 @@ int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(colours),   cmocka_unit_test(bare_table),
                               cmocka_unit_test(shadows),   cmocka_unit_test(edges),
                               cmocka_unit_test(blind),     cmocka_unit_test(cut),
-                              cmocka_unit_test(rectangles)};
+                              cmocka_unit_test(connected), cmocka_unit_test(rectangles)};
   return cmocka_run_group_tests_name("region bitmap", tests, nullptr, nullptr);
 }
