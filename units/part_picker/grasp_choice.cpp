@@ -43,7 +43,7 @@ constexpr std::array<KnownGrasp, 12> disc_grasps = [] {
 constexpr std::array<KnownGrasp, 3> hexagon_grasps{
     {{0, 0, degrees(90), 0.036}, {0, 0, degrees(30), 0.036}, {0, 0, degrees(150), 0.036}}};
 constexpr std::array<KnownGrasp, 4> bracket_grasps{{{0.0125, -0.0061, degrees(90), 0.018},
-                                                    {-0.0111, 0.0145, 0, 0.018},
+                                                    {-0.0111, 0.0175, 0, 0.018},
                                                     {-0.0111, 0.0049, degrees(90), 0.040},
                                                     {0.0049, -0.0061, 0, 0.050}}};
 
