@@ -9,20 +9,18 @@
 
 namespace flexrf::user {
 
-void PickerMachine::choose(bool has_surveyed) noexcept {
+/// The part that takes the least time among those that can be taken with so much room; null: none can.
+const ObjectTrack* PickerMachine::find_part(const HandRoom& room, Grasp& best_grasp, const char*& blocked_by,
+                                            bool& out_of_reach) const noexcept {
   const ObjectTrack* best = nullptr;
-  Grasp best_grasp;
   double least = std::numeric_limits<double>::infinity();
-  const char* blocked_by = nullptr;
-  bool out_of_reach = false;
   for (const ObjectTrack& track : view_->tracks->tracks) {
     if (needs_survey_ || view_->nobody_looks || !is_candidate(track)) continue;
     if (!is_in_reach(track)) {
       out_of_reach = true;
       continue;
     }
-    const auto grasp =
-        free_grasp(track, *view_->tracks, plan_.hand_angle, plan_.hand, ample_room(), blocked_by);
+    const auto grasp = free_grasp(track, *view_->tracks, plan_.hand_angle, plan_.hand, room, blocked_by);
     if (!grasp) continue;
     const double cost = cost_of(*grasp);
     if (cost >= least) continue;
@@ -30,6 +28,16 @@ void PickerMachine::choose(bool has_surveyed) noexcept {
     best = &track;
     best_grasp = *grasp;
   }
+  return best;
+}
+
+void PickerMachine::choose(bool has_surveyed) noexcept {
+  Grasp best_grasp;
+  const char* blocked_by = nullptr;
+  bool out_of_reach = false;
+  const ObjectTrack* best = find_part(ample_room(), best_grasp, blocked_by, out_of_reach);
+  // Rather a way that is just free than none at all.
+  if (best == nullptr && has_surveyed) best = find_part(plan_.room, best_grasp, blocked_by, out_of_reach);
   if (best != nullptr) {
     track_ = *best;
     grasp_ = best_grasp;
@@ -59,7 +67,7 @@ void PickerMachine::choose(bool has_surveyed) noexcept {
   is_watching_ = true;
 }
 
-/// What is seen from afar is a bit elsewhere from near by: a way that is just free is not begun.
+/// What is seen from afar is a bit elsewhere from near by: a way that is just free may turn out not to be.
 HandRoom PickerMachine::ample_room() const noexcept {
   HandRoom room = plan_.room;
   room.to_obstacles += 0.004;

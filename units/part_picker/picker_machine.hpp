@@ -144,6 +144,8 @@ class PickerMachine {
   std::size_t confirmed_things() const noexcept;
   void watch() noexcept;
   void choose(bool has_surveyed) noexcept;
+  const ObjectTrack* find_part(const HandRoom& room, Grasp& best_grasp, const char*& blocked_by,
+                               bool& out_of_reach) const noexcept;
   HandRoom ample_room() const noexcept;
   bool is_candidate(const ObjectTrack& track) const noexcept;
   bool is_left_alone(std::uint32_t identity) const noexcept;
