@@ -94,11 +94,11 @@ void add_allocations(Report& report, const Json& result) {
 bool add_with_fewer_cpus(Report& report, const Json& all, int blocks, int seconds) {
   const int cpus = static_cast<int>(std::thread::hardware_concurrency());
   const auto add = [&](const Json& result, const std::string& which) {
-    Row row =
-        plain_row("visual servoing: pictures of 30 in a second that are seen to the end, " + which, "/s", 0);
+    Row row = plain_row("visual servoing: pictures of 30 in a second that a list of tracks is of, " + which,
+                        "/s", 0);
     std::vector<double> rates;
     for (const Json& block : result["blocks"])
-      rates.push_back(block["lists"].get<double>() / block["seconds"].get<double>());
+      rates.push_back(block["tracked_pictures"].get<double>() / block["seconds"].get<double>());
     row.value = estimate(rates);
     row.note = text("%llu pictures missed, %llu of %llu regions too late, %llu parts in bins",
                     static_cast<unsigned long long>(result["missed_pictures"].get<std::uint64_t>()),

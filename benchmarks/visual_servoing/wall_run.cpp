@@ -12,6 +12,7 @@
 #include "benchmarks/visual_servoing/wall_cell.hpp"
 #include "part_picker_unit.hpp"
 #include "recognition_unit.hpp"
+#include "types/track_list.hpp"
 #include "visual_features_unit.hpp"
 
 namespace flexrf::bench {
@@ -38,14 +39,14 @@ struct Counted {
   Time at;
   std::vector<double> part_seconds;
   std::uint64_t pictures = 0;
-  std::uint64_t lists = 0;  // of tracks
   std::uint64_t found = 0;  // steps of recognition with a verdict
   std::uint64_t polls = 0;
 };
 
 class Measurement {
  public:
-  explicit Measurement(WallCell& cell) : cell_(cell), picker_(cell.slot("picker.feedback")) {
+  explicit Measurement(WallCell& cell)
+      : cell_(cell), picker_(cell.slot("picker.feedback")), tracks_(cell.slot("tracks")) {
     for (const ThreadRecord& thread : cell.application().threads) names_.push_back(thread.name);
     count_allocations_of(names_);
   }
@@ -104,7 +105,6 @@ class Measurement {
       counted.part_seconds.push_back(seconds(sum));
     }
     counted.pictures = cell_.slot("features").control->published();
-    counted.lists = cell_.slot("tracks").control->published();
     counted.found = cell_.published("verdicts[");
     for (const std::size_t thread : cell_.threads("recognition")) {
       const std::uint64_t releases = cell_.state(thread).cycles;
@@ -120,6 +120,7 @@ class Measurement {
   void measure_block(double length, FirstLook& first_look) {
     const Counted before = count();
     std::vector<double> latencies;
+    tracked_pictures_ = 0;
     for (int looks = 0; MonotonicClock::now() - before.at < duration_of(length); ++looks) {
       pause(look_each);
       look(latencies);
@@ -129,7 +130,7 @@ class Measurement {
     const auto pictures = static_cast<double>(after.pictures - before.pictures);
     Json block{{"seconds", seconds(after.at - before.at)},
                {"pictures", after.pictures - before.pictures},
-               {"lists", after.lists - before.lists}};
+               {"tracked_pictures", tracked_pictures_}};
     for (std::size_t i = 0; i < std::size(parts); ++i)
       block[parts[i].part] = 1e3 * (after.part_seconds[i] - before.part_seconds[i]) / pictures;
     block["latencies_ms"] = latencies;
@@ -138,6 +139,12 @@ class Measurement {
   }
 
   void look(std::vector<double>& latencies) {
+    // Of a picture there are several lists: each verdict may change it.
+    user::TrackList list;
+    if (cell_.newest(tracks_, list) && list.frame != tracked_) {
+      tracked_ = list.frame;
+      ++tracked_pictures_;
+    }
     user::PartPickerFeedback told;
     if (!cell_.newest(picker_, told)) return;
     const Time now = MonotonicClock::now();
@@ -151,9 +158,12 @@ class Measurement {
 
   WallCell& cell_;
   const SlotRecord& picker_;
+  const SlotRecord& tracks_;
   std::vector<const char*> names_;
   Json blocks_ = Json::array();
   Json allocations_ = Json::object();
+  std::uint64_t tracked_ = 0;  // the picture that the newest list of tracks is of
+  std::uint64_t tracked_pictures_ = 0;
   double latency_ = 0;
   std::uint64_t approaches_ = 0;
   Time began_{};  // the approach under way
