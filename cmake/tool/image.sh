@@ -1,0 +1,127 @@
+# Sourced by flexrf: makes the image of an industrial PC's disk (image/disk, docs/image.md).
+# shellcheck shell=bash disable=SC2154 # shares its variables with flexrf
+
+disk_scripts=$root/image/disk
+image_folder=$root/build/image
+
+image_obstacle() {  # prints why no image can be made on this machine; nothing when one can
+  local release
+  release=$(sed -n 's/^VERSION_ID="\{0,1\}\([0-9]*\).*/\1/p' /etc/os-release 2>/dev/null)
+  if [[ $(uname -m) != x86_64 ]]; then
+    printf 'it is made for amd64, of what is built for this machine\n'
+  elif ! command -v dpkg-query >/dev/null || [[ $release != 12 ]]; then
+    printf 'it is made of packages of Debian 12, and of an application that goes with them\n'
+  fi
+}
+
+free_mib() { df -m --output=avail "$1" | tail -n 1 | tr -d ' '; } # free_mib FOLDER
+
+check_output() {  # check_output FILE: ends with a message if no image can be written there
+  local folder=${1%/*}
+  [[ $1 == */* ]] || folder=.
+  [[ -d $folder ]] || die "there is no folder $folder for the image; make it first: mkdir -p $folder"
+  [[ ! -d $1 ]] || die "$1 is a folder; name a file: --output ${1%/}/cell.img"
+  [[ ! -e $1 || -f $1 ]] || die "$1 is not an ordinary file. Make the image in a file, and copy it then: dd if=FILE of=$1 bs=4M"
+  [[ -w $folder && (! -e $1 || -w $1) ]] || die "$1 cannot be written: another place can be named by --output"
+  # Holes take no room; file systems that have none need what the image is long.
+  (($(free_mib "$folder") >= 700)) || die "there are $(free_mib "$folder") MiB left in $folder, and the image takes up to 700"
+}
+
+check_room() {  # for what the image is made of
+  mkdir -p "$image_folder" || die "$image_folder cannot be made"
+  (($(free_mib "$image_folder") >= 1500)) ||
+    die "there are $(free_mib "$image_folder") MiB left in $image_folder, and making an image takes up to 1500"
+}
+
+package_names() {  # package_names EXECUTABLE: of the root, those of its own libraries among them
+  local library
+  sed 's/ *#.*//; /^$/d; s/ .*//' "$disk_scripts/packages.txt"
+  ldd "$1" | sed -n -E 's|^.* => (/[^ ]+) \(0x[0-9a-f]+\)$|\1|p' | while read -r library; do
+    # Where it is installed, the list of its package's files may have it without /usr, or with it.
+    dpkg-query -S "$(readlink -f "$library")" "/lib/${library#*/lib/}" "/usr/lib/${library#*/lib/}" 2>/dev/null | head -n 1 | sed 's/:.*//'
+  done
+}
+
+kernel_package() {  # the package of the newest real-time kernel
+  apt-cache show --no-all-versions linux-image-rt-amd64 2>/dev/null | sed -n 's/^Depends: \(linux-image-[^ ,]*\).*/\1/p' | head -n 1
+}
+
+fetch() {  # fetch NAME...: prints the packages' files
+  bash "$disk_scripts/fetch_packages.sh" "${cache:-$image_folder}/image-packages" "$@"
+}
+
+make_image_kernel() {  # once, and anew when what it is made of has changed
+  local name package recipe
+  name=$(kernel_package)
+  [[ $name ]] || { fetch linux-image-rt-amd64 >/dev/null && name=$(kernel_package); }
+  package=$(fetch "$name") || return
+  recipe=$(cat "$disk_scripts"/{take_kernel.sh,modules.txt} - <<<"$package" | sha256sum)
+  [[ -f $image_folder/kernel.recipe && -d $image_folder/kernel && $(<"$image_folder/kernel.recipe") == "$recipe" ]] && return
+  bash "$disk_scripts/take_kernel.sh" "$package" "$image_folder/kernel" && printf '%s\n' "$recipe" >"$image_folder/kernel.recipe"
+}
+
+environment_block() {  # environment_block LINE...: as GRUB reads it
+  local text
+  text=$(printf '%s\n' '# GRUB Environment Block' "$@")$'\n'
+  ((${#text} <= 1024)) || { say "GRUB's block of 1024 bytes is too small for: $*" && return 1; }
+  printf '%s%s' "$text" "$(printf '%*s' $((1024 - ${#text})) '' | tr ' ' '#')"
+}
+
+# What GRUB reads, and what outlives updates.
+make_folders() {  # make_folders WORK KERNEL_OPTIONS
+  local work=$1
+  mkdir -p "$work"/{boot,data/{flexrf,journal},esp/{grub,flexrf}} &&
+    cp "$image_folder/kernel/vmlinuz" "$work/boot/" &&
+    environment_block "slot_options=$2" >"$work/boot/slot.env" &&
+    cp "$root/image/boot/grub.cfg" "$work/esp/grub/" &&
+    "$root/build/release/image/boot/flexrf-boot-choice" --folder "$work/esp/flexrf" create &&
+    cp "$3/panel-users" "$work/data/flexrf/" || return
+  if [[ -f $3/config.xml ]]; then cp "$3/config.xml" "$work/data/flexrf/"; fi
+}
+
+take_time() {  # take_time WHAT COMMAND...: says how long it took
+  local start what=$1
+  start=$(microseconds)
+  shift
+  "$@" || return
+  say "$what: $(since "$start")"
+}
+
+make_root() {  # make_root WORK APPLICATION PC [ARGUMENT...]
+  local work=$1 executable=$root/build/release/apps/$2/$2
+  local -a names
+  mapfile -t names < <(package_names "$executable" | sort -u)
+  fetch "${names[@]}" >"$work/packages" &&
+    bash "$disk_scripts/make_root.sh" "$work/root" "$work/packages" "$image_folder/kernel" "$executable" "$work/descriptor" "${@:3}" &&
+    mksquashfs "$work/root" "$work/root.squashfs" -noappend -quiet -no-progress -all-root -no-xattrs -comp zstd
+}
+
+make_start() {  # make_start WORK
+  local busybox
+  busybox=$(fetch busybox-static) && bash "$disk_scripts/make_start.sh" "$image_folder/kernel" "$busybox" "$1/boot/initrd.img"
+}
+
+mib() { printf '%d MiB\n' $((($1 + 1048575) / 1048576)); } # mib BYTES
+
+make_image() {  # make_image APPLICATION OUTPUT [ARGUMENT...]
+  local application=$1 output=$2 work options pc=$root/apps/$1/pc
+  shift 2
+  umask 022
+  work=$(mktemp -d "$image_folder/$application.XXXXXX")
+  # shellcheck disable=SC2064 # the folder of now
+  trap "rm -rf '$work'" EXIT
+  [[ -f $pc/machine.conf ]] || pc=$disk_scripts
+  # The same inputs give the same image: the time of files is that of the last commit.
+  SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%ct 2>/dev/null || date +%s)}
+  export SOURCE_DATE_EPOCH
+  "$root/build/release/apps/$application/$application" --descriptor </dev/null >"$work/descriptor" || die "the application does not say what it is"
+  options=$(bash "$disk_scripts/kernel_options.sh" "$work/descriptor" "$pc/machine.conf") || exit 1
+  take_time "took the kernel" make_image_kernel || die "there is no kernel for the image"
+  make_folders "$work" "$options" "$root/apps/$application" || die "what GRUB reads could not be made"
+  take_time "made the start" make_start "$work" || die "the initial RAM disk could not be made"
+  take_time "made the root" make_root "$work" "$application" "$pc" "$@" || die "the root could not be made"
+  take_time "made the disk" bash "$disk_scripts/make_disk.sh" "$output" "$work/boot" "$work/root.squashfs" "$work/data" "$work/esp" ||
+    die "the disk could not be made"
+  chmod 600 "$output" # passwords, as what Argon2id makes of them, are in it
+  say "root: $(mib "$(du -sb "$work/root" | cut -f 1)") unpacked, $(mib "$(stat -c %s "$work/root.squashfs")") as squashfs"
+}
