@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# `image` says what is wrong before it makes anything: a name, a place, room, who may log in, packages that cannot be had.
+source "$(dirname "$0")/stand_in.sh"
+
+mkdir -p "$tree/image"
+cp -r "$repository/image/disk" "$tree/image/"
+# The machine that the image is made on is one of Debian 12, wherever this runs; so much is free as a test says.
+stand_in df <<'BODY'
+printf 'Avail\n%s\n' "$(cat "$STAND_IN/free")"
+BODY
+stand_in uname <<'BODY'
+echo x86_64
+BODY
+echo 5000 >"$work/free"
+if ! grep -q '^VERSION_ID="12"' /etc/os-release; then
+  flexrf image keyboard </dev/null
+  expect "exit code elsewhere" "$status" 1
+  expect "message elsewhere" "$errors" "*there can be no image on this machine: *Debian 12*"
+  finish
+fi
+
+refused() {  # refused PATTERN ARGUMENT...: nothing is built then
+  : >"$calls"
+  flexrf image "${@:2}" </dev/null
+  expect "exit code of 'image ${*:2}'" "$status" 1
+  expect "message of 'image ${*:2}'" "$errors" "$1"
+  expect "builds of 'image ${*:2}'" "$(grep -c ^ninja "$calls")" 0
+}
+
+refused "*it takes the name of one application*./flexrf image APP*"
+refused "*unknown application 'keybord', did you mean 'keyboard'?*" keybord
+refused "*unexpected 'keyboard-single'*" keyboard keyboard-single
+refused "*unknown option '--ouput', did you mean '--output'?*" keyboard --ouput x
+refused "*--output needs the name of a file*" keyboard --output
+refused "*there is no folder $work/nowhere for the image; make it first: mkdir -p $work/nowhere" keyboard --output "$work/nowhere/cell.img"
+refused "*$work/bin is a folder; name a file: --output $work/bin/cell.img" keyboard --output "$work/bin"
+refused "*/dev/null is not an ordinary file*dd if=FILE of=/dev/null*" keyboard --output /dev/null
+refused "*nobody could log in*hint: ./flexrf password keyboard" keyboard
+echo "somebody" >"$tree/apps/keyboard/panel-users"
+echo 699 >"$work/free"
+refused "*there are 699 MiB left in *" keyboard
+echo 1000 >"$work/free"
+refused "*there are 1000 MiB left in *making an image takes up to 1500" keyboard
+echo 5000 >"$work/free"
+
+# A package that is missing is named, with what for.
+grep -v -x -e mtools "$work/installed" >"$work/less" && mv "$work/less" "$work/installed"
+touch "$work/no_network"
+refused "*mtools *could not install: mtools*" keyboard
+rm "$work/no_network"
+install_all
+
+# The packages of the image itself: neither in the lists nor to be had.
+stand_in apt-get <<'BODY'
+exit 100
+BODY
+stand_in sudo <<'BODY'
+exec "$@"
+BODY
+output=$(bash "$tree/image/disk/fetch_packages.sh" "$work/packages" dash coreutils 2>&1)
+expect "exit code without a network" $? 1
+expect "message without a network" "$output" "*not all packages could be had: dash coreutils*hint: is there a network*"
+
+# What the tables and the role map make of the kernel's command line.
+cat >"$work/descriptor" <<'BODY'
+{"threads": [{"priority": 40, "role": "control"}, {"priority": 20, "role": "io"}, {"priority": 0, "role": "any"}],
+ "devices": [{"drivers": [{"type": "modbus_rtu_link", "configuration": {"device": "/dev/ttyS0"}}]}]}
+BODY
+options() { bash "$tree/image/disk/kernel_options.sh" "$work/descriptor" "$work/machine.conf" 2>&1; }
+printf 'control = 3  # one\nio = "2"\nany = 1\n' >"$work/machine.conf"
+expect "CPUs of the roles" "$(options)" "* isolcpus=managed_irq,domain,2,3 nohz_full=2,3 rcu_nocbs=2,3 irqaffinity=0,1 *"
+expect "a serial line of the cell's own" "$(options)" "console=tty0 quiet *"
+printf 'control = 1-3\nio = 2\nrest = 0\n' >"$work/machine.conf"
+expect "lists of CPUs" "$(options)" "* isolcpus=managed_irq,domain,1,2,3 * irqaffinity=0 *"
+printf 'control = 1\n' >"$work/machine.conf"
+expect "a role without a line" "$(options)" "*have the role 'io', and there is no line for it"$'\n'"hint: io = 1"
+printf 'control = 0\nio = 1\n' >"$work/machine.conf"
+expect "nothing left" "$(options)" "*nothing is left for all others"$'\n'"hint: rest = 0"
+sed -i 's|/dev/ttyS0|/dev/ttyS2|' "$work/descriptor"
+printf 'control = 1\nio = 1\n' >"$work/machine.conf"
+expect "a serial line for the console" "$(options)" "console=tty0 console=ttyS0,115200 *"
+finish
