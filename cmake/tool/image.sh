@@ -68,15 +68,15 @@ environment_block() {  # environment_block LINE...: as GRUB reads it
 }
 
 # What GRUB reads, and what outlives updates.
-make_folders() {  # make_folders WORK KERNEL_OPTIONS
+make_folders() {  # make_folders WORK KERNEL_OPTIONS USERS CONFIGURATION
   local work=$1
   mkdir -p "$work"/{boot,data/{flexrf,journal},esp/{grub,flexrf}} &&
     cp "$image_folder/kernel/vmlinuz" "$work/boot/" &&
     environment_block "slot_options=$2" >"$work/boot/slot.env" &&
     cp "$root/image/boot/grub.cfg" "$work/esp/grub/" &&
     "$root/build/release/image/boot/flexrf-boot-choice" --folder "$work/esp/flexrf" create &&
-    cp "$3/panel-users" "$work/data/flexrf/" || return
-  if [[ -f $3/config.xml ]]; then cp "$3/config.xml" "$work/data/flexrf/"; fi
+    cp "$3" "$work/data/flexrf/panel-users" || return
+  if [[ -f $4 ]]; then cp "$4" "$work/data/flexrf/"; fi
 }
 
 take_time() {  # take_time WHAT COMMAND...: says how long it took
@@ -92,8 +92,7 @@ make_root() {  # make_root WORK APPLICATION PC [ARGUMENT...]
   local -a names
   mapfile -t names < <(package_names "$executable" | sort -u)
   fetch "${names[@]}" >"$work/packages" &&
-    bash "$disk_scripts/make_root.sh" "$work/root" "$work/packages" "$image_folder/kernel" "$executable" "$work/descriptor" "${@:3}" &&
-    mksquashfs "$work/root" "$work/root.squashfs" -noappend -quiet -no-progress -all-root -no-xattrs -comp zstd
+    bash "$disk_scripts/make_root.sh" "$work/root" "$work/packages" "$image_folder/kernel" "$executable" "$work/descriptor" "${@:3}"
 }
 
 make_start() {  # make_start WORK
@@ -101,11 +100,36 @@ make_start() {  # make_start WORK
   busybox=$(fetch busybox-static) && bash "$disk_scripts/make_start.sh" "$image_folder/kernel" "$busybox" "$1/boot/initrd.img"
 }
 
+# What a variant for tests has besides: devices that nobody has to plug in, and a report on the console. gpio-sim, which Debian's kernel
+# leaves out, is the guest's.
+add_test_devices() {  # add_test_devices WORK: makes root.test of root, and lists what differs
+  local release modules file
+  release=$(<"$image_folder/kernel/release")
+  modules=$root/build/guest/kernel/lib/modules/$release
+  mkdir -p "$guest_folder"
+  (flock 9 && make_kernel 9>&-) 9>"$guest_folder/.lock" || return
+  [[ -d $modules ]] || { say "the guest's kernel is not the image's, $release; hint: rm -r build/guest/kernel" && return 1; }
+  cp -a "$1/root" "$1/root.test" && cp -r "$disk_scripts/test/." "$1/root.test/" || return
+  while read -r file; do
+    [[ -e $1/root/usr/lib/modules/$release/$file ]] && continue
+    mkdir -p "$1/root.test/usr/lib/modules/$release/${file%/*}"
+    cp "$modules/$file" "$1/root.test/usr/lib/modules/$release/$file" || return
+  done < <(PATH=$PATH:/usr/sbin:/sbin modprobe -d "$root/build/guest/kernel" -S "$release" --show-depends -a configfs gpio_sim vivid |
+    sed -n "s|^insmod $modules/\\([^ ]*\\).*|\\1|p" | sort -u)
+  PATH=$PATH:/usr/sbin:/sbin depmod -b "$1/root.test" "$release" || return
+  say "the variant for tests differs in:"
+  diff -rq --no-dereference "$1/root" "$1/root.test" | sed "s|$1/||g" >&2
+  rm -rf "$1/root"
+  mv "$1/root.test" "$1/root"
+}
+
+pack_root() { mksquashfs "$1/root" "$1/root.squashfs" -noappend -quiet -no-progress -all-root -no-xattrs -comp zstd; } # pack_root WORK
+
 mib() { printf '%d MiB\n' $((($1 + 1048575) / 1048576)); } # mib BYTES
 
-make_image() {  # make_image APPLICATION OUTPUT [ARGUMENT...]
-  local application=$1 output=$2 work options pc=$root/apps/$1/pc
-  shift 2
+make_image() {  # make_image APPLICATION OUTPUT product|test USERS [ARGUMENT...]: USERS is the file of who may log in
+  local application=$1 output=$2 variant=$3 users=$4 work options pc=$root/apps/$1/pc
+  shift 4
   umask 022
   work=$(mktemp -d "$image_folder/$application.XXXXXX")
   # shellcheck disable=SC2064 # the folder of now
@@ -117,9 +141,11 @@ make_image() {  # make_image APPLICATION OUTPUT [ARGUMENT...]
   "$root/build/release/apps/$application/$application" --descriptor </dev/null >"$work/descriptor" || die "the application does not say what it is"
   options=$(bash "$disk_scripts/kernel_options.sh" "$work/descriptor" "$pc/machine.conf") || exit 1
   take_time "took the kernel" make_image_kernel || die "there is no kernel for the image"
-  make_folders "$work" "$options" "$root/apps/$application" || die "what GRUB reads could not be made"
+  make_folders "$work" "$options" "$users" "$root/apps/$application/config.xml" || die "what GRUB reads could not be made"
   take_time "made the start" make_start "$work" || die "the initial RAM disk could not be made"
   take_time "made the root" make_root "$work" "$application" "$pc" "$@" || die "the root could not be made"
+  if [[ $variant == test ]]; then add_test_devices "$work" || die "the devices for tests could not be had"; fi
+  take_time "packed the root" pack_root "$work" || die "the root could not be packed"
   take_time "made the disk" bash "$disk_scripts/make_disk.sh" "$output" "$work/boot" "$work/root.squashfs" "$work/data" "$work/esp" ||
     die "the disk could not be made"
   chmod 600 "$output" # passwords, as what Argon2id makes of them, are in it

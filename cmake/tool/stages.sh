@@ -276,7 +276,7 @@ show_sum() {  # in ctest's own words, over all stages; less than all is never 10
           exit failed > 0 }' "$stages"/*.counts
 }
 
-test_stages() {  # test_stages [--full | --guest [--long] [NAME...] | --quick | PRESET...]
+test_stages() {  # test_stages [--full | --guest [--long] [NAME...] | --image | --quick | PRESET...]
   local start obstacle
   local -a chosen=("${@:2}")
   ninja_options=(-k 0) # what fails to build should not keep the rest from being tested
@@ -296,6 +296,14 @@ test_stages() {  # test_stages [--full | --guest [--long] [NAME...] | --quick | 
     --guest)
       stage "build guest's tests" count_as_test build release tests_guest
       if [[ $obstacle ]]; then skip guest "$obstacle"; else stage guest guest_tests "${chosen[@]}"; fi
+      ;;
+    --image)
+      # shellcheck source=cmake/tool/image.sh
+      source "$tool/image.sh"
+      # shellcheck source=cmake/tool/image_test.sh
+      source "$tool/image_test.sh"
+      obstacle=$(image_obstacle)
+      if [[ $obstacle ]]; then skip image "$obstacle"; else stage image image_tests; fi
       ;;
     --quick)
       stage "build release" build_preset release

@@ -1,0 +1,137 @@
+# Sourced by flexrf: the image of an industrial PC's disk, tried in a virtual PC (docs/image.md). The product's image is known by its console
+# and its panel alone; what runs inside, the variant for tests tells on the console.
+# shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
+
+pc_limit=400 # s of the machine's processor time until a PC has come up: alone it takes 60. A host that does much else gives it as much as it likes
+pc_folder=$root/build/image/test
+pc_console='' pc_pid='' pc_port=''
+firmware_of_uefi=/usr/share/OVMF/OVMF_CODE_4M.fd variables_of_uefi=/usr/share/OVMF/OVMF_VARS_4M.fd
+
+start_pc() {  # start_pc NAME bios|uefi DISK: its panel is at pc_port
+  local -a machine
+  pc_console=$pc_folder/$1.console
+  pc_port=$((20000 + RANDOM % 10000))
+  : >"$pc_console"
+  # shellcheck disable=SC2054 # the commas are QEMU's
+  machine=(-machine q35 -accel tcg -cpu max -smp 2 -m 1024 -display none -no-reboot
+    -drive "file=${3//,/,,},format=raw,if=none,id=disk" -device ide-hd,drive=disk
+    -nic "user,model=e1000e,hostfwd=tcp:127.0.0.1:$pc_port-:8443" -serial "file:${pc_console//,/,,}")
+  if [[ $2 == uefi ]]; then
+    cp "$variables_of_uefi" "$pc_folder/$1.variables" || return
+    machine+=(-drive "if=pflash,format=raw,readonly=on,file=$firmware_of_uefi"
+      -drive "if=pflash,format=raw,file=${pc_folder//,/,,}/$1.variables")
+  fi
+  # It ends with this script, however that ends.
+  setpriv --pdeathsig KILL qemu-system-x86_64 "${machine[@]}" </dev/null >"$pc_folder/$1.qemu" 2>&1 &
+  pc_pid=$!
+}
+
+stop_pc() {  # as when the power goes, with what it had written on the disk
+  [[ $pc_pid ]] || return 0
+  kill -KILL "$pc_pid" 2>/dev/null
+  wait "$pc_pid" 2>/dev/null
+  pc_pid=''
+}
+
+pc_seconds() {  # the processor time that it has had, s
+  local -a field
+  read -r -a field 2>/dev/null <"/proc/$pc_pid/stat" || field=()
+  printf '%d\n' $(((field[13] + field[14]) / $(getconf CLK_TCK)))
+}
+
+console_lines() { tr -d '\r' <"$pc_console" | sed 's/\x1b\[[0-9;]*m//g'; }
+
+await_line() {  # await_line PATTERN: until the console has a line like it, which it prints; else why not
+  local lines
+  until lines=$(console_lines | grep -E -e "$1"); do
+    if ! kill -0 "$pc_pid" 2>/dev/null; then
+      printf 'the PC ended by itself before it said: %s\n' "$1"
+      return 1
+    elif (($(pc_seconds) > pc_limit)); then
+      printf 'in %d s of its processor the PC did not say: %s\n' "$pc_limit" "$1"
+      return 1
+    fi
+    sleep 0.2
+  done
+  printf '%s\n' "${lines%%$'\n'*}"
+}
+
+ask_panel() { curl -s -S -k --retry 10 --retry-all-errors --max-time 60 "https://localhost:$pc_port/"; }
+
+panel_answers() {
+  local page
+  page=$(ask_panel) || return
+  [[ $page == *'<html'* || $page == *'<!doctype html'* || $page == *'<!DOCTYPE html'* ]] && return
+  printf 'the panel answers: %s\n' "${page:0:300}"
+  return 1
+}
+
+fingerprint() {  # of the certificate that the panel shows
+  openssl s_client -connect "127.0.0.1:$pc_port" </dev/null 2>/dev/null | openssl x509 -noout -fingerprint -sha256
+}
+
+make_product() { (make_image pick-station "$pc_folder/product.img" product "$pc_folder/panel-users"); }
+make_variant() { (make_image pick-station "$pc_folder/variant.img" 'test' "$pc_folder/panel-users"); }
+
+# A disk that is larger than the image; nobody was there before.
+first_boot_by_bios() {
+  truncate -s +512M "$pc_folder/product.img" && start_pc bios bios "$pc_folder/product.img" &&
+    await_line 'first boot: data has [67][0-9][0-9] MiB' && await_line 'the cell runs' && panel_answers &&
+    fingerprint >"$pc_folder/fingerprint" && [[ $(console_lines) == *"$(<"$pc_folder/fingerprint")"* ]]
+}
+
+# The same disk, after its power went.
+second_boot_by_uefi() {
+  start_pc uefi uefi "$pc_folder/product.img" && await_line 'the cell runs' && panel_answers || return
+  [[ $(fingerprint) == "$(<"$pc_folder/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
+  ! console_lines | grep 'first boot'
+}
+
+what_runs() {
+  local wrong=0 expected lines
+  start_pc variant bios "$pc_folder/variant.img" && await_line 'report: complete' || return
+  lines=$(console_lines | sed -n 's/^.*report: //p')
+  for expected in 'cell CapEff: 0+' 'cell CapBnd: 0+' 'cell NoNewPrivs: 1' 'cell Seccomp: 2' 'cell Uid: 990.*' 'isolated 1' \
+    'mounted / squashfs ro' 'mounted /data ext4 rw' 'device gpiochip[0-9]+' 'device video[0-9]+' 'tcp6? port 8443'; do
+    grep -q -x -E "$expected" <<<"$lines" || { printf 'the report lacks: %s\n' "$expected" && wrong=1; }
+  done
+  # The client of DHCP may listen for its answers.
+  grep -E '^(tcp|udp|raw)6? port' <<<"$lines" | grep -v -x -E 'tcp6? port 8443|udp port 68|udp6 port 546|raw6 port 58' && wrong=1
+  grep -E '^(interrupt|kernel thread) ' <<<"$lines" && wrong=1
+  return "$wrong"
+}
+
+image_test() {  # image_test NUMBER NAME FUNCTION MACHINE: a line as ctest's, behind what there is to be read
+  local start line told result=Passed
+  start=$(microseconds)
+  told=$("$3" 2>&1; status=$?; stop_pc; exit "$status") || result=Failed
+  [[ $told ]] && printf '%s\n' "$told"
+  if [[ $result == Failed ]]; then
+    [[ -f $pc_folder/$4.console ]] && pc_console=$pc_folder/$4.console && echo "its console ends with:" && console_lines | tail -n 40
+    cat "$pc_folder/$4.qemu" 2>/dev/null
+    failed=$((failed + 1))
+  fi
+  line="$1/5 Test #$1: $2 "
+  while ((${#line} < 60)); do line+=.; done
+  printf '%s   %s  %s\n' "$line" "$result" "$(since "$start")"
+}
+
+image_tests() {  # five, as ctest would run them
+  local failed=0
+  rm -rf "$pc_folder"
+  mkdir -p "$pc_folder"
+  if ! build release pick-station flexrf-boot-choice flexrf-password ||
+    ! "$root/build/release/web-ui/server/access/flexrf-password" "$pc_folder/panel-users" <<<"only for this test" >/dev/null; then
+    count 1 1
+    return 1
+  fi
+  image_test 1 image_is_made make_product none
+  image_test 2 first_boot_by_bios first_boot_by_bios bios
+  image_test 3 second_boot_by_uefi second_boot_by_uefi uefi
+  image_test 4 variant_is_made make_variant none
+  image_test 5 what_runs what_runs variant
+  count 5 "$failed"
+  rm -f "$pc_folder"/*.img
+  printf '\n%d%% tests passed, %d tests failed out of 5\n' $(((5 - failed) * 100 / 5)) "$failed"
+  ((failed == 0))
+}
