@@ -54,7 +54,8 @@ grub_modules=(part_gpt fat ext2 normal configfile test regexp loadenv linux boot
 make_esp() {
   cp -r "$esp" "$work/esp"
   mkdir -p "$work/esp/EFI/BOOT"
-  grub-mkimage -O x86_64-efi -p /grub -o "$work/esp/EFI/BOOT/BOOTX64.EFI" "${grub_modules[@]}"
+  # Without a driver of the screen GRUB could not tell the kernel where it is, and nothing would be on it.
+  grub-mkimage -O x86_64-efi -p /grub -o "$work/esp/EFI/BOOT/BOOTX64.EFI" efi_gop efi_uga "${grub_modules[@]}"
   find "$work/esp" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
   # Clusters of 4 KiB: each copy of the choice has one of its own.
   truncate -s 32M "$work/esp.fat"
