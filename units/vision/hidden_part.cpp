@@ -36,14 +36,7 @@ PixelRectangle hidden_part(const CameraModel& camera, const TargetInHand* hand) 
                             static_cast<int>(high.y() - low.y() + 2 * around)};
   const PixelRectangle seen =
       common_part(held, {0, 0, static_cast<int>(camera.width), static_cast<int>(camera.height)});
-  if (seen.is_empty()) return blind;
-  if (blind.is_empty()) return seen;
-  PixelRectangle both;
-  both.left = std::min(blind.left, seen.left);
-  both.top = std::min(blind.top, seen.top);
-  both.width = std::max(blind.right(), seen.right()) - both.left;
-  both.height = std::max(blind.bottom(), seen.bottom()) - both.top;
-  return both;
+  return around_both(blind, seen);
 }
 
 }  // namespace flexrf::user
