@@ -20,6 +20,9 @@ constexpr double near_the_middle = 0.3;
 // Two boxes show the same if they have so much of the larger one in common.
 constexpr double the_same = 0.6;
 constexpr double within = 0.9;  // of a piece, to belong to what was measured
+// Pixels of the smallest piece of a part that says something. A glance that may have missed it says nothing
+// of the regions within: theirs is finer.
+constexpr std::uint32_t smallest_piece = 100;
 // Jobs of pictures that are gone are put away so many at a time, that a step ends.
 constexpr int most_outdated = 64;
 // Of luminance and of opponent colours, 0 to 255: less differs on a bare table by noise, texture and light.
@@ -34,12 +37,10 @@ PixelRectangle rectangle_of(const VisionRegion& job) {
   return {own.left - across, own.top - down, own.width + 2 * across, own.height + 2 * down};
 }
 
-/// Nothing was found in a region that has all of the job's within it: what lies there was seen with all that
-/// is around it. What is flat was not judged by its pixels, and in a track's region only the expected is
-/// looked for.
+/// There was but the table in a region that has all of the job's within it.
 bool covers(const VisionVerdict& nothing, const VisionRegion& job) {
   const VisionRegion& seen = nothing.region;
-  if (nothing.pixels == 0 || seen.member == no_member) return false;
+  if (!nothing.bare) return false;
   return seen.left <= job.left && seen.top <= job.top && seen.left + seen.width >= job.left + job.width &&
          seen.top + seen.height >= job.top + job.height;
 }
@@ -233,6 +234,7 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
       {runtime.least_support, runtime.most_residual, runtime.least_obstacle, runtime.obstacle_height});
   feedback.pixels += finder_.pixels();
   nothing.pixels = finder_.pixels();
+  nothing.bare = at.is_empty() && at.least <= smallest_piece;
   if (findings.empty()) {
     ++feedback.nothing;
     note(nothing);

@@ -53,6 +53,7 @@ Glance PartFinder::glance(const PictureView& picture, const PixelRectangle& rect
                           const PixelRectangle& blind) noexcept {
   Glance seen;
   seen.pixels = look(picture, rectangle, blind, glance_scale(rectangle));
+  seen.least = bitmap_.smallest_blob();
   const Blob* const blob = blob_in_the_middle_of(rectangle);
   if (blob == nullptr) return seen;
   seen.pixel_class = blob->pixel_class;

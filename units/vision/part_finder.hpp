@@ -41,6 +41,7 @@ struct Glance {
   std::uint8_t pixel_class = class_table;  ///< of that
   bool is_cut = false;                     ///< it goes on beyond what was looked at
   std::uint32_t pixels = 0;                ///< that were looked at
+  std::uint32_t least = 0;                 ///< pixels of the smallest thing that it can see
 
   /// To measure in a whole rectangle without a glance.
   static Glance none(const PixelRectangle& rectangle) noexcept {

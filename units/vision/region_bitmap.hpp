@@ -45,6 +45,10 @@ class RegionBitmap {
   int columns() const noexcept { return columns_; }
   int rows() const noexcept { return rows_; }
   int scale() const noexcept { return scale_; }  ///< pixels along a cell's side
+  /// Pixels of the smallest blob there can be: what has less is taken for noise, the more the larger a cell is.
+  std::uint32_t smallest_blob() const noexcept {
+    return least_cells_ * static_cast<std::uint32_t>(scale_ * scale_);
+  }
   /// Of the blob that a cell belongs to, 0: none. Outside of the bitmap 0.
   std::uint8_t label(int column, int row) const noexcept {
     return is_inside(column, row) ? labels_[place(column, row)] : std::uint8_t{0};

@@ -78,9 +78,9 @@ it('each rectangle lies on what it is about, picture after picture', async () =>
 it('what is not found any more is said to be old, and goes', async () => {
   await expect.poll(() => state('Sights'), { timeout: within }).toBe('2 drawn');
   await setStopped(beside, 0, true);
-  // The other still looks.
+  // The other still looks, and is now and then a picture late.
   await expect.poll(drawn, { timeout: within }).toEqual(['8?']);
-  expect(await state('Sights')).toBe('1 drawn');
+  await expect.poll(() => state('Sights'), { timeout: within }).toBe('1 drawn');
   await setStopped(beside, 1, true);
   await expect.poll(() => state('Sights'), { timeout: within }).toMatch(/^⚠ nothing of this picture; the last is \d+\.\d\d s older$/);
   expect(await drawn()).toEqual([]);

@@ -269,6 +269,41 @@ bool where_nothing_was_nothing_is_looked_for_again() {
   return pixels > 0 && covered && !world->last().repeated && world->bench.feedback().pixels > pixels;
 }
 
+/// What lies in the middle of a region is no part: that says nothing of what lies apart from it.
+bool beside_what_was_no_part_a_part_is_found() {
+  const auto world = std::make_unique<World>();
+  const Eigen::Vector2d speck = block_pose.position + Eigen::Vector2d(0, 0.048);
+  world->table.put(rectangle_of_tests(0.012, 0.012, 0.002, {70, 70, 75}), {speck, 0});
+  world->frames.draw(world->table.picture(4));
+  world->give();
+  world->found.push(world->job_at(speck, 0.15));
+  world->step();
+  const bool no_part = world->last().verdict == VisualClass::nothing && world->last().pixels > 0;
+  world->found.push(world->job_at(block_pose.position, 0.05));
+  world->step();
+  return no_part && world->count() == 2 && !world->last().repeated && world->last_is(0, block_pose);
+}
+
+/// A glance at most of the picture does not see small things: it says nothing of the regions within.
+bool what_a_coarse_glance_misses_is_found() {
+  const auto world = std::make_unique<World>();
+  DrawnTable table{tool};
+  const Eigen::Vector2d small(0.45, 0.0);
+  table.put(rectangle_of_tests(0.0155, 0.0155, 0.004, {70, 70, 75}), {small, 0});
+  world->frames.draw(table.picture(4));
+  world->give();
+  VisionRegion all = world->job_at(small);
+  all.left = all.top = 0;
+  all.width = 640;
+  all.height = 480;
+  world->found.push(all);
+  world->step();
+  const bool missed = world->last().verdict == VisualClass::nothing;
+  world->found.push(world->job_at(small, 0.05));
+  world->step();
+  return missed && world->count() == 2 && world->last().verdict == VisualClass::obstacle;
+}
+
 /// Of the next picture it is something else.
 bool the_next_picture_is_measured_anew() {
   const auto world = std::make_unique<World>();
@@ -381,6 +416,8 @@ void repeated(void**) {
   assert_true(another_of_the_same_kind_is_measured());
   assert_true(what_lies_in_the_box_of_a_part_is_measured());
   assert_true(where_nothing_was_nothing_is_looked_for_again());
+  assert_true(beside_what_was_no_part_a_part_is_found());
+  assert_true(what_a_coarse_glance_misses_is_found());
   assert_true(the_next_picture_is_measured_anew());
 }
 void outdated(void**) {
