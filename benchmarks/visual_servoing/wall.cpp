@@ -75,6 +75,8 @@ void add_latency(Report& report, const Json& result, const std::string& conditio
     row.value = quantile_of_all(result, "latencies_ms", one.share, cycle);
     report.add(with_goal(row, one.goal));
   }
+  report.add(plain_row("visual servoing: processor time that the host gave to others meanwhile", "%",
+                       100 * result["stolen_share"].get<double>(), "of all CPUs' time"));
 }
 
 void add_allocations(Report& report, const Json& result) {

@@ -1,10 +1,14 @@
 // The cell by the wall clock: `servoing_wall FILE BLOCKS SECONDS` writes as JSON, block by block, what its
 // threads used, how many pictures were seen, how late the arm heard of each, how recognition found its jobs,
 // and what was allocated.
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
 
 #include "benchmarks/harness.hpp"
 #include "benchmarks/visual_servoing/first_look.hpp"
@@ -35,6 +39,17 @@ constexpr struct {
              {"attention", {"attention"}},
              {"recognition", {"recognition", "tracks"}}};
 
+/// Of all CPUs together since the start, in s: a virtual machine's CPUs had work, and the host gave its own
+/// to others.
+double stolen_time() {
+  std::ifstream file("/proc/stat");
+  std::string name;
+  double ticks = 0;
+  file >> name;
+  for (int i = 0; i < 8; ++i) file >> ticks;  // user, nice, system, idle, iowait, irq, softirq, steal
+  return ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
 struct Counted {
   Time at;
   std::vector<double> part_seconds;
@@ -54,12 +69,17 @@ class Measurement {
   void run(int blocks, double seconds) {
     settle_thread(-1, 1);  // what it measures is a millisecond old at most, whatever else has to be done
     pause(warming_up);
+    const double stolen = stolen_time();
+    const Time began = MonotonicClock::now();
     std::vector<std::uint64_t> allocations;
     for (std::size_t i = 0; i < names_.size(); ++i) allocations.push_back(allocations_of(i));
     FirstLook first_look(cell_);
     for (int block = 0; block < blocks; ++block) measure_block(seconds, first_look);
     for (std::size_t i = 0; i < names_.size(); ++i)
       allocations_[names_[i]] = allocations_of(i) - allocations[i];
+    const double all_cpus = flexrf::seconds(MonotonicClock::now() - began) *
+                            static_cast<double>(std::thread::hardware_concurrency());
+    stolen_share_ = (stolen_time() - stolen) / all_cpus;
   }
 
   /// After the application ended.
@@ -87,6 +107,7 @@ class Measurement {
     result["polls_that_found"] = all.found;
     const auto& picker = *static_cast<const user::PartPickerFeedback*>(feedback("picker"));
     result["approaches"] = picker.approaches;
+    result["stolen_share"] = stolen_share_;
     result["binned"] = picker.binned;
     return result;
   }
@@ -162,6 +183,7 @@ class Measurement {
   std::vector<const char*> names_;
   Json blocks_ = Json::array();
   Json allocations_ = Json::object();
+  double stolen_share_ = 0;
   std::uint64_t tracked_ = 0;  // the picture that the newest list of tracks is of
   std::uint64_t tracked_pictures_ = 0;
   double latency_ = 0;

@@ -252,7 +252,7 @@ void Executive::request_end() noexcept {
 RunSummary Executive::run() {
   RunSummary summary;
   if (!options_.virtual_time) set_log_origin(began_);
-  if (cell_.application().autostart) cell_.control().permit_motion_at_power_on();
+  if (cell_.application().autostart && options_.autostart) cell_.control().permit_motion_at_power_on();
   signals::ignore_what_writes_tell();
   if (options_.virtual_time) {
     run_in_virtual_time(summary);
@@ -312,9 +312,12 @@ std::vector<Status> Executive::say_last(std::vector<std::string> texts) {
 
 void Executive::begin_running() noexcept {
   cell_.control().rise_to(Mode::running);
-  if (cell_.application().autostart) {
-    log_warning(cell_.application().name, "autostart: actuators may move without a person's Start");
-  }
+  const Application& application = cell_.application();
+  if (!application.autostart) return;
+  if (options_.autostart)
+    log_warning(application.name, "autostart: actuators may move without a person's Start");
+  else
+    log_info(application.name, "autostart does not count (--no-autostart): nothing moves before a Start");
 }
 
 // ---- virtual time

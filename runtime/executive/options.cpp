@@ -25,6 +25,8 @@ constexpr std::array own_options{
     Option{"--standstill-limit", OptionKind::duration, "DURATION",
            "instead of the application's: what is a fault of time missed at a stretch"},
     Option{"--no-realtime", OptionKind::flag, nullptr, "ordinary priorities; refused with a real actuator"},
+    Option{"--no-autostart", OptionKind::flag, nullptr,
+           "nothing moves before a person gives Start, whatever the table says"},
     Option{"--descriptor", OptionKind::flag, nullptr, "print descriptor.json and end"},
     Option{"--version", OptionKind::flag, nullptr, "which application of which FlexRF this is"},
     Option{"--help", OptionKind::flag, nullptr, "this text"},
@@ -175,6 +177,7 @@ Status read_own(const Application& application, Options& options) {
   options.standstill_limit = values.duration("--standstill-limit");
   options.digest = values.has("--digest");
   options.realtime = !values.has("--no-realtime");
+  options.autostart = !values.has("--no-autostart");
   options.status_view = true;
   const std::string_view seed = values.text("--seed", "1");
   const auto [end, error] = std::from_chars(seed.data(), seed.data() + seed.size(), options.seed);

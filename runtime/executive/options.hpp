@@ -29,6 +29,7 @@ struct Options {
   std::optional<Duration> standstill_limit;  ///< instead of the application's
   std::uint64_t seed = 1;
   bool realtime = true;
+  bool autostart = true;     ///< false: the table's does not count
   bool status_view = false;  ///< show the live status while standard output is a terminal
   bool digest = false;
   /// All that was given, in order, for the observer and the drivers too. The values are the arguments

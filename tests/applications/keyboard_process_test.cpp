@@ -207,6 +207,18 @@ void a_moving_arm_comes_to_rest_on_its_way() {
     CHECK(std::abs(error.get<double>()) < 2e-3);
 }
 
+/// The same keys, and nobody gives Start.
+// [stop-91]
+void without_autostart_no_key_moves_the_arm() {
+  const Folder folder;
+  write_file(folder / "keys", "0.1 a\n0.1 a\n");
+  const Ending ending = run(folder, {application, "--virtual-time", "2s", "--keys", "keys", "--report",
+                                     "report", "--no-autostart"});
+  CHECK_EQUAL(ending.exit_code, 0);
+  CHECK_CONTAINS(ending.errors, "nothing moves before a Start");
+  check_moved(Report(folder / "report"), 0, 0, 0);
+}
+
 // [stop-7] [stop-66] [stop-70] [stop-73]
 void a_second_start_names_the_holder() {
   const Folder folder;
@@ -260,6 +272,7 @@ int main() {
       CONTAINED_TEST(a_signal_lets_the_arm_come_to_rest),
       CONTAINED_TEST(a_signal_at_the_start_is_a_controlled_stop),
       CONTAINED_TEST(a_moving_arm_comes_to_rest_on_its_way),
+      CONTAINED_TEST(without_autostart_no_key_moves_the_arm),
       CONTAINED_TEST(a_second_start_names_the_holder),
       CONTAINED_TEST(ten_thousand_keys_are_all_counted),
   };

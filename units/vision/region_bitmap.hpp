@@ -45,7 +45,7 @@ class RegionBitmap {
   int columns() const noexcept { return columns_; }
   int rows() const noexcept { return rows_; }
   int scale() const noexcept { return scale_; }  ///< pixels along a cell's side
-  /// Pixels of the smallest blob there can be: what has less is taken for noise, the more the larger a cell is.
+  /// Pixels of the smallest blob there can be. What has less is taken for noise: the more, the larger a cell.
   std::uint32_t smallest_blob() const noexcept {
     return least_cells_ * static_cast<std::uint32_t>(scale_ * scale_);
   }

@@ -66,6 +66,22 @@ void autostart_lifts_it_at_power_on() {
   for (const bool inhibited : machine.inhibited) CHECK(!inhibited);
 }
 
+// [stop-91]
+void without_autostart_the_table_does_not_count() {
+  Cell cell;
+  cell.autostart = true;
+  std::vector<bool> inhibited;
+  cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
+    inhibited.push_back(tick.motion_inhibited && unit.device->is_inhibited());
+  };
+  Options options = in_virtual_time(milliseconds{10});
+  options.autostart = false;
+  Executive executive(cell.application(), options);
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  CHECK(!inhibited.empty());
+  for (const bool one : inhibited) CHECK(one);
+}
+
 // [stop-4] [stop-5] [stop-8] [stop-9] [stop-11]
 void start_lets_move_and_stop_motion_ends_it_in_the_next_period() {
   Machine machine(false, milliseconds{60}, [](Machine& self, std::uint64_t number) {
@@ -207,6 +223,7 @@ int main() {
   const CMUnitTest tests[] = {
       CONTAINED_TEST(nothing_moves_before_start),
       CONTAINED_TEST(autostart_lifts_it_at_power_on),
+      CONTAINED_TEST(without_autostart_the_table_does_not_count),
       CONTAINED_TEST(start_lets_move_and_stop_motion_ends_it_in_the_next_period),
       CONTAINED_TEST(stop_motion_counts_before_the_first_step),
       CONTAINED_TEST(a_hold_lasts_as_long_as_its_lease_is_refreshed),
