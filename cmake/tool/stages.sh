@@ -200,11 +200,11 @@ quick_tests() {  # the release build's tests whose reads are not as they were wh
 
 declare -A build_targets=() test_selection=() # of a preset, where that is not everything
 choose_extent() {  # choose_extent full|some: which tests of the sanitizers' presets
-  build_targets=([fuzz]=tests_fuzz)
-  test_selection=([fuzz]='-L ^fuzz$')
+  # Without a second thread there is nothing that the thread sanitizer could find; a test that starts one unsaid fails in release.
+  build_targets=([fuzz]=tests_fuzz [tsan]='tests_threads tests_whole tests_stress')
+  test_selection=([fuzz]='-L ^fuzz$' [tsan]='-L ^(threads|whole|stress)$')
   [[ $1 == full ]] && return
-  # Whole cells are what takes long under a sanitizer, and what the other presets run already. Without a second thread there
-  # is nothing that the thread sanitizer could find.
+  # Whole cells are what takes long under a sanitizer, and what the other presets run already.
   build_targets[asan]='tests_unit tests_stress' test_selection[asan]='-L ^(unit|stress)$'
   build_targets[tsan]=tests_threads test_selection[tsan]='-L ^threads$'
 }

@@ -7,13 +7,14 @@
 
 namespace flexrf::config_gen {
 
-constexpr std::array<std::string_view, 19> own_options = {"--audit",
+constexpr std::array<std::string_view, 20> own_options = {"--audit",
                                                           "--config",
                                                           "--descriptor",
                                                           "--digest",
                                                           "--hardware",
                                                           "--help",
                                                           "--insecure-http",
+                                                          "--no-autostart",
                                                           "--no-realtime",
                                                           "--panel",
                                                           "--panel-edit-timeout",
