@@ -44,7 +44,7 @@ expect "long tests" "$(sort -u <(grep ^long: "$calls"))" "long: unset"
 flexrf test --full </dev/null
 expect "exit code of --full" "$status" 0
 expect "long tests of --full" "$(sort -u <(grep ^long: "$calls"))" "long: 1"
-expect "selections of --full" "$(grep '^ctest.* -L' "$calls" | LC_ALL=C sort)" "*/fuzz * -L ^fuzz\$"$'\n'"* -L ^panel\$"$'\n'"* -LE ^panel\$"
+expect "selections of --full" "$(grep '^ctest.* -L' "$calls" | LC_ALL=C sort)" "*/fuzz * -L ^fuzz\$"$'\n'"* -L ^panel\$"$'\n'"* -LE ^panel\$"$'\n'"*/tsan * -L ^(threads|whole|stress)\$"
 expect "what is built of fuzz" "$(grep "^ninja .*/fuzz" "$calls")" "*tests_fuzz"
 
 : >"$calls"
