@@ -52,7 +52,7 @@ find_package(Threads REQUIRED)
 pkg_check_modules(cmocka REQUIRED IMPORTED_TARGET cmocka)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
-foreach(label unit stress threads whole long guest)
+foreach(label unit stress threads whole virtual long guest)
   add_custom_target(tests_${label})
 endforeach()
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/guest_tests.txt
@@ -78,10 +78,10 @@ endfunction()
 
 # flexrf_add_test(NAME name SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT seconds] [SERIAL] [THREADS]
 #                 [PRECOMPILED target])
-# One CMocka executable that ctest runs. Labels: unit (default), stress, whole; long beside one of these for what only
-# `flexrf test --full` runs. SERIAL: nothing else runs meanwhile, for a test that needs the CPUs to itself. THREADS: a unit or
-# stress test that starts threads, which `flexrf test` gives to the thread sanitizer, too; one that does not say so fails
-# in the release build. PRECOMPILED: the library of LIBRARIES whose precompiled headers the test is built with. The target
+# One CMocka executable that ctest runs. Labels: unit (default), stress, whole for whole cells, virtual for those in virtual
+# time; long beside one of these for what only `flexrf test --full` runs. SERIAL: nothing else runs meanwhile, for a test that
+# needs the CPUs to itself. THREADS: a unit or stress test that starts threads, which `flexrf test` gives to the thread
+# sanitizer, too; one that does not say so fails in the release build, and so does one of virtual time that starts a thread. PRECOMPILED: the library of LIBRARIES whose precompiled headers the test is built with. The target
 # tests_<label> builds the tests of a label.
 function(flexrf_add_test)
   cmake_parse_arguments(PARSE_ARGV 0 test "SERIAL;THREADS" "NAME;TIMEOUT;PRECOMPILED" "SOURCES;LIBRARIES;LABELS")
