@@ -1,6 +1,6 @@
-// Preloaded to the tests of the release build that do not declare THREADS (flexrf_add_test) and are no whole cells
-// in real time: one that starts a thread all the same ends here, as the thread sanitizer, which gets the others
-// only, would not see it.
+// Preloaded to the tests of the release build that do not declare THREADS (flexrf_add_test) and are no whole
+// cells in real time: one that starts a thread all the same ends here, as the thread sanitizer, which gets
+// the others only, would not see it.
 #include <dlfcn.h>
 #include <pthread.h>
 #include <unistd.h>
