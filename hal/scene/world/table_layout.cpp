@@ -8,11 +8,20 @@ namespace {
 
 constexpr double whole_turn = 6.28318530717958647693;  // rad
 constexpr double least_distance = 0.006;               // m between what stands by itself
+/// m from obstacles to a part that comes anew: a hand finds a way to it, or parts that it cannot take would
+/// become ever more, until all that lies there is one.
+constexpr double room_for_a_hand = 0.045;
 constexpr int most_tries = 300;
 constexpr int most_tables = 20;
 
 double gap(const Footprint& one, const Footprint& other, double enough) noexcept {
   return separation_of(one, other, enough).gap;
+}
+
+bool is_far_from_obstacles(const SceneState& state, const Footprint& placed, double distance) noexcept {
+  return std::all_of(state.obstacles.begin(), state.obstacles.end(), [&](const SceneBody& obstacle) {
+    return obstacle.kind == SceneKind::none || gap(placed, footprint_of(obstacle), distance) > distance;
+  });
 }
 
 /// Farther than `distance` from all but itself and `neighbour`, from which it only is apart.
@@ -23,10 +32,7 @@ bool is_free(const SceneState& state, const Footprint& placed, std::size_t part,
     const double least = i == neighbour ? 0 : distance;
     if (gap(placed, footprint_of(state.parts[i]), least) <= least) return false;
   }
-  for (const SceneBody& obstacle : state.obstacles)
-    if (obstacle.kind != SceneKind::none && gap(placed, footprint_of(obstacle), distance) <= distance)
-      return false;
-  return true;
+  return is_far_from_obstacles(state, placed, distance);
 }
 
 bool is_in_area(const Footprint& placed) noexcept {
@@ -44,12 +50,15 @@ PlaneVector any_place(SceneRandom& random, double margin) noexcept {
   return {x, y};
 }
 
-bool lay_by_itself(SceneState& state, std::size_t part, SceneKind kind, SceneRandom& random) noexcept {
+bool lay_by_itself(SceneState& state, std::size_t part, SceneKind kind, SceneRandom& random,
+                   double to_obstacles = least_distance) noexcept {
   for (int i = 0; i < most_tries; ++i) {
     const PlaneVector place = any_place(random, 0.025);
     const SceneBody body = part_at(kind, place, random.between(0, whole_turn));
     const Footprint placed = footprint_of(body);
-    if (!is_in_area(placed) || !is_free(state, placed, part, least_distance)) continue;
+    if (!is_in_area(placed) || !is_free(state, placed, part, least_distance) ||
+        !is_far_from_obstacles(state, placed, to_obstacles))
+      continue;
     state.parts[part] = body;
     return true;
   }
@@ -159,7 +168,7 @@ void lay_table(SceneState& state, SceneRandom& random) noexcept {
 bool lay_part(SceneState& state, std::size_t part, std::span<const Solid> solids,
               SceneRandom& random) noexcept {
   const SceneBody before = state.parts[part];
-  if (!lay_by_itself(state, part, before.kind, random)) return false;
+  if (!lay_by_itself(state, part, before.kind, random, room_for_a_hand)) return false;
   const Footprint placed = footprint_of(state.parts[part]);
   for (const Solid& solid : solids) {
     const Outline section = solid.section(placed.low, placed.high);

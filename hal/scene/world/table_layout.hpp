@@ -16,8 +16,8 @@ inline constexpr std::size_t laid_obstacles = 4;
 /// All is put away before. Nothing but `random` decides.
 void lay_table(SceneState& state, SceneRandom& random) noexcept;
 
-/// A part at a free place, upright and on the table; `solids` are in the way, too. False: none was found, and
-/// the part is as it was.
+/// A part at a free place, upright and on the table, and so far from obstacles that a hand finds a way to it;
+/// `solids` are in the way, too. False: none was found, and the part is as it was.
 bool lay_part(SceneState& state, std::size_t part, std::span<const Solid> solids,
               SceneRandom& random) noexcept;
 

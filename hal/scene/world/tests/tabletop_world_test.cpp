@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "hal/scene/world/table_layout.hpp"
 #include "hal/scene/world/tests/world_bench.hpp"
 #include "tests/cmocka.hpp"
 
@@ -101,6 +102,24 @@ bool the_seed_lays_the_table() {
   const bool is_new = !is_same(one, same);
   same.lay_table();
   return is_new && is_same(one, same);
+}
+
+// Else there would lie, in the end, nothing but what a hand cannot take.
+bool what_comes_anew_stands_where_a_hand_has_room() {
+  SceneRandom random;
+  random.seed(5);
+  for (int table = 0; table < 20; ++table) {
+    SceneState state{};
+    lay_table(state, random);
+    for (std::size_t i = 0; i < most_parts; ++i) {
+      if (!lay_part(state, i, {}, random)) return false;
+      const Footprint part = footprint_of(state.parts[i]);
+      for (const SceneBody& obstacle : state.obstacles)
+        if (separation_of(part, footprint_of(obstacle), 1).gap < 0.045) return false;
+      if (least_gap(state, i) < 0.006) return false;
+    }
+  }
+  return true;
 }
 
 // Closed fingers, 16 mm along y and 20 along x, come from the arm's side against the middle of a block.
@@ -226,6 +245,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(judged<a_table_is_laid_as_promised>),
       cmocka_unit_test(judged<the_seed_lays_the_table>),
+      cmocka_unit_test(judged<what_comes_anew_stands_where_a_hand_has_room>),
       cmocka_unit_test(judged<what_is_touched_moves>),
       cmocka_unit_test(judged<pushed_beside_its_middle_it_turns>),
       cmocka_unit_test(judged<pushed_parts_push_others>),
