@@ -134,7 +134,7 @@ bool random_disturbances_are_survived() {
   std::uint64_t given_up = 0;
   std::uint64_t lost = 0;
   std::uint64_t binned = 0;
-  for (std::uint32_t seed = 1; seed <= 16; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 24; ++seed) {
     PickerWorld world;
     world.lay_table();
     world.wishes.rest = std::chrono::seconds(2);
