@@ -81,8 +81,9 @@ endfunction()
 # One CMocka executable that ctest runs. Labels: unit (default), stress, whole for whole cells, virtual for those in virtual
 # time; long beside one of these for what only `flexrf test --full` runs. SERIAL: nothing else runs meanwhile, for a test that
 # needs the CPUs to itself. THREADS: a unit or stress test that starts threads, which `flexrf test` gives to the thread
-# sanitizer, too; one that does not say so fails in the release build, and so does one of virtual time that starts a thread. PRECOMPILED: the library of LIBRARIES whose precompiled headers the test is built with. The target
-# tests_<label> builds the tests of a label.
+# sanitizer, too; one that does not say so fails in the release build, and so does one of virtual time that starts a thread.
+# PRECOMPILED: the library of LIBRARIES whose precompiled headers the test is built with. The target tests_<label> builds the
+# tests of a label.
 function(flexrf_add_test)
   cmake_parse_arguments(PARSE_ARGV 0 test "SERIAL;THREADS" "NAME;TIMEOUT;PRECOMPILED" "SOURCES;LIBRARIES;LABELS")
   if(NOT test_LABELS)

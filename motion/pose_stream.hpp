@@ -4,7 +4,8 @@
 // In each cycle the tool moves on along the fastest way to rest at the latest pose that its limits in
 // Cartesian space allow: of velocity, acceleration and jerk, for its position and its orientation each
 // (pose_motion.hpp says how, and from where the mathematics is). So it never waits for a plan, and where no
-// other pose comes it is at rest at the last one.
+// other pose comes it is at rest at the last one. From rest to a pose that stays the way is straight; led on
+// to another pose while it moves, it bows.
 //
 // The joints follow within their ranges and velocities (guarded_motion.hpp): where they could not, the tool
 // is slowed down, or comes to rest before, on its way. Near a singularity joints would have to be too fast,

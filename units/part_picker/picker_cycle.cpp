@@ -77,7 +77,7 @@ void PickerMachine::descend() noexcept {
     return fail(PickerState::target_lost, "it was moved away");
   if (needs_opening_) open_for_grasp();
   // From there the camera no longer sees all of the part.
-  is_frozen_ = is_frozen_ || is_at(at_grasp(plan_.straight_height), picker::passes_straight);
+  is_frozen_ = is_frozen_ || is_at(at_grasp(plan_.straight_height), picker::last_seen_within);
   // Only from rest the stream's way is a straight line: an arm that was led on from its slanted way swung by
   // up to 16 mm between obstacles that stood 4 mm beside it.
   is_straight_ = is_straight_ || (is_frozen_ && view_->arm_rests);

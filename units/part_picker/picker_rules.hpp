@@ -15,7 +15,8 @@ namespace flexrf::user::picker {
 inline constexpr double passes_height = 0.02;
 inline constexpr double passes_point = 0.03;
 inline constexpr double passes_over = 0.012;
-inline constexpr double passes_straight = 0.008;
+// So near the place above the grasp the part's place is as seen last; there the arm comes to rest.
+inline constexpr double last_seen_within = 0.008;
 // Where it has to be: as near as joint sensors tell. In m and rad.
 inline constexpr double arrives = 0.006;
 inline constexpr double arrives_at_grasp = 0.002;

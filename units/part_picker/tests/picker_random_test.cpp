@@ -168,7 +168,7 @@ bool random_disturbances_are_survived() {
     }
   }
   // It was disturbed indeed.
-  return interrupted > 50 && given_up > 10 && lost > 5 && binned > 100;
+  return interrupted > 75 && given_up > 15 && lost > 8 && binned > 150;
 }
 
 template <bool (*Run)()>
