@@ -7,13 +7,14 @@
 
 namespace flexrf::config_gen {
 
-constexpr std::array<std::string_view, 20> own_options = {"--audit",
+constexpr std::array<std::string_view, 21> own_options = {"--audit",
                                                           "--config",
                                                           "--descriptor",
                                                           "--digest",
                                                           "--hardware",
                                                           "--help",
                                                           "--insecure-http",
+                                                          "--motion-permit",
                                                           "--no-autostart",
                                                           "--no-realtime",
                                                           "--panel",

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <span>
 
 #include "base/status.hpp"
@@ -93,21 +94,42 @@ class Control {
   /// autostart: actuators may move from power-on. Before anything is initialised, so that no unit takes the
   /// moment in between for an inhibition.
   void permit_motion_at_power_on() noexcept { started_.store(true, std::memory_order_seq_cst); }
-  /// A person's Start: actuators may move. Refused while Stop motion is latched or the application is not
-  /// running.
-  Status start_motion() noexcept {
+  /// Nothing moves, and Start is refused with this reason, until permit_motion(); after that everything waits
+  /// for a new Start. Any thread but a real-time one.
+  void forbid_motion(const Status& reason) noexcept {
+    {
+      const std::lock_guard lock(forbidding_);
+      forbidden_because_ = reason;
+      forbidden_.store(true, std::memory_order_seq_cst);
+    }
+    require_start();
+  }
+  void permit_motion() noexcept { forbidden_.store(false, std::memory_order_seq_cst); }
+
+  /// Why Start would be refused now. Any thread but a real-time one.
+  Status check_start() const noexcept {
     if (stop_motion_.load(std::memory_order_seq_cst)) {
       return Status::error(StatusCode::not_permitted, "Stop motion is latched; clear it before Start");
+    }
+    if (forbidden_.load(std::memory_order_seq_cst)) {
+      const std::lock_guard lock(forbidding_);
+      return forbidden_because_;
     }
     if (demands_.load(std::memory_order_seq_cst) != 0) {
       return Status::error(
           StatusCode::not_permitted,
           "an emergency-stop input does not permit motion; release it, or see to its wiring");
     }
-    if (const Status status = check_running(); !status) return status;
+    return check_running();
+  }
+  /// A person's Start: actuators may move. Refused where check_start() says so. Any thread but a real-time
+  /// one.
+  Status start_motion() noexcept {
+    if (const Status status = check_start(); !status) return status;
     started_.store(true, std::memory_order_seq_cst);
-    // A stop that came in between wins.
-    if (stop_motion_.load(std::memory_order_seq_cst) || demands_.load(std::memory_order_seq_cst) != 0)
+    // What came in between wins.
+    if (stop_motion_.load(std::memory_order_seq_cst) || forbidden_.load(std::memory_order_seq_cst) ||
+        demands_.load(std::memory_order_seq_cst) != 0)
       started_.store(false, std::memory_order_seq_cst);
     wake_all();
     return {};
@@ -123,7 +145,7 @@ class Control {
   bool motion_stopped() const noexcept { return stop_motion_.load(std::memory_order_acquire); }
   bool may_move() const noexcept {
     return started_.load(std::memory_order_acquire) && !stop_motion_.load(std::memory_order_acquire) &&
-           demands_.load(std::memory_order_acquire) == 0;
+           !forbidden_.load(std::memory_order_acquire) && demands_.load(std::memory_order_acquire) == 0;
   }
 
   /// The process is about to be stopped by somebody's wish, and what its threads miss is no fault of theirs.
@@ -166,6 +188,9 @@ class Control {
   std::atomic<bool> stop_motion_{false};
   std::atomic<bool> safe_state_{false};
   std::atomic<bool> started_{false};
+  std::atomic<bool> forbidden_{false};
+  mutable std::mutex forbidding_;
+  Status forbidden_because_;  // under the mutex
   std::atomic<bool> on_break_{false};
   std::atomic<std::int64_t> longest_standstill_{0};
   std::atomic<std::int64_t> looked_at_{0};

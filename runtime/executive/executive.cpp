@@ -140,6 +140,7 @@ Executive::Executive(const Application& application, Options options)
       lifecycle_(cell_, !options_.virtual_time.has_value()),
       began_(MonotonicClock::now()),
       saver_(cell_),
+      permit_(cell_.control(), application.name, options_.motion_permit_file),
       output_(cell_),
       audit_(cell_, options_) {}
 
@@ -253,6 +254,8 @@ RunSummary Executive::run() {
   RunSummary summary;
   if (!options_.virtual_time) set_log_origin(began_);
   if (cell_.application().autostart && options_.autostart) cell_.control().permit_motion_at_power_on();
+  // Before anything is initialised, so that nothing moves that may not.
+  permit_.observe(MonotonicClock::now());
   signals::ignore_what_writes_tell();
   if (options_.virtual_time) {
     run_in_virtual_time(summary);
@@ -501,6 +504,7 @@ void Executive::supervise(RunSummary& summary) {
       running_since = now;
       summary.start_time = now - began_;
     }
+    permit_.observe(now);
     supervision.observe(now);
     heartbeats.observe(now, supervision.is_stuck());
     manager.observe(now, control);

@@ -14,6 +14,7 @@
 #include "runtime/executive/cell.hpp"
 #include "runtime/executive/component_actions.hpp"
 #include "runtime/executive/lifecycle.hpp"
+#include "runtime/executive/motion_permit.hpp"
 #include "runtime/executive/observer.hpp"
 #include "runtime/executive/output_thread.hpp"
 #include "runtime/executive/reconfiguration.hpp"
@@ -111,6 +112,7 @@ class Executive {
   Time log_time_{};  // of what is said before and after virtual time runs
   Time began_{};
   ValueSaver saver_;
+  MotionPermit permit_;
   OutputThread output_;
   Audit audit_;  // says in the log what it writes: ends before the output does
 };

@@ -27,6 +27,8 @@ constexpr std::array own_options{
     Option{"--no-realtime", OptionKind::flag, nullptr, "ordinary priorities; refused with a real actuator"},
     Option{"--no-autostart", OptionKind::flag, nullptr,
            "nothing moves before a person gives Start, whatever the table says"},
+    Option{"--motion-permit", OptionKind::text, "FILE",
+           "nothing moves unless this file says `permitted`; else its first line says why not"},
     Option{"--descriptor", OptionKind::flag, nullptr, "print descriptor.json and end"},
     Option{"--version", OptionKind::flag, nullptr, "which application of which FlexRF this is"},
     Option{"--help", OptionKind::flag, nullptr, "this text"},
@@ -178,12 +180,17 @@ Status read_own(const Application& application, Options& options) {
   options.digest = values.has("--digest");
   options.realtime = !values.has("--no-realtime");
   options.autostart = !values.has("--no-autostart");
+  options.motion_permit_file = values.text("--motion-permit", "");
   options.status_view = true;
   const std::string_view seed = values.text("--seed", "1");
   const auto [end, error] = std::from_chars(seed.data(), seed.data() + seed.size(), options.seed);
   if (error != std::errc{} || end != seed.data() + seed.size()) {
     return Status::error(StatusCode::invalid_argument, "--seed %s: give a whole number from 0 to 2^64-1",
                          seed.data());
+  }
+  if (!options.motion_permit_file.empty() && options.virtual_time) {
+    return Status::error(StatusCode::invalid_argument,
+                         "--motion-permit has no meaning with --virtual-time: nothing there can move");
   }
   if (options.digest && !options.virtual_time) {
     return Status::error(StatusCode::invalid_argument,

@@ -25,6 +25,7 @@ struct Options {
   std::string report_file;               ///< empty: none
   /// Who did what. Empty: beside the configuration file, and without one nowhere; "off": nowhere.
   std::string audit_file;
+  std::string motion_permit_file;            ///< who else permits motion (MotionPermit); empty: nobody
   bool observed = false;                     ///< somebody observes: memory is locked for its threads too
   std::optional<Duration> standstill_limit;  ///< instead of the application's
   std::uint64_t seed = 1;

@@ -202,9 +202,15 @@ Status lock_all_memory() noexcept {
                          "no more memory can be mapped and locked; RLIMIT_MEMLOCK is %s",
                          Amount(limit_of(RLIMIT_MEMLOCK)).text);
   unsigned char resident = 0;
-  const bool known = mincore(sample, page, &resident) == 0;
+  const int error = mincore(sample, page, &resident) == 0 ? 0 : errno;
   munmap(sample, page);
-  if (!known || (resident & 1) == 0)
+  if (error != 0)
+    return Status::error(
+        error == EPERM ? StatusCode::not_permitted : StatusCode::internal,
+        "whether new memory is locked cannot be found out: mincore(): %s; a filter of system "
+        "calls, as a service or a container has, has to let mincore through",
+        strerrordesc_np(error));
+  if ((resident & 1) == 0)
     return Status::error(StatusCode::internal, "mlockall was accepted, but new memory is not faulted in");
   return {};
 #endif

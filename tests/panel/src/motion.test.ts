@@ -1,10 +1,12 @@
 // Holds, and everything that ends one; Stop motion, clearing it, and Start.
 import { spawn } from 'node:child_process';
-import { afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import { renameSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { afterEach, beforeAll, beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import type { Browser } from 'playwright-core';
 import {
-  Cable, Viewer, familyOf, freezer, launchProcess, screenshot, signal, tidyUp, unlessKeptWaiting, useApplication, useBrowser,
-  violations, within, type Application, type Rest,
+  Application, Cable, Viewer, familyOf, freezer, launchProcess, screenshot, signal, tidyUp, unlessKeptWaiting, useApplication, useBrowser,
+  violations, within, type Rest,
 } from './harness';
 
 interface Feedback {
@@ -361,4 +363,40 @@ describe('Stop motion', () => {
     expect((await rest.ask('stop-motion', { method: 'POST' })).status).toBeLessThan(300);
     await other.close();
   });
+});
+
+// [stop-92] [stop-93]
+it('whoever else permits motion on the machine is asked before Start, and what he says is read', async () => {
+  const word = join(running.folder, 'motion');
+  const say = (text: string): void => {
+    writeFileSync(`${word}.new`, text);
+    renameSync(`${word}.new`, word);
+  };
+  const asking = await Application.start('panel_cell', { arguments: ['--motion-permit', word] });
+  onTestFinished(() => tidyUp(() => watcher.close(), () => asking.end()));
+  const script = await asking.admin();
+  const watcher = await Viewer.open(browser(), asking.base, { session: script.cookie });
+  const { page } = watcher;
+  await watcher.takeControl();
+  const start = page.getByRole('button', { name: 'Start motion' });
+  const says = (text: string) => page.getByText(text).first().waitFor();
+  await says(`this machine has not permitted motion: ${word}: No such file or directory`);
+  expect(await start.isDisabled()).toBe(true);
+  say('it is being updated\n');
+  await says('this machine does not permit motion: it is being updated');
+  expect(await start.isDisabled()).toBe(true);
+  await screenshot(page, 'motion-not-permitted');
+  expect(await violations(page)).toEqual([]);
+  // By no other way either.
+  const refused = await script.ask('start-motion', { method: 'POST' });
+  expect(refused.status).toBeGreaterThanOrEqual(400);
+  expect(refused.text).toContain('it is being updated');
+  say('permitted\n');
+  await start.click();
+  await says('Motion enabled');
+  say('it is being updated\n');
+  await says('Motion inhibited');
+  say('permitted\n');
+  await expect.poll(() => start.isDisabled(), { timeout: within }).toBe(false);
+  expect((await script.ask('state')).body.motion).toMatchObject({ may_move: false, start_refused: '' });
 });

@@ -22,6 +22,7 @@ std::uint64_t StateEvent::signature() const noexcept {
   Digest digest;
   digest.add(static_cast<std::uint64_t>(control.mode()));
   digest.add((control.motion_stopped() ? 2U : 0U) + (control.may_move() ? 1U : 0U));
+  digest.add_text(control.check_start().cause());
   digest.add(control.faults());
   for (std::size_t place = 0; place < places_.count(); ++place)
     digest.add(static_cast<std::uint64_t>(places_.extent(place)));
@@ -107,7 +108,8 @@ void StateEvent::write(std::string& text, SessionIndex you, Time now) const {
   json.begin_object();
   json.member("mode", name_of(control.mode())).member("cause", name_of(control.cause()));
   json.key("motion").begin_object().member("stopped", control.motion_stopped());
-  json.member("may_move", control.may_move()).key("stopped_by");
+  json.member("may_move", control.may_move());
+  json.member("start_refused", control.check_start().cause()).key("stopped_by");
   if (const auto stop = executive_->audit().stopped_by(); stop && control.motion_stopped()) {
     json.begin_object()
         .member("who", static_cast<const char*>(stop->who))

@@ -62,7 +62,8 @@ export function deniedControl(situation: Situation): string {
 /** Why nothing can be held now: what is held moves something, and ends with Stop motion. */
 function deniedMotion({ state }: Situation): string {
   if (state?.motion.stopped) return 'motion is stopped';
-  return state?.motion.may_move ? '' : 'motion is inhibited: give Start motion';
+  if (state?.motion.may_move) return '';
+  return `motion is inhibited: ${state?.motion.start_refused || 'give Start motion'}`;
 }
 
 /** Why a control of this item is dead now, whatever kind of control it is; empty when it acts. */

@@ -82,6 +82,8 @@ export interface ApplicationState {
   readonly motion: {
     readonly stopped: boolean;
     readonly may_move: boolean;
+    /** Why Start would be refused now; empty or none: it would not. */
+    readonly start_refused?: string;
     /** Who stopped; at_ms since 1970. */
     readonly stopped_by?: { readonly who: string; readonly at_ms: number } | null;
   };

@@ -167,8 +167,9 @@ export class Header extends ShellPart {
     const [op, label] = motion === 'stopped' ? ['clear_stop_motion', 'Clear stop'] as const
       : motion === 'inhibited' ? ['start_motion', 'Start motion'] as const : [];
     const denied = op ? core.deniedAction('operator') : '';
+    const refused = op === 'start_motion' ? core.state?.motion.start_refused ?? '' : '';
     const settled = this.#settled.is(op ?? '');
-    const note = [motion === 'stopped' ? stopText(core.state) : '', denied && `${label}: ${denied}`].filter((part) => part !== '').join(' · ');
+    const note = [motion === 'stopped' ? stopText(core.state) : refused, denied && `${label}: ${denied}`].filter((part) => part !== '').join(' · ');
     return html`
       <div class="line first">
         <h1>${core.application || 'FlexRF'}</h1>
@@ -191,7 +192,7 @@ export class Header extends ShellPart {
           <div class="said" title=${note || nothing}><span class=${['running', 'starting', 'unknown'].includes(mode) ? '' : 'warning'}>${modeText(mode)}</span>
             <span class=${abnormal}>${abnormal === 'alarm' ? '■ ' : abnormal ? '⚠ ' : ''}${motionText[motion]}</span>
             <small>${note}</small></div>
-          ${op ? html`<button ?disabled=${denied !== '' || !settled} title=${denied || nothing} @click=${() => this.ask(op)}>${label}</button>` : nothing}
+          ${op ? html`<button ?disabled=${denied !== '' || refused !== '' || !settled} title=${denied || refused || nothing} @click=${() => this.ask(op)}>${label}</button>` : nothing}
         </div>
         <flexrf-control class=${stale} .core=${core}></flexrf-control>
       </div>

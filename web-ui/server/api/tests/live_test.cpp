@@ -45,7 +45,8 @@ void a_page_is_greeted_and_told_the_state() {
           {{"name", "panel-2"}, {"role", "operator"}, {"local", true}, {"user", "olga"}, {"lapsed", false}}));
   json state = rig.event(link, "state");
   CHECK_EQUAL(state.at("mode").get<std::string>(), "running");
-  CHECK(state.at("motion") == json({{"stopped", false}, {"may_move", true}, {"stopped_by", nullptr}}));
+  CHECK(state.at("motion") ==
+        json({{"stopped", false}, {"may_move", true}, {"start_refused", ""}, {"stopped_by", nullptr}}));
   CHECK(state.at("control").at("holder").is_null());
   CHECK(state.at("edit").is_null());
   // What changes is told at once, and to whom it happens.

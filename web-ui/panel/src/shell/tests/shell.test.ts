@@ -29,7 +29,7 @@ describe('parts of the shell', () => {
 
   const noticed: string[] = [];
 
-  function say(control: object, motion = { stopped: false, may_move: true }, faults: object[] = [], mode = 'running'): void {
+  function say(control: object, motion: object = { stopped: false, may_move: true }, faults: object[] = [], mode = 'running'): void {
     socket.say({
       event: 'state', mode, cause: '', motion, faults, control, edit: null,
       server: { connections: 1, places: 8, loop_delay_us: { p99: 1, max: 2 } },
@@ -70,6 +70,18 @@ describe('parts of the shell', () => {
     vi.unstubAllGlobals();
   });
 
+  it('Start that would be refused cannot be pressed, and says why', async () => {
+    const header = await shown<Header>('flexrf-header');
+    const mine = { holder: you, wanted_by: null };
+    say(mine, { stopped: false, may_move: false, start_refused: 'this machine does not permit motion: it is being updated' });
+    await vi.advanceTimersByTimeAsync(2000);
+    expect(button(header, /Start motion/).disabled).toBe(true);
+    expect(header.shadowRoot?.textContent).toContain('this machine does not permit motion: it is being updated');
+    say(mine, { stopped: false, may_move: false, start_refused: '' });
+    await vi.advanceTimersByTimeAsync(2000);
+    expect(button(header, /Start motion/).disabled).toBe(false);
+    expect(header.shadowRoot?.textContent).not.toContain('updated');
+  });
   it('Stop motion is given when the button goes down, not when it comes up', async () => {
     const stop = button(await shown<StopMotion>('flexrf-stop-motion'), /Stop motion/);
     stop.dispatchEvent(new MouseEvent('pointerdown', { button: 0 }));
