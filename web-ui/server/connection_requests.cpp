@@ -1,4 +1,5 @@
 // What a connection does with a request that is complete.
+#include <algorithm>
 #include <optional>
 
 #include "web-ui/server/connection.hpp"
@@ -31,9 +32,14 @@ unsigned Connection::fault_of_header(std::string_view& detail) const {
     return 405;
   }
   const bool changes = header.method == Method::put || header.method == Method::post;
-  if (changes && !parser_->body().empty() && !is_media_type(header.content_type, "application/json")) {
-    detail = "the body has to be application/json";
-    return 415;
+  if (changes && !parser_->body().empty()) {
+    const auto& types = surroundings_.settings.body_types;
+    const auto is_it = [&](std::string_view type) { return is_media_type(header.content_type, type); };
+    if (std::none_of(types.begin(), types.end(), is_it)) {
+      detail = types.front() == "application/json" ? "the body has to be application/json"
+                                                   : "the body has to be a form's";
+      return 415;
+    }
   }
   return 0;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "base/time.hpp"
@@ -19,6 +20,9 @@ struct ServerSettings {
   /// rest at most. Who has nothing to say makes room for who comes.
   std::uint32_t places = 32;
   std::vector<Address> local;     ///< at the machine, beside loopback
+  /// What a body may be. Pages of others cannot send JSON or bytes without asking first; a form they can, so who
+  /// takes forms has to know its own.
+  std::vector<std::string_view> body_types{"application/json"};
   bool loopback_is_local = true;  ///< else it is where a tunnel or a proxy ends
   Duration header_timeout = std::chrono::seconds{5};
   Duration body_timeout = std::chrono::seconds{10};

@@ -12,9 +12,12 @@ bool is_change(const Request& request) noexcept {
   return request.upgrade || (request.method != Method::get && request.method != Method::head);
 }
 
-/// The page itself holds nothing of the application: whoever is to log in needs it.
-bool is_open(std::string_view path) noexcept {
-  return path == "/api/v1/login" || !(path.starts_with("/api/") || path.starts_with("/application/"));
+/// The page itself holds nothing of the application: whoever is to log in needs it. Who supervises this
+/// machine asks for its health without a login.
+bool is_open(const Request& request) noexcept {
+  const std::string_view path = request.path;
+  return path == "/api/v1/login" || (path == "/api/v1/health" && request.loopback) ||
+         !(path.starts_with("/api/") || path.starts_with("/application/"));
 }
 
 /// Null data: there is no such parameter.
@@ -71,7 +74,7 @@ bool Entrance::admit(const Request& request, SessionIndex& session, Reply& reply
       return false;
     }
   }
-  if (session != no_session || is_open(request.path)) return true;
+  if (session != no_session || is_open(request)) return true;
   if (access_.needs_login()) {
     answer_problem(reply, 401, "Log in first: open the page, or POST user and password to /api/v1/login.");
   } else if (request.loopback) {

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "runtime/face/json_parts.hpp"
+#include "web-ui/server/api/health.hpp"
 #include "web-ui/server/api/log_lines.hpp"
 
 namespace flexrf::panel {
@@ -57,6 +58,8 @@ void RestHandler::serve(const Request& request, Reply& reply, const Caller& call
   }
   // The latch comes before everything that could go wrong.
   if (found.route->operation == "stop_motion") return parts_.operations.motion.stop_motion(caller);
+  // Who supervises this machine has no login, and may not depend on one.
+  if (found.route->resource == Resource::health && request.loopback) return write_health(reply);
   if (!parts_.permission.has_role(caller, Role::viewer, "see this")) return;
   if (found.route->method == Method::get) {
     read(found, request, reply, caller, now);
@@ -88,6 +91,8 @@ void RestHandler::read(const Match& found, const Request& request, Reply& reply,
       parts_.state.update(now);
       reply.text.assign("{").append(parts_.state.members_for(caller.session));
       return finish(request, reply);
+    case Resource::health:
+      return write_health(reply);
     case Resource::components:
       return list(Topic::components);
     case Resource::slots:
@@ -163,6 +168,16 @@ void RestHandler::finish_json(const Request& request, Reply& reply, JsonWriter& 
 void RestHandler::finish_fixed(const Request& request, Reply& reply, const Document& document) {
   reply.cache_control = "no-cache";
   answer_fixed(request, reply, document.bytes());
+  parts_.operations.answers.answered();
+}
+
+void RestHandler::write_health(Reply& reply) {
+  const std::string why_not = why_not_healthy(parts_.executive.cell());
+  reply.text.clear();
+  JsonWriter json(std::move(reply.text));
+  json.begin_object().member("healthy", why_not.empty()).member("why_not", why_not).end_object();
+  reply.text = json.release();
+  reply.status = why_not.empty() ? 200 : 503;
   parts_.operations.answers.answered();
 }
 

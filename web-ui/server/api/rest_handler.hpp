@@ -44,6 +44,7 @@ class RestHandler {
   void act(const Match& match, const Request& request, const Caller& caller, Time now);
   void put_parameters(const Match& match, const Request& request, JsonObject values, const Caller& caller,
                       Time now);
+  void write_health(Reply& reply);
   void write_audit(const Request& request, Reply& reply, const Caller& caller);
   void write_slot(JsonWriter& json, std::uint16_t slot);
   void ask_picture(std::uint16_t slot, const Request& request, const Caller& caller, Time now);

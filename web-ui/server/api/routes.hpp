@@ -17,6 +17,7 @@ enum class Resource : std::uint8_t {
   openapi,
   descriptor,
   state,
+  health,  ///< open to this machine
   components,
   component,
   get_parameters,

@@ -219,10 +219,19 @@ void before_logging_in_there_is_only_the_page(void**) {
   assert_int_equal(session, no_session);
   assert_int_equal(refusal_of(Method::get, "/assets/index-1234.js"), 0);
   assert_int_equal(refusal_of(Method::post, "/api/v1/login"), 0);
-  for (const char* path : {"/api/v1/session", "/api/v1/state", "/api/v1/live", "/api/v1/descriptor",
-                           "/application/arm.urdf", "/api/v1/loginx", "/api/v1/openapi.json"})
+  for (const char* path :
+       {"/api/v1/session", "/api/v1/state", "/api/v1/live", "/api/v1/descriptor", "/application/arm.urdf",
+        "/api/v1/loginx", "/api/v1/openapi.json", "/api/v1/healthy"})
     assert_int_equal(refusal_of(Method::get, path), 401);
   assert_int_equal(refusal_of(Method::post, "/api/v1/stop-motion"), 401);
+}
+
+void this_machine_asks_for_health_without_a_login(void**) {
+  assert_int_equal(refusal_of(Method::get, "/api/v1/health"), 0);
+  assert_int_equal(session, no_session);
+  request.loopback = false;
+  request.remote_address = "10.0.0.9";
+  assert_int_equal(refusal_of(Method::get, "/api/v1/health"), 401);
 }
 
 void after_it_the_cookie_opens(void**) {
@@ -256,6 +265,7 @@ int main() {
       cmocka_unit_test_setup(the_token_is_for_this_machine, begin),
       cmocka_unit_test_setup(wrong_tokens_count_as_failed_logins, begin),
       cmocka_unit_test_setup(before_logging_in_there_is_only_the_page, begin_with_logins),
+      cmocka_unit_test_setup(this_machine_asks_for_health_without_a_login, begin_with_logins),
       cmocka_unit_test_setup(after_it_the_cookie_opens, begin_with_logins),
       cmocka_unit_test_setup(without_passwords_others_see_nothing, begin),
   };

@@ -1,5 +1,6 @@
 // Reading by REST, the table of routes, and the document that describes it.
 #include <algorithm>
+#include <atomic>
 
 #include "web-ui/server/api/routes.hpp"
 #include "web-ui/server/api/tests/rig.hpp"
@@ -186,6 +187,30 @@ void an_admin_reads_who_did_what() {
   CHECK_EQUAL(rig.request(Method::get, "audit", an_admin, "", "", "", "after=x").status, 400U);
 }
 
+void health_is_one_word() {
+  ProducerAndConsumer cell;
+  std::atomic<bool> fails{false};
+  cell.unit(ProducerAndConsumer::producer).script.step = [&fails](fixture::TestUnit& unit, const Tick&) {
+    if (fails) unit.fail(Status::error(StatusCode::device_fault, "the gripper lost its part"));
+  };
+  Rig rig(cell);
+  rig.start();
+  const Answer healthy = rig.get("health");
+  CHECK_EQUAL(healthy.status, 200U);
+  CHECK(healthy.body == json({{"healthy", true}, {"why_not", ""}}));
+  CHECK_EQUAL(rig.get("health", no_session).status, 403U);
+  Request request;
+  request.path = "/api/v1/health";
+  request.loopback = true;
+  Reply reply;
+  CHECK(rig.api().handle(request, reply, {0, 999'999}) == Handled::now);
+  CHECK_EQUAL(reply.status, 200U);
+  fails = true;
+  CHECK(rig.wait_until([&] { return rig.get("health").status == 503U; }));
+  CHECK_EQUAL(rig.get("health").body.at("why_not").get<std::string>(),
+              "unit producer is in fault: the gripper lost its part");
+}
+
 void the_state_says_who_stopped() {
   ProducerAndConsumer cell;
   Rig rig(cell);
@@ -214,6 +239,7 @@ int main() {
       CONTAINED_TEST(the_document_describes_every_route),
       CONTAINED_TEST(a_generated_client_can_log_in_and_change_what_it_has_read),
       CONTAINED_TEST(an_admin_reads_who_did_what),
+      CONTAINED_TEST(health_is_one_word),
       CONTAINED_TEST(the_state_says_who_stopped),
       CONTAINED_TEST(the_descriptor_comes_compressed_to_who_takes_it),
   };
