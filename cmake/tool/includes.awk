@@ -10,7 +10,7 @@ BEGIN {
   may["units"] = "base runtime motion units hal"
   may["config-gen"] = "base config-gen"
   may["web-ui"] = "base runtime web-ui"
-  may["image"] = "base image"
+  may["image"] = "base runtime web-ui image"
   # Of runtime/, from below; run stands above these. What a folder's library links follows it (runtime/*/CMakeLists.txt).
   within["core"] = "core"
   within["log"] = "core log"

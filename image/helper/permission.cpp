@@ -1,0 +1,23 @@
+#include "image/helper/permission.hpp"
+
+namespace flexrf::helper {
+
+bool is_confirmed(const Facts& facts) noexcept {
+  return facts.choice && facts.running.slot && facts.choice->of(*facts.running.slot).is_confirmed;
+}
+
+bool has_another_turn(const Facts& facts) noexcept {
+  return facts.choice && facts.running.slot && facts.running.why == "trial" && !is_confirmed(facts) &&
+         facts.choice->of(other(*facts.running.slot)).is_whole;
+}
+
+std::string permission_of(const Facts& facts) {
+  if (!facts.is_claimed) return "nobody has claimed this PC: there is no admin with a password";
+  if (!facts.choice) return "which version of this PC counts cannot be told: " + facts.choice_failure;
+  if (!facts.running.slot) return "this PC was not started by its own boot loader, which names the version";
+  if (!is_confirmed(facts))
+    return "this version has not confirmed itself; it does when it has been healthy for a minute";
+  return "permitted";
+}
+
+}  // namespace flexrf::helper

@@ -1,0 +1,30 @@
+// Whether anything may move on this PC: the helper's word for the application (--motion-permit).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/status.hpp"
+#include "image/boot/choice.hpp"
+
+namespace flexrf::helper {
+
+/// What is known of this PC at one moment.
+struct Facts {
+  bool is_claimed = false;  ///< somebody has the password of an admin
+  boot::Running running;    ///< what GRUB told
+  /// What the disk says; none: it cannot be read, and `choice_failure` says why.
+  std::optional<boot::Choice> choice;
+  std::string choice_failure;
+};
+
+/// Whether the version that runs has confirmed itself. False when that cannot be told.
+bool is_confirmed(const Facts& facts) noexcept;
+/// A version on trial that does not come to be healthy gives up its turn by a restart: there is another one
+/// that is whole.
+bool has_another_turn(const Facts& facts) noexcept;
+
+/// "permitted", or why nothing may move, in one line: what the operator reads at Start.
+std::string permission_of(const Facts& facts);
+
+}  // namespace flexrf::helper
