@@ -4,7 +4,7 @@ import { networkInterfaces, tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-const build = process.env['FLEXRF_BUILD'] ?? fileURLToPath(new URL('../../../../build/release', import.meta.url));
+export const build = process.env['FLEXRF_BUILD'] ?? fileURLToPath(new URL('../../../../build/release', import.meta.url));
 
 const ownApplications = ['panel_cell', 'brief_session', 'sight_cell', 'contest'] as const;
 export type ApplicationName = 'keyboard' | 'keyboard-single' | 'pick-station' | 'visual-servoing' | (typeof ownApplications)[number];

@@ -1,0 +1,166 @@
+// flexrf-claim: serves the page by which somebody claims a new industrial PC, and ends when that is done
+// (docs/image.md).
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "base/standard_descriptors.hpp"
+#include "image/claim/claim_service.hpp"
+#include "web-ui/server/access/panel_access.hpp"
+#include "web-ui/server/encryption.hpp"
+#include "web-ui/server/listen_address.hpp"
+#include "web-ui/server/server.hpp"
+
+namespace {
+
+using namespace flexrf;
+using namespace flexrf::claim;
+
+constexpr const char* usage =
+    "flexrf-claim [OPTION...]\n"
+    "Serves the page by which somebody sets a new PC's first password, with a code that is shown here.\n"
+    "options:\n"
+    "  --users FILE               gets the first user; else /data/flexrf/panel-users. It must not be there\n"
+    "  --listen ADDRESS:PORT      else 0.0.0.0:8443\n"
+    "  --tls-certificate FILE     else /data/flexrf/panel.crt\n"
+    "  --tls-key FILE             else /data/flexrf/panel.key\n"
+    "Exit code: 0 claimed; 1 wrong usage; 2 something failed; 3 ended by a signal before anybody came.\n";
+
+struct Arguments {
+  std::string users = "/data/flexrf/panel-users";
+  std::string listen = "0.0.0.0:8443";
+  std::string certificate = "/data/flexrf/panel.crt";
+  std::string key = "/data/flexrf/panel.key";
+};
+
+/// Whoever stands before the PC reads this.
+void say(const std::string& line) {
+  std::printf("%s\n", line.c_str());
+  std::fflush(stdout);
+}
+
+int fail(int code, const std::string& why) {
+  std::fprintf(stderr, "flexrf-claim: %s\n%s", why.c_str(), code == 1 ? usage : "");
+  return code;
+}
+
+/// "192.168.1.7, 169.254.3.4": those by which others reach this PC; empty: none yet.
+std::string own_addresses() {
+  ifaddrs* first = nullptr;
+  if (getifaddrs(&first) != 0) return {};
+  std::string all;
+  for (const ifaddrs* one = first; one != nullptr; one = one->ifa_next) {
+    if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET ||
+        (one->ifa_flags & IFF_LOOPBACK) != 0)
+      continue;
+    std::array<char, INET_ADDRSTRLEN> text{};
+    const auto* const address = reinterpret_cast<const sockaddr_in*>(one->ifa_addr);
+    if (inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size()) == nullptr) continue;
+    all.append(all.empty() ? "" : ", ").append(text.data());
+  }
+  freeifaddrs(first);
+  return all;
+}
+
+std::string machine_name() {
+  std::array<char, 65> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 && name[0] != '\0' ? name.data() : "This PC";
+}
+
+/// Says the code again when this PC gets another address: only then it is known where to go.
+class TellingService final : public panel::Service {
+ public:
+  TellingService(ClaimService& service, Claim& claim) : service_(service), claim_(claim) {}
+
+  bool admit(const panel::Request& request, panel::SessionIndex& session, panel::Reply& reply) override {
+    return service_.admit(request, session, reply);
+  }
+  void on_connection_closed(std::uint32_t place) override { service_.on_connection_closed(place); }
+  panel::Handled handle(const panel::Request& request, panel::Reply& reply, panel::Ticket ticket) override {
+    return service_.handle(request, reply, ticket);
+  }
+  panel::LiveService& live() noexcept override { return service_.live(); }
+  Duration until_next(Time now) const override { return service_.until_next(now); }
+  void on_tick(Time now) override;
+
+  void use(panel::Server& server) noexcept { server_ = &server; }
+
+ private:
+  ClaimService& service_;
+  Claim& claim_;
+  panel::Server* server_ = nullptr;
+  std::string addresses_;
+  std::string code_;
+  Time next_look_{};
+};
+
+volatile std::sig_atomic_t asked_to_end = 0;
+
+void TellingService::on_tick(Time now) {
+  service_.on_tick(now);
+  if (service_.may_end() || asked_to_end != 0) server_->stop();
+  if (now < next_look_ || claim_.is_done()) return;
+  next_look_ = now + std::chrono::seconds{2};
+  const std::string addresses = own_addresses();
+  const std::string code = claim_.code().text();
+  if (addresses == addresses_ && code == code_) return;
+  addresses_ = addresses;
+  code_ = code;
+  say("Nobody has claimed this PC. The code is  " + code + "  at https://ADDRESS:" +
+      std::to_string(server_->port()) + "/  ADDRESS: " + (addresses.empty() ? "none yet" : addresses));
+}
+
+}  // namespace
+
+int main(int argument_count, char** words) {
+  hold_standard_descriptors();
+  Arguments arguments;
+  for (int i = 1; i < argument_count; ++i) {
+    const std::string word = words[i];
+    if (word == "--help" || word == "-h") {
+      std::fputs(usage, stdout);
+      return 0;
+    }
+    std::string* const value = word == "--users"             ? &arguments.users
+                               : word == "--listen"          ? &arguments.listen
+                               : word == "--tls-certificate" ? &arguments.certificate
+                               : word == "--tls-key"         ? &arguments.key
+                                                             : nullptr;
+    if (value == nullptr) return fail(1, "there is no option '" + word + "'");
+    if (++i == argument_count) return fail(1, word + " needs a value");
+    *value = words[i];
+  }
+  const Result<panel::ListenAddress> address = panel::parse_listen_address(arguments.listen);
+  if (!address) return fail(1, std::string{"--listen: "} + address.status().cause());
+  if (access(arguments.users.c_str(), F_OK) == 0)
+    return fail(2, arguments.users + " is there: this PC is claimed already");
+  if (!panel::prepare_cryptography()) return fail(2, "this system has no source of randomness");
+  auto encryption = panel::make_encryption(arguments.certificate, arguments.key);
+  if (!encryption) return fail(2, encryption.status().cause());
+
+  const auto end = [](int) { asked_to_end = 1; };
+  std::signal(SIGTERM, end);
+  std::signal(SIGINT, end);
+  std::signal(SIGPIPE, SIG_IGN);
+  Claim claim(arguments.users);
+  ClaimService service(claim, machine_name());
+  TellingService telling(service, claim);
+  panel::ServerSettings settings;
+  settings.slow_call = std::chrono::seconds{10};
+  settings.body_types = {"application/x-www-form-urlencoded"};
+  panel::Server server(settings, std::move(*encryption), telling);
+  telling.use(server);
+  if (const Status listens = server.listen(*address); !listens) return fail(2, listens.cause());
+  server.run();
+  if (!claim.is_done()) return 3;
+  say("This PC is claimed.");
+  return 0;
+}

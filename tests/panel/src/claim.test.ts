@@ -1,0 +1,83 @@
+// A PC that nobody has claimed, in a browser: the code on its console, the first password, and the panel after it.
+import { spawn, spawnSync } from 'node:child_process';
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import { expect, it, onTestFinished } from 'vitest';
+import { Application, build, newFolder, screenshot, sizes, tidyUp, useBrowser, violations, within } from './harness';
+
+const browser = useBrowser();
+const password = 'a long password of anna';
+
+/** What a first boot leaves: a key, a certificate, and nobody who may log in. */
+function newPc(): { folder: string; encryption: string[] } {
+  const folder = newFolder();
+  const [key, certificate] = [join(folder, 'key.pem'), join(folder, 'certificate.pem')];
+  const made = spawnSync('openssl', ['req', '-x509', '-newkey', 'ec', '-pkeyopt', 'ec_paramgen_curve:prime256v1', '-nodes', '-days', '1',
+    '-keyout', key, '-out', certificate, '-subj', '/CN=cell']);
+  expect(made.status).toBe(0);
+  return { folder, encryption: ['--tls-certificate', certificate, '--tls-key', key] };
+}
+
+it('the code on the console and a password claim the PC, and the panel knows them', { timeout: 3 * within }, async () => {
+  const pc = newPc();
+  const users = join(pc.folder, 'users');
+  const claim = spawn(join(build, 'image/claim/flexrf-claim'), ['--users', users, '--listen', '127.0.0.1:0', ...pc.encryption]);
+  let console_ = '';
+  const listen = (part: Buffer): void => { console_ += part.toString('utf8'); };
+  claim.stdout.on('data', listen);
+  claim.stderr.on('data', listen);
+  const ended = new Promise<number | null>((resolve) => claim.once('close', resolve));
+  onTestFinished(() => { claim.kill('SIGKILL'); });
+  const shown = (): { code: string; port: string } => {
+    const all = [...console_.matchAll(/The code is {2}(\S+) {2}at https:\/\/ADDRESS:(\d+)\/ /g)];
+    return { code: all.at(-1)?.[1] ?? '', port: all.at(-1)?.[2] ?? '' };
+  };
+  await expect.poll(() => shown().code, { timeout: within }).toMatch(/^[0-9A-Z]{5}-[0-9A-Z]{5}$/);
+
+  const context = await browser().newContext({ ignoreHTTPSErrors: true, viewport: sizes.panel });
+  onTestFinished(() => tidyUp(() => context.close()));
+  context.setDefaultTimeout(within);
+  const page = await context.newPage();
+  await page.goto(`https://127.0.0.1:${shown().port}/`);
+  const type = async (code: string, first = password, second = password): Promise<void> => {
+    await page.getByLabel('Code on the screen').fill(code);
+    await page.getByLabel('User').fill('anna');
+    await page.getByLabel('Password').fill(first);
+    await page.getByLabel('The same again').fill(second);
+    await page.getByRole('button', { name: 'Claim this PC' }).click();
+    await page.waitForLoadState();
+  };
+  await page.getByRole('button', { name: 'Claim this PC' }).waitFor();
+  await screenshot(page, 'claim');
+  expect(await violations(page)).toEqual([]);
+
+  await type('00000-00000');
+  await page.getByRole('alert').getByText('That is not the code').waitFor();
+  await screenshot(page, 'claim-refused');
+  expect(await violations(page)).toEqual([]);
+  await type(shown().code, password, `${password}x`);
+  await page.getByRole('alert').getByText('The two passwords are not the same.').waitFor();
+  expect(existsSync(users)).toBe(false);
+
+  // Small letters, and a space in the dash's place.
+  await type(shown().code.toLowerCase().replace('-', ' '));
+  await page.getByText('This PC is claimed.').waitFor();
+  await screenshot(page, 'claimed');
+  expect(await violations(page)).toEqual([]);
+  expect(await ended).toBe(0);
+  expect(console_).toContain('This PC is claimed.');
+
+  const cell = await Application.start('panel_cell', { arguments: ['--panel-users', users, ...pc.encryption] });
+  onTestFinished(() => cell.end());
+  await page.goto(cell.base);
+  const dialog = page.locator('flexrf-login');
+  await dialog.getByLabel('User').fill('anna');
+  await dialog.getByLabel('Password').fill(password);
+  await dialog.getByRole('button', { name: 'Log in' }).click();
+  await page.getByText('anna: admin').waitFor();
+
+  // Nobody claims it twice.
+  const again = spawnSync(join(build, 'image/claim/flexrf-claim'), ['--users', users, '--listen', '127.0.0.1:0', ...pc.encryption]);
+  expect(again.status).toBe(2);
+  expect(again.stderr.toString()).toContain('this PC is claimed already');
+});
