@@ -68,15 +68,14 @@ environment_block() {  # environment_block LINE...: as GRUB reads it
 }
 
 # What GRUB reads, and what outlives updates.
-make_folders() {  # make_folders WORK KERNEL_OPTIONS USERS CONFIGURATION
+make_folders() {  # make_folders WORK KERNEL_OPTIONS CONFIGURATION
   local work=$1
   mkdir -p "$work"/{boot,data/{flexrf,journal},esp/{grub,flexrf}} &&
     cp "$image_folder/kernel/vmlinuz" "$work/boot/" &&
     environment_block "slot_options=$2" >"$work/boot/slot.env" &&
     cp "$root/image/boot/grub.cfg" "$work/esp/grub/" &&
-    "$root/build/release/image/boot/flexrf-boot-choice" --folder "$work/esp/flexrf" create &&
-    cp "$3" "$work/data/flexrf/panel-users" || return
-  if [[ -f $4 ]]; then cp "$4" "$work/data/flexrf/"; fi
+    "$root/build/release/image/boot/flexrf-boot-choice" --folder "$work/esp/flexrf" create || return
+  if [[ -f $3 ]]; then cp "$3" "$work/data/flexrf/"; fi
 }
 
 take_time() {  # take_time WHAT COMMAND...: says how long it took
@@ -91,8 +90,11 @@ make_root() {  # make_root WORK APPLICATION PC [ARGUMENT...]
   local work=$1 executable=$root/build/release/apps/$2/$2
   local -a names
   mapfile -t names < <(package_names "$executable" | sort -u)
-  fetch "${names[@]}" >"$work/packages" &&
-    bash "$disk_scripts/make_root.sh" "$work/root" "$work/packages" "$image_folder/kernel" "$executable" "$work/descriptor" "${@:3}"
+  mkdir "$work/programs" &&
+    cp "$root"/build/release/image/{boot/flexrf-boot-choice,claim/flexrf-claim,helper/flexrf-helper} "$work/programs/" &&
+    fetch "${names[@]}" >"$work/packages" &&
+    bash "$disk_scripts/make_root.sh" "$work/root" "$work/packages" "$image_folder/kernel" "$work/programs" "$executable" \
+      "$work/descriptor" "${@:3}"
 }
 
 make_start() {  # make_start WORK
@@ -127,9 +129,9 @@ pack_root() { mksquashfs "$1/root" "$1/root.squashfs" -noappend -quiet -no-progr
 
 mib() { printf '%d MiB\n' $((($1 + 1048575) / 1048576)); } # mib BYTES
 
-make_image() {  # make_image APPLICATION OUTPUT product|test USERS [ARGUMENT...]: USERS is the file of who may log in
-  local application=$1 output=$2 variant=$3 users=$4 work options pc=$root/apps/$1/pc
-  shift 4
+make_image() {  # make_image APPLICATION OUTPUT product|test [ARGUMENT...]
+  local application=$1 output=$2 variant=$3 work options pc=$root/apps/$1/pc
+  shift 3
   umask 022
   work=$(mktemp -d "$image_folder/$application.XXXXXX")
   # shellcheck disable=SC2064 # the folder of now
@@ -141,13 +143,12 @@ make_image() {  # make_image APPLICATION OUTPUT product|test USERS [ARGUMENT...]
   "$root/build/release/apps/$application/$application" --descriptor </dev/null >"$work/descriptor" || die "the application does not say what it is"
   options=$(bash "$disk_scripts/kernel_options.sh" "$work/descriptor" "$pc/machine.conf") || exit 1
   take_time "took the kernel" make_image_kernel || die "there is no kernel for the image"
-  make_folders "$work" "$options" "$users" "$root/apps/$application/config.xml" || die "what GRUB reads could not be made"
+  make_folders "$work" "$options" "$root/apps/$application/config.xml" || die "what GRUB reads could not be made"
   take_time "made the start" make_start "$work" || die "the initial RAM disk could not be made"
   take_time "made the root" make_root "$work" "$application" "$pc" "$@" || die "the root could not be made"
   if [[ $variant == test ]]; then add_test_devices "$work" || die "the devices for tests could not be had"; fi
   take_time "packed the root" pack_root "$work" || die "the root could not be packed"
   take_time "made the disk" bash "$disk_scripts/make_disk.sh" "$output" "$work/boot" "$work/root.squashfs" "$work/data" "$work/esp" ||
     die "the disk could not be made"
-  chmod 600 "$output" # passwords, as what Argon2id makes of them, are in it
   say "root: $(mib "$(du -sb "$work/root" | cut -f 1)") unpacked, $(mib "$(stat -c %s "$work/root.squashfs")") as squashfs"
 }

@@ -5,17 +5,23 @@
 pc_limit=400 # s of the machine's processor time until a PC has come up: alone it takes 60. A host that does much else gives it as much as it likes
 pc_folder=$root/build/image/test
 pc_console='' pc_pid='' pc_port=''
+pc_disk=() # options of QEMU for a disk other than an ordinary one
 firmware_of_uefi=/usr/share/OVMF/OVMF_CODE_4M.fd variables_of_uefi=/usr/share/OVMF/OVMF_VARS_4M.fd
 
-start_pc() {  # start_pc NAME bios|uefi DISK: its panel is at pc_port
+start_pc() {  # start_pc NAME bios|uefi DISK [OPTION OF QEMU...]: its panel is at pc_port
   local -a machine
   pc_console=$pc_folder/$1.console
   pc_port=$((20000 + RANDOM % 10000))
   : >"$pc_console"
   # shellcheck disable=SC2054 # the commas are QEMU's
-  machine=(-machine q35 -accel tcg -cpu max -smp 2 -m 1024 -display none -no-reboot
-    -drive "file=${3//,/,,},format=raw,if=none,id=disk" -device ide-hd,drive=disk
-    -nic "user,model=e1000e,hostfwd=tcp:127.0.0.1:$pc_port-:8443" -serial "file:${pc_console//,/,,}")
+  machine=(-machine q35 -accel tcg -cpu max -smp 2 -m 1024 -display none -device i6300esb -watchdog-action reset
+    -nic "user,model=e1000e,hostfwd=tcp:127.0.0.1:$pc_port-:8443" -serial "file:${pc_console//,/,,}" "${@:4}")
+  if ((${#pc_disk[@]})); then
+    machine+=("${pc_disk[@]}")
+  else
+    # shellcheck disable=SC2054 # the commas are QEMU's
+    machine+=(-drive "file=${3//,/,,},format=raw,if=none,id=disk" -device ide-hd,drive=disk)
+  fi
   if [[ $2 == uefi ]]; then
     cp "$variables_of_uefi" "$pc_folder/$1.variables" || return
     machine+=(-drive "if=pflash,format=raw,readonly=on,file=$firmware_of_uefi"
@@ -56,7 +62,9 @@ await_line() {  # await_line PATTERN: until the console has a line like it, whic
   printf '%s\n' "${lines%%$'\n'*}"
 }
 
-ask_panel() { curl -s -S -k --retry 10 --retry-all-errors --max-time 60 "https://localhost:$pc_port/"; }
+ask_panel() {  # ask_panel [PATH [OPTION OF CURL...]]
+  curl -s -S -k --retry 10 --retry-all-errors --max-time 60 "${@:2}" "https://localhost:$pc_port/${1-}"
+}
 
 panel_answers() {
   local page
@@ -70,26 +78,60 @@ fingerprint() {  # of the certificate that the panel shows
   openssl s_client -connect "127.0.0.1:$pc_port" </dev/null 2>/dev/null | openssl x509 -noout -fingerprint -sha256
 }
 
-make_product() { (make_image pick-station "$pc_folder/product.img" product "$pc_folder/panel-users"); }
-make_variant() { (make_image pick-station "$pc_folder/variant.img" 'test' "$pc_folder/panel-users"); }
+make_product() { (make_image pick-station "$pc_folder/product.img" product); }
+make_variant() { (make_image pick-station "$pc_folder/variant.img" 'test'); }
 
-# A disk that is larger than the image; nobody was there before.
-first_boot_by_bios() {
-  truncate -s +512M "$pc_folder/product.img" && start_pc bios bios "$pc_folder/product.img" &&
-    await_line 'first boot: data has [67][0-9][0-9] MiB' && await_line 'the cell runs' && panel_answers &&
-    fingerprint >"$pc_folder/fingerprint" && [[ $(console_lines) == *"$(<"$pc_folder/fingerprint")"* ]]
+try_to_claim() {  # try_to_claim CODE: prints the status
+  local page token
+  page=$(ask_panel) || return
+  token=$(sed -n 's/.*name="token" value="\([0-9a-f]*\)".*/\1/p' <<<"$page")
+  ask_panel claim --retry 0 -o "$pc_folder/claimed.html" -w '%{http_code}\n' --data-urlencode "token=$token" --data-urlencode "code=$1" \
+    -d user=anna --data-urlencode 'password=only for this test' --data-urlencode 'repeated=only for this test'
 }
 
-# The same disk, after its power went.
+# As somebody does who stands before the PC: before that there is its page, and nothing else.
+claim_pc() {
+  local code
+  await_line 'Nobody has claimed this PC\. The code is' >/dev/null || return
+  [[ $(ask_panel api/v1/state --retry 0 -o "$pc_folder/state.json" -w '%{http_code}') == 503 && $(try_to_claim 00000-00000) == 403 ]] ||
+    { echo "an unclaimed PC answered: $(<"$pc_folder/state.json") $(<"$pc_folder/claimed.html")" && return 1; }
+  code=$(console_lines | sed -n 's/.*The code is  \([0-9A-Z-]*\)  at.*/\1/p' | tail -n 1)
+  [[ $(try_to_claim "$code") == 200 ]] || { echo "the claim was answered: $(<"$pc_folder/claimed.html")" && return 1; }
+  await_line 'This PC is claimed'
+}
+
+log_in() {
+  [[ $(ask_panel api/v1/login -c "$pc_folder/cookies" -o "$pc_folder/login.json" -w '%{http_code}' -H 'Content-Type: application/json' \
+    -d '{"user": "anna", "password": "only for this test"}') == 200 ]] || { echo "the log-in was answered: $(<"$pc_folder/login.json")" && return 1; }
+}
+
+# shellcheck source=cmake/tool/image_power_test.sh
+source "$tool/image_power_test.sh"
+
+# A disk that is larger than the image; nobody was there before. Nothing moves until its version has been healthy for a minute. What it
+# writes is recorded.
+first_boot_by_bios() {
+  truncate -s +512M "$pc_folder/product.img" && start_recorded_pc bios "$pc_folder/product.img" &&
+    await_line 'first boot: data has [67][0-9][0-9] MiB' && claim_pc && await_line 'the cell runs' && panel_answers && log_in &&
+    fingerprint >"$pc_folder/fingerprint" && [[ $(console_lines) == *"$(<"$pc_folder/fingerprint")"* ]] &&
+    await_line 'motion is not permitted: nobody has claimed this PC' &&
+    await_line 'this machine does not permit motion: this version has not confirmed itself' &&
+    await_line 'the version in slot A has confirmed itself' && await_line 'this machine permits motion' &&
+    save_often
+}
+
+# The same disk, after its power went; and something has damaged a copy of the boot choice.
 second_boot_by_uefi() {
-  start_pc uefi uefi "$pc_folder/product.img" && await_line 'the cell runs' && panel_answers || return
+  printf 'damaged' >"$pc_folder/choice0.env" && mcopy -o -i "$pc_folder/product.img@@2M" "$pc_folder/choice0.env" ::flexrf/ &&
+    start_pc uefi uefi "$pc_folder/product.img" -no-reboot && await_line 'choice0.env is damaged: .*; written anew from the other copy' && await_line 'the cell runs' && panel_answers &&
+    log_in && await_line 'this machine permits motion' || return
   [[ $(fingerprint) == "$(<"$pc_folder/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
-  ! console_lines | grep 'first boot'
+  ! console_lines | grep -E 'first boot|has not confirmed itself|has claimed'
 }
 
 what_runs() {
   local wrong=0 expected lines
-  start_pc variant bios "$pc_folder/variant.img" && await_line 'report: complete' || return
+  start_pc variant bios "$pc_folder/variant.img" -no-reboot && claim_pc && await_line 'report: complete' || return
   lines=$(console_lines | sed -n 's/^.*report: //p')
   for expected in 'cell CapEff: 0+' 'cell CapBnd: 0+' 'cell NoNewPrivs: 1' 'cell Seccomp: 2' 'cell Uid: 990.*' 'isolated 1' \
     'mounted / squashfs ro' 'mounted /data ext4 rw' 'device gpiochip[0-9]+' 'device video[0-9]+' 'tcp6? port 8443'; do
@@ -99,6 +141,15 @@ what_runs() {
   grep -E '^(tcp|udp|raw)6? port' <<<"$lines" | grep -v -x -E 'tcp6? port 8443|udp port 68|udp6 port 546|raw6 port 58' && wrong=1
   grep -E '^(interrupt|kernel thread) ' <<<"$lines" && wrong=1
   return "$wrong"
+}
+
+# At its second boot the variant stops the cell, and then takes all CPUs for itself for ever: the one ends in the cell started anew, the
+# other in the watchdog's reset.
+what_hangs_is_started_anew() {
+  local pc_limit=1000 # two boots, and two CPUs that are busy until the watchdog acts
+  start_pc hang bios "$pc_folder/variant.img" && await_line 'report: the cell is stopped' &&
+    await_line 'report: another process is the cell' && await_line 'report: now all hangs' && await_line 'report: boot 3' &&
+    await_line 'report: complete after .*' && [[ $(console_lines | grep -c 'the cell runs') == 3 ]]
 }
 
 image_test() {  # image_test NUMBER NAME FUNCTION MACHINE: a line as ctest's, behind what there is to be read
@@ -111,17 +162,16 @@ image_test() {  # image_test NUMBER NAME FUNCTION MACHINE: a line as ctest's, be
     cat "$pc_folder/$4.qemu" 2>/dev/null
     failed=$((failed + 1))
   fi
-  line="$1/5 Test #$1: $2 "
+  line="$1/7 Test #$1: $2 "
   while ((${#line} < 60)); do line+=.; done
   printf '%s   %s  %s\n' "$line" "$result" "$(since "$start")"
 }
 
-image_tests() {  # five, as ctest would run them
+image_tests() {  # seven, as ctest would run them
   local failed=0
   rm -rf "$pc_folder"
   mkdir -p "$pc_folder"
-  if ! build release pick-station flexrf-boot-choice flexrf-password ||
-    ! "$root/build/release/web-ui/server/access/flexrf-password" "$pc_folder/panel-users" <<<"only for this test" >/dev/null; then
+  if ! build release pick-station flexrf-boot-choice flexrf-claim flexrf-helper; then
     count 1 1
     return 1
   fi
@@ -130,8 +180,10 @@ image_tests() {  # five, as ctest would run them
   image_test 3 second_boot_by_uefi second_boot_by_uefi uefi
   image_test 4 variant_is_made make_variant none
   image_test 5 what_runs what_runs variant
-  count 5 "$failed"
-  rm -f "$pc_folder"/*.img
-  printf '\n%d%% tests passed, %d tests failed out of 5\n' $(((5 - failed) * 100 / 5)) "$failed"
+  image_test 6 what_hangs_is_started_anew what_hangs_is_started_anew hang
+  image_test 7 what_a_power_cut_leaves what_a_power_cut_leaves cut
+  count 7 "$failed"
+  rm -f "$pc_folder"/*.{img,base,log}
+  printf '\n%d%% tests passed, %d tests failed out of 7\n' $(((7 - failed) * 100 / 7)) "$failed"
   ((failed == 0))
 }

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# make_root.sh OUTPUT PACKAGES KERNEL APPLICATION DESCRIPTOR PC [ARGUMENT...]: the folder that becomes the root of an industrial PC.
-# PACKAGES is a file that lists packages' files, KERNEL what take_kernel.sh made, APPLICATION an executable, DESCRIPTOR what it
-# says by --descriptor, PC a folder with machine.conf and perhaps network/*.network, and the ARGUMENTs are the application's.
+# make_root.sh OUTPUT PACKAGES KERNEL PROGRAMS APPLICATION DESCRIPTOR PC [ARGUMENT...]: the folder that becomes the root of an
+# industrial PC. PACKAGES is a file that lists packages' files, KERNEL what take_kernel.sh made, PROGRAMS a folder with the programs
+# beside the application, APPLICATION an executable, DESCRIPTOR what it says by --descriptor, PC a folder with machine.conf and
+# perhaps network/*.network, and the ARGUMENTs are the application's.
 # No package's script is run, so that this needs no right of root and no folder of the machine that it runs on.
 set -eu -o pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-root=$1 packages=$2 kernel=$3 application=$4 descriptor=$5 pc=$6
-shift 6
+root=$1 packages=$2 kernel=$3 programs=$4 application=$5 descriptor=$6 pc=$7
+shift 7
 PATH=$PATH:/usr/sbin:/sbin # ldconfig
 
 lines_of() { sed 's/ *#.*//; /^$/d' "$1"; } # lines_of FILE: without what is for people
@@ -73,11 +74,11 @@ words_for_systemd() {  # words_for_systemd WORD...: as ExecStart= has them
 }
 
 make_service() {  # make_service ARGUMENT...
-  local name=${application##*/} allowed kernel_name module
+  local name=${application##*/} program allowed kernel_name module
   local unit=$root/etc/systemd/system/flexrf.service rules=$root/etc/udev/rules.d/80-flexrf.rules
   local modules=$root/etc/modules-load.d/flexrf.conf
   mkdir -p "$root/etc"/{udev/rules.d,modules-load.d}
-  strip -o "$root/usr/lib/flexrf/$name" "$application"
+  for program in "$application" "$programs"/*; do strip -o "$root/usr/lib/flexrf/${program##*/}" "$program"; done
   sed -e "s|@application@|$name|" -e "s|@priority@|$(of_tables priority)|" "$here/flexrf.service" |
     awk -v arguments="$(words_for_systemd "$@" | sed 's/\\/\\\\/g')" '{ at = index($0, " @arguments@") }
       at { $0 = substr($0, 1, at - 1) arguments } { print }' >"$unit"
@@ -89,6 +90,14 @@ make_service() {  # make_service ARGUMENT...
     echo "KERNEL==\"$kernel_name\", GROUP=\"flexrf\", MODE=\"0660\"" >>"$rules"
     [[ $module == - ]] || echo "$module" >>"$modules"
   done < <(devices | sort -u)
+}
+
+# A hung PC is reset: systemd feeds its watchdog, unless the application's tables have it.
+choose_watchdog() {
+  local file=$root/etc/systemd/system.conf.d/watchdog.conf
+  if of_tables class | grep -q -x watchdog; then return; fi
+  mkdir -p "${file%/*}"
+  printf '%s\n' '[Manager]' 'RuntimeWatchdogSec=30s' 'RebootWatchdogSec=5min' >"$file"
 }
 
 choose_units() {
@@ -122,6 +131,7 @@ umask 022
 unpack
 set_up
 make_service "$@"
+choose_watchdog
 choose_units
 missing=$(libraries_missing)
 if [[ $missing ]]; then

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `image` says what is wrong before it makes anything: a name, a place, room, who may log in, packages that cannot be had.
+# `image` says what is wrong before it makes anything: a name, a place, room, packages that cannot be had.
 source "$(dirname "$0")/stand_in.sh"
 
 mkdir -p "$tree/image"
@@ -35,8 +35,6 @@ refused "*--output needs the name of a file*" keyboard --output
 refused "*there is no folder $work/nowhere for the image; make it first: mkdir -p $work/nowhere" keyboard --output "$work/nowhere/cell.img"
 refused "*$work/bin is a folder; name a file: --output $work/bin/cell.img" keyboard --output "$work/bin"
 refused "*/dev/null is not an ordinary file*dd if=FILE of=/dev/null*" keyboard --output /dev/null
-refused "*nobody could log in*hint: ./flexrf password keyboard" keyboard
-echo "somebody" >"$tree/apps/keyboard/panel-users"
 echo 699 >"$work/free"
 refused "*there are 699 MiB left in *" keyboard
 echo 1000 >"$work/free"
