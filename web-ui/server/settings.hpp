@@ -19,9 +19,9 @@ struct ServerSettings {
   /// Connections at a time. A quarter is for who is local; one address that is not has three quarters of the
   /// rest at most. Who has nothing to say makes room for who comes.
   std::uint32_t places = 32;
-  std::vector<Address> local;     ///< at the machine, beside loopback
-  /// What a body may be. Pages of others cannot send JSON or bytes without asking first; a form they can, so who
-  /// takes forms has to know its own.
+  std::vector<Address> local;  ///< at the machine, beside loopback
+  /// What a body may be. Pages of others cannot send JSON or bytes without asking first; a form they can, so
+  /// who takes forms has to know its own.
   std::vector<std::string_view> body_types{"application/json"};
   bool loopback_is_local = true;  ///< else it is where a tunnel or a proxy ends
   Duration header_timeout = std::chrono::seconds{5};

@@ -26,7 +26,7 @@ namespace {
 constexpr int exit_failure = 1;
 constexpr uid_t nobody = 65534;
 constexpr int modest = 10;                // as nice: whatever the machine does goes first
-constexpr rlim_t processor_seconds = 10;  // it needs a tenth of one
+constexpr rlim_t processor_seconds = 60;  // it needs a tenth of one, and 10 where a PC is emulated
 
 bool limit(__rlimit_resource resource, rlim_t value) noexcept {
   const rlimit both{value, value};
