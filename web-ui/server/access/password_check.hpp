@@ -20,7 +20,7 @@ namespace flexrf::panel {
 /// locked memory nor descriptors, signal handlers, environment or real-time policy.
 class PasswordCheck {
  public:
-  static constexpr Duration time_limit = std::chrono::seconds{10};
+  static constexpr Duration time_limit = std::chrono::seconds{30};
 
   enum class Outcome : std::uint8_t {
     none,    ///< nothing is under way, or it still is
