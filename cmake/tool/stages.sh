@@ -261,6 +261,17 @@ run_stages() {  # run_stages PRESET...: these, and what runs behind them
   wait "${behind[@]}" 2>/dev/null || true
 }
 
+# Last, and alone: its PCs are emulated, and what they do in time is what a person would wait for.
+image_stage() {
+  local obstacle
+  # shellcheck source=cmake/tool/image.sh
+  source "$tool/image.sh"
+  # shellcheck source=cmake/tool/image_test.sh
+  source "$tool/image_test.sh"
+  obstacle=$(image_obstacle)
+  if [[ $obstacle ]]; then skip image "$obstacle"; else stage image image_tests; fi
+}
+
 show_table() {
   local index
   printf '\n%-20s %14s %14s\n' stage time "on all CPUs"
@@ -297,14 +308,7 @@ test_stages() {  # test_stages [--full | --guest [--long] [NAME...] | --image | 
       stage "build guest's tests" count_as_test build release tests_guest
       if [[ $obstacle ]]; then skip guest "$obstacle"; else stage guest guest_tests "${chosen[@]}"; fi
       ;;
-    --image)
-      # shellcheck source=cmake/tool/image.sh
-      source "$tool/image.sh"
-      # shellcheck source=cmake/tool/image_test.sh
-      source "$tool/image_test.sh"
-      obstacle=$(image_obstacle)
-      if [[ $obstacle ]]; then skip image "$obstacle"; else stage image image_tests; fi
-      ;;
+    --image) image_stage ;;
     --quick)
       stage "build release" build_preset release
       stage "test release" quick_tests
@@ -320,6 +324,7 @@ test_stages() {  # test_stages [--full | --guest [--long] [NAME...] | --image | 
         run_stages release checked tsan asan
       fi
       [[ $obstacle ]] && skip guest "$obstacle"
+      image_stage
       ;;
     *) run_stages "$@" ;;
   esac

@@ -19,12 +19,20 @@ stand_in setarch <<'BODY'
 exec "${@:2}"
 BODY
 
+# The PC's own are tried by themselves.
+cat >"$tree/cmake/tool/image_test.sh" <<'BODY'
+image_tests() {
+  echo "image; long: ${FLEXRF_LONG-unset}" >>"$STAND_IN/calls"
+  count 7 0
+}
+BODY
+
 last_line() { printf '%s\n' "${output##*$'\n'}"; }
 
 flexrf test </dev/null
 expect "exit code" "$status" 0
-expect "last line" "$(last_line)" "100% tests passed, 0 tests failed out of 28"
-for stage in "source layout" "static analysis" panel guest {build,test}\ {release,checked,asan,tsan}; do
+expect "last line" "$(last_line)" "100% tests passed, 0 tests failed out of 35"
+for stage in "source layout" "static analysis" panel guest image {build,test}\ {release,checked,asan,tsan}; do
   expect "time of $stage" "$output" "*"$'\n'"$stage *[0-9] s   passed*"
 done
 expect "tests of checked" "$(grep "^ctest .*/checked " "$calls")" "!(* -L *) -LE ^long\$"
@@ -38,12 +46,14 @@ expect "what is built of tsan" "$(grep "^ninja .*/tsan" "$calls")" "*tests_threa
 for preset in asan tsan; do
   expect "start of $preset" "$(grep "^setarch --addr-no-randomize ctest .*/$preset " "$calls")" "?*"
 done
+expect "image" "$(grep ^image "$calls")" "image; long: unset"
 expect "long tests" "$(sort -u <(grep ^long: "$calls"))" "long: unset"
 
 : >"$calls"
 flexrf test --full </dev/null
 expect "exit code of --full" "$status" 0
 expect "long tests of --full" "$(sort -u <(grep ^long: "$calls"))" "long: 1"
+expect "image of --full" "$(grep ^image "$calls")" "image; long: 1"
 expect "selections of --full" "$(grep '^ctest.* -L' "$calls" | LC_ALL=C sort)" "*/fuzz * -L ^fuzz\$"$'\n'"* -L ^panel\$"$'\n'"* -LE ^panel\$"$'\n'"*/tsan * -L ^(threads|whole|stress)\$"
 expect "what is built of fuzz" "$(grep "^ninja .*/fuzz" "$calls")" "*tests_fuzz"
 
@@ -65,7 +75,7 @@ touch "$work/failing"
 flexrf test </dev/null
 expect "exit code of a failure" "$status" 1
 expect "stages after a failure" "$output" "*test checked *FAILED*test tsan *passed*"
-expect "last line of a failure" "$(last_line)" "96% tests passed, 1 tests failed out of 28"
+expect "last line of a failure" "$(last_line)" "97% tests passed, 1 tests failed out of 35"
 
 touch "$work/broken"
 flexrf test release </dev/null
