@@ -1,14 +1,15 @@
 # Sourced by flexrf: what a power cut leaves of an industrial PC's disk (docs/image.md). The writes of a first boot, a claim, a
 # confirmation and 50 saves of the configuration are recorded; disks are made of the recording as the power may have left them, and are
-# looked at without booting, some of them booted.
+# looked at without booting, some of them booted. What the PC had promised by then, as by the answer to a save, has to be there.
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
 power_saves=50
-cut_points=40 cut_boots=1
+cut_points=40 cut_boots=3
 [[ ${FLEXRF_LONG-} ]] && cut_points=300 cut_boots=30
 
 start_recorded_pc() {  # start_recorded_pc NAME DISK: by BIOS; what it writes is in NAME.log, and the disk as it was in NAME.base
-  cp --sparse=always "$2" "$pc_folder/$1.base" && : >"$pc_folder/$1.log" || return
+  cp --sparse=always "$2" "$pc_folder/$1.base" && : >"$pc_folder/$1.log" && : >"$pc_folder/$1.promises" || return
+  recording=$1
   # shellcheck disable=SC2054 # the commas are QEMU's
   pc_disk=(-blockdev "driver=file,node-name=disk-file,filename=${2//,/,,},discard=ignore"
     -blockdev driver=raw,node-name=disk,file=disk-file,discard=ignore
@@ -18,21 +19,37 @@ start_recorded_pc() {  # start_recorded_pc NAME DISK: by BIOS; what it writes is
   start_pc "$1" bios "$2" -no-reboot
 }
 
-# Each value is another one, so that a file tells which of the saves it is.
-save_often() {
-  local k status
-  local -a requests=()
-  ask_panel api/v1/control/take -b "$pc_folder/cookies" -o "$pc_folder/taken.json" -X POST || return
-  for ((k = 1; k <= power_saves; ++k)); do
-    requests+=(--next -s -S -k --max-time 60 -b "$pc_folder/cookies" -o /dev/null -w '%{http_code}\n' -X PUT -H 'Content-Type: application/json'
-      -d "{\"speed\": 0.$((500 + k))}" "https://localhost:$pc_port/api/v1/components/pick/parameters"
-      --next -s -S -k --max-time 60 -b "$pc_folder/cookies" -o /dev/null -w '%{http_code}\n' -X POST "https://localhost:$pc_port/api/v1/save-values")
-  done
-  status=$(curl "${requests[@]:1}" | sort | uniq -c)
-  [[ $status =~ ^\ *$((2 * power_saves))\ 200$ ]] || { printf 'saves were answered: %s; %s\n' "$status" "$(<"$pc_folder/taken.json")" && return 1; }
+# A promise is noted behind the entry that the recording had reached when it had been given: with the power cut there or later, it holds.
+recorded_entries() { od -A n -t u8 -j 16 -N 8 "$pc_folder/$recording.log" | tr -d ' '; }
+promised() { printf '%s %s\n' "$(recorded_entries)" "$*" >>"$pc_folder/$recording.promises"; } # promised WHAT [VALUE]
+
+promise_at() {  # promise_at RECORDING POINT WHAT: its value, or yes; nothing if it had not been given
+  awk -v point="$2" -v what="$3" '$1 <= point && $2 == what { value = NF > 2 ? $3 : "yes" } END { if (value != "") print value }' \
+    "$pc_folder/$1.promises"
 }
 
-power_cut() { "$root/build/release/image/power_cut/flexrf-power-cut" "$1" --log "$pc_folder/bios.log" --base "$pc_folder/bios.base" "${@:2}"; }
+# Each value is another one, so that a file tells which of the saves it is.
+save_often() {
+  local k answer save
+  local -a requests=() every=(-s -S -k --max-time 60 -b "$pc_folder/cookies" -w '%{stderr}%{http_code} %{url}\n')
+  ask_panel api/v1/control/take -b "$pc_folder/cookies" -o "$pc_folder/taken.json" -X POST || return
+  save=https://localhost:$pc_port/api/v1/save-values
+  for ((k = 1; k <= power_saves; ++k)); do
+    requests+=(--next "${every[@]}" -X PUT -H 'Content-Type: application/json' -d "{\"speed\": 0.$((500 + k))}"
+      "https://localhost:$pc_port/api/v1/components/pick/parameters" --next "${every[@]}" -X POST "$save")
+  done
+  k=0
+  # The answers one by one, as they come: curl says them on standard error, which it does not keep back.
+  while read -r answer; do
+    [[ $answer == 200\ * ]] || { printf 'save %d was answered: %s; %s\n' $((k + 1)) "$answer" "$(<"$pc_folder/taken.json")" && return 1; }
+    [[ $answer == *"$save" ]] && promised saved $((++k))
+  done < <(curl "${requests[@]:1}" 2>&1 >"$pc_folder/saves.json")
+  ((k == power_saves)) || { echo "$k of $power_saves saves were answered" && return 1; }
+}
+
+power_cut() {  # power_cut COMMAND RECORDING [OPTION...]
+  "$root/build/release/image/power_cut/flexrf-power-cut" "$1" --log "$pc_folder/$2.log" --base "$pc_folder/$2.base" "${@:3}"
+}
 
 partition_of() {  # partition_of DISK NAME: its first sector and how many it has
   PATH=$PATH:/usr/sbin:/sbin sfdisk -q -J "$1" 2>/dev/null |
@@ -45,59 +62,93 @@ take_partition() {  # take_partition DISK NAME OUTPUT
   dd if="$1" of="$3" bs=1M skip=$((first / 2048)) count=$(((size + 2047) / 2048)) conv=sparse status=none
 }
 
-file_of_data() { debugfs -R "cat $2" "$1" 2>/dev/null; } # file_of_data IMAGE PATH
+put_partition() {  # put_partition DISK NAME INPUT
+  local first size
+  read -r first size < <(partition_of "$1" "$2") || { echo "the table of partitions has no $2" && return 1; }
+  (($(stat -c %s "$3") <= size * 512)) || { echo "$3 is larger than the partition $2" && return 1; }
+  dd if="$3" of="$1" bs=1M seek=$((first / 2048)) conv=notrunc status=none
+}
 
-check_data() {  # check_data WORK: who the PC is, who may log in, what was saved: each as before or as after
-  local work=$1 speed PATH=$PATH
-  take_partition "$work/cut" data "$work/data" || return
-  PATH=$PATH:/usr/sbin:/sbin
-  e2fsck -p "$work/data" >"$work/fsck" 2>&1
-  if (($? > 1)) || ! e2fsck -f -n "$work/data" >>"$work/fsck" 2>&1; then
+file_of_data() { PATH=$PATH:/usr/sbin:/sbin debugfs -R "cat $2" "$1" 2>/dev/null; }                      # file_of_data IMAGE PATH
+is_in_data() { PATH=$PATH:/usr/sbin:/sbin debugfs -R "stat $2" "$1" 2>/dev/null | grep -q '^Inode'; }    # is_in_data IMAGE PATH
+
+check_file_systems() {  # check_file_systems WORK: as the PC will find them at its next boot
+  local work=$1 said PATH=$PATH:/usr/sbin:/sbin
+  take_partition "$work/cut" data "$work/data" && take_partition "$work/cut" esp "$work/esp" || return
+  # 1 would be damage that was repaired: the file system's journal leaves none.
+  if ! e2fsck -p "$work/data" >"$work/fsck" 2>&1 || ! e2fsck -f -n "$work/data" >>"$work/fsck" 2>&1; then
     cat "$work/fsck"
     return 1
   fi
+  # The mark of one that was in use is what a power cut leaves; Linux and GRUB do not mind it.
+  said=$(fsck.fat -n "$work/esp" | grep -v -E '^fsck.fat|^Dirty bit is set|^ Automatically removing dirty bit|^Leaving|^$| clusters$') || return 0
+  printf 'the ESP: %s\n' "$said"
+  return 1
+}
+
+check_identity() {  # check_identity WORK RECORDING POINT: the panel's key and certificate belong together
+  local work=$1
   file_of_data "$work/data" flexrf/panel.key >"$work/key"
   file_of_data "$work/data" flexrf/panel.crt >"$work/certificate"
-  if [[ -s $work/key && $(openssl pkey -in "$work/key" -pubout 2>&1) != "$(openssl x509 -in "$work/certificate" -noout -pubkey 2>&1)" ]]; then
-    echo "the panel's key is there and is not that of its certificate"
-    return 1
+  if [[ ! -s $work/key ]] && { is_in_data "$work/data" flexrf/panel.key || [[ $(promise_at "$2" "$3" identity) ]]; }; then
+    echo "lost identity: the panel's key is not there, or empty"
+  elif [[ -s $work/key && $(openssl pkey -in "$work/key" -pubout 2>&1) != "$(openssl x509 -in "$work/certificate" -noout -pubkey 2>&1)" ]]; then
+    echo "lost identity: the panel's key is not that of its certificate"
+  else
+    return 0
+  fi
+  return 1
+}
+
+check_users() {  # check_users WORK RECORDING POINT: nobody before the claim, anna after it
+  local work=$1 found
+  if ! is_in_data "$work/data" flexrf/panel-users; then
+    [[ ! $(promise_at "$2" "$3" claimed) ]] || { echo "lost users: the PC was claimed, and is nobody's again" && return 1; }
+    return 0
   fi
   file_of_data "$work/data" flexrf/panel-users >"$work/users"
   chmod 600 "$work/users"
-  if [[ -s $work/users && $("$root/build/release/web-ui/server/access/flexrf-password" --list "$work/users" 2>&1) != "anna "*" admin" ]]; then
-    echo "who may log in is neither nobody nor anna:"
-    cat "$work/users"
-    return 1
-  fi
-  # That there are none is the same as none of these files.
-  if debugfs -R 'stat flexrf/panel-users' "$work/data" 2>/dev/null | grep -q '^Inode' && [[ ! -s $work/users ]]; then
-    echo "who may log in is a file without anybody"
-    return 1
-  fi
-  file_of_data "$work/data" flexrf/config.xml >"$work/config.xml"
-  [[ -s $work/config.xml ]] || return 0
-  speed=$(sed -n 's|.*<speed>0\.\([0-9]*\)</speed>.*|\1|p' "$work/config.xml")
-  if ! "$root/build/release/apps/pick-station/pick-station" --virtual-time 100ms --config "$work/config.xml" >"$work/loaded" 2>&1 </dev/null ||
-    [[ ! $speed =~ ^5[0-9]{0,2}$ ]]; then
-    echo "the configuration does not load, or is none that was saved (speed 0.$speed):"
-    tail -n 3 "$work/loaded"
-    return 1
-  fi
+  found=$("$root/build/release/web-ui/server/access/flexrf-password" --list "$work/users" 2>&1)
+  [[ $found == "anna "*" admin" ]] || { printf 'lost users: who may log in is not anna: %s\n' "${found:-nobody}" && return 1; }
 }
 
-check_boot() {  # check_boot WORK: GRUB starts A, the only slot that has a version, also after the repair
-  local work=$1 name said
-  take_partition "$work/cut" esp "$work/esp" || return
+check_configuration() {  # check_configuration WORK RECORDING POINT: one that was saved, and none before the last answer
+  local work=$1 file=flexrf/config.xml last speed
+  last=$(promise_at "$2" "$3" saved)
+  if ! is_in_data "$work/data" "$file"; then
+    [[ ! $last ]] || { echo "lost configuration: $last saves were answered, and there is none" && return 1; }
+    return 0
+  fi
+  file_of_data "$work/data" "$file" >"$work/config.xml"
+  # 0.51 is 0.510.
+  speed=$(sed -n 's|.*<speed>0\.\([0-9]*\)</speed>.*|\1|p' "$work/config.xml")00
+  speed=${speed:0:3}
+  if ! "$root/build/release/apps/pick-station/pick-station" --virtual-time 100ms --config "$work/config.xml" >"$work/loaded" 2>&1 </dev/null ||
+    [[ ! $speed =~ ^5[0-9]{2}$ ]]; then
+    printf 'lost configuration: it does not load, or was never saved (%s bytes): %s\n' "$(stat -c %s "$work/config.xml")" "$(tail -n 2 "$work/loaded")"
+  elif ((10#$speed - 500 < ${last:-0})); then
+    echo "lost configuration: it is that of save $((10#$speed - 500)), and save $last had been answered"
+  else
+    return 0
+  fi
+  return 1
+}
+
+check_boot() {  # check_boot WORK RECORDING POINT: GRUB starts A, the only slot that has a version, also after the repair
+  local work=$1 name said wanted='@(only|confirmed)'
+  [[ ! $(promise_at "$2" "$3" confirmed) ]] || wanted=confirmed
   mkdir -p "$work/choice"
   for name in choice0.env choice1.env attempts.env; do
     rm -f "$work/choice/$name"
     mcopy -n -i "$work/esp" "::flexrf/$name" "$work/choice/" 2>"$work/mcopy" || { cat "$work/mcopy" && return 1; }
   done
-  if ! said=$("$root/build/release/image/boot/boot_choice_what_boots" "$work/choice" "$root/image/boot/grub.cfg") ||
-    [[ $(tail -n 1 <<<"$said") != A\ @(only|confirmed) ]]; then
-    printf 'what boots: %s\n' "$said"
-    return 1
+  # shellcheck disable=SC2053 # a pattern
+  if said=$("$root/build/release/image/boot/boot_choice_what_boots" "$work/choice" "$root/image/boot/grub.cfg") &&
+    [[ $(tail -n 1 <<<"$said") == A\ $wanted ]]; then
+    return 0
   fi
+  printf 'lost choice: what boots is not A %s: %s\n' "$wanted" "$said"
+  return 1
 }
 
 # A disk like this is in the PC when somebody switches it on again.
@@ -112,16 +163,23 @@ boots_again() {  # boots_again WORK
   return "$status"
 }
 
+judge() {  # judge RECORDING POINT WORK: the disk that a cut there may leave
+  rm -rf "$3" && mkdir -p "$3" || return
+  power_cut build "$1" --point "$2" --seed "$2" --output "$3/cut" && check_file_systems "$3" || return
+  local status=0 check
+  for check in check_identity check_users check_configuration check_boot; do "$check" "$3" "$1" "$2" || status=1; done
+  ((status == 0)) || echo "at point $2, seed $2 (flexrf-power-cut build --point $2 --seed $2)"
+  return "$status"
+}
+
 what_a_power_cut_leaves() {
   local point work=$pc_folder/cut wrong=0 looked=0 boots=0 points every
   build release flexrf-power-cut flexrf-password boot_choice_what_boots || return
-  power_cut describe || return
-  points=$(power_cut points --count "$cut_points" --seed 1) || return
+  power_cut describe bios || return
+  points=$(power_cut points bios --count "$cut_points" --seed 1) || return
   every=$(($(wc -l <<<"$points") / cut_boots))
   for point in $points; do
-    rm -rf "$work" && mkdir -p "$work" || return
-    if ! power_cut build --point "$point" --seed "$point" --output "$work/cut" || ! check_data "$work" || ! check_boot "$work"; then
-      echo "at point $point, seed $point (flexrf-power-cut build --point $point --seed $point)"
+    if ! judge bios "$point" "$work"; then
       wrong=$((wrong + 1))
     elif ((++looked % every == every / 2 && boots < cut_boots)); then
       boots=$((boots + 1))
@@ -130,4 +188,44 @@ what_a_power_cut_leaves() {
   done
   printf '%d points, %d wrong, %d booted\n' "$(wc -l <<<"$points")" "$wrong" "$boots"
   ((wrong == 0 && boots == cut_boots))
+}
+
+change_root() {  # change_root DISK FUNCTION: the function changes the root of slot A, unpacked in the folder that it is given
+  local work=$pc_folder/changed
+  rm -rf "$work" && mkdir "$work" && take_partition "$1" root-a "$work/packed" &&
+    unsquashfs -quiet -no-progress -d "$work/root" "$work/packed" && "$2" "$work/root" &&
+    mksquashfs "$work/root" "$work/root.squashfs" -noappend -quiet -no-progress -all-root -no-xattrs -comp zstd &&
+    put_partition "$1" root-a "$work/root.squashfs" && rm -rf "$work"
+}
+
+# Three programs that each leave out one flush: the claim that of the file before it takes its name, the application that of the
+# folder after it, the helper that of the copies of the boot choice.
+leave_out_flushes() {  # leave_out_flushes ROOT
+  local service pattern
+  cp "$root/build/release/image/power_cut/without_flush.so" "$1/usr/lib/flexrf/" || return
+  while read -r service pattern; do
+    mkdir -p "$1/etc/systemd/system/$service.service.d"
+    printf '[Service]\nEnvironment=LD_PRELOAD=/usr/lib/flexrf/without_flush.so FLEXRF_WITHOUT_FLUSH=%s\n' "$pattern" \
+      >"$1/etc/systemd/system/$service.service.d/without-flush.conf"
+  done <<'TEXT'
+flexrf-claim /data/flexrf/panel-users.new
+flexrf /data/flexrf
+flexrf-helper /boot/efi/flexrf/choice?.env
+TEXT
+}
+
+# The same recording of programs with a flush less each, and the same judgement: it has to find what each of them loses.
+a_missing_flush_is_found() {
+  local point kind wrong=0 points found
+  build release flexrf_without_flush flexrf-power-cut flexrf-password boot_choice_what_boots || return
+  cp --sparse=always "$pc_folder/bios.base" "$pc_folder/twin.img" && change_root "$pc_folder/twin.img" leave_out_flushes &&
+    start_recorded_pc twin "$pc_folder/twin.img" && record_first_boot || return
+  stop_pc
+  points=$(power_cut points twin --count 300 --seed 1) || return
+  found=$(for point in $points; do judge twin "$point" "$pc_folder/cut"; done)
+  for kind in users configuration choice; do
+    printf '%s: lost at %d of %d points\n' "$kind" "$(grep -c "^lost $kind" <<<"$found")" "$(wc -l <<<"$points")"
+    grep -q "^lost $kind" <<<"$found" || wrong=1
+  done
+  return "$wrong"
 }

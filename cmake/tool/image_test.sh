@@ -78,8 +78,8 @@ fingerprint() {  # of the certificate that the panel shows
   openssl s_client -connect "127.0.0.1:$pc_port" </dev/null 2>/dev/null | openssl x509 -noout -fingerprint -sha256
 }
 
-make_product() { (make_image pick-station "$pc_folder/product.img" product); }
-make_variant() { (make_image pick-station "$pc_folder/variant.img" 'test'); }
+image_is_made() { (make_image pick-station "$pc_folder/product.img" product); }
+variant_is_made() { (make_image pick-station "$pc_folder/variant.img" 'test'); }
 
 try_to_claim() {  # try_to_claim CODE: prints the status
   local page token
@@ -107,17 +107,24 @@ log_in() {
 
 # shellcheck source=cmake/tool/image_power_test.sh
 source "$tool/image_power_test.sh"
+# shellcheck source=cmake/tool/image_damage_test.sh
+source "$tool/image_damage_test.sh"
 
-# A disk that is larger than the image; nobody was there before. Nothing moves until its version has been healthy for a minute. What it
-# writes is recorded.
-first_boot_by_bios() {
-  truncate -s +512M "$pc_folder/product.img" && start_recorded_pc bios "$pc_folder/product.img" &&
-    await_line 'first boot: data has [67][0-9][0-9] MiB' && claim_pc && await_line 'the cell runs' && panel_answers && log_in &&
-    fingerprint >"$pc_folder/fingerprint" && [[ $(console_lines) == *"$(<"$pc_folder/fingerprint")"* ]] &&
+# What a PC promises from its first boot on, while its disk's writes are recorded: nothing moves until its version has been healthy for a
+# minute.
+record_first_boot() {
+  await_line 'first boot: data has [67][0-9][0-9] MiB' && promised identity && claim_pc && promised claimed &&
+    await_line 'the cell runs' && panel_answers && log_in &&
     await_line 'motion is not permitted: nobody has claimed this PC' &&
     await_line 'this machine does not permit motion: this version has not confirmed itself' &&
-    await_line 'the version in slot A has confirmed itself' && await_line 'this machine permits motion' &&
+    await_line 'the version in slot A has confirmed itself' && promised confirmed && await_line 'this machine permits motion' &&
     save_often
+}
+
+# A disk that is larger than the image; nobody was there before.
+first_boot_by_bios() {
+  truncate -s +512M "$pc_folder/product.img" && start_recorded_pc bios "$pc_folder/product.img" && record_first_boot &&
+    fingerprint >"$pc_folder/fingerprint" && [[ $(console_lines) == *"$(<"$pc_folder/fingerprint")"* ]]
 }
 
 # The same disk, after its power went; and something has damaged a copy of the boot choice.
@@ -152,7 +159,7 @@ what_hangs_is_started_anew() {
     await_line 'report: complete after .*' && [[ $(console_lines | grep -c 'the cell runs') == 3 ]]
 }
 
-image_test() {  # image_test NUMBER NAME FUNCTION MACHINE: a line as ctest's, behind what there is to be read
+image_test() {  # image_test NUMBER OF NAME MACHINE: a line as ctest's, behind what there is to be read
   local start line told result=Passed
   start=$(microseconds)
   told=$("$3" 2>&1; status=$?; stop_pc; exit "$status") || result=Failed
@@ -162,28 +169,52 @@ image_test() {  # image_test NUMBER NAME FUNCTION MACHINE: a line as ctest's, be
     cat "$pc_folder/$4.qemu" 2>/dev/null
     failed=$((failed + 1))
   fi
-  line="$1/7 Test #$1: $2 "
+  line="$1/$2 Test #$1: $3 "
   while ((${#line} < 60)); do line+=.; done
   printf '%s   %s  %s\n' "$line" "$result" "$(since "$start")"
 }
 
-image_tests() {  # seven, as ctest would run them
-  local failed=0
+# Name, which is that of a function, and the machine whose console tells why it failed. One after the other: they share disks.
+image_test_list() {
+  cat <<'TEXT'
+image_is_made none
+first_boot_by_bios bios
+second_boot_by_uefi uefi
+variant_is_made none
+what_runs variant
+what_hangs_is_started_anew hang
+what_a_power_cut_leaves cut
+data_beyond_repair damaged
+TEXT
+  [[ ${FLEXRF_LONG-} ]] || return 0
+  cat <<'TEXT'
+a_missing_flush_is_found twin
+data_made_anew_stays anew
+data_is_repaired repaired
+data_is_full full
+data_is_missing missing
+a_missing_camera_is_waited_for camera
+a_missing_chip_is_refused chip
+TEXT
+}
+
+image_tests() {  # as ctest would run them
+  local failed=0 number=0 name machine total
+  local -a tests=()
+  mapfile -t tests < <(image_test_list)
+  total=${#tests[@]}
   rm -rf "$pc_folder"
   mkdir -p "$pc_folder"
   if ! build release pick-station flexrf-boot-choice flexrf-claim flexrf-helper; then
     count 1 1
     return 1
   fi
-  image_test 1 image_is_made make_product none
-  image_test 2 first_boot_by_bios first_boot_by_bios bios
-  image_test 3 second_boot_by_uefi second_boot_by_uefi uefi
-  image_test 4 variant_is_made make_variant none
-  image_test 5 what_runs what_runs variant
-  image_test 6 what_hangs_is_started_anew what_hangs_is_started_anew hang
-  image_test 7 what_a_power_cut_leaves what_a_power_cut_leaves cut
-  count 7 "$failed"
+  for name in "${tests[@]}"; do
+    read -r name machine <<<"$name"
+    image_test $((++number)) "$total" "$name" "$machine"
+  done
+  count "$total" "$failed"
   rm -f "$pc_folder"/*.{img,base,log}
-  printf '\n%d%% tests passed, %d tests failed out of 7\n' $(((7 - failed) * 100 / 7)) "$failed"
+  printf '\n%d%% tests passed, %d tests failed out of %d\n' $(((total - failed) * 100 / total)) "$failed" "$total"
   ((failed == 0))
 }

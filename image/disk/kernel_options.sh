@@ -38,7 +38,7 @@ options="console=tty0"
 # A serial line that the cell has is not the kernel's to write to.
 jq -r -f "$here/of_tables.jq" "$descriptor" | grep -q -x 'file /dev/ttyS0' || options+=" console=ttyS0,115200"
 # gpt: where the power went while the table of partitions grew, the copy at the disk's end counts.
-options+=" quiet panic=10 fsck.repair=yes gpt"
+options+=" quiet panic=10 gpt"
 if [[ $claimed ]]; then
   list=$(paste -s -d , <<<"$claimed")
   options+=" isolcpus=managed_irq,domain,$list nohz_full=$list rcu_nocbs=$list irqaffinity=$rest"

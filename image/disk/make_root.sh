@@ -36,6 +36,8 @@ set_up() {
   ln -sfn /run/systemd/resolve/resolv.conf "$root/etc/resolv.conf"
   ln -sfn ../lib/systemd/systemd "$root/usr/sbin/init"
   ln -sfn multi-user.target "$root/usr/lib/systemd/system/default.target"
+  # A clock that stands before this version was made has stopped or lost its battery: systemd sets it to this file's time.
+  touch -d "@$SOURCE_DATE_EPOCH" "$root/usr/lib/clock-epoch"
   mkdir -p "$root/etc/flexrf"
   cp "$pc/machine.conf" "$root/etc/flexrf/machine.conf"
   if [[ -d $pc/network ]]; then cp "$pc"/network/*.network "$root/etc/systemd/network/"; fi

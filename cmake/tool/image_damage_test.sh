@@ -1,0 +1,112 @@
+# Sourced by flexrf: an industrial PC whose disk is damaged or full, whose clock is wrong, or that lacks a device (docs/image.md). Each
+# begins with a copy of a disk that was claimed, and knows by the console and the panel what became of it.
+# shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
+
+claimed_disk() { cp --sparse=always "$pc_folder/product.img" "$1"; } # claimed_disk COPY
+
+overwrite_data() {  # overwrite_data DISK MIB: the beginning of data is what somebody else wrote there
+  local first
+  read -r first _ < <(partition_of "$1" data) || return
+  openssl enc -aes-128-ctr -K 00 -iv 00 2>/dev/null </dev/zero | dd of="$1" bs=1M count="$2" seek=$((first / 2048)) conv=notrunc iflag=fullblock status=none
+}
+
+asks_with_certificate() {  # with the panel's certificate as the only one that is trusted, at the time of this machine
+  openssl s_client -connect "127.0.0.1:$pc_port" </dev/null 2>/dev/null | openssl x509 >"$pc_folder/panel.crt"
+  curl -s -S --max-time 60 --cacert "$pc_folder/panel.crt" --resolve "flexrf:$pc_port:127.0.0.1" -o "$pc_folder/trusted.html" \
+    "https://flexrf:$pc_port/"
+}
+
+time_of_pc() { date -d "$(ask_panel '' -I | sed -n 's/^Date: *//Ip' | tr -d '\r')" +%s; }
+
+# Neither the superblock nor a copy of it is left, and the clock has lost its battery: the PC is one that nobody has claimed.
+data_beyond_repair() {
+  local disk=$pc_folder/damaged.img now
+  pc_disk=()
+  claimed_disk "$disk" && overwrite_data "$disk" 200 && start_pc damaged bios "$disk" -no-reboot -rtc base=2001-01-01T00:00:00 &&
+    await_line 'data was damaged beyond repair, and is made anew' && await_line 'motion is not permitted: nobody has claimed this PC' &&
+    claim_pc && await_line 'the cell runs' && log_in && asks_with_certificate && now=$(time_of_pc) || return
+  # That of the version, which systemd takes for one that stands before it.
+  ((now >= $(git -C "$root" log -1 --format=%ct) && now < $(date +%s))) || { echo "the PC's clock says $now" && return 1; }
+  ! fingerprint | grep -F -f "$pc_folder/fingerprint" || { echo "the key that was lost is there" && return 1; }
+}
+
+# What was made anew is there the next time, and nothing is said of it.
+data_made_anew_stays() {
+  pc_disk=()
+  start_pc anew bios "$pc_folder/damaged.img" -no-reboot && await_line 'the cell runs' && log_in || return
+  ! console_lines | grep -E 'data was|first boot|has claimed'
+}
+
+# The superblock is lost, and a copy of it is there.
+data_is_repaired() {
+  local disk=$pc_folder/repaired.img
+  pc_disk=()
+  claimed_disk "$disk" && overwrite_data "$disk" 1 && start_pc repaired bios "$disk" -no-reboot &&
+    await_line 'data was badly damaged, and is repaired' && await_line 'the cell runs' && log_in || return
+  [[ $(fingerprint) == "$(<"$pc_folder/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
+}
+
+fill_data() {  # fill_data DISK: a file takes every block that is free
+  local work=$pc_folder/full.data size free PATH=$PATH:/usr/sbin:/sbin
+  take_partition "$1" data "$work" && e2fsck -p "$work" >/dev/null || return
+  size=$(dumpe2fs -h "$work" 2>/dev/null | sed -n 's/^Block size: *//p')
+  free=$(dumpe2fs -h "$work" 2>/dev/null | sed -n 's/^Free blocks: *//p')
+  # Less than what its own tree of extents takes, which the second file has.
+  debugfs -w -f - "$work" >"$pc_folder/debugfs" 2>&1 <<TEXT
+write /dev/null filling
+fallocate filling 0 $((free - 64))
+set_inode_field filling size $(((free - 63) * size))
+TEXT
+  e2fsck -f -p "$work" >>"$pc_folder/debugfs" || { cat "$pc_folder/debugfs" && return 1; }
+  put_partition "$1" data "$work" && rm "$work"
+}
+
+try_to_save() { ask_panel api/v1/save-values --retry 0 -b "$pc_folder/cookies" -o "$pc_folder/saved.json" -w '%{http_code}' -X POST; }
+
+set_speed() { # set_speed VALUE: prints the status
+  ask_panel api/v1/components/pick/parameters -b "$pc_folder/cookies" -o "$pc_folder/set.json" -w '%{http_code}' -X PUT \
+    -H 'Content-Type: application/json' -d "{\"speed\": $1}"
+}
+
+# The cell runs, people get in, a save says why it cannot be, and the journal has made no room for itself with what is others'.
+data_is_full() {
+  local disk=$pc_folder/full.img status
+  pc_disk=()
+  claimed_disk "$disk" && fill_data "$disk" && start_pc full bios "$disk" -no-reboot && await_line 'the cell runs' && log_in &&
+    await_line 'this machine permits motion' || return
+  ask_panel api/v1/control/take -b "$pc_folder/cookies" -o "$pc_folder/taken.json" -X POST || return
+  status="$(set_speed 0.777) $(try_to_save)"
+  [[ $status == '200 507' && $(<"$pc_folder/saved.json") == *'make room there'* ]] ||
+    { echo "set and save were answered: $status $(<"$pc_folder/set.json") $(<"$pc_folder/saved.json")" && return 1; }
+}
+
+data_is_missing() {
+  local disk=$pc_folder/missing.img
+  pc_disk=()
+  claimed_disk "$disk" && PATH=$PATH:/usr/sbin:/sbin sfdisk -q --part-label "$disk" 7 other && start_pc missing bios "$disk" -no-reboot &&
+    await_line 'What this PC needs could not be started'
+}
+
+with_real_camera() { sed -i '/^ExecStart=/s/$/ --hardware camera=v4l2,station_link=tcp,io_station=real/' "$1/etc/systemd/system/flexrf.service"; }
+with_real_lines() { sed -i '/^ExecStart=/s/$/ --hardware stop_button=gpio/' "$1/etc/systemd/system/flexrf.service"; }
+
+# A camera and a station on the network are waited for, as their drivers have it: the cell runs, and says what it lacks.
+a_missing_camera_is_waited_for() {
+  local disk=$pc_folder/camera.img
+  pc_disk=()
+  claimed_disk "$disk" && change_root "$disk" with_real_camera && start_pc camera bios "$disk" -no-reboot && await_line 'the cell runs' &&
+    await_line 'there is no camera' && await_line 'Connection refused|port 1502' && log_in && await_line 'this machine permits motion'
+}
+
+# Without what its emergency stop hangs on the cell does not start: it is tried five times, and then the PC is started anew.
+a_missing_chip_is_refused() {
+  local disk=$pc_folder/chip.img pc_limit=1000
+  pc_disk=()
+  claimed_disk "$disk" && change_root "$disk" with_real_lines && start_pc chip bios "$disk" -no-reboot || return
+  await_line 'not started: .*' || return
+  while kill -0 "$pc_pid" 2>/dev/null; do
+    (($(pc_seconds) <= pc_limit)) || { echo "the PC does not restart" && return 1; }
+    sleep 0.2
+  done
+  (($(console_lines | grep -c 'not started: ') == 5)) || { echo "it was started $(console_lines | grep -c 'not started: ') times" && return 1; }
+}
