@@ -4,10 +4,10 @@
 
 claimed_disk() { cp --sparse=always "$pc_folder/product.img" "$1"; } # claimed_disk COPY
 
-overwrite_data() {  # overwrite_data DISK MIB: the beginning of data is what somebody else wrote there
+overwrite_data() {  # overwrite_data DISK FROM KIB: so much of data is what somebody else wrote there
   local first
   read -r first _ < <(partition_of "$1" data) || return
-  openssl enc -aes-128-ctr -K 00 -iv 00 2>/dev/null </dev/zero | dd of="$1" bs=1M count="$2" seek=$((first / 2048)) conv=notrunc iflag=fullblock status=none
+  openssl enc -aes-128-ctr -K 00 -iv 00 2>/dev/null </dev/zero | dd of="$1" bs=1K count="$3" seek=$((first / 2 + $2)) conv=notrunc iflag=fullblock status=none
 }
 
 asks_with_certificate() {  # with the panel's certificate as the only one that is trusted, at the time of this machine
@@ -22,7 +22,7 @@ time_of_pc() { date -d "$(ask_panel '' -I | sed -n 's/^Date: *//Ip' | tr -d '\r'
 data_beyond_repair() {
   local disk=$pc_folder/damaged.img now
   pc_disk=()
-  claimed_disk "$disk" && overwrite_data "$disk" 200 && start_pc damaged bios "$disk" -no-reboot -rtc base=2001-01-01T00:00:00 &&
+  claimed_disk "$disk" && overwrite_data "$disk" 0 200000 && start_pc damaged bios "$disk" -no-reboot -rtc base=2001-01-01T00:00:00 &&
     await_line 'data was damaged beyond repair, and is made anew' && await_line 'motion is not permitted: nobody has claimed this PC' &&
     claim_pc && await_line 'the cell runs' && log_in && asks_with_certificate && now=$(time_of_pc) || return
   # That of the version, which systemd takes for one that stands before it.
@@ -41,7 +41,7 @@ data_made_anew_stays() {
 data_is_repaired() {
   local disk=$pc_folder/repaired.img
   pc_disk=()
-  claimed_disk "$disk" && overwrite_data "$disk" 1 && start_pc repaired bios "$disk" -no-reboot &&
+  claimed_disk "$disk" && overwrite_data "$disk" 1 1 && start_pc repaired bios "$disk" -no-reboot &&
     await_line 'data was badly damaged, and is repaired' && await_line 'the cell runs' && log_in || return
   [[ $(fingerprint) == "$(<"$pc_folder/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
 }

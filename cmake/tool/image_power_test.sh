@@ -59,7 +59,8 @@ partition_of() {  # partition_of DISK NAME: its first sector and how many it has
 take_partition() {  # take_partition DISK NAME OUTPUT
   local first size
   read -r first size < <(partition_of "$1" "$2") || { echo "the table of partitions has no $2" && return 1; }
-  dd if="$1" of="$3" bs=1M skip=$((first / 2048)) count=$(((size + 2047) / 2048)) conv=sparse status=none
+  dd if="$1" of="$3" bs=1M skip=$((first / 2048)) count=$(((size + 2047) / 2048)) conv=sparse status=none &&
+    truncate -s $((size * 512)) "$3"
 }
 
 put_partition() {  # put_partition DISK NAME INPUT
