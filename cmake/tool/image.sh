@@ -3,6 +3,15 @@
 
 disk_scripts=$root/image/disk
 image_folder=$root/build/image
+# shellcheck source=image/disk/partitions.sh
+root_mib=$(source "$disk_scripts/partitions.sh" && mib_of root-a)
+image_key='' image_certificate='' image_keyring='' image_version='' image_boot_password='' # as the options say
+development_key='' # yes or no, when it is known
+
+# shellcheck source=cmake/tool/image_keys.sh
+source "$tool/image_keys.sh"
+# shellcheck source=cmake/tool/image_bundle.sh
+source "$tool/image_bundle.sh"
 
 image_obstacle() {  # prints why no image can be made on this machine; nothing when one can
   local release
@@ -67,15 +76,23 @@ environment_block() {  # environment_block LINE...: as GRUB reads it
   printf '%s%s' "$text" "$(printf '%*s' $((1024 - ${#text})) '' | tr ' ' '#')"
 }
 
-# What GRUB reads, and what outlives updates.
-make_folders() {  # make_folders WORK KERNEL_OPTIONS CONFIGURATION
+boot_password() {  # boot_password APPLICATION: the hash for GRUB's menu, or nothing
+  local file=$root/apps/$1/pc/boot-password text=$image_boot_password from=--boot-password-hash
+  if [[ ! $text && -f $file ]]; then text=$(<"$file") from=$file; fi
+  [[ $text ]] || return 0
+  [[ $text =~ grub\.pbkdf2\.sha512\.[0-9]+\.[0-9A-Fa-f]+\.[0-9A-Fa-f]+ ]] ||
+    die "$from: '${text:0:40}' is no hash of a password; grub-mkpasswd-pbkdf2 makes one, grub.pbkdf2.sha512.10000. and so on"
+  printf '%s\n' "${BASH_REMATCH[0]}"
+}
+
+# What GRUB starts with, and what outlives updates.
+make_folders() {  # make_folders WORK CONFIGURATION BOOT_PASSWORD_HASH
   local work=$1
-  mkdir -p "$work"/{boot,data/{flexrf,journal},esp/{grub,flexrf}} &&
-    cp "$image_folder/kernel/vmlinuz" "$work/boot/" &&
-    environment_block "slot_options=$2" >"$work/boot/slot.env" &&
+  mkdir -p "$work"/{data/{flexrf,journal},esp/{grub,flexrf}} &&
     cp "$root/image/boot/grub.cfg" "$work/esp/grub/" &&
     "$root/build/release/image/boot/flexrf-boot-choice" --folder "$work/esp/flexrf" create || return
-  if [[ -f $3 ]]; then cp "$3" "$work/data/flexrf/"; fi
+  if [[ $3 ]]; then printf 'password_pbkdf2 service %s\n' "$3" >"$work/esp/grub/password.cfg" || return; fi
+  if [[ -f $2 ]]; then cp "$2" "$work/data/flexrf/config-a.xml"; fi
 }
 
 take_time() {  # take_time WHAT COMMAND...: says how long it took
@@ -86,6 +103,19 @@ take_time() {  # take_time WHAT COMMAND...: says how long it took
   say "$what: $(since "$start")"
 }
 
+version_text() {  # when the last commit was made, and which it is
+  local time commit changed=''
+  read -r time commit < <(git -C "$root" log -1 --format='%ct %h' 2>/dev/null)
+  [[ ! $commit || ! $(git -C "$root" status --porcelain 2>/dev/null) ]] || changed=-dirty
+  printf '%s%s%s\n' "$(TZ=UTC date -d "@${time:-$SOURCE_DATE_EPOCH}" +%Y%m%dT%H%M%SZ)" "${commit:+-$commit}" "$changed"
+}
+
+make_identity() {  # make_identity WORK APPLICATION: what version this is, and whose updates it takes
+  mkdir "$1/identity" && cp "$image_keyring" "$1/identity/keyring.pem" && chmod 644 "$1/identity/keyring.pem" &&
+    printf '%s\n' "application=$2" "version=${image_version:-$(version_text)}" "built=$SOURCE_DATE_EPOCH" "development_key=$development_key" \
+      >"$1/identity/version"
+}
+
 make_root() {  # make_root WORK APPLICATION PC [ARGUMENT...]
   local work=$1 executable=$root/build/release/apps/$2/$2
   local -a names
@@ -94,12 +124,17 @@ make_root() {  # make_root WORK APPLICATION PC [ARGUMENT...]
     cp "$root"/build/release/image/{boot/flexrf-boot-choice,claim/flexrf-claim,helper/flexrf-helper} "$work/programs/" &&
     fetch "${names[@]}" >"$work/packages" &&
     bash "$disk_scripts/make_root.sh" "$work/root" "$work/packages" "$image_folder/kernel" "$work/programs" "$executable" \
-      "$work/descriptor" "${@:3}"
+      "$work/descriptor" "$3" "$work/identity" "${@:4}"
 }
 
-make_start() {  # make_start WORK
+make_boot() {  # make_boot WORK KERNEL_OPTIONS
   local busybox
-  busybox=$(fetch busybox-static) && bash "$disk_scripts/make_start.sh" "$image_folder/kernel" "$busybox" "$1/boot/initrd.img"
+  mkdir "$1/boot" &&
+    cp "$image_folder/kernel/vmlinuz" "$1/boot/" &&
+    environment_block "slot_options=$2" >"$1/boot/slot.env" &&
+    busybox=$(fetch busybox-static) &&
+    bash "$disk_scripts/make_start.sh" "$image_folder/kernel" "$busybox" "$1/boot/initrd.img" &&
+    bash "$disk_scripts/make_boot.sh" "$1/boot" "$1/boot.img"
 }
 
 # What a variant for tests has besides: devices that nobody has to plug in, and a report on the console. gpio-sim, which Debian's kernel
@@ -125,30 +160,48 @@ add_test_devices() {  # add_test_devices WORK: makes root.test of root, and list
   mv "$1/root.test" "$1/root"
 }
 
-pack_root() { mksquashfs "$1/root" "$1/root.squashfs" -noappend -quiet -no-progress -all-root -no-xattrs -comp zstd; } # pack_root WORK
+pack_root() {  # pack_root FOLDER OUTPUT
+  mksquashfs "$1" "$2" -noappend -quiet -no-progress -all-root -no-xattrs -comp zstd || return
+  (($(stat -c %s "$2") <= root_mib * 1048576)) || { say "the root is larger than its partition of $root_mib MiB" && return 1; }
+}
 
 mib() { printf '%d MiB\n' $((($1 + 1048575) / 1048576)); } # mib BYTES
 
-make_image() {  # make_image APPLICATION OUTPUT product|test [ARGUMENT...]
-  local application=$1 output=$2 variant=$3 work options pc=$root/apps/$1/pc
+# The two partitions of a version, of which disks and bundles are made.
+make_version() {  # make_version WORK APPLICATION product|test [ARGUMENT...]: boot.img, root.img and identity/version in WORK
+  local work=$1 application=$2 variant=$3 options pc=$root/apps/$2/pc
   shift 3
   umask 022
-  work=$(mktemp -d "$image_folder/$application.XXXXXX")
-  # shellcheck disable=SC2064 # the folder of now
-  trap "rm -rf '$work'" EXIT
   [[ -f $pc/machine.conf ]] || pc=$disk_scripts
   # The same inputs give the same image: the time of files is that of the last commit.
   SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%ct 2>/dev/null || date +%s)}
   export SOURCE_DATE_EPOCH
+  [[ $development_key ]] || choose_keys # the command has done so before it built
   "$root/build/release/apps/$application/$application" --descriptor </dev/null >"$work/descriptor" || die "the application does not say what it is"
   options=$(bash "$disk_scripts/kernel_options.sh" "$work/descriptor" "$pc/machine.conf") || exit 1
+  make_identity "$work" "$application" || die "what version this is could not be written"
   take_time "took the kernel" make_image_kernel || die "there is no kernel for the image"
-  make_folders "$work" "$options" "$root/apps/$application/config.xml" || die "what GRUB reads could not be made"
-  take_time "made the start" make_start "$work" || die "the initial RAM disk could not be made"
+  take_time "made the start" make_boot "$work" "$options" || die "the partition with the kernel could not be made"
   take_time "made the root" make_root "$work" "$application" "$pc" "$@" || die "the root could not be made"
   if [[ $variant == test ]]; then add_test_devices "$work" || die "the devices for tests could not be had"; fi
-  take_time "packed the root" pack_root "$work" || die "the root could not be packed"
-  take_time "made the disk" bash "$disk_scripts/make_disk.sh" "$output" "$work/boot" "$work/root.squashfs" "$work/data" "$work/esp" ||
+  take_time "packed the root" pack_root "$work/root" "$work/root.img" || die "the root could not be packed"
+  say "root: $(mib "$(du -sb "$work/root" | cut -f 1)") unpacked, $(mib "$(stat -c %s "$work/root.img")") as squashfs"
+  rm -rf "$work/root"
+}
+
+make_disk() {  # make_disk WORK APPLICATION OUTPUT: of a version
+  local work=$1 hash
+  hash=$(boot_password "$2") || exit 1
+  make_folders "$work" "$root/apps/$2/config.xml" "$hash" || die "what GRUB reads could not be made"
+  take_time "made the disk" bash "$disk_scripts/make_disk.sh" "$3" "$work/boot.img" "$work/root.img" "$work/data" "$work/esp" ||
     die "the disk could not be made"
-  say "root: $(mib "$(du -sb "$work/root" | cut -f 1)") unpacked, $(mib "$(stat -c %s "$work/root.squashfs")") as squashfs"
+}
+
+make_image() {  # make_image APPLICATION OUTPUT product|test [ARGUMENT...]
+  local work
+  work=$(mktemp -d "$image_folder/$1.XXXXXX")
+  # shellcheck disable=SC2064 # the folder of now
+  trap "rm -rf '$work'" EXIT
+  make_version "$work" "$1" "${@:3}"
+  make_disk "$work" "$1" "$2"
 }

@@ -114,7 +114,7 @@ check_users() {  # check_users WORK RECORDING POINT: nobody before the claim, an
 }
 
 check_configuration() {  # check_configuration WORK RECORDING POINT: one that was saved, and none before the last answer
-  local work=$1 file=flexrf/config.xml last speed
+  local work=$1 file=flexrf/config-a.xml last speed
   last=$(promise_at "$2" "$3" saved)
   if ! is_in_data "$work/data" "$file"; then
     [[ ! $last ]] || { echo "lost configuration: $last saves were answered, and there is none" && return 1; }

@@ -1,27 +1,16 @@
 #!/usr/bin/env bash
 # make_disk.sh OUTPUT BOOT ROOT DATA ESP: a raw image of a disk with the partitions of docs/image.md, that boots by BIOS and by UEFI.
-# BOOT is the folder of a version's kernel, ROOT its squashfs, DATA the folder of what outlives updates, ESP that of the partition
-# which GRUB lies on, without GRUB itself. No loop device is needed: each file system is made in a file, and put in its place.
+# BOOT is a version's partition with the kernel (make_boot.sh), ROOT its squashfs, DATA the folder of what outlives updates, ESP that of
+# the partition which GRUB lies on, without GRUB itself. No loop device is needed: each file system is made in a file, and put in its place.
 set -eu -o pipefail
+# shellcheck source=image/disk/partitions.sh
+source "$(dirname "${BASH_SOURCE[0]}")/partitions.sh"
 output=$1 boot=$2 root=$3 data=$4 esp=$5
 PATH=$PATH:/usr/sbin:/sbin # sfdisk and the makers of file systems; not only root has a use for them
 work=$(mktemp -d "$output.XXXXXX")
 trap 'rm -rf "$work"' EXIT
 disk=$work/disk
 
-identifier() {  # identifier NAME: a GUID that is the same whenever the image is made
-  sha256sum <<<"flexrf $1" | sed -E 's/^(.{8})(.{4}).(.{3}).(.{3})(.{12}).*/\1-\2-4\3-8\4-\5/'
-}
-
-# Names, sizes (MiB) and types; the first one begins at 1 MiB.
-bios_type=21686148-6449-6E6F-744E-656564454649
-esp_type=C12A7328-F81F-11D2-BA4B-00A0C93EC93B
-boot_type=BC13C2FF-59E6-4262-A352-B275FD6F7172
-root_type=4F68BCE3-E8CD-4DB1-96E7-FBCAF984B709
-data_type=0FC63DAF-8483-4772-8E79-3D69D8477DE4
-names=(bios esp boot-a boot-b root-a root-b data)
-sizes=(1 32 96 96 512 512 256)
-types=("$bios_type" "$esp_type" "$boot_type" "$boot_type" "$root_type" "$root_type" "$data_type")
 declare -A begins=()
 
 partition() {
@@ -58,7 +47,7 @@ make_esp() {
   grub-mkimage -O x86_64-efi -p /grub -o "$work/esp/EFI/BOOT/BOOTX64.EFI" efi_gop efi_uga "${grub_modules[@]}"
   find "$work/esp" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
   # Clusters of 4 KiB: each copy of the choice has one of its own.
-  truncate -s 32M "$work/esp.fat"
+  truncate -s "$(mib_of esp)M" "$work/esp.fat"
   mkfs.vfat -F 16 -s 8 -n ESP -i "$(identifier esp | head -c 8)" "$work/esp.fat" >/dev/null
   (cd "$work/esp" && mcopy -i "$work/esp.fat" -s -m -Q ./* ::)
   put "$work/esp.fat" esp
@@ -69,7 +58,7 @@ make_bios() {
   local sectors core=$work/core.img first=$work/boot.img at
   grub-mkimage -O i386-pc -p '(,gpt2)/grub' -o "$core" biosdisk "${grub_modules[@]}"
   sectors=$((($(stat -c %s "$core") + 511) / 512))
-  ((sectors * 512 <= sizes[0] * 1048576)) || { echo "GRUB's core.img does not fit into its partition" && return 1; }
+  ((sectors * 512 <= $(mib_of bios) * 1048576)) || { echo "GRUB's core.img does not fit into its partition" && return 1; }
   at=$((begins[bios] * 2048))
   cp /usr/lib/grub/i386-pc/boot.img "$first"
   number "$at" 8 | patch "$first" $((0x5c))
@@ -80,20 +69,16 @@ make_bios() {
   head -c 440 "$first" | patch "$disk" 0
 }
 
-make_file_system() {  # make_file_system KIND NAME FOLDER MIB OPTION...
-  truncate -s "$4M" "$work/$2"
-  # The time is for mke2fs, which has no other way to be told.
-  E2FSPROGS_FAKE_TIME=$SOURCE_DATE_EPOCH mke2fs -q -t "$1" -L "$2" -U "$(identifier "$2")" -m 0 "${@:5}" \
-    -E "root_owner=0:0,hash_seed=$(identifier "seed of $2")" -d "$3" "$work/$2" "$4M"
-  put "$work/$2" "$2"
+make_data() {
+  find "$data" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
+  make_file_system ext4 data "$data" "$work/data" -J size=16
+  put "$work/data" data
 }
 
 partition
 make_bios
 make_esp
-find "$boot" "$data" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
-make_file_system ext2 boot-a "$boot" 96
-make_file_system ext4 data "$data" 256 -J size=16
-(($(stat -c %s "$root") <= sizes[4] * 1048576)) || { echo "the root does not fit into its partition" && exit 1; }
+make_data
+put "$boot" boot-a
 put "$root" root-a
 mv "$disk" "$output"

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# make_root.sh OUTPUT PACKAGES KERNEL PROGRAMS APPLICATION DESCRIPTOR PC [ARGUMENT...]: the folder that becomes the root of an
-# industrial PC. PACKAGES is a file that lists packages' files, KERNEL what take_kernel.sh made, PROGRAMS a folder with the programs
+# make_root.sh OUTPUT PACKAGES KERNEL PROGRAMS APPLICATION DESCRIPTOR PC IDENTITY [ARGUMENT...]: the folder that becomes the root of
+# an industrial PC. PACKAGES is a file that lists packages' files, KERNEL what take_kernel.sh made, PROGRAMS a folder with the programs
 # beside the application, APPLICATION an executable, DESCRIPTOR what it says by --descriptor, PC a folder with machine.conf and
-# perhaps network/*.network, and the ARGUMENTs are the application's.
+# perhaps network/*.network, IDENTITY one with the files version and keyring.pem (whose updates it takes), and the ARGUMENTs are the
+# application's.
 # No package's script is run, so that this needs no right of root and no folder of the machine that it runs on.
 set -eu -o pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-root=$1 packages=$2 kernel=$3 programs=$4 application=$5 descriptor=$6 pc=$7
-shift 7
+root=$1 packages=$2 kernel=$3 programs=$4 application=$5 descriptor=$6 pc=$7 identity=$8
+shift 8
 PATH=$PATH:/usr/sbin:/sbin # ldconfig
 
 lines_of() { sed 's/ *#.*//; /^$/d' "$1"; } # lines_of FILE: without what is for people
@@ -40,6 +41,10 @@ set_up() {
   touch -d "@$SOURCE_DATE_EPOCH" "$root/usr/lib/clock-epoch"
   mkdir -p "$root/etc/flexrf"
   cp "$pc/machine.conf" "$root/etc/flexrf/machine.conf"
+  mkdir -p "$root/usr/lib/flexrf"
+  cp "$identity/version" "$root/usr/lib/flexrf/version"
+  cp "$identity/keyring.pem" "$root/etc/rauc/keyring.pem"
+  sed -i "s|@application@|${application##*/}|" "$root/etc/rauc/system.conf"
   if [[ -d $pc/network ]]; then cp "$pc"/network/*.network "$root/etc/systemd/network/"; fi
 }
 
