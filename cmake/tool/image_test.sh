@@ -109,6 +109,8 @@ log_in() {
 source "$tool/image_power_test.sh"
 # shellcheck source=cmake/tool/image_damage_test.sh
 source "$tool/image_damage_test.sh"
+# shellcheck source=cmake/tool/image_update_test.sh
+source "$tool/image_update_test.sh"
 
 # What a PC promises from its first boot on, while its disk's writes are recorded: nothing moves until its version has been healthy for a
 # minute.
@@ -183,6 +185,8 @@ second_boot_by_uefi uefi
 variant_is_made none
 what_runs variant
 what_hangs_is_started_anew hang
+updates_are_made none
+updates_by_bundles update
 what_a_power_cut_leaves cut
 data_beyond_repair damaged
 TEXT
@@ -214,7 +218,7 @@ image_tests() {  # as ctest would run them
     image_test $((++number)) "$total" "$name" "$machine"
   done
   count "$total" "$failed"
-  rm -f "$pc_folder"/*.{img,base,log}
+  rm -rf "$pc_folder"/*.{img,base,log} "$pc_folder/update"
   printf '\n%d%% tests passed, %d tests failed out of %d\n' $(((total - failed) * 100 / total)) "$failed" "$total"
   ((failed == 0))
 }

@@ -1,0 +1,90 @@
+# Sourced by image_test.sh: a PC gets other versions by bundles (docs/image.md). They are on a second disk, and a unit of the variant for
+# tests takes them as the helper takes those of a person; one of them is good, one starts a program that crashes, and others have to be
+# refused.
+# shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
+
+# pack_other NAME COMPATIBLE BUILT: a bundle that is none to boot, for what is refused before anybody looks into it
+pack_other() (
+  small=$pc_folder/update/small
+  rm -rf "$small"
+  mkdir -p "$small/identity"
+  head -c 65536 /dev/urandom >"$small/root.img"
+  head -c 65536 /dev/urandom >"$small/boot.img"
+  printf '%s\n' application=pick-station "version=$1" "built=$3" >"$small/identity/version"
+  pack_bundle "$small" "$2" "$pc_folder/update/bundles/$1"
+)
+
+sign_otherwise() {  # sign_otherwise NAME CHANGE: the small bundle's parts, with a manifest that sed changes
+  local small=$pc_folder/update/small
+  sed -i "$2" "$small/bundle/manifest.raucm"
+  rauc --conf="$small/system.conf" --key="$image_key" --cert="$image_certificate" --keyring="$image_keyring" \
+    bundle "$small/bundle" "$pc_folder/update/bundles/$1" >"$small/said" 2>&1 || { cat "$small/said" && return 1; }
+}
+
+pack_others() {
+  local built=$1 bundles=$pc_folder/update/bundles
+  pack_other foreign flexrf-keyboard-amd64 "$built" && pack_other older flexrf-pick-station-amd64 1 || return
+  mksquashfs "$pc_folder/update/small/bundle" "$bundles/unsigned" -quiet -no-progress >/dev/null || return
+  # shellcheck disable=SC2016 # sed's $
+  sign_otherwise plain 's/^format=verity/format=plain/' &&
+    sign_otherwise half 's/^format=plain/format=verity/; /^\[image.boot\]/,$d' || return
+  mkdir -p "$pc_folder/update/keys" && make_keys "$pc_folder/update/keys" 'FlexRF test' || return
+  (
+    image_key=$pc_folder/update/keys/signer.key image_certificate=$pc_folder/update/keys/signer.pem image_keyring=$pc_folder/update/keys/ca.pem
+    pack_other other-key flexrf-pick-station-amd64 "$built"
+  )
+}
+
+pack_changed() {  # pack_changed VERSION: of the root as it was changed
+  local work=$pc_folder/update
+  sed -i "s/^version=.*/version=$1/" "$work/identity/version" "$work/root/usr/lib/flexrf/version" &&
+    pack_root "$work/root" "$work/root.img" && pack_bundle "$work" flexrf-pick-station-amd64 "$work/bundles/$1"
+}
+
+make_updates() (  # the first version as a disk, others as bundles, and the disk that they are on
+  work=$pc_folder/update
+  mkdir -p "$work/bundles"
+  image_version=first
+  make_version "$work" pick-station 'test'
+  make_disk "$work" pick-station "$pc_folder/update.img"
+  unsquashfs -q -n -d "$work/root" "$work/root.img" >/dev/null || return
+  pack_changed second || return
+  # It ends as one does that had a fault.
+  printf '%s\n' '#!/bin/sh' 'exit 2' >"$work/root/usr/lib/flexrf/pick-station"
+  pack_changed broken || return
+  pack_others "$SOURCE_DATE_EPOCH" || return
+  PATH=$PATH:/usr/sbin:/sbin mke2fs -q -t ext4 -d "$work/bundles" "$pc_folder/bundles.img" 256M
+)
+
+set_speed() {  # set_speed VALUE: at the panel, and it is saved
+  local status
+  log_in && ask_panel api/v1/control/take -b "$pc_folder/cookies" -o "$pc_folder/taken.json" -X POST || return
+  status=$(ask_panel api/v1/components/pick/parameters -b "$pc_folder/cookies" -o "$pc_folder/set.json" -w '%{http_code}' -X PUT \
+    -H 'Content-Type: application/json' -d "{\"speed\": $1}") &&
+    status+=$(ask_panel api/v1/save-values -b "$pc_folder/cookies" -o "$pc_folder/saved.json" -w '%{http_code}' -X POST)
+  [[ $status == 200200 ]] || { printf 'the speed was answered: %s %s\n' "$status" "$(<"$pc_folder/set.json")" && return 1; }
+}
+
+# The PC's clock is years behind the keys, its power stays on. Three boots of the broken version end in the one before it.
+updates_by_bundles() {
+  local pc_limit=3000 why
+  # shellcheck disable=SC2054 # the commas are QEMU's
+  start_pc update bios "$pc_folder/update.img" -rtc base=2010-01-01 -drive "file=${pc_folder//,/,,}/bundles.img,format=raw,if=none,id=bundles" \
+    -device virtio-blk-pci,drive=bundles && claim_pc && await_line 'update test: version first in slot a runs as only' || return
+  for why in 'verify unsigned: failed +it is no bundle, or not all of one' 'verify plain: failed +its format is plain' \
+    'verify other-key: failed +it is not signed by a key that this PC trusts' 'verify foreign: failed +it is for flexrf-keyboard-amd64' \
+    'verify half: failed +it does not hold the two partitions' 'verify older: done older' \
+    'install older: failed older the version older is older than the one that runs' 'install older: done older' \
+    'verify truncated: failed +it is no bundle, or not all of one' 'verify damaged: failed +its content is damaged' \
+    'install damaged: failed' 'after that: primary=A A=whole,[a-z]+ B=not-whole' 'verify nothing: failed +there is no bundle'; do
+    await_line "update test: $why" || return
+  done
+  ! console_lines | grep 'older is still allowed' || return
+  set_speed 0.555 && await_line 'update test: verify second: done second' && await_line 'update test: install second: done second' &&
+    await_line 'update test: left of it: 0 processes, 0 mappings; primary=B A=whole,[a-z]+ B=whole,unconfirmed' &&
+    await_line 'update test: version second in slot b runs as trial' && await_line 'update test: configuration: a 0.555 b 0.555' &&
+    await_line 'the version in slot B has confirmed itself' && set_speed 0.777 &&
+    await_line 'update test: configuration: a 0.555 b 0.777' && await_line 'update test: install broken: done broken' &&
+    await_line 'update test: version second in slot b runs as fallback' && await_line 'update test: configuration: b 0.777' &&
+    await_line 'update test: complete: primary=B'
+}
