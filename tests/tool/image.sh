@@ -35,6 +35,60 @@ refused "*--output needs the name of a file*" keyboard --output
 refused "*there is no folder $work/nowhere for the image; make it first: mkdir -p $work/nowhere" keyboard --output "$work/nowhere/cell.img"
 refused "*$work/bin is a folder; name a file: --output $work/bin/cell.img" keyboard --output "$work/bin"
 refused "*/dev/null is not an ordinary file*dd if=FILE of=/dev/null*" keyboard --output /dev/null
+refused "*--keyring needs the name of a file*" keyboard --keyring
+refused "*--version needs a value*" keyboard --version
+refused "*--version: 'a b' is no name of a version*" keyboard --version 'a b'
+refused "*--new-keys DIR stands alone*" keyboard --new-keys "$work/keys"
+refused "*--key and --certificate belong together*" keyboard --bundle --key x
+refused "*--keyring is missing: which CA the PC trusts from this version on*" keyboard --bundle --key x --certificate y
+refused "*a bundle is signed: --keyring needs --key and --certificate*" keyboard --bundle --keyring x
+refused "*--key and --certificate sign a bundle: with --bundle*" keyboard --key x --certificate y
+refused "*--boot-password-hash is for a disk*" keyboard --bundle --boot-password-hash grub.pbkdf2.sha512.10000.AB.CD
+refused "*--boot-password-hash: 'secret' is no hash of a password; grub-mkpasswd-pbkdf2 makes one*" keyboard --boot-password-hash secret
+mkdir -p "$tree/apps/keyboard/pc" && echo secret >"$tree/apps/keyboard/pc/boot-password"
+refused "*$tree/apps/keyboard/pc/boot-password: 'secret' is no hash of a password*" keyboard
+rm -r "$tree/apps/keyboard/pc"
+
+# Keys: made once, outside of the repository, and what is signed by others is none of a PC's.
+keys() { flexrf image --new-keys "$1" </dev/null; } # keys FOLDER
+keys "$tree/keys"
+expect "exit code of keys in the repository" "$status" 1
+expect "message of keys in the repository" "$errors" "*$tree/keys is in the repository*"
+expect "the folder" "$(ls -d "$tree/keys" 2>&1)" "*cannot access*"
+keys "$work/keys"
+expect "exit code of --new-keys" "$status" 0
+expect "message of --new-keys" "$errors" "*ca.key *signer.key *--key $work/keys/signer.key --certificate $work/keys/signer.pem*"
+expect "who may read the keys" "$(stat -c %a "$work"/keys/{ca,signer}.{key,pem} | tr '\n' ' ')" "600 644 600 644 "
+before=$(cat "$work"/keys/*)
+keys "$work/keys"
+expect "exit code of keys again" "$status" 1
+expect "message of keys again" "$errors" "*$work/keys has a ca.key already*"
+expect "the keys of before" "$(cat "$work"/keys/*)" "$before"
+keys "$work/others"
+refused "*--keyring: there is no file $work/nothing that can be read" keyboard --keyring "$work/nothing"
+refused "*--keyring: $work/keys/ca.key is no certificate (PEM); ./flexrf image --new-keys DIR makes one" keyboard --keyring "$work/keys/ca.key"
+refused "*the certificate $work/keys/signer.pem is not that of the key $work/others/signer.key" keyboard --bundle \
+  --key "$work/others/signer.key" --certificate "$work/keys/signer.pem" --keyring "$work/keys/ca.pem"
+refused "*a PC with the keyring $work/others/ca.pem would not trust the certificate $work/keys/signer.pem: *" keyboard --bundle \
+  --key "$work/keys/signer.key" --certificate "$work/keys/signer.pem" --keyring "$work/others/ca.pem"
+refused "*the certificate $work/keys/ca.pem is not one for signing code*" keyboard --bundle \
+  --key "$work/keys/ca.key" --certificate "$work/keys/ca.pem" --keyring "$work/keys/ca.pem"
+
+# The development key is made once, kept where caches are, and said loudly.
+chosen() {  # chosen: what the command takes without keys
+  (
+    root=$tree tool=$tree/cmake/tool cache=$work/cache
+    source "$tool/words.sh"
+    source "$tool/image.sh"
+    choose_keys && printf '%s %s\n' "$development_key" "$image_keyring" && cat "$image_keyring"
+  ) 2>"$work/chosen"
+}
+first=$(chosen)
+expect "the development key" "$first" "yes $work/cache/development-key/ca.pem*"
+expect "the development key is said" "$(<"$work/chosen")" "*WARNING: *$work/cache/development-key*anyone who has it can make an update*"
+expect "the same again" "$(chosen)" "$first"
+expect "nothing left of making it" "$(echo "$work"/cache/development-key*)" "$work/cache/development-key"
+
 echo 699 >"$work/free"
 refused "*there are 699 MiB left in *" keyboard
 echo 1000 >"$work/free"
