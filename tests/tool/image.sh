@@ -113,6 +113,23 @@ output=$(bash "$tree/image/disk/fetch_packages.sh" "$work/packages" dash coreuti
 expect "exit code without a network" $? 1
 expect "message without a network" "$output" "*not all packages could be had: dash coreutils*hint: is there a network*"
 
+# Which version it is: the last commit's time and name, and whether something was changed since.
+git init -q "$work/repository" && git -C "$work/repository" config user.name x && git -C "$work/repository" config user.email x@example.com
+GIT_COMMITTER_DATE='2026-11-28T00:15:00Z' git -C "$work/repository" commit -q --allow-empty -m x
+version() {  # as the image says it
+  (
+    root=$tree tool=$tree/cmake/tool
+    source "$tool/words.sh"
+    source "$tool/image.sh"
+    root=$work/repository
+    version_text
+  )
+}
+commit=$(git -C "$work/repository" log -1 --format=%h)
+expect "version" "$(version)" "20261128T001500Z-$commit"
+touch "$work/repository/changed"
+expect "version with a change" "$(version)" "20261128T001500Z-$commit-dirty"
+
 # What the tables and the role map make of the kernel's command line.
 cat >"$work/descriptor" <<'BODY'
 {"threads": [{"priority": 40, "role": "control"}, {"priority": 20, "role": "io"}, {"priority": 0, "role": "any"}],
