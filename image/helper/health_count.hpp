@@ -23,6 +23,8 @@ class HealthCount {
     looked_at_ = now;
   }
   bool is_enough() const noexcept { return is_healthy_ && looked_at_ - since_ >= wanted_; }
+  /// As of the last look.
+  Duration so_far() const noexcept { return is_healthy_ ? looked_at_ - since_ : Duration::zero(); }
 
  private:
   Duration wanted_;

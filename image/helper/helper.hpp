@@ -1,24 +1,17 @@
 // What the helper does at each look: the word for the application, and the version's confirmation.
 #pragma once
 
-#include <functional>
+#include <mutex>
 #include <string>
 
 #include "base/time.hpp"
-#include "image/boot/medium.hpp"
+#include "image/helper/files.hpp"
 #include "image/helper/health_count.hpp"
+#include "image/helper/motion_word.hpp"
 #include "image/helper/permission.hpp"
+#include "image/helper/surroundings.hpp"
 
 namespace flexrf::helper {
-
-/// Where things are on a PC.
-struct Files {
-  std::string word = "/run/flexrf-helper/motion";      ///< for --motion-permit
-  std::string users = "/data/flexrf/panel-users";      ///< who may log in
-  std::string choice = "/boot/efi/flexrf";             ///< the boot choice's folder
-  std::string command_line = "/proc/cmdline";          ///< of the kernel
-  std::string certificate = "/data/flexrf/panel.crt";  ///< the panel's
-};
 
 /// Times by which it decides.
 struct Limits {
@@ -26,33 +19,36 @@ struct Limits {
   Duration trial = std::chrono::minutes{10};    ///< after that a version on trial gives up its turn
 };
 
-/// What a look asks of others, so that a test can be they.
-struct Surroundings {
-  std::function<std::string()> why_not_healthy;
-  std::function<void(const std::string& line)> say;
-  std::function<void()> restart;  ///< the PC; may return
+/// For how long the version that runs has been healthy; nothing of one that has confirmed itself.
+struct Health {
+  Duration so_far{};
+  std::string why_not;
 };
 
-/// One thread. Nothing of it is lost when the process ends: it reads everything anew at each look.
+/// One thread but for health(). Nothing of it is lost when the process ends: it reads everything anew at each
+/// look.
 class Helper {
  public:
-  Helper(Files files, Limits limits, Surroundings surroundings, Time began);
+  Helper(Files files, Limits limits, const Surroundings& surroundings, MotionWord& word, Time began);
 
   void look(Time now);
+  /// As of the last look. Any thread.
+  Health health() const;
 
  private:
-  Facts facts() const;
   void supervise(const Facts& facts, Time now);
   void confirm(const Facts& facts);
-  void leave_word(const std::string& word);
+  void note(const Health& health);
   void say(const std::string& line, std::string& said) const;
 
   Files files_;
   Limits limits_;
-  Surroundings surroundings_;
+  const Surroundings& surroundings_;
+  MotionWord& word_;
   Time began_;  // the time of the trial
-  HealthCount health_;
-  std::string word_;         // as it stands in the file
+  HealthCount count_;
+  mutable std::mutex reading_;
+  Health health_;
   std::string said_health_;  // what was said last, so that it is said once
   std::string said_failure_;
 };

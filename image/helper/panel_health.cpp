@@ -14,6 +14,9 @@
 #include <memory>
 #include <string_view>
 #include <system_error>
+#include <utility>
+
+#include "runtime/json/json_reader.hpp"
 
 namespace flexrf::helper {
 namespace {
@@ -59,26 +62,38 @@ bool connect_within(int socket_number, std::uint16_t port, Duration wait) {
   return connect(socket_number, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
 }
 
-/// The text that a member of a JSON object has, as far as it goes without an escape; empty: there is none.
-std::string_view member(std::string_view object, std::string_view name) {
-  const std::string key = '"' + std::string{name} + "\":\"";
-  const std::size_t at = object.find(key);
-  if (at == std::string_view::npos) return {};
-  object.remove_prefix(at + key.size());
-  return object.substr(0, object.find_first_of("\"\\"));
+/// It comes from a process that may have been taken over, and goes to a terminal.
+std::string made_printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char one) { return one < ' ' || one > '~'; }, '?');
+  return text;
 }
 
-/// Of an answer that is not 200: why not, or whatever it says.
-std::string reason_in(std::string_view answer) {
-  std::string_view said = member(answer, "why_not");
-  if (said.empty()) said = member(answer, "detail");  // of who serves something else at this port
-  if (said.empty()) said = answer.substr(0, answer.find("\r\n"));
-  std::string reason = "the panel says: ";
-  reason.append(said.substr(0, longest_reason));
-  // It comes from a process that may have been taken over, and goes to a terminal.
-  std::replace_if(
-      reason.begin(), reason.end(), [](char one) { return one < ' ' || one > '~'; }, '?');
-  return reason;
+PanelAnswer answer_in(std::string_view text) {
+  PanelAnswer answer;
+  answer.has_answered = true;
+  const std::size_t end_of_head = text.find("\r\n\r\n");
+  const bool is_fine =
+      text.starts_with("HTTP/1.") && text.substr(std::min<std::size_t>(text.size(), 8)).starts_with(" 200 ");
+  JsonReader reader;
+  const Result<JsonObject> body = end_of_head == std::string_view::npos
+                                      ? Status::error(StatusCode::unavailable, "no body")
+                                      : reader.object(text.substr(end_of_head + 4));
+  std::string_view said;
+  if (body) {
+    // What is not there, or is no such thing, leaves the answer as it is.
+    [[maybe_unused]] auto error = (*body)["may_move"].get(answer.may_move);
+    error = (*body)["why_not"].get(said);
+    if (said.empty()) error = (*body)["detail"].get(said);  // of who serves something else at this port
+  }
+  if (is_fine) return answer;
+  if (said.empty()) said = text.substr(0, text.find("\r\n"));
+  answer.why_not_healthy = made_printable("the panel says: " + std::string{said.substr(0, longest_reason)});
+  return answer;
+}
+
+PanelAnswer without(std::string why) {
+  return {std::move(why), false, true};
 }
 
 template <auto free>
@@ -91,13 +106,13 @@ struct Free {
 
 }  // namespace
 
-std::string why_not_healthy(std::uint16_t port, const std::string& certificate_file, Duration wait) {
+PanelAnswer ask_panel(std::uint16_t port, const std::string& certificate_file, Duration wait) {
   ERR_clear_error();
   const std::unique_ptr<SSL_CTX, Free<SSL_CTX_free>> context(SSL_CTX_new(TLS_client_method()));
-  if (!context) return of_encryption("cannot be asked");
+  if (!context) return without(of_encryption("cannot be asked"));
   // The certificate is trusted by itself, and whose name is in it does not matter.
   if (SSL_CTX_load_verify_locations(context.get(), certificate_file.c_str(), nullptr) != 1)
-    return "the panel's certificate " + certificate_file + " cannot be read";
+    return without("the panel's certificate " + certificate_file + " cannot be read");
   SSL_CTX_set_verify(context.get(), SSL_VERIFY_PEER, nullptr);
   // The PC's clock may be wrong, and the certificate may be one that another one signed.
   X509_VERIFY_PARAM_set_flags(SSL_CTX_get0_param(context.get()),
@@ -105,17 +120,17 @@ std::string why_not_healthy(std::uint16_t port, const std::string& certificate_f
   SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION);
 
   const Socket connection(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  if (connection.number() < 0) return of_errno("asked");
-  if (!connect_within(connection.number(), port, wait)) return of_errno("reached");
+  if (connection.number() < 0) return without(of_errno("asked"));
+  if (!connect_within(connection.number(), port, wait)) return without(of_errno("reached"));
   const std::unique_ptr<SSL, Free<SSL_free>> encryption(SSL_new(context.get()));
   if (!encryption || SSL_set_fd(encryption.get(), connection.number()) != 1 ||
       SSL_connect(encryption.get()) != 1)
-    return of_encryption("has not proved who it is");
+    return without(of_encryption("has not proved who it is"));
 
   const std::string request = "GET /api/v1/health HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
                               "\r\nConnection: close\r\n\r\n";
   if (SSL_write(encryption.get(), request.data(), static_cast<int>(request.size())) <= 0)
-    return of_encryption("takes no request");
+    return without(of_encryption("takes no request"));
   std::array<char, longest_answer> answer{};
   std::size_t size = 0;
   const Time end = MonotonicClock::now() + wait;
@@ -126,10 +141,8 @@ std::string why_not_healthy(std::uint16_t port, const std::string& certificate_f
     size += static_cast<std::size_t>(count);
   }
   const std::string_view text(answer.data(), size);
-  if (text.empty()) return of_encryption("does not answer");
-  const bool is_fine =
-      text.starts_with("HTTP/1.") && text.substr(std::min<std::size_t>(size, 8)).starts_with(" 200 ");
-  return is_fine ? "" : reason_in(text);
+  if (text.empty()) return without(of_encryption("does not answer"));
+  return answer_in(text);
 }
 
 }  // namespace flexrf::helper

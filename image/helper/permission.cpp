@@ -13,11 +13,16 @@ bool has_another_turn(const Facts& facts) noexcept {
 
 std::string permission_of(const Facts& facts) {
   if (!facts.is_claimed) return "nobody has claimed this PC: there is no admin with a password";
+  if (facts.update == Phase::installing) return installing;
+  if (facts.update == Phase::installed) return "an update was installed: the PC has to be restarted";
+  if (facts.update == Phase::unknown)
+    return "whether an update is being installed cannot be told: " + facts.update_failure +
+           "; restart the PC";
   if (!facts.choice) return "which version of this PC counts cannot be told: " + facts.choice_failure;
   if (!facts.running.slot) return "this PC was not started by its own boot loader, which names the version";
   if (!is_confirmed(facts))
     return "this version has not confirmed itself; it does when it has been healthy for a minute";
-  return "permitted";
+  return permitted;
 }
 
 }  // namespace flexrf::helper

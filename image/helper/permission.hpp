@@ -6,6 +6,7 @@
 
 #include "base/status.hpp"
 #include "image/boot/choice.hpp"
+#include "image/helper/update_progress.hpp"
 
 namespace flexrf::helper {
 
@@ -16,7 +17,14 @@ struct Facts {
   /// What the disk says; none: it cannot be read, and `choice_failure` says why.
   std::optional<boot::Choice> choice;
   std::string choice_failure;
+  Phase update = Phase::none;
+  std::string update_failure;
 };
+
+/// What the application reads when it may move.
+inline constexpr const char* permitted = "permitted";
+/// What it reads while an update is installed.
+inline constexpr const char* installing = "an update is being installed";
 
 /// Whether the version that runs has confirmed itself. False when that cannot be told.
 bool is_confirmed(const Facts& facts) noexcept;
@@ -24,7 +32,7 @@ bool is_confirmed(const Facts& facts) noexcept;
 /// that is whole.
 bool has_another_turn(const Facts& facts) noexcept;
 
-/// "permitted", or why nothing may move, in one line: what the operator reads at Start.
+/// `permitted`, or why nothing may move, in one line: what the operator reads at Start.
 std::string permission_of(const Facts& facts);
 
 }  // namespace flexrf::helper

@@ -1,0 +1,18 @@
+// What is known of this PC, read anew.
+#pragma once
+
+#include "base/time.hpp"
+#include "image/helper/files.hpp"
+#include "image/helper/permission.hpp"
+
+namespace flexrf::helper {
+
+/// Another process has the boot choice only for as long as a change takes; so long it is waited for.
+inline constexpr Duration wait_for_choice = std::chrono::seconds{2};
+
+/// `wait`: for the boot choice. Any thread.
+Facts read_facts(const Files& files, Duration wait);
+/// What GRUB told of this boot. Any thread.
+boot::Running read_running(const Files& files);
+
+}  // namespace flexrf::helper

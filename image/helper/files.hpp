@@ -1,0 +1,26 @@
+// Where things are on a PC.
+#pragma once
+
+#include <string>
+
+namespace flexrf::helper {
+
+/// What an update is made of on the disk and in memory.
+struct UpdateFiles {
+  std::string folder = "/data/update";         ///< the bundle, and what stays of an update; root's alone
+  std::string results = "/run/flexrf-update";  ///< what became of verifying and installing; gone at a restart
+};
+
+struct Files {
+  std::string word = "/run/flexrf-helper/motion";       ///< for --motion-permit
+  std::string users = "/data/flexrf/panel-users";       ///< who may log in
+  std::string choice = "/boot/efi/flexrf";              ///< the boot choice's folder
+  std::string command_line = "/proc/cmdline";           ///< of the kernel
+  std::string certificate = "/data/flexrf/panel.crt";   ///< the panel's
+  std::string version = "/usr/lib/flexrf/version";      ///< what runs
+  std::string boot_notice = "/run/flexrf-boot-notice";  ///< lines of flexrf-boot-choice for a person
+  std::string notices = "/run/flexrf-notices";          ///< a folder with such files of others
+  UpdateFiles update;
+};
+
+}  // namespace flexrf::helper

@@ -1,0 +1,116 @@
+#include "image/helper/state_answer.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "base/json_writer.hpp"
+#include "image/helper/named_lines.hpp"
+#include "image/helper/update_progress.hpp"
+#include "runtime/parameters/durable_file.hpp"
+
+namespace flexrf::helper {
+namespace {
+
+constexpr std::size_t most_notices = 16;
+constexpr std::size_t longest_notice = 240;
+
+std::int64_t seconds(Duration duration) {
+  return duration / std::chrono::seconds{1};
+}
+
+void add_lines(std::vector<std::string>& notices, const std::string& file) {
+  const Result<std::string> text = read_file(file);
+  if (!text) return;  // nobody had anything to say
+  std::string_view rest = *text;
+  while (!rest.empty() && notices.size() < most_notices) {
+    const std::size_t end = rest.find('\n');
+    if (const std::string_view line = rest.substr(0, end); !line.empty())
+      notices.emplace_back(line.substr(0, longest_notice));
+    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
+  }
+}
+
+std::vector<std::string> notices_of(const Files& files) {
+  std::vector<std::string> notices;
+  add_lines(notices, files.boot_notice);
+  std::vector<std::string> others;
+  std::error_code error;
+  for (std::filesystem::directory_iterator file(files.notices, error), end; !error && file != end;
+       file.increment(error))
+    others.push_back(file->path().string());
+  std::sort(others.begin(), others.end());
+  for (const std::string& other : others) add_lines(notices, other);
+  return notices;
+}
+
+/// As the unit left it that wrote the slot: lines, or the version alone.
+std::string version_in(const Files& files, boot::Slot slot) {
+  const Result<std::string> text =
+      read_file(files.update.folder + (slot == boot::Slot::a ? "/version-a" : "/version-b"));
+  if (!text) return {};
+  const std::string named = NamedLines::of(*text).text("version");
+  return named.empty() && text->find('=') == std::string::npos
+             ? text->substr(0, std::min(text->find('\n'), NamedLines::longest_value))
+             : named;
+}
+
+void write_slots(JsonWriter& json, const Files& files, const Facts& facts, const std::string& version) {
+  json.key("slots").begin_object();
+  for (const boot::Slot slot : {boot::Slot::a, boot::Slot::b}) {
+    const bool is_whole = facts.choice && facts.choice->of(slot).is_whole;
+    const bool runs = facts.running.slot == slot;
+    json.key(slot == boot::Slot::a ? "A" : "B").begin_object();
+    json.member("version", runs ? version : is_whole ? version_in(files, slot) : std::string{});
+    json.member("whole", is_whole).member("primary", facts.choice && facts.choice->primary == slot);
+    json.end_object();
+  }
+  json.end_object();
+}
+
+void write_update(JsonWriter& json, const Progress& progress, const Upload::Received& upload,
+                  std::uint64_t built) {
+  const bool is_receiving = upload.is_under_way;
+  const JobResult& bundle = progress.bundle;
+  const std::uint64_t percent =
+      is_receiving && upload.size > 0 ? upload.bytes * 100 / upload.size : progress.percent;
+  json.key("update").begin_object();
+  json.member("phase", name_of(is_receiving ? Phase::receiving : progress.phase));
+  json.member("received", upload.bytes).member("size", upload.size).member("percent", percent);
+  json.member("version", bundle.version).member("application", bundle.application);
+  json.member("older", bundle.state == JobState::done && bundle.built < built);
+  json.member("why", progress.why).end_object();
+}
+
+}  // namespace
+
+std::string state_answer(const Files& files, const Facts& facts, const OfThisMoment& moment) {
+  const Result<NamedLines> read = NamedLines::read(files.version);
+  const NamedLines running = read ? *read : NamedLines{};
+  const std::string version = running.text("version");
+  JsonWriter json{std::string{}};
+  json.begin_object().member("ok", true);
+  json.member("application", running.text("application")).member("version", version);
+  json.member("built", running.number("built"));
+  json.member("slot",
+              facts.running.slot ? std::string(1, boot::letter_of(*facts.running.slot)) : std::string{});
+  json.member("boot", facts.running.why.empty() ? "unknown" : facts.running.why);
+  json.member("confirmed", is_confirmed(facts));
+  write_slots(json, files, facts, version);
+  json.member("claimed", facts.is_claimed);
+  json.member("motion", moment.word.empty() ? permission_of(facts) : moment.word);
+  json.member("development_key", running.text("development_key") == "yes");
+  json.key("notices").begin_array();
+  for (const std::string& notice : notices_of(files)) json.value(notice);
+  json.end_array();
+  json.member("healthy_for_s", seconds(moment.health.so_far));
+  json.member("healthy_needed_s", seconds(moment.health_needed));
+  json.member("why_not_healthy", moment.health.why_not);
+  write_update(json, read_progress(files.update), moment.upload, running.number("built"));
+  json.end_object();
+  return json.release();
+}
+
+}  // namespace flexrf::helper

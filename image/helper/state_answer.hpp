@@ -1,0 +1,24 @@
+// The answer to `state`: all that a person may want to know of this PC.
+#pragma once
+
+#include <string>
+
+#include "base/time.hpp"
+#include "image/helper/files.hpp"
+#include "image/helper/helper.hpp"
+#include "image/helper/upload.hpp"
+
+namespace flexrf::helper {
+
+/// What no file tells.
+struct OfThisMoment {
+  std::string word;  ///< about motion; empty: it could not be left yet
+  Health health;
+  Duration health_needed{};
+  Upload::Received upload;
+};
+
+/// A JSON object of at most some 10 KiB. Reads the files of versions, notices and the update. Any thread.
+std::string state_answer(const Files& files, const Facts& facts, const OfThisMoment& moment);
+
+}  // namespace flexrf::helper

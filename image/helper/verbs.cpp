@@ -1,0 +1,257 @@
+#include "image/helper/verbs.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <thread>
+#include <utility>
+
+#include "image/boot/environment.hpp"
+#include "image/boot/folder_medium.hpp"
+#include "image/boot/verbs.hpp"
+#include "image/helper/named_lines.hpp"
+#include "runtime/parameters/durable_file.hpp"
+#include "web-ui/server/access/login_log.hpp"
+
+namespace flexrf::helper {
+namespace {
+
+constexpr Duration wait_for_panel = std::chrono::seconds{2};
+constexpr Duration between_questions = std::chrono::milliseconds{200};
+
+Answer of_status(const Status& status) {
+  return status ? Answer{} : refuse(503, status.cause());
+}
+
+const char* const under_installation = "an update is being installed; wait until that is done";
+const char* const was_installed = "an update was installed; restart the PC first";
+
+}  // namespace
+
+Verbs::Verbs(Files files, const Surroundings& surroundings, MotionWord& word, std::function<Time()> clock)
+    : files_(std::move(files)),
+      surroundings_(surroundings),
+      word_(word),
+      clock_(std::move(clock)),
+      admin_(files_.users),
+      upload_(files_.update, surroundings.free_bytes) {}
+
+Answer Verbs::perform(const Request& request, const std::string& peer) {
+  Answer answer = perform(request);
+  say_outcome(request, peer, answer);
+  return answer;
+}
+
+Answer Verbs::perform(const Request& request) {
+  if (request.verb == Verb::part) return take_part(request);
+  if (Answer admin = admin_.check(request.user, request.password, clock_()); !admin.is_done()) return admin;
+  switch (request.verb) {
+    case Verb::upload:
+      return begin_upload(request);
+    case Verb::install:
+      return install(request);
+    case Verb::choose:
+      return choose(request);
+    default:
+      return restart();
+  }
+}
+
+Answer Verbs::begin_upload(const Request& request) {
+  const Progress progress = read_progress(files_.update);
+  if (progress.install.is_under_way()) return refuse(409, under_installation);
+  if (progress.phase == Phase::installed) return refuse(409, was_installed);
+  if (progress.phase == Phase::verifying)
+    return refuse(409, "the bundle before this one is being verified; wait until that is done");
+  Answer answer = upload_.begin(request.size, clock_());
+  if (!answer.is_done()) return answer;
+  said_part_.clear();
+  // What they tell is of the bundle that is gone.
+  for (const Job job : {Job::verify, Job::install}) {
+    if (const Status removed = remove_result(files_.update, job); !removed) return of_status(removed);
+  }
+  return answer;
+}
+
+Answer Verbs::take_part(const Request& request) {
+  Answer answer = upload_.part(request.upload, request.offset, request.bytes, clock_());
+  if (!answer.is_done() || !upload_.is_whole()) return answer;
+  // Before the bundle has its name: never may it look like one that was verified.
+  if (const Status written = write_starting(files_.update, Job::verify); !written) {
+    upload_.finish();
+    unlink(bundle_of(files_.update).c_str());
+    return of_status(written);
+  }
+  if (const std::string why = upload_.finish(); !why.empty()) {
+    [[maybe_unused]] const Status removed = remove_result(files_.update, Job::verify);
+    return refuse(503, why);
+  }
+  // The bytes are here, whatever becomes of verifying: `state` tells it.
+  start(Job::verify);
+  return answer;
+}
+
+Answer Verbs::install(const Request& request) {
+  bool is_older = false;
+  if (Answer fit = check_installable(request, is_older); !fit.is_done()) return fit;
+  if (Answer held = hold_motion(installing); !held.is_done()) return held;
+  Answer answer = of_status(permit_older(is_older));
+  if (answer.is_done()) answer = of_status(write_starting(files_.update, Job::install));
+  if (answer.is_done()) answer = start(Job::install);
+  // The word goes on saying so as long as the files do.
+  word_.release();
+  return answer;
+}
+
+Answer Verbs::check_installable(const Request& request, bool& is_older) const {
+  const Progress progress = read_progress(files_.update);
+  if (progress.install.is_under_way()) return refuse(409, under_installation);
+  if (progress.phase == Phase::installed) return refuse(409, was_installed);
+  if (progress.phase == Phase::unknown)
+    return refuse(
+        409, "whether an update is being installed cannot be told: " + progress.why + "; restart the PC");
+  if (upload_.received().is_under_way)
+    return refuse(409, "the bundle is not here yet; upload the rest of it");
+  if (progress.phase == Phase::verifying)
+    return refuse(409, "the bundle is being verified; wait until that is done");
+  if (!progress.is_verified) return refuse(409, "there is no verified bundle; upload one");
+  const Facts facts = read_facts(files_, wait_for_choice);
+  if (!facts.choice)
+    return refuse(409, "which version of this PC counts cannot be told: " + facts.choice_failure);
+  if (!is_confirmed(facts))
+    return refuse(
+        409,
+        "this version has not confirmed itself, and the other one may still be needed; wait until it "
+        "has, or restart the PC into the other one");
+  const Result<NamedLines> running = NamedLines::read(files_.version);
+  if (!running)
+    return refuse(503, std::string{"which version runs cannot be told: "} + running.status().cause());
+  is_older = progress.bundle.built < running->number("built");
+  if (is_older && !request.older)
+    return refuse(409, "the bundle is older than what runs; install it with 'older' if that is meant");
+  return check_standstill();
+}
+
+Answer Verbs::choose(const Request& request) {
+  if (read_progress(files_.update).install.is_under_way()) return refuse(409, under_installation);
+  if (Answer stands = check_standstill(); !stands.is_done()) return stands;
+  const std::string letter(1, boot::letter_of(request.slot));
+  boot::FolderMedium medium;
+  if (const Status opened = medium.open(files_.choice, wait_for_choice); !opened) return of_status(opened);
+  {
+    const boot::Environment environment(medium);
+    if (!environment.has_choice())
+      return refuse(503, "the boot choice cannot be read: " + environment.damages() + "; restart the PC");
+    const boot::Choice& choice = environment.choice();
+    if (!choice.of(request.slot).is_whole)
+      return refuse(409, "slot " + letter + " has no whole version; install one there");
+    if (choice.primary == request.slot) return refuse(409, "slot " + letter + " is chosen already");
+  }
+  const boot::Outcome outcome = boot::perform({"set-primary", letter}, medium, read_running(files_));
+  if (outcome.exit == boot::Exit::done) return {};
+  return refuse(outcome.exit == boot::Exit::refused ? 409 : 503,
+                outcome.said.empty() ? "the choice could not be written" : outcome.said.back());
+}
+
+Answer Verbs::restart() {
+  if (read_progress(files_.update).install.is_under_way()) return refuse(409, under_installation);
+  if (Answer stands = check_standstill(); !stands.is_done()) return stands;
+  if (Answer held = hold_motion("the PC restarts"); !held.is_done()) return held;
+  const std::string failure = surroundings_.systemctl({"reboot"});
+  if (failure.empty()) return {};  // nothing moves any more until it has
+  word_.release();
+  return refuse(503, "the PC cannot be restarted: " + failure);
+}
+
+Answer Verbs::check_standstill() const {
+  const PanelAnswer panel = surroundings_.ask_panel(wait_for_panel);
+  if (!panel.has_answered)
+    return refuse(503, "whether the cell may move cannot be told: " + panel.why_not_healthy);
+  if (panel.may_move) return refuse(409, "the cell may move; stop motion first");
+  return {};
+}
+
+Answer Verbs::hold_motion(const std::string& why) {
+  if (const Status held = word_.hold(why); !held)
+    return refuse(503, std::string{"motion cannot be forbidden: "} + held.cause());
+  const Time end = clock_() + wait_for_standstill;
+  while (true) {
+    Answer stands = check_standstill();
+    if (stands.is_done()) return stands;
+    if (clock_() >= end) {
+      word_.release();
+      return stands;
+    }
+    std::this_thread::sleep_for(between_questions);
+  }
+}
+
+Status Verbs::permit_older(bool is_permitted) const {
+  const std::string file = permission_for_older(files_.update);
+  if (is_permitted) return replace_file(file, "");
+  if (unlink(file.c_str()) == 0 || errno == ENOENT) return {};
+  return Status::error(StatusCode::unavailable, "cannot remove '%s': %s", file.c_str(),
+                       cause_of(errno).c_str());
+}
+
+Answer Verbs::start(Job job) {
+  asked_for_[static_cast<std::size_t>(job)] = clock_();
+  const std::string failure = surroundings_.systemctl({"start", "--no-block", unit_of(job)});
+  if (failure.empty()) return {};
+  const std::string why = unit_of(job) + " cannot be started: " + failure + "; restart the PC and try again";
+  surroundings_.say(why);
+  if (const Status written = write_failed(files_.update, job, why); !written)
+    surroundings_.say(written.cause());
+  return refuse(503, why);
+}
+
+void Verbs::tick() {
+  if (upload_.remove_abandoned(clock_()))
+    surroundings_.say("the upload is given up: nothing came for 10 min");
+  look_after(Job::verify);
+  look_after(Job::install);
+  if (upload_.received().is_under_way) return;
+  // After a restart of the PC nothing is known of a bundle, and what is installed or is no good is not
+  // needed.
+  const Progress progress = read_progress(files_.update);
+  const bool is_needed = progress.bundle.is_under_way() || progress.bundle.state == JobState::done;
+  if (!is_needed || progress.phase == Phase::installed) unlink(bundle_of(files_.update).c_str());
+  if (!progress.install.is_under_way()) unlink(permission_for_older(files_.update).c_str());
+}
+
+void Verbs::look_after(Job job) {
+  if (read_result(files_.update, job).state != JobState::starting) return;
+  const std::optional<Time> asked = asked_for_[static_cast<std::size_t>(job)];
+  if (!asked) {
+    surroundings_.say(unit_of(job) + " is started by this helper, as the one before it wanted to");
+    start(job);
+  } else if (clock_() - *asked >= wait_for_unit) {
+    // It may still be waiting to be started, and shall not when nobody expects it.
+    surroundings_.systemctl({"stop", "--no-block", unit_of(job)});
+    const std::string why = unit_of(job) + " did not begin within 60 s; restart the PC and try again";
+    surroundings_.say(why);
+    if (const Status written = write_failed(files_.update, job, why); !written)
+      surroundings_.say(written.cause());
+  }
+}
+
+void Verbs::say_outcome(const Request& request, const std::string& peer, const Answer& answer) {
+  const std::string verb = name_of(request.verb);
+  if (request.verb == Verb::part) {
+    // There are thousands of them: only the first refusal of a kind is of use in the journal.
+    if (answer.is_done()) {
+      if (!upload_.received().is_under_way) surroundings_.say("the bundle is here; it is being verified");
+    } else if (answer.why != said_part_) {
+      said_part_ = answer.why;
+      surroundings_.say("a part from " + peer + " is refused: " + answer.why);
+    }
+    return;
+  }
+  std::string line = verb + " by " + panel::shown_name(request.user).data() + " from " + peer;
+  if (request.verb == Verb::upload) line += ", " + std::to_string(request.size) + " bytes";
+  if (request.verb == Verb::choose) line += std::string{", slot "} + boot::letter_of(request.slot);
+  surroundings_.say(line + (answer.is_done() ? ": accepted" : ": refused: " + answer.why));
+}
+
+}  // namespace flexrf::helper
