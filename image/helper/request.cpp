@@ -84,18 +84,20 @@ std::variant<Request, Answer> parse_request(JsonReader& reader, std::string_view
     return refuse(400, "there is no verb " + in_quotes(verb) +
                            "; the verbs are state, upload, part, install, choose, restart");
   if (const std::string foreign = foreign_member_of(*object, *shape); !foreign.empty())
-    return refuse(
-        400, in_quotes(verb) + " has no member " + in_quotes(foreign) + "; its members are " + names_of(*shape));
+    return refuse(400, in_quotes(verb) + " has no member " + in_quotes(foreign) + "; its members are " +
+                           names_of(*shape));
   Request request = taken(fields, *shape);
   if (shape->verb == Verb::choose) {
     const std::string_view name = fields.text("slot");
     const std::optional<boot::Slot> slot = boot::slot_named(name);
-    if (fields.status() && !slot) return refuse(400, "'slot' is " + in_quotes(name) + "; the slots are A and B");
+    if (fields.status() && !slot)
+      return refuse(400, "'slot' is " + in_quotes(name) + "; the slots are A and B");
     request.slot = slot.value_or(boot::Slot::a);
   }
   if (!fields.status()) return malformed(fields.status().cause());
   if (shape->verb != Verb::part && !rest.empty())
-    return refuse(400, "behind the line of " + in_quotes(verb) + " comes nothing; only a part has bytes there");
+    return refuse(400,
+                  "behind the line of " + in_quotes(verb) + " comes nothing; only a part has bytes there");
   if (shape->verb == Verb::part && rest.empty())
     return refuse(400, "the part's bytes are missing; they come behind the line and its line feed");
   if (rest.size() > longest_part) return refuse(413, "a part has at most 60 KiB; send smaller ones");

@@ -138,6 +138,9 @@ void SocketServer::refuse_connection(int socket, const Answer& answer, const std
     service_.say(said_ = line);
   const std::string text = answer.text();
   ::send(socket, text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  // With a request unread, closing would be an error to who has not read the answer yet.
+  shutdown(socket, SHUT_RD);
+  while (recv(socket, message_.data(), message_.size(), MSG_DONTWAIT) > 0) continue;
   close(socket);
 }
 

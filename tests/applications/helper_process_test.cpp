@@ -1,83 +1,14 @@
 // flexrf-helper beside an application whose panel speaks TLS, as both are on an industrial PC: what stands in
 // the way of motion, and what ends it.
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <csignal>
 #include <filesystem>
 
 #include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
-#include "tests/applications/process.hpp"
+#include "tests/applications/helper_pc.hpp"
 
 namespace flexrf::whole {
 namespace {
-
-/// One that nobody listens at.
-std::string free_port() {
-  const int descriptor = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof(address);
-  CHECK(bind(descriptor, reinterpret_cast<const sockaddr*>(&address), size) == 0);
-  CHECK(getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) == 0);
-  close(descriptor);
-  return std::to_string(ntohs(address.sin_port));
-}
-
-void make_certificate(const Folder& folder, const std::string& name) {
-  CHECK_EQUAL(run(folder, {"openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt",
-                           "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2", "-subj", "/CN=" + name,
-                           "-keyout", name + ".key", "-out", name + ".crt"})
-                  .exit_code,
-              0);
-}
-
-/// A disk whose slot A runs for the first time, a claimed PC, and the panel's certificate.
-class Pc {
- public:
-  Pc() {
-    std::filesystem::create_directory(folder / "choice");
-    CHECK_EQUAL(run(folder, {place::choice, "--folder", "choice", "create"}).exit_code, 0);
-    write_file(folder / "cmdline", "rauc.slot=A flexrf.boot=only flexrf.trial=0000000001\n");
-    make_certificate(folder, "panel");
-    CHECK_EQUAL(run(folder, {place::password, "--user", "anna", "--role", "admin", "users"},
-                    "a long enough password\n")
-                    .exit_code,
-                0);
-  }
-
-  std::vector<std::string> application() const {
-    return {place::application,
-            "--no-realtime",
-            "--standstill-limit",
-            "10min",
-            "--no-autostart",
-            "--motion-permit",
-            "motion",
-            "--panel",
-            "127.0.0.1:" + port,
-            "--panel-users",
-            "users",
-            "--tls-certificate",
-            "panel.crt",
-            "--tls-key",
-            "panel.key"};
-  }
-  std::vector<std::string> helper(const std::string& healthy_for = "2") const {
-    return {place::helper, "--word",        "motion",    "--users",
-            "users",       "--folder",      "choice",    "--kernel-command-line",
-            "cmdline",     "--certificate", "panel.crt", "--port",
-            port,          "--healthy-for", healthy_for};
-  }
-  std::string word() const { return contents_of(folder / "motion"); }
-
-  Folder folder;
-  std::string port = free_port();
-};
 
 void health_ends_what_stands_in_the_way_of_motion() {
   const Pc pc;
