@@ -162,6 +162,7 @@ void Upload::drop() {
   close_file();
   unlink(part_path_.c_str());
   token_.clear();
+  size_ = received_ = 0;
   publish();
 }
 

@@ -211,13 +211,23 @@ void Verbs::tick() {
     surroundings_.say("the upload is given up: nothing came for 10 min");
   look_after(Job::verify);
   look_after(Job::install);
-  if (upload_.received().is_under_way) return;
-  // After a restart of the PC nothing is known of a bundle, and what is installed or is no good is not
-  // needed.
+  remove_what_is_of_no_use();
+}
+
+void Verbs::remove_what_is_of_no_use() {
   const Progress progress = read_progress(files_.update);
-  const bool is_needed = progress.bundle.is_under_way() || progress.bundle.state == JobState::done;
-  if (!is_needed || progress.phase == Phase::installed) unlink(bundle_of(files_.update).c_str());
   if (!progress.install.is_under_way()) unlink(permission_for_older(files_.update).c_str());
+  // After a restart of the PC nothing is known of a bundle, and one that is installed or no good is not
+  // needed.
+  const bool is_needed = (progress.bundle.is_under_way() || progress.bundle.state == JobState::done) &&
+                         progress.phase != Phase::installed;
+  if (is_needed) {
+    of_no_use_since_.reset();
+  } else if (!of_no_use_since_) {
+    of_no_use_since_ = clock_();
+  } else if (clock_() - *of_no_use_since_ >= keeping) {
+    unlink(bundle_of(files_.update).c_str());
+  }
 }
 
 void Verbs::look_after(Job job) {

@@ -23,6 +23,8 @@ class Verbs {
  public:
   /// For the application to end motion that was permitted a moment ago.
   static constexpr Duration wait_for_standstill = std::chrono::seconds{5};
+  /// For a bundle that is of no more use.
+  static constexpr Duration keeping = std::chrono::minutes{10};
   /// For systemd to begin with a unit.
   static constexpr Duration wait_for_unit = std::chrono::seconds{60};
 
@@ -52,6 +54,7 @@ class Verbs {
   Status permit_older(bool is_permitted) const;
   Answer start(Job job);
   void look_after(Job job);
+  void remove_what_is_of_no_use();
   void say_outcome(const Request& request, const std::string& peer, const Answer& answer);
 
   Files files_;
@@ -61,6 +64,7 @@ class Verbs {
   AdminCheck admin_;
   Upload upload_;
   std::array<std::optional<Time>, 2> asked_for_;  // by Job: when its unit was
+  std::optional<Time> of_no_use_since_;           // the bundle
   std::string said_part_;                         // why one was refused, so that it is said once
 };
 
