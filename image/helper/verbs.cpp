@@ -24,7 +24,16 @@ Answer of_status(const Status& status) {
   return status ? Answer{} : refuse(503, status.cause());
 }
 
-const char* const under_installation = "an update is being installed; wait until that is done";
+/// While nobody may meddle with slots and bundles.
+Answer check_not_installing(const Progress& progress) {
+  if (progress.install.is_under_way())
+    return refuse(409, "an update is being installed; wait until that is done");
+  if (progress.phase == Phase::unknown)
+    return refuse(
+        409, "whether an update is being installed cannot be told: " + progress.why + "; restart the PC");
+  return {};
+}
+
 const char* const was_installed = "an update was installed; restart the PC first";
 
 }  // namespace
@@ -60,7 +69,7 @@ Answer Verbs::perform(const Request& request) {
 
 Answer Verbs::begin_upload(const Request& request) {
   const Progress progress = read_progress(files_.update);
-  if (progress.install.is_under_way()) return refuse(409, under_installation);
+  if (Answer free = check_not_installing(progress); !free.is_done()) return free;
   if (progress.phase == Phase::installed) return refuse(409, was_installed);
   if (progress.phase == Phase::verifying)
     return refuse(409, "the bundle before this one is being verified; wait until that is done");
@@ -99,18 +108,16 @@ Answer Verbs::install(const Request& request) {
   Answer answer = of_status(permit_older(is_older));
   if (answer.is_done()) answer = of_status(write_starting(files_.update, Job::install));
   if (answer.is_done()) answer = start(Job::install);
-  // The word goes on saying so as long as the files do.
-  word_.release();
+  // Else the word is held until the unit has said something: what it begins with is to write its file anew.
+  holds_for_unit_ = answer.is_done();
+  if (!holds_for_unit_) word_.release();
   return answer;
 }
 
 Answer Verbs::check_installable(const Request& request, bool& is_older) const {
   const Progress progress = read_progress(files_.update);
-  if (progress.install.is_under_way()) return refuse(409, under_installation);
+  if (Answer free = check_not_installing(progress); !free.is_done()) return free;
   if (progress.phase == Phase::installed) return refuse(409, was_installed);
-  if (progress.phase == Phase::unknown)
-    return refuse(
-        409, "whether an update is being installed cannot be told: " + progress.why + "; restart the PC");
   if (upload_.received().is_under_way)
     return refuse(409, "the bundle is not here yet; upload the rest of it");
   if (progress.phase == Phase::verifying)
@@ -134,7 +141,7 @@ Answer Verbs::check_installable(const Request& request, bool& is_older) const {
 }
 
 Answer Verbs::choose(const Request& request) {
-  if (read_progress(files_.update).install.is_under_way()) return refuse(409, under_installation);
+  if (Answer free = check_not_installing(read_progress(files_.update)); !free.is_done()) return free;
   if (Answer stands = check_standstill(); !stands.is_done()) return stands;
   const std::string letter(1, boot::letter_of(request.slot));
   boot::FolderMedium medium;
@@ -155,7 +162,10 @@ Answer Verbs::choose(const Request& request) {
 }
 
 Answer Verbs::restart() {
-  if (read_progress(files_.update).install.is_under_way()) return refuse(409, under_installation);
+  // Where it cannot be told whether one is installed, a restart is the way out.
+  const Progress progress = read_progress(files_.update);
+  if (Answer free = check_not_installing(progress); !free.is_done() && progress.phase != Phase::unknown)
+    return free;
   if (Answer stands = check_standstill(); !stands.is_done()) return stands;
   if (Answer held = hold_motion("the PC restarts"); !held.is_done()) return held;
   const std::string failure = surroundings_.systemctl({"reboot"});
@@ -211,7 +221,18 @@ void Verbs::tick() {
     surroundings_.say("the upload is given up: nothing came for 10 min");
   look_after(Job::verify);
   look_after(Job::install);
+  release_when_unit_speaks();
   remove_what_is_of_no_use();
+}
+
+void Verbs::release_when_unit_speaks() {
+  if (!holds_for_unit_) return;
+  const JobState state = read_result(files_.update, Job::install).state;
+  const bool has_spoken = state != JobState::starting && state != JobState::none;
+  const Time asked = asked_for_[static_cast<std::size_t>(Job::install)].value_or(Time{});
+  if (!has_spoken && clock_() - asked < wait_for_unit) return;
+  holds_for_unit_ = false;
+  word_.release();
 }
 
 void Verbs::remove_what_is_of_no_use() {

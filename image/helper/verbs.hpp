@@ -54,6 +54,7 @@ class Verbs {
   Status permit_older(bool is_permitted) const;
   Answer start(Job job);
   void look_after(Job job);
+  void release_when_unit_speaks();
   void remove_what_is_of_no_use();
   void say_outcome(const Request& request, const std::string& peer, const Answer& answer);
 
@@ -64,6 +65,7 @@ class Verbs {
   AdminCheck admin_;
   Upload upload_;
   std::array<std::optional<Time>, 2> asked_for_;  // by Job: when its unit was
+  bool holds_for_unit_ = false;                   // the word, until the unit that installs has begun
   std::optional<Time> of_no_use_since_;           // the bundle
   std::string said_part_;                         // why one was refused, so that it is said once
 };
