@@ -153,6 +153,8 @@ Status Panel::listen() {
   settings.places = record_.connections;
   settings.local = local_addresses();
   settings.loopback_is_local = record_.loopback_is_local;
+  // Of an update's parts; the API takes them there alone.
+  settings.body_types.push_back("application/octet-stream");
   server_.emplace(settings, std::move(encryption_), *this);
   Status status = server_->listen(address_);
   // Nobody asked for the default address: another application's panel is no reason not to start.
@@ -201,7 +203,8 @@ Status Panel::make_api() {
   files_.emplace(page_files(), record_.files);
   ApiTimeouts timeouts;
   timeouts.edit = executive_.options().values().duration("--panel-edit-timeout").value_or(timeouts.edit);
-  api_.emplace(executive_, *access_, *server_, record_.connections, timeouts, &server_->bell());
+  api_.emplace(executive_, *access_, *server_, record_.connections, timeouts, &server_->bell(),
+               executive_.options().values().text("--helper", ""));
   access_->watch(*api_);
   return api_->prepare();
 }

@@ -22,6 +22,10 @@ constexpr std::string_view session_path = "/api/v1/session";
 constexpr std::string_view login_path = "/api/v1/login";
 constexpr std::string_view logout_path = "/api/v1/logout";
 
+bool is_json(const Request& request) noexcept {
+  return request.content_type.substr(0, request.content_type.find(';')) == "application/json";
+}
+
 void write_session(Reply& reply, const SessionInfo& session) {
   reply.status = 200;
   reply.text.clear();
@@ -68,6 +72,10 @@ Handled AccessEndpoints::handle(const Request& request, Reply& reply, Ticket tic
   } else if (request.path == login_path && request.method == Method::post) {
     return log_in(request, reply, ticket);
   } else if (request.path == logout_path && request.method == Method::post) {
+    if (!request.body.empty() && !is_json(request)) {
+      answer_problem(reply, 415, "Send application/json, or nothing.");
+      return Handled::now;
+    }
     access_.log_out(request.session, reply.set_cookie);
     reply.status = 204;
   } else if (is_for(request.path)) {
@@ -88,8 +96,7 @@ Handled AccessEndpoints::log_in(const Request& request, Reply& reply, Ticket tic
         409,
         "Nobody logs in here: there are no passwords. Control takes the address that the application "
         "printed when it started.");
-  if (request.content_type.substr(0, request.content_type.find(';')) != "application/json")
-    return refuse(415, "Send application/json.");
+  if (!is_json(request)) return refuse(415, "Send application/json.");
   LoginBody body;
   if (!read_login_body(request.body, body)) {
     clear(body);

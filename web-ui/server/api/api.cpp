@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <random>
+#include <utility>
 
 namespace flexrf::panel {
 namespace {
@@ -21,7 +22,7 @@ std::string new_boot() {
 }  // namespace
 
 Api::Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places,
-         const ApiTimeouts& timeouts, Doorbell* bell)
+         const ApiTimeouts& timeouts, Doorbell* bell, std::string helper)
     : executive_(executive),
       access_(access),
       bell_(bell),
@@ -40,18 +41,30 @@ Api::Api(Executive& executive, AccessControl& access, LaterReplies& replies, std
       motion_(executive, access, answers_, permission_, parameters_, edits_),
       lifecycle_(executive, bell, directory_, answers_, permission_),
       saving_(executive, answers_, permission_),
+      machine_(std::move(helper), bell, executive.cell().audit(), access, reader_, answers_, permission_),
       subscriptions_(clients_, directory_, images_, answers_),
       operations_{directory_, answers_, parameters_, motion_, edits_, lifecycle_, saving_, subscriptions_},
       state_(executive, directory_, access, edits_),
       topics_(executive.cell()),
       frames_(executive.cell(), slots_, images_),
-      live_({executive, access, clients_, reader_, operations_, state_, topics_, frames_, boot_}),
-      rest_({executive, access, reader_, operations_, permission_, slots_, values_, images_, pictures_,
-             state_, topics_, boot_}) {}
+      live_({executive, access, clients_, reader_, operations_, state_, topics_, frames_, boot_,
+             machine_.is_there()}),
+      rest_({executive, access, reader_, operations_, machine_, permission_, slots_, values_, images_,
+             pictures_, state_, topics_, boot_}) {}
 
 Status Api::prepare() {
   if (bell_ != nullptr) executive_.saver().set_bell(*bell_);
   return parameters_.prepare(bell_);
+}
+
+Status Api::start() {
+  if (const Status status = images_.start(); !status) return status;
+  return machine_.start();
+}
+
+void Api::stop() noexcept {
+  images_.stop();
+  machine_.stop();
 }
 
 void Api::on_tick(Time now) {
@@ -60,6 +73,7 @@ void Api::on_tick(Time now) {
   edits_.tick(now);
   lifecycle_.tick();
   saving_.tick(now);
+  machine_.tick();
   pictures_.tick(now);
   state_.update(now);
   live_.send_all(now, MonotonicClock::now() + sending_time);

@@ -24,19 +24,21 @@ struct ApiTimeouts {
 class Api final : public AccessWatcher {
  public:
   /// `places`: connections that the server has, each LiveLink's place is below. `bell`: rung when another
-  /// thread has answered, and on_tick() is to come; null: it comes often enough by itself. The main thread,
-  /// after Executive::prepare(), before anything runs; all outlive the Api.
+  /// thread has answered, and on_tick() is to come; null: it comes often enough by itself. `helper`: the
+  /// socket of the PC's; empty: there is none. The main thread, after Executive::prepare(), before anything
+  /// runs; all outlive the Api.
   Api(Executive& executive, AccessControl& access, LaterReplies& replies, std::uint32_t places,
-      const ApiTimeouts& timeouts = {}, Doorbell* bell = nullptr);
+      const ApiTimeouts& timeouts = {}, Doorbell* bell = nullptr, std::string helper = {});
   Api(const Api&) = delete;
   Api& operator=(const Api&) = delete;
 
   /// Before anything runs: registers as a requester. The main thread.
   Status prepare();
-  /// Starts the worker that encodes pictures; it inherits CPUs and signal mask. The main thread.
-  Status start() { return images_.start(); }
-  /// Ends the worker. After the server's thread ended. The main thread.
-  void stop() noexcept { images_.stop(); }
+  /// Starts the workers, one that encodes pictures, one that asks the PC's helper; they inherit CPUs and
+  /// signal mask. The main thread.
+  Status start();
+  /// Ends them. After the server's thread ended. The main thread.
+  void stop() noexcept;
 
   /// All paths under /api/v1 but `session`, `login`, `logout` and `live`.
   Handled handle(const Request& request, Reply& reply, Ticket ticket) {
@@ -72,6 +74,7 @@ class Api final : public AccessWatcher {
   MotionOperations motion_;
   LifecycleOperations lifecycle_;
   SaveOperations saving_;
+  MachineOperations machine_;
   Subscriptions subscriptions_;
   Operations operations_;
   StateEvent state_;

@@ -221,7 +221,8 @@ void LiveSession::write_hello(Client& client, Time now, std::string& to) {
   json.end_object();
   json.key("session");
   write_session(json, info);
-  json.member("server_time_ns", nanoseconds(now)).member("allocations", has_allocation_guard()).end_object();
+  json.member("server_time_ns", nanoseconds(now)).member("allocations", has_allocation_guard());
+  json.member("machine", parts_.has_machine).end_object();
   to = json.release();
 }
 

@@ -21,6 +21,7 @@ struct LiveParts {
   TopicBodies& topics;
   FrameWriter& frames;
   std::string_view boot;
+  bool has_machine = false;  ///< the application runs on a PC that it can tell of
 };
 
 /// The server's thread.

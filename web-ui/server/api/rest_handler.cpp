@@ -12,20 +12,25 @@ namespace {
 
 constexpr std::string_view prefix = "/api/v1/";
 
-/// The integer `name=` of a query; `otherwise` without one; false: it is no integer from 0.
-bool query_integer(std::string_view query, std::string_view name, std::uint64_t otherwise,
-                   std::uint64_t& number) noexcept {
-  number = otherwise;
+/// What stands behind `name=` in a query, as sent; null data: it is not there.
+std::string_view query_text(std::string_view query, std::string_view name) noexcept {
   while (!query.empty()) {
     const std::size_t end = std::min(query.find('&'), query.size());
     const std::string_view part = query.substr(0, end);
     query.remove_prefix(std::min(end + 1, query.size()));
-    if (part.substr(0, part.find('=')) != name) continue;
-    const std::string_view value = part.size() > name.size() ? part.substr(name.size() + 1) : "";
-    const auto [rest, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    return error == std::errc{} && rest == value.data() + value.size();
+    if (part.substr(0, part.find('=')) == name) return part.substr(std::min(name.size() + 1, part.size()));
   }
-  return true;
+  return {};
+}
+
+/// The integer `name=` of a query; `otherwise` without one; false: it is no integer from 0.
+bool query_integer(std::string_view query, std::string_view name, std::uint64_t otherwise,
+                   std::uint64_t& number) noexcept {
+  number = otherwise;
+  const std::string_view value = query_text(query, name);
+  if (value.data() == nullptr) return true;
+  const auto [rest, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  return error == std::errc{} && rest == value.data() + value.size();
 }
 
 }  // namespace
@@ -55,6 +60,12 @@ void RestHandler::serve(const Request& request, Reply& reply, const Caller& call
                                                  "openapi.json has the methods of this path.")
                                  : Refusal::make(RefusalKind::not_found,
                                                  "There is no such path; openapi.json lists what there is."));
+  }
+  // Bytes are for what takes them; everything else takes JSON, or nothing.
+  if (found.route->method != Method::get && found.route->resource != Resource::machine_bundle &&
+      !request.body.empty() && !request.content_type.starts_with("application/json")) {
+    return answers.refuse(caller, RefusalKind::wrong_media_type,
+                          "The body is to be JSON, with Content-Type: application/json.");
   }
   // The latch comes before everything that could go wrong.
   if (found.route->operation == "stop_motion") return parts_.operations.motion.stop_motion(caller);
@@ -93,6 +104,8 @@ void RestHandler::read(const Match& found, const Request& request, Reply& reply,
       return finish(request, reply);
     case Resource::health:
       return write_health(reply);
+    case Resource::machine:
+      return parts_.machine.read(caller);
     case Resource::components:
       return list(Topic::components);
     case Resource::slots:
@@ -175,7 +188,8 @@ void RestHandler::write_health(Reply& reply) {
   const std::string why_not = why_not_healthy(parts_.executive.cell());
   reply.text.clear();
   JsonWriter json(std::move(reply.text));
-  json.begin_object().member("healthy", why_not.empty()).member("why_not", why_not).end_object();
+  json.begin_object().member("healthy", why_not.empty()).member("why_not", why_not);
+  json.member("may_move", parts_.executive.control().may_move()).end_object();
   reply.text = json.release();
   reply.status = why_not.empty() ? 200 : 503;
   parts_.operations.answers.answered();
@@ -231,10 +245,7 @@ void RestHandler::ask_picture(std::uint16_t slot, const Request& request, const 
 void RestHandler::act(const Match& found, const Request& request, const Caller& caller, Time now) {
   Operations& operations = parts_.operations;
   Answers& answers = operations.answers;
-  if (!request.body.empty() && !request.content_type.starts_with("application/json")) {
-    return answers.refuse(caller, RefusalKind::wrong_media_type,
-                          "The body is to be JSON, with Content-Type: application/json.");
-  }
+  if (found.route->resource == Resource::machine_bundle) return put_bundle(request, caller);
   const Result<JsonObject> body = parts_.reader.object(request.body.empty() ? "{}" : request.body);
   if (!body) {
     const bool too_large = request.body.size() > JsonReader::max_bytes;
@@ -256,11 +267,27 @@ void RestHandler::act(const Match& found, const Request& request, const Caller& 
       if (action == "clone") fields.text("source");  // has to be there
       return find_operation(action == "reset" || action == "press" ? action : "action")->run(asked);
     }
+    case Resource::machine_act:
+      return parts_.machine.act(caller, found.route->operation, fields);
     case Resource::operation:
       return find_operation(found.route->operation)->run(asked);
     default:
       return;
   }
+}
+
+void RestHandler::put_bundle(const Request& request, const Caller& caller) {
+  Answers& answers = parts_.operations.answers;
+  if (!request.content_type.starts_with("application/octet-stream")) {
+    return answers.refuse(caller, RefusalKind::wrong_media_type,
+                          "The body is to be bytes, with Content-Type: application/octet-stream.");
+  }
+  std::uint64_t offset = 0;
+  if (query_text(request.query, "offset").empty() || !query_integer(request.query, "offset", 0, offset)) {
+    return answers.refuse(caller, RefusalKind::bad_request,
+                          "'offset' is the number of bytes that came before this part.");
+  }
+  parts_.machine.put(caller, query_text(request.query, "upload"), offset, request.body);
 }
 
 void RestHandler::put_parameters(const Match& found, const Request& request, JsonObject values,

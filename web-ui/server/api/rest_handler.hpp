@@ -7,6 +7,7 @@
 #include "runtime/face/component_values.hpp"
 #include "runtime/json/json_reader.hpp"
 #include "web-ui/server/api/image_requests.hpp"
+#include "web-ui/server/api/machine_operations.hpp"
 #include "web-ui/server/api/operations.hpp"
 #include "web-ui/server/api/routes.hpp"
 #include "web-ui/server/api/state_event.hpp"
@@ -21,6 +22,7 @@ struct RestParts {
   AccessControl& access;
   JsonReader& reader;
   Operations& operations;
+  MachineOperations& machine;
   Permission& permission;
   ObservedSlots& slots;
   ComponentValues& values;
@@ -42,6 +44,7 @@ class RestHandler {
   void serve(const Request& request, Reply& reply, const Caller& caller, Time now);
   void read(const Match& match, const Request& request, Reply& reply, const Caller& caller, Time now);
   void act(const Match& match, const Request& request, const Caller& caller, Time now);
+  void put_bundle(const Request& request, const Caller& caller);
   void put_parameters(const Match& match, const Request& request, JsonObject values, const Caller& caller,
                       Time now);
   void write_health(Reply& reply);

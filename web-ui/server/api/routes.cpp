@@ -7,6 +7,9 @@
 namespace flexrf::panel {
 namespace {
 
+/// In place of a body's schema.
+constexpr std::string_view bytes = "application/octet-stream";
+
 constexpr Route table[] = {
     {Resource::openapi, Method::get, "openapi.json", "This document", Role::viewer, false, "", "Any", ""},
     {Resource::descriptor, Method::get, "descriptor",
@@ -61,6 +64,23 @@ constexpr Route table[] = {
      "", "", "", "release_control"},
     {Resource::operation, Method::post, "control/answer", "Answers who asks for the control token",
      Role::operator_, true, "Grant", "", "", "answer_control"},
+    {Resource::machine, Method::get, "machine",
+     "The industrial PC: versions, slots, an update that is under way; 404: it runs on none", Role::viewer,
+     false, "", "Machine", ""},
+    {Resource::machine_act, Method::post, "machine/upload",
+     "Begins to upload an update, in place of one that was begun before", Role::admin, false, "Upload",
+     "Uploading", "", "upload"},
+    {Resource::machine_bundle, Method::put, "machine/bundle",
+     "The next part of the update, at most 60 KiB; 409 tells in `received` where to go on", Role::admin,
+     false, bytes, "Received", ""},
+    {Resource::machine_act, Method::post, "machine/install",
+     "Installs what was uploaded and verified, while nothing may move", Role::admin, false, "Install", "", "",
+     "install"},
+    {Resource::machine_act, Method::post, "machine/choose",
+     "Chooses which slot starts next, while nothing may move", Role::admin, false, "Choose", "", "",
+     "choose"},
+    {Resource::machine_act, Method::post, "machine/restart", "Restarts the PC, while nothing may move",
+     Role::admin, false, "Password", "", "", "restart"},
     {Resource::access, Method::get, "session", "Who is logged in; 401: nobody", Role::viewer, false, "",
      "LoggedIn", ""},
     {Resource::access, Method::post, "login",
@@ -71,7 +91,7 @@ constexpr Route table[] = {
 
 constexpr std::string_view schemas = R"json({
 "Any":{"type":"object"},
-"Problem":{"type":"object","required":["type","title","status","detail"],"properties":{"type":{"type":"string"},"title":{"type":"string"},"status":{"type":"integer"},"detail":{"type":"string"},"parameter":{"type":"string"},"reason":{"type":"string"},"moving":{"type":"array","items":{"type":"string"}}}},
+"Problem":{"type":"object","required":["type","title","status","detail"],"properties":{"type":{"type":"string"},"title":{"type":"string"},"status":{"type":"integer"},"detail":{"type":"string"},"parameter":{"type":"string"},"reason":{"type":"string"},"moving":{"type":"array","items":{"type":"string"}},"received":{"type":"integer"}}},
 "Values":{"type":"object","description":"PATH (gain, gains[2], limits.low): value","additionalProperties":true,"minProperties":1},
 "Parameters":{"type":"object","properties":{"sequence":{"type":"integer"},"configuration":{"type":["object","null"]},"runtime":{"type":["object","null"]},"feedback":{"type":["object","null"]}}},
 "Action":{"type":"object","properties":{"source":{"type":"string"},"parameters":{"type":"array","items":{"type":"string"}},"parameter":{"type":"string"},"count":{"type":"integer","minimum":1,"maximum":100}}},
@@ -84,7 +104,14 @@ constexpr std::string_view schemas = R"json({
 "LoggedIn":{"type":"object","required":["name","role","local","user"],"properties":{"name":{"type":"string"},"role":{"enum":["viewer","operator","engineer","admin"]},"local":{"type":"boolean"},"user":{"type":"string"}}},
 "Session":{"type":["object","null"],"properties":{"name":{"type":"string"},"user":{"type":"string"},"address":{"type":"string"},"local":{"type":"boolean"},"you":{"type":"boolean"}}},
 "State":{"type":"object","required":["mode","cause","motion","faults","values","control","edit","server"],"properties":{"mode":{"enum":["starting","running","finishing","stopping","safe","ended"]},"cause":{"type":"string"},"motion":{"type":"object","required":["stopped","may_move","start_refused","stopped_by"],"properties":{"stopped":{"type":"boolean"},"may_move":{"type":"boolean"},"start_refused":{"type":"string"},"stopped_by":{"type":["object","null"],"properties":{"who":{"type":"string"},"at_ms":{"type":"integer"}}}}},"faults":{"type":"array","items":{"type":"object","required":["component","kind","cause","since_ns"],"properties":{"kind":{"enum":["unit","device","thread","process"]},"since_ns":{"type":"integer"}}}},"values":{"type":"object","required":["file","on","unsaved","saved_at_ms","failure"],"properties":{"file":{"type":"boolean"},"on":{"enum":["change","command"]},"unsaved":{"type":"boolean"},"saved_at_ms":{"type":["integer","null"]},"failure":{"type":"string"}}},"control":{"type":"object","properties":{"holder":{"$ref":"#/components/schemas/Session"},"wanted_by":{"$ref":"#/components/schemas/Session"},"answer_within_ms":{"type":"integer"}}},"edit":{"type":["object","null"]},"server":{"type":"object"}}},
-"Health":{"type":"object","required":["healthy","why_not"],"properties":{"healthy":{"type":"boolean"},"why_not":{"type":"string"}}},
+"Health":{"type":"object","required":["healthy","why_not","may_move"],"properties":{"healthy":{"type":"boolean"},"why_not":{"type":"string"},"may_move":{"type":"boolean","description":"whether actuators may move now"}}},
+"Machine":{"type":"object","required":["application","version","slot","boot","confirmed","slots","motion","development_key","notices","update"],"properties":{"application":{"type":"string"},"version":{"type":"string"},"built":{"type":"integer","description":"s since 1970"},"slot":{"enum":["A","B"]},"boot":{"enum":["confirmed","only","trial","fallback","manual","unknown"]},"confirmed":{"type":"boolean"},"slots":{"type":"object","additionalProperties":{"type":"object","properties":{"version":{"type":"string"},"whole":{"type":"boolean"},"primary":{"type":"boolean"}}}},"claimed":{"type":"boolean"},"motion":{"type":"string","description":"permitted, or why not"},"development_key":{"type":"boolean"},"notices":{"type":"array","items":{"type":"string"}},"healthy_for_s":{"type":"integer"},"healthy_needed_s":{"type":"integer"},"why_not_healthy":{"type":"string"},"update":{"type":"object","properties":{"phase":{"enum":["none","receiving","verifying","verified","installing","installed","failed"]},"received":{"type":"integer"},"size":{"type":"integer"},"percent":{"type":"integer"},"version":{"type":"string"},"application":{"type":"string"},"older":{"type":"boolean"},"why":{"type":"string"}}}}},
+"Upload":{"type":"object","required":["password","size"],"properties":{"password":{"type":"string"},"size":{"type":"integer","description":"bytes"}}},
+"Uploading":{"type":"object","required":["upload"],"properties":{"upload":{"type":"string","description":"32 hexadecimal digits"}}},
+"Received":{"type":"object","required":["received"],"properties":{"received":{"type":"integer","description":"bytes so far"}}},
+"Install":{"type":"object","required":["password"],"properties":{"password":{"type":"string"},"older":{"type":"boolean","description":"also one that is older than what runs"}}},
+"Choose":{"type":"object","required":["password","slot"],"properties":{"password":{"type":"string"},"slot":{"enum":["A","B"]}}},
+"Password":{"type":"object","required":["password"],"properties":{"password":{"type":"string"}}},
 "Component":{"type":"object","required":["name","kind","life","fault","active","member","steps","execution"],"properties":{"name":{"type":"string"},"kind":{"enum":["unit","device"]},"type":{"type":"string"},"driver":{"type":"string"},"life":{"enum":["created","initialised","running","stopped","fault"]},"fault":{"type":"string"},"restraint":{"type":"string"},"restraints":{"type":"integer"},"active":{"type":"boolean"},"member":{"type":["object","null"]},"steps":{"type":"integer"},"execution":{"type":"object"}}},
 "Components":{"type":"array","items":{"$ref":"#/components/schemas/Component"}},
 "Slot":{"type":"object","required":["name","type","published","reason","sequence","sampled_at_ns","value","readers"],"properties":{"name":{"type":"string"},"type":{"type":"string"},"published":{"type":"integer"},"reason":{"type":"string"},"sequence":{"type":"integer"},"sampled_at_ns":{"type":"integer"},"value":{"type":["object","null"]},"readers":{"type":"array"}}},
@@ -126,7 +153,7 @@ bool matches(std::string_view pattern, std::string_view path, Match& match) noex
 
 void write_content(JsonWriter& json, std::string_view schema) {
   json.key("content").begin_object();
-  if (schema == "image/jpeg") {
+  if (schema == "image/jpeg" || schema == bytes) {
     json.key(schema).begin_object().end_object();
   } else {
     json.key("application/json").begin_object().key("schema").begin_object();
@@ -136,12 +163,10 @@ void write_content(JsonWriter& json, std::string_view schema) {
   json.end_object();
 }
 
-void write_parameter(JsonWriter& json, std::string_view name, const char* in) {
-  json.begin_object()
-      .member("name", name)
-      .member("in", in)
-      .member("required", std::string_view{in} == "path");
-  json.key("schema").begin_object().member("type", std::string_view{in} == "query" ? "integer" : "string");
+void write_parameter(JsonWriter& json, std::string_view name, const char* in, const char* type,
+                     bool is_required) {
+  json.begin_object().member("name", name).member("in", in).member("required", is_required);
+  json.key("schema").begin_object().member("type", type);
   json.end_object().end_object();
 }
 
@@ -155,10 +180,17 @@ void write_operation(JsonWriter& json, const Route& route) {
   std::string_view path = route.path;
   while (!path.empty()) {
     const std::string_view segment = take_segment(path);
-    if (segment.front() == '{') write_parameter(json, segment.substr(1, segment.size() - 2), "path");
+    if (segment.front() == '{')
+      write_parameter(json, segment.substr(1, segment.size() - 2), "path", "string", true);
   }
-  if (!route.query.empty()) write_parameter(json, route.query, "query");
-  if (route.resource == Resource::put_parameters) write_parameter(json, "If-Match", "header");
+  if (route.resource == Resource::machine_bundle) {
+    write_parameter(json, "upload", "query", "string", true);
+    write_parameter(json, "offset", "query", "integer", true);
+  } else if (!route.query.empty()) {
+    write_parameter(json, route.query, "query", "integer", false);
+  }
+  if (route.resource == Resource::put_parameters)
+    write_parameter(json, "If-Match", "header", "string", false);
   json.end_array();
   if (!route.request.empty()) {
     json.key("requestBody").begin_object();

@@ -32,8 +32,11 @@ enum class Resource : std::uint8_t {
   devices,
   log,
   audit,
-  operation,  ///< of the table in operations.cpp
-  access,     ///< described here, answered by AccessEndpoints
+  machine,         ///< the PC, of its helper
+  machine_act,     ///< `operation`: as the helper calls it
+  machine_bundle,  ///< a part of an update; its body is no JSON
+  operation,       ///< of the table in operations.cpp
+  access,          ///< described here, answered by AccessEndpoints
 };
 
 struct Route {
@@ -43,7 +46,7 @@ struct Route {
   std::string_view summary;
   Role role;
   bool control;               ///< needs the control token
-  std::string_view request;   ///< name of the schema of the body; empty: no body
+  std::string_view request;   ///< name of the schema of the body, or its type; empty: no body
   std::string_view response;  ///< likewise of the answer; empty: {}; "204": no body
   std::string_view query;     ///< name of its integer parameter in the query; empty: none
   std::string_view operation{};

@@ -1,6 +1,7 @@
 #include "web-ui/server/api/tests/rig.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace flexrf::panel {
 
@@ -124,9 +125,10 @@ Reply* PlayedReplies::reply_of(Ticket ticket) {
 
 // ---- the rig
 
-Rig::Rig(fixture::TestApplication& application, const ApiTimeouts& timeouts, Options options)
+Rig::Rig(fixture::TestApplication& application, const ApiTimeouts& timeouts, Options options,
+         std::string helper)
     : running_(application, std::move(options)),
-      api_(running_.executive(), access_, replies_, places, timeouts, &bell_) {
+      api_(running_.executive(), access_, replies_, places, timeouts, &bell_, std::move(helper)) {
   Status status = api_.prepare();
   if (status) status = api_.start();
   if (!status) throw CheckFailed{std::string{"the API: "} + status.cause()};
@@ -194,14 +196,15 @@ json Rig::event(PlayedLink& link, const std::string& name) {
 }
 
 Answer Rig::request(Method method, const std::string& path, SessionIndex session, const std::string& body,
-                    const std::string& if_match, const std::string& if_none_match, const std::string& query) {
+                    const std::string& if_match, const std::string& if_none_match, const std::string& query,
+                    const std::string& content_type) {
   const std::string whole = "/api/v1/" + path;
   Request request;
   request.method = method;
   request.path = whole;
   request.query = query;
   request.body = body;
-  request.content_type = body.empty() ? "" : "application/json";
+  request.content_type = body.empty() ? std::string_view{} : std::string_view{content_type};
   request.if_match = if_match;
   request.if_none_match = if_none_match;
   request.session = session;

@@ -109,7 +109,7 @@ class Rig {
   static constexpr ApiTimeouts patient{std::chrono::minutes{1}, std::chrono::minutes{1}};
 
   explicit Rig(fixture::TestApplication& application, const ApiTimeouts& timeouts = patient,
-               Options options = fixture::on_the_wall_clock());
+               Options options = fixture::on_the_wall_clock(), std::string helper = {});
   ~Rig();
 
   /// Runs until the application does.
@@ -140,7 +140,7 @@ class Rig {
 
   Answer request(Method method, const std::string& path, SessionIndex session, const std::string& body = "",
                  const std::string& if_match = "", const std::string& if_none_match = "",
-                 const std::string& query = "");
+                 const std::string& query = "", const std::string& content_type = "application/json");
   Answer get(const std::string& path, SessionIndex session = a_viewer) {
     return request(Method::get, path, session);
   }
