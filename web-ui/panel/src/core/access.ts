@@ -33,7 +33,7 @@ export function deniedLink(situation: Pick<Situation, 'link'>): string {
 }
 
 /** Why the session may not do what needs this role, whoever has control. */
-function deniedRole(situation: Situation, role: Role): string {
+export function deniedRole(situation: Situation, role: Role): string {
   const link = deniedLink(situation);
   if (link) return link;
   if (situation.session?.lapsed) return 'log in again';

@@ -2,6 +2,7 @@
 import type { ItemInfo, Outcome, Placement, WidgetElement, WidgetHost } from '../contract';
 import type { Model } from './descriptor';
 import type { History } from './history';
+import type { MachineWatch } from './machine';
 import type { Answer, ApplicationState, LogLine, SessionInfo, TopicName } from './protocol';
 import type { DisplayUnits } from './units';
 
@@ -22,6 +23,17 @@ export interface PanelHost extends WidgetHost {
   readonly history: History;
   resetAll(component: string, parameters: readonly string[]): Promise<Outcome>;
   undo(): Promise<Outcome>;
+}
+
+/** Something that the PC does only for an admin's password. */
+export interface PasswordQuestion {
+  readonly heading: string;
+  /** What will happen, a paragraph each. */
+  readonly says: readonly string[];
+  /** On the button that does it. */
+  readonly action: string;
+  /** Why it was refused; empty: it is done. */
+  act(password: string): Promise<string>;
 }
 
 export interface Core {
@@ -46,6 +58,14 @@ export interface Core {
   request<Fields = object>(op: string, fields?: object, timeoutMs?: number): Promise<Answer<Fields>>;
   /** Why this session may not do something that needs `role` and the control token; empty when it may. */
   deniedAction(role: 'viewer' | 'operator' | 'engineer' | 'admin'): string;
+
+  /** Why this session may not do something that needs `role`, whoever has control; empty when it may. */
+  deniedRole(role: 'viewer' | 'operator' | 'engineer' | 'admin'): string;
+
+  /** The PC on which the application runs. */
+  readonly machine: MachineWatch;
+  /** Asks for the password of whoever is logged in, in a dialog. */
+  askPassword(question: PasswordQuestion): void;
 
   /** A widget for an item, or for a row [widget.NAME]; ready to be put into the document. Never rejects: an unknown
    *  kind gives an element that says so. */

@@ -3,8 +3,8 @@ import type { Problem } from './protocol';
 
 export type Fetched<Body> =
   | { readonly ok: true; readonly body: Body }
-  /** status 0: nobody answered. */
-  | { readonly ok: false; readonly status: number; readonly detail: string };
+  /** status 0: nobody answered. `problem`: what the server said, if that was one. */
+  | { readonly ok: false; readonly status: number; readonly detail: string; readonly problem?: Problem };
 
 export function getJson<Body>(path: string): Promise<Fetched<Body>> {
   return ask<Body>(path, { method: 'GET' });
@@ -17,6 +17,13 @@ export function postJson<Body>(path: string, body?: object): Promise<Fetched<Bod
   });
 }
 
+/** Bytes; who does not answer within this time, ms, does not at all. */
+export function putBytes<Body>(path: string, body: Blob, within: number): Promise<Fetched<Body>> {
+  return ask<Body>(path, {
+    method: 'PUT', body, headers: { 'content-type': 'application/octet-stream' }, signal: AbortSignal.timeout(within),
+  });
+}
+
 async function ask<Body>(path: string, options: RequestInit): Promise<Fetched<Body>> {
   try {
     const response = await fetch(path, { cache: 'no-store', credentials: 'same-origin', ...options });
@@ -24,19 +31,23 @@ async function ask<Body>(path: string, options: RequestInit): Promise<Fetched<Bo
       const text = await response.text();
       return { ok: true, body: (text === '' ? {} : JSON.parse(text)) as Body };
     }
-    return { ok: false, status: response.status, detail: await detailOf(response) };
+    const problem = await problemOf(response);
+    return { ok: false, status: response.status, detail: detailOf(response, problem), ...(problem && { problem }) };
   } catch (error) {
     return { ok: false, status: 0, detail: error instanceof SyntaxError ? 'The answer is no JSON.' : 'The application does not answer.' };
   }
 }
 
-async function detailOf(response: Response): Promise<string> {
+async function problemOf(response: Response): Promise<Problem | undefined> {
   try {
-    const problem = (await response.json()) as Problem;
-    if (problem.detail || response.status !== 503) return problem.detail || problem.title;
+    return (await response.json()) as Problem;
   } catch {
-    // not this server's own words
+    return undefined; // not this server's own words
   }
+}
+
+function detailOf(response: Response, problem: Problem | undefined): string {
+  if (problem && (problem.detail || response.status !== 503)) return problem.detail || problem.title;
   if (response.status === 503) return 'All places of the panel are taken; close a page elsewhere.';
   return `The server answered ${response.status} ${response.statusText}.`;
 }

@@ -1,14 +1,15 @@
 // The core put together: connection, model, values, access; what shell, views and widgets stand on.
 import type { ItemInfo, Placement, Role, WidgetElement } from '../contract';
-import { deniedAction, deniedLink, hasControl, locked, nameOf, type Situation } from './access';
+import { deniedAction, deniedLink, deniedRole, hasControl, locked, nameOf, type Situation } from './access';
 import { ConfigurationValues } from './configuration';
 import { Connection, type Socket } from './connection';
-import type { Core, LinkStatus } from './core';
+import type { Core, LinkStatus, PasswordQuestion } from './core';
 import { makeModel, type Model } from './descriptor';
 import type { DescriptorJson } from './descriptor_json';
 import { Holds } from './holds';
 import { Host } from './host';
 import { getJson } from './http';
+import { MachineWatch } from './machine';
 import { inNextFrame } from './next_frame';
 import type { Answer, ApplicationState, Drivers, Hello, LogLine, ServerEvent, SessionInfo, TopicName, Values } from './protocol';
 import { textOfError } from './reasons';
@@ -30,6 +31,8 @@ export interface PanelCoreOptions {
   /** Another descriptor than before or other drivers, or the first. */
   readonly onModel: (model: Model) => void;
   readonly onNotice: (text: string, severity: Severity) => void;
+  /** Somebody has to be asked for his password. */
+  readonly onPasswordWanted?: (question: PasswordQuestion) => void;
   /** The application said that it ends. */
   readonly onEnded?: (text: string) => void;
 }
@@ -39,6 +42,7 @@ export class PanelCore implements Core {
   readonly host: Host;
   readonly connection: Connection;
   readonly registry: Registry;
+  readonly machine: MachineWatch;
   state: ApplicationState | undefined;
   session: SessionInfo | undefined;
   /** Why this session did not get control when it asked last; empty once it asks anew, or somebody else has it. */
@@ -69,6 +73,7 @@ export class PanelCore implements Core {
       explain: explainRefusal,
     });
     this.registry = new Registry(options.loadBuiltIn);
+    this.machine = new MachineWatch({ isLinked: () => this.link.phase === 'open', changed: () => this.#changed() });
     this.#store = new Store({ serverNow: () => this.connection.serverNow() });
     this.#subscriptions = new Subscriptions({
       request: (op, fields) => this.connection.request(op, fields),
@@ -118,6 +123,14 @@ export class PanelCore implements Core {
 
   deniedAction(role: Role): string {
     return deniedAction(this.situation, role);
+  }
+
+  deniedRole(role: Role): string {
+    return deniedRole(this.situation, role);
+  }
+
+  askPassword(question: PasswordQuestion): void {
+    this.options.onPasswordWanted?.(question);
   }
 
   request<Fields = object>(op: string, fields?: object, timeoutMs?: number): Promise<Answer<Fields>> {
@@ -194,6 +207,7 @@ export class PanelCore implements Core {
   async #onHello(hello: Hello): Promise<void> {
     this.session = hello.session;
     this.application = hello.application;
+    this.machine.begin(hello.machine === true);
     const restarted = this.#boot !== undefined && this.#boot !== hello.boot;
     this.#boot = hello.boot;
     this.state = undefined;

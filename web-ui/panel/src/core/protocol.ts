@@ -10,6 +10,8 @@ export interface Problem {
   readonly parameter?: string;
   readonly reason?: string;
   readonly moving?: readonly string[];
+  /** Of an update: bytes that the PC has of it. */
+  readonly received?: number;
 }
 
 /** Answer to an operation: what it brings along is beside `ok`. */
@@ -41,6 +43,8 @@ export interface Hello {
   readonly drivers: Drivers;
   readonly session: SessionInfo;
   readonly server_time_ns: number;
+  /** It runs on a PC of which GET machine tells. */
+  readonly machine?: boolean;
 }
 
 export type Mode = 'starting' | 'running' | 'finishing' | 'stopping' | 'safe' | 'ended';

@@ -3,7 +3,9 @@
 import { css, html, nothing } from 'lit';
 import { customElement, query, state } from 'lit/decorators.js';
 import { deniedLink, hasControl, includes } from '../core/access';
+import type { PasswordQuestion } from '../core/core';
 import { listen } from '../core/listen';
+import { lastingLines } from '../core/machine';
 import { PanelCore } from '../core/panel_core';
 import { loadPart } from '../core/parts';
 import { addressOfRoute, parseRoute, type Route } from '../core/route';
@@ -20,12 +22,13 @@ import { Preferences } from './preferences';
 import './stop_motion';
 import { shellStyles } from './styles';
 
-type DialogName = 'login' | 'settings';
+type DialogName = 'login' | 'settings' | 'password';
 
 /** Loaded when they are opened first: few pages ever open one. */
 const dialogs: { readonly [name in DialogName]: () => Promise<unknown> } = {
   login: () => import('./login'),
   settings: () => import('./settings'),
+  password: () => import('./password'),
 };
 
 @customElement('flexrf-panel')
@@ -56,6 +59,15 @@ export class Panel extends EndingElement {
         color: var(--flexrf-stop-text);
         background: var(--flexrf-stop);
         font-weight: 600;
+      }
+      .banner .machine {
+        display: block;
+        padding: 6px 12px;
+        color: var(--flexrf-text);
+        background: var(--flexrf-surface);
+        border-block-start: 1px solid var(--flexrf-border);
+        border-inline-start: 6px solid var(--flexrf-warning);
+        text-decoration: none;
       }
       nav {
         grid-area: nav;
@@ -110,6 +122,8 @@ export class Panel extends EndingElement {
   @state() private ended = '';
   /** The question to whoever has control can be shown. */
   @state() private asks = false;
+  /** What the dialog that asks for the password is about. */
+  @state() private question: PasswordQuestion | undefined;
   @query('flexrf-notices') private notices!: Notices;
   #preferences = new Preferences(document.documentElement, localStorage, matchMedia('(prefers-color-scheme: dark)'));
   #asked = false;
@@ -120,6 +134,10 @@ export class Panel extends EndingElement {
       this.generation = model.hash;
     },
     onNotice: (text, severity) => this.notices?.add(text, severity),
+    onPasswordWanted: (question) => {
+      this.question = question;
+      void this.#open('password');
+    },
     onEnded: (text) => { this.ended = text; },
     loadBuiltIn: () => import('../widgets'),
     makeMissing,
@@ -139,6 +157,7 @@ export class Panel extends EndingElement {
     this.until(this.core.watchState(() => this.#onState()));
     this.core.start();
     this.until(() => this.core.connection.stop());
+    this.until(() => this.core.machine.end());
   }
 
   /** On a narrow screen the entry of the view that is shown may lie beside what is seen of the navigation. */
@@ -162,9 +181,11 @@ export class Panel extends EndingElement {
         </main>
         <flexrf-notices></flexrf-notices>
         ${this.dialog === 'login' ? html`<flexrf-login .core=${this.core} @close=${() => this.#close()}></flexrf-login>` : nothing}
+        ${this.dialog === 'password' ? html`<flexrf-password .core=${this.core} .question=${this.question} @close=${() => this.#close()}></flexrf-password>` : nothing}
         ${this.dialog === 'settings' ? html`<flexrf-settings .preferences=${this.#preferences} @close=${() => this.#close()}></flexrf-settings>` : nothing}
       </div>
       <div class="banner" role="region" aria-label="Warnings">
+        ${lastingLines(this.core.machine.state).map((line) => html`<a class="machine" href="#/machine">⚠ ${line}</a>`)}
         ${this.#banner()}
         ${this.asks ? html`<flexrf-consent .core=${this.core}></flexrf-consent>` : nothing}
       </div>
@@ -181,7 +202,7 @@ export class Panel extends EndingElement {
 
   #entries(): (readonly [Route, string])[] {
     const entries: (readonly [Route, string])[] = views
-      .filter((view) => view.label !== '' && (!view.role || (this.core.session && includes(this.core.session.role, view.role))))
+      .filter((view) => view.label !== '' && (!view.onMachine || this.core.machine.isThere) && (!view.role || (this.core.session && includes(this.core.session.role, view.role))))
       .map((view) => [{ view: view.name, path: [] }, view.label]);
     if (this.generation) for (const menu of this.core.model.menus.keys()) entries.push([{ view: 'menu', path: [menu] }, menu]);
     return entries;

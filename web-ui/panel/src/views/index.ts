@@ -10,5 +10,6 @@ export const views: readonly ViewInfo[] = [
   { name: 'threads', label: 'Threads', tag: 'flexrf-threads', load: () => import('./threads') },
   { name: 'log', label: 'Log', tag: 'flexrf-log', load: () => import('./log') },
   { name: 'audit', label: 'Audit', role: 'admin', tag: 'flexrf-audit', load: () => import('./audit') },
+  { name: 'machine', label: 'Machine', onMachine: true, tag: 'flexrf-machine', load: () => import('./machine') },
   { name: 'menu', label: '', tag: 'flexrf-menu', load: () => import('./menu') },
 ];

@@ -22,6 +22,8 @@ export interface ViewInfo {
   readonly label: string;
   /** Least role that finds it in the navigation; without it everybody does. The server judges what it may read. */
   readonly role?: Role;
+  /** Only where the application runs on a PC of FlexRF. */
+  readonly onMachine?: true;
   /** The custom element's name, defined by the module that `load` imports. */
   readonly tag: string;
   /** A dynamic import, so that the first view stays small. */

@@ -1,10 +1,11 @@
 // A core without a server: the test says what is subscribed, in force and answered.
 import type { ItemInfo, Placement, Reading, Value, WidgetElement, WidgetHost } from '../../contract';
-import type { Core, LinkStatus, PanelHost } from '../core';
+import type { Core, LinkStatus, PanelHost, PasswordQuestion } from '../core';
 import { makeModel } from '../descriptor';
 import type { DescriptorJson } from '../descriptor_json';
-import type { ApplicationState, Drivers } from '../protocol';
+import type { ApplicationState, Drivers, SessionInfo } from '../protocol';
 import { History } from '../history';
+import type { MachineState } from '../machine';
 import { DisplayUnits } from '../units';
 
 /** Records what a widget was given. */
@@ -35,6 +36,18 @@ export class FakeCore {
   readonly model;
   state: ApplicationState | undefined = quiet;
   denied = '';
+  session: SessionInfo | undefined;
+  /** Of deniedRole(). */
+  roleDenied = '';
+  readonly questions: PasswordQuestion[] = [];
+  readonly machine = {
+    isThere: true, state: undefined as MachineState | undefined, trouble: '', lookers: 0,
+    look: () => {
+      this.machine.lookers += 1;
+      return () => { this.machine.lookers -= 1; };
+    },
+    refresh: () => Promise.resolve(),
+  };
   link: LinkStatus = { phase: 'open', stale: false, roundTrip: 1, silence: 0, detail: '' };
   answer: (op: string, fields: object) => object = () => ({ ok: true });
   private readonly states = new Set<() => void>();
@@ -89,6 +102,12 @@ export class FakeCore {
   }
   deniedAction(): string {
     return this.denied;
+  }
+  deniedRole(): string {
+    return this.roleDenied;
+  }
+  askPassword(question: PasswordQuestion): void {
+    this.questions.push(question);
   }
   createWidget(what: { item: ItemInfo } | { placement: Placement }): Promise<WidgetElement> {
     return Promise.resolve(Object.assign(new FakeWidget(), { host: this.host }, what));

@@ -9,6 +9,8 @@ import '../control';
 import type { Faults } from '../faults';
 import { linkText, type Header } from '../header';
 import { makeMissing } from '../missing';
+import type { PasswordDialog } from '../password';
+import '../password';
 import '../stop_motion';
 import type { StopMotion } from '../stop_motion';
 
@@ -73,14 +75,42 @@ describe('parts of the shell', () => {
   it('Start that would be refused cannot be pressed, and says why', async () => {
     const header = await shown<Header>('flexrf-header');
     const mine = { holder: you, wanted_by: null };
-    say(mine, { stopped: false, may_move: false, start_refused: 'this machine does not permit motion: it is being updated' });
-    await vi.advanceTimersByTimeAsync(2000);
+    const updated = { stopped: false, may_move: false, start_refused: 'this machine does not permit motion: it is being updated' };
+    say(mine, updated);
+    await vi.advanceTimersByTimeAsync(1000);
+    say(mine, updated); // the link is not silent
+    await settle();
     expect(button(header, /Start motion/).disabled).toBe(true);
     expect(header.shadowRoot?.textContent).toContain('this machine does not permit motion: it is being updated');
     say(mine, { stopped: false, may_move: false, start_refused: '' });
-    await vi.advanceTimersByTimeAsync(2000);
+    await settle();
     expect(button(header, /Start motion/).disabled).toBe(false);
     expect(header.shadowRoot?.textContent).not.toContain('updated');
+  });
+  it('a password is asked for with what it is for, and again when it is wrong', async () => {
+    const given: string[] = [];
+    let closed = 0;
+    const dialog = await shown<PasswordDialog>('flexrf-password');
+    dialog.question = {
+      heading: 'Restart the PC now?', says: ['The application ends.', 'Nothing moves after it.'], action: 'Restart now',
+      act: (password) => {
+        given.push(password);
+        return Promise.resolve(given.length === 1 ? 'User or password is wrong.' : '');
+      },
+    };
+    dialog.addEventListener('close', () => { closed += 1; });
+    await settle();
+    expect(dialog.shadowRoot?.textContent).toMatch(/The application ends\.\s*Nothing moves after it\./);
+    const form = dialog.shadowRoot!.querySelector('form')!;
+    const field = dialog.shadowRoot!.querySelector<HTMLInputElement>('[type=password]')!;
+    for (const password of ['wrong', 'right']) {
+      field.value = password;
+      form.dispatchEvent(new SubmitEvent('submit', { cancelable: true }));
+      await settle();
+      if (password === 'wrong') expect(dialog.shadowRoot?.querySelector('[role=alert]')?.textContent).toContain('password is wrong');
+    }
+    expect(given).toEqual(['wrong', 'right']);
+    expect(closed).toBe(1);
   });
   it('Stop motion is given when the button goes down, not when it comes up', async () => {
     const stop = button(await shown<StopMotion>('flexrf-stop-motion'), /Stop motion/);

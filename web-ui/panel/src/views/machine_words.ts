@@ -1,0 +1,73 @@
+// What the PC's helper tells, in sentences for people.
+import type { BootWord, MachineSlot, MachineState, MachineUpdate, SlotName } from '../core/machine';
+import { clockText } from '../core/words';
+
+const why: { readonly [word in BootWord]: string } = {
+  confirmed: 'it is the slot that is meant to start, and its version has found itself healthy here.',
+  only: 'it is the slot that is meant to start, and the other one holds nothing that could.',
+  trial: 'its version is new and on trial. If it does not find itself healthy, the PC goes back to the other slot.',
+  fallback: 'the slot that is meant to start could not, or did not find itself healthy. This one stands in for it.',
+  manual: 'somebody chose it at the PC’s screen.',
+  unknown: 'which slot is meant to start cannot be read from the disk, so that both are tried in turn.',
+};
+
+/** "Slot A: it is the slot that is meant to start, ..." */
+export function bootSentence(state: MachineState): string {
+  return `Slot ${state.slot}: ${why[state.boot] ?? why.unknown}`;
+}
+
+export function confirmedSentence(state: MachineState): string {
+  if (state.confirmed) return 'Yes: it found itself healthy, and starts from now on.';
+  const lack = state.why_not_healthy ? ` It is not healthy now: ${state.why_not_healthy}.` : '';
+  return `Not yet: healthy for ${state.healthy_for_s} of ${state.healthy_needed_s} s.${lack}`;
+}
+
+export function motionSentence(state: MachineState): string {
+  return state.motion === 'permitted' ? 'Permitted by this PC.' : `Not permitted: ${state.motion}.`;
+}
+
+export function slotSentence(state: MachineState, name: SlotName, slot: MachineSlot): string {
+  const parts = [
+    name === state.slot ? 'runs' : '',
+    slot.primary ? 'starts next' : '',
+    slot.whole ? '' : 'holds nothing that could start',
+  ].filter((part) => part !== '');
+  return parts.join(', ') || 'could start';
+}
+
+/** "123 MB", as disks and files are counted. */
+export function bytesText(bytes: number): string {
+  if (bytes < 1000) return `${bytes} B`;
+  const units = ['kB', 'MB', 'GB'];
+  let value = bytes / 1000;
+  let unit = 0;
+  for (; value >= 999.5 && unit < units.length - 1; ++unit) value /= 1000;
+  return `${value < 9.95 ? value.toFixed(1) : value.toFixed(0)} ${units[unit]}`;
+}
+
+export type Age = 'older' | 'same' | 'newer';
+
+export function ageOf(state: MachineState, update: MachineUpdate): Age {
+  if (update.older) return 'older';
+  return update.version === state.version ? 'same' : 'newer';
+}
+
+const ages: { readonly [age in Age]: string } = {
+  older: '⚠ older than what runs', same: 'the same as what runs', newer: 'newer than what runs',
+};
+
+/** "pick-station 20261201T1: newer than what runs". */
+export function updateSentence(state: MachineState): string {
+  const { update } = state;
+  const other = update.application === state.application ? '' : ` ⚠ This PC runs ${state.application}: it would become another cell.`;
+  return `${update.application} ${update.version}: ${ages[ageOf(state, update)]}.${other}`;
+}
+
+export function builtText(state: MachineState): string {
+  return clockText(new Date(state.built * 1000));
+}
+
+/** The other of the two. */
+export function otherSlot(state: MachineState): SlotName {
+  return state.slot === 'A' ? 'B' : 'A';
+}

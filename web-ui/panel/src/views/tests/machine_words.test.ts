@@ -1,0 +1,46 @@
+// @vitest-environment node
+import { expect, it } from 'vitest';
+import { noUpdate, pc } from '../../core/tests/machine_sample';
+import { ageOf, bootSentence, bytesText, confirmedSentence, motionSentence, slotSentence, updateSentence } from '../machine_words';
+
+it('says why a slot runs', () => {
+  const words = ['confirmed', 'only', 'trial', 'fallback', 'manual', 'unknown'] as const;
+  const all = words.map((boot) => bootSentence({ ...pc, boot }));
+  expect(new Set(all).size).toBe(words.length);
+  expect(all.every((text) => text.startsWith('Slot A: '))).toBe(true);
+  expect(bootSentence({ ...pc, boot: 'something' as 'only' })).toBe(bootSentence({ ...pc, boot: 'unknown' }));
+});
+
+it('says how far a version is with confirming itself', () => {
+  expect(confirmedSentence(pc)).toMatch(/^Yes/);
+  const trial = { ...pc, confirmed: false, healthy_for_s: 12 };
+  expect(confirmedSentence(trial)).toBe('Not yet: healthy for 12 of 60 s.');
+  expect(confirmedSentence({ ...trial, why_not_healthy: 'device arm is in fault' })).toBe(
+    'Not yet: healthy for 12 of 60 s. It is not healthy now: device arm is in fault.');
+});
+
+it('says whether motion is permitted', () => {
+  expect(motionSentence(pc)).toBe('Permitted by this PC.');
+  expect(motionSentence({ ...pc, motion: 'it is being updated' })).toBe('Not permitted: it is being updated.');
+});
+
+it('says what a slot is', () => {
+  expect(slotSentence(pc, 'A', pc.slots.A!)).toBe('runs, starts next');
+  expect(slotSentence(pc, 'B', pc.slots.B!)).toBe('holds nothing that could start');
+  expect(slotSentence(pc, 'B', { version: '7', whole: true, primary: true })).toBe('starts next');
+  expect(slotSentence(pc, 'B', { version: '7', whole: true, primary: false })).toBe('could start');
+});
+
+it('compares an update with what runs', () => {
+  const update = { ...noUpdate, version: '9', application: 'pick-station' };
+  expect(ageOf(pc, update)).toBe('newer');
+  expect(ageOf(pc, { ...update, version: pc.version })).toBe('same');
+  expect(ageOf(pc, { ...update, older: true })).toBe('older');
+  expect(updateSentence({ ...pc, update })).toBe('pick-station 9: newer than what runs.');
+  expect(updateSentence({ ...pc, update: { ...update, application: 'keyboard' } })).toContain('it would become another cell');
+});
+
+it('counts bytes', () => {
+  expect([0, 999, 1000, 61_440, 999_600, 123_400_000, 2_500_000_000].map(bytesText)).toEqual(
+    ['0 B', '999 B', '1.0 kB', '61 kB', '1.0 MB', '123 MB', '2.5 GB']);
+});
