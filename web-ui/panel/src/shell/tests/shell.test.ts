@@ -37,8 +37,8 @@ describe('parts of the shell', () => {
       server: { connections: 1, places: 8, loop_delay_us: { p99: 1, max: 2 } },
     });
   }
-  async function shown<Part extends HTMLElement>(tag: string): Promise<Part> {
-    const part = Object.assign(document.createElement(tag), { core }) as unknown as Part;
+  async function shown<Part extends HTMLElement>(tag: string, more: object = {}): Promise<Part> {
+    const part = Object.assign(document.createElement(tag), { core, ...more }) as unknown as Part;
     document.body.append(part);
     await settle();
     return part;
@@ -90,16 +90,15 @@ describe('parts of the shell', () => {
   it('a password is asked for with what it is for, and again when it is wrong', async () => {
     const given: string[] = [];
     let closed = 0;
-    const dialog = await shown<PasswordDialog>('flexrf-password');
-    dialog.question = {
+    const question = {
       heading: 'Restart the PC now?', says: ['The application ends.', 'Nothing moves after it.'], action: 'Restart now',
-      act: (password) => {
+      act: (password: string) => {
         given.push(password);
         return Promise.resolve(given.length === 1 ? 'User or password is wrong.' : '');
       },
     };
+    const dialog = await shown<PasswordDialog>('flexrf-password', { question });
     dialog.addEventListener('close', () => { closed += 1; });
-    await settle();
     expect(dialog.shadowRoot?.textContent).toMatch(/The application ends\.\s*Nothing moves after it\./);
     const form = dialog.shadowRoot!.querySelector('form')!;
     const field = dialog.shadowRoot!.querySelector<HTMLInputElement>('[type=password]')!;

@@ -1,0 +1,180 @@
+// played_pc SOCKET PASSWORD: plays the helper of an industrial PC, as docs/panel-protocol.md has its state,
+// for tests of the panel. It takes an upload, verifies and installs it within a second or two each, and has
+// nothing behind it. Each line of standard input is a JSON object: its members replace those of the state;
+// `verified` is what the next upload is found to be, `bad` why it is not. Prints a line for each request,
+// without the password.
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "web-ui/server/machine/tests/played_helper.hpp"
+
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* token = "00112233445566778899aabbccddeeff";
+constexpr const char* running = "20261128T001500Z-4fb48992";
+constexpr int milliseconds_per_percent = 20;
+
+class Pc {
+ public:
+  explicit Pc(std::string password) : password_(std::move(password)) {}
+
+  json answer(const json& request, std::size_t size) {
+    const std::lock_guard lock(mutex_);
+    go_on();
+    const std::string verb = request.at("verb");
+    if (verb == "state") {
+      json state = state_;
+      state["ok"] = true;
+      return state;
+    }
+    if (verb == "part") return take(request, size);
+    if (request.at("password") != password_) return refusal(403, "User or password is wrong.");
+    json& update = state_["update"];
+    if (verb == "upload") {
+      update = {{"phase", "receiving"}, {"received", 0}, {"size", request.at("size")}};
+      return {{"ok", true}, {"upload", token}};
+    }
+    if (state_.value("moves", false)) return refusal(409, "The cell may move: give Stop motion first.");
+    if (verb == "install") {
+      if (update["phase"] != "verified") return refusal(409, "Nothing is verified: upload an update first.");
+      if (update.value("older", false) && !request.at("older").get<bool>())
+        return refusal(409, "It is older than what runs: say that it may be.");
+      begin("installing");
+    } else if (verb == "choose") {
+      make_primary(request.at("slot"));
+    } else if (verb == "restart") {
+      restart();
+    }
+    return {{"ok", true}};
+  }
+
+  void change(const json& with) {
+    const std::lock_guard lock(mutex_);
+    state_.merge_patch(with);
+  }
+
+ private:
+  static json refusal(int status, const char* why) {
+    return {{"ok", false}, {"status", status}, {"why", why}};
+  }
+
+  json take(const json& request, std::size_t size) {
+    json& update = state_["update"];
+    if (request.at("upload") != token || update["phase"] != "receiving")
+      return refusal(404, "There is no such upload: begin anew.");
+    const std::size_t received = update["received"];
+    if (request.at("offset") != received) {
+      json resume = refusal(409, "That is not what comes next.");
+      resume["received"] = received;
+      return resume;
+    }
+    update["received"] = received + size;
+    if (update["received"] == update["size"]) begin("verifying");
+    return {{"ok", true}, {"received", received + size}};
+  }
+
+  void begin(const char* phase) {
+    state_["update"]["phase"] = phase;
+    state_["update"]["percent"] = 0;
+    since_ = Clock::now();
+  }
+
+  /// What is under way has come as far as this.
+  void go_on() {
+    json& update = state_["update"];
+    const bool verifies = update.value("phase", "") == "verifying";
+    if (!verifies && update.value("phase", "") != "installing") return;
+    const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - since_);
+    const auto percent = passed.count() / milliseconds_per_percent;
+    update["percent"] = std::min<long>(percent, 100);
+    if (percent < 100) return;
+    if (verifies && state_.contains("bad")) {
+      update["phase"] = "failed";
+      update["why"] = state_["bad"];
+    } else if (verifies) {
+      update["phase"] = "verified";
+      update.merge_patch(state_["verified"]);
+    } else {
+      update["phase"] = "installed";
+      const std::string other = state_["slot"] == "A" ? "B" : "A";
+      state_["slots"][other] = {{"version", update["version"]}, {"whole", true}};
+      make_primary(other);
+    }
+  }
+
+  void make_primary(const std::string& slot) {
+    state_["slots"]["A"]["primary"] = slot == "A";
+    state_["slots"]["B"]["primary"] = slot == "B";
+  }
+
+  void restart() {
+    const std::string slot = state_["slots"]["A"]["primary"].get<bool>() ? "A" : "B";
+    if (slot != state_["slot"])
+      state_.merge_patch({{"boot", "trial"}, {"confirmed", false}, {"healthy_for_s", 0}});
+    state_["slot"] = slot;
+    state_["version"] = state_["slots"][slot]["version"];
+    state_["update"] = {{"phase", "none"}};
+  }
+
+  std::string password_;
+  std::mutex mutex_;
+  Clock::time_point since_;
+  json state_ = {
+      {"application", "pick-station"},
+      {"version", running},
+      {"built", 1795824900},
+      {"slot", "A"},
+      {"boot", "confirmed"},
+      {"confirmed", true},
+      {"slots",
+       {{"A", {{"version", running}, {"whole", true}, {"primary", true}}},
+        {"B", {{"version", ""}, {"whole", false}, {"primary", false}}}}},
+      {"claimed", true},
+      {"motion", "permitted"},
+      {"development_key", false},
+      {"notices", json::array()},
+      {"healthy_for_s", 60},
+      {"healthy_needed_s", 60},
+      {"why_not_healthy", ""},
+      {"update", {{"phase", "none"}}},
+      {"verified",
+       {{"application", "pick-station"}, {"version", "20261201T080000Z-0a1b2c3d"}, {"older", false}}},
+  };
+};
+
+}  // namespace
+
+int main(int argument_count, char** arguments) {
+  using flexrf::panel::PlayedHelper;
+  if (argument_count != 3) return 1;
+  Pc pc(arguments[2]);
+  const PlayedHelper helper(arguments[1], [&pc](const std::string& line, const std::string& bytes) {
+    json request = json::parse(line);
+    const json answer = pc.answer(request, bytes.size());
+    request.erase("password");
+    if (request.at("verb") != "state") {
+      std::printf("%s\n", request.dump().c_str());
+      std::fflush(stdout);
+    }
+    // A state has all its members, also those of an update that there is not.
+    json whole = answer;
+    if (whole.contains("update")) {
+      json update = {{"phase", "none"}, {"received", 0},     {"size", 0},      {"percent", 0},
+                     {"version", ""},   {"application", ""}, {"older", false}, {"why", ""}};
+      update.merge_patch(whole["update"]);
+      whole["update"] = update;
+    }
+    return PlayedHelper::Reaction{PlayedHelper::How::answers, whole.dump()};
+  });
+  std::printf("ready\n");
+  std::fflush(stdout);
+  for (std::string line; std::getline(std::cin, line);) pc.change(json::parse(line));
+  return 0;
+}

@@ -1,0 +1,261 @@
+// An industrial PC at its panel: what runs on it, an update from the file to the restart, and what comes in between.
+import { spawn, type ChildProcess } from 'node:child_process';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { expect, it, onTestFinished } from 'vitest';
+import {
+  Application, Cable, Viewer, newFolder, playedPc, screenshot, sizes, tidyUp, useBrowser, violations, within, type User,
+} from './harness';
+
+const adam: User = { name: 'adam', role: 'admin', password: 'a long password of adam' };
+const vera: User = { name: 'vera', role: 'viewer', password: 'a long password of vera' };
+const newVersion = '20261201T080000Z-0a1b2c3d';
+
+const browser = useBrowser();
+
+/** The helper of a PC, as a process of its own. */
+class PlayedPc {
+  readonly socket = join(newFolder(), 'socket');
+  said = '';
+  #process!: ChildProcess;
+  #ended!: Promise<unknown>;
+
+  static async start(): Promise<PlayedPc> {
+    const pc = new PlayedPc();
+    await pc.begin();
+    onTestFinished(() => pc.end());
+    return pc;
+  }
+  async begin(): Promise<void> {
+    this.#process = spawn(playedPc, [this.socket, adam.password], { stdio: ['pipe', 'pipe', 'inherit'] });
+    this.#process.stdin!.on('error', () => undefined);
+    this.#process.stdout!.on('data', (part: Buffer) => { this.said += part.toString('utf8'); });
+    this.#ended = new Promise((resolve) => this.#process.once('close', resolve));
+    await expect.poll(() => existsSync(this.socket) && this.said.includes('ready'), { timeout: within }).toBe(true);
+    this.said = '';
+  }
+  /** Its state has these members from now on. */
+  change(members: object): void {
+    this.#process.stdin!.write(`${JSON.stringify(members)}\n`);
+  }
+  pause(): void {
+    this.#process.kill('SIGSTOP');
+  }
+  goOn(): void {
+    this.#process.kill('SIGCONT');
+  }
+  async end(): Promise<void> {
+    this.goOn();
+    this.#process.kill('SIGKILL');
+    await this.#ended;
+  }
+}
+
+async function start(pc: PlayedPc): Promise<Application> {
+  const running = await Application.start('panel_cell', { users: [adam, vera], arguments: ['--helper', pc.socket, '--audit', 'audit'] });
+  onTestFinished(() => running.end());
+  return running;
+}
+
+async function open(address: string, user: User): Promise<Viewer> {
+  const viewer = await Viewer.open(browser(), address);
+  onTestFinished(() => viewer.close());
+  viewer.allow(/401|WebSocket/); // before the log-in
+  await viewer.logIn(user);
+  return viewer;
+}
+
+function bundle(size: number): string {
+  const file = join(newFolder(), 'pick-station.raucb');
+  writeFileSync(file, Buffer.alloc(size, 'update'));
+  return file;
+}
+
+async function answer(viewer: Viewer, action: string, password = adam.password): Promise<void> {
+  const dialog = viewer.page.locator('flexrf-password');
+  await dialog.getByLabel('Password of adam').fill(password);
+  await dialog.getByRole('button', { name: action, exact: true }).click();
+}
+
+async function upload(viewer: Viewer, size: number): Promise<void> {
+  await viewer.page.getByLabel('File of an update').setInputFiles(bundle(size));
+  await viewer.page.getByRole('button', { name: 'Upload', exact: true }).click();
+  await answer(viewer, 'Upload');
+}
+
+it('an admin brings an update to the PC, installs it and restarts', { timeout: 4 * within }, async () => {
+  const pc = await PlayedPc.start();
+  const running = await start(pc);
+  const viewer = await open(running.base, adam);
+  const { page } = viewer;
+  await page.getByRole('link', { name: 'Machine', exact: true }).click();
+  await page.getByText('Slot A: it is the slot that is meant to start').waitFor();
+  await screenshot(page, 'machine');
+  expect(await violations(page)).toEqual([]);
+
+  viewer.allow(/403/); // the wrong password
+  await page.getByLabel('File of an update').setInputFiles(bundle(500_000));
+  await page.getByRole('button', { name: 'Upload', exact: true }).click();
+  await answer(viewer, 'Upload', 'a wrong password');
+  await page.getByText('User or password is wrong.').waitFor();
+  await screenshot(page, 'machine-password');
+  expect(await violations(page)).toEqual([]);
+  await answer(viewer, 'Upload');
+  await page.getByText(`Uploaded and verified: pick-station ${newVersion}: newer than what runs.`).waitFor();
+  await screenshot(page, 'machine-verified');
+  expect(pc.said).toContain('"offset":491520'); // in parts of 60 KiB
+
+  await page.getByRole('button', { name: 'Install', exact: true }).click();
+  await page.getByText('is written into slot B; what is there now is lost').waitFor();
+  await screenshot(page, 'machine-install');
+  await answer(viewer, 'Install');
+  await page.getByText('is written into slot B: ').waitFor();
+  await screenshot(page, 'machine-installing');
+  expect(await violations(page)).toEqual([]);
+  await page.getByText(`Version ${newVersion} is installed. It starts with the next restart`).waitFor();
+  await screenshot(page, 'machine-installed');
+
+  await page.getByRole('button', { name: 'Restart now' }).click();
+  await answer(viewer, 'Restart now');
+  await page.getByText('Slot B: its version is new and on trial.').waitFor();
+  pc.change({ healthy_for_s: 12, motion: 'the version that runs has not confirmed itself' });
+  await page.getByText('Not yet: healthy for 12 of 60 s.').waitFor();
+  await page.getByText('Not permitted: the version that runs has not confirmed itself.').waitFor();
+  await screenshot(page, 'machine-trial');
+  expect(await violations(page)).toEqual([]);
+
+  expect(pc.said).toMatch(/"older":false.*"verb":"install"/);
+  const file = () => readFileSync(join(running.folder, 'audit'), 'utf8');
+  await expect.poll(file, { timeout: within }).toContain('restarted the PC');
+  expect(file()).toMatch(/"who":"adam \(127\.0\.0\.1\)","did":"began to upload an update","what":"\(500000 bytes\)"/);
+  expect(file()).toMatch(/"did":"began to install","what":"pick-station 20261201T080000Z-0a1b2c3d"/);
+  expect(file()).toContain('"did":"was not allowed to","what":"upload an update"');
+  for (const text of [file(), running.text]) expect(text).not.toMatch(/a (long|wrong) password/);
+});
+
+it('what lasts is said in every view, and who is no admin has no buttons', { timeout: 2 * within }, async () => {
+  const pc = await PlayedPc.start();
+  const running = await start(pc);
+  pc.change({ development_key: true, confirmed: false, healthy_for_s: 5, boot: 'fallback', notices: ['A copy of the boot choice was damaged, and is written anew.'] });
+  const viewer = await open(running.base, vera);
+  const { page } = viewer;
+  const warnings = page.getByRole('region', { name: 'Warnings' });
+  await warnings.getByText('Signed with the development key: anyone can make an update for this PC').waitFor();
+  await warnings.getByText('has not confirmed itself: healthy for 5 of 60 s').waitFor();
+  await screenshot(page, 'machine-lines');
+  expect(await violations(page)).toEqual([]);
+  await warnings.getByRole('link').first().click();
+  await page.getByText('An update, a choice of the slot and a restart are an admin\'s: needs admin.').waitFor();
+  await page.getByText('A copy of the boot choice was damaged').waitFor();
+  expect(await page.locator('flexrf-machine button, flexrf-machine input').count()).toBe(0);
+  expect(await violations(page)).toEqual([]);
+  await page.setViewportSize(sizes.phone);
+  await screenshot(page, 'machine-viewer');
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  expect(wide).toBeLessThanOrEqual(0);
+
+  const rest = await running.loggedIn(vera);
+  expect((await rest.ask('machine')).body.development_key).toBe(true);
+  expect((await rest.ask('machine/restart', { body: { password: adam.password } })).status).toBe(403);
+  expect(pc.said).toBe('');
+});
+
+it('an upload goes on after the line was cut, and after the helper was started anew it says that it cannot', { timeout: 4 * within }, async () => {
+  const pc = await PlayedPc.start();
+  const running = await start(pc);
+  const cable = await Cable.to(running.port);
+  onTestFinished(() => cable.close());
+  const viewer = await open(cable.base, adam);
+  viewer.allow(/ERR_|WebSocket|404|503/); // the line, and the helper
+  const { page } = viewer;
+  await viewer.go('machine');
+  await upload(viewer, 20_000_000);
+  await page.getByText(/^Uploading: [1-9]/).waitFor();
+  cable.drop();
+  await page.getByText(`Uploaded and verified: pick-station ${newVersion}`).waitFor({ timeout: 2 * within });
+  expect(pc.said).toContain('"offset":19968000');
+
+  await upload(viewer, 20_000_000);
+  await page.getByText(/^Uploading: [1-9]/).waitFor();
+  await screenshot(page, 'machine-uploading');
+  await pc.end();
+  await pc.begin();
+  await page.getByText('There is no such upload: begin anew.').waitFor();
+  await screenshot(page, 'machine-upload-failed');
+  expect(await violations(page)).toEqual([]);
+  // From the beginning it goes.
+  await upload(viewer, 100_000);
+  await page.getByText('Uploaded and verified').waitFor();
+});
+
+it('an update that is refused, one that is older, and a cell that may move', { timeout: 3 * within }, async () => {
+  const pc = await PlayedPc.start();
+  const running = await start(pc);
+  const viewer = await open(running.base, adam);
+  viewer.allow(/409/);
+  const { page } = viewer;
+  await viewer.go('machine');
+  pc.change({ bad: 'It is signed by nobody whom this PC knows.' });
+  await upload(viewer, 1000);
+  await page.getByText('The update failed: It is signed by nobody whom this PC knows.').waitFor();
+  pc.change({ bad: null, verified: { version: '20260101T000000Z-00000000', older: true }, moves: true });
+  await upload(viewer, 1000);
+  await page.getByText('⚠ older than what runs').waitFor();
+  await page.getByRole('button', { name: 'Install the older version' }).click();
+  await page.getByText('faults that were mended since may come back').waitFor();
+  await answer(viewer, 'Install the older version');
+  await page.getByText('The cell may move: give Stop motion first.').waitFor();
+  await screenshot(page, 'machine-older');
+  expect(await violations(page)).toEqual([]);
+  // Stop motion lies under nothing.
+  await page.getByRole('button', { name: 'Stop motion' }).click();
+  pc.change({ moves: null });
+  await answer(viewer, 'Install the older version');
+  await page.getByText('is installed. It starts with the next restart').waitFor();
+  expect(pc.said).toContain('"older":true');
+  // What the other slot holds can be chosen back.
+  await page.getByRole('button', { name: 'Start slot A next' }).click();
+  await answer(viewer, 'Start slot A next');
+  await page.getByRole('row', { name: /^A .*runs, starts next/ }).waitFor();
+});
+
+it('a helper that hangs or is gone is told, and nothing else waits for it', { timeout: 3 * within }, async () => {
+  const pc = await PlayedPc.start();
+  const running = await start(pc);
+  const viewer = await open(running.base, adam);
+  viewer.allow(/503/);
+  const { page } = viewer;
+  await viewer.go('machine');
+  await page.getByText('Permitted by this PC.').waitFor();
+  pc.pause();
+  const rest = await running.loggedIn(adam);
+  const asked = rest.ask('machine');
+  const begun = performance.now();
+  for (let i = 0; i < 50; ++i) await rest.do('state');
+  expect(performance.now() - begun).toBeLessThan(10_000);
+  pc.goOn();
+  expect((await asked).status).toBe(200);
+  await pc.end();
+  await page.getByText('How the PC is cannot be told now.').waitFor();
+  await screenshot(page, 'machine-gone');
+  expect(await violations(page)).toEqual([]);
+  await pc.begin();
+  await expect.poll(() => page.getByText('How the PC is cannot be told now.').count(), { timeout: within }).toBe(0);
+});
+
+it('without a helper there is no such view, and bytes are nobody else\'s', async () => {
+  const running = await Application.start('panel_cell', { users: [adam] });
+  onTestFinished(() => running.end());
+  const viewer = await open(running.base, adam);
+  await viewer.page.getByRole('link', { name: 'Audit' }).waitFor();
+  expect(await viewer.page.getByRole('link', { name: 'Machine', exact: true }).count()).toBe(0);
+  await tidyUp(() => viewer.check());
+  const rest = await running.loggedIn(adam);
+  expect((await rest.ask('machine')).status).toBe(404);
+  const headers = { 'content-type': 'application/octet-stream' };
+  for (const path of ['control/take', 'stop-motion', 'save-values', 'logout', 'login'])
+    expect((await rest.ask(path, { body: {}, headers })).status, path).toBe(415);
+  expect((await rest.ask('machine/bundle?upload=00112233445566778899aabbccddeeff&offset=0', { method: 'PUT', body: {}, headers })).status).toBe(404);
+  const foreign = { 'content-type': 'application/octet-stream', origin: 'http://elsewhere.example' };
+  expect((await rest.ask('machine/bundle?upload=00112233445566778899aabbccddeeff&offset=0', { method: 'PUT', body: {}, headers: foreign })).status).toBe(403);
+});
