@@ -27,12 +27,12 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
-std::string page(std::string_view machine, std::string_view more_head, std::string_view body) {
+std::string page(std::string_view machine, std::string_view body) {
   const std::string name = escaped(machine);
   std::string text = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + name +
                      "</title><meta name=\"viewport\" content=\"width=device-width\"><link "
                      "rel=\"stylesheet\" href=\"/claim.css\">";
-  text.append(more_head).append("</head>\n<body><main>\n<h1>").append(name).append("</h1>\n");
+  text.append("</head>\n<body><main>\n<h1>").append(name).append("</h1>\n");
   return text.append(body).append("</main></body></html>\n");
 }
 
@@ -62,15 +62,15 @@ std::string form_page(std::string_view machine, std::string_view token, std::str
       "<label>The same again<input name=\"repeated\" type=\"password\" required maxlength=\"256\" "
       "autocomplete=\"new-password\"></label>\n"
       "<button>Claim this PC</button>\n</form>\n";
-  return page(machine, "", body);
+  return page(machine, body);
 }
 
 std::string done_page(std::string_view machine, std::string_view user) {
-  return page(machine, "<meta http-equiv=\"refresh\" content=\"20;url=/\">",
+  // It goes nowhere by itself: whoever reads slowly, or hears it read, is not to lose it (WCAG 2.2.1).
+  return page(machine,
               "<p>This PC is claimed. <b>" + escaped(user) +
-                  "</b> is its admin.</p>\n<p>The cell starts now, which takes some seconds. This page goes "
-                  "to its panel "
-                  "then; or <a href=\"/\">go there</a>.</p>\n");
+                  "</b> is its admin.</p>\n<p>The cell starts now, which takes some seconds. Then its "
+                  "panel is in this page's place: <a href=\"/\">go there</a>.</p>\n");
 }
 
 std::string_view page_style() noexcept {

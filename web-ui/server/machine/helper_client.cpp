@@ -18,8 +18,7 @@ namespace flexrf::panel {
 namespace {
 
 constexpr Duration between_attempts = std::chrono::milliseconds{50};
-constexpr const char* advice =
-    "`journalctl -u flexrf-helper` tells more, and a restart of the PC starts it anew";
+constexpr const char* advice = "it starts anew by itself; if it does not, restart the PC";
 
 /// Who asked waits no longer; passwords do not stay in memory.
 void forget(std::string& message) noexcept {
@@ -205,7 +204,8 @@ Status HelperClient::wait_for(short events, Time deadline) const {
 Status HelperClient::late() const {
   return Status::error(
       StatusCode::timeout,
-      "the PC's helper does not answer; look whether it did what was asked for, then try again. %s", advice);
+      "the PC's helper does not answer in time; look whether it did what was asked for, then try "
+      "again, or restart the PC");
 }
 
 void HelperClient::disconnect() noexcept {

@@ -2,7 +2,6 @@
 import type { ItemInfo, Outcome, Placement, WidgetElement, WidgetHost } from '../contract';
 import type { Model } from './descriptor';
 import type { History } from './history';
-import type { MachineWatch } from './machine';
 import type { Answer, ApplicationState, LogLine, SessionInfo, TopicName } from './protocol';
 import type { DisplayUnits } from './units';
 
@@ -62,8 +61,8 @@ export interface Core {
   /** Why this session may not do something that needs `role`, whoever has control; empty when it may. */
   deniedRole(role: 'viewer' | 'operator' | 'engineer' | 'admin'): string;
 
-  /** The PC on which the application runs. */
-  readonly machine: MachineWatch;
+  /** The application runs on a PC that it can tell of. */
+  readonly hasMachine: boolean;
   /** Asks for the password of whoever is logged in, in a dialog. */
   askPassword(question: PasswordQuestion): void;
 

@@ -1,5 +1,6 @@
 // The PC on which the application runs, as its helper tells of it: asked for again and again, there is nobody who would say it.
-import { getJson, type Fetched } from './http';
+import type { Core } from './core';
+import { getJson } from './http';
 import { added } from './watchers';
 
 export type BootWord = 'confirmed' | 'only' | 'trial' | 'fallback' | 'manual' | 'unknown';
@@ -52,38 +53,44 @@ export interface MachineState {
 const soon = 1000;
 const later = 5000;
 
-export interface MachineWatchOptions {
-  /** Nobody is asked while the link to the application is lost. */
-  readonly isLinked: () => boolean;
-  readonly changed: () => void;
-}
+const watches = new WeakMap<MachineCore, MachineWatch>();
 
+type MachineCore = Pick<Core, 'hasMachine' | 'link' | 'watchState'>;
+
+/** From the first who needs it on, for as long as the page is there. */
 export class MachineWatch {
-  /** There is a PC; the application said so. */
-  isThere = false;
   /** As it was when it was heard last. */
   state: MachineState | undefined;
   /** Why nothing newer is known; empty: it is. */
   trouble = '';
+  #watchers = new Set<() => void>();
   #lookers = new Set<object>();
   #timer: ReturnType<typeof setTimeout> | undefined;
   #asked: Promise<void> | undefined;
+  #wasLinked = false;
 
-  constructor(private readonly options: MachineWatchOptions) {}
-
-  /** With each connection. */
-  begin(isThere: boolean): void {
-    this.isThere = isThere;
-    if (!isThere) this.state = undefined;
-    this.end();
-    if (isThere) void this.refresh();
+  static of(core: MachineCore): MachineWatch {
+    let watch = watches.get(core);
+    if (watch === undefined) watches.set(core, (watch = new MachineWatch(core)));
+    return watch;
   }
 
-  end(): void {
-    clearTimeout(this.#timer);
+  private constructor(private readonly core: MachineCore) {
+    const asLinked = (): void => {
+      const before = this.#wasLinked;
+      this.#wasLinked = this.#isLinked;
+      if (this.#wasLinked && !before) void this.refresh();
+    };
+    core.watchState(asLinked);
+    asLinked();
   }
 
-  /** Somebody looks, until the returned function is called. */
+  /** Calls back when it changed, until the returned function is called. */
+  watch(callback: () => void): () => void {
+    return added(this.#watchers, callback);
+  }
+
+  /** Somebody looks closely, until the returned function is called. */
   look(): () => void {
     const forget = added(this.#lookers, {});
     void this.refresh();
@@ -97,40 +104,23 @@ export class MachineWatch {
     await this.#asked;
   }
 
-  async #ask(): Promise<void> {
-    this.end();
-    if (this.isThere && this.options.isLinked()) this.#heard(await getJson<MachineState>('/api/v1/machine'));
-    this.end();
-    if (!this.isThere) return;
-    this.#timer = setTimeout(() => void this.refresh(), this.#lookers.size > 0 || isBusy(this.state) ? soon : later);
+  /** There is a PC, and somebody who could be asked. */
+  get #isLinked(): boolean {
+    return this.core.hasMachine && this.core.link.phase === 'open';
   }
 
-  #heard(answer: Fetched<MachineState>): void {
+  async #ask(): Promise<void> {
+    clearTimeout(this.#timer);
+    if (!this.#isLinked) return; // with the link it goes on
+    const answer = await getJson<MachineState>('/api/v1/machine');
     const before = JSON.stringify([this.state, this.trouble]);
     if (answer.ok) this.state = answer.body;
     this.trouble = answer.ok ? '' : answer.detail;
-    if (JSON.stringify([this.state, this.trouble]) !== before) this.options.changed();
+    this.#timer = setTimeout(() => void this.refresh(), this.#lookers.size > 0 || isBusy(this.state) ? soon : later);
+    if (JSON.stringify([this.state, this.trouble]) !== before) this.#watchers.forEach((watcher) => watcher());
   }
 }
 
 function isBusy(state: MachineState | undefined): boolean {
   return state !== undefined && (!state.confirmed || ['receiving', 'verifying', 'installing'].includes(state.update.phase));
-}
-
-/** What every view says of the PC, as long as it is so. */
-export function lastingLines(state: MachineState | undefined): readonly string[] {
-  if (!state) return [];
-  const { update } = state;
-  const percent = update.phase === 'receiving' ? Math.floor((100 * update.received) / Math.max(update.size, 1)) : update.percent;
-  const phases: { readonly [phase in UpdatePhase]?: string } = {
-    receiving: `An update is being uploaded: ${percent} %`,
-    verifying: 'An update is being verified',
-    installing: `Version ${update.version} is being installed: ${percent} %. Nothing may move meanwhile`,
-    installed: `Version ${update.version} is installed: it starts with the next restart`,
-  };
-  return [
-    state.development_key ? 'Signed with the development key: anyone can make an update for this PC' : '',
-    state.confirmed ? '' : `Version ${state.version} has not confirmed itself: healthy for ${state.healthy_for_s} of ${state.healthy_needed_s} s`,
-    phases[update.phase] ?? '',
-  ].filter((line) => line !== '');
 }

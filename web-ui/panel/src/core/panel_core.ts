@@ -9,7 +9,6 @@ import type { DescriptorJson } from './descriptor_json';
 import { Holds } from './holds';
 import { Host } from './host';
 import { getJson } from './http';
-import { MachineWatch } from './machine';
 import { inNextFrame } from './next_frame';
 import type { Answer, ApplicationState, Drivers, Hello, LogLine, ServerEvent, SessionInfo, TopicName, Values } from './protocol';
 import { textOfError } from './reasons';
@@ -42,9 +41,9 @@ export class PanelCore implements Core {
   readonly host: Host;
   readonly connection: Connection;
   readonly registry: Registry;
-  readonly machine: MachineWatch;
   state: ApplicationState | undefined;
   session: SessionInfo | undefined;
+  hasMachine = false;
   /** Why this session did not get control when it asked last; empty once it asks anew, or somebody else has it. */
   controlRefused = '';
   /** When `state` arrived, ms of performance.now(): its countdowns run from there. */
@@ -73,7 +72,6 @@ export class PanelCore implements Core {
       explain: explainRefusal,
     });
     this.registry = new Registry(options.loadBuiltIn);
-    this.machine = new MachineWatch({ isLinked: () => this.link.phase === 'open', changed: () => this.#changed() });
     this.#store = new Store({ serverNow: () => this.connection.serverNow() });
     this.#subscriptions = new Subscriptions({
       request: (op, fields) => this.connection.request(op, fields),
@@ -207,7 +205,7 @@ export class PanelCore implements Core {
   async #onHello(hello: Hello): Promise<void> {
     this.session = hello.session;
     this.application = hello.application;
-    this.machine.begin(hello.machine === true);
+    this.hasMachine = hello.machine === true;
     const restarted = this.#boot !== undefined && this.#boot !== hello.boot;
     this.#boot = hello.boot;
     this.state = undefined;

@@ -5,7 +5,6 @@ import { customElement, query, state } from 'lit/decorators.js';
 import { deniedLink, hasControl, includes } from '../core/access';
 import type { PasswordQuestion } from '../core/core';
 import { listen } from '../core/listen';
-import { lastingLines } from '../core/machine';
 import { PanelCore } from '../core/panel_core';
 import { loadPart } from '../core/parts';
 import { addressOfRoute, parseRoute, type Route } from '../core/route';
@@ -29,6 +28,14 @@ const dialogs: { readonly [name in DialogName]: () => Promise<unknown> } = {
   login: () => import('./login'),
   settings: () => import('./settings'),
   password: () => import('./password'),
+};
+
+type PartBelow = 'consent' | 'machine';
+
+/** What stands below the views, loaded once it is needed: what cannot be shown without it, and how it is had. */
+const partsBelow: { readonly [name in PartBelow]: readonly [string, () => Promise<unknown>] } = {
+  consent: ['Who asks for control', () => import('./consent')],
+  machine: ['How the PC is', () => import('./machine_lines')],
 };
 
 @customElement('flexrf-panel')
@@ -59,15 +66,6 @@ export class Panel extends EndingElement {
         color: var(--flexrf-stop-text);
         background: var(--flexrf-stop);
         font-weight: 600;
-      }
-      .banner .machine {
-        display: block;
-        padding: 6px 12px;
-        color: var(--flexrf-text);
-        background: var(--flexrf-surface);
-        border-block-start: 1px solid var(--flexrf-border);
-        border-inline-start: 6px solid var(--flexrf-warning);
-        text-decoration: none;
       }
       nav {
         grid-area: nav;
@@ -120,14 +118,14 @@ export class Panel extends EndingElement {
   @state() private dialog: DialogName | 'none' = 'none';
   @state() private generation = '';
   @state() private ended = '';
-  /** The question to whoever has control can be shown. */
-  @state() private asks = false;
+  /** What can be shown below the views. */
+  @state() private below: ReadonlySet<PartBelow> = new Set();
   /** What the dialog that asks for the password is about. */
   @state() private question: PasswordQuestion | undefined;
   @query('flexrf-notices') private notices!: Notices;
   #preferences = new Preferences(document.documentElement, localStorage, matchMedia('(prefers-color-scheme: dark)'));
   #asked = false;
-  #loadsConsent = false;
+  #loading = new Set<PartBelow>();
 
   readonly core = new PanelCore({
     onModel: (model) => {
@@ -157,7 +155,6 @@ export class Panel extends EndingElement {
     this.until(this.core.watchState(() => this.#onState()));
     this.core.start();
     this.until(() => this.core.connection.stop());
-    this.until(() => this.core.machine.end());
   }
 
   /** On a narrow screen the entry of the view that is shown may lie beside what is seen of the navigation. */
@@ -185,9 +182,9 @@ export class Panel extends EndingElement {
         ${this.dialog === 'settings' ? html`<flexrf-settings .preferences=${this.#preferences} @close=${() => this.#close()}></flexrf-settings>` : nothing}
       </div>
       <div class="banner" role="region" aria-label="Warnings">
-        ${lastingLines(this.core.machine.state).map((line) => html`<a class="machine" href="#/machine">⚠ ${line}</a>`)}
+        ${this.below.has('machine') && this.core.hasMachine ? html`<flexrf-machine-lines .core=${this.core}></flexrf-machine-lines>` : nothing}
         ${this.#banner()}
-        ${this.asks ? html`<flexrf-consent .core=${this.core}></flexrf-consent>` : nothing}
+        ${this.below.has('consent') ? html`<flexrf-consent .core=${this.core}></flexrf-consent>` : nothing}
       </div>
     `;
   }
@@ -202,7 +199,7 @@ export class Panel extends EndingElement {
 
   #entries(): (readonly [Route, string])[] {
     const entries: (readonly [Route, string])[] = views
-      .filter((view) => view.label !== '' && (!view.onMachine || this.core.machine.isThere) && (!view.role || (this.core.session && includes(this.core.session.role, view.role))))
+      .filter((view) => view.label !== '' && (!view.onMachine || this.core.hasMachine) && (!view.role || (this.core.session && includes(this.core.session.role, view.role))))
       .map((view) => [{ view: view.name, path: [] }, view.label]);
     if (this.generation) for (const menu of this.core.model.menus.keys()) entries.push([{ view: 'menu', path: [menu] }, menu]);
     return entries;
@@ -214,7 +211,8 @@ export class Panel extends EndingElement {
 
   #onState(): void {
     const { link } = this.core;
-    if (!this.asks && hasControl(this.core.situation)) void this.#loadConsent();
+    if (hasControl(this.core.situation)) void this.#loadBelow('consent');
+    if (this.core.hasMachine) void this.#loadBelow('machine');
     if (this.generation) document.title = titleOf(this.core.application, this.core);
     const lapsed = this.core.session?.lapsed === true;
     if (link.phase === 'open') this.ended = '';
@@ -251,16 +249,17 @@ export class Panel extends EndingElement {
   }
 
   /** With the next word of the application it is tried again: silence would hand control over. */
-  async #loadConsent(): Promise<void> {
-    if (this.#loadsConsent) return;
-    this.#loadsConsent = true;
+  async #loadBelow(name: PartBelow): Promise<void> {
+    if (this.below.has(name) || this.#loading.has(name)) return;
+    this.#loading.add(name);
+    const [what, load] = partsBelow[name];
     try {
-      await loadPart(() => import('./consent'));
-      this.asks = true;
+      await loadPart(load);
+      this.below = new Set([...this.below, name]);
     } catch (error) {
-      this.notices?.add(`Who asks for control cannot be shown: ${(error as Error).message}. It is tried again.`, 'warning');
+      this.notices?.add(`${what} cannot be shown: ${(error as Error).message}. It is tried again.`, 'warning');
     }
-    this.#loadsConsent = false;
+    this.#loading.delete(name);
   }
 
   #fromAddress(): Route {

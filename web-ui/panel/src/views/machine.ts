@@ -1,7 +1,7 @@
 // The PC on which the application runs: its versions, why it does not permit motion, and updating it.
 import { css, html, nothing } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
-import type { MachineSlot, MachineState, SlotName } from '../core/machine';
+import { MachineWatch, type MachineSlot, type MachineState, type SlotName } from '../core/machine';
 import { MachineActs } from './machine_acts';
 import { ageOf, bootSentence, builtText, bytesText, confirmedSentence, motionSentence, otherSlot, slotSentence, updateSentence } from './machine_words';
 import { ViewBase } from './view_base';
@@ -17,6 +17,10 @@ export class Machine extends ViewBase {
         height: 1em;
         accent-color: var(--fill);
       }
+      .buttons,
+      label.file {
+        margin-block: 0.8em;
+      }
       label.file {
         display: grid;
         gap: 2px;
@@ -30,7 +34,7 @@ export class Machine extends ViewBase {
         font: inherit;
         min-height: var(--target);
       }
-      .scroll td {
+      td {
         overflow-wrap: anywhere;
       }
     `,
@@ -38,19 +42,25 @@ export class Machine extends ViewBase {
 
   @state() private file: File | undefined;
   private acts!: MachineActs;
+  private machine!: MachineWatch;
 
   override connectedCallback(): void {
     super.connectedCallback();
     this.acts = MachineActs.of(this.core);
     this.watchAge();
-    this.until(this.core.machine.look());
+    this.machine = MachineWatch.of(this.core);
+    this.until(this.machine.watch(() => this.requestUpdate()));
+    this.until(this.machine.look());
     this.until(this.core.watchState(() => this.requestUpdate()));
-    this.until(this.acts.watch(() => this.requestUpdate()));
+    this.until(this.acts.watch(() => {
+      if (this.acts.upload.isSending) this.file = undefined; // another upload is of another file
+      this.requestUpdate();
+    }));
   }
 
   protected override render(): unknown {
-    const { machine } = this.core;
-    if (!machine.isThere) return html`<h2>Machine</h2><p>This application does not run on a PC of FlexRF.</p>`;
+    const { machine } = this;
+    if (!this.core.hasMachine) return html`<h2>Machine</h2><p>This application does not run on a PC of FlexRF.</p>`;
     const known = machine.state;
     const old = this.age || (machine.trouble ? 'stale' : '');
     return html`
@@ -103,7 +113,7 @@ export class Machine extends ViewBase {
     const { upload } = this.acts;
     return html`
       <h3>Update</h3>
-      <div role="status">${upload.state.step === 'sending' ? this.sending(upload.state) : nothing}
+      <div role=${upload.isSending || update.phase === 'installing' ? nothing : 'status'}>${upload.state.step === 'sending' ? this.sending(upload.state) : nothing}
         ${upload.state.step === 'failed' ? html`<p class="alarm">✕ The upload stopped at ${bytesText(upload.state.sent)} of ${bytesText(upload.state.size)}. ${upload.state.why}</p>` : nothing}
         ${upload.isSending || upload.state.step === 'failed' ? nothing : this.phase(known)}
       </div>

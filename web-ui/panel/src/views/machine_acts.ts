@@ -1,7 +1,8 @@
 // What an admin does to the PC: each with what it will do, the password asked for anew, and why it cannot be done now.
 import type { Core } from '../core/core';
 import { postJson, putBytes } from '../core/http';
-import type { MachineState, SlotName } from '../core/machine';
+import { MachineWatch, type MachineState, type SlotName } from '../core/machine';
+import { added } from '../core/watchers';
 import { BundleUpload } from './bundle_upload';
 import { ageOf, bytesText, otherSlot } from './machine_words';
 
@@ -14,6 +15,7 @@ const acts = new WeakMap<Core, MachineActs>();
 export class MachineActs {
   readonly upload: BundleUpload;
   readonly #watchers = new Set<() => void>();
+  readonly #machine: MachineWatch;
 
   static of(core: Core): MachineActs {
     let one = acts.get(core);
@@ -22,19 +24,19 @@ export class MachineActs {
   }
 
   private constructor(private readonly core: Core) {
+    this.#machine = MachineWatch.of(core);
     this.upload = new BundleUpload({
       put: (token, offset, bytes) => putBytes(`/api/v1/machine/bundle?upload=${token}&offset=${offset}`, bytes, partWithin),
       pause: (ms) => new Promise((resolve) => setTimeout(resolve, ms)),
       changed: () => {
-        if (this.upload.state.step !== 'sending') void core.machine.refresh();
+        if (this.upload.state.step !== 'sending') void this.#machine.refresh();
         this.#watchers.forEach((watcher) => watcher());
       },
     });
   }
 
   watch(callback: () => void): () => void {
-    this.#watchers.add(callback);
-    return () => this.#watchers.delete(callback);
+    return added(this.#watchers, callback);
   }
 
   /** Why this session may do nothing to the PC; empty: it may. */
@@ -106,7 +108,7 @@ export class MachineActs {
 
   async #post(what: string, body: object): Promise<string> {
     const answer = await postJson(`/api/v1/machine/${what}`, body);
-    void this.core.machine.refresh();
+    void this.#machine.refresh();
     return answer.ok ? '' : answer.detail;
   }
 }

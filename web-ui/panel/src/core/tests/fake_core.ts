@@ -5,7 +5,6 @@ import { makeModel } from '../descriptor';
 import type { DescriptorJson } from '../descriptor_json';
 import type { ApplicationState, Drivers, SessionInfo } from '../protocol';
 import { History } from '../history';
-import type { MachineState } from '../machine';
 import { DisplayUnits } from '../units';
 
 /** Records what a widget was given. */
@@ -40,14 +39,7 @@ export class FakeCore {
   /** Of deniedRole(). */
   roleDenied = '';
   readonly questions: PasswordQuestion[] = [];
-  readonly machine = {
-    isThere: true, state: undefined as MachineState | undefined, trouble: '', lookers: 0,
-    look: () => {
-      this.machine.lookers += 1;
-      return () => { this.machine.lookers -= 1; };
-    },
-    refresh: () => Promise.resolve(),
-  };
+  hasMachine = false;
   link: LinkStatus = { phase: 'open', stale: false, roundTrip: 1, silence: 0, detail: '' };
   answer: (op: string, fields: object) => object = () => ({ ok: true });
   private readonly states = new Set<() => void>();

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { FakeCore, quiet } from '../../core/tests/fake_core';
 import { noUpdate, pc } from '../../core/tests/machine_sample';
-import type { MachineState } from '../../core/machine';
+import { MachineWatch, type MachineState } from '../../core/machine';
 import { sample } from '../../core/tests/sample';
 import { partSize } from '../bundle_upload';
 import type { Machine } from '../machine';
@@ -12,15 +12,21 @@ const verified = { ...noUpdate, phase: 'verified', version: '20261201T1', applic
 
 let core: FakeCore;
 let view: Machine;
+/** Of the PC's state; the other requests are `fetched`. */
+let asked = 0;
+let answer: () => Response;
 const fetched = vi.fn();
 
 function says(body: object, status = 200): void {
   fetched.mockImplementation(() => Promise.resolve(new Response(JSON.stringify(body), { status })));
 }
-async function shown(state: Partial<MachineState> = {}): Promise<string> {
-  core.machine.state = { ...pc, ...state };
-  core.says({});
+async function heard(what: () => Response): Promise<string> {
+  answer = what;
+  await MachineWatch.of(core.core).refresh();
   return text();
+}
+async function shown(state: Partial<MachineState> = {}): Promise<string> {
+  return heard(() => new Response(JSON.stringify({ ...pc, ...state })));
 }
 async function text(): Promise<string> {
   await view.updateComplete;
@@ -39,11 +45,18 @@ const sentTo = (): unknown[] => (fetched.mock.calls as [string, RequestInit][]).
   [path, typeof options.body === 'string' ? JSON.parse(options.body) : (options.body as Blob).size]);
 
 beforeEach(() => {
-  vi.stubGlobal('fetch', fetched.mockReset());
+  fetched.mockReset();
+  asked = 0;
+  answer = () => new Response(JSON.stringify(pc));
+  vi.stubGlobal('fetch', (path: string, options: RequestInit) => {
+    if (path !== '/api/v1/machine') return fetched(path, options) as Promise<Response>;
+    asked += 1;
+    return Promise.resolve(answer());
+  });
   says({});
   core = new FakeCore(sample);
+  core.hasMachine = true;
   core.session = admin;
-  core.machine.state = pc;
   view = Object.assign(document.createElement('flexrf-machine') as Machine, { core: core.core, host: core.host });
   document.body.append(view);
 });
@@ -53,16 +66,15 @@ afterEach(() => {
 });
 
 describe('the view of the PC', () => {
-  it('shows what runs and why, and is asked for while it is seen', async () => {
-    expect(core.machine.lookers).toBe(1);
+  it('shows what runs and why, and asks often while it is seen', async () => {
     const words = await shown();
     expect(words).toContain('pick-station');
     expect(words).toContain('20261128T001500Z-4fb48992, built');
     expect(words).toContain('Slot A: it is the slot that is meant to start');
     expect(words).toContain('Permitted by this PC.');
     expect(words).not.toContain('development key');
-    view.remove();
-    expect(core.machine.lookers).toBe(0);
+    const before = asked;
+    await vi.waitFor(() => expect(asked).toBeGreaterThan(before), { timeout: 3000 });
   });
 
   it('shows what is not as it should be', async () => {
@@ -79,13 +91,11 @@ describe('the view of the PC', () => {
   });
 
   it('says why nothing is known, and keeps what was', async () => {
-    core.machine.trouble = 'The PC’s helper is not there.';
-    expect(await shown()).toContain('How the PC is cannot be told now. The PC’s helper is not there.');
+    await shown();
+    const gone = (): Response => new Response('{"title":"No","detail":"The PC’s helper is not there."}', { status: 503 });
+    expect(await heard(gone)).toContain('How the PC is cannot be told now. The PC’s helper is not there.');
     expect(view.shadowRoot!.querySelector('.stale')!.textContent).toContain('pick-station');
-    core.machine.state = undefined;
-    core.says({});
-    expect(await text()).not.toContain('Slots');
-    core.machine.isThere = false;
+    core.hasMachine = false;
     core.says({});
     expect(await text()).toContain('does not run on a PC of FlexRF');
   });
@@ -126,6 +136,7 @@ describe('the view of the PC', () => {
       ['/api/v1/machine/bundle?upload=ab&offset=0', partSize],
       [`/api/v1/machine/bundle?upload=ab&offset=${partSize}`, 7],
     ]);
+    await vi.waitFor(async () => expect(await text()).toContain('choose a file first')); // for the next one
   });
 
   it('an upload that stopped says where and why, and goes on', async () => {
@@ -163,7 +174,7 @@ describe('the view of the PC', () => {
   });
 
   it('what needs a cell at rest is dead while it may move, and says so', async () => {
-    core.machine.state = { ...pc, update: verified, slots: { ...pc.slots, B: { version: '7', whole: true, primary: false } } };
+    await shown({ update: verified, slots: { ...pc.slots, B: { version: '7', whole: true, primary: false } } });
     core.says({ motion: { ...quiet.motion, may_move: true } });
     const words = await text();
     for (const label of ['Install', 'Start slot B next', 'Restart the PC']) {
@@ -172,6 +183,7 @@ describe('the view of the PC', () => {
     }
     expect(words).toContain('the cell may move: give Stop motion first');
     expect(core.questions).toEqual([]);
+    core.says({});
     await shown({ update: verified, confirmed: false });
     expect(isDead('Install')).toBe(true);
   });
