@@ -41,7 +41,7 @@ pack_changed() {  # pack_changed VERSION: of the root as it was changed
     pack_root "$work/root" "$work/root.img" && pack_bundle "$work" flexrf-pick-station-amd64 "$work/bundles/$1"
 }
 
-make_updates() (  # the first version as a disk, others as bundles, and the disk that they are on
+updates_are_made() (  # the first version as a disk, others as bundles, and the disk that they are on
   work=$pc_folder/update
   mkdir -p "$work/bundles"
   image_version=first
