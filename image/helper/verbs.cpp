@@ -272,7 +272,7 @@ void Verbs::say_outcome(const Request& request, const std::string& peer, const A
   if (request.verb == Verb::part) {
     // There are thousands of them: only the first refusal of a kind is of use in the journal.
     if (answer.is_done()) {
-      if (!upload_.received().is_under_way) surroundings_.say("the bundle is here; it is being verified");
+      if (!upload_.received().is_under_way) surroundings_.say("all of the bundle from " + peer + " is here");
     } else if (answer.why != said_part_) {
       said_part_ = answer.why;
       surroundings_.say("a part from " + peer + " is refused: " + answer.why);
