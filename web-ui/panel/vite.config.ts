@@ -23,7 +23,7 @@ export default defineConfig({
     rollupOptions: {
       output: {
         // What every first view needs comes in few files: small ones are compressed badly, each for itself.
-        manualChunks: (id) => (/\/src\/(views\/(overview|widget_place|view_styles|view_base)|widgets\/(index|styles|live_text)|core\/(?!format_number)\w+)\.ts$/.test(id) ? 'first' : undefined),
+        manualChunks: (id) => (/\/src\/(shell\/(?!consent|dialog|login|machine|password|settings)\w+|views\/(index|overview|widget_place|view_styles|view_base)|widgets\/(index|styles|live_text)|core\/(?!format_number|machine)\w+)\.ts$/.test(id) ? 'first' : undefined),
       },
     },
     chunkSizeWarningLimit: 700, // the 3D view, which is loaded when it is shown
