@@ -26,7 +26,7 @@ data_beyond_repair() {
     await_line 'data was damaged beyond repair, and is made anew' && await_line 'motion is not permitted: nobody has claimed this PC' &&
     claim_pc && await_line 'the cell runs' && log_in && asks_with_certificate && now=$(time_of_pc) || return
   # That of the version, which systemd takes for one that stands before it.
-  ((now >= $(git -C "$root" log -1 --format=%ct) && now < $(date +%s))) || { echo "the PC's clock says $now" && return 1; }
+  ((now >= $(<"$pc_folder/time_of_version") && now < $(date +%s))) || { echo "the PC's clock says $now" && return 1; }
   ! fingerprint | grep -F -f "$pc_folder/fingerprint" || { echo "the key that was lost is there" && return 1; }
 }
 

@@ -78,7 +78,10 @@ fingerprint() {  # of the certificate that the panel shows
   openssl s_client -connect "127.0.0.1:$pc_port" </dev/null 2>/dev/null | openssl x509 -noout -fingerprint -sha256
 }
 
-image_is_made() { (make_image pick-station "$pc_folder/product.img" product); }
+image_is_made() {
+  git -C "$root" log -1 --format=%ct >"$pc_folder/time_of_version"
+  (make_image pick-station "$pc_folder/product.img" product)
+}
 variant_is_made() { (make_image pick-station "$pc_folder/variant.img" 'test'); }
 
 try_to_claim() {  # try_to_claim CODE: prints the status
