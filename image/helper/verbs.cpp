@@ -126,7 +126,10 @@ Answer Verbs::check_installable(const Request& request, bool& is_older) const {
   const Facts facts = read_facts(files_, wait_for_choice);
   if (!facts.choice)
     return refuse(409, "which version of this PC counts cannot be told: " + facts.choice_failure);
-  if (!is_confirmed(facts))
+  if (!facts.running.slot) return refuse(409, "which slot runs cannot be told; restart the PC");
+  // Where the other slot has no version there is nothing to lose, and an update may be what makes this PC
+  // well.
+  if (!is_confirmed(facts) && facts.choice->of(boot::other(*facts.running.slot)).is_whole)
     return refuse(
         409,
         "this version has not confirmed itself, and the other one may still be needed; wait until it "

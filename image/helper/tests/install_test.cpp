@@ -129,6 +129,19 @@ void a_version_that_is_not_confirmed_installs_nothing() {
   CHECK(bench.pc.systemd.empty());
 }
 
+/// With one version that cannot be well, as when a device is missing that it wants, an update is the way out.
+void the_only_version_need_not_be_confirmed_for_an_update() {
+  Bench bench;
+  fs::remove_all(bench.pc.files.choice);
+  fs::create_directory(bench.pc.files.choice);
+  bench.pc.choose({"create"});
+  bench.pc.has_verified_bundle();
+  bench.pc.boots("?", "only");
+  CHECK_CONTAINS(bench.answer_to(Verb::install), "409 which slot runs cannot be told");
+  bench.pc.boots("A", "only");
+  CHECK_EQUAL(bench.answer_to(Verb::install), "200 ");
+}
+
 void an_older_bundle_has_to_be_meant() {
   Bench bench;
   bench.pc.has_verified_bundle("999");
@@ -216,6 +229,7 @@ int main() {
       CONTAINED_TEST(a_start_at_the_last_moment_is_waited_for_and_then_counts),
       CONTAINED_TEST(what_cannot_be_started_leaves_nothing_behind),
       CONTAINED_TEST(a_version_that_is_not_confirmed_installs_nothing),
+      CONTAINED_TEST(the_only_version_need_not_be_confirmed_for_an_update),
       CONTAINED_TEST(an_older_bundle_has_to_be_meant),
       CONTAINED_TEST(what_a_helper_began_the_next_one_goes_on_with),
       CONTAINED_TEST(a_result_that_nobody_understands_forbids_all_but_a_restart),
