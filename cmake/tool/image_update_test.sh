@@ -14,9 +14,11 @@ pack_other() (
   pack_bundle "$small" "$2" "$pc_folder/update/bundles/$1"
 )
 
-sign_otherwise() {  # sign_otherwise NAME CHANGE: the small bundle's parts, with a manifest that sed changes
-  local small=$pc_folder/update/small
-  sed -i "$2" "$small/bundle/manifest.raucm"
+sign_otherwise() {  # sign_otherwise NAME FORMAT IMAGE...: the small bundle's parts, in another format, or not all of them
+  local small=$pc_folder/update/small image
+  rm "$small/bundle"/manifest.raucm*
+  printf '%s\n' '[update]' compatible=flexrf-pick-station-amd64 "version=$1" '[bundle]' "format=$2" >"$small/bundle/manifest.raucm"
+  for image in "${@:3}"; do printf '%s\n' "[image.$image]" "filename=$image.img"; done >>"$small/bundle/manifest.raucm"
   rauc --conf="$small/system.conf" --key="$image_key" --cert="$image_certificate" --keyring="$image_keyring" \
     bundle "$small/bundle" "$pc_folder/update/bundles/$1" >"$small/said" 2>&1 || { cat "$small/said" && return 1; }
 }
@@ -25,9 +27,7 @@ pack_others() {
   local built=$1 bundles=$pc_folder/update/bundles
   pack_other foreign flexrf-keyboard-amd64 "$built" && pack_other older flexrf-pick-station-amd64 1 || return
   mksquashfs "$pc_folder/update/small/bundle" "$bundles/unsigned" -quiet -no-progress >/dev/null || return
-  # shellcheck disable=SC2016 # sed's $
-  sign_otherwise plain 's/^format=verity/format=plain/' &&
-    sign_otherwise half 's/^format=plain/format=verity/; /^\[image.boot\]/,$d' || return
+  sign_otherwise plain plain root boot && sign_otherwise half verity root || return
   mkdir -p "$pc_folder/update/keys" && make_keys "$pc_folder/update/keys" 'FlexRF test' || return
   (
     image_key=$pc_folder/update/keys/signer.key image_certificate=$pc_folder/update/keys/signer.pem image_keyring=$pc_folder/update/keys/ca.pem
