@@ -73,7 +73,7 @@ data_is_full() {
   local disk=$pc_folder/full.img status
   pc_disk=()
   claimed_disk "$disk" && fill_data "$disk" && start_pc full bios "$disk" -no-reboot && await_line 'the cell runs' && log_in &&
-    await_line 'this machine permits motion' || return
+    await_line 'motion is permitted' || return
   ask_panel api/v1/control/take -b "$pc_folder/cookies" -o "$pc_folder/taken.json" -X POST || return
   status="$(set_speed 0.777) $(try_to_save)"
   [[ $status == '200 507' && $(<"$pc_folder/saved.json") == *'make room there'* ]] ||
@@ -95,7 +95,7 @@ a_missing_camera_is_waited_for() {
   local disk=$pc_folder/camera.img
   pc_disk=()
   claimed_disk "$disk" && change_root "$disk" with_real_camera && start_pc camera bios "$disk" -no-reboot && await_line 'the cell runs' &&
-    await_line 'there is no camera' && await_line 'Connection refused|port 1502' && log_in && await_line 'this machine permits motion'
+    await_line 'there is no camera' && await_line 'Connection refused|port 1502' && log_in && await_line 'motion is permitted'
 }
 
 # Without what its emergency stop hangs on the cell does not start: it is tried five times, and then the PC is started anew.

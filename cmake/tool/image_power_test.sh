@@ -164,6 +164,14 @@ boots_again() {  # boots_again WORK
   return "$status"
 }
 
+# Points anywhere, and those behind each promise but the saves': what it needs may be lost for a few writes only.
+points_of() {  # points_of RECORDING COUNT
+  {
+    power_cut points "$1" --count "$2" --seed 1 || return
+    awk '$2 != "saved" { for (point = $1; point < $1 + 8; ++point) print point }' "$pc_folder/$1.promises"
+  } | sort -n -u
+}
+
 judge() {  # judge RECORDING POINT WORK: the disk that a cut there may leave
   rm -rf "$3" && mkdir -p "$3" || return
   power_cut build "$1" --point "$2" --seed "$2" --output "$3/cut" && check_file_systems "$3" || return
@@ -177,7 +185,7 @@ what_a_power_cut_leaves() {
   local point work=$pc_folder/cut wrong=0 looked=0 boots=0 points every
   build release flexrf-power-cut flexrf-password boot_choice_what_boots || return
   power_cut describe bios || return
-  points=$(power_cut points bios --count "$cut_points" --seed 1) || return
+  points=$(points_of bios "$cut_points") || return
   every=$(($(wc -l <<<"$points") / cut_boots))
   for point in $points; do
     if ! judge bios "$point" "$work"; then
@@ -222,7 +230,7 @@ a_missing_flush_is_found() {
   cp --sparse=always "$pc_folder/bios.base" "$pc_folder/twin.img" && change_root "$pc_folder/twin.img" leave_out_flushes &&
     start_recorded_pc twin "$pc_folder/twin.img" && record_first_boot || return
   stop_pc
-  points=$(power_cut points twin --count 300 --seed 1) || return
+  points=$(points_of twin 300) || return
   found=$(for point in $points; do judge twin "$point" "$pc_folder/cut"; done)
   for kind in users configuration choice; do
     printf '%s: lost at %d of %d points\n' "$kind" "$(grep -c "^lost $kind" <<<"$found")" "$(wc -l <<<"$points")"
