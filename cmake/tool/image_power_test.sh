@@ -168,7 +168,8 @@ boots_again() {  # boots_again WORK
 points_of() {  # points_of RECORDING COUNT
   {
     power_cut points "$1" --count "$2" --seed 1 || return
-    awk '$2 != "saved" { for (point = $1; point < $1 + 8; ++point) print point }' "$pc_folder/$1.promises"
+    awk -v last="$(recording=$1 recorded_entries)" '$2 != "saved" { for (point = $1; point < $1 + 8 && point <= last; ++point) print point }' \
+      "$pc_folder/$1.promises"
   } | sort -n -u
 }
 

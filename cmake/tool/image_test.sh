@@ -136,7 +136,7 @@ first_boot_by_bios() {
 second_boot_by_uefi() {
   printf 'damaged' >"$pc_folder/choice0.env" && mcopy -o -i "$pc_folder/product.img@@2M" "$pc_folder/choice0.env" ::flexrf/ &&
     start_pc uefi uefi "$pc_folder/product.img" -no-reboot && await_line 'choice0.env is damaged: .*; written anew from the other copy' && await_line 'the cell runs' && panel_answers &&
-    log_in && await_line 'this machine permits motion' || return
+    log_in && await_line 'motion is permitted' || return
   [[ $(fingerprint) == "$(<"$pc_folder/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
   ! console_lines | grep -E 'first boot|has not confirmed itself|has claimed'
 }
