@@ -12,14 +12,13 @@ struct UpdateFiles {
 };
 
 struct Files {
-  std::string word = "/run/flexrf-helper/motion";       ///< for --motion-permit
-  std::string users = "/data/flexrf/panel-users";       ///< who may log in
-  std::string choice = "/boot/efi/flexrf";              ///< the boot choice's folder
-  std::string command_line = "/proc/cmdline";           ///< of the kernel
-  std::string certificate = "/data/flexrf/panel.crt";   ///< the panel's
-  std::string version = "/usr/lib/flexrf/version";      ///< what runs
-  std::string boot_notice = "/run/flexrf-boot-notice";  ///< lines of flexrf-boot-choice for a person
-  std::string notices = "/run/flexrf-notices";          ///< a folder with such files of others
+  std::string word = "/run/flexrf-helper/motion";      ///< for --motion-permit
+  std::string users = "/data/flexrf/panel-users";      ///< who may log in
+  std::string choice = "/boot/efi/flexrf";             ///< the boot choice's folder
+  std::string command_line = "/proc/cmdline";          ///< of the kernel
+  std::string certificate = "/data/flexrf/panel.crt";  ///< the panel's
+  std::string version = "/usr/lib/flexrf/version";     ///< what runs
+  std::string notices = "/run/flexrf-notices";         ///< a folder with files of lines for a person
   UpdateFiles update;
 };
 

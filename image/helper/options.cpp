@@ -23,7 +23,6 @@ std::string* text_option(Options& options, std::string_view word) {
       {"--kernel-command-line", &files.command_line},
       {"--certificate", &files.certificate},
       {"--version-file", &files.version},
-      {"--boot-notice", &files.boot_notice},
       {"--notices", &files.notices},
       {"--update-folder", &files.update.folder},
       {"--results", &files.update.results},
@@ -85,8 +84,7 @@ const char* const usage =
     "  --socket FILE                where it can be asked; else /run/flexrf-helper/socket\n"
     "  --peer USER                  may ask, beside root; else flexrf\n"
     "  --version-file FILE          names what runs; else /usr/lib/flexrf/version\n"
-    "  --boot-notice FILE           lines for a person; else /run/flexrf-boot-notice\n"
-    "  --notices DIR                with files of such lines; else /run/flexrf-notices\n"
+    "  --notices DIR                with files of lines for a person; else /run/flexrf-notices\n"
     "  --update-folder DIR          gets bundles; else /data/update. Root's alone\n"
     "  --results DIR                how verifying and installing go; else /run/flexrf-update\n"
     "  --systemctl FILE             starts units and restarts the PC; else /usr/bin/systemctl\n"

@@ -35,14 +35,13 @@ void add_lines(std::vector<std::string>& notices, const std::string& file) {
 
 std::vector<std::string> notices_of(const Files& files) {
   std::vector<std::string> notices;
-  add_lines(notices, files.boot_notice);
-  std::vector<std::string> others;
+  std::vector<std::string> files_of_lines;
   std::error_code error;
   for (std::filesystem::directory_iterator file(files.notices, error), end; !error && file != end;
        file.increment(error))
-    others.push_back(file->path().string());
-  std::sort(others.begin(), others.end());
-  for (const std::string& other : others) add_lines(notices, other);
+    if (file->path().extension() != ".new") files_of_lines.push_back(file->path().string());
+  std::sort(files_of_lines.begin(), files_of_lines.end());
+  for (const std::string& one : files_of_lines) add_lines(notices, one);
   return notices;
 }
 

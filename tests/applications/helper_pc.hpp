@@ -99,8 +99,6 @@ class Pc {
             peer,
             "--version-file",
             "version",
-            "--boot-notice",
-            "notice",
             "--notices",
             "notices",
             "--results",

@@ -51,7 +51,6 @@ class Pc {
     files.choice = path_ + "/choice";
     files.command_line = path_ + "/cmdline";
     files.version = path_ + "/version";
-    files.boot_notice = path_ + "/boot-notice";
     files.notices = path_ + "/notices";
     files.update = {path_ + "/update", path_ + "/results"};
     for (const std::string& folder : {files.choice, files.update.folder, files.update.results})

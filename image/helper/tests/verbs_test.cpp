@@ -151,8 +151,9 @@ void after_a_restart_of_the_pc_nothing_of_an_update_is_left() {
 
 void the_state_tells_all() {
   Bench bench;
-  Pc::write(bench.pc.files.boot_notice, "choice0.env was damaged\n");
   fs::create_directory(bench.pc.files.notices);
+  Pc::write(bench.pc.files.notices + "/boot", "choice0.env was damaged\n");
+  Pc::write(bench.pc.files.notices + "/data.new", "half a li");
   Pc::write(bench.pc.files.notices + "/data",
             "the data partition was made anew\n\xff" + std::string(500, 'x') + '\n');
   Pc::write(bench.pc.files.version,
