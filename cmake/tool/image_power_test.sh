@@ -7,7 +7,8 @@ power_saves=50
 cut_points=40 cut_boots=3
 [[ ${FLEXRF_LONG-} ]] && cut_points=300 cut_boots=30
 
-start_recorded_pc() {  # start_recorded_pc NAME DISK: by BIOS; what it writes is in NAME.log, and the disk as it was in NAME.base
+# start_recorded_pc NAME DISK [OPTION OF QEMU...]: by BIOS; what it writes is in NAME.log, and the disk as it was in NAME.base
+start_recorded_pc() {
   cp --sparse=always "$2" "$pc_folder/$1.base" && : >"$pc_folder/$1.log" && : >"$pc_folder/$1.promises" || return
   recording=$1
   # shellcheck disable=SC2054 # the commas are QEMU's
@@ -16,7 +17,7 @@ start_recorded_pc() {  # start_recorded_pc NAME DISK: by BIOS; what it writes is
     -blockdev "driver=file,node-name=log-file,filename=${pc_folder//,/,,}/$1.log"
     -blockdev driver=blklogwrites,node-name=recorded,file=disk,log=log-file,log-sector-size=512,log-super-update-interval=1
     -device virtio-blk-pci,drive=recorded,discard=off,write-zeroes=off)
-  start_pc "$1" bios "$2" -no-reboot
+  start_pc "$1" bios "$2" "${@:3}"
 }
 
 # A promise is noted behind the entry that the recording had reached when it had been given: with the power cut there or later, it holds.
@@ -135,17 +136,21 @@ check_configuration() {  # check_configuration WORK RECORDING POINT: one that wa
   return 1
 }
 
-check_boot() {  # check_boot WORK RECORDING POINT: GRUB starts A, the only slot that has a version, also after the repair
-  local work=$1 name said wanted='@(only|confirmed)'
-  [[ ! $(promise_at "$2" "$3" confirmed) ]] || wanted=confirmed
+what_boots() {  # what_boots WORK: the slot that GRUB starts and why, now and after the repair of the choice; else what is wrong
+  local work=$1 name
   mkdir -p "$work/choice"
   for name in choice0.env choice1.env attempts.env; do
     rm -f "$work/choice/$name"
     mcopy -n -i "$work/esp" "::flexrf/$name" "$work/choice/" 2>"$work/mcopy" || { cat "$work/mcopy" && return 1; }
   done
+  "$root/build/release/image/boot/boot_choice_what_boots" "$work/choice" "$root/image/boot/grub.cfg"
+}
+
+check_boot() {  # check_boot WORK RECORDING POINT: GRUB starts A, the only slot that has a version
+  local said wanted='@(only|confirmed)'
+  [[ ! $(promise_at "$2" "$3" confirmed) ]] || wanted=confirmed
   # shellcheck disable=SC2053 # a pattern
-  if said=$("$root/build/release/image/boot/boot_choice_what_boots" "$work/choice" "$root/image/boot/grub.cfg") &&
-    [[ $(tail -n 1 <<<"$said") == A\ $wanted ]]; then
+  if said=$(what_boots "$1") && [[ $(tail -n 1 <<<"$said") == A\ $wanted ]]; then
     return 0
   fi
   printf 'lost choice: what boots is not A %s: %s\n' "$wanted" "$said"
@@ -229,7 +234,7 @@ a_missing_flush_is_found() {
   local point kind wrong=0 points found
   build release flexrf_without_flush flexrf-power-cut flexrf-password boot_choice_what_boots || return
   cp --sparse=always "$pc_folder/bios.base" "$pc_folder/twin.img" && change_root "$pc_folder/twin.img" leave_out_flushes &&
-    start_recorded_pc twin "$pc_folder/twin.img" && record_first_boot || return
+    start_recorded_pc twin "$pc_folder/twin.img" -no-reboot && record_first_boot || return
   stop_pc
   points=$(points_of twin 300) || return
   found=$(for point in $points; do judge twin "$point" "$pc_folder/cut"; done)

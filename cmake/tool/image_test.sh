@@ -128,7 +128,7 @@ record_first_boot() {
 
 # A disk that is larger than the image; nobody was there before.
 first_boot_by_bios() {
-  truncate -s +512M "$pc_folder/product.img" && start_recorded_pc bios "$pc_folder/product.img" && record_first_boot &&
+  truncate -s +512M "$pc_folder/product.img" && start_recorded_pc bios "$pc_folder/product.img" -no-reboot && record_first_boot &&
     fingerprint >"$pc_folder/fingerprint" && [[ $(console_lines) == *"$(<"$pc_folder/fingerprint")"* ]]
 }
 
@@ -190,6 +190,7 @@ what_runs variant
 what_hangs_is_started_anew hang
 updates_are_made none
 updates_by_bundles update
+an_update_is_cut_short cut
 what_a_power_cut_leaves cut
 data_beyond_repair damaged
 TEXT

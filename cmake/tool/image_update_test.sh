@@ -53,7 +53,7 @@ updates_are_made() (  # the first version as a disk, others as bundles, and the 
   printf '%s\n' '#!/bin/sh' 'exit 2' >"$work/root/usr/lib/flexrf/pick-station"
   pack_changed broken || return
   pack_others "$SOURCE_DATE_EPOCH" || return
-  PATH=$PATH:/usr/sbin:/sbin mke2fs -q -t ext4 -d "$work/bundles" "$pc_folder/bundles.img" 256M
+  PATH=$PATH:/usr/sbin:/sbin mke2fs -q -t ext4 -L bundles -d "$work/bundles" "$pc_folder/bundles.img" 256M
 )
 
 set_speed() {  # set_speed VALUE: at the panel, and it is saved
@@ -65,12 +65,13 @@ set_speed() {  # set_speed VALUE: at the panel, and it is saved
   [[ $status == 200200 ]] || { printf 'the speed was answered: %s %s\n' "$status" "$(<"$pc_folder/set.json")" && return 1; }
 }
 
-# The PC's clock is years behind the keys, its power stays on. Three boots of the broken version end in the one before it.
+# The PC's clock is years behind the keys, its power stays on, and what it writes is recorded. Three boots of the broken version end in the one before it.
 updates_by_bundles() {
   local pc_limit=3000 why
   # shellcheck disable=SC2054 # the commas are QEMU's
-  start_pc update bios "$pc_folder/update.img" -rtc base=2010-01-01 -drive "file=${pc_folder//,/,,}/bundles.img,format=raw,if=none,id=bundles" \
-    -device virtio-blk-pci,drive=bundles && claim_pc && await_line 'update test: version first in slot a runs as only' || return
+  start_recorded_pc update "$pc_folder/update.img" -rtc base=2010-01-01 \
+    -drive "file=${pc_folder//,/,,}/bundles.img,format=raw,if=none,id=bundles" -device ide-hd,drive=bundles &&
+    claim_pc && promised claimed && await_line 'update test: version first in slot a runs as only' || return
   for why in 'verify unsigned: failed +it is no bundle, or not all of one' 'verify plain: failed +its format is plain' \
     'verify other-key: failed +it is not signed by a key that this PC trusts' 'verify foreign: failed +it is for flexrf-keyboard-amd64' \
     'verify half: failed +it does not hold the two partitions' 'verify older: done older' \
@@ -79,11 +80,84 @@ updates_by_bundles() {
     'install damaged: failed .*its content is damaged' 'after that: primary=A A=whole,[a-z]+ B=not-whole' 'verify nothing: failed +there is no bundle'; do
     await_line "update test: $why" || return
   done
-  set_speed 0.555 && await_line 'update test: verify second: done second' && await_line 'update test: install second: done second' &&
+  set_speed 0.555 && promised saved && await_line 'update test: verify second: done second' && promised installing &&
+    await_line 'update test: install second: done second' && promised installed &&
     await_line 'update test: after that: primary=B A=whole,[a-z]+ B=whole,unconfirmed' &&
     await_line 'update test: version second in slot b runs as trial' && await_line 'update test: configuration: a 0.555 b 0.555' &&
-    await_line 'the version in slot B has confirmed itself' && set_speed 0.777 &&
+    await_line 'the version in slot B has confirmed itself' && promised confirmed && set_speed 0.777 && promised saved-anew &&
     await_line 'update test: configuration: a 0.555 b 0.777' && await_line 'update test: install broken: done broken' &&
     await_line 'update test: version second in slot b runs as fallback' && await_line 'update test: configuration: b 0.777' &&
     await_line 'update test: complete: primary=B' && ! console_lines | grep -E 'update test: (left of it|older is still allowed)'
+}
+
+# A cut in the update that was recorded, from the verified bundle to the first save of the confirmed version: anywhere, and around what
+# changes which version boots.
+points_of_update() {
+  local installing installed confirmed end step=6 count=12
+  [[ ${FLEXRF_LONG-} ]] && step=1 count=200
+  read -r installing installed confirmed end < <(awk '$2 ~ /^(installing|installed|confirmed|saved-anew)$/ { printf "%s ", $1 }' "$pc_folder/update.promises") ||
+    [[ $end ]] || return
+  {
+    shuf -i "$installing-$end" -n "$count" --random-source=<(yes)
+    seq "$installing" "$step" $((installing + 60))
+    seq $((installed - 60)) "$step" $((installed + 8))
+    seq $((confirmed - 20)) "$step" $((confirmed + 8))
+  } | awk -v last="$end" '$1 <= last' | sort -n -u
+}
+
+speed_saved() { file_of_data "$1" "flexrf/config-$2.xml" | sed -n 's|.*<speed>\(.*\)</speed>.*|\1|p'; } # speed_saved DATA SLOT
+
+check_configurations() {  # check_configurations WORK POINT: the old version's is as it was, whatever the new one writes
+  local a b
+  a=$(speed_saved "$1/data" a) b=$(speed_saved "$1/data" b)
+  if [[ $a != 0.555 ]]; then
+    echo "lost configuration: that of slot A has the speed '$a'"
+  elif is_in_data "$1/data" flexrf/config-b.xml && [[ $b != 0.555 && $b != 0.777 ]]; then
+    echo "lost configuration: that of slot B has the speed '$b'"
+  elif [[ $(promise_at update "$2" saved-anew) && $b != 0.777 ]]; then
+    echo "lost configuration: a save of the new version was answered, and slot B has the speed '$b'"
+  else
+    return 0
+  fi
+  return 1
+}
+
+check_version() {  # check_version WORK POINT: what GRUB starts is the one version or the other, and all of it is there
+  local said boots part wanted='@(A\ @(only|confirmed|fallback)|B\ trial)'
+  [[ ! $(promise_at update "$2" installed) ]] || wanted='B\ trial'
+  [[ ! $(promise_at update "$2" confirmed) ]] || wanted='B\ confirmed'
+  said=$(what_boots "$1")
+  boots=$(tail -n 1 <<<"$said")
+  # shellcheck disable=SC2053 # a pattern
+  [[ $boots == $wanted ]] || { printf 'lost choice: what boots is not %s: %s\n' "$wanted" "$said" && return 1; }
+  for part in boot root; do
+    if [[ $boots == A* ]]; then
+      take_partition "$1/cut" "$part-a" "$1/part" && cmp "$1/part" "$pc_folder/update/first-$part"
+    else
+      take_partition "$1/cut" "$part-b" "$1/part" && cmp -n "$(stat -c %s "$pc_folder/update/second/$part.img")" "$1/part" "$pc_folder/update/second/$part.img"
+    fi || { echo "lost version: GRUB starts $boots, and not all of its $part is there" && return 1; }
+  done
+}
+
+an_update_is_cut_short() {
+  local point points part status wrong=0 work=$pc_folder/cut
+  build release flexrf-power-cut flexrf-password boot_choice_what_boots || return
+  power_cut describe update || return
+  unsquashfs -q -n -f -d "$pc_folder/update/second" "$pc_folder/update/bundles/second" >/dev/null || return
+  for part in boot root; do take_partition "$pc_folder/update.base" "$part-a" "$pc_folder/update/first-$part" || return; done
+  points=$(points_of_update) || return
+  for point in $points; do
+    rm -rf "$work" && mkdir -p "$work" || return
+    status=0
+    if power_cut build update --point "$point" --seed "$point" --output "$work/cut" && check_file_systems "$work"; then
+      check_users "$work" update "$point" || status=1
+      check_configurations "$work" "$point" || status=1
+      check_version "$work" "$point" || status=1
+    else
+      status=1
+    fi
+    ((status == 0)) || { echo "at point $point, seed $point" && wrong=$((wrong + 1)); }
+  done
+  printf '%d points, %d wrong\n' "$(wc -l <<<"$points")" "$wrong"
+  ((wrong == 0))
 }
