@@ -164,6 +164,12 @@ what_hangs_is_started_anew() {
     await_line 'report: complete after .*' && [[ $(console_lines | grep -c 'the cell runs') == 3 ]]
 }
 
+# Emulated it has not got the time that its threads want: that it starts, and that its page is there, is all that can be asked.
+flagship_starts() {
+  build release visual-servoing && (make_image visual-servoing "$pc_folder/flagship.img" product) &&
+    start_pc flagship bios "$pc_folder/flagship.img" -no-reboot && claim_pc && await_line 'the cell runs' && panel_answers
+}
+
 image_test() {  # image_test NUMBER OF NAME MACHINE: a line as ctest's, behind what there is to be read
   local start line told result=Passed
   start=$(microseconds)
@@ -196,6 +202,7 @@ data_beyond_repair damaged
 TEXT
   [[ ${FLEXRF_LONG-} ]] || return 0
   cat <<'TEXT'
+flagship_starts flagship
 a_missing_flush_is_found twin
 data_made_anew_stays anew
 data_is_repaired repaired
