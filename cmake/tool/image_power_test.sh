@@ -189,7 +189,6 @@ judge() {  # judge RECORDING POINT WORK: the disk that a cut there may leave
 
 what_a_power_cut_leaves() {
   local point work=$pc_folder/cut wrong=0 looked=0 boots=0 points every
-  build release flexrf-power-cut flexrf-password boot_choice_what_boots || return
   power_cut describe bios || return
   points=$(points_of bios "$cut_points") || return
   every=$(($(wc -l <<<"$points") / cut_boots))
@@ -232,7 +231,6 @@ TEXT
 # The same recording of programs with a flush less each, and the same judgement: it has to find what each of them loses.
 a_missing_flush_is_found() {
   local point kind wrong=0 points found
-  build release flexrf_without_flush flexrf-power-cut flexrf-password boot_choice_what_boots || return
   cp --sparse=always "$pc_folder/bios.base" "$pc_folder/twin.img" && change_root "$pc_folder/twin.img" leave_out_flushes &&
     start_recorded_pc twin "$pc_folder/twin.img" -no-reboot && record_first_boot || return
   stop_pc

@@ -141,9 +141,8 @@ second_boot_by_uefi() {
   ! console_lines | grep -E 'first boot|has not confirmed itself|has claimed'
 }
 
-what_runs() {
+what_is_reported() {
   local wrong=0 expected lines
-  start_pc variant bios "$pc_folder/variant.img" -no-reboot && claim_pc && await_line 'report: complete' || return
   lines=$(console_lines | sed -n 's/^.*report: //p')
   for expected in 'cell CapEff: 0+' 'cell CapBnd: 0+' 'cell NoNewPrivs: 1' 'cell Seccomp: 2' 'cell Uid: 990.*' 'isolated 1' \
     'mounted / squashfs ro' 'mounted /data ext4 rw' 'device gpiochip[0-9]+' 'device video[0-9]+' 'tcp6? port 8443'; do
@@ -155,18 +154,18 @@ what_runs() {
   return "$wrong"
 }
 
-# At its second boot the variant stops the cell, and then takes all CPUs for itself for ever: the one ends in the cell started anew, the
-# other in the watchdog's reset.
-what_hangs_is_started_anew() {
+# At its first boot the variant tells what runs, stops the cell, and then takes all CPUs for itself for ever: the one ends in the cell
+# started anew, the other in the watchdog's reset.
+what_runs_and_what_hangs() {
   local pc_limit=1000 # two boots, and two CPUs that are busy until the watchdog acts
-  start_pc hang bios "$pc_folder/variant.img" && await_line 'report: the cell is stopped' &&
-    await_line 'report: another process is the cell' && await_line 'report: now all hangs' && await_line 'report: boot 3' &&
-    await_line 'report: complete after .*' && [[ $(console_lines | grep -c 'the cell runs') == 3 ]]
+  start_pc variant bios "$pc_folder/variant.img" && claim_pc && await_line 'report: complete' && what_is_reported &&
+    await_line 'report: the cell is stopped' && await_line 'report: another process is the cell' &&
+    await_line 'report: now all hangs' && await_line 'report: boot 2' && [[ $(console_lines | grep -c 'the cell runs') == 3 ]]
 }
 
 # Emulated it has not got the time that its threads want: that it starts, and that its page is there, is all that can be asked.
 flagship_starts() {
-  build release visual-servoing && (make_image visual-servoing "$pc_folder/flagship.img" product) &&
+  (make_image visual-servoing "$pc_folder/flagship.img" product) &&
     start_pc flagship bios "$pc_folder/flagship.img" -no-reboot && claim_pc && await_line 'the cell runs' && panel_answers
 }
 
@@ -178,58 +177,76 @@ image_test() {  # image_test NUMBER OF NAME MACHINE: a line as ctest's, behind w
   if [[ $result == Failed ]]; then
     [[ -f $pc_folder/$4.console ]] && pc_console=$pc_folder/$4.console && echo "its console ends with:" && console_lines | tail -n 40
     cat "$pc_folder/$4.qemu" 2>/dev/null
-    failed=$((failed + 1))
   fi
   line="$1/$2 Test #$1: $3 "
   while ((${#line} < 60)); do line+=.; done
   printf '%s   %s  %s\n' "$line" "$result" "$(since "$start")"
+  [[ $result == Passed ]]
 }
 
-# Name, which is that of a function, and the machine whose console tells why it failed. One after the other: they share disks.
+# Name, which is that of a function; the machine whose console tells why it failed; and the lane: the two go on beside each other, as a
+# PC keeps hardly more than one processor busy. In a lane one comes after the other: they share disks.
 image_test_list() {
   cat <<'TEXT'
-image_is_made none
-first_boot_by_bios bios
-second_boot_by_uefi uefi
-variant_is_made none
-what_runs variant
-what_hangs_is_started_anew hang
-updates_are_made none
-updates_by_bundles update
-an_update_is_cut_short cut
-what_a_power_cut_leaves cut
-data_beyond_repair damaged
+first_boot_by_bios bios product
+second_boot_by_uefi uefi product
+what_a_power_cut_leaves cut product
+data_beyond_repair damaged product
+variant_is_made none variant
+what_runs_and_what_hangs variant variant
+updates_are_made none variant
+updates_by_bundles update variant
+an_update_is_cut_short cut variant
 TEXT
   [[ ${FLEXRF_LONG-} ]] || return 0
   cat <<'TEXT'
-flagship_starts flagship
-a_missing_flush_is_found twin
-data_made_anew_stays anew
-data_is_repaired repaired
-data_is_full full
-data_is_missing missing
-a_missing_camera_is_waited_for camera
-a_missing_chip_is_refused chip
+a_missing_flush_is_found twin product
+data_made_anew_stays anew product
+data_is_repaired repaired product
+data_is_full full product
+data_is_missing missing product
+a_missing_camera_is_waited_for camera product
+a_missing_chip_is_refused chip product
+flagship_starts flagship variant
 TEXT
 }
 
+image_lane() {  # image_lane LANE: its tests, in a folder of its own; leaves the number of those that failed
+  local number=1 failed=0 name machine lane
+  [[ $1 == product ]] || pc_folder=$pc_folder/$1
+  mkdir -p "$pc_folder"
+  while read -r name machine lane; do
+    number=$((number + 1))
+    [[ $lane == "$1" ]] || continue
+    image_test "$number" "$image_test_count" "$name" "$machine" </dev/null || failed=$((failed + 1))
+  done < <(image_test_list)
+  echo "$failed" >"$pc_folder/failed"
+}
+
 image_tests() {  # as ctest would run them
-  local failed=0 number=0 name machine total
-  local -a tests=()
-  mapfile -t tests < <(image_test_list)
-  total=${#tests[@]}
+  local failed=0
+  image_test_count=$(($(image_test_list | wc -l) + 1))
   rm -rf "$pc_folder"
   mkdir -p "$pc_folder"
-  if ! build release pick-station flexrf-boot-choice flexrf-claim flexrf-helper; then
+  if ! build release pick-station visual-servoing flexrf-boot-choice flexrf-claim flexrf-helper flexrf-power-cut flexrf-password \
+    boot_choice_what_boots flexrf_without_flush; then
     count 1 1
     return 1
   fi
-  for name in "${tests[@]}"; do
-    read -r name machine <<<"$name"
-    image_test $((++number)) "$total" "$name" "$machine"
-  done
-  count "$total" "$failed"
-  rm -rf "$pc_folder"/*.{img,base,log} "$pc_folder/update"
-  printf '\n%d%% tests passed, %d tests failed out of %d\n' $(((total - failed) * 100 / total)) "$failed" "$total"
+  # The first image fetches what all are made of.
+  image_test 1 "$image_test_count" image_is_made none || failed=1
+  set -m # a group of processes of its own, which ends as one
+  image_lane variant >"$pc_folder/variant.log" 2>&1 &
+  set +m
+  # shellcheck disable=SC2064 # the group of now
+  trap "kill -TERM -- -$! 2>/dev/null" EXIT
+  image_lane product
+  wait $!
+  trap - EXIT
+  cat "$pc_folder/variant.log"
+  failed=$((failed + $(cat "$pc_folder/failed") + $(cat "$pc_folder/variant/failed")))
+  count "$image_test_count" "$failed"
+  rm -rf "$pc_folder"/{,variant/}*.{img,base,log} "$pc_folder/variant/update"
+  printf '\n%d%% tests passed, %d tests failed out of %d\n' $(((image_test_count - failed) * 100 / image_test_count)) "$failed" "$image_test_count"
   ((failed == 0))
 }

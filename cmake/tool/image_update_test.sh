@@ -141,7 +141,6 @@ check_version() {  # check_version WORK POINT: what GRUB starts is the one versi
 
 an_update_is_cut_short() {
   local point points part status wrong=0 work=$pc_folder/cut
-  build release flexrf-power-cut flexrf-password boot_choice_what_boots || return
   power_cut describe update || return
   unsquashfs -q -n -f -d "$pc_folder/update/second" "$pc_folder/update/bundles/second" >/dev/null || return
   for part in boot root; do take_partition "$pc_folder/update.base" "$part-a" "$pc_folder/update/first-$part" || return; done
