@@ -16,7 +16,7 @@ start_recorded_pc() {
     -blockdev driver=raw,node-name=disk,file=disk-file,discard=ignore
     -blockdev "driver=file,node-name=log-file,filename=${pc_folder//,/,,}/$1.log"
     -blockdev driver=blklogwrites,node-name=recorded,file=disk,log=log-file,log-sector-size=512,log-super-update-interval=1
-    -device virtio-blk-pci,drive=recorded,discard=off,write-zeroes=off)
+    -device virtio-blk-pci,drive=recorded,bootindex=0,discard=off,write-zeroes=off)
   start_pc "$1" bios "$2" "${@:3}"
 }
 

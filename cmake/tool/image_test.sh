@@ -4,7 +4,7 @@
 
 pc_limit=400 # s of the machine's processor time until a PC has come up: alone it takes 60. A host that does much else gives it as much as it likes
 pc_folder=$root/build/image/test
-pc_console='' pc_pid='' pc_port=''
+pc_console='' pc_pid='' pc_port='' pc_began=0
 pc_disk=() # options of QEMU for a disk other than an ordinary one
 firmware_of_uefi=/usr/share/OVMF/OVMF_CODE_4M.fd variables_of_uefi=/usr/share/OVMF/OVMF_VARS_4M.fd
 
@@ -13,6 +13,7 @@ start_pc() {  # start_pc NAME bios|uefi DISK [OPTION OF QEMU...]: its panel is a
   pc_console=$pc_folder/$1.console
   pc_port=$((20000 + RANDOM % 10000))
   : >"$pc_console"
+  pc_began=$SECONDS
   # shellcheck disable=SC2054 # the commas are QEMU's
   machine=(-machine q35 -accel tcg -cpu max -smp 2 -m 1024 -display none -device i6300esb -watchdog-action reset
     -nic "user,model=e1000e,hostfwd=tcp:127.0.0.1:$pc_port-:8443" -serial "file:${pc_console//,/,,}" "${@:4}")
@@ -39,10 +40,13 @@ stop_pc() {  # as when the power goes, with what it had written on the disk
   pc_pid=''
 }
 
-pc_seconds() {  # the processor time that it has had, s
+# The processor time that it has had, s; or a quarter of the time on the wall, as one that stands still uses none.
+pc_seconds() {
   local -a field
+  local used wall=$(((SECONDS - pc_began) / 4))
   read -r -a field 2>/dev/null <"/proc/$pc_pid/stat" || field=()
-  printf '%d\n' $(((field[13] + field[14]) / $(getconf CLK_TCK)))
+  used=$(((field[13] + field[14]) / $(getconf CLK_TCK)))
+  printf '%d\n' $((used > wall ? used : wall))
 }
 
 console_lines() { tr -d '\r' <"$pc_console" | sed 's/\x1b\[[0-9;]*m//g'; }
@@ -224,7 +228,7 @@ image_lane() {  # image_lane LANE: its tests, in a folder of its own; leaves the
 }
 
 image_tests() {  # as ctest would run them
-  local failed=0
+  local failed=0 lane
   image_test_count=$(($(image_test_list | wc -l) + 1))
   rm -rf "$pc_folder"
   mkdir -p "$pc_folder"
@@ -237,11 +241,12 @@ image_tests() {  # as ctest would run them
   image_test 1 "$image_test_count" image_is_made none || failed=1
   set -m # a group of processes of its own, which ends as one
   image_lane variant >"$pc_folder/variant.log" 2>&1 &
+  lane=$!
   set +m
   # shellcheck disable=SC2064 # the group of now
-  trap "kill -TERM -- -$! 2>/dev/null" EXIT
+  trap "kill -TERM -- -$lane 2>/dev/null" EXIT
   image_lane product
-  wait $!
+  wait "$lane"
   trap - EXIT
   cat "$pc_folder/variant.log"
   failed=$((failed + $(cat "$pc_folder/failed") + $(cat "$pc_folder/variant/failed")))

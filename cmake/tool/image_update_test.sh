@@ -67,7 +67,7 @@ set_speed() {  # set_speed VALUE: at the panel, and it is saved
 
 # The PC's clock is years behind the keys, its power stays on, and what it writes is recorded. Three boots of the broken version end in the one before it.
 updates_by_bundles() {
-  local pc_limit=3000 why
+  local pc_limit=1500 why
   # shellcheck disable=SC2054 # the commas are QEMU's
   start_recorded_pc update "$pc_folder/update.img" -rtc base=2010-01-01 \
     -drive "file=${pc_folder//,/,,}/bundles.img,format=raw,if=none,id=bundles" -device ide-hd,drive=bundles &&
