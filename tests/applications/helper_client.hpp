@@ -50,7 +50,8 @@ class Client {
     CHECK(answer.has_value());
     return *answer;
   }
-  json ask(json request, const std::string& verb) const {
+  json ask(const json& members, const std::string& verb) const {
+    json request = members;
     request["verb"] = verb;
     return ask(request.dump());
   }
