@@ -220,7 +220,7 @@ void the_helpers_refusals_keep_status_and_words() {
 
 void a_helper_that_is_of_no_use_is_told() {
   World world;
-  const auto check_refused = [&](Reaction reaction, const char* words) {
+  const auto check_refused = [&](const Reaction& reaction, const char* words) {
     world.helper.say("state", reaction);
     world.helper.say("upload", reaction);
     for (const Answer& answer :
