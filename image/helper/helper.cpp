@@ -25,7 +25,7 @@ void Helper::look(Time now) {
   // The word first: the panel may take its time to answer.
   word_.renew();
   const Facts known = read_facts(files_, wait_for_choice);
-  if (is_confirmed(known)) return note({});
+  if (is_confirmed(known) && !is_fallen_back_to(known)) return note({});
   supervise(known, now);
   word_.renew();
 }

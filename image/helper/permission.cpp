@@ -6,6 +6,11 @@ bool is_confirmed(const Facts& facts) noexcept {
   return facts.choice && facts.running.slot && facts.choice->of(*facts.running.slot).is_confirmed;
 }
 
+bool is_fallen_back_to(const Facts& facts) noexcept {
+  return facts.choice && facts.running.slot && facts.running.why == "fallback" &&
+         facts.running.trial == facts.choice->trial && facts.choice->primary != *facts.running.slot;
+}
+
 bool has_another_turn(const Facts& facts) noexcept {
   return facts.choice && facts.running.slot && facts.running.why == "trial" && !is_confirmed(facts) &&
          facts.choice->of(other(*facts.running.slot)).is_whole;

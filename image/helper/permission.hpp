@@ -28,6 +28,9 @@ inline constexpr const char* installing = "an update is being installed";
 
 /// Whether the version that runs has confirmed itself. False when that cannot be told.
 bool is_confirmed(const Facts& facts) noexcept;
+/// GRUB fell back to this version from the trial that the choice still means: it becomes the primary when it
+/// is found healthy, whether it is confirmed already or not.
+bool is_fallen_back_to(const Facts& facts) noexcept;
 /// A version on trial that does not come to be healthy gives up its turn by a restart: there is another one
 /// that is whole.
 bool has_another_turn(const Facts& facts) noexcept;

@@ -109,6 +109,34 @@ void a_version_on_trial_that_is_not_healthy_gives_up_its_turn_once() {
   CHECK_CONTAINS(pc.motion(), "has not confirmed itself");
 }
 
+/// The number of the trial that the choice means.
+std::string trial_of(const Pc& pc) {
+  for (int number = 1; number < 10; ++number) {
+    std::string text = "000000000" + std::to_string(number);
+    if (pc.says("trial=" + text)) return text;
+  }
+  return {};
+}
+
+void what_was_fallen_back_to_becomes_the_primary_unless_somebody_decides_anew() {
+  Pc pc;
+  pc.claim();
+  pc.choose({"confirm", "A"});
+  pc.choose({"set-primary", "B"});
+  pc.choose({"mark-whole", "B", pc.files.command_line});
+  Pc::write(pc.files.command_line, "rauc.slot=A flexrf.boot=fallback flexrf.trial=" + trial_of(pc) + '\n');
+  Helper helper = pc.helper();
+  pc.run(helper, 60);
+  CHECK_EQUAL(pc.motion(), "permitted\n");
+  CHECK(pc.says("primary=B"));
+  pc.run(helper, 1);
+  CHECK(pc.says("primary=A"));
+  // An update, or a person, means B again: that is a new trial.
+  pc.choose({"set-primary", "B"});
+  pc.run(helper, 200);
+  CHECK(pc.says("primary=B"));
+}
+
 void a_version_without_another_one_never_restarts() {
   for (const char* const why : {"only", "fallback", "unknown", "manual"}) {
     Pc pc;
@@ -199,6 +227,7 @@ int main() {
       CONTAINED_TEST(the_minute_begins_anew_after_each_gap),
       CONTAINED_TEST(an_unclaimed_pc_confirms_itself_and_does_not_move),
       CONTAINED_TEST(a_version_on_trial_that_is_not_healthy_gives_up_its_turn_once),
+      CONTAINED_TEST(what_was_fallen_back_to_becomes_the_primary_unless_somebody_decides_anew),
       CONTAINED_TEST(a_version_without_another_one_never_restarts),
       CONTAINED_TEST(without_the_choice_nothing_moves_and_it_is_said_once),
       CONTAINED_TEST(an_update_forbids_motion_until_the_pc_was_restarted),
