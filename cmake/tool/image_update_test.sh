@@ -124,7 +124,7 @@ check_configurations() {  # check_configurations WORK POINT: the old version's i
 
 check_version() {  # check_version WORK POINT: what GRUB starts is the one version or the other, and all of it is there
   local said boots part wanted='@(A\ @(only|confirmed|fallback)|B\ trial)'
-  [[ ! $(promise_at update "$2" installed) ]] || wanted='B\ trial'
+  [[ ! $(promise_at update "$2" installed) ]] || wanted='B\ @(trial|confirmed)'
   [[ ! $(promise_at update "$2" confirmed) ]] || wanted='B\ confirmed'
   said=$(what_boots "$1")
   boots=$(tail -n 1 <<<"$said")
