@@ -19,11 +19,21 @@ void comparison(void**) {
   assert_false(equal_without_case("\xC4", "\xE4"));  // of no one encoding
 }
 
+void hexadecimal_digits(void**) {
+  assert_int_equal(hexadecimal_digit('0'), 0);
+  assert_int_equal(hexadecimal_digit('9'), 9);
+  assert_int_equal(hexadecimal_digit('a'), 10);
+  assert_int_equal(hexadecimal_digit('F'), 15);
+  for (const char other : {'/', ':', '@', 'G', '`', 'g', '\xC4', '\0'})
+    assert_int_equal(hexadecimal_digit(other), -1);
+}
+
 }  // namespace
 }  // namespace flexrf
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(flexrf::letters_of_ascii),
-                              cmocka_unit_test(flexrf::comparison)};
+                              cmocka_unit_test(flexrf::comparison),
+                              cmocka_unit_test(flexrf::hexadecimal_digits)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

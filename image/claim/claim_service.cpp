@@ -8,6 +8,7 @@
 #include "image/claim/claim_page.hpp"
 #include "image/claim/form.hpp"
 #include "web-ui/server/http_problem.hpp"
+#include "web-ui/server/request_target.hpp"
 
 namespace flexrf::claim {
 namespace {
@@ -66,8 +67,7 @@ Handled ClaimService::handle(const Request& request, Reply& reply, panel::Ticket
 
 void ClaimService::attempt(const Request& request, Reply& reply) {
   auto fields = read_form(request.body);
-  if (!fields ||
-      request.content_type.substr(0, request.content_type.find(';')) != "application/x-www-form-urlencoded")
+  if (!fields || !panel::is_media_type(request.content_type, "application/x-www-form-urlencoded"))
     return panel::answer_problem(reply, 400, "Send a form with code, user, password and repeated.");
   // A form's own origin is not told where no referrer is; pages of others may not use up the tries.
   const std::string& token = (*fields)["token"];

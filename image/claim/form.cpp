@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/ascii.hpp"
+
 namespace flexrf::claim {
 namespace {
-
-int digit_of(char one) noexcept {
-  if (one >= '0' && one <= '9') return one - '0';
-  if (one >= 'a' && one <= 'f') return one - 'a' + 10;
-  if (one >= 'A' && one <= 'F') return one - 'A' + 10;
-  return -1;
-}
 
 std::optional<std::string> decoded(std::string_view text) {
   std::string plain;
@@ -22,8 +17,8 @@ std::optional<std::string> decoded(std::string_view text) {
       plain += text[i];
     } else {
       if (i + 2 >= text.size()) return std::nullopt;
-      const int high = digit_of(text[i + 1]);
-      const int low = digit_of(text[i + 2]);
+      const int high = hexadecimal_digit(text[i + 1]);
+      const int low = hexadecimal_digit(text[i + 2]);
       if (high < 0 || low < 0) return std::nullopt;
       plain += static_cast<char>(high * 16 + low);
       i += 2;

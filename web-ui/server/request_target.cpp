@@ -7,13 +7,6 @@
 namespace flexrf::panel {
 namespace {
 
-int digit_of(char character) noexcept {
-  if (character >= '0' && character <= '9') return character - '0';
-  if (character >= 'a' && character <= 'f') return character - 'a' + 10;
-  if (character >= 'A' && character <= 'F') return character - 'A' + 10;
-  return -1;
-}
-
 std::string_view trim(std::string_view text) noexcept {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
   while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
@@ -51,8 +44,8 @@ std::optional<RequestTarget> decode_target(std::string_view target, char* memory
     char character = path[i];
     if (character == '%') {
       if (i + 2 >= path.size()) return std::nullopt;
-      const int high = digit_of(path[i + 1]);
-      const int low = digit_of(path[i + 2]);
+      const int high = hexadecimal_digit(path[i + 1]);
+      const int low = hexadecimal_digit(path[i + 2]);
       if (high < 0 || low < 0) return std::nullopt;
       character = static_cast<char>(high * 16 + low);
       i += 2;
