@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+
+#include "base/status.hpp"
 
 namespace flexrf::helper {
 
@@ -25,6 +28,16 @@ struct Answer {
 /// A refusal.
 inline Answer refuse(unsigned status, std::string why) {
   return {status, std::move(why), 0, {}, {}};
+}
+
+/// What could not be done is refused with 503.
+inline Answer answer_of(const Status& status) {
+  return status ? Answer{} : refuse(503, status.cause());
+}
+
+/// As somebody sent it, within a message.
+inline std::string in_quotes(std::string_view text) {
+  return '\'' + std::string{text.substr(0, 32)} + '\'';
 }
 
 }  // namespace flexrf::helper

@@ -2,9 +2,11 @@
 
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "image/boot/environment.hpp"
 #include "image/boot/folder_medium.hpp"
+#include "image/helper/network.hpp"
 #include "web-ui/server/access/user_file.hpp"
 
 namespace flexrf::helper {
@@ -27,6 +29,7 @@ Facts read_facts(const Files& files, Duration wait) {
   const Progress progress = read_progress(files.update);
   facts.update = progress.phase;
   facts.update_failure = progress.why;
+  if (auto trial = read_trial(files.network)) facts.address_on_trial = std::move(trial->interface);
   facts.running = read_running(files);
   boot::FolderMedium medium;
   if (const Status opened = medium.open(files.choice, wait); !opened) {

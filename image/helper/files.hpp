@@ -11,6 +11,13 @@ struct UpdateFiles {
   std::string results = "/run/flexrf-update";  ///< what became of verifying and installing; gone at a restart
 };
 
+/// Of systemd-networkd, and what lies beside them.
+struct NetworkFiles {
+  std::string kept =
+      "/data/network";  ///< a folder of what is used from the next boot on; root's alone to write
+  std::string used = "/run/systemd/network";  ///< what is used now: at boot a copy of `kept`
+};
+
 struct Files {
   std::string word = "/run/flexrf-helper/motion";      ///< for --motion-permit
   std::string users = "/data/flexrf/panel-users";      ///< who may log in
@@ -20,6 +27,7 @@ struct Files {
   std::string version = "/usr/lib/flexrf/version";     ///< what runs
   std::string notices = "/run/flexrf-notices";         ///< a folder with files of lines for a person
   UpdateFiles update;
+  NetworkFiles network;
 };
 
 }  // namespace flexrf::helper

@@ -13,6 +13,7 @@
 #include "base/standard_descriptors.hpp"
 #include "image/helper/facts.hpp"
 #include "image/helper/helper.hpp"
+#include "image/helper/interfaces.hpp"
 #include "image/helper/motion_word.hpp"
 #include "image/helper/options.hpp"
 #include "image/helper/socket_server.hpp"
@@ -76,7 +77,7 @@ int run(const Options& options) {
   const Surroundings surroundings{
       [&](Duration wait) { return ask_panel(options.port, files.certificate, wait); }, &say,
       [&](const std::vector<std::string>& arguments) { return run_program(options.systemctl, arguments); },
-      &free_bytes};
+      &free_bytes, &wired_interfaces};
   // Also before a thread is made: each of them leaves these signals to this one.
   std::signal(SIGPIPE, SIG_IGN);
   sigset_t ending;
@@ -94,7 +95,8 @@ int run(const Options& options) {
       socket_settings(options),
       {[&] {
          return state_answer(files, facts.now(),
-                             {word.text(), helper.health(), options.limits.healthy, verbs.received()});
+                             {word.text(), helper.health(), options.limits.healthy, verbs.received(),
+                              wired_interfaces(), MonotonicClock::now()});
        },
        [&](const Request& request, const std::string& peer) { return verbs.perform(request, peer); },
        [&] { verbs.tick(); }, &say});

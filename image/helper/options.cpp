@@ -26,6 +26,8 @@ std::string* text_option(Options& options, std::string_view word) {
       {"--notices", &files.notices},
       {"--update-folder", &files.update.folder},
       {"--results", &files.update.results},
+      {"--network-kept", &files.network.kept},
+      {"--network-used", &files.network.used},
       {"--socket", &options.socket},
       {"--peer", &options.peer},
       {"--systemctl", &options.systemctl},
@@ -71,7 +73,9 @@ std::variant<Options, std::string> parse_options(const std::vector<std::string>&
 const char* const usage =
     "flexrf-helper [OPTION...]\n"
     "Says whether anything may move on this PC, confirms the version that runs when it is healthy, and does\n"
-    "for an admin what only root may: takes an update, chooses the version that boots, restarts the PC.\n"
+    "for an admin what only root may: takes an update, chooses the version that boots, sets addresses, "
+    "restarts\n"
+    "the PC.\n"
     "options:\n"
     "  --word FILE                  gets the word; else /run/flexrf-helper/motion\n"
     "  --users FILE                 who may log in; else /data/flexrf/panel-users\n"
@@ -87,6 +91,9 @@ const char* const usage =
     "  --notices DIR                with files of lines for a person; else /run/flexrf-notices\n"
     "  --update-folder DIR          gets bundles; else /data/update. Root's alone\n"
     "  --results DIR                how verifying and installing go; else /run/flexrf-update\n"
+    "  --network-kept DIR           files of systemd-networkd that are used from boot on; else "
+    "/data/network\n"
+    "  --network-used DIR           those that are used now; else /run/systemd/network\n"
     "  --systemctl FILE             starts units and restarts the PC; else /usr/bin/systemctl\n"
     "Exit code: 0 ended by a signal; 1 wrong usage.\n";
 

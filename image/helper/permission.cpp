@@ -27,6 +27,9 @@ std::string permission_of(const Facts& facts) {
   if (!facts.running.slot) return "this PC was not started by its own boot loader, which names the version";
   if (!is_confirmed(facts))
     return "this version has not confirmed itself; it does when it has been healthy for a minute";
+  if (!facts.address_on_trial.empty())
+    return "the address of " + facts.address_on_trial +
+           " is on trial; keep it, or wait until it is taken back";
   return permitted;
 }
 

@@ -19,6 +19,7 @@ struct Facts {
   std::string choice_failure;
   Phase update = Phase::none;
   std::string update_failure;
+  std::string address_on_trial;  ///< of this interface; empty: of none
 };
 
 /// What the application reads when it may move.

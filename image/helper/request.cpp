@@ -10,20 +10,18 @@ namespace {
 struct Shape {
   Verb verb;
   std::string_view name;
-  std::array<std::string_view, 3> members;  // beside the verb
+  std::array<std::string_view, 5> members;  // beside the verb
 };
 
-constexpr std::array<Shape, 6> shapes = {{{Verb::state, "state", {}},
-                                          {Verb::upload, "upload", {"user", "password", "size"}},
-                                          {Verb::part, "part", {"upload", "offset"}},
-                                          {Verb::install, "install", {"user", "password", "older"}},
-                                          {Verb::choose, "choose", {"user", "password", "slot"}},
-                                          {Verb::restart, "restart", {"user", "password"}}}};
-
-/// A name as somebody sent it, within a message.
-std::string in_quotes(std::string_view name) {
-  return '\'' + std::string{name.substr(0, 32)} + '\'';
-}
+constexpr std::array<Shape, 8> shapes = {
+    {{Verb::state, "state", {}},
+     {Verb::upload, "upload", {"user", "password", "size"}},
+     {Verb::part, "part", {"upload", "offset"}},
+     {Verb::install, "install", {"user", "password", "older"}},
+     {Verb::choose, "choose", {"user", "password", "slot"}},
+     {Verb::restart, "restart", {"user", "password"}},
+     {Verb::network, "network", {"user", "password", "interface", "address", "gateway"}},
+     {Verb::keep_network, "keep-network", {"user", "password"}}}};
 
 Answer malformed(const std::string& what) {
   return refuse(400, what + "; a request is a JSON object with a verb and its members in one line");
@@ -54,6 +52,9 @@ Request taken(Fields& fields, const Shape& shape) {
     if (member == "user") request.user = fields.text(member);
     if (member == "password") request.password = fields.text(member);
     if (member == "upload") request.upload = fields.text(member);
+    if (member == "interface") request.interface = fields.text(member);
+    if (member == "address") request.address = fields.text(member);
+    if (member == "gateway") request.gateway = fields.text(member);
     if (member == "size") request.size = fields.integer(member);
     if (member == "offset") request.offset = fields.integer(member);
     if (member == "older") request.older = fields.boolean(member);
@@ -81,8 +82,9 @@ std::variant<Request, Answer> parse_request(JsonReader& reader, std::string_view
   const auto* const shape =
       std::find_if(shapes.begin(), shapes.end(), [&](const Shape& one) { return one.name == verb; });
   if (shape == shapes.end())
-    return refuse(400, "there is no verb " + in_quotes(verb) +
-                           "; the verbs are state, upload, part, install, choose, restart");
+    return refuse(400,
+                  "there is no verb " + in_quotes(verb) +
+                      "; the verbs are state, upload, part, install, choose, restart, network, keep-network");
   if (const std::string foreign = foreign_member_of(*object, *shape); !foreign.empty())
     return refuse(400, in_quotes(verb) + " has no member " + in_quotes(foreign) + "; its members are " +
                            names_of(*shape));

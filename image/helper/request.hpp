@@ -12,7 +12,7 @@
 
 namespace flexrf::helper {
 
-enum class Verb : std::uint8_t { state, upload, part, install, choose, restart };
+enum class Verb : std::uint8_t { state, upload, part, install, choose, restart, network, keep_network };
 const char* name_of(Verb verb) noexcept;
 
 /// What the verb has no use for is empty.
@@ -26,6 +26,9 @@ struct Request {
   std::string bytes;         ///< the part
   bool older = false;        ///< a bundle that is older than what runs may be installed
   boot::Slot slot = boot::Slot::a;
+  std::string interface;  ///< of the network
+  std::string address;    ///< its setting, see parse_setting()
+  std::string gateway;
 };
 
 inline constexpr std::size_t longest_line = 1024;

@@ -8,6 +8,7 @@
 
 #include "base/json_writer.hpp"
 #include "image/helper/named_lines.hpp"
+#include "image/helper/network.hpp"
 #include "image/helper/update_progress.hpp"
 #include "runtime/parameters/durable_file.hpp"
 
@@ -83,6 +84,22 @@ void write_update(JsonWriter& json, const Progress& progress, const Upload::Rece
   json.member("why", progress.why).end_object();
 }
 
+void write_network(JsonWriter& json, const NetworkFiles& files, const OfThisMoment& moment) {
+  json.key("network").begin_array();
+  for (const Interface& one : moment.interfaces) {
+    const AddressSetting setting = setting_of(files, one.name);
+    json.begin_object().member("interface", one.name).member("mac", one.mac).member("link", one.has_link);
+    json.key("addresses").begin_array();
+    for (const std::string& address : one.addresses) json.value(address);
+    json.end_array().member("setting", name_of(setting.way));
+    json.member("address", setting.address).member("gateway", setting.gateway).end_object();
+  }
+  json.end_array();
+  const AddressTrial trial = read_trial(files).value_or(AddressTrial{});
+  json.key("network_trial").begin_object().member("interface", trial.interface);
+  json.member("remaining_s", std::max<std::int64_t>(0, seconds(trial.until - moment.now))).end_object();
+}
+
 }  // namespace
 
 std::string state_answer(const Files& files, const Facts& facts, const OfThisMoment& moment) {
@@ -108,6 +125,7 @@ std::string state_answer(const Files& files, const Facts& facts, const OfThisMom
   json.member("healthy_needed_s", seconds(moment.health_needed));
   json.member("why_not_healthy", moment.health.why_not);
   write_update(json, read_progress(files.update), moment.upload, running.number("built"));
+  write_network(json, files.network, moment);
   json.end_object();
   return json.release();
 }

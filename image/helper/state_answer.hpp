@@ -2,10 +2,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/time.hpp"
 #include "image/helper/files.hpp"
 #include "image/helper/helper.hpp"
+#include "image/helper/interfaces.hpp"
 #include "image/helper/upload.hpp"
 
 namespace flexrf::helper {
@@ -16,6 +18,8 @@ struct OfThisMoment {
   Health health;
   Duration health_needed{};
   Upload::Received upload;
+  std::vector<Interface> interfaces;
+  Time now{};
 };
 
 /// A JSON object of at most some 10 KiB. Reads the files of versions, notices and the update. Any thread.

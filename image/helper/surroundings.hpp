@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "image/helper/interfaces.hpp"
 #include "image/helper/panel_health.hpp"
 
 namespace flexrf::helper {
@@ -20,6 +21,7 @@ struct Surroundings {
   std::function<std::string(const std::vector<std::string>& arguments)> systemctl;
   /// Of the file system that the folder is in, for whom has no privileges.
   std::function<std::uint64_t(const std::string& folder)> free_bytes;
+  std::function<std::vector<Interface>()> interfaces;
 };
 
 }  // namespace flexrf::helper

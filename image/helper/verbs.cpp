@@ -20,10 +20,6 @@ namespace {
 constexpr Duration wait_for_panel = std::chrono::seconds{2};
 constexpr Duration between_questions = std::chrono::milliseconds{200};
 
-Answer of_status(const Status& status) {
-  return status ? Answer{} : refuse(503, status.cause());
-}
-
 /// While nobody may meddle with slots and bundles.
 Answer check_not_installing(const Progress& progress) {
   if (progress.install.is_under_way())
@@ -32,6 +28,11 @@ Answer check_not_installing(const Progress& progress) {
     return refuse(
         409, "whether an update is being installed cannot be told: " + progress.why + "; restart the PC");
   return {};
+}
+
+/// As somebody sent it, in the journal.
+std::string shown(const std::string& text) {
+  return panel::shown_name(text).data();
 }
 
 const char* const was_installed = "an update was installed; restart the PC first";
@@ -44,7 +45,8 @@ Verbs::Verbs(Files files, const Surroundings& surroundings, MotionWord& word, st
       word_(word),
       clock_(std::move(clock)),
       admin_(files_.users),
-      upload_(files_.update, surroundings.free_bytes) {}
+      upload_(files_.update, surroundings.free_bytes),
+      network_(files_, surroundings, clock_) {}
 
 Answer Verbs::perform(const Request& request, const std::string& peer) {
   Answer answer = perform(request);
@@ -62,6 +64,10 @@ Answer Verbs::perform(const Request& request) {
       return install(request);
     case Verb::choose:
       return choose(request);
+    case Verb::network:
+      return set_address(request);
+    case Verb::keep_network:
+      return keep_address();
     default:
       return restart();
   }
@@ -78,7 +84,7 @@ Answer Verbs::begin_upload(const Request& request) {
   said_part_.clear();
   // What they tell is of the bundle that is gone.
   for (const Job job : {Job::verify, Job::install}) {
-    if (const Status removed = remove_result(files_.update, job); !removed) return of_status(removed);
+    if (const Status removed = remove_result(files_.update, job); !removed) return answer_of(removed);
   }
   return answer;
 }
@@ -90,7 +96,7 @@ Answer Verbs::take_part(const Request& request) {
   if (const Status written = write_starting(files_.update, Job::verify); !written) {
     upload_.finish();
     unlink(bundle_of(files_.update).c_str());
-    return of_status(written);
+    return answer_of(written);
   }
   if (const std::string why = upload_.finish(); !why.empty()) {
     [[maybe_unused]] const Status removed = remove_result(files_.update, Job::verify);
@@ -105,8 +111,8 @@ Answer Verbs::install(const Request& request) {
   bool is_older = false;
   if (Answer fit = check_installable(request, is_older); !fit.is_done()) return fit;
   if (Answer held = hold_motion(installing); !held.is_done()) return held;
-  Answer answer = of_status(permit_older(is_older));
-  if (answer.is_done()) answer = of_status(write_starting(files_.update, Job::install));
+  Answer answer = answer_of(permit_older(is_older));
+  if (answer.is_done()) answer = answer_of(write_starting(files_.update, Job::install));
   if (answer.is_done()) answer = start(Job::install);
   // Else the word is held until the unit has said something: what it begins with is to write its file anew.
   holds_for_unit_ = answer.is_done();
@@ -148,7 +154,7 @@ Answer Verbs::choose(const Request& request) {
   if (Answer stands = check_standstill(); !stands.is_done()) return stands;
   const std::string letter(1, boot::letter_of(request.slot));
   boot::FolderMedium medium;
-  if (const Status opened = medium.open(files_.choice, wait_for_choice); !opened) return of_status(opened);
+  if (const Status opened = medium.open(files_.choice, wait_for_choice); !opened) return answer_of(opened);
   {
     const boot::Environment environment(medium);
     if (!environment.has_choice())
@@ -175,6 +181,25 @@ Answer Verbs::restart() {
   if (failure.empty()) return {};  // nothing moves any more until it has
   word_.release();
   return refuse(503, "the PC cannot be restarted: " + failure);
+}
+
+Answer Verbs::set_address(const Request& request) {
+  const auto parsed = parse_setting(request.address, request.gateway);
+  if (const auto* const wrong = std::get_if<std::string>(&parsed)) return refuse(400, *wrong);
+  const auto& setting = std::get<AddressSetting>(parsed);
+  if (Answer fit = network_.check(request.interface, setting); !fit.is_done()) return fit;
+  // What moves may be moved by this network.
+  if (Answer stands = check_standstill(); !stands.is_done()) return stands;
+  if (Answer held = hold_motion("an address is about to change"); !held.is_done()) return held;
+  Answer answer = network_.begin(request.interface, setting);
+  word_.release();
+  return answer;
+}
+
+Answer Verbs::keep_address() {
+  Answer answer = network_.keep();
+  word_.renew();
+  return answer;
 }
 
 Answer Verbs::check_standstill() const {
@@ -225,6 +250,7 @@ void Verbs::tick() {
   look_after(Job::verify);
   look_after(Job::install);
   release_when_unit_speaks();
+  network_.tick();
   remove_what_is_of_no_use();
 }
 
@@ -285,6 +311,7 @@ void Verbs::say_outcome(const Request& request, const std::string& peer, const A
   std::string line = verb + " by " + panel::shown_name(request.user).data() + " from " + peer;
   if (request.verb == Verb::upload) line += ", " + std::to_string(request.size) + " bytes";
   if (request.verb == Verb::choose) line += std::string{", slot "} + boot::letter_of(request.slot);
+  if (request.verb == Verb::network) line += ", " + shown(request.interface) + ": " + shown(request.address);
   surroundings_.say(line + (answer.is_done() ? ": accepted" : ": refused: " + answer.why));
 }
 

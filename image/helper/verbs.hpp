@@ -12,6 +12,7 @@
 #include "image/helper/facts.hpp"
 #include "image/helper/files.hpp"
 #include "image/helper/motion_word.hpp"
+#include "image/helper/network.hpp"
 #include "image/helper/request.hpp"
 #include "image/helper/surroundings.hpp"
 #include "image/helper/upload.hpp"
@@ -47,6 +48,8 @@ class Verbs {
   Answer install(const Request& request);
   Answer choose(const Request& request);
   Answer restart();
+  Answer set_address(const Request& request);
+  Answer keep_address();
 
   Answer check_installable(const Request& request, bool& is_older) const;
   Answer check_standstill() const;
@@ -64,6 +67,7 @@ class Verbs {
   std::function<Time()> clock_;
   AdminCheck admin_;
   Upload upload_;
+  Network network_;
   std::array<std::optional<Time>, 2> asked_for_;  // by Job: when its unit was
   bool holds_for_unit_ = false;                   // the word, until the unit that installs has begun
   std::optional<Time> of_no_use_since_;           // the bundle

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "image/helper/network.hpp"
 #include "image/helper/state_answer.hpp"
 #include "image/helper/tests/pc.hpp"
 #include "image/helper/verbs.hpp"
@@ -49,7 +50,7 @@ class Bench {
   }
   std::string state() {
     return state_answer(pc.files, read_facts(pc.files, seconds{1}),
-                        {pc.motion(), {}, seconds{60}, verbs->received()});
+                        {pc.motion(), {}, seconds{60}, verbs->received(), pc.interfaces, pc.now});
   }
   std::string phase() {
     const std::string text = state();

@@ -52,8 +52,10 @@ class Pc {
     files.command_line = path_ + "/cmdline";
     files.version = path_ + "/version";
     files.notices = path_ + "/notices";
+    files.network = {path_ + "/kept", path_ + "/used"};
     files.update = {path_ + "/update", path_ + "/results"};
-    for (const std::string& folder : {files.choice, files.update.folder, files.update.results})
+    for (const std::string& folder :
+         {files.choice, files.update.folder, files.update.results, files.network.kept, files.network.used})
       fs::create_directory(folder);
     write(files.version, "application=pick-station\nversion=20261128T001500Z-4fb48992\nbuilt=1000\n");
     choose({"create"});
@@ -61,6 +63,7 @@ class Pc {
     surroundings.ask_panel = [this](Duration) { return panel; };
     surroundings.say = [this](const std::string& line) { said.push_back(line); };
     surroundings.systemctl = [this](const std::vector<std::string>& words) { return systemctl(words); };
+    surroundings.interfaces = [this] { return interfaces; };
     surroundings.free_bytes = [this](const std::string&) { return free; };
   }
   Pc(const Pc&) = delete;
@@ -136,6 +139,8 @@ class Pc {
   Files files;
   PanelAnswer panel{"", true, true};
   std::uint64_t free = std::uint64_t{10} << 30;
+  std::vector<Interface> interfaces{{"enp0s2", "52:54:00:12:34:56", true, {"10.0.2.15/24"}},
+                                    {"enp0s3", "52:54:00:12:34:57", false, {"192.168.7.1/24"}}};
   std::string systemd_failure;
   std::vector<std::string> systemd;
   std::string word_at_systemd;  ///< as it stood when systemd was asked last

@@ -44,6 +44,12 @@ void each_verb_has_its_members() {
   CHECK(request(R"({"verb":"install","user":"a","password":"b","older":true})").older);
   CHECK(request(R"({"verb":"choose","user":"a","password":"b","slot":"B"})").slot == boot::Slot::b);
   CHECK(request(R"({"password":"b","user":"a","verb":"restart"})").verb == Verb::restart);
+  const Request network = request(
+      R"({"verb":"network","user":"a","password":"b","interface":"enp0s2","address":"10.0.2.16/24","gateway":"10.0.2.2"})");
+  CHECK(network.verb == Verb::network);
+  CHECK_EQUAL(network.interface + ' ' + network.address + ' ' + network.gateway,
+              "enp0s2 10.0.2.16/24 10.0.2.2");
+  CHECK(request(R"({"verb":"keep-network","user":"a","password":"b"})").verb == Verb::keep_network);
 }
 
 void what_is_no_request_is_told_what_is_wrong() {
@@ -52,7 +58,7 @@ void what_is_no_request_is_told_what_is_wrong() {
   CHECK_CONTAINS(refusal("[]"), "no object");
   CHECK_CONTAINS(refusal("{}"), "400 'verb' is missing");
   CHECK_CONTAINS(refusal(R"({"verb":7})"), "400 'verb' is not a text");
-  CHECK_CONTAINS(refusal(R"({"verb":"network"})"), "400 there is no verb 'network'; the verbs are state");
+  CHECK_CONTAINS(refusal(R"({"verb":"netwerk"})"), "400 there is no verb 'netwerk'; the verbs are state");
   CHECK_CONTAINS(refusal(R"({"verb":"state","verb":"restart"})"), "'verb' comes twice");
   CHECK_CONTAINS(refusal(R"({"verb":"state","user":"anna"})"),
                  "'state' has no member 'user'; its members are verb");

@@ -9,7 +9,8 @@ namespace {
 void only_an_admin_with_the_right_password_may() {
   Bench bench;
   bench.pc.has_users("olga:engineer", "anna:admin");
-  for (const Verb verb : {Verb::upload, Verb::install, Verb::choose, Verb::restart}) {
+  for (const Verb verb :
+       {Verb::upload, Verb::install, Verb::choose, Verb::network, Verb::keep_network, Verb::restart}) {
     Request asked = request(verb);
     asked.user = "olga";
     CHECK_CONTAINS(refusal(bench.ask(asked)), "403 this needs the role admin");
@@ -91,7 +92,7 @@ void an_upload_is_verified_by_a_unit() {
       "state=done\npercent=100\napplication=pick-station\nversion=20270101T000000Z-1\nbuilt=2000\n");
   CHECK_CONTAINS(bench.state(), R"("phase":"verified")");
   CHECK_CONTAINS(bench.state(),
-                 R"("version":"20270101T000000Z-1","application":"pick-station","older":false,"why":""}})");
+                 R"("version":"20270101T000000Z-1","application":"pick-station","older":false,"why":""},)");
   // A new one begins: what was verified is gone with its results.
   CHECK_EQUAL(bench.answer_to(Verb::upload), "200 ");
   CHECK(!bench.pc.has(bench.pc.bundle()));
@@ -173,7 +174,7 @@ void the_state_tells_all() {
       R"("development_key":true,"notices":["choice0.env was damaged","the data partition was made anew",)");
   CHECK_CONTAINS(
       text,
-      R"("healthy_for_s":0,"healthy_needed_s":60,"why_not_healthy":"","update":{"phase":"none","received":0,"size":0,"percent":0,"version":"","application":"","older":false,"why":""}})");
+      R"("healthy_for_s":0,"healthy_needed_s":60,"why_not_healthy":"","update":{"phase":"none","received":0,"size":0,"percent":0,"version":"","application":"","older":false,"why":""},"network":[{"interface":"enp0s2",)");
   // Without any of these files it still is an answer.
   for (const std::string& file : {bench.pc.files.version, bench.pc.files.users, bench.pc.files.command_line})
     fs::remove(file);

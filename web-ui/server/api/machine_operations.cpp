@@ -32,6 +32,8 @@ constexpr Act acts[] = {
     {"install", "began to install", "install"},
     {"choose", "chose for the next start the slot", "choose the slot"},
     {"restart", "restarted the PC", "restart the PC"},
+    {"network", "set the address of", "set an address"},
+    {"keep-network", "kept the address", "keep an address"},
 };
 
 Status not_understood(const char* why) noexcept {
@@ -88,6 +90,12 @@ void MachineOperations::act(const Caller& caller, std::string_view verb, Fields&
     const std::string_view slot = fields.text("slot");
     json.member("slot", slot);
     set_text(waiting.what, slot.substr(0, 1));
+  } else if (verb == "network") {
+    const std::string_view interface = fields.text("interface");
+    const std::string_view address = fields.text("address");
+    json.member("interface", interface).member("address", address);
+    json.member("gateway", fields.has("gateway") ? fields.text("gateway") : std::string_view{});
+    set_text(waiting.what, std::string{interface.substr(0, 16)} + ": " + std::string{address.substr(0, 20)});
   }
   json.end_object();
   std::string message = json.release();
@@ -124,7 +132,7 @@ bool MachineOperations::check_there(const Caller& caller) {
 void MachineOperations::send(Waiting waiting, std::string message, Duration patience_with_it) {
   if (std::min(message.find('\n'), message.size()) > HelperClient::longest_line) {
     return answers_->refuse(waiting.caller, RefusalKind::too_large,
-                            "Password and user are too long for the PC's helper.");
+                            "The request is too long for the PC's helper.");
   }
   waiting.number = helper_.ask(std::move(message), patience_with_it, false);
   // There are as many places as the helper's client has, so that one that took it has one here.

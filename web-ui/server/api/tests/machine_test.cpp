@@ -147,6 +147,18 @@ void an_admin_updates_the_pc() {
   CHECK(world.is_in_audit("began to install", "pick-station 20261201T1, though it is older"));
   CHECK(world.is_in_audit("chose for the next start the slot", "B"));
   CHECK(world.is_in_audit("restarted the PC", ""));
+  CHECK_EQUAL(
+      world.post("network", {{"password", "p"}, {"interface", "enp0s2"}, {"address", "10.0.2.16/24"}}).status,
+      200U);
+  CHECK(world.helper.asked("network").at(0) == json({{"verb", "network"},
+                                                     {"user", "adam"},
+                                                     {"password", "p"},
+                                                     {"interface", "enp0s2"},
+                                                     {"address", "10.0.2.16/24"},
+                                                     {"gateway", ""}}));
+  CHECK_EQUAL(world.post("keep-network", {{"password", "p"}}).status, 200U);
+  CHECK(world.is_in_audit("set the address of", "enp0s2: 10.0.2.16/24"));
+  CHECK(world.is_in_audit("kept the address", ""));
   const std::string told = world.rig.get("audit", an_admin).body.dump() + world.rig.get("log").body.dump();
   CHECK(told.find("secret of adam") == std::string::npos);
 }
@@ -175,6 +187,7 @@ void what_makes_no_sense_is_refused() {
   CHECK_EQUAL(world.post("upload", {{"size", 5}}).status, 400U);
   CHECK_EQUAL(world.post("choose", {{"password", "p"}}).status, 400U);
   CHECK_EQUAL(world.post("install", {{"password", "p"}, {"older", "yes"}}).status, 400U);
+  CHECK_EQUAL(world.post("network", {{"password", "p"}, {"interface", "enp0s2"}}).status, 400U);
   CHECK_EQUAL(world.post("restart", {{"password", std::string(2000, 'x')}}).status, 413U);
   CHECK_EQUAL(world.rig.get("machine/restart", an_admin).status, 405U);
   CHECK(world.helper.asked("upload").empty() && world.helper.asked("restart").empty());
