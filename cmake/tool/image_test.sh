@@ -11,12 +11,12 @@ firmware_of_uefi=/usr/share/OVMF/OVMF_CODE_4M.fd variables_of_uefi=/usr/share/OV
 start_pc() {  # start_pc NAME bios|uefi DISK [OPTION OF QEMU...]: its panel is at pc_port
   local -a machine
   pc_console=$pc_folder/$1.console
-  pc_port=$((20000 + RANDOM % 10000))
+  pc_port=$((20000 + RANDOM % 5000 * 2)) # and the next one, for another address
   : >"$pc_console"
   pc_began=$SECONDS
   # shellcheck disable=SC2054 # the commas are QEMU's
   machine=(-machine q35 -accel tcg -cpu max -smp 2 -m 1024 -display none -device i6300esb -watchdog-action reset
-    -nic "user,model=e1000e,hostfwd=tcp:127.0.0.1:$pc_port-:8443" -serial "file:${pc_console//,/,,}" "${@:4}")
+    -nic "user,model=e1000e,hostfwd=tcp:127.0.0.1:$pc_port-:8443,hostfwd=tcp:127.0.0.1:$((pc_port + 1))-10.0.2.16:8443" -serial "file:${pc_console//,/,,}" "${@:4}")
   if ((${#pc_disk[@]})); then
     machine+=("${pc_disk[@]}")
   else
@@ -82,10 +82,6 @@ fingerprint() {  # of the certificate that the panel shows
   openssl s_client -connect "127.0.0.1:$pc_port" </dev/null 2>/dev/null | openssl x509 -noout -fingerprint -sha256
 }
 
-image_is_made() {
-  git -C "$root" log -1 --format=%ct >"$pc_folder/time_of_version"
-  (make_image pick-station "$pc_folder/product.img" product)
-}
 variant_is_made() { (make_image pick-station "$pc_folder/variant.img" 'test'); }
 
 try_to_claim() {  # try_to_claim CODE: prints the status
@@ -118,6 +114,10 @@ source "$tool/image_power_test.sh"
 source "$tool/image_damage_test.sh"
 # shellcheck source=cmake/tool/image_update_test.sh
 source "$tool/image_update_test.sh"
+# shellcheck source=cmake/tool/image_panel_test.sh
+source "$tool/image_panel_test.sh"
+# shellcheck source=cmake/tool/image_menu_test.sh
+source "$tool/image_menu_test.sh"
 
 # What a PC promises from its first boot on, while its disk's writes are recorded: nothing moves until its version has been healthy for a
 # minute.
@@ -196,6 +196,8 @@ first_boot_by_bios bios product
 second_boot_by_uefi uefi product
 what_a_power_cut_leaves cut product
 data_beyond_repair damaged product
+an_admin_at_the_panel admin product
+grubs_menu_wants_a_password menu product
 variant_is_made none variant
 what_runs_and_what_hangs variant variant
 updates_are_made none variant
@@ -238,7 +240,7 @@ image_tests() {  # as ctest would run them
     return 1
   fi
   # The first image fetches what all are made of.
-  image_test 1 "$image_test_count" image_is_made none || failed=1
+  image_test 1 "$image_test_count" product_and_update_are_made none || failed=1
   set -m # a group of processes of its own, which ends as one
   image_lane variant >"$pc_folder/variant.log" 2>&1 &
   lane=$!
@@ -251,7 +253,7 @@ image_tests() {  # as ctest would run them
   cat "$pc_folder/variant.log"
   failed=$((failed + $(cat "$pc_folder/failed") + $(cat "$pc_folder/variant/failed")))
   count "$image_test_count" "$failed"
-  rm -rf "$pc_folder"/{,variant/}*.{img,base,log} "$pc_folder/variant/update"
+  rm -rf "$pc_folder"/{,variant/}*.{img,base,log,raucb} "$pc_folder/variant/update"
   printf '\n%d%% tests passed, %d tests failed out of %d\n' $(((image_test_count - failed) * 100 / image_test_count)) "$failed" "$image_test_count"
   ((failed == 0))
 }

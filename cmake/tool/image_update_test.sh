@@ -35,10 +35,9 @@ pack_others() {
   )
 }
 
-pack_changed() {  # pack_changed VERSION: of the root as it was changed
-  local work=$pc_folder/update
-  sed -i "s/^version=.*/version=$1/" "$work/identity/version" "$work/root/usr/lib/flexrf/version" &&
-    pack_root "$work/root" "$work/root.img" && pack_bundle "$work" flexrf-pick-station-amd64 "$work/bundles/$1"
+pack_changed() {  # pack_changed WORK VERSION OUTPUT: a bundle of the root as it was changed
+  sed -i "s/^version=.*/version=$2/" "$1/identity/version" "$1/root/usr/lib/flexrf/version" &&
+    pack_root "$1/root" "$1/root.img" && pack_bundle "$1" flexrf-pick-station-amd64 "$3"
 }
 
 updates_are_made() (  # the first version as a disk, others as bundles, and the disk that they are on
@@ -48,10 +47,10 @@ updates_are_made() (  # the first version as a disk, others as bundles, and the 
   make_version "$work" pick-station 'test'
   make_disk "$work" pick-station "$pc_folder/update.img"
   unsquashfs -q -n -d "$work/root" "$work/root.img" >/dev/null || return
-  pack_changed second || return
+  pack_changed "$work" second "$work/bundles/second" || return
   # It ends as one does that had a fault.
   printf '%s\n' '#!/bin/sh' 'exit 2' >"$work/root/usr/lib/flexrf/pick-station"
-  pack_changed broken || return
+  pack_changed "$work" broken "$work/bundles/broken" || return
   pack_others "$SOURCE_DATE_EPOCH" || return
   PATH=$PATH:/usr/sbin:/sbin mke2fs -q -t ext4 -L bundles -d "$work/bundles" "$pc_folder/bundles.img" 256M
 )
