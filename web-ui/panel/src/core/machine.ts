@@ -29,6 +29,30 @@ export interface MachineUpdate {
   readonly why: string;
 }
 
+/** What decides an interface's address: the files of the version that runs, or an admin. */
+export type NetworkSetting = 'image' | 'dhcp' | 'fixed';
+
+export interface NetworkInterface {
+  readonly interface: string;
+  readonly mac: string;
+  /** There is a cable with somebody at its other end. */
+  readonly link: boolean;
+  /** IPv4, each as "10.0.2.15/24", that it has now. */
+  readonly addresses: readonly string[];
+  readonly setting: NetworkSetting;
+  /** Of a fixed one; "10.0.2.15/24" and "10.0.2.2". */
+  readonly address: string;
+  /** Empty: none. */
+  readonly gateway: string;
+}
+
+/** An address that is taken back unless somebody keeps it. */
+export interface NetworkTrial {
+  /** Empty: nothing is on trial. */
+  readonly interface: string;
+  readonly remaining_s: number;
+}
+
 export interface MachineState {
   readonly application: string;
   readonly version: string;
@@ -47,6 +71,9 @@ export interface MachineState {
   readonly healthy_needed_s: number;
   readonly why_not_healthy: string;
   readonly update: MachineUpdate;
+  /** The wired ones; undefined: an older helper, which can set none. */
+  readonly network?: readonly NetworkInterface[];
+  readonly network_trial?: NetworkTrial;
 }
 
 /** ms; the first while somebody looks or something is under way. */
@@ -121,6 +148,12 @@ export class MachineWatch {
   }
 }
 
+/** What is on trial; undefined: nothing. */
+export function trialOf(state: MachineState | undefined): NetworkTrial | undefined {
+  return state?.network_trial?.interface ? state.network_trial : undefined;
+}
+
 function isBusy(state: MachineState | undefined): boolean {
-  return state !== undefined && (!state.confirmed || ['receiving', 'verifying', 'installing'].includes(state.update.phase));
+  return state !== undefined
+    && (!state.confirmed || trialOf(state) !== undefined || ['receiving', 'verifying', 'installing'].includes(state.update.phase));
 }

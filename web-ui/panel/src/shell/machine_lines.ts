@@ -1,13 +1,14 @@
 // What every view says of the PC below it, as long as it is so. Loaded where the application runs on one.
 import { css, html } from 'lit';
 import { customElement } from 'lit/decorators.js';
-import { MachineWatch, type MachineState, type UpdatePhase } from '../core/machine';
+import { MachineWatch, trialOf, type MachineState, type UpdatePhase } from '../core/machine';
 import { ShellPart } from './part';
 import { shellStyles } from './styles';
 
 export function lastingLines(state: MachineState | undefined): readonly string[] {
   if (!state) return [];
   const { update } = state;
+  const trial = trialOf(state);
   const percent = update.phase === 'receiving' ? Math.floor((100 * update.received) / Math.max(update.size, 1)) : update.percent;
   const phases: { readonly [phase in UpdatePhase]?: string } = {
     receiving: `An update is being uploaded: ${percent} %`,
@@ -19,6 +20,7 @@ export function lastingLines(state: MachineState | undefined): readonly string[]
     state.development_key ? 'Signed with the development key: anyone can make an update for this PC' : '',
     state.confirmed ? '' : `Version ${state.version} has not confirmed itself: healthy for ${state.healthy_for_s} of ${state.healthy_needed_s} s`,
     phases[update.phase] ?? '',
+    trial ? `The address of ${trial.interface} is on trial: it is taken back in ${trial.remaining_s} s` : '',
   ].filter((line) => line !== '');
 }
 

@@ -3,6 +3,8 @@ import { css, html, nothing } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
 import { MachineWatch, type MachineSlot, type MachineState, type SlotName } from '../core/machine';
 import { MachineActs } from './machine_acts';
+import { machineButton, machineButtonStyles } from './machine_button';
+import './machine_network';
 import { ageOf, bootSentence, builtText, bytesText, confirmedSentence, motionSentence, otherSlot, slotSentence, updateSentence } from './machine_words';
 import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
@@ -11,17 +13,15 @@ import { viewStyles } from './view_styles';
 export class Machine extends ViewBase {
   static override styles = [
     ...viewStyles,
+    machineButtonStyles,
     css`
       progress {
         width: min(24rem, 100%);
         height: 1em;
         accent-color: var(--fill);
       }
-      .buttons,
       label.file {
         margin-block: 0.8em;
-      }
-      label.file {
         display: grid;
         gap: 2px;
         justify-items: start;
@@ -66,7 +66,8 @@ export class Machine extends ViewBase {
     return html`
       <h2>Machine</h2>
       ${machine.trouble ? html`<p class="alarm" role="alert">⚠ How the PC is cannot be told now. ${machine.trouble}</p>` : nothing}
-      ${known ? html`<div class=${old}>${this.about(known)}${this.slots(known)}${this.updating(known)}${this.restart(known)}</div>`
+      ${known ? html`<div class=${old}>${this.about(known)}${this.slots(known)}${this.updating(known)}
+          <flexrf-machine-network .core=${this.core} .host=${this.host}></flexrf-machine-network>${this.restart(known)}</div>`
         : machine.trouble ? nothing : html`<p>Waiting for the PC…</p>`}
     `;
   }
@@ -74,7 +75,7 @@ export class Machine extends ViewBase {
   private about(known: MachineState): unknown {
     const { denied } = this.acts;
     return html`
-      ${denied ? html`<p class="muted" id="denied">An update, a choice of the slot and a restart are an admin's: ${denied}.</p>` : nothing}
+      ${denied ? html`<p class="muted" id="denied">An update, a choice of the slot, an address and a restart are an admin's: ${denied}.</p>` : nothing}
       <dl>
         <dt>Application</dt><dd>${known.application}</dd>
         <dt>Version</dt><dd>${known.version}, built ${builtText(known)}</dd>
@@ -170,12 +171,8 @@ export class Machine extends ViewBase {
       ${this.button(known.update.phase === 'installed' ? 'Restart now' : 'Restart the PC', this.acts.deniedByMotion(known), () => this.acts.askRestart())}`;
   }
 
-  /** Nothing for whoever is no admin; else with the reason why it is dead. */
+  /** Nothing for whoever is no admin. */
   private button(label: string, dead: string, act: () => void): unknown {
-    if (this.acts.denied) return nothing;
-    const note = `why-${label.replaceAll(' ', '-')}`;
-    return html`<div class="buttons"><div>
-      <button aria-disabled=${dead ? 'true' : nothing} aria-describedby=${note} @click=${() => { if (dead === '') act(); }}>${label}</button>
-      <small id=${note}>${dead}</small></div></div>`;
+    return this.acts.denied ? nothing : machineButton(label, dead, act);
   }
 }

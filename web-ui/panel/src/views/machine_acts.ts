@@ -78,7 +78,7 @@ export class MachineActs {
         'Nothing may move while it is written, and until somebody gives Start motion again. It starts with the next restart, on trial: if it does not find itself healthy, the PC goes back.',
       ],
       action: older ? 'Install the older version' : 'Install',
-      act: (password) => this.#post('install', { password, older }),
+      act: (password) => this.post('install', { password, older }),
     });
   }
 
@@ -90,7 +90,7 @@ export class MachineActs {
         'Until the restart what runs goes on.',
       ],
       action: `Start slot ${slot} next`,
-      act: (password) => this.#post('choose', { password, slot }),
+      act: (password) => this.post('choose', { password, slot }),
     });
   }
 
@@ -102,11 +102,12 @@ export class MachineActs {
         'After it nothing moves before somebody gives Start motion.',
       ],
       action: 'Restart now',
-      act: (password) => this.#post('restart', { password }),
+      act: (password) => this.post('restart', { password }),
     });
   }
 
-  async #post(what: string, body: object): Promise<string> {
+  /** Why it was refused; empty: it is done. */
+  async post(what: string, body: object): Promise<string> {
     const answer = await postJson(`/api/v1/machine/${what}`, body);
     void this.#machine.refresh();
     return answer.ok ? '' : answer.detail;

@@ -1,8 +1,8 @@
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
-import { MachineWatch } from '../machine';
+import { MachineWatch, trialOf } from '../machine';
 import { FakeCore } from './fake_core';
 import { sample } from './sample';
-import { noUpdate, pc } from './machine_sample';
+import { noTrial, noUpdate, pc } from './machine_sample';
 
 let asked = 0;
 let answer: () => Promise<Response>;
@@ -55,6 +55,24 @@ it('asks now and then, and more often while somebody looks or something is under
   const before = asked;
   await vi.advanceTimersByTimeAsync(3_000);
   expect(asked - before).toBe(3);
+});
+
+it('asks often while an address is on trial', async () => {
+  const watch = begin();
+  const trial = { interface: 'enp0s2', remaining_s: 87 };
+  answer = () => says({ ...pc, network_trial: trial });
+  await vi.advanceTimersByTimeAsync(6_000);
+  const before = asked;
+  await vi.advanceTimersByTimeAsync(3_000);
+  expect(asked - before).toBe(3);
+  expect(trialOf(watch.state)).toEqual(trial);
+});
+
+it('an older helper says nothing of a trial', () => {
+  const { network, network_trial, ...older } = pc;
+  expect(trialOf(older)).toBeUndefined();
+  expect(trialOf({ ...older, network_trial: noTrial })).toBeUndefined();
+  expect(trialOf(undefined)).toBeUndefined();
 });
 
 it('tells only what is another than before', async () => {

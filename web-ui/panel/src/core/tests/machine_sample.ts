@@ -1,9 +1,15 @@
 // What the helper of a PC says, as docs/panel-protocol.md has it.
-import type { MachineState, MachineUpdate } from '../machine';
+import type { MachineState, MachineUpdate, NetworkInterface, NetworkTrial } from '../machine';
 
 export const noUpdate: MachineUpdate = {
   phase: 'none', received: 0, size: 0, percent: 0, version: '', application: '', older: false, why: '',
 };
+
+export const wired: NetworkInterface = {
+  interface: 'enp0s2', mac: '52:54:00:12:34:56', link: true, addresses: ['10.0.2.15/24'], setting: 'image', address: '', gateway: '',
+};
+
+export const noTrial: NetworkTrial = { interface: '', remaining_s: 0 };
 
 export const pc: MachineState = {
   application: 'pick-station', version: '20261128T001500Z-4fb48992', built: 1795824900, slot: 'A', boot: 'confirmed', confirmed: true,
@@ -12,4 +18,5 @@ export const pc: MachineState = {
     B: { version: '', whole: false, primary: false },
   },
   motion: 'permitted', development_key: false, notices: [], healthy_for_s: 60, healthy_needed_s: 60, why_not_healthy: '', update: noUpdate,
+  network: [wired], network_trial: noTrial,
 };

@@ -9,6 +9,9 @@ it('says in every view what lasts', () => {
     'Signed with the development key: anyone can make an update for this PC',
     'Version 20261128T001500Z-4fb48992 has not confirmed itself: healthy for 12 of 60 s',
   ]);
+  expect(lastingLines({ ...pc, network_trial: { interface: 'enp0s2', remaining_s: 87 } })).toEqual([
+    'The address of enp0s2 is on trial: it is taken back in 87 s',
+  ]);
   const update = { ...noUpdate, version: '7', percent: 30, received: 5, size: 50 };
   const line = (phase: typeof update.phase) => lastingLines({ ...pc, update: { ...update, phase } });
   expect(line('receiving')).toEqual(['An update is being uploaded: 10 %']);

@@ -139,6 +139,12 @@ describe('the view of the PC', () => {
     await vi.waitFor(async () => expect(await text()).toContain('choose a file first')); // for the next one
   });
 
+  it('shows the network', async () => {
+    await shown();
+    const network = view.shadowRoot!.querySelector('flexrf-machine-network')!;
+    expect(network.shadowRoot!.textContent).toContain('enp0s2');
+  });
+
   it('an upload that stopped says where and why, and goes on', async () => {
     await shown();
     chooses(new File([new Uint8Array(10)], 'a.raucb'));
