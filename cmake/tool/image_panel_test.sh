@@ -11,7 +11,7 @@ product_and_update_are_made() (  # a disk, and a bundle with another version for
     unsquashfs -q -n -d "$work/root" "$work/root.img" >/dev/null && pack_changed "$work" second "$pc_folder/second.raucb" && rm -rf "$work"
 )
 
-machine() { ask_panel api/v1/machine -b "$pc_folder/cookies" | jq -r "$1"; } # machine FILTER: of what the PC tells
+machine() { ask_panel api/v1/machine -b "$pc_folder/cookies" >"$pc_folder/machine.json" && jq -r "$1" "$pc_folder/machine.json"; } # machine FILTER: of what the PC tells
 
 # ask_machine STATUS WHAT MEMBER...: a change that an admin asks for, with the password; the answer has to have this status
 ask_machine() {
@@ -25,9 +25,11 @@ await_machine() {  # await_machine FILTER: until it is true of what the PC tells
   local said
   until said=$(machine "$1") && [[ $said == true ]]; do
     if ! kill -0 "$pc_pid" 2>/dev/null || (($(pc_seconds) > pc_limit)); then
-      printf 'the PC never told: %s; but: %s\n' "$1" "$(machine .)"
+      printf 'the PC never told: %s; but: %s\n' "$1" "$(<"$pc_folder/machine.json")"
       return 1
     fi
+    # A cell that was started anew, as where this machine had no time for it, knows nobody any more.
+    [[ $(jq .status "$pc_folder/machine.json") != 401 ]] || log_in || return
     sleep 0.5
   done
 }

@@ -51,6 +51,16 @@ class Pc {
       make_primary(request.at("slot"));
     } else if (verb == "restart") {
       restart();
+    } else if (verb == "network") {
+      const bool is_fixed = request.at("address") != "image" && request.at("address") != "dhcp";
+      json& interface = state_["network"][0];
+      interface["setting"] = is_fixed ? json("fixed") : request.at("address");
+      interface["address"] = is_fixed ? request.at("address") : json("");
+      interface["gateway"] = request.at("gateway");
+      if (is_fixed) interface["addresses"] = {request.at("address")};
+      state_["network_trial"] = {{"interface", request.at("interface")}, {"remaining_s", 120}};
+    } else if (verb == "keep-network") {
+      state_["network_trial"] = {{"interface", ""}, {"remaining_s", 0}};
     }
     return {{"ok", true}};
   }
@@ -144,6 +154,22 @@ class Pc {
       {"healthy_needed_s", 60},
       {"why_not_healthy", ""},
       {"update", {{"phase", "none"}}},
+      {"network",
+       {{{"interface", "enp0s2"},
+         {"mac", "52:54:00:12:34:56"},
+         {"link", true},
+         {"addresses", {"192.168.1.17/24"}},
+         {"setting", "image"},
+         {"address", ""},
+         {"gateway", ""}},
+        {{"interface", "enp3s0"},
+         {"mac", "52:54:00:12:34:57"},
+         {"link", false},
+         {"addresses", json::array()},
+         {"setting", "fixed"},
+         {"address", "10.0.0.1/24"},
+         {"gateway", ""}}}},
+      {"network_trial", {{"interface", ""}, {"remaining_s", 0}}},
       {"verified",
        {{"application", "pick-station"}, {"version", "20261201T080000Z-0a1b2c3d"}, {"older", false}}},
   };

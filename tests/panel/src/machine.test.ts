@@ -133,6 +133,47 @@ it('an admin brings an update to the PC, installs it and restarts', { timeout: 4
   for (const text of [file(), running.text]) expect(text).not.toMatch(/a (long|wrong) password/);
 });
 
+it('an admin sets the address of the PC on trial, and keeps it', { timeout: 4 * within }, async () => {
+  const pc = await PlayedPc.start();
+  const running = await start(pc);
+  const viewer = await open(running.base, adam);
+  const { page } = viewer;
+  await viewer.go('machine');
+  await page.getByRole('row', { name: /^enp0s2 .*connected 192\.168\.1\.17\/24 as this version says$/ }).waitFor();
+  await page.getByRole('row', { name: /^enp3s0 .*no cable none fixed: 10\.0\.0\.1\/24, no gateway$/ }).waitFor();
+  await page.getByLabel('Its address').selectOption('Fixed');
+  const address = page.getByLabel('Address and network');
+  await address.fill('192.168.1.300/24');
+  await page.getByText('type an address as 192.168.1.10/24').waitFor();
+  await address.fill('192.168.1.10/24');
+  await page.getByLabel('Gateway').fill('192.168.2.1');
+  await page.getByText('the gateway is in another network than the address').waitFor();
+  await page.getByLabel('Gateway').fill('192.168.1.1');
+  pc.change({ healthy_for_s: 61 }); // what is typed outlives a new state
+  await screenshot(page, 'machine-address');
+  expect(await violations(page)).toEqual([]);
+  expect(await address.inputValue()).toBe('192.168.1.10/24');
+
+  await page.getByLabel('Gateway').press('Enter');
+  await page.getByText('The address of enp0s2 becomes 192.168.1.10/24, gateway 192.168.1.1, a second after this.').waitFor();
+  await screenshot(page, 'machine-address-asked');
+  await answer(viewer, 'Set the address');
+  await page.getByRole('link', { name: /192\.168\.1\.10/ }).waitFor();
+  await page.getByRole('region', { name: 'Warnings' }).getByText('The address of enp0s2 is on trial: it is taken back in 120 s').waitFor();
+  pc.change({ network_trial: { remaining_s: 87 } });
+  await page.getByText('the former one returns in 87 s unless it is kept.').waitFor();
+  await page.setViewportSize(sizes.phone);
+  await screenshot(page, 'machine-address-trial');
+  expect(await violations(page)).toEqual([]);
+  expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
+
+  await page.getByRole('button', { name: 'Keep this address' }).click();
+  await answer(viewer, 'Keep this address');
+  await expect.poll(() => page.getByText('is on trial').count(), { timeout: within }).toBe(0);
+  expect(pc.said).toMatch(/"address":"192\.168\.1\.10\/24","gateway":"192\.168\.1\.1","interface":"enp0s2".*"verb":"network"/);
+  expect(pc.said).toContain('"verb":"keep-network"');
+});
+
 it('what lasts is said in every view, and who is no admin has no buttons', { timeout: 2 * within }, async () => {
   const pc = await PlayedPc.start();
   const running = await start(pc);
@@ -145,7 +186,7 @@ it('what lasts is said in every view, and who is no admin has no buttons', { tim
   await screenshot(page, 'machine-lines');
   expect(await violations(page)).toEqual([]);
   await warnings.getByRole('link').first().click();
-  await page.getByText('An update, a choice of the slot and a restart are an admin\'s: needs admin.').waitFor();
+  await page.getByText('An update, a choice of the slot, an address and a restart are an admin\'s: needs admin.').waitFor();
   await page.getByText('A copy of the boot choice was damaged').waitFor();
   expect(await page.locator('flexrf-machine button, flexrf-machine input').count()).toBe(0);
   expect(await violations(page)).toEqual([]);

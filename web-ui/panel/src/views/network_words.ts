@@ -50,7 +50,7 @@ export function consequences(wired: NetworkInterface, choice: AddressChoice, pag
     dhcp: `${name} asks for its address by DHCP, a second after this.`,
     image: `${name} gets its address as this version says, mostly by DHCP, a second after this.`,
   }[choice.setting];
-  const unknown = page ? '' : ` The address then comes from the DHCP server; the PC’s screen does not tell it. At the server it is that of ${wired.mac}.`;
+  const unknown = page ? '' : ` The address then comes from the DHCP server: the PC’s screen tells it, and the server has it as that of ${wired.mac}.`;
   return [
     become + unknown,
     `This page may lose the PC by it. Then open ${page || 'the page at that address'}, log in there and press Keep this address within two minutes. `
@@ -76,7 +76,7 @@ export function addressFault(address: string, gateway: string): string {
   const own = numberOf(host);
   if (own === undefined) return 'type an address as 192.168.1.10/24';
   const prefix = Number(length);
-  if (prefix < 1 || prefix > 30) return 'after the / comes a number from 1 to 30';
+  if (prefix < 8 || prefix > 30) return 'after the / comes a number from 8 to 30';
   const size = 2 ** (32 - prefix);
   if (own % size === 0 || own % size === size - 1) return 'the first and the last address of a network are those of no PC';
   if (gateway === '') return '';

@@ -40,7 +40,7 @@ describe('what will happen', () => {
   });
   it('by DHCP, where the PC cannot be asked for the address', () => {
     const [becomes, lost] = consequences(wired, dhcp, '');
-    expect(becomes).toMatch(/asks for its address by DHCP.*comes from the DHCP server; the PC’s screen does not tell it.*52:54:00:12:34:56/);
+    expect(becomes).toMatch(/asks for its address by DHCP.*comes from the DHCP server: the PC’s screen tells it.*52:54:00:12:34:56/);
     expect(lost).toContain('Then open the page at that address, log in there');
     expect(consequences(wired, choiceOf(wired), '')[0]).toContain('as this version says, mostly by DHCP');
   });
@@ -49,15 +49,15 @@ describe('what will happen', () => {
 describe('the check of addresses', () => {
   it('takes those of a network', () => {
     for (const [address, gateway] of [
-      ['192.168.1.10/24', ''], ['192.168.1.10/24', '192.168.1.254'], ['10.0.0.1/8', '10.255.0.1'], ['255.1.1.1/30', '255.1.1.2'], ['129.0.0.5/1', '200.0.0.1'],
+      ['192.168.1.10/24', ''], ['192.168.1.10/24', '192.168.1.254'], ['10.0.0.1/8', '10.255.0.1'], ['255.1.1.1/30', '255.1.1.2'],
     ] as const) expect(addressFault(address, gateway)).toBe('');
   });
   it('says what is none', () => {
     for (const address of ['', '192.168.1.10', '192.168.1/24', '192.168.1.256/24', '192.168.01.10/24', '192.168.1.10/', '192.168.1.10/024', '::1/24', '1.2.3.4.5/24', 'a.b.c.d/8', '1..2.3/8']) {
       expect(addressFault(address, '')).toBe('type an address as 192.168.1.10/24');
     }
-    for (const address of ['192.168.1.10/0', '192.168.1.10/31', '192.168.1.10/99']) {
-      expect(addressFault(address, '')).toBe('after the / comes a number from 1 to 30');
+    for (const address of ['192.168.1.10/7', '192.168.1.10/31', '192.168.1.10/99']) {
+      expect(addressFault(address, '')).toBe('after the / comes a number from 8 to 30');
     }
     for (const address of ['192.168.1.0/24', '192.168.1.255/24', '192.168.1.4/30', '192.168.1.7/30']) {
       expect(addressFault(address, '')).toBe('the first and the last address of a network are those of no PC');
