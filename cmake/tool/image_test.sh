@@ -103,9 +103,17 @@ claim_pc() {
   await_line 'This PC is claimed'
 }
 
-log_in() {
-  [[ $(ask_panel api/v1/login -c "$pc_folder/cookies" -o "$pc_folder/login.json" -w '%{http_code}' -H 'Content-Type: application/json' \
-    -d '{"user": "anna", "password": "only for this test"}') == 200 ]] || { echo "the log-in was answered: $(<"$pc_folder/login.json")" && return 1; }
+log_in() {  # again and again where a host that does much else gives the PC no time for it
+  local status try
+  for try in {1..10}; do
+    status=$(ask_panel api/v1/login -c "$pc_folder/cookies" -o "$pc_folder/login.json" -w '%{http_code}' -H 'Content-Type: application/json' \
+      -d '{"user": "anna", "password": "only for this test"}')
+    [[ $status == 200 ]] && return
+    [[ $status == 503 || $status == 429 ]] || break
+    sleep "$try"
+  done
+  echo "the log-in was answered: $(<"$pc_folder/login.json")"
+  return 1
 }
 
 # shellcheck source=cmake/tool/image_power_test.sh
