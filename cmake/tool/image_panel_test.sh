@@ -69,7 +69,7 @@ an_admin_at_the_panel() {
   local pc_limit=1500
   cp --sparse=always "$pc_folder/product.img" "$pc_folder/admin.img" &&
     printf 'damaged' >"$pc_folder/choice1.env" && mcopy -o -i "$pc_folder/admin.img@@2M" "$pc_folder/choice1.env" ::flexrf/ &&
-    start_pc admin uefi "$pc_folder/admin.img" && await_line 'motion is permitted' && log_in &&
+    start_pc admin uefi "$pc_folder/admin.img" && await_line 'motion is permitted' && no_complaint && log_in &&
     await_machine '.version == "first" and .slot == "A" and .boot == "confirmed" and .development_key' &&
     await_machine '.notices | length == 1 and (.[0] | test("choice1.env is damaged"))' && another_address_is_kept &&
     send_bundle "$pc_folder/second.raucb" && await_machine '.update.phase == "verified" and .update.version == "second" and (.update.older | not)' &&

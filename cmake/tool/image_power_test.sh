@@ -162,7 +162,7 @@ boots_again() {  # boots_again WORK
   pc_disk=()
   mv "$1/cut" "$pc_folder/cut.img" && start_pc cut bios "$pc_folder/cut.img" -no-reboot || return
   # Claimed or not: either the cell runs, or its page is there for whoever comes.
-  await_line 'the cell runs|Nobody has claimed this PC' && panel_answers
+  await_line 'the cell runs|Nobody has claimed this PC' && panel_answers && no_complaint
   local status=$?
   stop_pc
   rm -f "$pc_folder/cut.img"

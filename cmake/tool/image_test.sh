@@ -70,6 +70,9 @@ ask_panel() {  # ask_panel [PATH [OPTION OF CURL...]]
   curl -s -S -k --retry 10 --retry-all-errors --max-time 60 "${@:2}" "https://localhost:$pc_port/${1-}"
 }
 
+# A disk whose power went is no damaged disk: nobody is to read that on the screen.
+no_complaint() { ! console_lines | grep 'EXT4-fs error'; }
+
 panel_answers() {
   local page
   page=$(ask_panel) || return
