@@ -59,7 +59,12 @@ flash_command() {
   install_packages flash
   check_image "$file"
   look_at_disks
-  if [[ $device ]]; then find_disk "$device" "$file"; fi
+  # All that may be refused is refused before root is asked for.
+  if [[ $device ]]; then
+    find_disk "$device" "$file"
+  elif ! on_terminal; then
+    choose_disk "$file"
+  fi
   if [[ $(id -u) != 0 ]]; then become_root "${given[@]}"; fi
   if [[ ! $device ]]; then choose_disk "$file"; fi
   exec perl "$tool/disk.pl" hold "$disk_path" bash "$tool/flash_write.sh" "$file" "$disk_path" "$confirm"
