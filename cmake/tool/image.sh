@@ -30,7 +30,7 @@ check_output() {  # check_output FILE: ends with a message if no image can be wr
   [[ $1 == */* ]] || folder=.
   [[ -d $folder ]] || die "there is no folder $folder for the image; make it first: mkdir -p $folder"
   [[ ! -d $1 ]] || die "$1 is a folder; name a file: --output ${1%/}/cell.img"
-  [[ ! -e $1 || -f $1 ]] || die "$1 is not an ordinary file. Make the image in a file, and copy it then: dd if=FILE of=$1 bs=4M"
+  [[ ! -e $1 || -f $1 ]] || die "$1 is not an ordinary file. Make the image in a file, and write it then: ./flexrf flash FILE $1"
   [[ -w $folder && (! -e $1 || -w $1) ]] || die "$1 cannot be written: another place can be named by --output"
   # Holes take no room; file systems that have none need what the image is long.
   (($(free_mib "$folder") >= 700)) || die "there are $(free_mib "$folder") MiB left in $folder, and the image takes up to 700"

@@ -72,4 +72,5 @@ image_command() {
   choose_keys
   build release "$application" flexrf-boot-choice flexrf-claim flexrf-helper || exit 1
   "make_$kind" "$application" "$output" "$variant" "$@"
+  [[ $kind == bundle ]] || say "next, with the PC's disk plugged in here: ./flexrf flash $(printf %q "$output")"
 }

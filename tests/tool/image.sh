@@ -34,7 +34,7 @@ refused "*unknown option '--ouput', did you mean '--output'?*" keyboard --ouput 
 refused "*--output needs the name of a file*" keyboard --output
 refused "*there is no folder $work/nowhere for the image; make it first: mkdir -p $work/nowhere" keyboard --output "$work/nowhere/cell.img"
 refused "*$work/bin is a folder; name a file: --output $work/bin/cell.img" keyboard --output "$work/bin"
-refused "*/dev/null is not an ordinary file*dd if=FILE of=/dev/null*" keyboard --output /dev/null
+refused "*/dev/null is not an ordinary file*./flexrf flash FILE /dev/null" keyboard --output /dev/null
 refused "*--keyring needs the name of a file*" keyboard --keyring
 refused "*--version needs a value*" keyboard --version
 refused "*--version: 'a b' is no name of a version*" keyboard --version 'a b'

@@ -34,6 +34,7 @@ unknown_option --guest test release --geust
 unknown_option --preset build --prset release
 unknown_option --markdown bench --markdwon
 unknown_option --remove password --remov admin
+unknown_option --yes flash image --yse
 unknown_option --help test --hlep
 
 flexrf test release --full </dev/null
@@ -54,7 +55,7 @@ expect "calls of what was not understood" "$(<"$calls")" ""
 
 flexrf help </dev/null
 expect "exit code of help" "$status" 0
-commands=(run test build guest check map bench doctor new password help)
+commands=(run test build guest image flash check map bench doctor new password help)
 for command in "${commands[@]}"; do
   expect "help lists" "$output" "*./flexrf $command *"
 done
