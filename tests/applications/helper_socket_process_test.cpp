@@ -58,7 +58,7 @@ void an_update_goes_through() {
   CHECK_EQUAL(state.at("version"), "v1");
   CHECK_EQUAL(state.at("update").at("phase"), "none");
   std::string bundle;
-  for (int i = 0; i < 200'000; ++i) bundle += static_cast<char>(i * i >> 7);
+  for (unsigned i = 0; i < 200'000; ++i) bundle += static_cast<char>(i * i >> 7);
   const json begun = client.ask(with(anna, {{"size", bundle.size()}}), "upload");
   CHECK(begun.at("ok").get<bool>());
   const std::string token = begun.at("upload");
