@@ -287,7 +287,7 @@ show_sum() {  # in ctest's own words, over all stages; less than all is never 10
           exit failed > 0 }' "$stages"/*.counts
 }
 
-test_stages() {  # test_stages [--full | --guest [--long] [NAME...] | --image | --quick | PRESET...]
+test_stages() {  # test_stages [--full | --guest [--long] [NAME...] | --image [--long] | --quick | PRESET...]
   local start obstacle
   local -a chosen=("${@:2}")
   ninja_options=(-k 0) # what fails to build should not keep the rest from being tested
