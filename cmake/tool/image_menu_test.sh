@@ -37,7 +37,7 @@ screen() {
   printf 'pmemsave 0xb8000 4000 "%s"\n' "$text" >&"$to_screen"
   until [[ $(stat -c %s "$text" 2>/dev/null) == 4000 ]]; do kill -0 "$pc_pid" 2>/dev/null && sleep 0.05 || return; done
   # A character and its colours, 80 times in a line.
-  od -A n -v -t u1 -w2 "$text" | awk '{ printf "%c", $1 >= 32 && $1 < 127 ? $1 : 32 } NR % 80 == 0 { print "" }' | sed 's/ *$//; /^$/d'
+  od -A n -v -t u1 -w2 "$text" | awk '{ printf "%c", ($1 >= 32 && $1 < 127) ? $1 : 32 } NR % 80 == 0 { print "" }' | sed 's/ *$//; /^$/d'
 }
 
 await_screen() {  # await_screen PATTERN [KEY]: which is pressed again and again
