@@ -21,7 +21,7 @@ ask_machine() {
     status=$(ask_panel "api/v1/machine/$what" --retry 0 -b "$pc_folder/cookies" -o "$pc_folder/answer.json" -w '%{http_code}' -X POST \
       -H 'Content-Type: application/json' -d "$(jq -n '{password: "only for this test"} + ($ARGS.positional[0] | fromjson)' --args "${3-{\}}")")
     [[ $status == "$wanted" || ($late && $status == 409) ]] && return
-    [[ $status == 503 ]] && grep -q 'does not answer in time' "$pc_folder/answer.json" || break
+    [[ $status == 503 && $(<"$pc_folder/answer.json") == *"does not answer in time"* ]] || break
     late=yes
   done
   printf '%s was answered %s: %s\n' "$what" "$status" "$(<"$pc_folder/answer.json")"
