@@ -45,6 +45,10 @@ Facts read_facts(const Files& files, Duration wait) {
   return facts;
 }
 
+std::string version_file(const UpdateFiles& files, boot::Slot slot) {
+  return files.folder + (slot == boot::Slot::a ? "/version-a" : "/version-b");
+}
+
 boot::Running read_running(const Files& files) {
   std::ifstream file(files.command_line);
   return boot::running_from(

@@ -1,6 +1,8 @@
 // What is known of this PC, read anew.
 #pragma once
 
+#include <string>
+
 #include "base/time.hpp"
 #include "image/helper/files.hpp"
 #include "image/helper/permission.hpp"
@@ -12,6 +14,8 @@ inline constexpr Duration wait_for_choice = std::chrono::seconds{2};
 
 /// `wait`: for the boot choice. Any thread.
 Facts read_facts(const Files& files, Duration wait);
+/// What stands in it tells the version in a slot to the one in the other. Any thread.
+std::string version_file(const UpdateFiles& files, boot::Slot slot);
 /// What GRUB told of this boot. Any thread.
 boot::Running read_running(const Files& files);
 

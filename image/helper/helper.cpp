@@ -5,6 +5,7 @@
 #include "image/boot/folder_medium.hpp"
 #include "image/boot/verbs.hpp"
 #include "image/helper/facts.hpp"
+#include "runtime/parameters/durable_file.hpp"
 
 namespace flexrf::helper {
 namespace {
@@ -25,6 +26,7 @@ void Helper::look(Time now) {
   // The word first: the panel may take its time to answer.
   word_.renew();
   const Facts known = read_facts(files_, wait_for_choice);
+  remember_version(known);
   if (is_confirmed(known) && !is_fallen_back_to(known)) return note({});
   supervise(known, now);
   word_.renew();
@@ -38,6 +40,19 @@ Health Helper::health() const {
 void Helper::note(const Health& health) {
   const std::lock_guard lock(reading_);
   health_ = health;
+}
+
+/// Nobody else does for the version that the disk was made with.
+void Helper::remember_version(const Facts& facts) {
+  if (has_remembered_version_ || !facts.running.slot) return;
+  has_remembered_version_ = true;
+  const Result<std::string> version = read_file(files_.version);
+  if (!version) return;  // `state` has none, either
+  const std::string file = version_file(files_.update, *facts.running.slot);
+  if (const Result<std::string> known = read_file(file); known && *known == *version) return;
+  if (const Status written = replace_file(file, *version); !written)
+    surroundings_.say(std::string{"the version in the other slot will not know what this one is called: "} +
+                      written.cause());
 }
 
 void Helper::supervise(const Facts& facts, Time now) {

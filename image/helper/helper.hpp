@@ -36,6 +36,7 @@ class Helper {
   Health health() const;
 
  private:
+  void remember_version(const Facts& facts);
   void supervise(const Facts& facts, Time now);
   void confirm(const Facts& facts);
   void note(const Health& health);
@@ -51,6 +52,7 @@ class Helper {
   Health health_;
   std::string said_health_;  // what was said last, so that it is said once
   std::string said_failure_;
+  bool has_remembered_version_ = false;
 };
 
 }  // namespace flexrf::helper

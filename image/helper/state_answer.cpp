@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/json_writer.hpp"
+#include "image/helper/facts.hpp"
 #include "image/helper/named_lines.hpp"
 #include "image/helper/network.hpp"
 #include "image/helper/update_progress.hpp"
@@ -48,8 +49,7 @@ std::vector<std::string> notices_of(const Files& files) {
 
 /// As the unit left it that wrote the slot: lines, or the version alone.
 std::string version_in(const Files& files, boot::Slot slot) {
-  const Result<std::string> text =
-      read_file(files.update.folder + (slot == boot::Slot::a ? "/version-a" : "/version-b"));
+  const Result<std::string> text = read_file(version_file(files.update, slot));
   if (!text) return {};
   const std::string named = NamedLines::of(*text).text("version");
   return named.empty() && text->find('=') == std::string::npos

@@ -2,8 +2,10 @@
 // clock and the restart are the test's.
 #include "image/helper/helper.hpp"
 
+#include <algorithm>
 #include <string>
 
+#include "image/helper/state_answer.hpp"
 #include "image/helper/tests/pc.hpp"
 
 namespace flexrf::helper {
@@ -31,6 +33,9 @@ void the_word_says_what_stands_against_motion() {
   facts.choice->of(boot::Slot::b) = {true, true};
   CHECK_CONTAINS(permission_of(facts), "has not confirmed itself");
   facts.choice->of(boot::Slot::a) = {true, true};
+  facts.address_on_trial = "enp0s2";
+  CHECK_CONTAINS(permission_of(facts), "the address of enp0s2 is on trial");
+  facts.address_on_trial.clear();
   CHECK_EQUAL(permission_of(facts), "permitted");
   facts.is_claimed = false;
   CHECK_CONTAINS(permission_of(facts), "nobody has claimed this PC");
@@ -52,6 +57,28 @@ void a_minute_of_health_confirms_the_version() {
   pc.run(helper, 1000);
   CHECK_EQUAL(pc.motion(), "permitted\n");
   CHECK_EQUAL(pc.asked_systemd("reboot"), 0);
+}
+
+void each_slot_is_told_what_ran_in_the_other_one() {
+  Pc pc;
+  Helper delivered = pc.helper();
+  pc.run(delivered, 2);
+  pc.choose({"mark-whole", "B", pc.files.command_line});
+  pc.boots("B", "trial");
+  Pc::write(pc.files.version, "application=pick-station\nversion=second\nbuilt=2000\n");
+  Helper second = pc.helper();
+  pc.run(second, 2);
+  const std::string state = state_answer(pc.files, read_facts(pc.files, seconds{1}), {});
+  CHECK_CONTAINS(
+      state,
+      R"("slots":{"A":{"version":"20261128T001500Z-4fb48992","whole":true,"primary":true},"B":{"version":"second")");
+  // Who cannot note it says so, and does all else.
+  fs::remove_all(pc.files.update.folder);
+  Helper third = pc.helper();
+  pc.run(third, 2);
+  CHECK_EQUAL(std::count_if(pc.said.begin(), pc.said.end(),
+                            [](const std::string& line) { return line.find("will not know") != line.npos; }),
+              1);
 }
 
 void the_minute_begins_anew_after_each_gap() {
@@ -224,6 +251,7 @@ int main() {
   const CMUnitTest tests[] = {
       CONTAINED_TEST(the_word_says_what_stands_against_motion),
       CONTAINED_TEST(a_minute_of_health_confirms_the_version),
+      CONTAINED_TEST(each_slot_is_told_what_ran_in_the_other_one),
       CONTAINED_TEST(the_minute_begins_anew_after_each_gap),
       CONTAINED_TEST(an_unclaimed_pc_confirms_itself_and_does_not_move),
       CONTAINED_TEST(a_version_on_trial_that_is_not_healthy_gives_up_its_turn_once),
