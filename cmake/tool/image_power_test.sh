@@ -77,11 +77,14 @@ is_in_data() { PATH=$PATH:/usr/sbin:/sbin debugfs -R "stat $2" "$1" 2>/dev/null 
 check_file_systems() {  # check_file_systems WORK: as the PC will find them at its next boot
   local work=$1 said PATH=$PATH:/usr/sbin:/sbin
   take_partition "$work/cut" data "$work/data" && take_partition "$work/cut" esp "$work/esp" || return
-  # 1 would be damage that was repaired: the file system's journal leaves none.
-  if ! e2fsck -p "$work/data" >"$work/fsck" 2>&1 || ! e2fsck -f -n "$work/data" >>"$work/fsck" 2>&1; then
+  # As a PC does it at its start. The journal leaves nothing to repair, but where a block of its own, or the superblock, was torn between two
+  # sectors its checksum is wrong: that is damage to e2fsck, and repaired. Whatever was promised has to be there all the same.
+  if ! sh "$disk_scripts/root/usr/lib/flexrf/repair-data" "$work/data" "$work/notice" >"$work/fsck" 2>&1 ||
+    ! e2fsck -f -n "$work/data" >>"$work/fsck" 2>&1; then
     cat "$work/fsck"
     return 1
   fi
+  if [[ -s $work/notice ]]; then printf 'repaired: %s\n' "$(<"$work/notice")"; fi
   # The mark of one that was in use is what a power cut leaves; Linux and GRUB do not mind it.
   said=$(fsck.fat -n "$work/esp" | grep -v -E '^fsck.fat|^Dirty bit is set|^ Automatically removing dirty bit|^Leaving|^$| clusters$') || return 0
   printf 'the ESP: %s\n' "$said"
