@@ -63,7 +63,7 @@ TEXT
 
 try_to_save() { ask_panel api/v1/save-values --retry 0 -b "$pc_folder/cookies" -o "$pc_folder/saved.json" -w '%{http_code}' -X POST; }
 
-set_speed() { # set_speed VALUE: prints the status
+change_speed() { # change_speed VALUE: prints the status
   ask_panel api/v1/components/pick/parameters -b "$pc_folder/cookies" -o "$pc_folder/set.json" -w '%{http_code}' -X PUT \
     -H 'Content-Type: application/json' -d "{\"speed\": $1}"
 }
@@ -75,7 +75,7 @@ data_is_full() {
   claimed_disk "$disk" && fill_data "$disk" && start_pc full bios "$disk" -no-reboot && await_line 'the cell runs' && log_in &&
     await_line 'motion is permitted' || return
   ask_panel api/v1/control/take -b "$pc_folder/cookies" -o "$pc_folder/taken.json" -X POST || return
-  status="$(set_speed 0.777) $(try_to_save)"
+  status="$(change_speed 0.777) $(try_to_save)"
   [[ $status == '200 507' && $(<"$pc_folder/saved.json") == *'make room there'* ]] ||
     { echo "set and save were answered: $status $(<"$pc_folder/set.json") $(<"$pc_folder/saved.json")" && return 1; }
 }

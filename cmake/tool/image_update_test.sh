@@ -121,7 +121,7 @@ check_configurations() {  # check_configurations WORK POINT: the old version's i
   return 1
 }
 
-check_version() {  # check_version WORK POINT: what GRUB starts is the one version or the other, and all of it is there
+check_started_version() {  # check_started_version WORK POINT: what GRUB starts is the one version or the other, and all of it is there
   local said boots part wanted='@(A\ @(only|confirmed|fallback)|B\ trial)'
   [[ ! $(promise_at update "$2" installed) ]] || wanted='B\ @(trial|confirmed)'
   [[ ! $(promise_at update "$2" confirmed) ]] || wanted='B\ confirmed'
@@ -150,7 +150,7 @@ an_update_is_cut_short() {
     if power_cut build update --point "$point" --seed "$point" --output "$work/cut" && check_file_systems "$work"; then
       check_users "$work" update "$point" || status=1
       check_configurations "$work" "$point" || status=1
-      check_version "$work" "$point" || status=1
+      check_started_version "$work" "$point" || status=1
     else
       status=1
     fi

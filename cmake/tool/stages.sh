@@ -104,12 +104,20 @@ documents_and_tests() {  # every file that may promise something, or test it
     \( -name '*.md' -o -name '*.cpp' -o -name '*.hpp' -o -name '*.sh' -o -name '*.ts' \) -print
 }
 
+# The files of the image's tests are sourced together: of two functions with one name the second would take the place of the first.
+check_functions() {
+  local twice
+  twice=$(grep -ohE '^[a-z_]+\(\)' "$tool"/image*.sh | sort | uniq -d)
+  [[ ! $twice ]] || { printf 'cmake/tool/image*.sh have two functions with this name: %s\n' "$twice" && return 1; }
+}
+
 # How sources are written, which of them know which, and that what is promised is tested.
 check_layout() {
   local status=0
   sources | xargs -0 -r -n 50 -P "$(nproc)" clang-format --dry-run -Werror || status=1
   sources | xargs -0 -r awk -v root="$root" -f "$tool/includes.awk" || status=1
   documents_and_tests | sort | awk -v root="$root" -f "$tool/promises.awk" || status=1
+  check_functions || status=1
   return "$status"
 }
 
