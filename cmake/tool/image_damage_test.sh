@@ -88,7 +88,7 @@ data_is_missing() {
 }
 
 with_real_camera() { sed -i '/^ExecStart=/s/$/ --hardware camera=v4l2,station_link=tcp,io_station=real/' "$1/etc/systemd/system/flexrf.service"; }
-with_real_lines() { sed -i '/^ExecStart=/s/$/ --hardware stop_button=gpio/' "$1/etc/systemd/system/flexrf.service"; }
+with_real_box() { sed -i '/^ExecStart=/s/$/ --hardware box=gpio/' "$1/etc/systemd/system/flexrf.service"; }
 
 # A camera and a station on the network are waited for, as their drivers have it: the cell runs, and says what it lacks.
 a_missing_camera_is_waited_for() {
@@ -102,7 +102,7 @@ a_missing_camera_is_waited_for() {
 a_missing_chip_is_refused() {
   local disk=$pc_folder/chip.img pc_limit=1000
   pc_disk=()
-  claimed_disk "$disk" && change_root "$disk" with_real_lines && start_pc chip bios "$disk" -no-reboot || return
+  claimed_disk "$disk" && change_root "$disk" with_real_box && start_pc chip bios "$disk" -no-reboot || return
   await_line 'not started: .*' || return
   while kill -0 "$pc_pid" 2>/dev/null; do
     (($(pc_seconds) <= pc_limit)) || { echo "the PC does not restart" && return 1; }
