@@ -78,13 +78,19 @@ check_file_systems() {  # check_file_systems WORK: as the PC will find them at i
   local work=$1 said PATH=$PATH:/usr/sbin:/sbin
   take_partition "$work/cut" data "$work/data" && take_partition "$work/cut" esp "$work/esp" || return
   # As a PC does it at its start. The journal leaves nothing to repair, but where a block of its own, or the superblock, was torn between two
-  # sectors its checksum is wrong: that is damage to e2fsck, and repaired. Whatever was promised has to be there all the same.
+  # sectors its checksum is wrong: that is damage to e2fsck, and repaired. Any other repair is wrong, and whatever was promised has to be there.
   if ! sh "$disk_scripts/root/usr/lib/flexrf/repair-data" "$work/data" "$work/notice" >"$work/fsck" 2>&1 ||
     ! e2fsck -f -n "$work/data" >>"$work/fsck" 2>&1; then
     cat "$work/fsck"
     return 1
   fi
-  if [[ -s $work/notice ]]; then printf 'repaired: %s\n' "$(<"$work/notice")"; fi
+  if [[ -s $work/notice ]]; then
+    if ! grep -q -E 'Journal transaction [0-9]+ was corrupt|Superblock checksum does not match' "$work/fsck" || grep -q 'made anew' "$work/notice"; then
+      printf 'lost data: no torn block, and yet %s\n' "$(cat "$work/notice" "$work/fsck")"
+      return 1
+    fi
+    printf 'repaired: %s\n' "$(<"$work/notice")"
+  fi
   # The mark of one that was in use is what a power cut leaves; Linux and GRUB do not mind it.
   said=$(fsck.fat -n "$work/esp" | grep -v -E '^fsck.fat|^Dirty bit is set|^ Automatically removing dirty bit|^Leaving|^$| clusters$') || return 0
   printf 'the ESP: %s\n' "$said"
