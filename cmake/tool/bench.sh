@@ -36,16 +36,8 @@ measure_all() {
 }
 
 quote_results() {  # puts the last results into docs/performance.md, between its two marks
-  local document=$root/docs/performance.md begin='<!-- results -->' end='<!-- end of results -->' quoted
   [[ -s $results/results.md ]] || die "nothing was measured yet: ./flexrf bench"
-  (($(grep -c -x -F -e "$begin" -e "$end" "$document") == 2)) || die "$document lacks its marks $begin and $end"
-  quoted=$(mktemp)
-  awk -v begin="$begin" -v end="$end" -v file="$results/results.md" '
-    $0 == end { quoting = 0 }
-    !quoting
-    $0 == begin { quoting = 1; print ""; while ((getline line < file) > 0) print line; print "" }' "$document" >"$quoted"
-  cat "$quoted" >"$document"
-  rm -f "$quoted"
+  replace_between "$root/docs/performance.md" '<!-- results -->' '<!-- end of results -->' <"$results/results.md"
   cat "$results/results.md"
   say "put into docs/performance.md"
 }

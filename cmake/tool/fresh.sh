@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# fresh.sh ROOT [--full]: tries the two set-up commands on the current commit in an empty Debian 12 (minbase with git and
-# ca-certificates). The root is made with the mirrors, the apt settings and the npm settings of this machine, so that what
-# works here behind a proxy works there too, and it is gone afterwards.
+# fresh.sh ROOT [--gate|--full]: tries the two set-up commands, and then the level that is named, on the current commit in an empty Debian 12
+# (minbase with git and ca-certificates). The root is made with the mirrors, the apt settings and the npm settings of this machine, so that what
+# works here behind a proxy works there too. It is removed afterwards; the records of the levels are kept in build/test-records.
 set -eu -o pipefail
-root=$1 extent=${2-}
+root=$1 level=${2-}
 suite=bookworm
 # shellcheck source=cmake/tool/npm_settings.sh
 source "$root/cmake/tool/npm_settings.sh"
@@ -60,10 +60,15 @@ git -c advice.detachedHead=false clone --quiet flexrf.bundle flexrf
 cd flexrf
 echo "== ./flexrf run keyboard, in an empty Debian 12"
 printf 'wwwwddd' | ./flexrf run keyboard
-echo "== ./flexrf test $*, in an empty Debian 12"
-./flexrf test "$@" </dev/null
+status=0
+for level in '' "$@"; do
+  echo "== ./flexrf test $level, in an empty Debian 12"
+  ./flexrf test $level </dev/null || status=1
+done
+exit "$status"
 TRY
 
+status=0
 # shellcheck disable=SC2016 # expands inside
 unshare --mount --pid --fork --kill-child bash -c '
   set -eu
@@ -73,4 +78,9 @@ unshare --mount --pid --fork --kill-child bash -c '
   mount --rbind /dev "$1/dev"
   exec chroot "$1" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root TERM=dumb LANG=C.UTF-8 \
     ${http_proxy+"http_proxy=$http_proxy"} ${https_proxy+"https_proxy=$https_proxy"} ${no_proxy+"no_proxy=$no_proxy"} \
-    /bin/bash /root/try $2' fresh "$fresh" "$extent" </dev/null
+    /bin/bash /root/try $2' fresh "$fresh" "$level" </dev/null || status=$?
+if [[ -d $fresh/root/flexrf/build/test-records ]]; then
+  mkdir -p "$root/build/test-records"
+  cp "$fresh"/root/flexrf/build/test-records/* "$root/build/test-records/"
+fi
+exit "$status"

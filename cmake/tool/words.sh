@@ -60,3 +60,16 @@ duration() {  # duration MICROSECONDS: as 0.4 s or 2 min 05 s
 }
 
 since() { duration $(($(microseconds) - $1)); }  # since MICROSECONDS: the time from then to now
+
+replace_between() {  # replace_between DOCUMENT BEGIN END: what stands between these two lines becomes what is read from standard input
+  local new
+  (($(grep -c -x -F -e "$2" -e "$3" "$1") == 2)) || die "$1 lacks its marks $2 and $3"
+  new=$(mktemp)
+  awk -v begin="$2" -v end="$3" '
+    FILENAME == "-" { text = text $0 "\n"; next }
+    $0 == end { replacing = 0 }
+    !replacing
+    $0 == begin { replacing = 1; printf "\n%s\n", text }' - "$1" >"$new"
+  cat "$new" >"$1"
+  rm -f "$new"
+}

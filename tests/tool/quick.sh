@@ -26,7 +26,7 @@ echo 1 >"$tree/program"
 echo 1 >"$tree/tables/deep/a.toml"
 printf '%s\t%s\n' program "$tree/program" table "$tree/program" table "$tree/tables" of_another_build /none >"$tree/build/release/tests_read.txt"
 
-ran() { sed -n 's/^.*Test #[0-9]*: \([a-z]*\) .*/\1/p' <<<"$output" | paste -s -d ' '; }
+ran() { sed -n 's/^.*[0-9] Test #[0-9]*: \([a-z]*\) .*/\1/p' <<<"$output" | paste -s -d ' '; }
 quick() {  # quick WHEN RAN [STATUS]
   flexrf test --quick </dev/null
   expect "exit code $1" "$status" "${3-0}"
@@ -36,6 +36,7 @@ quick() {  # quick WHEN RAN [STATUS]
 quick "the first time" "program table silent"
 expect "stages" "$output" "*build release *passed*test release *passed*100% tests passed, 0 tests failed out of 4"
 quick "the second time" silent
+expect "what is told of the others" "$output" "*Test: program .* unchanged since it passed (20*2 tests were not run again*out of 2"
 echo 2 >"$tree/tables/deep/a.toml"
 quick "after a change of a table" "table silent"
 echo 2 >"$tree/program"
@@ -47,13 +48,17 @@ quick "after it was mended" "table silent"
 touch "$tree/tables/deep/b.toml"
 quick "after a new table" "table silent"
 rm "$tree/tables/deep/b.toml"
-quick "after it was taken away" "table silent"
+quick "after it was taken away" silent
 
 echo 3 >"$tree/program"
 flexrf test release </dev/null
 expect "exit code of all tests" "$status" 0
 quick "after all tests" silent
+flexrf test --quick --no-memory </dev/null
+expect "tests without memory" "$(ran)" "program table silent"
+FLEXRF_CACHE=off flexrf test --quick </dev/null
+expect "tests without a cache" "$(ran)" "program table silent"
 flexrf test --quick now </dev/null
 expect "exit code with a word behind it" "$status" 1
-expect "message with a word behind it" "$errors" "flexrf: --quick stands alone*"
+expect "message with a word behind it" "$errors" "flexrf: --quick takes no names*"
 finish

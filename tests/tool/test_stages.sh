@@ -22,64 +22,89 @@ BODY
 # The PC's own are tried by themselves.
 cat >"$tree/cmake/tool/image_test.sh" <<'BODY'
 image_tests() {
-  echo "image; long: ${FLEXRF_LONG-unset}" >>"$STAND_IN/calls"
+  echo "image $*; long: ${FLEXRF_LONG-unset}" >>"$STAND_IN/calls"
   count 7 0
 }
 BODY
 
 last_line() { printf '%s\n' "${output##*$'\n'}"; }
+stages_of() {  # stages_of OUTPUT: the names in the table, sorted
+  sed -n -E 's/^([a-z]+( [a-z]+)*) +[0-9.]+ s +.* (passed|FAILED)$/\1/p' <<<"$output" | LC_ALL=C sort | paste -s -d ,
+}
+test_calls() { grep "^ctest .*-j" "$calls" | grep -v -e ' -N' | LC_ALL=C sort; }
 
 flexrf test </dev/null
 expect "exit code" "$status" 0
-expect "last line" "$(last_line)" "100% tests passed, 0 tests failed out of 35"
-for stage in "source layout" "static analysis" panel guest image {build,test}\ {release,checked,asan,tsan}; do
-  expect "time of $stage" "$output" "*"$'\n'"$stage *[0-9] s   passed*"
-done
-expect "tests of checked" "$(grep "^ctest .*/checked " "$calls")" "!(* -L *) -LE ^long\$"
-# The panel's run beside the others: which begins first is chance.
-expect "tests of release" "$(grep "^ctest .*/release .* -j" "$calls" | LC_ALL=C sort)" \
-  "* -L ^panel\$ -LE ^long\$"$'\n'"!(* -L *) -LE ^long\$|^panel\$"
-expect "tests of asan" "$(grep "^ctest .*/asan " "$calls")" "* -L ^(unit|stress)\$ -LE ^long\$"
+expect "last line" "$(last_line)" "100% tests passed, 0 tests failed out of 19"
+expect "stages" "$(stages_of)" "build release,guest,image,panel,source layout,test release"
+expect "use of the processors" "$output" "*total * % of 1 CPUs*"
+expect "selections" "$(test_calls)" "*/release * -j 4 -L ^panel\$ -LE ^long\$"$'\n'"*/release * -j 4 -LE ^panel\$|^long\$"
+expect "image" "$(grep ^image "$calls")" "image first; long: unset"
+expect "long tests" "$(sort -u <(grep ^long: "$calls"))" "long: unset"
+expect "record" "$(cut -f 1-2 "$tree"/build/test-records/first-*.txt)" $'level\tfirst\nstate\t@(cold|warm)\n*'$'stage\tguest\n*'
+
+: >"$calls"
+flexrf test --gate </dev/null
+expect "exit code of --gate" "$status" 0
+expect "stages of --gate" "$(stages_of)" \
+  "build asan,build checked,build release,build tsan,image,static analysis,test asan,test checked,test tsan"
+expect "tests of checked" "$(grep "^ctest .*/checked .* -j" "$calls")" "!(* -L *) -LE ^long\$"
+expect "tests of asan" "$(grep "^ctest .*/asan .* -j" "$calls")" "* -L ^(unit|stress)\$ -LE ^long\$"
 expect "what is built of asan" "$(grep "^ninja .*/asan" "$calls")" "*tests_unit tests_stress"
-expect "tests of tsan" "$(grep "^ctest .*/tsan " "$calls")" "* -L ^threads\$ -LE ^long\$"
+expect "tests of tsan" "$(grep "^ctest .*/tsan .* -j" "$calls")" "* -L ^threads\$ -LE ^long\$"
 expect "what is built of tsan" "$(grep "^ninja .*/tsan" "$calls")" "*tests_threads"
 for preset in asan tsan; do
   expect "start of $preset" "$(grep "^setarch --addr-no-randomize ctest .*/$preset " "$calls")" "?*"
 done
-expect "image" "$(grep ^image "$calls")" "image; long: unset"
-expect "long tests" "$(sort -u <(grep ^long: "$calls"))" "long: unset"
+expect "image of --gate" "$(grep ^image "$calls")" "image gate; long: unset"
 
 : >"$calls"
 flexrf test --full </dev/null
 expect "exit code of --full" "$status" 0
+expect "stages of --full" "$(stages_of)" \
+  "build asan,build checked,build fuzz,build release,build tsan,guest,image,panel,source layout,static analysis,test asan,test checked,test fuzz,test release,test tsan"
 expect "long tests of --full" "$(sort -u <(grep ^long: "$calls"))" "long: 1"
-expect "image of --full" "$(grep ^image "$calls")" "image; long: 1"
-expect "selections of --full" "$(grep '^ctest.* -L' "$calls" | LC_ALL=C sort)" "*/fuzz * -L ^fuzz\$"$'\n'"* -L ^panel\$"$'\n'"* -LE ^panel\$"$'\n'"*/tsan * -L ^(threads|whole|stress)\$"
+expect "image of --full" "$(grep ^image "$calls")" "image first gate full; long: 1"
+expect "selections of --full" "$(test_calls | grep -e ' -L')" "*/fuzz * -L ^fuzz\$"$'\n'"* -L ^panel\$"$'\n'"* -LE ^panel\$"$'\n'"*/tsan * -L ^(threads|whole|stress)\$"
 expect "what is built of fuzz" "$(grep "^ninja .*/fuzz" "$calls")" "*tests_fuzz"
+
+: >"$calls"
+flexrf test --soak </dev/null
+expect "image of --soak" "$(grep ^image "$calls")" "image soak; long: 1"
 
 : >"$calls"
 flexrf test tsan debug </dev/null
 expect "exit code of two presets" "$status" 0
-expect "presets" "$(grep '^ctest' "$calls" | sed 's|.*/build/\([a-z]*\) .*|\1|')" "tsan"$'\n'"debug"
+expect "presets" "$(grep '^ctest.* -j' "$calls" | sed 's|.*/build/\([a-z]*\) .*|\1|')" "tsan"$'\n'"debug"
 expect "last line of two presets" "$(last_line)" "100% tests passed, 0 tests failed out of 10"
 
-# What builds behind ends while the tests of asan wait.
+# What builds in a lane ends while the tests of asan wait.
 touch "$work/busy"
 flexrf test tsan asan </dev/null
 expect "processor time of a build" "$output" "*"$'\n'"build asan +([^s])s +( )[1-9]* s   passed*"
 expect "processor time of tests that wait" "$output" "*"$'\n'"test tsan +([^s])s +( )0.? s   passed*"
 rm "$work/busy"
 
+printf 'build release\t1000\ntest release\t0\n' >"$tree/cmake/tool/test_budgets.txt"
+flexrf test release </dev/null
+expect "exit code over a budget" "$status" 0
+expect "what is over its budget" "$output" "!(*over budget: build*)over budget: test release used 0.* s on all CPUs, and its budget is 0.0 s*"
+
 touch "$work/failing"
 : >"$calls"
-flexrf test </dev/null
+flexrf test --gate </dev/null
 expect "exit code of a failure" "$status" 1
 expect "stages after a failure" "$output" "*test checked *FAILED*test tsan *passed*"
-expect "last line of a failure" "$(last_line)" "97% tests passed, 1 tests failed out of 35"
+expect "last line of a failure" "$(last_line)" "9[0-9]% tests passed, 1 tests failed out of *"
 
 touch "$work/broken"
 flexrf test release </dev/null
 expect "exit code of a broken build" "$status" 1
 expect "tests after a broken build" "$output" "*error: broken*build release *FAILED*test release *passed*panel *passed*"
 expect "last line of a broken build" "$(last_line)" "88% tests passed, 1 tests failed out of 9"
+
+flexrf test --gate --full </dev/null
+expect "message with two levels" "$errors" "flexrf: --full comes first, and one level at a time*"
+flexrf test --long </dev/null
+expect "message of --long alone" "$errors" "flexrf: --long goes with --guest and --image*"
 finish

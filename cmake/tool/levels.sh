@@ -1,0 +1,203 @@
+# Sourced by flexrf: the levels of `flexrf test`. docs/testing.md tells what each is for.
+#   first     what somebody who cloned the repository needs to trust it
+#   gate      what is added before a change lands: sanitizers, static analysis, updates and power cuts of the image
+#   full      everything that ends within two hours
+#   soak      campaigns that take longer; they are seeded, and go on where they were stopped
+# shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
+
+# shellcheck source=cmake/tool/memory.sh
+source "$tool/memory.sh"
+# shellcheck source=cmake/tool/stages.sh
+source "$tool/stages.sh"
+# shellcheck source=cmake/tool/test_record.sh
+source "$tool/test_record.sh"
+# shellcheck source=cmake/tool/source_checks.sh
+source "$tool/source_checks.sh"
+# shellcheck source=cmake/tool/ctest.sh
+source "$tool/ctest.sh"
+# shellcheck source=cmake/tool/image.sh
+source "$tool/image.sh"
+# shellcheck source=cmake/tool/image_test.sh
+source "$tool/image_test.sh"
+
+without_long=(-LE '^long$') # the long tests are left out, but where the level is full
+
+declare -A build_targets=() test_selection=() # of a preset, where that is not everything
+choose_extent() {  # choose_extent full|some: which tests of the sanitizers' presets
+  # Without a second thread there is nothing that the thread sanitizer could find; a test that starts one unsaid fails in release.
+  build_targets=([fuzz]=tests_fuzz [tsan]='tests_threads tests_whole tests_stress')
+  test_selection=([fuzz]='-L ^fuzz$' [tsan]='-L ^(threads|whole|stress)$')
+  [[ $1 == full ]] && return
+  # Whole cells take long under a sanitizer, and the other presets run them.
+  build_targets[asan]='tests_unit tests_stress' test_selection[asan]='-L ^(unit|stress)$'
+  build_targets[tsan]=tests_threads test_selection[tsan]='-L ^threads$'
+}
+
+build_preset() {  # build_preset PRESET
+  local -a targets
+  read -r -a targets <<<"${build_targets[$1]-}"
+  count_as_test build "$1" "${targets[@]}"
+}
+
+test_preset() {  # test_preset PRESET: a test that was not built fails, and the others run
+  local -a selection
+  read -r -a selection <<<"${test_selection[$1]-}"
+  run_tests "$1" "${selection[@]}" "${without_long[@]}"
+}
+
+# The page is tried by a browser, in the release preset alone.
+test_release() { run_tests release -LE "^panel\$${without_long[1]:+|${without_long[1]}}"; }
+test_panel() { run_tests release -L '^panel$' "${without_long[@]}"; }
+
+# run_changed NAME COMMAND TEST...: runs `COMMAND TEST...` with those of the tests that have changed since they passed
+run_changed() {
+  local name=$1 command=$2 test day unchanged=0
+  local -a chosen=()
+  shift 2
+  for test; do
+    if day=$(passed_before "$name" "$test"); then
+      unchanged_line "$test" "$day"
+      unchanged=$((unchanged + 1))
+    else
+      chosen+=("$test")
+    fi
+  done
+  count 0 0 "$unchanged"
+  ((!${#chosen[@]})) || "$command" "${chosen[@]}"
+}
+
+presets_lane() {  # presets_lane PRESET...: builds them one after the other, as each uses all processors
+  local preset
+  for preset; do lane_stage "build $preset" build_preset "$preset"; done
+}
+test_guest() {  # test_guest [NAME...]
+  local name
+  local -a names
+  mapfile -t names <"$root/build/release/guest_tests.txt"
+  for name; do known_word "test in the guest" "$name" "${names[@]}"; done
+  if (($#)); then names=("$@"); fi
+  # The machine that they run in is restored or booted from what its key names.
+  find_keys guest <(for name in "${names[@]}"; do guest_test_reads "$name" | sed "s/^/$name\t/"; done) \
+    <(for name in "${names[@]}"; do printf '%s\t%s\n' "$name" "$(guest_key)"; done)
+  run_changed guest guest_tests "${names[@]}"
+}
+
+panel_lane() { lane_stage panel test_panel; }
+guest_lane() { lane_stage guest test_guest; }
+image_lane_of() { lane_stage "image" image_tests "$@"; } # image_lane_of LEVEL...
+analysis_lane() { lane_stage "static analysis" count_as_test analyse; }
+
+release_is_built() {  # all else takes its generator, and most its programs
+  stage "build release" build_preset release
+  find_test_keys release
+}
+
+# The lanes' priorities have those tests of the foreground win that a person looks at first; none of them relies on it.
+start_first_lanes() {
+  start_lane 0 panel_lane
+  [[ $no_guest ]] || start_lane 5 guest_lane
+}
+
+await_first_lanes() {
+  await_stage panel
+  if [[ $no_guest ]]; then skip guest "$no_guest"; else await_stage guest; fi
+}
+
+start_image_lane() { [[ $no_image ]] || start_lane 5 image_lane_of "$@"; } # start_image_lane LEVEL...
+await_image_lane() { if [[ $no_image ]]; then skip image "$no_image"; else await_stage image; fi; }
+
+test_presets() {  # test_presets PRESET...: each when it is built
+  local preset
+  for preset; do
+    await_stage "build $preset"
+    stage "test $preset" test_preset "$preset"
+  done
+}
+
+level_first() {
+  stage "source layout" count_as_test check_layout
+  release_is_built
+  start_first_lanes
+  start_image_lane first
+  stage "test release" test_release
+  await_first_lanes
+  await_image_lane
+}
+
+level_gate() {
+  release_is_built
+  start_lane 5 presets_lane checked tsan asan
+  start_image_lane gate
+  start_lane 15 analysis_lane
+  test_presets checked tsan asan
+  await_stage "static analysis"
+  await_image_lane
+}
+
+level_full() {
+  without_long=()
+  choose_extent full
+  stage "source layout" count_as_test check_layout
+  release_is_built
+  start_first_lanes
+  start_lane 5 presets_lane checked tsan asan fuzz
+  start_image_lane first gate full
+  start_lane 15 analysis_lane
+  stage "test release" test_release
+  await_first_lanes
+  test_presets checked tsan asan fuzz
+  await_stage "static analysis"
+  await_image_lane
+}
+
+level_presets() {  # level_presets PRESET...: these and nothing else
+  if [[ $1 == release ]]; then
+    release_is_built
+    shift
+    start_lane 0 panel_lane
+    start_lane 5 presets_lane "$@"
+    stage "test release" test_release
+    await_stage panel
+  else
+    start_lane 5 presets_lane "$@"
+  fi
+  test_presets "$@"
+}
+
+level_guest() {  # level_guest [NAME...]
+  stage "build guest's tests" count_as_test build release tests_guest
+  if [[ $no_guest ]]; then skip guest "$no_guest"; else stage guest test_guest "$@"; fi
+}
+
+# test_level LEVEL [WORD...]: LEVEL is first, gate, full, soak, quick, guest, image or presets
+test_level() {
+  local start wall state no_guest no_image level=$1
+  shift
+  ninja_options=(-k 0) # what fails to build does not keep the rest from being tested
+  exec 2>&1            # one report, in the order in which things happened
+  state=$(memory_state)
+  mkdir -p "$stages"
+  exec {being_tested}>"$stages/.lock"
+  flock -n "$being_tested" || die "tests are under way in this folder already"
+  rm -rf "${stages:?}"/*
+  start=$(microseconds)
+  unset FLEXRF_LONG
+  [[ $level == full || $level == soak || $long ]] && export FLEXRF_LONG=1
+  [[ $long ]] && without_long=()
+  choose_extent some
+  no_guest=$(guest_obstacle)
+  no_image=$(image_obstacle)
+  case $level in
+    first | gate | full) begin_record "$level" "$state" && "level_$level" ;;
+    quick) release_is_built && stage "test release" test_release ;;
+    guest) level_guest "$@" ;;
+    image) if [[ $no_image ]]; then skip image "$no_image"; else stage image image_tests "$@"; fi ;;
+    soak) if [[ $no_image ]]; then skip image "$no_image"; else stage image image_tests soak "$@"; fi ;;
+    presets) level_presets "$@" ;;
+  esac
+  end_lanes
+  wall=$(($(microseconds) - start))
+  show_table "$wall"
+  end_record "$wall" "$stage_load_sum"
+  show_sum
+}
