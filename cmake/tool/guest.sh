@@ -1,4 +1,4 @@
-# Sourced by flexrf: boots the guest, a PREEMPT_RT machine with devices (image/guest, docs/guest.md), and has it do things.
+# Sourced by flexrf: starts the guest, a PREEMPT_RT machine with devices (image/guest, docs/guest.md), and has it do things.
 # The guest answers each request with a line; nothing is waited for without a limit.
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
@@ -6,6 +6,8 @@ boot_limit=200 # s of the machine's processor time: alone it takes about 5. A ho
 test_limit=${FLEXRF_GUEST_TEST_LIMIT:-1800} # s for one test, which is for what hangs: alone the longest takes five
 long_test_limit=3600 # s for one that has the long tests too: a hundred picks are 11 minutes of the machine's time
 guest_folder=$root/build/guest
+guest_files=$guest_folder/files # what guests take into their memory: each file below its own path
+saved_guest='' # the file of the saved guest; empty when guests are booted
 guest_run='' guest_machine='' guest_console='' guest_pid='' heard='' lost=''
 # Time in the guest as its tests have it: an instruction takes a nanosecond, and while there is none to be carried out the
 # next timer is due at once. A host that is busy makes it slow, and is not seen in it.
@@ -63,31 +65,74 @@ take_kernel() {  # take_kernel ARCHIVE: fails when it is damaged
   tar -C "$guest_folder" -xf "$1"
 }
 
-guest_executables() {  # what is built and may be started in the guest
+make_kernel_once() {  # though several commands may start here at the same time
+  mkdir -p "$guest_folder"
+  (flock 9 && make_kernel 9>&-) 9>"$guest_folder/.lock"
+}
+
+guest_executables() {  # prints what is built and may be started in the guest
   find "$root"/build/release/{guest,apps,hal} -name CMakeFiles -prune -o -type f -perm -100 ! -name '*.so*' -print 2>/dev/null
 }
 
-guest_programs() {  # the tests, and the programs that they start
-  local build=$root/build/release
-  awk -F '\t' -v folder="$build/guest/" 'is == "name" { tests[$1]; print folder $1; next } $1 in tests { print $2 }' \
-    is=name "$build/guest_tests.txt" is=read "$build/tests_read.txt" | sort -u | while read -r program; do
-    [[ -f $program && -x $program ]] && printf '%s\n' "$program"
-  done
+guest_tools() { PATH=$PATH:/usr/sbin:/sbin type -P bash ip; }
+
+needed_libraries() {  # needed_libraries PROGRAM...: prints the shared libraries that the PROGRAMs load
+  local program
+  for program; do ldd "$program" 2>/dev/null || true; done |
+    sed -n -E 's|^\s*(.* => )?(/[^ ]+) \(0x[0-9a-f]+\)$|\2|p' | sort -u
 }
 
-prepare_guest() {  # prepare_guest [PROGRAM...]: what all machines have in common; the PROGRAMs come along
-  local -a executables
-  mkdir -p "$guest_folder"
-  (flock 9 && make_kernel 9>&-) 9>"$guest_folder/.lock" || return
+guest_test_reads() {  # guest_test_reads NAME: prints the files that decide the test's result, beside the guest itself (guest_key)
+  printf '%s\n' "$root/build/release/guest/$1"
+  awk -F '\t' -v name="$1" '$1 == name { print $2 }' "$root/build/release/tests_read.txt"
+}
+
+guest_test_files() {  # guest_test_files NAME: prints the programs that the test consists of and starts, and their libraries
+  local file
+  local -a programs
+  mapfile -t programs < <(guest_test_reads "$1" | while IFS= read -r file; do
+    [[ -f $file && -x $file ]] && printf '%s\n' "$file"
+  done)
+  ((${#programs[@]})) || return
+  printf '%s\n' "${programs[@]}"
+  needed_libraries "${programs[@]}"
+}
+
+guest_key() {  # prints a checksum of all that a guest consists of when it has booted: equal keys, equal guests
+  local -a tools libraries
+  make_kernel_once || return
+  mapfile -t tools < <(guest_tools)
+  mapfile -t libraries < <(needed_libraries "${tools[@]}")
+  {
+    declare -f set_machine save_guest
+    printf '%s\n' "${counted_time[*]}" "$(qemu-system-x86_64 --version)"
+    cd "$root" && find -L build/guest/kernel image/guest /usr/share/seabios "$(type -P qemu-system-x86_64)" "${tools[@]}" \
+      "${libraries[@]}" -type f -print0 2>/dev/null | LC_ALL=C sort -z | xargs -0 b2sum -l 128
+  } | b2sum -l 128 | cut -d ' ' -f 1
+}
+
+prepare_guest() {  # what all machines have in common
+  make_kernel_once || return
   guest_run=$(mktemp -d "${TMPDIR:-/tmp}/flexrf-guest.XXXXXX")
   trap 'stop_guest; rm -rf "$guest_run"' EXIT
-  mapfile -t executables < <(guest_executables)
-  bash "$root/image/guest/make_initramfs.sh" "$guest_folder/kernel" "$guest_run/initramfs" "$@" -- "${executables[@]}"
 }
+
+find_saved_guest() {  # sets saved_guest; boots and saves a guest when there is none of this key that is whole
+  local folder=${cache:-$guest_folder}/guest-saved key
+  key=$(guest_key) || return
+  saved_guest=$folder/$key
+  mkdir -p "$folder" 2>/dev/null &&
+    (flock 9 && { is_whole "$saved_guest" || save_guest "$saved_guest" 9>&-; }) 9>"$folder/.lock" && return
+  saved_guest=''
+}
+
+is_whole() { [[ -f $1 && $(b2sum <"$1") == "$(cat "$1.sum" 2>/dev/null)" ]]; } # is_whole FILE: its checksum is the one beside it
 
 use_machine() {  # use_machine NUMBER: the one that all of the following is about; there may be several, each of a shell's own
   guest_machine=$guest_run/$1
   guest_console=$guest_folder/console-$1.log
+  unattended=(-chardev "file,id=console,path=${guest_console//,/,,},append=on"
+    -chardev null,id=input -chardev null,id=output -chardev null,id=errors)
   : >"$guest_console"
   mkdir "$guest_machine" &&
     mkfifo "$guest_machine"/{control,monitor}.{in,out} &&
@@ -95,9 +140,9 @@ use_machine() {  # use_machine NUMBER: the one that all of the following is abou
       {to_monitor}<>"$guest_machine/monitor.in" {from_monitor}<>"$guest_machine/monitor.out"
 }
 
-start_machine() {  # start_machine [QEMU'S ARGUMENT...]: its standard input and output are the caller's
-  local -a machine=("${guest_time[@]}" -cpu max -m 1024 -nodefaults -no-reboot -display none
-    -kernel "$guest_folder/kernel/vmlinuz" -initrd "$guest_run/initramfs"
+set_machine() {  # sets machine to QEMU's arguments; a guest can be restored with those only that it was saved with
+  machine=("${guest_time[@]}" -cpu max -m 1024 -nodefaults -no-reboot -display none
+    -kernel "$guest_folder/kernel/vmlinuz"
     # Nothing is told of real time here: protection against the processor's own leaks would only cost time, and a host
     # that is busy must not look like a kernel that hangs.
     -append "console=ttyS0 panic=-1 quiet net.ifnames=0 mitigations=off nosoftlockup rcupdate.rcu_cpu_stall_timeout=300"
@@ -106,10 +151,22 @@ start_machine() {  # start_machine [QEMU'S ARGUMENT...]: its standard input and 
     -device isa-serial,chardev=line_a -device isa-serial,chardev=line_b
     -object can-bus,id=bus -device kvaser_pci,canbus=bus -device kvaser_pci,canbus=bus
     -device i6300esb -action watchdog=reset
+    # Its number is another one in each restored machine; the kernel then makes other random numbers.
+    -device vmgenid,guid=auto
     -virtfs "local,path=${root//,/,,},mount_tag=repository,security_model=none,readonly=on"
     -device virtio-serial-pci
     -chardev "pipe,id=control,path=$guest_machine/control" -device virtserialport,chardev=control,name=control
+    -device virtserialport,chardev=input,name=input
+    -device virtserialport,chardev=output,name=output
+    -device virtserialport,chardev=errors,name=errors
     -chardev "pipe,id=monitor,path=$guest_machine/monitor" -mon chardev=monitor,mode=control)
+}
+
+# start_machine QEMU'S ARGUMENT...: they have the character devices console, input, output and errors; standard input and output are
+# the caller's
+start_machine() {
+  local -a machine
+  set_machine
   # It ends with this script, however that ends.
   setpriv --pdeathsig KILL qemu-system-x86_64 "${machine[@]}" "$@" <&0 &
   guest_pid=$!
@@ -124,6 +181,7 @@ machine_seconds() {  # the processor time that the machine has had, s
 # hear [SECONDS [PROCESSOR_SECONDS]]: sets heard to the guest's next line; fails, with the reason in lost, when none comes in time
 hear() {
   local part limit=${1-} processor_limit=${2-} start=$SECONDS
+  if [[ $processor_limit ]]; then processor_limit=$((processor_limit + $(machine_seconds))); fi
   heard=''
   while :; do
     IFS= read -r -t 1 -u "$from_guest" part && heard+=$part && return
@@ -136,7 +194,7 @@ hear() {
       lost="no answer in $limit s"
       return 1
     elif [[ $processor_limit ]] && (($(machine_seconds) > processor_limit)); then
-      lost="no answer in $processor_limit s of its processor"
+      lost="no answer in $2 s of its processor"
       return 1
     fi
   done
@@ -144,12 +202,23 @@ hear() {
 
 tell() { printf '%s\n' "$*" >&"$to_guest"; }
 
-boot_guest() {  # boot_guest [QEMU'S ARGUMENT...]: until it answers
+request() {  # request WORD...: waits for the answer of a machine that may have to come up before
+  tell "$(printf '%q ' "$@")" && hear "$test_limit" "$boot_limit"
+}
+
+boot_machine() {  # boot_machine QEMU'S ARGUMENT...: until it answers
+  local -a tools libraries
+  mapfile -t tools < <(guest_tools)
+  mapfile -t libraries < <(needed_libraries "${tools[@]}")
+  bash "$root/image/guest/make_initramfs.sh" "$guest_folder/kernel" "$guest_machine/initramfs" "${tools[@]}" -- "${libraries[@]}" || return
+  start_machine -initrd "$guest_machine/initramfs" "$@"
+  hear "$test_limit" "$boot_limit"
+}
+
+boot_guest() {  # boot_guest QEMU'S ARGUMENT...: with this folder in it
   local start
   start=$(microseconds)
-  start_machine "$@"
-  if ! hear "$test_limit" "$boot_limit" || ! tell "mount_repository $(printf %q "$root")" ||
-    ! hear "$test_limit" "$boot_limit"; then
+  if ! boot_machine "$@" || ! request mount_repository "$root"; then
     stop_guest
     say "the guest did not boot: $lost. Its console (${guest_console#"$root/"}) ends with:"
     tail -n 60 "$guest_console" | tr -d '\r' >&2
@@ -157,6 +226,54 @@ boot_guest() {  # boot_guest [QEMU'S ARGUMENT...]: until it answers
   fi
   say "booted the guest: $(since "$start")"
 }
+
+# save_guest FILE: boots a guest and writes its state to FILE, with the checksum beside it; other files of FILE's folder are removed.
+# The folder of the repository is not mounted, as QEMU saves no machine with a 9p mount.
+save_guest() (
+  start=$(microseconds) event='' copier=''
+  trap 'stop_guest; [[ $copier ]] && kill "$copier" 2>/dev/null; rm -f "$1.new"' EXIT
+  say "booting the guest once, to save it"
+  use_machine saved && mkfifo "$guest_machine/state" && boot_machine "${unattended[@]}" && request prepare_saving || {
+    say "the guest was not saved: ${lost:-it could not be started}"
+    return 1
+  }
+  cat "$guest_machine/state" >"$1.new" &
+  copier=$!
+  printf '%s\n' '{"execute": "qmp_capabilities"}' \
+    '{"execute": "migrate-set-capabilities", "arguments": {"capabilities": [{"capability": "events", "state": true}]}}' \
+    "{\"execute\": \"migrate\", \"arguments\": {\"uri\": \"exec:cat >'$guest_machine/state'\"}}" >&"$to_monitor"
+  until [[ $event == *'"status": "completed"'* ]]; do
+    IFS= read -r -t "$boot_limit" -u "$from_monitor" event && [[ $event != *'"status": "failed"'* && $event != *'"error"'* ]] || {
+      say "the guest was not saved: ${event:-QEMU did not answer}"
+      return 1
+    }
+  done
+  find "${1%/*}" -type f ! -name .lock ! -name "${1##*/}.new" -delete
+  wait "$copier" && b2sum <"$1.new" >"$1.sum" && mv "$1.new" "$1" || {
+    say "the guest was not saved: ${1%/*} cannot be written"
+    return 1
+  }
+  say "saved the guest: $(since "$start")"
+)
+
+restore_guest() {  # restore_guest QEMU'S ARGUMENT...: the saved guest, with this folder in it; fails when none can be restored
+  local start state
+  [[ -f $saved_guest ]] || return
+  start=$(microseconds)
+  exec {state}<"$saved_guest" || return
+  start_machine -incoming "fd:$state" "$@"
+  exec {state}<&-
+  if request set_clock "$EPOCHSECONDS" && request mount_repository "$root"; then
+    say "restored the guest: $(since "$start")"
+    return
+  fi
+  stop_guest
+  say "the saved guest cannot be restored: $lost. It is removed, and the guest is booted"
+  rm -f "$saved_guest"
+  return 1
+}
+
+start_guest() { restore_guest "$@" || boot_guest "$@"; }
 
 stop_guest() {
   [[ $guest_pid ]] || return 0
@@ -170,8 +287,20 @@ stop_guest() {
   while read -r -t 0.01 -n 4096 -u "$from_monitor"; do :; done
 }
 
-boot_apart() {  # the machine whose console nobody sees unless something fails
-  boot_guest -chardev "file,id=console,path=${guest_console//,/,,},append=on" </dev/null
+# offer_files FILE...: has the guest take the FILEs into its memory, without what is for debuggers. The copies that guests take them
+# from are made when a FILE is another one.
+offer_files() {
+  local file copy
+  for file; do
+    copy=$guest_files$file
+    [[ -f $copy && ! $copy -nt $file && ! $copy -ot $file ]] && continue
+    mkdir -p "${copy%/*}" && strip -p -o "$copy.$BASHPID" "$file" && mv "$copy.$BASHPID" "$copy" || {
+      lost="$file could not be copied to $copy"
+      return 1
+    }
+  done
+  request take_files "$@" || return
+  [[ $heard == taken ]] || { lost="the guest has not taken $heard into its memory" && return 1; }
 }
 
 guest_console() {  # a shell in the guest, for the person at this terminal
@@ -179,7 +308,8 @@ guest_console() {  # a shell in the guest, for the person at this terminal
   read -r rows columns < <(stty size)
   guest_time=("${real_time[@]}")
   use_machine 1 || return
-  boot_guest -chardev "stdio,id=console,signal=off,logfile=${guest_console//,/,,}" || return
+  boot_guest -chardev "stdio,id=console,signal=off,logfile=${guest_console//,/,,}" "${unattended[@]:2}" || return
+  offer_libraries || say "$lost"
   say "exit leaves the guest"
   tell "run_console $rows $columns"
   hear || say "$lost"
@@ -187,22 +317,28 @@ guest_console() {  # a shell in the guest, for the person at this terminal
   stty sane
 }
 
+offer_libraries() {  # those of all that is built
+  local -a executables libraries
+  mapfile -t executables < <(guest_executables)
+  mapfile -t libraries < <(needed_libraries "${executables[@]}")
+  offer_files "${libraries[@]}"
+}
+
 guest_command() {  # guest_command WORD...: with this standard input unless it is a terminal; ends with its exit code
   local input=stdio,signal=on name status=0
-  local -a ports=()
+  local -a files=()
   [[ -t 0 ]] && input=null
+  find_saved_guest
   use_machine 1 || return
   # Files take whatever comes, so that nothing is under way any more when the machine is stopped.
   for name in output errors; do
     : >"$guest_machine/$name"
-    ports+=(-chardev "file,id=$name,path=$guest_machine/$name" -device "virtserialport,chardev=$name,name=$name")
+    files+=(-chardev "file,id=$name,path=$guest_machine/$name")
   done
-  boot_guest -chardev "file,id=console,path=${guest_console//,/,,},append=on" \
-    -chardev "$input,id=input" -device virtserialport,chardev=input,name=input "${ports[@]}" || return
+  start_guest "${unattended[@]:0:2}" -chardev "$input,id=input" "${files[@]}" || return
   tail -q -c +1 -f --pid="$guest_pid" "$guest_machine/output" &
   tail -q -c +1 -f --pid="$guest_pid" "$guest_machine/errors" >&2 &
-  tell "run_command$(printf ' %q' "$@")"
-  hear || status=1
+  offer_libraries && tell "run_command$(printf ' %q' "$@")" && hear || status=1
   stop_guest
   wait
   if ((status)); then
@@ -244,25 +380,31 @@ await_reset() {  # await_reset REQUEST SECONDS: while the machine does this its 
   [[ $heard == ready ]] || { lost="its watchdog did not reset the machine" && return 1; }
   was_watchdog || return
   when_reset shutdown
-  tell "mount_repository $(printf %q "$root")" && hear "$test_limit"
+  request mount_repository "$root"
 }
 
 test_request() { printf 'run_test' && printf ' %q' "$mark" "$limit" "$setting" "$root/build/release/guest/$1"; }
 
 guest_test() {  # guest_test NAME: sets result, taken (microseconds) and told, what is to be read when it did not pass
-  local mark="end of $1" setting="FLEXRF_LONG=${FLEXRF_LONG-}" offset status limit=$test_limit
+  local mark="end of $1" setting="FLEXRF_LONG=${FLEXRF_LONG-}" offset status limit=$test_limit start=start_guest resets=''
+  local -a files
   [[ ${FLEXRF_LONG-} ]] && limit=$long_test_limit
   told=''
-  if [[ $guest_pid == '' ]] && { ((unbootable)) || ! boot_apart; }; then
+  if [[ $1 == *_reset_guest_test ]]; then # on a machine that was booted: a restored one has nothing to boot from
+    resets=1 start=boot_guest
+    stop_guest
+  fi
+  if [[ $guest_pid == '' ]] && { ((unbootable)) || ! "$start" "${unattended[@]}" </dev/null; }; then
     result='Not Run' taken=0 unbootable=1
     return
   fi
   offset=$(stat -c %s "$guest_console")
   lost=''
-  if [[ $1 == *_reset_guest_test ]]; then # run until the machine is reset, and once more after it
-    await_reset "$(test_request "$1")" $((limit + 60)) && setting=FLEXRF_AFTER_RESET=1
+  mapfile -t files < <(guest_test_files "$1")
+  if [[ $resets ]]; then # run until the machine is reset, and once more after it
+    offer_files "${files[@]}" && await_reset "$(test_request "$1")" $((limit + 60)) && setting=FLEXRF_AFTER_RESET=1
   fi
-  if [[ $lost == '' ]] && tell "$(test_request "$1")" && hear $((limit + 60)); then
+  if [[ $lost == '' ]] && offer_files "${files[@]}" && tell "$(test_request "$1")" && hear $((limit + 60)); then
     read -r status taken <<<"$heard"
     case $status in
       0) result=Passed ;;
@@ -277,7 +419,7 @@ guest_test() {  # guest_test NAME: sets result, taken (microseconds) and told, w
   [[ $result == Passed ]] || told=$(printf 'The console of the guest during %s:\n' "$1" && show_console "$offset" "$mark")
   # QEMU's CAN controllers are read from another place than they are written at once the machine was reset: they would tell
   # frames of before.
-  if [[ $1 == *_reset_guest_test ]]; then stop_guest; fi
+  if [[ $resets ]]; then stop_guest; fi
 }
 
 next_test() {  # prints the number of the one that is nobody's yet; fails when there is none
@@ -314,13 +456,13 @@ guest_report() {  # guest_report NUMBER NAME RESULT MICROSECONDS TEXT: a line as
 
 guest_tests() {  # guest_tests [NAME...]: these or all, in a machine for each of this one's CPUs; counts them
   local machine failed name
-  local -a names programs machines=()
+  local -a names machines=()
   mapfile -t names <"$root/build/release/guest_tests.txt"
   for name; do known_word "test in the guest" "$name" "${names[@]}"; done
   (($#)) && names=("$@")
-  mapfile -t programs < <(guest_programs)
   # What did not build is a test that fails.
-  ((${#names[@]})) && prepare_guest "${programs[@]}" || { count 1 1; return 1; }
+  ((${#names[@]})) && prepare_guest || { count 1 1; return 1; }
+  find_saved_guest
   : >"$guest_run/failed"
   printf '0\n' >"$guest_run/taken"
   for ((machine = 1; machine <= $(nproc) && machine <= ${#names[@]}; ++machine)); do

@@ -1,11 +1,11 @@
 # Sourced after stand_in.sh: a stand-in for QEMU and what is in it, which answers as image/guest/init does. The tests `first`
 # and `second` are in it. What a test does there is in $work/guest/NAME: nothing (it passes), `ends STATUS`, `takes the
-# machine down`, `meets NAME` (it passes when that one has begun too), or `resets` (its watchdog resets the machine). What
-# does not boot is told by $work/guest/broken. The host has as many CPUs as $work/guest/cpus says, or one.
+# machine down`, `meets NAME` (it passes when that one has begun too), or `resets` (its watchdog resets the machine). With
+# $work/guest/broken no machine boots. A saved machine is a file "the machine". The host has as many CPUs as $work/guest/cpus says, or one.
 # shellcheck shell=bash disable=SC2154 # tree and work are stand_in.sh's
 
 mkdir -p "$tree/image/guest" "$tree/build/release" "$work/guest"
-touch "$tree/image/guest/modules.txt"
+touch "$tree/image/guest/modules.txt" "$tree/build/release/tests_read.txt"
 echo 'mkdir -p "$1"' >"$tree/image/guest/fetch_kernel.sh"
 echo 'touch "$2"' >"$tree/image/guest/make_initramfs.sh"
 printf '%s\n' first second >"$tree/build/release/guest_tests.txt"
@@ -17,8 +17,11 @@ stand_in nproc <<'BODY'
 cat "$STAND_IN/guest/cpus" 2>/dev/null || echo 1
 BODY
 stand_in qemu-system-x86_64 <<'BODY'
+[[ $1 == --version ]] && { echo "QEMU emulator version 7.2"; exit 0; }
+state=''
 for word; do
   case $word in
+    fd:*) read -r state <&"${word#fd:}" ;;
     pipe,id=control,path=*) control=${word#pipe,id=control,path=} ;;
     pipe,id=monitor,path=*) monitor=${word#pipe,id=monitor,path=} ;;
     file,id=console,path=*) console=${word#file,id=console,path=} console=${console%,append=on} ;;
@@ -26,9 +29,22 @@ for word; do
     file,id=errors,path=*) errors=${word#file,id=errors,path=} ;;
   esac
 done
-exec 7<>"$monitor.out" 8<>"$control.in" 9<>"$control.out"
-[[ -e $STAND_IN/guest/broken ]] && { echo "Kernel panic" >>"$console"; exit 0; }
+exec 6<>"$monitor.in" 7<>"$monitor.out" 8<>"$control.in" 9<>"$control.out"
+[[ $state || ! -e $STAND_IN/guest/broken ]] || { echo "Kernel panic" >>"$console"; exit 0; }
+[[ ${state:-the machine} == "the machine" ]] || exit 1
 mount_repository() { echo mounted >&9; }
+set_clock() { echo set >&9; }
+take_files() { echo taken >&9; }
+prepare_saving() {
+  local command
+  echo prepared >&9
+  while IFS= read -r -u 6 command; do
+    [[ $command == *exec:* ]] || continue
+    command=${command#*exec:}
+    sh -c "${command%%\"*}" <<<"the machine"
+    echo '{"event": "MIGRATION", "data": {"status": "completed"}}' >&7
+  done
+}
 run_test() {
   local does='' word status
   echo "hello from ${4##*/}, with $3" >>"$console"
@@ -53,6 +69,6 @@ run_command() {
   echo "an error" >"$errors"
   echo 7 >&9
 }
-echo ready >&9
+[[ $state ]] || echo ready >&9
 while IFS= read -r -u 8 request; do eval "$request"; done
 BODY
