@@ -167,14 +167,16 @@ pack_root() {  # pack_root FOLDER OUTPUT
 
 mib() { printf '%d MiB\n' $((($1 + 1048575) / 1048576)); } # mib BYTES
 
+# The same inputs give the same image: the time of its files is that of the last commit, unless the environment has another.
+time_of_version() { printf '%s\n' "${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%ct 2>/dev/null || date +%s)}"; }
+
 # The two partitions of a version, of which disks and bundles are made.
 make_version() {  # make_version WORK APPLICATION product|test [ARGUMENT...]: boot.img, root.img and identity/version in WORK
   local work=$1 application=$2 variant=$3 options pc=$root/apps/$2/pc
   shift 3
   umask 022
   [[ -f $pc/machine.conf ]] || pc=$disk_scripts
-  # The same inputs give the same image: the time of files is that of the last commit.
-  SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%ct 2>/dev/null || date +%s)}
+  SOURCE_DATE_EPOCH=$(time_of_version)
   export SOURCE_DATE_EPOCH
   [[ $development_key ]] || choose_keys # the command has done so before it built
   "$root/build/release/apps/$application/$application" --descriptor </dev/null >"$work/descriptor" || die "the application does not say what it is"

@@ -2,7 +2,7 @@
 # begins with a copy of a disk that was claimed, and knows by the console and the panel what became of it.
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
-claimed_disk() { cp --sparse=always "$pc_folder/product.img" "$1"; } # claimed_disk COPY
+claimed_disk() { need_claimed_pc && cp --sparse=always "$claimed/bios.img" "$1"; } # claimed_disk COPY
 
 overwrite_data() {  # overwrite_data DISK FROM KIB: so much of data is what somebody else wrote there
   local first
@@ -18,21 +18,24 @@ asks_with_certificate() {  # with the panel's certificate as the only one that i
 
 time_of_pc() { date -d "$(ask_panel '' -I | sed -n 's/^Date: *//Ip' | tr -d '\r')" +%s; }
 
-# Neither the superblock nor a copy of it is left, and the clock has lost its battery: the PC is one that nobody has claimed.
+# Neither the superblock nor a copy of it is left, a copy of the boot choice is damaged, and the clock has lost its battery: the PC is one that
+# nobody has claimed.
 data_beyond_repair() {
   local disk=$pc_folder/damaged.img now
   pc_disk=()
-  claimed_disk "$disk" && overwrite_data "$disk" 0 200000 && start_pc damaged bios "$disk" -no-reboot -rtc base=2001-01-01T00:00:00 &&
+  claimed_disk "$disk" && overwrite_data "$disk" 0 200000 && printf 'damaged' >"$pc_folder/choice1.env" &&
+    mcopy -o -i "$disk@@2M" "$pc_folder/choice1.env" ::flexrf/ && start_pc damaged bios "$disk" -no-reboot -rtc base=2001-01-01T00:00:00 &&
     await_line 'data was damaged beyond repair, and is made anew' && await_line 'motion is not permitted: nobody has claimed this PC' &&
-    claim_pc && await_line 'the cell runs' && log_in && asks_with_certificate && now=$(time_of_pc) || return
+    claim_pc && await_line 'the cell runs' && log_in && await_machine '.notices | any(test("choice1.env is damaged"))' && asks_with_certificate && now=$(time_of_pc) || return
   # That of the version, which systemd takes for one that stands before it.
-  ((now >= $(<"$pc_folder/time_of_version") && now < $(date +%s))) || { echo "the PC's clock says $now" && return 1; }
-  ! fingerprint | grep -F -f "$pc_folder/fingerprint" || { echo "the key that was lost is there" && return 1; }
+  ((now >= time_of_test_version && now < $(date +%s))) || { echo "the PC's clock says $now" && return 1; }
+  ! fingerprint | grep -F -f "$claimed/fingerprint" || { echo "the key that was lost is there" && return 1; }
 }
 
 # What was made anew is there the next time, and nothing is said of it.
 data_made_anew_stays() {
   pc_disk=()
+  [[ -f $pc_folder/damaged.img ]] || { data_beyond_repair && stop_pc; } || return
   start_pc anew bios "$pc_folder/damaged.img" -no-reboot && await_line 'the cell runs' && log_in || return
   ! console_lines | grep -E 'data was|first boot|has claimed'
 }
@@ -43,7 +46,7 @@ data_is_repaired() {
   pc_disk=()
   claimed_disk "$disk" && overwrite_data "$disk" 1 1 && start_pc repaired bios "$disk" -no-reboot &&
     await_line 'data was badly damaged, and is repaired' && await_line 'the cell runs' && log_in || return
-  [[ $(fingerprint) == "$(<"$pc_folder/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
+  [[ $(fingerprint) == "$(<"$claimed/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
 }
 
 fill_data() {  # fill_data DISK: a file takes every block that is free

@@ -6,19 +6,17 @@
 menu_hash=grub.pbkdf2.sha512.1000.7E5D4FAFDB2098C8.5DB7F1F70FB7DB2EB871F501C918E88FB475C3B15FAD0C4FE17B445657CBC7C0
 
 start_pc_at_screen() {  # start_pc_at_screen NAME DISK: what it writes is lost
-  rm -f "$pc_folder/$1".monitor.{in,out}
-  mkfifo "$pc_folder/$1".monitor.{in,out} && exec {to_screen}<>"$pc_folder/$1.monitor.in" {from_screen}<>"$pc_folder/$1.monitor.out" || return
   # shellcheck disable=SC2054 # the commas are QEMU's
   pc_disk=(-drive "file=${2//,/,,},format=raw,if=none,id=disk,snapshot=on" -device ide-hd,drive=disk)
-  start_pc "$1" bios "$2" -no-reboot -monitor "pipe:${pc_folder//,/,,}/$1.monitor"
+  start_pc "$1" bios "$2" -no-reboot
 }
 
 press() {  # press KEY...: by QEMU's names
   local key
   for key; do
-    printf 'sendkey %s\n' "$key" >&"$to_screen"
+    printf 'sendkey %s\n' "$key" >&"$to_monitor"
     sleep 0.15
-    while read -r -t 0.01 -n 4096 -u "$from_screen"; do :; done # what QEMU says to it
+    while read -r -t 0.01 -n 4096 -u "$from_monitor"; do :; done # what QEMU says to it
   done
 }
 
@@ -34,7 +32,7 @@ type_text() {  # type_text TEXT: and Enter
 screen() {
   local text=$pc_folder/screen.text
   rm -f "$text"
-  printf 'pmemsave 0xb8000 4000 "%s"\n' "$text" >&"$to_screen"
+  printf 'pmemsave 0xb8000 4000 "%s"\n' "$text" >&"$to_monitor"
   until [[ $(stat -c %s "$text" 2>/dev/null) == 4000 ]]; do kill -0 "$pc_pid" 2>/dev/null && sleep 0.05 || return; done
   # A character and its colours, 80 times in a line.
   od -A n -v -t u1 -w2 "$text" | awk '{ printf "%c", ($1 >= 32 && $1 < 127) ? $1 : 32 } NR % 80 == 0 { print "" }' | sed 's/ *$//; /^$/d'
@@ -61,11 +59,11 @@ refuses() {  # refuses KEY USER PASSWORD: what the key would do is asked a passw
 
 # Nobody may edit an entry, get a command line, or choose another entry than the first, but who knows the password; and without one, nobody.
 grubs_menu_wants_a_password() {
-  start_pc_at_screen menu "$pc_folder/product.img" && await_screen "$menu" esc &&
+  need_claimed_pc && start_pc_at_screen menu "$claimed/bios.img" && await_screen "$menu" esc &&
     refuses e service 'a guess' && refuses c root 'only for this test' && press down && await_screen '^  \*FlexRF, version A' && press ret &&
     await_screen '^Enter username:' && type_text service && await_screen '^Enter password:' && type_text 'only for this test' &&
     await_line 'the cell runs' && log_in && await_machine '.slot == "A" and .boot == "manual"' || return
   stop_pc
-  cp --sparse=always "$pc_folder/product.img" "$pc_folder/locked.img" && mdel -i "$pc_folder/locked.img@@2M" ::grub/password.cfg &&
+  cp --sparse=always "$claimed/bios.img" "$pc_folder/locked.img" && mdel -i "$pc_folder/locked.img@@2M" ::grub/password.cfg &&
     start_pc_at_screen locked "$pc_folder/locked.img" && await_screen "$menu" esc && refuses c service 'only for this test'
 }

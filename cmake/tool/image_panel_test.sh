@@ -3,12 +3,12 @@
 # are the product's.
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
-product_and_update_are_made() (  # a disk, and a bundle with another version for it
+make_product_update() (  # a bundle with another version, of what the claimed PC runs
   work=$pc_folder/product
-  mkdir "$work" && git -C "$root" log -1 --format=%ct >"$pc_folder/time_of_version" || return
-  image_version=first image_boot_password=$menu_hash
-  make_version "$work" pick-station product && make_disk "$work" pick-station "$pc_folder/product.img" &&
-    unsquashfs -q -n -d "$work/root" "$work/root.img" >/dev/null && pack_changed "$work" second "$pc_folder/second.raucb" && rm -rf "$work"
+  rm -rf "$work"
+  mkdir -p "$work/identity" && take_partition "$claimed/bios.img" root-a "$work/packed" && take_partition "$claimed/bios.img" boot-a "$work/boot.img" &&
+    unsquashfs -q -n -d "$work/root" "$work/packed" >/dev/null && cp "$work/root/usr/lib/flexrf/version" "$work/identity/" &&
+    version_of_test pack_changed "$work" second "$pc_folder/second.raucb" && rm -rf "$work"
 )
 
 machine() { ask_panel api/v1/machine -b "$pc_folder/cookies" >"$pc_folder/machine.json" && jq -r "$1" "$pc_folder/machine.json"; } # machine FILTER: of what the PC tells
@@ -71,14 +71,14 @@ send_bundle() {  # send_bundle FILE
   [[ $status =~ ^\ *[0-9]+\ 200$ ]] || { printf 'the parts were answered: %s; the last: %s\n' "$status" "$(<"$pc_folder/answer.json")" && return 1; }
 }
 
-# By UEFI. What is sent is installed while the cell rests, and starts on trial; the address that was kept is that of the new version, too.
+# By UEFI, from where second_boot_by_uefi has left the PC. What is sent is installed while the cell rests, and starts on trial; the address that
+# was kept is that of the new version, too.
 an_admin_at_the_panel() {
-  local pc_limit=1500
-  cp --sparse=always "$pc_folder/product.img" "$pc_folder/admin.img" &&
-    printf 'damaged' >"$pc_folder/choice1.env" && mcopy -o -i "$pc_folder/admin.img@@2M" "$pc_folder/choice1.env" ::flexrf/ &&
-    start_pc admin uefi "$pc_folder/admin.img" && await_line 'motion is permitted' && no_complaint && log_in &&
-    await_machine '.version == "first" and .slot == "A" and .boot == "confirmed" and .development_key' &&
-    await_machine '.notices | length == 1 and (.[0] | test("choice1.env is damaged"))' && another_address_is_kept &&
+  local pc_limit=1500 uefi
+  need_claimed_pc && make_product_update && once uefi second_boot_by_uefi && uefi=$(kept uefi) &&
+    cp --sparse=always "$uefi/uefi.img" "$pc_folder/admin.img" && cp "$uefi/uefi.variables" "$pc_folder/admin.variables" &&
+    restore_pc "$uefi/uefi.memory" admin uefi "$pc_folder/admin.img" && log_in &&
+    await_machine '.version == "first" and .slot == "A" and .boot == "confirmed" and .development_key' && another_address_is_kept &&
     send_bundle "$pc_folder/second.raucb" && await_machine '.update.phase == "verified" and .update.version == "second" and (.update.older | not)' &&
     ask_machine 200 install && await_machine '.update.phase == "installed"' &&
     await_machine '.motion == "an update was installed: the PC has to be restarted" and .slots.B.whole and .slots.B.primary' &&

@@ -4,19 +4,40 @@
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
 power_saves=50
-cut_points=40 cut_boots=3
-[[ ${FLEXRF_LONG-} ]] && cut_points=300 cut_boots=30
 
-# start_recorded_pc NAME DISK [OPTION OF QEMU...]: by BIOS; what it writes is in NAME.log, and the disk as it was in NAME.base
-start_recorded_pc() {
-  cp --sparse=always "$2" "$pc_folder/$1.base" && : >"$pc_folder/$1.log" && : >"$pc_folder/$1.promises" || return
+# Partitions that only an update writes; a recording of anything else does without their contents.
+punch_versions() {  # punch_versions DISK: what the slots hold becomes a hole, which takes no time to copy
+  local name first size
+  for name in boot-a boot-b root-a root-b; do
+    read -r first size < <(partition_of "$1" "$name") || return
+    fallocate --punch-hole --offset $((first * 512)) --length $((size * 512)) "$1" || return
+  done
+}
+
+fill_versions() {  # fill_versions DISK FROM: the holes get the contents of slot A as another disk has them
+  local name first size
+  for name in boot-a root-a; do
+    read -r first size < <(partition_of "$1" "$name") || return
+    dd if="$2" of="$1" bs=1M skip=$((first / 2048)) seek=$((first / 2048)) count=$((size / 2048)) conv=notrunc,sparse status=none || return
+  done
+}
+
+disk_of_log() {  # disk_of_log NAME DISK [append]: sets pc_disk to a disk whose writes are recorded in NAME.log, behind what is there or anew
+  local how=log-sector-size=512
+  [[ ! ${3-} ]] || how=log-append=on
   recording=$1
   # shellcheck disable=SC2054 # the commas are QEMU's
   pc_disk=(-blockdev "driver=file,node-name=disk-file,filename=${2//,/,,},discard=ignore"
     -blockdev driver=raw,node-name=disk,file=disk-file,discard=ignore
     -blockdev "driver=file,node-name=log-file,filename=${pc_folder//,/,,}/$1.log"
-    -blockdev driver=blklogwrites,node-name=recorded,file=disk,log=log-file,log-sector-size=512,log-super-update-interval=1
+    -blockdev "driver=blklogwrites,node-name=recorded,file=disk,log=log-file,$how,log-super-update-interval=1"
     -device virtio-blk-pci,drive=recorded,bootindex=0,discard=off,write-zeroes=off)
+}
+
+# start_recorded_pc NAME DISK [OPTION OF QEMU...]: by BIOS; what it writes is in NAME.log, and the disk as it was in NAME.base
+start_recorded_pc() {
+  cp --sparse=always "$2" "$pc_folder/$1.base" && : >"$pc_folder/$1.log" && : >"$pc_folder/$1.promises" || return
+  disk_of_log "$1" "$2"
   start_pc "$1" bios "$2" "${@:3}"
 }
 
@@ -167,21 +188,21 @@ check_boot() {  # check_boot WORK RECORDING POINT: GRUB starts A, the only slot 
 }
 
 # A disk like this is in the PC when somebody switches it on again.
-boots_again() {  # boots_again WORK
+boots_again() {  # boots_again DISK: without the contents of slot A
   pc_disk=()
-  mv "$1/cut" "$pc_folder/cut.img" && start_pc cut bios "$pc_folder/cut.img" -no-reboot || return
+  fill_versions "$1" "$claimed/bios.img" && start_pc cut bios "$1" -no-reboot || return
   # Claimed or not: either the cell runs, or its page is there for whoever comes.
   await_line 'the cell runs|Nobody has claimed this PC' && panel_answers && no_complaint
   local status=$?
   stop_pc
-  rm -f "$pc_folder/cut.img"
+  rm -f "$1"
   return "$status"
 }
 
 # Points anywhere, and those behind each promise but the saves': what it needs may be lost for a few writes only.
-points_of() {  # points_of RECORDING COUNT
+points_of() {  # points_of RECORDING COUNT SEED
   {
-    power_cut points "$1" --count "$2" --seed 1 || return
+    power_cut points "$1" --count "$2" --seed "$3" || return
     awk -v last="$(recording=$1 recorded_entries)" '$2 != "saved" { for (point = $1; point < $1 + 8 && point <= last; ++point) print point }' \
       "$pc_folder/$1.promises"
   } | sort -n -u
@@ -196,21 +217,56 @@ judge() {  # judge RECORDING POINT WORK: the disk that a cut there may leave
   return "$status"
 }
 
-what_a_power_cut_leaves() {
-  local point work=$pc_folder/cut wrong=0 looked=0 boots=0 points every
-  power_cut describe bios || return
-  points=$(points_of bios "$cut_points") || return
-  every=$(($(wc -l <<<"$points") / cut_boots))
-  for point in $points; do
-    if ! judge bios "$point" "$work"; then
-      wrong=$((wrong + 1))
-    elif ((++looked % every == every / 2 && boots < cut_boots)); then
-      boots=$((boots + 1))
-      boots_again "$work" || { echo "booted at point $point" && wrong=$((wrong + 1)); }
+# The recording of the first boot goes on with saves of the configuration, of the PC as it was kept.
+record_saves() {
+  need_claimed_pc && cp --sparse=always "$claimed"/bios.{img,base,log,promises} "$pc_folder/" || return
+  disk_of_log bios "$pc_folder/bios.img" append
+  restore_pc "$claimed/bios.memory" bios bios "$pc_folder/bios.img" -no-reboot && log_in && save_often || return
+  stop_pc
+  keep cuts "$pc_folder"/bios.{base,log,promises}
+}
+
+need_recording() {  # need_recording NAME KEPT COMMAND...: its files are in pc_folder; the command makes and keeps them
+  once "$2" "${@:3}" && recorded=$(kept "$2") && cp --sparse=always "$recorded/$1".{base,log,promises} "$pc_folder/"
+}
+
+# judge_points PROGRESS BOOTS JUDGE RECORDING < POINTS: points that stand in PROGRESS as right are not judged again; of all points so
+# many are booted that were found right
+judge_points() {
+  local progress=$1 boots=$2 judge=$3 recording=$4 point number=0 wrong=0 fresh=0 booted=0 every work=$pc_folder/cut result
+  local -a points
+  mapfile -t points
+  every=$((boots ? ${#points[@]} / boots : ${#points[@]} + 1))
+  touch "$progress"
+  for point in "${points[@]}"; do
+    number=$((number + 1))
+    grep -q -x "$point right" "$progress" && continue
+    fresh=$((fresh + 1)) result=right
+    if ! "$judge" "$recording" "$point" "$work"; then
+      result=wrong
+    elif ((number % every == every / 2)); then
+      booted=$((booted + 1))
+      boots_again "$work/cut" || { echo "booted at point $point" && result=wrong; }
     fi
+    [[ $result == right ]] || wrong=$((wrong + 1))
+    printf '%s %s\n' "$point" "$result" >>"$progress"
   done
-  printf '%d points, %d wrong, %d booted\n' "$(wc -l <<<"$points")" "$wrong" "$boots"
-  ((wrong == 0 && boots == cut_boots))
+  printf '%d points, %d of them judged now, %d wrong, %d booted\n' "${#points[@]}" "$fresh" "$wrong" "$booted"
+  ((wrong == 0))
+}
+
+cuts_of_recording() {  # cuts_of_recording COUNT SEED BOOTS PROGRESS: of the first boot and the saves
+  local points
+  need_claimed_pc && need_recording bios cuts record_saves && power_cut describe bios && points=$(points_of bios "$1" "$2") || return
+  judge_points "$4" "$3" judge bios <<<"$points"
+}
+
+what_a_power_cut_leaves() { cuts_of_recording 40 1 3 "$pc_folder/judged"; }
+more_power_cuts() { cuts_of_recording 80 2 5 "$pc_folder/judged.more"; }
+
+# Goes on where it was interrupted, as long as the recording is that of the same image.
+campaign_of_power_cuts() {
+  need_claimed_pc && once cuts record_saves && cuts_of_recording 300 3 30 "$(kept cuts)/progress"
 }
 
 change_root() {  # change_root DISK FUNCTION: the function changes the root of slot A, unpacked in the folder that it is given
@@ -237,16 +293,21 @@ flexrf-helper /boot/efi/flexrf/choice?.env
 TEXT
 }
 
-# The same recording of programs with a flush less each, and the same judgement: it has to find what each of them loses.
+# The same recording of programs with a flush less each, and the same judgement: it has to find what each of them loses. It looks at
+# points in a random order until it has found all three losses.
 a_missing_flush_is_found() {
-  local point kind wrong=0 points found
-  cp --sparse=always "$pc_folder/bios.base" "$pc_folder/twin.img" && change_root "$pc_folder/twin.img" leave_out_flushes &&
-    start_recorded_pc twin "$pc_folder/twin.img" -no-reboot && record_first_boot || return
+  local disk=$pc_folder/twin.img kind points point found='' looked=0 wrong=0
+  need_claimed_pc && cp --sparse=always "$claimed/bios.base" "$disk" && fill_versions "$disk" "$claimed/bios.img" && change_root "$disk" leave_out_flushes &&
+    start_recorded_pc twin "$disk" -no-reboot && record_first_boot && save_often || return
   stop_pc
-  points=$(points_of twin 300) || return
-  found=$(for point in $points; do judge twin "$point" "$pc_folder/cut"; done)
+  punch_versions "$pc_folder/twin.base" && points=$(points_of twin 300 1 | shuf --random-source=<(yes)) || return
+  for point in $points; do
+    found+=$'\n'$(judge twin "$point" "$pc_folder/cut")
+    looked=$((looked + 1))
+    [[ $found == *$'\nlost users'* && $found == *$'\nlost configuration'* && $found == *$'\nlost choice'* ]] && break
+  done
   for kind in users configuration choice; do
-    printf '%s: lost at %d of %d points\n' "$kind" "$(grep -c "^lost $kind" <<<"$found")" "$(wc -l <<<"$points")"
+    printf '%s: lost at %d of %d points\n' "$kind" "$(grep -c "^lost $kind" <<<"$found")" "$looked"
     grep -q "^lost $kind" <<<"$found" || wrong=1
   done
   return "$wrong"

@@ -3,20 +3,33 @@
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
 pc_limit=400 # s of the machine's processor time until a PC has come up: alone it takes 60. A host that does much else gives it as much as it likes
-pc_folder=$root/build/image/test
+pc_shared=$root/build/image/test # of all groups of tests; each has a folder in it
+pc_folder=$pc_shared
 pc_console='' pc_pid='' pc_port='' pc_began=0
 pc_disk=() # options of QEMU for a disk other than an ordinary one
 firmware_of_uefi=/usr/share/OVMF/OVMF_CODE_4M.fd variables_of_uefi=/usr/share/OVMF/OVMF_VARS_4M.fd
+ticks_per_second=$(getconf CLK_TCK)
+# The time of each version of the tests, so that the same inputs give the same image, whatever the last commit is.
+time_of_test_version=1767225600
 
-start_pc() {  # start_pc NAME bios|uefi DISK [OPTION OF QEMU...]: its panel is at pc_port
+# shellcheck source=cmake/tool/image_kept.sh
+source "$tool/image_kept.sh"
+
+# start_pc NAME bios|uefi DISK [OPTION OF QEMU...]: its panel is at pc_port, its monitor reads to_monitor and answers in from_monitor
+start_pc() {
   local -a machine
+  local monitor=$pc_folder/$1.monitor
   pc_console=$pc_folder/$1.console
+  printf '%s\n' "$1" >"$pc_folder/machine" # whose console tells why a test failed
   pc_port=$((20000 + RANDOM % 5000 * 2)) # and the next one, for another address
   : >"$pc_console"
   pc_began=$SECONDS
+  rm -f "$monitor".{in,out}
+  mkfifo "$monitor".{in,out} && exec {to_monitor}<>"$monitor.in" {from_monitor}<>"$monitor.out" || return
   # shellcheck disable=SC2054 # the commas are QEMU's
   machine=(-machine q35 -accel tcg -cpu max -smp 2 -m 1024 -display none -device i6300esb -watchdog-action reset
-    -nic "user,model=e1000e,hostfwd=tcp:127.0.0.1:$pc_port-:8443,hostfwd=tcp:127.0.0.1:$((pc_port + 1))-10.0.2.16:8443" -serial "file:${pc_console//,/,,}" "${@:4}")
+    -nic "user,model=e1000e,hostfwd=tcp:127.0.0.1:$pc_port-:8443,hostfwd=tcp:127.0.0.1:$((pc_port + 1))-10.0.2.16:8443"
+    -serial "file:${pc_console//,/,,}" -monitor "pipe:${monitor//,/,,}" "${@:4}")
   if ((${#pc_disk[@]})); then
     machine+=("${pc_disk[@]}")
   else
@@ -24,7 +37,7 @@ start_pc() {  # start_pc NAME bios|uefi DISK [OPTION OF QEMU...]: its panel is a
     machine+=(-drive "file=${3//,/,,},format=raw,if=none,id=disk" -device ide-hd,drive=disk)
   fi
   if [[ $2 == uefi ]]; then
-    cp "$variables_of_uefi" "$pc_folder/$1.variables" || return
+    [[ -f $pc_folder/$1.variables ]] || cp "$variables_of_uefi" "$pc_folder/$1.variables" || return
     machine+=(-drive "if=pflash,format=raw,readonly=on,file=$firmware_of_uefi"
       -drive "if=pflash,format=raw,file=${pc_folder//,/,,}/$1.variables")
   fi
@@ -38,6 +51,34 @@ stop_pc() {  # as when the power goes, with what it had written on the disk
   kill -KILL "$pc_pid" 2>/dev/null
   wait "$pc_pid" 2>/dev/null
   pc_pid=''
+  exec {to_monitor}>&- {from_monitor}>&-
+}
+
+# save_pc FILE: writes its memory and the state of its devices, and ends it; its disk stays as it is at that moment
+save_pc() {
+  local said='' part file=${1//,/,,}
+  printf '%s\n' 'migrate_set_parameter max-bandwidth 10G' "migrate \"exec:zstd -q -1 -T1 -f -o '$file'\"" 'info migrate' quit >&"$to_monitor"
+  while kill -0 "$pc_pid" 2>/dev/null; do
+    (($(pc_seconds) <= pc_limit)) || { echo "in $pc_limit s of its processor the PC was not saved" && return 1; }
+    while IFS= read -r -t 0.2 -u "$from_monitor" part; do said+=$part$'\n'; done
+  done
+  while IFS= read -r -t 0.01 -u "$from_monitor" part; do said+=$part$'\n'; done
+  stop_pc
+  [[ $said == *'Migration status: completed'* ]] || { printf 'the PC was not saved: %s\n' "$said" && return 1; }
+}
+
+# restore_pc FILE NAME bios|uefi DISK [OPTION OF QEMU...]: goes on where save_pc had ended a PC with the same devices; its console begins anew
+restore_pc() {
+  local said='' part
+  start_pc "${@:2}" -incoming "exec:zstd -q -d -c '${1//,/,,}'" || return
+  until [[ $said == *'VM status: running'* ]]; do
+    if ! kill -0 "$pc_pid" 2>/dev/null || (($(pc_seconds) > pc_limit)); then
+      printf 'the PC does not go on where it was saved: %s\n' "$(<"$pc_folder/$2.qemu")"
+      return 1
+    fi
+    printf 'info status\n' >&"$to_monitor"
+    while IFS= read -r -t 0.2 -u "$from_monitor" part; do said+=$part$'\n'; done
+  done
 }
 
 # The processor time that it has had, s; or a quarter of the time on the wall, as one that stands still uses none.
@@ -45,16 +86,19 @@ pc_seconds() {
   local -a field
   local used wall=$(((SECONDS - pc_began) / 4))
   read -r -a field 2>/dev/null <"/proc/$pc_pid/stat" || field=()
-  used=$(((field[13] + field[14]) / $(getconf CLK_TCK)))
+  used=$(((field[13] + field[14]) / ticks_per_second))
   printf '%d\n' $((used > wall ? used : wall))
 }
 
 console_lines() { tr -d '\r' <"$pc_console" | sed 's/\x1b\[[0-9;]*m//g'; }
 
 await_line() {  # await_line PATTERN: until the console has a line like it, which it prints; else why not
-  local lines
-  until lines=$(console_lines | grep -E -e "$1"); do
-    if ! kill -0 "$pc_pid" 2>/dev/null; then
+  local lines size=-1 seen=-1
+  until [[ $size != "$seen" ]] && seen=$size && lines=$(console_lines | grep -E -e "$1"); do
+    size=$(stat -c %s "$pc_console")
+    if [[ $size != "$seen" ]]; then
+      continue
+    elif ! kill -0 "$pc_pid" 2>/dev/null; then
       printf 'the PC ended by itself before it said: %s\n' "$1"
       return 1
     elif (($(pc_seconds) > pc_limit)); then
@@ -84,8 +128,6 @@ panel_answers() {
 fingerprint() {  # of the certificate that the panel shows
   openssl s_client -connect "127.0.0.1:$pc_port" </dev/null 2>/dev/null | openssl x509 -noout -fingerprint -sha256
 }
-
-variant_is_made() { (make_image pick-station "$pc_folder/variant.img" 'test'); }
 
 try_to_claim() {  # try_to_claim CODE: prints the status
   local page token
@@ -130,6 +172,33 @@ source "$tool/image_panel_test.sh"
 # shellcheck source=cmake/tool/image_menu_test.sh
 source "$tool/image_menu_test.sh"
 
+# version_of_test FUNCTION ARGUMENT...: a version whose content does not depend on the last commit
+version_of_test() {
+  local SOURCE_DATE_EPOCH=$time_of_test_version
+  export SOURCE_DATE_EPOCH
+  "$@"
+}
+
+make_product() (  # the disk of the product as it comes from the tool
+  image_version=first image_boot_password=$menu_hash
+  version_of_test make_image pick-station "$pc_shared/product.img" product
+)
+
+need_product() {
+  (
+    exec 9>"$pc_shared/product.lock"
+    flock 9
+    [[ -f $pc_shared/product.img ]] || make_product 9>&-
+  )
+}
+
+product_is_made() {
+  [[ $(unset SOURCE_DATE_EPOCH && time_of_version) == $(git -C "$root" log -1 --format=%ct 2>/dev/null || date +%s)* ]] ||
+    { echo "a version without SOURCE_DATE_EPOCH has not the time of the last commit" && return 1; }
+  rm -f "$pc_shared/product.img"
+  need_product
+}
+
 # What a PC promises from its first boot on, while its disk's writes are recorded: nothing moves until its version has been healthy for a
 # minute.
 record_first_boot() {
@@ -137,23 +206,34 @@ record_first_boot() {
     await_line 'the cell runs' && panel_answers && log_in &&
     await_line 'motion is not permitted: nobody has claimed this PC' &&
     await_line 'this machine does not permit motion: this version has not confirmed itself' &&
-    await_line 'the version in slot A has confirmed itself' && promised confirmed && await_line 'this machine permits motion' &&
-    save_often
+    await_line 'the version in slot A has confirmed itself' && promised confirmed && await_line 'this machine permits motion'
 }
 
-# A disk that is larger than the image; nobody was there before.
+# A disk that is larger than the image; nobody was there before. The PC is kept as it is when its version has confirmed itself.
 first_boot_by_bios() {
-  truncate -s +512M "$pc_folder/product.img" && start_recorded_pc bios "$pc_folder/product.img" -no-reboot && record_first_boot &&
-    fingerprint >"$pc_folder/fingerprint" && [[ $(console_lines) == *"$(<"$pc_folder/fingerprint")"* ]]
+  local disk=$pc_folder/bios.img
+  need_product && cp --sparse=always "$pc_shared/product.img" "$disk" && truncate -s +512M "$disk" &&
+    start_recorded_pc bios "$disk" -no-reboot && record_first_boot && fingerprint >"$pc_folder/fingerprint" || return
+  [[ $(console_lines) == *"$(<"$pc_folder/fingerprint")"* ]] || { echo "the console does not show the certificate's fingerprint" && return 1; }
+  save_pc "$pc_folder/bios.memory" && punch_versions "$pc_folder/bios.base" && keep claimed "$pc_folder"/bios.{img,memory,base,log,promises} "$pc_folder/fingerprint"
 }
 
-# The same disk, after its power went; and something has damaged a copy of the boot choice.
+need_claimed_pc() {  # sets claimed to the folder of the PC that first_boot_by_bios keeps
+  once claimed first_boot_by_bios && claimed=$(kept claimed)
+}
+
+# The same disk, after its power went; and something has damaged a copy of the boot choice. The PC is kept for what an admin does to it.
 second_boot_by_uefi() {
-  printf 'damaged' >"$pc_folder/choice0.env" && mcopy -o -i "$pc_folder/product.img@@2M" "$pc_folder/choice0.env" ::flexrf/ &&
-    start_pc uefi uefi "$pc_folder/product.img" -no-reboot && await_line 'choice0.env is damaged: .*; written anew from the other copy' && await_line 'the cell runs' && panel_answers &&
-    log_in && await_line 'motion is permitted' || return
-  [[ $(fingerprint) == "$(<"$pc_folder/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
-  ! console_lines | grep -E 'first boot|has not confirmed itself|has claimed'
+  local disk=$pc_folder/uefi.img
+  rm -f "$pc_folder/uefi.variables"
+  need_claimed_pc && cp --sparse=always "$claimed/bios.img" "$disk" &&
+    printf 'damaged' >"$pc_folder/choice0.env" && mcopy -o -i "$disk@@2M" "$pc_folder/choice0.env" ::flexrf/ &&
+    start_pc uefi uefi "$disk" && await_line 'choice0.env is damaged: .*; written anew from the other copy' && await_line 'the cell runs' && panel_answers &&
+    log_in && await_line 'motion is permitted' && no_complaint &&
+    await_machine '.notices | length == 1 and (.[0] | test("choice0.env is damaged"))' || return
+  [[ $(fingerprint) == "$(<"$claimed/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
+  ! console_lines | grep -E 'first boot|has not confirmed itself|has claimed' || return
+  save_pc "$pc_folder/uefi.memory" && keep uefi "$pc_folder"/uefi.{img,memory,variables}
 }
 
 what_is_reported() {
@@ -173,98 +253,156 @@ what_is_reported() {
 # started anew, the other in the watchdog's reset.
 what_runs_and_what_hangs() {
   local pc_limit=1000 # two boots, and two CPUs that are busy until the watchdog acts
-  start_pc variant bios "$pc_folder/variant.img" && claim_pc && await_line 'report: complete' && what_is_reported &&
+  need_variant && cp --sparse=always "$pc_shared/variant/first.img" "$pc_folder/variant.img" &&
+    start_pc variant bios "$pc_folder/variant.img" && claim_pc && await_line 'report: complete' && what_is_reported &&
     await_line 'report: the cell is stopped' && await_line 'report: another process is the cell' &&
     await_line 'report: now all hangs' && await_line 'report: boot 2' && [[ $(console_lines | grep -c 'the cell runs') == 3 ]]
 }
 
 # Emulated it has not got the time that its threads want: that it starts, and that its page is there, is all that can be asked.
 flagship_starts() {
-  (make_image visual-servoing "$pc_folder/flagship.img" product) &&
+  (version_of_test make_image visual-servoing "$pc_folder/flagship.img" product) &&
     start_pc flagship bios "$pc_folder/flagship.img" -no-reboot && claim_pc && await_line 'the cell runs' && panel_answers
 }
 
-image_test() {  # image_test NUMBER OF NAME MACHINE: a line as ctest's, behind what there is to be read
-  local start line told result=Passed
-  start=$(microseconds)
-  told=$("$3" 2>&1; status=$?; stop_pc; exit "$status") || result=Failed
-  [[ $told ]] && printf '%s\n' "$told"
-  if [[ $result == Failed ]]; then
-    [[ -f $pc_folder/$4.console ]] && pc_console=$pc_folder/$4.console && echo "its console ends with:" && console_lines | tail -n 40
-    cat "$pc_folder/$4.qemu" 2>/dev/null
-  fi
-  line="$1/$2 Test #$1: $3 "
-  while ((${#line} < 60)); do line+=.; done
-  printf '%s   %s  %s\n' "$line" "$result" "$(since "$start")"
-  [[ $result == Passed ]]
-}
-
-# Name, which is that of a function; the machine whose console tells why it failed; and the lane: the two go on beside each other, as a
-# PC keeps hardly more than one processor busy. In a lane one comes after the other: they share disks.
+# Name, which is that of a function; level, which is one of image_levels; and group. The tests of a group share a folder, and one comes
+# after the other. Lanes take groups in this order.
+image_levels=(first gate full soak)
 image_test_list() {
   cat <<'TEXT'
-first_boot_by_bios bios product
-second_boot_by_uefi uefi product
-what_a_power_cut_leaves cut product
-data_beyond_repair damaged product
-an_admin_at_the_panel admin product
-grubs_menu_wants_a_password menu product
-variant_is_made none variant
-what_runs_and_what_hangs variant variant
-updates_are_made none variant
-updates_by_bundles update variant
-an_update_is_cut_short cut variant
-TEXT
-  [[ ${FLEXRF_LONG-} ]] || return 0
-  cat <<'TEXT'
-a_missing_flush_is_found twin product
-data_made_anew_stays anew product
-data_is_repaired repaired product
-data_is_full full product
-data_is_missing missing product
-a_missing_camera_is_waited_for camera product
-a_missing_chip_is_refused chip product
-flagship_starts flagship variant
+product_is_made first boot
+first_boot_by_bios first boot
+updates_are_made gate variant
+updates_by_bundles gate variant
+an_update_is_cut_short gate variant
+second_boot_by_uefi gate uefi
+an_admin_at_the_panel gate uefi
+what_a_power_cut_leaves gate cut
+what_runs_and_what_hangs gate report
+data_beyond_repair gate damage
+grubs_menu_wants_a_password gate menu
+more_power_cuts full cut
+a_missing_flush_is_found full twin
+more_cuts_of_an_update full variant
+a_missing_chip_is_refused full chip
+flagship_starts full flagship
+data_made_anew_stays full damage
+data_is_repaired full damage
+data_is_full full damage
+data_is_missing full missing
+a_missing_camera_is_waited_for full camera
+campaign_of_power_cuts soak cut
+campaign_of_cuts_of_an_update soak variant
 TEXT
 }
 
-image_lane() {  # image_lane LANE: its tests, in a folder of its own; leaves the number of those that failed
-  local number=1 failed=0 name machine lane
-  [[ $1 == product ]] || pc_folder=$pc_folder/$1
-  mkdir -p "$pc_folder"
-  while read -r name machine lane; do
-    number=$((number + 1))
-    [[ $lane == "$1" ]] || continue
-    image_test "$number" "$image_test_count" "$name" "$machine" </dev/null || failed=$((failed + 1))
-  done < <(image_test_list)
-  echo "$failed" >"$pc_folder/failed"
+image_lanes=${FLEXRF_IMAGE_LANES:-2} # groups of tests that go on beside each other: a PC keeps hardly more than one processor busy
+
+image_targets() {  # image_targets LEVEL: what its tests need of the release build
+  printf '%s\n' pick-station flexrf-boot-choice flexrf-claim flexrf-helper
+  [[ $1 == first ]] || printf '%s\n' flexrf-power-cut flexrf-password boot_choice_what_boots
+  [[ $1 != full ]] || printf '%s\n' visual-servoing flexrf_without_flush
 }
 
-image_tests() {  # as ctest would run them
-  local failed=0 lane
-  image_test_count=$(($(image_test_list | wc -l) + 1))
-  rm -rf "$pc_folder"
-  mkdir -p "$pc_folder"
-  if ! build release pick-station visual-servoing flexrf-boot-choice flexrf-claim flexrf-helper flexrf-power-cut flexrf-password \
-    boot_choice_what_boots flexrf_without_flush; then
+find_images() {  # of what the images of the tests are; once, when the programs are built
+  [[ ! $image_inputs ]] || return 0
+  mkdir -p "$image_folder" "$pc_shared" && choose_keys 2>"$pc_shared/keys.log" || return
+  image_inputs=$(find_image_inputs) || { say "a package of the image is not in this machine's lists" && return 1; }
+}
+
+# image_test_key NAME: a checksum of all that the test depends on, when its programs are built; one that passed with it would pass again.
+# Fails if that cannot be known, as without package lists.
+image_test_key() {
+  local level
+  level=$(image_test_list | awk -v name="$1" '$1 == name { print $2 }')
+  find_images && (
+    cd "$root/build/release" && {
+      printf '%s %s\n' "$1" "$(image_key)"
+      [[ $level == first ]] || sha256sum "${judging_programs[@]}"
+      [[ $level != full ]] || { sha256sum image/power_cut/without_flush.so apps/visual-servoing/visual-servoing && cat "$root/apps/visual-servoing/config.xml" 2>/dev/null; }
+    } | sha256sum | head -c 32
+  )
+}
+
+image_test() {  # image_test NUMBER NAME: a line as ctest's, behind what there is to be read
+  local start line told result=Passed machine used
+  start=$(microseconds)
+  rm -f "$pc_folder/machine"
+  told=$(
+    "$2" 2>&1
+    status=$?
+    stop_pc
+    times >"$pc_folder/times"
+    exit "$status"
+  ) || result=Failed
+  # The second line is about the processes that it started, the PC among them: as 1m2.345s 0m1.234s.
+  used=$(awk 'NR == 2 { split($0, part, /[ms ]+/); printf "%.1f", part[1] * 60 + part[2] + part[3] * 60 + part[4] }' "$pc_folder/times")
+  (
+    flock 9
+    [[ $told ]] && printf '%s\n' "$told"
+    if [[ $result == Failed && -f $pc_folder/machine ]]; then
+      read -r machine <"$pc_folder/machine"
+      pc_console=$pc_folder/$machine.console
+      echo "its console ends with:"
+      console_lines | tail -n 40
+      cat "$pc_folder/$machine.qemu" 2>/dev/null
+    fi
+    line="$1/$image_test_count Test #$1: $2 "
+    while ((${#line} < 60)); do line+=.; done
+    printf '%s   %s  %s, %s s of processor time\n' "$line" "$result" "$(since "$start")" "$used"
+  ) 9>"$pc_shared/.reporting"
+  printf '%s\n' "$result" >>"$pc_shared/.results"
+}
+
+next_group() {  # prints one that is no lane's yet; fails when there is none
+  (
+    flock 9
+    sed -n 1p "$pc_shared/.groups" | grep . && sed -i 1d "$pc_shared/.groups"
+  ) 9>"$pc_shared/.taking"
+}
+
+image_lane() {  # one group after the other, until none is left
+  local group number name
+  while group=$(next_group); do
+    pc_folder=$pc_shared/$group
+    mkdir -p "$pc_folder"
+    while read -r number name _ _; do
+      image_test "$number" "$name" </dev/null
+    done < <(awk -v group="$group" '$4 == group' "$pc_shared/.chosen")
+  done
+}
+
+# image_tests LEVEL [NAME...]: the tests of this level, or these of them; what they need of other levels' is taken as it was kept, or made
+image_tests() {
+  local failed lane name
+  local -a lanes=() targets names
+  mapfile -t targets < <(image_targets "$1")
+  rm -rf "$pc_shared"
+  mkdir -p "$pc_shared"
+  image_test_list | awk -v level="$1" '$2 == level' >"$pc_shared/.level"
+  mapfile -t names < <(cut -d ' ' -f 1 "$pc_shared/.level")
+  for name in "${@:2}"; do known_word "test of the image" "$name" "${names[@]}"; done
+  awk -v names=" ${*:2} " 'names == "  " || index(names, " " $1 " ") { print ++number, $0 }' "$pc_shared/.level" >"$pc_shared/.chosen"
+  image_test_count=$(wc -l <"$pc_shared/.chosen")
+  awk '!seen[$4]++ { print $4 }' "$pc_shared/.chosen" >"$pc_shared/.groups"
+  : >"$pc_shared/.results"
+  if ! build release "${targets[@]}" || ! find_images; then
     count 1 1
     return 1
   fi
-  # The first image fetches what all are made of.
-  image_test 1 "$image_test_count" product_and_update_are_made none || failed=1
-  set -m # a group of processes of its own, which ends as one
-  image_lane variant >"$pc_folder/variant.log" 2>&1 &
-  lane=$!
+  set -m # groups of processes of their own, which end as one
+  for ((lane = 0; lane < image_lanes; ++lane)); do
+    image_lane &
+    lanes+=($!)
+  done
   set +m
-  # shellcheck disable=SC2064 # the group of now
-  trap "kill -TERM -- -$lane 2>/dev/null" EXIT
-  image_lane product
-  wait "$lane"
+  # shellcheck disable=SC2064 # the groups of now
+  trap "kill -TERM -- ${lanes[*]/#/-} 2>/dev/null" EXIT
+  wait "${lanes[@]}"
   trap - EXIT
-  cat "$pc_folder/variant.log"
-  failed=$((failed + $(cat "$pc_folder/failed") + $(cat "$pc_folder/variant/failed")))
+  failed=$((image_test_count - $(grep -c '^Passed$' "$pc_shared/.results")))
   count "$image_test_count" "$failed"
-  rm -rf "$pc_folder"/{,variant/}*.{img,base,log,raucb} "$pc_folder/variant/update"
+  find "$pc_shared" -size +1M ! -name '*.console' -delete
   printf '\n%d%% tests passed, %d tests failed out of %d\n' $(((image_test_count - failed) * 100 / image_test_count)) "$failed" "$image_test_count"
   ((failed == 0))
 }

@@ -40,20 +40,35 @@ pack_changed() {  # pack_changed WORK VERSION OUTPUT: a bundle of the root as it
     pack_root "$1/root" "$1/root.img" && pack_bundle "$1" flexrf-pick-station-amd64 "$3"
 }
 
-updates_are_made() (  # the first version as a disk, others as bundles, and the disk that they are on
-  work=$pc_folder/update
+# The first version of the variant for tests as a disk, others as bundles, and the disk that they are on.
+make_updates() (
+  pc_folder=$pc_shared/variant work=$pc_folder/update
+  rm -rf "$work"
   mkdir -p "$work/bundles"
   image_version=first
   make_version "$work" pick-station 'test'
-  make_disk "$work" pick-station "$pc_folder/update.img"
+  make_disk "$work" pick-station "$pc_folder/first.img"
   unsquashfs -q -n -d "$work/root" "$work/root.img" >/dev/null || return
-  pack_changed "$work" second "$work/bundles/second" || return
+  pack_changed "$work" second "$work/bundles/second" && cp "$work/boot.img" "$pc_folder/second-boot" && cp "$work/root.img" "$pc_folder/second-root" || return
   # It ends as one does that had a fault.
   printf '%s\n' '#!/bin/sh' 'exit 2' >"$work/root/usr/lib/flexrf/pick-station"
   pack_changed "$work" broken "$work/bundles/broken" || return
   pack_others "$SOURCE_DATE_EPOCH" || return
-  PATH=$PATH:/usr/sbin:/sbin mke2fs -q -t ext4 -L bundles -d "$work/bundles" "$pc_folder/bundles.img" 256M
+  PATH=$PATH:/usr/sbin:/sbin mke2fs -q -t ext4 -L bundles -d "$work/bundles" "$pc_folder/bundles.img" 256M && rm -rf "$work"
 )
+
+need_variant() {
+  (
+    exec 9>"$pc_shared/variant.lock"
+    flock 9
+    [[ -f $pc_shared/variant/bundles.img ]] || version_of_test make_updates 9>&-
+  )
+}
+
+updates_are_made() {
+  rm -f "$pc_shared/variant/bundles.img"
+  need_variant
+}
 
 set_speed() {  # set_speed VALUE: at the panel, and it is saved
   local status
@@ -68,8 +83,9 @@ set_speed() {  # set_speed VALUE: at the panel, and it is saved
 updates_by_bundles() {
   local pc_limit=1500 why
   # shellcheck disable=SC2054 # the commas are QEMU's
-  start_recorded_pc update "$pc_folder/update.img" -rtc base=2010-01-01 \
-    -drive "file=${pc_folder//,/,,}/bundles.img,format=raw,if=none,id=bundles" -device ide-hd,drive=bundles &&
+  need_variant && cp --sparse=always "$pc_shared/variant/first.img" "$pc_folder/update.img" &&
+    start_recorded_pc update "$pc_folder/update.img" -rtc base=2010-01-01 \
+    -drive "file=${pc_shared//,/,,}/variant/bundles.img,format=raw,if=none,id=bundles" -device ide-hd,drive=bundles &&
     claim_pc && promised claimed && await_line 'update test: version first in slot a runs as only' || return
   for why in 'verify unsigned: failed +it is no bundle, or not all of one' 'verify plain: failed +its format is plain' \
     'verify other-key: failed +it is not signed by a key that this PC trusts' 'verify foreign: failed +it is for flexrf-keyboard-amd64' \
@@ -86,21 +102,22 @@ updates_by_bundles() {
     await_line 'the version in slot B has confirmed itself' && promised confirmed && set_speed 0.777 && promised saved-anew &&
     await_line 'update test: configuration: a 0.555 b 0.777' && await_line 'update test: install broken: done broken' &&
     await_line 'update test: version second in slot b runs as fallback' && await_line 'update test: configuration: b 0.777' &&
-    await_line 'update test: complete: primary=B' && ! console_lines | grep -E 'update test: (left of it|older is still allowed)'
+    await_line 'update test: complete: primary=B' && ! console_lines | grep -E 'update test: (left of it|older is still allowed)' || return
+  stop_pc
+  punch_versions "$pc_folder/update.base" && keep update "$pc_folder"/update.{base,log,promises} "$pc_shared"/variant/second-{boot,root}
 }
 
 # A cut in the update that was recorded, from the verified bundle to the first save of the confirmed version: anywhere, and around what
 # changes which version boots.
-points_of_update() {
-  local installing installed confirmed end step=6 count=12
-  [[ ${FLEXRF_LONG-} ]] && step=1 count=200
+points_of_update() {  # points_of_update COUNT STEP SEED
+  local installing installed confirmed end
   read -r installing installed confirmed end < <(awk '$2 ~ /^(installing|installed|confirmed|saved-anew)$/ { printf "%s ", $1 }' "$pc_folder/update.promises") ||
     [[ $end ]] || return
   {
-    shuf -i "$installing-$end" -n "$count" --random-source=<(yes)
-    seq "$installing" "$step" $((installing + 60))
-    seq $((installed - 60)) "$step" $((installed + 8))
-    seq $((confirmed - 20)) "$step" $((confirmed + 8))
+    shuf -i "$installing-$end" -n "$1" --random-source=<(yes "$3")
+    seq "$installing" "$2" $((installing + 60))
+    seq $((installed - 60)) "$2" $((installed + 8))
+    seq $((confirmed - 20)) "$2" $((confirmed + 8))
   } | awk -v last="$end" '$1 <= last' | sort -n -u
 }
 
@@ -131,31 +148,40 @@ check_started_version() {  # check_started_version WORK POINT: what GRUB starts 
   [[ $boots == $wanted ]] || { printf 'lost choice: what boots is not %s: %s\n' "$wanted" "$said" && return 1; }
   for part in boot root; do
     if [[ $boots == A* ]]; then
-      take_partition "$1/cut" "$part-a" "$1/part" && cmp "$1/part" "$pc_folder/update/first-$part"
+      take_partition "$1/cut" "$part-a" "$1/part" && cmp "$1/part" "$pc_folder/first-$part"
     else
-      take_partition "$1/cut" "$part-b" "$1/part" && cmp -n "$(stat -c %s "$pc_folder/update/second/$part.img")" "$1/part" "$pc_folder/update/second/$part.img"
+      take_partition "$1/cut" "$part-b" "$1/part" && cmp -n "$(stat -c %s "$recorded/second-$part")" "$1/part" "$recorded/second-$part"
     fi || { echo "lost version: GRUB starts $boots, and not all of its $part is there" && return 1; }
   done
 }
 
-an_update_is_cut_short() {
-  local point points part status wrong=0 work=$pc_folder/cut
-  power_cut describe update || return
-  unsquashfs -q -n -f -d "$pc_folder/update/second" "$pc_folder/update/bundles/second" >/dev/null || return
-  for part in boot root; do take_partition "$pc_folder/update.base" "$part-a" "$pc_folder/update/first-$part" || return; done
-  points=$(points_of_update) || return
-  for point in $points; do
-    rm -rf "$work" && mkdir -p "$work" || return
-    status=0
-    if power_cut build update --point "$point" --seed "$point" --output "$work/cut" && check_file_systems "$work"; then
-      check_users "$work" update "$point" || status=1
-      check_configurations "$work" "$point" || status=1
-      check_started_version "$work" "$point" || status=1
-    else
-      status=1
-    fi
-    ((status == 0)) || { echo "at point $point, seed $point" && wrong=$((wrong + 1)); }
-  done
-  printf '%d points, %d wrong\n' "$(wc -l <<<"$points")" "$wrong"
-  ((wrong == 0))
+judge_update() {  # judge_update RECORDING POINT WORK: the disk that a cut in the update may leave
+  local status=0
+  rm -rf "$3" && mkdir -p "$3" || return
+  if power_cut build "$1" --point "$2" --seed "$2" --output "$3/cut" && check_file_systems "$3"; then
+    check_users "$3" "$1" "$2" || status=1
+    check_configurations "$3" "$2" || status=1
+    check_started_version "$3" "$2" || status=1
+  else
+    status=1
+  fi
+  ((status == 0)) || echo "at point $2, seed $2"
+  return "$status"
+}
+
+cuts_of_update() {  # cuts_of_update COUNT STEP SEED PROGRESS
+  local points part
+  need_recording update update updates_by_bundles && power_cut describe update || return
+  # The slots of the recording's first disk are holes: a cut must not have put anything there.
+  for part in boot root; do take_partition "$pc_folder/update.base" "$part-a" "$pc_folder/first-$part" || return; done
+  points=$(points_of_update "$1" "$2" "$3") || return
+  judge_points "$4" 0 judge_update update <<<"$points"
+}
+
+an_update_is_cut_short() { cuts_of_update 12 6 1 "$pc_folder/judged"; }
+more_cuts_of_an_update() { cuts_of_update 40 3 2 "$pc_folder/judged.more"; }
+
+# Goes on where it was interrupted, as long as the recording is that of the same image.
+campaign_of_cuts_of_an_update() {
+  once update updates_by_bundles && cuts_of_update 200 1 3 "$(kept update)/progress"
 }
