@@ -127,13 +127,20 @@ make_root() {  # make_root WORK APPLICATION PC [ARGUMENT...]
       "$work/descriptor" "$3" "$work/identity" "${@:4}"
 }
 
+make_start() {  # once, and anew when what it is made of has changed: it takes long to pack
+  local busybox recipe
+  busybox=$(fetch busybox-static) || return
+  recipe=$(cat "$disk_scripts"/{make_start.sh,modules.txt,start/init} "$image_folder/kernel.recipe" - <<<"$busybox $SOURCE_DATE_EPOCH" | sha256sum)
+  [[ -f $image_folder/start.recipe && -f $image_folder/start.img && $(<"$image_folder/start.recipe") == "$recipe" ]] && return
+  rm -f "$image_folder/start.recipe"
+  bash "$disk_scripts/make_start.sh" "$image_folder/kernel" "$busybox" "$image_folder/start.img" && printf '%s\n' "$recipe" >"$image_folder/start.recipe"
+}
+
 make_boot() {  # make_boot WORK KERNEL_OPTIONS
-  local busybox
   mkdir "$1/boot" &&
     cp "$image_folder/kernel/vmlinuz" "$1/boot/" &&
     environment_block "slot_options=$2" >"$1/boot/slot.env" &&
-    busybox=$(fetch busybox-static) &&
-    bash "$disk_scripts/make_start.sh" "$image_folder/kernel" "$busybox" "$1/boot/initrd.img" &&
+    make_start && cp "$image_folder/start.img" "$1/boot/initrd.img" &&
     bash "$disk_scripts/make_boot.sh" "$1/boot" "$1/boot.img"
 }
 
@@ -160,8 +167,9 @@ add_test_devices() {  # add_test_devices WORK: makes root.test of root, and list
   mv "$1/root.test" "$1/root"
 }
 
+compression_of_root=() # options of mksquashfs; tests take less time for it, and more room
 pack_root() {  # pack_root FOLDER OUTPUT
-  mksquashfs "$1" "$2" -noappend -quiet -no-progress -all-root -no-xattrs -comp zstd || return
+  mksquashfs "$1" "$2" -noappend -quiet -no-progress -all-root -no-xattrs -comp zstd "${compression_of_root[@]}" || return
   (($(stat -c %s "$2") <= root_mib * 1048576)) || { say "the root is larger than its partition of $root_mib MiB" && return 1; }
 }
 

@@ -11,11 +11,11 @@ pack_bundle() {  # pack_bundle WORK COMPATIBLE OUTPUT: of boot.img, root.img and
   mkdir "$work/bundle" && ln "$work/boot.img" "$work/root.img" "$work/identity/version" "$work/bundle/" || return
   printf '%s\n' '[update]' "compatible=$2" "version=$version" "build=$built" '' '[bundle]' 'format=verity' '' \
     '[image.root]' 'filename=root.img' '' '[image.boot]' 'filename=boot.img' >"$work/bundle/manifest.raucm"
-  # RAUC looks at what it has signed, as a PC does.
+  # RAUC looks at what it has signed, as a PC does. The images are compressed already.
   printf '%s\n' '[system]' "compatible=$2" 'bootloader=noop' '[keyring]' "path=$image_keyring" 'check-purpose=codesign' \
     'use-bundle-signing-time=true' >"$work/system.conf"
   said=$(rauc --conf="$work/system.conf" --key="$image_key" --cert="$image_certificate" --keyring="$image_keyring" \
-    --mksquashfs-args='-comp zstd -no-progress -quiet' bundle "$work/bundle" "$work/bundle.made" 2>&1) || { say "$said" && return 1; }
+    --mksquashfs-args='-comp zstd -Xcompression-level 1 -no-progress -quiet' bundle "$work/bundle" "$work/bundle.made" 2>&1) || { say "$said" && return 1; }
   mv "$work/bundle.made" "$3"
 }
 

@@ -172,25 +172,26 @@ source "$tool/image_panel_test.sh"
 # shellcheck source=cmake/tool/image_menu_test.sh
 source "$tool/image_menu_test.sh"
 
-# version_of_test FUNCTION ARGUMENT...: a version whose content does not depend on the last commit
+# version_of_test FUNCTION ARGUMENT...: a version whose content does not depend on the last commit, and which is packed in a shorter time
 version_of_test() {
-  local SOURCE_DATE_EPOCH=$time_of_test_version
+  local SOURCE_DATE_EPOCH=$time_of_test_version compression_of_root=(-Xcompression-level 3)
   export SOURCE_DATE_EPOCH
   "$@"
 }
 
 make_product() (  # the disk of the product as it comes from the tool
   image_version=first image_boot_password=$menu_hash
-  version_of_test make_image pick-station "$pc_shared/product.img" product
+  make_image pick-station "$pc_shared/product.img" product
 )
 
-need_product() {
-  (
-    exec 9>"$pc_shared/product.lock"
-    flock 9
-    [[ -f $pc_shared/product.img ]] || make_product 9>&-
-  )
-}
+# make_once FILE COMMAND...: carries out the command unless there is the file. One image at a time is made, for they share a kernel and packages
+make_once() (
+  exec 9>"$pc_shared/making.lock"
+  flock 9
+  [[ -f $1 ]] || version_of_test "${@:2}" 9>&-
+)
+
+need_product() { make_once "$pc_shared/product.img" make_product; }
 
 product_is_made() {
   [[ $(unset SOURCE_DATE_EPOCH && time_of_version) == $(git -C "$root" log -1 --format=%ct 2>/dev/null || date +%s)* ]] ||
@@ -228,7 +229,7 @@ second_boot_by_uefi() {
   rm -f "$pc_folder/uefi.variables"
   need_claimed_pc && cp --sparse=always "$claimed/bios.img" "$disk" &&
     printf 'damaged' >"$pc_folder/choice0.env" && mcopy -o -i "$disk@@2M" "$pc_folder/choice0.env" ::flexrf/ &&
-    start_pc uefi uefi "$disk" && await_line 'choice0.env is damaged: .*; written anew from the other copy' && await_line 'the cell runs' && panel_answers &&
+    start_pc uefi uefi "$disk" -no-reboot && await_line 'choice0.env is damaged: .*; written anew from the other copy' && await_line 'the cell runs' && panel_answers &&
     log_in && await_line 'motion is permitted' && no_complaint &&
     await_machine '.notices | length == 1 and (.[0] | test("choice0.env is damaged"))' || return
   [[ $(fingerprint) == "$(<"$claimed/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
@@ -261,7 +262,7 @@ what_runs_and_what_hangs() {
 
 # Emulated it has not got the time that its threads want: that it starts, and that its page is there, is all that can be asked.
 flagship_starts() {
-  (version_of_test make_image visual-servoing "$pc_folder/flagship.img" product) &&
+  make_once "$pc_folder/flagship.img" make_image visual-servoing "$pc_folder/flagship.img" product &&
     start_pc flagship bios "$pc_folder/flagship.img" -no-reboot && claim_pc && await_line 'the cell runs' && panel_answers
 }
 

@@ -57,13 +57,7 @@ make_updates() (
   PATH=$PATH:/usr/sbin:/sbin mke2fs -q -t ext4 -L bundles -d "$work/bundles" "$pc_folder/bundles.img" 256M && rm -rf "$work"
 )
 
-need_variant() {
-  (
-    exec 9>"$pc_shared/variant.lock"
-    flock 9
-    [[ -f $pc_shared/variant/bundles.img ]] || version_of_test make_updates 9>&-
-  )
-}
+need_variant() { make_once "$pc_shared/variant/bundles.img" make_updates; }
 
 updates_are_made() {
   rm -f "$pc_shared/variant/bundles.img"
