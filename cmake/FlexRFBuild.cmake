@@ -123,27 +123,27 @@ function(flexrf_add_test)
 endfunction()
 
 # flexrf_add_places(TARGET NAME PATH [NAME PATH]...)
-# Tells a program where files and other programs lie: "places.hpp" declares place::NAME for each, a C string. The paths
-# themselves are compiled apart, so that all else is the same wherever the repository lies.
+# Tells a program where files and other programs lie: "places.hpp" declares place::NAME for each, a C string. A path of the
+# repository or of the build is stored relative to the program's folder, so that the program is the same wherever the
+# repository lies.
 function(flexrf_add_places target)
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/places/${target}")
-  set(declarations "")
   set(definitions "")
   set(rest ${ARGN})
   while(rest)
     list(POP_FRONT rest name path)
-    string(APPEND declarations "extern const char* const ${name};\n")
-    string(APPEND definitions "const char* const ${name} = R\"place(${path})place\";\n")
     flexrf_test_reads(${target} "${path}")
+    cmake_path(IS_PREFIX PROJECT_SOURCE_DIR "${path}" is_source)
+    cmake_path(IS_PREFIX PROJECT_BINARY_DIR "${path}" is_built)
+    if(is_source OR is_built OR path MATCHES "^\\$<TARGET_FILE")
+      set(path "$<PATH:RELATIVE_PATH,${path},$<TARGET_FILE_DIR:${target}>>")
+    endif()
+    string(APPEND definitions "inline const char* const ${name} = flexrf::beside_program(R\"place(${path})place\");\n")
   endwhile()
-  file(CONFIGURE OUTPUT "${folder}/places.hpp"
-    CONTENT "#pragma once\n\nnamespace place {\n\n${declarations}\n}  // namespace place\n" @ONLY)
-  file(GENERATE OUTPUT "${folder}/places.cpp"
-    CONTENT "#include \"places.hpp\"\n\nnamespace place {\n\n${definitions}\n}  // namespace place\n")
-  target_sources(${target} PRIVATE "${folder}/places.cpp")
+  file(GENERATE OUTPUT "${folder}/places.hpp" CONTENT
+    "#pragma once\n\n#include \"tests/beside_program.hpp\"\n\nnamespace place {\n\n${definitions}\n}  // namespace place\n")
+  target_link_libraries(${target} PRIVATE beside_program)
   target_include_directories(${target} PRIVATE "${folder}")
-  set_source_files_properties("${folder}/places.cpp" PROPERTIES
-    SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # flexrf_add_guest_test(NAME name [SLOW] SOURCES file... LIBRARIES target...)
