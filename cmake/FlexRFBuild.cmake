@@ -77,15 +77,19 @@ function(flexrf_test_reads name)
 endfunction()
 
 # flexrf_add_test(NAME name SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT seconds] [SERIAL] [THREADS]
-#                 [PRECOMPILED target])
+#                 [PRECOMPILED target] [FAMILY program])
 # One CMocka executable that ctest runs. Labels: unit (default), stress, whole for whole cells, virtual for those in virtual
 # time; long beside one of these for what only `flexrf test --full` runs. SERIAL: nothing else runs meanwhile, for a test that
 # needs the CPUs to itself. THREADS: a unit or stress test that starts threads, which `flexrf test` gives to the thread
 # sanitizer, too; one that does not say so fails in the release build, and so does one of virtual time that starts a thread.
 # PRECOMPILED: the library of LIBRARIES whose precompiled headers the test is built with. The target tests_<label> builds the
 # tests of a label.
+# FAMILY: the tests of one family are one program, which runs the test that its argument names; they are compiled in batches,
+# because the headers cost more than the tests. The first of SOURCES has an `int main()` without parameters, and the sources
+# of a family do not define the same name twice. ctest still runs each test as a process of its own. The test's NAME is a
+# target that builds the program; flexrf_add_places takes the program, after its tests.
 function(flexrf_add_test)
-  cmake_parse_arguments(PARSE_ARGV 0 test "SERIAL;THREADS" "NAME;TIMEOUT;PRECOMPILED" "SOURCES;LIBRARIES;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 0 test "SERIAL;THREADS" "NAME;TIMEOUT;PRECOMPILED;FAMILY" "SOURCES;LIBRARIES;LABELS")
   if(NOT test_LABELS)
     set(test_LABELS unit)
   endif()
@@ -98,20 +102,31 @@ function(flexrf_add_test)
   if(FLEXRF_SANITIZER)
     math(EXPR test_TIMEOUT "${test_TIMEOUT} * 5")
   endif()
-  add_executable(${test_NAME} ${test_SOURCES})
-  target_link_libraries(${test_NAME} PRIVATE FlexRF::options ${test_LIBRARIES} PkgConfig::cmocka)
+  if(test_FAMILY)
+    set(program ${test_FAMILY})
+    if(NOT TARGET ${program})
+      _flexrf_add_family(${program})
+    endif()
+    _flexrf_join_family(${program} ${test_NAME} ${test_SOURCES})
+    add_custom_target(${test_NAME} DEPENDS ${program})
+    add_test(NAME ${test_NAME} COMMAND ${program} ${test_NAME})
+  else()
+    set(program ${test_NAME})
+    add_executable(${program} ${test_SOURCES})
+    add_test(NAME ${test_NAME} COMMAND ${program})
+  endif()
+  target_link_libraries(${program} PRIVATE FlexRF::options ${test_LIBRARIES} PkgConfig::cmocka)
   if(test_THREADS)
-    target_link_libraries(${test_NAME} PRIVATE Threads::Threads)
+    target_link_libraries(${program} PRIVATE Threads::Threads)
   endif()
   if(test_PRECOMPILED)
-    target_precompile_headers(${test_NAME} REUSE_FROM ${test_PRECOMPILED})
+    target_precompile_headers(${program} REUSE_FROM ${test_PRECOMPILED})
   endif()
-  add_test(NAME ${test_NAME} COMMAND ${test_NAME})
   set_tests_properties(${test_NAME} PROPERTIES LABELS "${test_LABELS}" TIMEOUT ${test_TIMEOUT})
   if(test_SERIAL)
     set_tests_properties(${test_NAME} PROPERTIES RUN_SERIAL ON)
   endif()
-  flexrf_test_reads(${test_NAME} "$<TARGET_FILE:${test_NAME}>")
+  flexrf_test_reads(${test_NAME} "$<TARGET_FILE:${program}>")
   if(FLEXRF_WITNESSES_THREADS AND NOT test_THREADS AND NOT "whole" IN_LIST test_LABELS)
     set_tests_properties(${test_NAME} PROPERTIES
       ENVIRONMENT "LD_PRELOAD=$<TARGET_FILE:thread_witness>;FLEXRF_WITHOUT_THREADS=${test_NAME}")
@@ -122,17 +137,41 @@ function(flexrf_add_test)
   endforeach()
 endfunction()
 
+# The program of a family of tests, which has none yet: tests/family.cpp, compiled with the list of them.
+function(_flexrf_add_family program)
+  set(main "${CMAKE_CURRENT_BINARY_DIR}/families/${program}.cpp")
+  file(GENERATE OUTPUT "${main}" CONTENT
+    "#define FLEXRF_TESTS TEST($<JOIN:$<TARGET_PROPERTY:${program},flexrf_tests>,) TEST(>)\n#include \"tests/family.hpp\"\n")
+  add_executable(${program} "${main}")
+  set_source_files_properties("${main}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
+# Adds a test's sources to the program of its family, in which the test's main() has a name of its own.
+function(_flexrf_join_family program test source)
+  cmake_path(ABSOLUTE_PATH source)
+  target_sources(${program} PRIVATE "${source}" ${ARGN})
+  set_property(TARGET ${program} APPEND PROPERTY flexrf_tests ${test})
+  set_source_files_properties("${source}" TARGET_DIRECTORY ${program} PROPERTIES
+    COMPILE_DEFINITIONS main=${test}_main FLEXRF_MAIN ${test}_main)
+endfunction()
+
 # flexrf_add_places(TARGET NAME PATH [NAME PATH]...)
 # Tells a program where files and other programs lie: "places.hpp" declares place::NAME for each, a C string. A path of the
 # repository or of the build is stored relative to the program's folder, so that the program is the same wherever the
 # repository lies.
 function(flexrf_add_places target)
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/places/${target}")
+  get_target_property(tests ${target} flexrf_tests)
+  if(NOT tests)
+    set(tests ${target})
+  endif()
   set(definitions "")
   set(rest ${ARGN})
   while(rest)
     list(POP_FRONT rest name path)
-    flexrf_test_reads(${target} "${path}")
+    foreach(test IN LISTS tests)
+      flexrf_test_reads(${test} "${path}")
+    endforeach()
     cmake_path(IS_PREFIX PROJECT_SOURCE_DIR "${path}" is_source)
     cmake_path(IS_PREFIX PROJECT_BINARY_DIR "${path}" is_built)
     if(is_source OR is_built OR path MATCHES "^\\$<TARGET_FILE")
@@ -257,7 +296,12 @@ function(_flexrf_batch_sources target)
       cmake_path(RELATIVE_PATH path BASE_DIRECTORY "${PROJECT_SOURCE_DIR}" OUTPUT_VARIABLE name)
       list(REMOVE_ITEM listed "${source}")
     endif()
-    string(APPEND content "#include \"${name}\"\n")
+    get_source_file_property(main "${path}" TARGET_DIRECTORY ${target} FLEXRF_MAIN)
+    if(main)
+      string(APPEND content "#define main ${main}\n#include \"${name}\"\n#undef main\n")
+    else()
+      string(APPEND content "#include \"${name}\"\n")
+    endif()
     math(EXPR taken "${taken} + 1")
     math(EXPR is_full "${taken} % ${FLEXRF_BATCH_SIZE}")
     if(taken EQUAL count OR is_full EQUAL 0)

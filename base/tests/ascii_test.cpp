@@ -2,7 +2,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::ascii_test {
 namespace {
 
 void letters_of_ascii(void**) {
@@ -29,11 +29,11 @@ void hexadecimal_digits(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::ascii_test
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(flexrf::letters_of_ascii),
-                              cmocka_unit_test(flexrf::comparison),
-                              cmocka_unit_test(flexrf::hexadecimal_digits)};
+  using namespace flexrf::ascii_test;
+  const CMUnitTest tests[] = {cmocka_unit_test(letters_of_ascii), cmocka_unit_test(comparison),
+                              cmocka_unit_test(hexadecimal_digits)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -5,7 +5,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::json_writer_test {
 namespace {
 
 /// CMocka's assertions jump over destructors: the text is copied out of its owner first.
@@ -103,10 +103,10 @@ void compact_text_has_no_blanks_and_keeps_its_memory(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::json_writer_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::json_writer_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(members_and_elements_have_their_lines),
       cmocka_unit_test(numbers_read_back_the_same),

@@ -2,7 +2,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::nearest_name_test {
 namespace {
 
 void names_are_compared_by_edits(void**) {
@@ -25,10 +25,10 @@ void names_are_compared_by_edits(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::nearest_name_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::nearest_name_test;
   const CMUnitTest tests[] = {cmocka_unit_test(names_are_compared_by_edits)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -5,7 +5,7 @@
 
 #include "base/tests/expect_text.hpp"
 
-namespace flexrf {
+namespace flexrf::quantity_text_test {
 namespace {
 
 void durations_have_three_digits_and_their_unit(void**) {
@@ -80,10 +80,10 @@ void sizes_are_read_likewise(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::quantity_text_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::quantity_text_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(durations_have_three_digits_and_their_unit),
       cmocka_unit_test(sizes_too),

@@ -4,7 +4,7 @@
 
 #include "base/tests/expect_text.hpp"
 
-namespace flexrf {
+namespace flexrf::text_table_test {
 namespace {
 
 void columns_are_as_wide_as_their_widest_cell(void**) {
@@ -46,10 +46,10 @@ void long_text_is_cut_between_characters(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::text_table_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::text_table_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(columns_are_as_wide_as_their_widest_cell),
       cmocka_unit_test(columns_without_text_take_no_room),

@@ -5,7 +5,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::time_test {
 namespace {
 
 void to_the_nearest_nanosecond(void**) {
@@ -30,10 +30,10 @@ void what_does_not_fit_is_the_most_there_is(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::time_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::time_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(to_the_nearest_nanosecond),
       cmocka_unit_test(there_and_back),

@@ -3,7 +3,7 @@
 #include "runtime/blackboard/test_types.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::history_test {
 namespace {
 
 using test::Sample;
@@ -111,10 +111,10 @@ void an_entry_that_is_being_overwritten_is_not_kept(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::history_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::history_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(empty_history_has_nothing_yet),
       cmocka_unit_test(at_gives_what_was_true_then),

@@ -7,7 +7,7 @@
 #include "runtime/blackboard/test_types.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::job_scores_test {
 namespace {
 
 using test::Sample;
@@ -100,10 +100,10 @@ void without_a_score_none_are_told(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::job_scores_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::job_scores_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_highest_come_first_and_nothing_is_taken),
       cmocka_unit_test(as_many_are_told_as_there_is_room_for),

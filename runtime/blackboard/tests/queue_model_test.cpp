@@ -5,7 +5,7 @@
 #include "runtime/blackboard/tests/model.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::queue_model_test {
 namespace {
 
 using test::assert_holds;
@@ -228,10 +228,10 @@ void job_queue_broken(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::queue_model_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::queue_model_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(ring_entry),
       cmocka_unit_test(ring_entry_broken),

@@ -9,7 +9,7 @@
 #include "runtime/blackboard/test_types.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::queue_test {
 namespace {
 
 using test::Sample;
@@ -385,10 +385,10 @@ void digest_covers_what_was_accepted(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::queue_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::queue_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(items_come_out_once_and_in_order),
       cmocka_unit_test(drop_newest_refuses_what_comes),

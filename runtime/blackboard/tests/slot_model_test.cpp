@@ -5,7 +5,7 @@
 #include "runtime/blackboard/tests/model.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::slot_model_test {
 namespace {
 
 using test::assert_holds;
@@ -382,10 +382,10 @@ void doorbell_broken(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::slot_model_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::slot_model_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(counted_slot),  cmocka_unit_test(counted_slot_broken),
       cmocka_unit_test(triple_buffer), cmocka_unit_test(triple_buffer_broken),

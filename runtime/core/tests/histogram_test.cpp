@@ -2,7 +2,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::histogram_test {
 namespace {
 
 void empty_histogram_is_all_zero(void**) {
@@ -47,10 +47,10 @@ void what_lies_outside_counts_at_the_ends(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::histogram_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::histogram_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(empty_histogram_is_all_zero),
       cmocka_unit_test(quantiles_are_at_most_one_sixteenth_too_high),

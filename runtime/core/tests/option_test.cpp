@@ -5,7 +5,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::option_test {
 namespace {
 
 constexpr Option force{.name = "--force",
@@ -64,10 +64,10 @@ void what_was_not_given_is_nothing(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::option_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::option_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(numbers_are_whole_words_within_their_range),
       cmocka_unit_test(durations_have_their_unit),

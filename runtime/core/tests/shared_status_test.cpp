@@ -7,7 +7,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::shared_status_test {
 namespace {
 
 void is_ok_before_the_first(void**) {
@@ -52,10 +52,10 @@ void a_copy_is_never_torn(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::shared_status_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::shared_status_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(is_ok_before_the_first),
       cmocka_unit_test(the_last_one_is_read),

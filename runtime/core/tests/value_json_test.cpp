@@ -5,7 +5,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::value_json_test {
 namespace {
 
 struct Point {
@@ -74,10 +74,10 @@ void zeroed_memory_is_a_value(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::value_json_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::value_json_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(every_kind_of_field_is_written),
       cmocka_unit_test(zeroed_memory_is_a_value),

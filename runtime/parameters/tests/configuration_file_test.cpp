@@ -14,7 +14,7 @@
 #include "runtime/parameters/tests/sample_component.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::configuration_file_test {
 namespace {
 
 constexpr const char* other_drivers[] = {"real", "mock"};
@@ -596,10 +596,10 @@ void older_formats_are_brought_up_step_by_step(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::configuration_file_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::configuration_file_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(without_a_file_the_tables_hold, begin, end),
       cmocka_unit_test_setup_teardown(what_is_saved_is_loaded, begin, end),

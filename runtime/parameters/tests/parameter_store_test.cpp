@@ -10,7 +10,7 @@
 #include "runtime/parameters/tests/parameter_bench.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::parameter_store_test {
 namespace {
 
 using namespace test;
@@ -396,10 +396,10 @@ void too_large_parameters_are_refused_at_the_start(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::parameter_store_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::parameter_store_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(values_in_force_are_published_at_the_start),
       cmocka_unit_test(a_set_comes_into_force_as_a_whole),

@@ -7,7 +7,7 @@
 #include "runtime/parameters/tests/sample_component.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::reconfigure_test {
 namespace {
 
 constexpr std::uint16_t count = 3;
@@ -188,10 +188,10 @@ void a_plain_write_is_for_what_is_not_initialised(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::reconfigure_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::reconfigure_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup(all_owners_are_initialised_again_with_the_new_values, begin),
       cmocka_unit_test_setup(a_change_that_does_not_fit_touches_nothing_and_all_are_named, begin),

@@ -4,7 +4,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::request_test {
 namespace {
 
 void changes_are_added_while_they_fit(void**) {
@@ -91,10 +91,10 @@ void lease_numbers_grow(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::request_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::request_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(changes_are_added_while_they_fit),
       cmocka_unit_test(a_full_queue_is_busy_at_once_and_rings_only_for_what_it_took),

@@ -7,7 +7,7 @@
 #include "runtime/parameters/tests/sample_component.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::value_access_test {
 namespace {
 
 using sample::Configuration;
@@ -251,10 +251,10 @@ void numbers_are_read_and_written_exactly(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::value_access_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::value_access_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(fields_are_found_by_path),
       cmocka_unit_test(values_become_text_and_return),

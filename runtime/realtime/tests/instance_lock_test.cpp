@@ -13,7 +13,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::instance_lock_test {
 namespace {
 
 char directory[64];
@@ -201,10 +201,10 @@ void root_makes_the_machines_place_for_itself_alone(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::instance_lock_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::instance_lock_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(one_holder_per_cell),
       cmocka_unit_test(a_dead_holder_holds_nothing),

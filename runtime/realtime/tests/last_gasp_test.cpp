@@ -21,7 +21,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::last_gasp_test {
 namespace {
 
 std::span<const std::byte> bytes_of(const char* text) {
@@ -339,10 +339,10 @@ void preparing_beside_firing_is_safe(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::last_gasp_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::last_gasp_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(invalid_memory_access),
       cmocka_unit_test(memory_that_is_not_there),

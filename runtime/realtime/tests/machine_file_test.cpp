@@ -6,7 +6,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::machine_file_test {
 namespace {
 
 CpuSet cpus(const char* text) {
@@ -130,10 +130,10 @@ void files_are_read(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::machine_file_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::machine_file_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(cpu_sets_are_read_and_written),
       cmocka_unit_test(broken_cpu_sets_are_refused),

@@ -14,7 +14,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::process_statistics_test {
 namespace {
 
 /// As the kernel tells the thread itself.
@@ -120,10 +120,10 @@ void a_thread_that_is_gone_is_not_found(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::process_statistics_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::process_statistics_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(counts_of_this_thread_rise),
       cmocka_unit_test(process_has_memory_and_threads),

@@ -18,7 +18,7 @@
 #include "runtime/realtime/process_statistics.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::rights_test {
 namespace {
 
 struct Answer {
@@ -192,10 +192,10 @@ void memory_is_locked_or_refused(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::rights_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::rights_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(nothing_needed_is_complete),  cmocka_unit_test(both_rights_missing),
       cmocka_unit_test(one_right_missing),           cmocka_unit_test(a_limit_that_suffices_is_enough),

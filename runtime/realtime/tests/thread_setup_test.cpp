@@ -11,7 +11,7 @@
 #include "runtime/realtime/rights.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::thread_setup_test {
 namespace {
 
 alignas(4096) std::byte stack[256 * 1024];
@@ -182,10 +182,10 @@ void guard_stops_an_overflow(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::thread_setup_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::thread_setup_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(helper_thread_is_not_realtime),
       cmocka_unit_test(realtime_thread_has_what_was_asked),
