@@ -23,32 +23,26 @@ find_test_keys() {  # find_test_keys PRESET: of all its tests that say what they
 places=$((4 * $(nproc)))
 
 run_tests() {  # run_tests PRESET [SELECTION OF CTEST...]
-  local preset=$1 status=0 sum failed total log name day unchanged=0
-  local -a launcher chosen=() passed
-  log=$(mktemp "$stages/ctest.XXXXXX")
+  local preset=$1
+  local -a names selection=("${@:2}")
   find_test_keys "$preset"
-  while IFS= read -r name; do
-    if day=$(passed_before "$preset" "$name"); then
-      unchanged_line "$name" "$day"
-      unchanged=$((unchanged + 1))
-    else
-      chosen+=("$name")
-    fi
-  done < <(test_names "$@")
-  if ((unchanged && !${#chosen[@]})); then
-    count 0 0 "$unchanged"
-    return
-  fi
-  ((!unchanged)) || set -- "$@" -R "^($(IFS='|' && echo "${chosen[*]}"))\$"
+  mapfile -t names < <(test_names "$@")
+  ((${#names[@]})) || { printf 'the preset %s has none of these tests\n' "$preset" && count 1 1 && return 1; }
+  run_changed "$preset" run_ctest "${names[@]}"
+}
+
+# run_ctest TEST...: these of the preset `preset` that `selection` selects; a test that was not built fails
+run_ctest() {
+  local status sum failed total log
+  local -a launcher
+  log=$(mktemp "$stages/ctest.XXXXXX")
   set_launcher "$preset"
   "${launcher[@]}" ctest --test-dir "$root/build/$preset" --output-on-failure --no-tests=error --no-label-summary \
-    -j "$places" "${@:2}" </dev/null 2>&1 |
+    -j "$places" "${selection[@]}" -R "^($(IFS='|' && echo "$*"))\$" </dev/null 2>&1 |
     sed -u '/^Could not find executable/,/^Unable to find executable/d' | tee "$log"
   status=${PIPESTATUS[0]}
   sum=$(sed -n 's/^[0-9]*% tests passed, \([0-9]*\) tests failed out of \([0-9]*\)$/\1 \2/p' "$log")
   read -r failed total <<<"${sum:-1 1}"
-  count "$total" "$failed" "$unchanged"
-  mapfile -t passed < <(sed -n -E 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .* Passed .*/\1/p' "$log")
-  remember_passed "$preset" "${passed[@]}"
+  count "$total" "$failed"
   return "$status"
 }

@@ -305,6 +305,12 @@ image_targets() {  # image_targets LEVEL: what its tests need of the release bui
   [[ $1 != full ]] || printf '%s\n' visual-servoing flexrf_without_flush
 }
 
+build_image_programs() {  # build_image_programs LEVEL
+  local -a targets
+  mapfile -t targets < <(image_targets "$1")
+  build release "${targets[@]}"
+}
+
 find_images() {  # of what the images of the tests are; once, when the programs are built
   [[ ! $image_inputs ]] || return 0
   mkdir -p "$image_folder" "$pc_shared" && choose_keys 2>"$pc_shared/keys.log" || return
@@ -373,11 +379,10 @@ image_lane() {  # one group after the other, until none is left
   done
 }
 
-# image_tests LEVEL [NAME...]: the tests of this level, or these of them; what they need of other levels' is taken as it was kept, or made
+# image_tests LEVEL [NAME...]: after build_image_programs, the tests of this level, or these of them; what they need of other levels' is taken as it was kept, or made
 image_tests() {
   local failed lane name
-  local -a lanes=() targets names
-  mapfile -t targets < <(image_targets "$1")
+  local -a lanes=() names
   rm -rf "$pc_shared"
   mkdir -p "$pc_shared"
   image_test_list | awk -v level="$1" '$2 == level' >"$pc_shared/.level"
@@ -387,10 +392,7 @@ image_tests() {
   image_test_count=$(wc -l <"$pc_shared/.chosen")
   awk '!seen[$4]++ { print $4 }' "$pc_shared/.chosen" >"$pc_shared/.groups"
   : >"$pc_shared/.results"
-  if ! build release "${targets[@]}" || ! find_images; then
-    count 1 1
-    return 1
-  fi
+  find_images || { count 1 1 && return 1; }
   set -m # groups of processes of their own, which end as one
   for ((lane = 0; lane < image_lanes; ++lane)); do
     image_lane &

@@ -15,10 +15,6 @@ source "$tool/test_record.sh"
 source "$tool/source_checks.sh"
 # shellcheck source=cmake/tool/ctest.sh
 source "$tool/ctest.sh"
-# shellcheck source=cmake/tool/image.sh
-source "$tool/image.sh"
-# shellcheck source=cmake/tool/image_test.sh
-source "$tool/image_test.sh"
 
 without_long=(-LE '^long$') # the long tests are left out, but where the level is full
 
@@ -49,42 +45,42 @@ test_preset() {  # test_preset PRESET: a test that was not built fails, and the 
 test_release() { run_tests release -LE "^panel\$${without_long[1]:+|${without_long[1]}}"; }
 test_panel() { run_tests release -L '^panel$' "${without_long[@]}"; }
 
-# run_changed NAME COMMAND TEST...: runs `COMMAND TEST...` with those of the tests that have changed since they passed
-run_changed() {
-  local name=$1 command=$2 test day unchanged=0
-  local -a chosen=()
-  shift 2
-  for test; do
-    if day=$(passed_before "$name" "$test"); then
-      unchanged_line "$test" "$day"
-      unchanged=$((unchanged + 1))
-    else
-      chosen+=("$test")
-    fi
-  done
-  count 0 0 "$unchanged"
-  ((!${#chosen[@]})) || "$command" "${chosen[@]}"
+test_guest() {  # test_guest [NAME...]
+  local name key
+  local -a names
+  mapfile -t names <"$root/build/release/guest_tests.txt"
+  for name; do known_word "test in the guest" "$name" "${names[@]}"; done
+  if (($#)); then names=("$@"); fi
+  if [[ $passed_folder ]]; then
+    key=$(guest_key) || return
+    find_keys guest <(for name in "${names[@]}"; do guest_test_reads "$name" | sed "s/^/$name\t/"; done) \
+      <(for name in "${names[@]}"; do printf '%s\t%s\n' "$name" "$key"; done)
+  fi
+  run_changed guest guest_tests "${names[@]}"
 }
+
+test_image() {  # test_image LEVEL [NAME...]
+  local level=$1 name
+  local -a names
+  mapfile -t names < <(image_test_list | awk -v level="$level" '$2 == level { print $1 }')
+  if (($# > 1)); then names=("${@:2}"); fi
+  build_image_programs "$level" || { count 1 1 && return 1; }
+  set_keys "image-$level" < <(for name in "${names[@]}"; do printf '%s %s\n' "$name" "$(image_test_key "$name")"; done)
+  run_changed "image-$level" image_tests_of_level "${names[@]}"
+}
+
+image_tests_of_level() { image_tests "$level" "$@"; } # of the level that test_image has
 
 presets_lane() {  # presets_lane PRESET...: builds them one after the other, as each uses all processors
   local preset
   for preset; do lane_stage "build $preset" build_preset "$preset"; done
 }
-test_guest() {  # test_guest [NAME...]
-  local name
-  local -a names
-  mapfile -t names <"$root/build/release/guest_tests.txt"
-  for name; do known_word "test in the guest" "$name" "${names[@]}"; done
-  if (($#)); then names=("$@"); fi
-  # The machine that they run in is restored or booted from what its key names.
-  find_keys guest <(for name in "${names[@]}"; do guest_test_reads "$name" | sed "s/^/$name\t/"; done) \
-    <(for name in "${names[@]}"; do printf '%s\t%s\n' "$name" "$(guest_key)"; done)
-  run_changed guest guest_tests "${names[@]}"
-}
-
 panel_lane() { lane_stage panel test_panel; }
 guest_lane() { lane_stage guest test_guest; }
-image_lane_of() { lane_stage "image" image_tests "$@"; } # image_lane_of LEVEL...
+image_lane_of() {  # image_lane_of LEVEL...
+  local level
+  for level; do lane_stage "image $level" test_image "$level"; done
+}
 analysis_lane() { lane_stage "static analysis" count_as_test analyse; }
 
 release_is_built() {  # all else takes its generator, and most its programs
@@ -104,7 +100,15 @@ await_first_lanes() {
 }
 
 start_image_lane() { [[ $no_image ]] || start_lane 5 image_lane_of "$@"; } # start_image_lane LEVEL...
-await_image_lane() { if [[ $no_image ]]; then skip image "$no_image"; else await_stage image; fi; }
+await_image_lane() {  # await_image_lane LEVEL...
+  local level
+  for level; do
+    if [[ $no_image ]]; then skip "image $level" "$no_image"; else await_stage "image $level"; fi
+  done
+}
+image_stage() {  # image_stage LEVEL [NAME...]: in the foreground
+  if [[ $no_image ]]; then skip "image $1" "$no_image"; else stage "image $1" test_image "$@"; fi
+}
 
 test_presets() {  # test_presets PRESET...: each when it is built
   local preset
@@ -121,7 +125,7 @@ level_first() {
   start_image_lane first
   stage "test release" test_release
   await_first_lanes
-  await_image_lane
+  await_image_lane first
 }
 
 level_gate() {
@@ -131,7 +135,7 @@ level_gate() {
   start_lane 15 analysis_lane
   test_presets checked tsan asan
   await_stage "static analysis"
-  await_image_lane
+  await_image_lane gate
 }
 
 level_full() {
@@ -147,7 +151,7 @@ level_full() {
   await_first_lanes
   test_presets checked tsan asan fuzz
   await_stage "static analysis"
-  await_image_lane
+  await_image_lane first gate full
 }
 
 level_presets() {  # level_presets PRESET...: these and nothing else
@@ -169,6 +173,21 @@ level_guest() {  # level_guest [NAME...]
   if [[ $no_guest ]]; then skip guest "$no_guest"; else stage guest test_guest "$@"; fi
 }
 
+level_image() {  # level_image [NAME...]: of all levels but soak, of full only with --long; or these, of any level
+  local level name
+  local -a known
+  if (($#)); then
+    mapfile -t known < <(image_test_list | cut -d ' ' -f 1)
+    for name; do known_word "test of the image" "$name" "${known[@]}"; done
+    for level in "${image_levels[@]}"; do
+      mapfile -t known < <(image_test_list | awk -v level="$level" -v names=" $* " '$2 == level && index(names, " " $1 " ") { print $1 }')
+      ((!${#known[@]})) || image_stage "$level" "${known[@]}"
+    done
+  else
+    for level in first gate ${long:+full}; do image_stage "$level"; done
+  fi
+}
+
 # test_level LEVEL [WORD...]: LEVEL is first, gate, full, soak, quick, guest, image or presets
 test_level() {
   local start wall state no_guest no_image level=$1
@@ -186,13 +205,19 @@ test_level() {
   [[ $long ]] && without_long=()
   choose_extent some
   no_guest=$(guest_obstacle)
-  no_image=$(image_obstacle)
+  if [[ $level == @(first|gate|full|soak|image) ]]; then
+    # shellcheck source=cmake/tool/image.sh
+    source "$tool/image.sh"
+    # shellcheck source=cmake/tool/image_test.sh
+    source "$tool/image_test.sh"
+    no_image=$(image_obstacle)
+  fi
   case $level in
     first | gate | full) begin_record "$level" "$state" && "level_$level" ;;
     quick) release_is_built && stage "test release" test_release ;;
     guest) level_guest "$@" ;;
-    image) if [[ $no_image ]]; then skip image "$no_image"; else stage image image_tests "$@"; fi ;;
-    soak) if [[ $no_image ]]; then skip image "$no_image"; else stage image image_tests soak "$@"; fi ;;
+    image) level_image "$@" ;;
+    soak) image_stage soak ;;
     presets) level_presets "$@" ;;
   esac
   end_lanes

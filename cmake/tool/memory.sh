@@ -96,6 +96,17 @@ find_keys() {
   mv "$folder.new" "$folder"
 }
 
+# set_keys NAME: for tests whose inputs are known to another script: lines "TEST KEY" from standard input
+set_keys() {
+  local folder=$stages/keys-$1 test key environment
+  [[ $passed_folder ]] || return 0
+  environment=$(environment_key)
+  mkdir -p "$folder" && : >"$folder.paths" && : >"$folder.reads" && : >"$folder.sums" || return
+  while read -r test key; do
+    [[ $key ]] && printf '%s\n' "$1 $test $environment $key" | sha256sum | cut -d ' ' -f 1 >"$folder/$test"
+  done
+}
+
 key_of() {  # key_of NAME TEST: its key; fails if it has none
   [[ $passed_folder && -s $stages/keys-$1/$2 ]] && cat "$stages/keys-$1/$2"
 }
@@ -131,3 +142,29 @@ unchanged_line() {  # unchanged_line TEST DAY: in place of the runner's line for
   while ((${#line} < 60)); do line+=.; done
   printf '%s   unchanged since it passed (%s)\n' "$line" "$2"
 }
+
+# run_changed NAME COMMAND TEST...: runs `COMMAND TEST...` with those of the tests that have changed since they passed. The command prints a
+# line as ctest's for each.
+run_changed() {
+  local name=$1 command=$2 test day unchanged=0 status log
+  local -a chosen=() passed
+  shift 2
+  for test; do
+    if day=$(passed_before "$name" "$test"); then
+      unchanged_line "$test" "$day"
+      unchanged=$((unchanged + 1))
+    else
+      chosen+=("$test")
+    fi
+  done
+  count 0 0 "$unchanged"
+  ((${#chosen[@]})) || return 0
+  log=$(mktemp "$stages/tests.XXXXXX")
+  "$command" "${chosen[@]}" 2>&1 | tee "$log"
+  status=${PIPESTATUS[0]}
+  mapfile -t passed < <(passed_tests "$log")
+  remember_passed "$name" "${passed[@]}"
+  return "$status"
+}
+
+passed_tests() { sed -n -E 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .* Passed .*/\1/p' "$1"; } # passed_tests LOG

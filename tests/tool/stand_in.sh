@@ -54,7 +54,7 @@ stand_in ninja <<'BODY'
 cat >/dev/null
 while [[ $1 != -C ]]; do shift; done
 [[ -e $STAND_IN/broken ]] && { echo "[1/2] Building"; echo "FAILED: it"; echo "source.cpp:1: error: broken"; exit 1; }
-[[ $2 == */asan && -e $STAND_IN/busy ]] && for ((i = 0; i < 1500000; ++i)); do :; done
+[[ $2 == */asan && -e $STAND_IN/busy ]] && for ((i = 0; i < 1000000; ++i)); do :; done
 echo "[1/1] Linking"
 mkdir -p "$2/apps/$3"
 cat >"$2/apps/$3/$3" <<'APPLICATION'

@@ -5,9 +5,10 @@ source "$(dirname "$0")/stand_in_guest.sh"
 shopt -s extglob
 
 stand_in ctest <<'BODY'
+[[ $* == *" -N"* ]] && { echo "  Test #1: it"; exit; }
 echo "long: ${FLEXRF_LONG-unset}" >>"$STAND_IN/calls"
 if [[ $2 == */tsan && -e $STAND_IN/busy ]]; then # until the build of asan behind is over, and its shell
-  until [[ -s $STAND_IN/tree/build/.stages/build\ asan.result ]]; do sleep 0.1; done
+  until [[ -s $STAND_IN/tree/build/.stages/build\ asan.result ]]; do sleep 1; done
   sleep 0.5
 fi
 [[ $2 == */checked && -e $STAND_IN/failing ]] && { echo "75% tests passed, 1 tests failed out of 4"; exit 8; }
@@ -21,9 +22,14 @@ BODY
 
 # The PC's own are tried by themselves.
 cat >"$tree/cmake/tool/image_test.sh" <<'BODY'
+image_levels=(first gate full soak)
+image_test_list() { printf '%s\n' 'boots first a' 'updates gate b' 'flagship full c' 'campaign soak d'; }
+image_test_key() { echo "key of $1"; }
+build_image_programs() { :; }
 image_tests() {
   echo "image $*; long: ${FLEXRF_LONG-unset}" >>"$STAND_IN/calls"
   count 7 0
+  echo "1/1 Test #1: $2 ....   Passed  1 s"
 }
 BODY
 
@@ -33,72 +39,72 @@ stages_of() {  # stages_of OUTPUT: the names in the table, sorted
 }
 test_calls() { grep "^ctest .*-j" "$calls" | grep -v -e ' -N' | LC_ALL=C sort; }
 
-flexrf test </dev/null
+FLEXRF_CACHE=off flexrf test </dev/null
 expect "exit code" "$status" 0
 expect "last line" "$(last_line)" "100% tests passed, 0 tests failed out of 19"
-expect "stages" "$(stages_of)" "build release,guest,image,panel,source layout,test release"
+expect "stages" "$(stages_of)" "build release,guest,image first,panel,source layout,test release"
 expect "use of the processors" "$output" "*total * % of 1 CPUs*"
-expect "selections" "$(test_calls)" "*/release * -j 4 -L ^panel\$ -LE ^long\$"$'\n'"*/release * -j 4 -LE ^panel\$|^long\$"
-expect "image" "$(grep ^image "$calls")" "image first; long: unset"
+expect "selections" "$(test_calls)" "*/release * -j 4 -L ^panel\$ -LE ^long\$ -R ^(it)\$"$'\n'"*/release * -j 4 -LE ^panel\$|^long\$ -R ^(it)\$"
+expect "image" "$(grep ^image "$calls")" "image first boots; long: unset"
 expect "long tests" "$(sort -u <(grep ^long: "$calls"))" "long: unset"
-expect "record" "$(cut -f 1-2 "$tree"/build/test-records/first-*.txt)" $'level\tfirst\nstate\t@(cold|warm)\n*'$'stage\tguest\n*'
+expect "record" "$(cut -f 1-2 "$tree"/build/test-records/first-*.txt)" $'level\tfirst\nstate\tcold\n*'$'stage\tguest\n*'
 
 : >"$calls"
-flexrf test --gate </dev/null
+flexrf test --gate --no-memory </dev/null
 expect "exit code of --gate" "$status" 0
 expect "stages of --gate" "$(stages_of)" \
-  "build asan,build checked,build release,build tsan,image,static analysis,test asan,test checked,test tsan"
-expect "tests of checked" "$(grep "^ctest .*/checked .* -j" "$calls")" "!(* -L *) -LE ^long\$"
-expect "tests of asan" "$(grep "^ctest .*/asan .* -j" "$calls")" "* -L ^(unit|stress)\$ -LE ^long\$"
+  "build asan,build checked,build release,build tsan,image gate,static analysis,test asan,test checked,test tsan"
+expect "tests of checked" "$(grep "^ctest .*/checked .* -j" "$calls")" "!(* -L *) -LE ^long\$ *"
+expect "tests of asan" "$(grep "^ctest .*/asan .* -j" "$calls")" "* -L ^(unit|stress)\$ -LE ^long\$ *"
 expect "what is built of asan" "$(grep "^ninja .*/asan" "$calls")" "*tests_unit tests_stress"
-expect "tests of tsan" "$(grep "^ctest .*/tsan .* -j" "$calls")" "* -L ^threads\$ -LE ^long\$"
+expect "tests of tsan" "$(grep "^ctest .*/tsan .* -j" "$calls")" "* -L ^threads\$ -LE ^long\$ *"
 expect "what is built of tsan" "$(grep "^ninja .*/tsan" "$calls")" "*tests_threads"
 for preset in asan tsan; do
   expect "start of $preset" "$(grep "^setarch --addr-no-randomize ctest .*/$preset " "$calls")" "?*"
 done
-expect "image of --gate" "$(grep ^image "$calls")" "image gate; long: unset"
+expect "image of --gate" "$(grep ^image "$calls")" "image gate updates; long: unset"
 
 : >"$calls"
-flexrf test --full </dev/null
+flexrf test --full --no-memory </dev/null
 expect "exit code of --full" "$status" 0
 expect "stages of --full" "$(stages_of)" \
-  "build asan,build checked,build fuzz,build release,build tsan,guest,image,panel,source layout,static analysis,test asan,test checked,test fuzz,test release,test tsan"
+  "build asan,build checked,build fuzz,build release,build tsan,guest,image first,image full,image gate,panel,source layout,static analysis,test asan,test checked,test fuzz,test release,test tsan"
 expect "long tests of --full" "$(sort -u <(grep ^long: "$calls"))" "long: 1"
-expect "image of --full" "$(grep ^image "$calls")" "image first gate full; long: 1"
-expect "selections of --full" "$(test_calls | grep -e ' -L')" "*/fuzz * -L ^fuzz\$"$'\n'"* -L ^panel\$"$'\n'"* -LE ^panel\$"$'\n'"*/tsan * -L ^(threads|whole|stress)\$"
+expect "image of --full" "$(grep ^image "$calls")" "image first boots; long: 1"$'\n'"image gate updates; long: 1"$'\n'"image full flagship; long: 1"
+expect "selections of --full" "$(test_calls | grep -e ' -L')" "*/fuzz * -L ^fuzz\$ -R *"$'\n'"* -L ^panel\$ -R *"$'\n'"* -LE ^panel\$ -R *"$'\n'"*/tsan * -L ^(threads|whole|stress)\$ -R *"
 expect "what is built of fuzz" "$(grep "^ninja .*/fuzz" "$calls")" "*tests_fuzz"
 
 : >"$calls"
 flexrf test --soak </dev/null
-expect "image of --soak" "$(grep ^image "$calls")" "image soak; long: 1"
+expect "image of --soak" "$(grep ^image "$calls")" "image soak campaign; long: 1"
 
 : >"$calls"
-flexrf test tsan debug </dev/null
+flexrf test tsan debug --no-memory </dev/null
 expect "exit code of two presets" "$status" 0
 expect "presets" "$(grep '^ctest.* -j' "$calls" | sed 's|.*/build/\([a-z]*\) .*|\1|')" "tsan"$'\n'"debug"
 expect "last line of two presets" "$(last_line)" "100% tests passed, 0 tests failed out of 10"
 
 # What builds in a lane ends while the tests of asan wait.
 touch "$work/busy"
-flexrf test tsan asan </dev/null
+flexrf test tsan asan --no-memory </dev/null
 expect "processor time of a build" "$output" "*"$'\n'"build asan +([^s])s +( )[1-9]* s   passed*"
 expect "processor time of tests that wait" "$output" "*"$'\n'"test tsan +([^s])s +( )0.? s   passed*"
 rm "$work/busy"
 
 printf 'build release\t1000\ntest release\t0\n' >"$tree/cmake/tool/test_budgets.txt"
-flexrf test release </dev/null
+flexrf test release --no-memory </dev/null
 expect "exit code over a budget" "$status" 0
 expect "what is over its budget" "$output" "!(*over budget: build*)over budget: test release used 0.* s on all CPUs, and its budget is 0.0 s*"
 
 touch "$work/failing"
 : >"$calls"
-flexrf test --gate </dev/null
+flexrf test --gate --no-memory </dev/null
 expect "exit code of a failure" "$status" 1
 expect "stages after a failure" "$output" "*test checked *FAILED*test tsan *passed*"
 expect "last line of a failure" "$(last_line)" "9[0-9]% tests passed, 1 tests failed out of *"
 
 touch "$work/broken"
-flexrf test release </dev/null
+flexrf test release --no-memory </dev/null
 expect "exit code of a broken build" "$status" 1
 expect "tests after a broken build" "$output" "*error: broken*build release *FAILED*test release *passed*panel *passed*"
 expect "last line of a broken build" "$(last_line)" "88% tests passed, 1 tests failed out of 9"
