@@ -1,6 +1,8 @@
 // What the stress tests share: how long to run, and the first thing that went wrong in any thread.
 #pragma once
 
+#include <sched.h>
+
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
@@ -32,6 +34,17 @@ class Complaint {
  private:
   std::atomic<const char*> text_{nullptr};
 };
+
+/// Passes the time between two looks at something that another thread changes. Spins until the kernel takes
+/// the processor away, because on a loaded machine each yield costs a turn of all that wants to run. Yields
+/// where there is a single processor, because the other thread cannot run beside this one.
+inline void pass_time() noexcept {
+  static const bool has_one_processor = [] {
+    cpu_set_t allowed;
+    return sched_getaffinity(0, sizeof(allowed), &allowed) == 0 && CPU_COUNT(&allowed) == 1;
+  }();
+  if (has_one_processor) std::this_thread::yield();
+}
 
 /// Every thread starts at once.
 class Start {

@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "runtime/blackboard/stress.hpp"
 #include "runtime/parameters/parameter_store.hpp"
 #include "runtime/parameters/tests/sample_component.hpp"
 #include "tests/cmocka.hpp"
@@ -26,7 +27,7 @@ struct Marked {
 // A small capacity, so that cells are reused all the time and producers meet at both ends.
 struct IntakeRun {
   Intake<Marked, 6> intake;
-  std::array<std::atomic<std::uint64_t>, producers> put{};
+  std::atomic<std::uint64_t> refused{0};
   std::atomic<std::uint32_t> finished{0};
 };
 
@@ -37,40 +38,33 @@ bool run_intake(std::uint32_t items) {
     threads.emplace_back([&run = *run, producer, items] {
       Marked item{};
       item.producer = producer;
+      std::uint64_t refused = 0;
       for (std::uint32_t number = 1; number <= items; ++number) {
         item.number = number;
         for (std::uint64_t& copy : item.copies) copy = number;
-        if (run.intake.put(item))
-          run.put[producer].fetch_add(1, std::memory_order_relaxed);
-        else
-          std::this_thread::yield();
+        for (; !run.intake.put(item); ++refused) test::pass_time();
       }
+      run.refused.fetch_add(refused);
       run.finished.fetch_add(1, std::memory_order_release);
     });
   }
   bool is_right = true;
   std::array<std::uint32_t, producers> last{};
-  std::array<std::uint64_t, producers> taken{};
   Marked item{};
   while (true) {
     const bool is_last = run->finished.load(std::memory_order_acquire) == producers;
     while (run->intake.take(item)) {
-      is_right = is_right && item.producer < producers && item.number > last[item.producer];
+      is_right = is_right && item.producer < producers && item.number == last[item.producer] + 1;
       for (const std::uint64_t copy : item.copies) is_right = is_right && copy == item.number;
       last[item.producer] = item.number;
-      ++taken[item.producer];
     }
     if (is_last) break;
-    std::this_thread::yield();
+    test::pass_time();
   }
   for (std::thread& thread : threads) thread.join();
-  std::uint64_t total = 0;
-  for (std::uint32_t producer = 0; producer < producers; ++producer) {
-    is_right = is_right && taken[producer] == run->put[producer].load();
-    total += taken[producer];
-  }
-  return is_right && total > 0 && run->intake.accepted() == total &&
-         run->intake.accepted() + run->intake.refused() == std::uint64_t{producers} * items;
+  for (const std::uint32_t number : last) is_right = is_right && number == items;
+  return is_right && run->intake.accepted() == std::uint64_t{producers} * items &&
+         run->intake.refused() == run->refused.load();
 }
 
 void an_intake_loses_and_tears_nothing(void**) {
@@ -87,6 +81,7 @@ struct CellRun {
   RequestQueue requests;
   AnswerQueue answers[2];
   Doorbell owner;
+  Doorbell requesters[2];
   std::atomic<std::uint32_t> finished{0};
   std::atomic<bool> done{false};
 };
@@ -106,6 +101,16 @@ std::uint32_t request_changes(CellRun& run, std::uint16_t requester, std::uint32
       ++answered;
     }
   };
+  // Sleeps until another answer has come.
+  const auto fetch_next = [&] {
+    const std::uint32_t before = answered;
+    while (true) {
+      const std::uint32_t heard = run.requesters[requester].listen();
+      fetch();
+      if (answered > before) return;
+      run.requesters[requester].wait(heard, Time::max());
+    }
+  };
   for (std::uint32_t i = 0; i < count; ++i) {
     request = ParameterRequest{};
     request.requester = requester;
@@ -116,17 +121,11 @@ std::uint32_t request_changes(CellRun& run, std::uint16_t requester, std::uint32
     request.add(sample::limits, 0, &limits, sizeof(limits));
     while (!run.requests.push(request)) {
       fetch();
-      std::this_thread::yield();
+      test::pass_time();
     }
-    while (i + 1 - answered > AnswerQueue::capacity / 2) {
-      fetch();
-      std::this_thread::yield();
-    }
+    while (i + 1 - answered > AnswerQueue::capacity / 2) fetch_next();
   }
-  while (answered < count) {
-    fetch();
-    std::this_thread::yield();
-  }
+  while (answered < count) fetch_next();
   run.finished.fetch_add(1);
   run.owner.ring();
   return is_right ? answered : 0;
@@ -156,7 +155,7 @@ std::uint64_t watch(CellRun& run) {
     const bool was_done = run.done;
     if (!run.slot.control().take(held)) {
       if (was_done) break;
-      std::this_thread::yield();
+      test::pass_time();
       continue;
     }
     const auto& values = *reinterpret_cast<const sample::Runtime*>(run.slot.control().payload(held));
@@ -171,6 +170,7 @@ std::uint64_t watch(CellRun& run) {
 bool run_cell(std::uint32_t count) {
   auto run = std::make_unique<CellRun>();
   run->requests.set_bell(&run->owner);
+  for (std::size_t i = 0; i < 2; ++i) run->answers[i].set_bell(&run->requesters[i]);
   if (!run->parameters.connect(run->component, &run->slot.control(), &sample::default_runtime, run->scratch))
     return false;
   if (!run->parameters.adopt(&sample::default_runtime, Time{Duration{1}})) return false;
