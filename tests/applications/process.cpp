@@ -7,25 +7,14 @@
 #include <unistd.h>
 #include <utmp.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <thread>
 
 #include "runtime/executive/tests/checks.hpp"
 
 namespace flexrf::whole {
-
-bool wait_until(const std::function<bool()>& condition) {
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes{2};
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > give_up) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds{1});
-  }
-  return true;
-}
 
 std::string contents_of(const std::string& path) {
   std::ifstream file(path);

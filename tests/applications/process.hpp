@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/waiting.hpp"
+
 namespace flexrf::whole {
 
-/// False when it does not come true within 2 min, which is not a measurement but the end of patience.
-bool wait_until(const std::function<bool()>& condition);
+using test::wait_until;
 
 std::string contents_of(const std::string& path);
 void write_file(const std::string& path, const std::string& text);

@@ -43,14 +43,6 @@ bool is_half_written(const Folder& folder) {
   return exists(folder / "cell.xml.new") || exists(folder / "cell.xml.previous.new");
 }
 
-/// What is there for less than a look of wait_until().
-bool wait_busily(const std::function<bool()>& condition) {
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes{2};
-  while (!condition())
-    if (std::chrono::steady_clock::now() > give_up) return false;
-  return true;
-}
-
 void sleep_for(std::chrono::microseconds time) {
   const timespec pause{0, time.count() * 1000};
   nanosleep(&pause, nullptr);
@@ -64,7 +56,9 @@ void killed_while_saving_it_starts_with_what_was_saved() {
   const Folder folder;
   std::uint64_t known = 0;
   int left_behind = 0;
-  for (int kill = 0; kill < kills; ++kill) {
+  // A busy machine may end each writing before the signal arrives, so the test goes on until one kill has met
+  // a writing. Where none can, this does not end.
+  for (int kill = 0; kill < kills || left_behind == 0; ++kill) {
     Process process(
         folder, {place::application, "--config", "cell.xml", "--no-realtime", "--standstill-limit", "10min"});
     process.type("l");
@@ -73,10 +67,12 @@ void killed_while_saving_it_starts_with_what_was_saved() {
     sleep_for(std::chrono::microseconds{microseconds(random)});
     // Half of them where it hurts most, after a close look.
     if (kill % 2 == 0) {
-      CHECK(wait_busily([&] {
+      const auto is_being_written = [&] {
         CHECK(is_whole(text_of(folder, "cell.xml")));
         return is_half_written(folder);
-      }));
+      };
+      // Without a pause: a file is half written for less than one.
+      CHECK(wait_until(is_being_written, std::chrono::microseconds{0}));
     }
     process.send(SIGKILL);
     const Ending ending = process.wait();
@@ -90,9 +86,7 @@ void killed_while_saving_it_starts_with_what_was_saved() {
     if (exists(folder / "cell.xml.previous")) CHECK(learned(text_of(folder, "cell.xml.previous")) <= now);
     left_behind += is_half_written(folder) ? 1 : 0;
   }
-  // Else no kill met a writing, and nothing is shown.
-  CHECK(left_behind > 0);
-  print_message("%d of %d kills left a file half written beside the whole one\n", left_behind, kills);
+  print_message("%d kills left a file half written beside the whole one\n", left_behind);
   // One that goes on to its end.
   const Ending last = run(folder, {place::application, "--config", "cell.xml", "--no-realtime",
                                    "--standstill-limit", "10min", "--report", "report"});

@@ -20,6 +20,7 @@
 #include "script_keyboard_driver.hpp"
 #include "six_axis.hpp"
 #include "tests/cmocka.hpp"
+#include "tests/waiting.hpp"
 
 namespace flexrf::application {
 extern const Application application;
@@ -29,6 +30,7 @@ namespace {
 
 using namespace flexrf;
 using application::application;
+using test::wait_until;
 
 constexpr double tolerance = 1e-3;  // m: the sensors' noise, and what the servos lag at the end
 const std::string script = "/tmp/flexrf_keyboard_" + std::to_string(getpid()) + ".keys";
@@ -166,14 +168,6 @@ bool find_hold(const char* unit, const char* parameter, ParameterRequest& reques
       if (std::strcmp(all[p].field->name, parameter) == 0)
         return request.add_name(static_cast<std::uint16_t>(p));
     }
-  }
-  return false;
-}
-
-bool wait_until(const std::function<bool()>& condition) {
-  for (int patience = 0; patience < 2000; ++patience) {
-    if (condition()) return true;
-    usleep(10'000);
   }
   return false;
 }

@@ -11,6 +11,7 @@
 #include <csignal>
 
 #include "tests/cmocka.hpp"
+#include "tests/waiting.hpp"
 
 namespace flexrf {
 namespace {
@@ -51,8 +52,7 @@ struct Worker {
            size < 8U * 1024 * 1024 && std::string_view(name) == "left_hand_camer";
   }
   bool until(int wanted) const {
-    for (int i = 0; i < 10'000 && rounds < wanted; ++i) usleep(1000);
-    return rounds >= wanted;
+    return test::wait_until([&] { return rounds >= wanted; });
   }
 
   HelperThread helper;

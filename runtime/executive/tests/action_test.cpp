@@ -21,7 +21,7 @@ struct Machine {
     if (change) change(cell);
     running.emplace(cell);
     running->start();
-    CHECK(RunningCell::wait_until([this] { return steps() > 5; }));
+    CHECK(wait_until([this] { return steps() > 5; }));
   }
   Executive& executive() { return running->executive(); }
   std::uint64_t steps() { return cell.unit_state(Cell::consumer).steps; }
@@ -35,7 +35,7 @@ struct Machine {
       answer = status;
       answered = true;
     });
-    CHECK(RunningCell::wait_until([&] { return answered.load(); }));
+    CHECK(wait_until([&] { return answered.load(); }));
     return answer;
   }
 
@@ -46,7 +46,7 @@ struct Machine {
       result = outcome;
       answered = true;
     });
-    CHECK(RunningCell::wait_until([&] { return answered.load(); }));
+    CHECK(wait_until([&] { return answered.load(); }));
     return result;
   }
 
@@ -98,7 +98,7 @@ void what_is_started_again_waits_for_start() {
   CHECK(machine.act(ComponentAction::stop, Cell::consumer).is_ok());
   CHECK(machine.act(ComponentAction::start, Cell::consumer).is_ok());
   CHECK_EQUAL(machine.life(), Life::running);
-  CHECK(RunningCell::wait_until([&] { return machine.steps() > 5; }));
+  CHECK(wait_until([&] { return machine.steps() > 5; }));
   CHECK(!machine.executive().control().may_move());
   CHECK(machine.executive().control().start_motion().is_ok());
   const Status again = machine.act(ComponentAction::start, Cell::consumer);
@@ -113,7 +113,7 @@ void what_is_held_ends_with_the_unit() {
   RunningCell running(cell);
   const std::uint16_t requester = running.add_requester();
   running.start();
-  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::producer).steps > 5; }));
+  CHECK(wait_until([&] { return cell.unit_state(Cell::producer).steps > 5; }));
   ParameterRequest request;
   request.kind = RequestKind::hold;
   request.component = Cell::producer;
@@ -124,7 +124,7 @@ void what_is_held_ends_with_the_unit() {
   CHECK_EQUAL(running.ask(request).kind, AnswerKind::accepted);
   std::atomic<bool> stopped{false};
   running.executive().act(ComponentAction::stop, Cell::producer, [&](const Status&) { stopped = true; });
-  CHECK(RunningCell::wait_until([&] { return stopped.load(); }));
+  CHECK(wait_until([&] { return stopped.load(); }));
   const auto lock = running.executive().cell().observe();
   for (const SlotRecord& slot : cell.application().slots) {
     if (std::strcmp(slot.name, "producer.runtime") != 0) continue;
@@ -198,13 +198,13 @@ void the_ports_of_a_device_begin_anew_when_it_is_initialised() {
     };
   });
   const Component& device = machine.executive().cell().component(actuator);
-  CHECK(RunningCell::wait_until([&] { return news == 1; }));
+  CHECK(wait_until([&] { return news == 1; }));
   CHECK_EQUAL(device.input_counters(0, 0).read, 1U);
   CHECK(machine.act(ComponentAction::initialise, actuator).is_ok());
-  CHECK(RunningCell::wait_until([&] { return news == 2; }));
+  CHECK(wait_until([&] { return news == 2; }));
   CHECK_EQUAL(device.input_counters(0, 0).read, 1U);
   const int before = looks;
-  CHECK(RunningCell::wait_until([&] { return looks > before + 5; }));
+  CHECK(wait_until([&] { return looks > before + 5; }));
   CHECK_EQUAL(news.load(), 2);
 }
 
@@ -246,7 +246,7 @@ void after_a_fault_initialise_constructs_it_anew() {
       if (fails && tick.number == 10) unit.fail(Status::error(StatusCode::device_fault, "slipped"));
     };
   });
-  CHECK(RunningCell::wait_until([&] { return machine.life() == Life::fault; }));
+  CHECK(wait_until([&] { return machine.life() == Life::fault; }));
   fails = false;
   CHECK(machine.act(ComponentAction::initialise, Cell::consumer).is_ok());
   CHECK_EQUAL(machine.life(), Life::running);
@@ -279,7 +279,7 @@ void nobody_waits_for_what_he_asked_for() {
                                   [&](const ReconfigureResult&) { note(); });
   CHECK_EQUAL(answers.load(), 0);
   let_go = true;
-  CHECK(RunningCell::wait_until([&] { return answers == 2; }));
+  CHECK(wait_until([&] { return answers == 2; }));
   CHECK(threads == (std::vector<std::string>{"lifecycle", "lifecycle"}));
 }
 
@@ -304,14 +304,13 @@ void what_moves_is_named() {
     cell.unit(Cell::consumer).script.is_idle = [&](const TestUnit&) { return idle.load(); };
   });
   Executive& executive = machine.executive();
-  CHECK(RunningCell::wait_until([&] {
+  CHECK(wait_until([&] {
     return executive.moving() == std::vector<ComponentIndex>{Cell::consumer, actuator};
   }));
   executive.control().stop_motion();
-  CHECK(RunningCell::wait_until(
-      [&] { return executive.moving() == std::vector<ComponentIndex>{Cell::consumer}; }));
+  CHECK(wait_until([&] { return executive.moving() == std::vector<ComponentIndex>{Cell::consumer}; }));
   idle = true;
-  CHECK(RunningCell::wait_until([&] { return executive.moving().empty(); }));
+  CHECK(wait_until([&] { return executive.moving().empty(); }));
 }
 
 /// Nobody commands it any more, and it is not at rest yet.
@@ -324,10 +323,10 @@ void what_a_fault_has_not_made_safe_moves() {
       if (tick.number == 10) unit.fail(Status::error(StatusCode::device_fault, "slipped"));
     };
   });
-  CHECK(RunningCell::wait_until([&] { return machine.cell.events().count_of("actuator: make_safe") > 0; }));
+  CHECK(wait_until([&] { return machine.cell.events().count_of("actuator: make_safe") > 0; }));
   CHECK(machine.executive().moving() == std::vector<ComponentIndex>{actuator});
   is_safe = true;
-  CHECK(RunningCell::wait_until([&] { return machine.executive().moving().empty(); }));
+  CHECK(wait_until([&] { return machine.executive().moving().empty(); }));
 }
 
 void what_a_change_initialises_again_is_known_before() {
@@ -371,7 +370,7 @@ void nobody_waits_for_who_observes() {
   const auto lock = machine.executive().cell().observe();
   const std::uint64_t before = machine.steps();
   const std::uint64_t produced = machine.cell.unit_state(Cell::producer).steps;
-  CHECK(RunningCell::wait_until([&] {
+  CHECK(wait_until([&] {
     return machine.steps() > before + 20 && machine.cell.unit_state(Cell::producer).steps > produced + 20;
   }));
 }

@@ -56,7 +56,7 @@ struct Audited {
   explicit Audited(const std::string& file) : running(cell, audited(file)) {
     requester = running.add_requester();
     running.start();
-    CHECK(RunningCell::wait_until([this] { return running.control().mode() == Mode::running; }));
+    CHECK(wait_until([this] { return running.control().mode() == Mode::running; }));
   }
   flexrf::Cell& inside() { return running.executive().cell(); }
 
@@ -87,7 +87,7 @@ struct Audited {
     return all;
   }
   bool is_told(std::string_view part) {
-    return RunningCell::wait_until([&] { return told().find(part) != std::string::npos; });
+    return wait_until([&] { return told().find(part) != std::string::npos; });
   }
 
   Cell cell;
@@ -139,7 +139,7 @@ void presses_and_both_ends_of_a_hold_are_told() {
   press.add_presses(1, 2);
   CHECK_EQUAL(audited.running.ask(press).kind, AnswerKind::accepted);
   CHECK(audited.is_told(R"j("did":"pressed","what":"producer.kick","count":2)j"));
-  CHECK(RunningCell::wait_until([&] {  // on a loaded machine a press may come too late
+  CHECK(wait_until([&] {  // on a loaded machine a press may come too late
     ParameterRequest hold = audited.request(RequestKind::hold);
     hold.add_name(2);
     hold.lease = new_lease_number();
@@ -157,12 +157,12 @@ void who_stopped_is_known_until_the_stop_is_cleared() {
   Audit& audit = audited.running.executive().audit();
   audited.inside().stop_motion("ann (192.168.0.7)");
   audited.inside().stop_motion("bob (127.0.0.1)");
-  CHECK(RunningCell::wait_until([&] { return audit.stopped_by().has_value(); }));
+  CHECK(wait_until([&] { return audit.stopped_by().has_value(); }));
   CHECK(audited.is_told(R"j("who":"bob (127.0.0.1)","did":"stopped motion")j"));
   CHECK_EQUAL(std::string{audit.stopped_by()->who}, "ann (192.168.0.7)");
   CHECK(audit.stopped_by()->at > 1'600'000'000'000);
   audited.inside().clear_stop_motion("bob (127.0.0.1)");
-  CHECK(RunningCell::wait_until([&] { return !audit.stopped_by().has_value(); }));
+  CHECK(wait_until([&] { return !audit.stopped_by().has_value(); }));
   CHECK(audited.inside().start_motion("bob (127.0.0.1)").is_ok());
   CHECK(audited.is_told("gave Start"));
 }
@@ -189,7 +189,7 @@ void configuration_and_actions_are_told() {
       {{Cell::producer, "offset", "7.5"}}, [&](const ReconfigureResult&) { ++done; }, "eric (127.0.0.1)");
   executive.reconfigure(
       {{Cell::producer, "offset", "much"}}, [&](const ReconfigureResult&) { ++done; }, "eric (127.0.0.1)");
-  CHECK(RunningCell::wait_until([&] { return done == 4; }));
+  CHECK(wait_until([&] { return done == 4; }));
   CHECK(audited.is_told(R"j("who":"eric (127.0.0.1)","did":"stopped","what":"producer")j"));
   CHECK(audited.is_told("tried to start a component"));
   CHECK(audited.is_told(R"j("did":"changed","what":"producer.offset","before":0.5,"after":7.5)j"));
@@ -203,7 +203,7 @@ void a_full_disk_stops_nobody() {
   const std::string file = folder / "audit";
   Audited audited(file);
   CHECK_EQUAL(audited.set_gain(2).kind, AnswerKind::accepted);
-  CHECK(RunningCell::wait_until([&] { return !contents_of(file).empty(); }));
+  CHECK(wait_until([&] { return !contents_of(file).empty(); }));
   const std::string before = contents_of(file);
   std::signal(SIGXFSZ, SIG_IGN);
   rlimit former{};
@@ -216,7 +216,7 @@ void a_full_disk_stops_nobody() {
   CHECK_EQUAL(contents_of(file), before);  // nothing in part
   // There is room again: what was kept comes.
   CHECK_EQUAL(setrlimit(RLIMIT_FSIZE, &former), 0);
-  CHECK(RunningCell::wait_until([&] { return contents_of(file).find("logged out") != std::string::npos; }));
+  CHECK(wait_until([&] { return contents_of(file).find("logged out") != std::string::npos; }));
   CHECK_EQUAL(audited.running.finish().exit_code, 0);
 }
 

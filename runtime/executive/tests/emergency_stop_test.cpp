@@ -131,18 +131,18 @@ void a_sleeping_threads_actuators_are_made_safe_too() {
   cell.thread(Cell::producing).devices.push_back(cell.add(std::move(guard)));
   RunningCell running(cell);
   running.start();
-  CHECK(RunningCell::wait_until([&] { return running.control().mode() == Mode::running; }));
-  CHECK(RunningCell::wait_until([&] { return !actuator.load()->is_inhibited(); }));
+  CHECK(wait_until([&] { return running.control().mode() == Mode::running; }));
+  CHECK(wait_until([&] { return !actuator.load()->is_inhibited(); }));
   pressed = true;
-  CHECK(RunningCell::wait_until([&] { return cell.device_state(Cell::actuator).safe.load(); }));
+  CHECK(wait_until([&] { return cell.device_state(Cell::actuator).safe.load(); }));
   CHECK(actuator.load()->is_inhibited());
   CHECK_EQUAL(cell.events().count_of("actuator: make_safe"), 1U);
   pressed = false;
-  CHECK(RunningCell::wait_until([&] {
+  CHECK(wait_until([&] {
     running.control().clear_stop_motion();
     return running.control().start_motion().is_ok();
   }));
-  CHECK(RunningCell::wait_until([&] { return !actuator.load()->is_inhibited(); }));
+  CHECK(wait_until([&] { return !actuator.load()->is_inhibited(); }));
   CHECK_EQUAL(running.finish().exit_code, 0);
 }
 

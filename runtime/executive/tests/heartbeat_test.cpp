@@ -108,10 +108,10 @@ void a_thread_with_nothing_to_do_answers() {
   Heartbeat& heartbeat = running.executive().cell().heartbeat();
   heartbeat.watch();
   running.start();
-  CHECK(RunningCell::wait_until([&] { return running.control().mode() == Mode::running; }));
+  CHECK(wait_until([&] { return running.control().mode() == Mode::running; }));
   const std::uint64_t turns = plan.thread_state(Plan::consuming).turns;
-  CHECK(RunningCell::wait_until([&] { return plan.thread_state(Plan::consuming).turns > turns + 2; }));
-  CHECK(RunningCell::wait_until([&] { return heartbeat.is_met(MonotonicClock::now()); }));
+  CHECK(wait_until([&] { return plan.thread_state(Plan::consuming).turns > turns + 2; }));
+  CHECK(wait_until([&] { return heartbeat.is_met(MonotonicClock::now()); }));
   CHECK_EQUAL(running.finish().exit_code, 0);
 }
 
@@ -228,7 +228,7 @@ void a_running_application_tells_of_itself() {
   setenv("NOTIFY_SOCKET", listener.name().c_str(), 1);
   setenv("WATCHDOG_USEC", "20000", 1);
   const auto hears = [&](const std::string& message) {
-    return RunningCell::wait_until([&] { return listener.next() == message; });
+    return wait_until([&] { return listener.next() == message; });
   };
   // While nobody listens the socket fills, and what finds it full is told again: it comes to its end only
   // when all was heard.

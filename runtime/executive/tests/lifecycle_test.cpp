@@ -29,7 +29,7 @@ void initialised_in_table_order_stopped_in_reverse() {
   Cell real;
   RunningCell running(real);
   running.start();
-  CHECK(RunningCell::wait_until([&] { return real.unit_state(Cell::consumer).steps > 5; }));
+  CHECK(wait_until([&] { return real.unit_state(Cell::consumer).steps > 5; }));
   CHECK_EQUAL(real.unit_state(Cell::consumer).life.load(), Life::running);
   CHECK_EQUAL(running.finish().exit_code, 0);
   check_order(real);
@@ -231,7 +231,7 @@ void a_restart_on_the_wall_clock() {
   running.start();
   // Five steps each: faulted, restarted, faulted for good. The restart first: a fault that is seen after it
   // is the second.
-  CHECK(RunningCell::wait_until([&] {
+  CHECK(wait_until([&] {
     return cell.events().count_of("producer: initialise") == 2 &&
            cell.unit_state(Cell::producer).life == Life::fault;
   }));

@@ -205,13 +205,13 @@ void stop_motion_is_seen_by_sleeping_threads_on_the_wall_clock() {
   };
   RunningCell running(cell);
   running.start();
-  CHECK(RunningCell::wait_until([&] { return running.control().mode() == Mode::running; }));
-  CHECK(RunningCell::wait_until([&] { return !actuator->is_inhibited(); }));
+  CHECK(wait_until([&] { return running.control().mode() == Mode::running; }));
+  CHECK(wait_until([&] { return !actuator->is_inhibited(); }));
   running.control().stop_motion();
-  CHECK(RunningCell::wait_until([&] { return actuator->is_inhibited(); }));
+  CHECK(wait_until([&] { return actuator->is_inhibited(); }));
   running.control().clear_stop_motion();
   CHECK(running.control().start_motion().is_ok());
-  CHECK(RunningCell::wait_until([&] { return !actuator->is_inhibited(); }));
+  CHECK(wait_until([&] { return !actuator->is_inhibited(); }));
   CHECK_EQUAL(running.finish().exit_code, 0);
 }
 

@@ -70,8 +70,7 @@ class TestObserver final : public Observer {
     pthread_sigmask(SIG_SETMASK, nullptr, &blocked);
     record->ending_signals_are_blocked =
         sigismember(&blocked, SIGINT) == 1 && sigismember(&blocked, SIGTERM) == 1;
-    record->running_was_seen =
-        RunningCell::wait_until([] { return record->cell->unit_state(Cell::consumer).steps > 5; });
+    record->running_was_seen = wait_until([] { return record->cell->unit_state(Cell::consumer).steps > 5; });
     executive_->request_end();
   }
 

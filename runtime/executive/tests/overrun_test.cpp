@@ -217,7 +217,7 @@ void a_real_overrun_is_noticed_on_the_wall_clock() {
   cell.thread(Cell::producing).trigger = TriggerPlan::periodic(milliseconds{2});
   RunningCell running(cell);
   running.start();
-  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::producer).life == Life::fault; }));
+  CHECK(wait_until([&] { return cell.unit_state(Cell::producer).life == Life::fault; }));
   CHECK_EQUAL(running.finish().exit_code, 2);
   CHECK_CONTAINS(cell.unit_state(Cell::producer).fault.read().cause(), "overrun limit");
 }

@@ -146,7 +146,7 @@ void under_load_every_request_is_answered_and_nothing_is_torn() {
   RunningCell running(cell);
   const std::uint16_t me = running.add_requester();
   running.start();
-  CHECK(RunningCell::wait_until([&] { return looks > 100; }));
+  CHECK(wait_until([&] { return looks > 100; }));
   const auto ask = [&](ParameterRequest request) {
     request.requester = me;
     const AnswerKind kind = running.ask(request).kind;

@@ -1,7 +1,5 @@
 #include "runtime/executive/tests/running_cell.hpp"
 
-#include <chrono>
-
 namespace flexrf::fixture {
 
 RunSummary run_to_the_end(Executive& executive) {
@@ -28,15 +26,6 @@ RunningCell::~RunningCell() {
 
 void RunningCell::start() {
   thread_ = std::thread([this] { summary_ = executive_.run(); });
-}
-
-bool RunningCell::wait_until(const std::function<bool()>& condition) {
-  const auto give_up = std::chrono::steady_clock::now() + patience;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > give_up) return false;
-    std::this_thread::sleep_for(std::chrono::microseconds{200});
-  }
-  return true;
 }
 
 ParameterAnswer RunningCell::ask(const ParameterRequest& request) {

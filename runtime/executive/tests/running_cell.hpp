@@ -2,14 +2,16 @@
 #pragma once
 
 #include <csignal>
-#include <functional>
 #include <thread>
 
 #include "runtime/executive/executive.hpp"
 #include "runtime/executive/tests/checks.hpp"
 #include "runtime/executive/tests/fixture.hpp"
+#include "tests/waiting.hpp"
 
 namespace flexrf::fixture {
+
+using test::wait_until;
 
 /// Runs a cell from prepare() to its end on this thread: for virtual time, and for what ends by itself.
 RunSummary run_to_the_end(Executive& executive);
@@ -27,8 +29,6 @@ class RunningCell {
   /// Before start().
   std::uint16_t add_requester() { return executive_.cell().add_requester(answers_); }
   void start();
-  /// False when it does not come true within `patience`, which is no measurement but the end of it.
-  static bool wait_until(const std::function<bool()>& condition);
   /// Sends and waits for the answer.
   ParameterAnswer ask(const ParameterRequest& request);
   /// Requests the controlled stop.

@@ -75,7 +75,7 @@ void on_the_wall_clock_too() {
   Chain cell;
   RunningCell running(cell);
   running.start();
-  CHECK(RunningCell::wait_until([&] { return cell.unit_state(units - 1).steps > 20; }));
+  CHECK(wait_until([&] { return cell.unit_state(units - 1).steps > 20; }));
   CHECK_EQUAL(running.finish().exit_code, 0);
   check(cell);
 }

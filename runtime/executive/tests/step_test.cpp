@@ -89,7 +89,7 @@ void a_step_sees_one_input_however_often_it_looks() {
   };
   RunningCell running(cell);
   running.start();
-  CHECK(RunningCell::wait_until([&] { return seen > 200; }));
+  CHECK(wait_until([&] { return seen > 200; }));
   CHECK_EQUAL(running.finish().exit_code, 0);
   CHECK_EQUAL(torn.load(), 0);
   CHECK_EQUAL(not_new.load(), 0);
@@ -191,7 +191,7 @@ void requests_are_applied_between_steps_and_answered() {
   RunningCell running(cell);
   const std::uint16_t me = running.add_requester();
   running.start();
-  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::producer).steps > 3; }));
+  CHECK(wait_until([&] { return cell.unit_state(Cell::producer).steps > 3; }));
   CHECK_EQUAL(gain.load(), 1.0);
   for (int i = 0; i < 50; ++i) {
     ParameterRequest request = set_gain(Cell::producer, i % 6);
@@ -214,7 +214,7 @@ void requests_are_applied_between_steps_and_answered() {
   request = set_gain(99, 1);
   request.requester = me;
   CHECK_EQUAL(running.ask(request).kind, AnswerKind::refused);
-  CHECK(RunningCell::wait_until([&] { return gain == 1.0; }));  // 49 % 6
+  CHECK(wait_until([&] { return gain == 1.0; }));  // 49 % 6
   CHECK_EQUAL(running.finish().exit_code, 0);
   CHECK_EQUAL(changed_within.load(), 0);
 }
@@ -226,7 +226,7 @@ void a_sleeping_thread_serves_requests_without_a_step() {
   RunningCell running(cell);
   const std::uint16_t me = running.add_requester();
   running.start();
-  CHECK(RunningCell::wait_until([&] { return running.control().mode() == Mode::running; }));
+  CHECK(wait_until([&] { return running.control().mode() == Mode::running; }));
   ParameterRequest request = set_gain(Cell::consumer, 3);
   request.requester = me;
   CHECK_EQUAL(running.ask(request).kind, AnswerKind::accepted);
@@ -276,13 +276,13 @@ void steps_are_traced_while_somebody_asks() {
   flexrf::Cell& inside = running.executive().cell();
   inside.keep_step_traces();
   running.start();
-  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::producer).steps > 5; }));
+  CHECK(wait_until([&] { return cell.unit_state(Cell::producer).steps > 5; }));
   std::vector<TracedStep> steps(StepTrace::most);
   const StepTrace& trace = inside.step_traces()->of(Cell::producing);
   CHECK_EQUAL(trace.copy(Time{}, steps).count, 0U);
   const Time asked_at = MonotonicClock::now();
   inside.step_traces()->ask(asked_at + std::chrono::seconds{60});
-  CHECK(RunningCell::wait_until([&] { return trace.copy(Time{}, steps).count > 5; }));
+  CHECK(wait_until([&] { return trace.copy(Time{}, steps).count > 5; }));
   inside.step_traces()->ask(Time{});
   const std::size_t count = trace.copy(Time{}, steps).count;
   for (std::size_t i = 0; i < count; ++i) {

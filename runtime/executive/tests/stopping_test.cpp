@@ -63,7 +63,7 @@ void signals_stop_it_and_give_the_exit_code() {
     Cell cell;
     RunningCell running(cell);
     running.start();
-    CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::consumer).steps > 5; }));
+    CHECK(wait_until([&] { return cell.unit_state(Cell::consumer).steps > 5; }));
     kill(getpid(), signal);
     const RunSummary summary = running.join();
     CHECK_EQUAL(summary.exit_code, 128 + signal);
@@ -83,9 +83,9 @@ void a_second_signal_does_not_wait() {
   cell.unit(Cell::producer).script.is_idle = [](const TestUnit&) { return false; };
   RunningCell running(cell);
   running.start();
-  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::consumer).steps > 5; }));
+  CHECK(wait_until([&] { return cell.unit_state(Cell::consumer).steps > 5; }));
   kill(getpid(), SIGINT);
-  CHECK(RunningCell::wait_until([&] { return running.control().mode() == Mode::stopping; }));
+  CHECK(wait_until([&] { return running.control().mode() == Mode::stopping; }));
   kill(getpid(), SIGINT);
   CHECK_EQUAL(running.join().exit_code, 128 + SIGINT);
   CHECK_EQUAL(cell.events().count_of("actuator: make_safe"), 1U);

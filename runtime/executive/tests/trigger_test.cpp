@@ -123,7 +123,7 @@ void a_period_is_late_against_its_instant() {
   };
   RunningCell running(cell);
   running.start();
-  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::consumer).steps > 40; }));
+  CHECK(wait_until([&] { return cell.unit_state(Cell::consumer).steps > 40; }));
   CHECK_EQUAL(running.finish().exit_code, 0);
   Duration latest{};
   for (const Tick& tick : ticks) {
@@ -149,7 +149,7 @@ void what_has_no_period_is_late_against_when_it_was_noticed() {
     };
     RunningCell running(cell);
     running.start();
-    CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::consumer).steps > 20; }));
+    CHECK(wait_until([&] { return cell.unit_state(Cell::consumer).steps > 20; }));
     CHECK_EQUAL(running.finish().exit_code, 0);
     CHECK(!is_late);
   }
@@ -250,14 +250,14 @@ void a_device_releases_its_thread_on_the_wall_clock() {
   };
   RunningCell running(cell);
   running.start();
-  CHECK(RunningCell::wait_until([&] { return running.control().mode() == Mode::running; }));
+  CHECK(wait_until([&] { return running.control().mode() == Mode::running; }));
   for (std::uint64_t i = 1; i <= 5; ++i) {
     const std::uint64_t one = 1;
     written = MonotonicClock::now();
     CHECK_EQUAL(write(descriptor, &one, sizeof(one)), 8);
-    CHECK(RunningCell::wait_until([&] { return received == i; }));
+    CHECK(wait_until([&] { return received == i; }));
   }
-  CHECK(RunningCell::wait_until([&] { return released >= 5; }));
+  CHECK(wait_until([&] { return released >= 5; }));
   CHECK(!is_due_before_it_came);
   CHECK_EQUAL(running.finish().exit_code, 0);
   close(descriptor);
@@ -277,7 +277,7 @@ void a_flood_does_not_turn_a_thread_in_circles() {
   RunningCell running(cell);
   running.start();
   const std::atomic<std::uint64_t>& releases = cell.thread_state(Cell::consuming).cycles;
-  CHECK(RunningCell::wait_until([&] { return cell.unit_state(Cell::consumer).steps > 10; }));
+  CHECK(wait_until([&] { return cell.unit_state(Cell::consumer).steps > 10; }));
   // The looks first: whatever comes about in between is releases with their few looks.
   const auto looks_before = static_cast<std::uint64_t>(looks);
   CHECK(looks_before < 20 * releases);
@@ -329,7 +329,7 @@ void a_free_thread_steps_without_a_reason() {
   RunningCell running(other);
   running.start();
   // Where others want its CPU it goes to the end of their queue after each step.
-  CHECK(RunningCell::wait_until([&] { return other.unit_state(Cell::consumer).steps > 100; }));
+  CHECK(wait_until([&] { return other.unit_state(Cell::consumer).steps > 100; }));
   CHECK_EQUAL(running.finish().exit_code, 0);
 }
 

@@ -258,9 +258,9 @@ void what_waits_wakes_a_sleeping_thread() {
     };
     RunningCell running(cell);
     running.start();
-    CHECK(RunningCell::wait_until([&] { return offered >= 5; }));
+    CHECK(wait_until([&] { return offered >= 5; }));
     rests = false;
-    CHECK(RunningCell::wait_until([&] { return taken == 16; }));
+    CHECK(wait_until([&] { return taken == 16; }));
     CHECK_EQUAL(running.finish().exit_code, 0);
   }
 }

@@ -124,7 +124,7 @@ class Rig {
   void tick(Time now) { api_.on_tick(now); }
   template <class Condition>
   bool wait_until(Condition condition) {
-    return fixture::RunningCell::wait_until([&] {
+    return test::wait_until([&] {
       tick();
       return condition();
     });

@@ -29,7 +29,7 @@ struct World {
   explicit World(const SocketPlace& at) : client(at.path(), nullptr) { CHECK(client.start().is_ok()); }
   HelperClient::Answer next() {
     std::optional<HelperClient::Answer> answer;
-    CHECK(fixture::RunningCell::wait_until([&] { return (answer = client.pop()).has_value(); }));
+    CHECK(test::wait_until([&] { return (answer = client.pop()).has_value(); }));
     return *answer;
   }
   HelperClient::Answer ask(const std::string& message, Duration patience = patient, bool repeatable = false) {
@@ -153,7 +153,7 @@ void a_word_too_many_is_no_answer_to_the_next() {
   });
   World world(place);
   CHECK_EQUAL(world.ask("a").text, "a");
-  std::this_thread::sleep_for(soon);  // the second word has come
+  CHECK(test::wait_until([&] { return helper.unasked_words() == 1; }));
   CHECK_EQUAL(world.ask("b").text, "b");
 }
 

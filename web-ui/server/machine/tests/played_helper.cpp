@@ -86,7 +86,11 @@ bool PlayedHelper::serve(int connection) {
   const auto say = [connection](std::string_view text) {
     return ::send(connection, text.data(), text.size(), MSG_NOSIGNAL) >= 0;
   };
-  return say(reaction.text) && (reaction.how != How::answers_twice || say("a word too many"));
+  if (!say(reaction.text)) return false;
+  if (reaction.how != How::answers_twice) return true;
+  if (!say("a word too many")) return false;
+  ++unasked_words_;
+  return true;
 }
 
 }  // namespace flexrf::panel

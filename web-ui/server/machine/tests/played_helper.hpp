@@ -1,6 +1,7 @@
 // The other end of the helper's socket, in the hands of a test.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -46,6 +47,9 @@ class PlayedHelper {
   PlayedHelper(const PlayedHelper&) = delete;
   PlayedHelper& operator=(const PlayedHelper&) = delete;
 
+  /// How many words nobody asked for are on their way to the client.
+  int unasked_words() const { return unasked_words_; }
+
  private:
   void run();
   bool serve(int connection);
@@ -55,6 +59,7 @@ class PlayedHelper {
   int listener_ = -1;
   int end_ = -1;
   std::vector<int> connections_;
+  std::atomic<int> unasked_words_{0};
   std::thread thread_;
 };
 
