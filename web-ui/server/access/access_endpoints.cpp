@@ -166,6 +166,7 @@ void AccessEndpoints::start_next(Time now) {
 void AccessEndpoints::finish(PasswordCheck::Outcome outcome, Time now) {
   Attempt& attempt = *checked_;
   checked_ = nullptr;
+  if (outcome == PasswordCheck::Outcome::failed) limits_.could_not_be_checked(attempt.address, now);
   // Said even if nobody waits for the answer any more.
   if (outcome != PasswordCheck::Outcome::failed && !is_right(attempt, outcome)) {
     log_failed_login(attempt.shown_user, text_view(attempt.address_text));

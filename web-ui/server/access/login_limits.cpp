@@ -56,4 +56,11 @@ void LoginLimits::succeeded(const Address& address) noexcept {
   if (Entry* const known = find(address.neighbourhood())) known->failures = 0;
 }
 
+void LoginLimits::could_not_be_checked(const Address& address, Time now) noexcept {
+  Entry* const known = find(address.neighbourhood());
+  if (known == nullptr) return;
+  --known->failures;
+  known->not_before = std::min(known->not_before, now);
+}
+
 }  // namespace flexrf::panel

@@ -27,10 +27,13 @@ class LoginLimits {
 
   LoginLimits() : entries_(places) {}
 
-  /// Zero: the attempt may be made, and counts as failed unless succeeded() follows. Else nothing is counted,
-  /// and this is how long to wait.
+  /// Zero: the attempt may be made, and counts as failed unless succeeded() or could_not_be_checked()
+  /// follows. Else nothing is counted, and this is how long to wait.
   Duration admit(const Address& address, bool at_machine, Time now) noexcept;
   void succeeded(const Address& address) noexcept;
+  /// The attempt tested no password, so it is no failure of its address. It still counts in the shared delay,
+  /// because it took processor time.
+  void could_not_be_checked(const Address& address, Time now) noexcept;
 
  private:
   struct Entry {

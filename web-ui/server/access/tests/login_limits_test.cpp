@@ -49,6 +49,26 @@ void success_forgives(void**) {
   assert_true(is_admitted("10.0.0.1"));
 }
 
+/// A machine without time or memory for the check does not lock out a person with the right password.
+void an_attempt_that_could_not_be_checked_is_no_failure(void**) {
+  for (int i = 0; i < 100; ++i) {
+    assert_true(is_admitted("127.0.0.1", true));
+    limits->could_not_be_checked(*Address::parse("127.0.0.1"), now);
+  }
+  for (int i = 0; i < 4; ++i) assert_true(is_admitted("127.0.0.1", true));
+  assert_false(is_admitted("127.0.0.1", true));
+  limits->could_not_be_checked(*Address::parse("127.0.0.1"), now);
+  assert_true(is_admitted("127.0.0.1", true));
+}
+
+void an_attempt_that_could_not_be_checked_delays_all_addresses(void**) {
+  for (unsigned i = 0; i <= LoginLimits::shared_free_failures; ++i) {
+    assert_true(is_admitted("10.0.0.1"));
+    limits->could_not_be_checked(*Address::parse("10.0.0.1"), now);
+  }
+  assert_false(is_admitted("10.0.0.2"));
+}
+
 void time_forgets(void**) {
   for (int i = 0; i < 4; ++i) assert_true(is_admitted("10.0.0.1"));
   now += LoginLimits::forgotten + seconds{2};
@@ -104,6 +124,8 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup(some_failures_are_free_then_delays_grow, begin),
       cmocka_unit_test_setup(success_forgives, begin),
+      cmocka_unit_test_setup(an_attempt_that_could_not_be_checked_is_no_failure, begin),
+      cmocka_unit_test_setup(an_attempt_that_could_not_be_checked_delays_all_addresses, begin),
       cmocka_unit_test_setup(time_forgets, begin),
       cmocka_unit_test_setup(a_network_of_64_bits_is_one_party, begin),
       cmocka_unit_test_setup(many_addresses_share_a_delay, begin),
