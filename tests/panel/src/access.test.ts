@@ -3,7 +3,7 @@ import { readFileSync, statSync } from 'node:fs';
 import { connect, type ConnectionOptions } from 'node:tls';
 import { afterEach, beforeAll, beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import {
-  Application, Rest, Viewer, outerAddress, screenshot, tidyUp, unlessKeptWaiting, useApplication, useBrowser, violations, within,
+  Application, Rest, Viewer, heldWithin, outerAddress, screenshot, tidyUp, unlessKeptWaiting, useApplication, useBrowser, violations, within,
   type ApplicationName, type StartOptions, type User,
 } from './harness';
 
@@ -167,7 +167,7 @@ describe('the control token', () => {
       const box = (await button.boundingBox())!;
       await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
       await page.mouse.down();
-      await expect.poll(commanded, { timeout: within }).toBe(1);
+      await expect.poll(commanded, { timeout: heldWithin }).toBe(1);
       await then();
     }, async () => {
       await page.mouse.up();
@@ -230,7 +230,7 @@ describe('the control token', () => {
   it('goes over after 10 s without an answer, and what was held ends', async () => {
     await hold(ask);
     expect(await violations(first.page)).toEqual([]); // may take longer than there is time for an answer
-    await second.page.getByText('You have control').waitFor({ timeout: 2 * within });
+    await second.page.getByText('You have control').waitFor();
     await expect.poll(commanded, { timeout: within }).toBe(0);
     await first.page.mouse.up();
   });

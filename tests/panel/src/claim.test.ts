@@ -18,7 +18,7 @@ function newPc(): { folder: string; encryption: string[] } {
   return { folder, encryption: ['--tls-certificate', certificate, '--tls-key', key] };
 }
 
-it('the code on the console and a password claim the PC, and the panel knows them', { timeout: 3 * within }, async () => {
+it('the code on the console and a password claim the PC, and the panel knows them', async () => {
   const pc = newPc();
   const users = join(pc.folder, 'users');
   const claim = spawn(join(build, 'image/claim/flexrf-claim'), ['--users', users, '--listen', '127.0.0.1:0', ...pc.encryption]);

@@ -117,7 +117,7 @@ it('a cable that is cut and mended: everything is as it is now', async () => {
   expect(taken.status).toBeLessThan(300);
   await rest.do('components/gadget/parameters', { method: 'PUT', body: { level: 8 } });
   cable.mend();
-  await oldValues().waitFor({ state: 'hidden', timeout: 30_000 });
+  await oldValues().waitFor({ state: 'hidden' });
   await expect.poll(async () => Number(await level().getByRole('spinbutton').inputValue()), { timeout: within }).toBe(8);
   await viewer.page.getByRole('button', { name: 'Knock' }).waitFor();
   await viewer.close();
@@ -136,7 +136,7 @@ it('the same application started anew under an open page', async () => {
   await viewer.page.locator('flexrf-header').getByText(/Motion (ended|not known)$/).waitFor();
   await expect.poll(() => viewer.page.title(), { timeout: within }).toMatch(/^(Ended|⚠ No connection) · panel_cell/);
   running = await Application.start('panel_cell', { listen: `127.0.0.1:${port}` });
-  await oldValues().waitFor({ state: 'hidden', timeout: 30_000 });
+  await oldValues().waitFor({ state: 'hidden' });
   await viewer.page.getByText('The application was started anew.').waitFor();
   // The session of before is nobody's: what one sees is as of a new visitor.
   await viewer.page.getByText(/: viewer/).waitFor();
@@ -149,7 +149,7 @@ it('another application at the same address', async () => {
   const { port } = running;
   await running.end();
   running = await Application.start('keyboard', { listen: `127.0.0.1:${port}` });
-  await expect.poll(() => viewer.page.title(), { timeout: 30_000 }).toContain('keyboard');
+  await expect.poll(() => viewer.page.title(), { timeout: within }).toContain('keyboard');
   await viewer.page.getByText('There is no unit of this name').waitFor();
   await viewer.go('overview');
   await viewer.page.getByText('Jog step').first().waitFor();

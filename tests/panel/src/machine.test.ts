@@ -83,7 +83,7 @@ async function upload(viewer: Viewer, size: number): Promise<void> {
   await answer(viewer, 'Upload');
 }
 
-it('an admin brings an update to the PC, installs it and restarts', { timeout: 4 * within }, async () => {
+it('an admin brings an update to the PC, installs it and restarts', async () => {
   const pc = await PlayedPc.start();
   const running = await start(pc);
   const viewer = await open(running.base, adam);
@@ -133,7 +133,7 @@ it('an admin brings an update to the PC, installs it and restarts', { timeout: 4
   for (const text of [file(), running.text]) expect(text).not.toMatch(/a (long|wrong) password/);
 });
 
-it('an admin sets the address of the PC on trial, and keeps it', { timeout: 4 * within }, async () => {
+it('an admin sets the address of the PC on trial, and keeps it', async () => {
   const pc = await PlayedPc.start();
   const running = await start(pc);
   const viewer = await open(running.base, adam);
@@ -174,7 +174,7 @@ it('an admin sets the address of the PC on trial, and keeps it', { timeout: 4 * 
   expect(pc.said).toContain('"verb":"keep-network"');
 });
 
-it('what lasts is said in every view, and who is no admin has no buttons', { timeout: 2 * within }, async () => {
+it('what lasts is said in every view, and who is no admin has no buttons', async () => {
   const pc = await PlayedPc.start();
   const running = await start(pc);
   pc.change({ development_key: true, confirmed: false, healthy_for_s: 5, boot: 'fallback', notices: ['A copy of the boot choice was damaged, and is written anew.'] });
@@ -201,7 +201,7 @@ it('what lasts is said in every view, and who is no admin has no buttons', { tim
   expect(pc.said).toBe('');
 });
 
-it('an upload goes on after the line was cut, and after the helper was started anew it says that it cannot', { timeout: 4 * within }, async () => {
+it('an upload goes on after the line was cut, and after the helper was started anew it says that it cannot', async () => {
   const pc = await PlayedPc.start();
   const running = await start(pc);
   const cable = await Cable.to(running.port);
@@ -213,7 +213,7 @@ it('an upload goes on after the line was cut, and after the helper was started a
   await upload(viewer, 20_000_000);
   await page.getByText(/^Uploading: [1-9]/).waitFor();
   cable.drop();
-  await page.getByText(`Uploaded and verified: pick-station ${newVersion}`).waitFor({ timeout: 2 * within });
+  await page.getByText(`Uploaded and verified: pick-station ${newVersion}`).waitFor();
   expect(pc.said).toContain('"offset":19968000');
 
   await upload(viewer, 20_000_000);
@@ -229,7 +229,7 @@ it('an upload goes on after the line was cut, and after the helper was started a
   await page.getByText('Uploaded and verified').waitFor();
 });
 
-it('an update that is refused, one that is older, and a cell that may move', { timeout: 3 * within }, async () => {
+it('an update that is refused, one that is older, and a cell that may move', async () => {
   const pc = await PlayedPc.start();
   const running = await start(pc);
   const viewer = await open(running.base, adam);
@@ -260,7 +260,7 @@ it('an update that is refused, one that is older, and a cell that may move', { t
   await page.getByRole('row', { name: /^A .*runs, starts next/ }).waitFor();
 });
 
-it('a helper that hangs or is gone is told, and nothing else waits for it', { timeout: 3 * within }, async () => {
+it('a helper that hangs or is gone is told, and nothing else waits for it', async () => {
   const pc = await PlayedPc.start();
   const running = await start(pc);
   const viewer = await open(running.base, adam);
@@ -270,10 +270,10 @@ it('a helper that hangs or is gone is told, and nothing else waits for it', { ti
   await page.getByText('Permitted by this PC.').waitFor();
   pc.pause();
   const rest = await running.loggedIn(adam);
-  const asked = rest.ask('machine');
-  const begun = performance.now();
+  let isAnswered = false;
+  const asked = rest.ask('machine').finally(() => { isAnswered = true; });
   for (let i = 0; i < 50; ++i) await rest.do('state');
-  expect(performance.now() - begun).toBeLessThan(10_000);
+  expect(isAnswered).toBe(false);
   pc.goOn();
   expect((await asked).status).toBe(200);
   await pc.end();

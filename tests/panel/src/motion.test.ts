@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { afterEach, beforeAll, beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import type { Browser } from 'playwright-core';
 import {
-  Application, Cable, Viewer, familyOf, freezer, launchProcess, screenshot, signal, tidyUp, unlessKeptWaiting, useApplication, useBrowser,
+  Application, Cable, Viewer, familyOf, freezer, heldWithin, launchProcess, screenshot, signal, tidyUp, unlessKeptWaiting, useApplication, useBrowser,
   violations, within, type Rest,
 } from './harness';
 
@@ -48,9 +48,10 @@ async function begin(at: Browser, address: string): Promise<void> {
 async function feedback(): Promise<Feedback> {
   return rest.feedback<Feedback>('mover');
 }
-async function expectMoving(): Promise<void> {
-  await expect.poll(async () => (await feedback()).commanded, { timeout: within }).not.toBe(0);
+async function expectMoving(timeout = within): Promise<void> {
+  await expect.poll(async () => (await feedback()).commanded, { timeout }).not.toBe(0);
 }
+const expectMovingWhileHeld = (): Promise<void> => expectMoving(heldWithin);
 async function expectAtRest(): Promise<void> {
   await expect.poll(async () => (await feedback()).commanded, { timeout: within }).toBe(0);
 }
@@ -65,7 +66,7 @@ async function expectStayingAtRest(): Promise<void> {
 const forward = () => viewer.page.locator('flexrf-item').getByRole('button', { name: 'Forward' });
 
 /** Begins, and is let go of if it has to begin once more. */
-async function whileHeld(begin: () => Promise<void>, then: () => Promise<void> = expectMoving): Promise<void> {
+async function whileHeld(begin: () => Promise<void>, then: () => Promise<void> = expectMovingWhileHeld): Promise<void> {
   const { page } = viewer;
   await unlessKeptWaiting(page, rest, async () => {
     await begin();
@@ -95,7 +96,7 @@ describe('a hold', () => {
 
   it('lives as long as the button is pressed, and ends with the release', async () => {
     await hold(forward(), async () => {
-      await expectMoving();
+      await expectMovingWhileHeld();
       const { begun } = await feedback();
       await new Promise((resolve) => setTimeout(resolve, 1500)); // many times a lease
       expect(await feedback()).toMatchObject({ commanded: 1, begun });
@@ -115,7 +116,7 @@ describe('a hold', () => {
 
   it('by the jog pad, too', async () => {
     await hold(viewer.page.locator('flexrf-placement').getByRole('button', { name: 'Backward' }), async () => {
-      await expect.poll(async () => (await feedback()).commanded, { timeout: within }).toBe(-1);
+      await expect.poll(async () => (await feedback()).commanded, { timeout: heldWithin }).toBe(-1);
     });
     await viewer.page.mouse.up();
     await expectStayingAtRest();

@@ -81,7 +81,7 @@ it('widgets and a button beside fields: all come with one press, and what is typ
   await page.locator('flexrf-missing').getByRole('button', { name: 'Try again' }).first().click();
   await page.getByRole('button', { name: 'Save now' }).waitFor();
   await page.locator('flexrf-widget-jog-arrows').waitFor();
-  expect(await page.locator('flexrf-missing').count()).toBe(0);
+  await expect.poll(() => page.locator('flexrf-missing').count(), { timeout: within }).toBe(0);
   await expect.poll(() => field.inputValue(), { timeout: within }).toBe('25.0');
   await page.locator('flexrf-widget-robot').getByRole('button', { name: 'Try again' }).click();
   await page.getByRole('img', { name: /in 3D/ }).waitFor();

@@ -1,7 +1,7 @@
 // Places for browsers: many pages at once, and no room for more.
 import { connect, type Socket } from 'node:net';
 import { it, onTestFinished } from 'vitest';
-import { Viewer, useApplication, useBrowser, within } from './harness';
+import { Viewer, useApplication, useBrowser } from './harness';
 
 const browser = useBrowser();
 const application = useApplication('panel_cell');
@@ -16,7 +16,7 @@ function silent(port: number, text: string): Promise<Socket> {
 }
 
 async function expectLive(viewer: Viewer): Promise<void> {
-  await viewer.page.getByText(/Round trip/).waitFor({ timeout: within });
+  await viewer.page.getByText(/Round trip/).waitFor();
   await viewer.page.locator('main h2').first().waitFor();
 }
 

@@ -1,6 +1,6 @@
 // The keyboard application: the arm in 3D, keys that move it, the jog step, the jog arrows.
 import { beforeEach, expect, it } from 'vitest';
-import { Viewer, itemOf, screenshot, unlessKeptWaiting, useBrowser, useOperator, within, type Application, type Rest } from './harness';
+import { Viewer, heldWithin, itemOf, screenshot, unlessKeptWaiting, useBrowser, useOperator, within, type Application, type Rest } from './harness';
 
 const browser = useBrowser();
 
@@ -99,7 +99,7 @@ it('the arrows move the arm while they are held, and no longer', async () => {
     const from = await atRest();
     await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     await page.mouse.down();
-    await expect.poll(async () => (await position())[2]! - from[2]!, { timeout: within }).toBeGreaterThan(0.01);
+    await expect.poll(async () => (await position())[2]! - from[2]!, { timeout: heldWithin }).toBeGreaterThan(0.01);
   }, () => page.mouse.up());
   await screenshot(viewer.page, 'arrow-held');
   await viewer.page.mouse.up();
@@ -137,11 +137,11 @@ it('an arrow of the robot leads from the press to the 3D view', async () => {
     const box = (await arrow.boundingBox())!;
     await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     await page.mouse.down();
-    await expect.poll(async () => (await rest.runtime('robot'))['plus_z'], { timeout: within }).toBe(true);
-    await expect.poll(async () => (await robot()).activity, { timeout: within }).toBe('jog');
-    await expect.poll(async () => apart((await robot()).set_point, target), { timeout: within }).toBeGreaterThan(0.02);
-    await expect.poll(async () => apart(await joints(), actual), { timeout: within }).toBeGreaterThan(0.02);
-    await expect.poll(async () => (await picture()) === before, { timeout: within }).toBe(false);
+    await expect.poll(async () => (await rest.runtime('robot'))['plus_z'], { timeout: heldWithin }).toBe(true);
+    await expect.poll(async () => (await robot()).activity, { timeout: heldWithin }).toBe('jog');
+    await expect.poll(async () => apart((await robot()).set_point, target), { timeout: heldWithin }).toBeGreaterThan(0.02);
+    await expect.poll(async () => apart(await joints(), actual), { timeout: heldWithin }).toBeGreaterThan(0.02);
+    await expect.poll(async () => (await picture()) === before, { timeout: heldWithin }).toBe(false);
   }, () => page.mouse.up());
   await page.mouse.up();
   await expect.poll(async () => (await rest.runtime('robot'))['plus_z'], { timeout: within }).toBe(false);

@@ -1,10 +1,10 @@
 // The arm that picks what it sees: what a person reads of it, and does to it.
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { Locator } from 'playwright-core';
-import { Viewer, itemOf, screenshot, sizes, unlessKeptWaiting, useBrowser, useOperator, violations, within, type Rest, type Size } from './harness';
+import { Viewer, heldWithin, itemOf, screenshot, sizes, unlessKeptWaiting, useBrowser, useOperator, violations, within, type Rest, type Size } from './harness';
 
-/** For what takes the arm a few ways, on a machine with other work. */
-const forWays = 90_000;
+/** For what takes the arm a few ways. */
+const forWays = 3 * within;
 
 const browser = useBrowser();
 const operator = useOperator(browser, 'visual-servoing', ['overview'], async ({ beside }) => {
@@ -67,8 +67,8 @@ describe('the overview', () => {
       const box = (await arrow.boundingBox())!;
       await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
       await page.mouse.down();
-      await expect.poll(async () => (await picker()).state, { timeout: within }).toBe('led_by_others');
-      await expect.poll(() => read('What it does'), { timeout: within }).toContain('The arm is led by hand');
+      await expect.poll(async () => (await picker()).state, { timeout: heldWithin }).toBe('led_by_others');
+      await expect.poll(() => read('What it does'), { timeout: heldWithin }).toContain('The arm is led by hand');
     }, () => page.mouse.up());
     await page.mouse.up();
     await untilItSetsOut();

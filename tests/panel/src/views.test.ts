@@ -79,7 +79,7 @@ function describeViews(application: ApplicationName, places: readonly Place[]): 
         }
         await viewer.close();
         expect(found).toEqual([]);
-      }, 180_000);
+      });
     }
   });
 }
@@ -124,7 +124,7 @@ describe('dialogs, themes, and what the views show', () => {
     }
     await viewer.close();
     expect(found).toEqual([]);
-  }, 180_000);
+  });
 
   it('an unknown view is said to be unknown', async () => {
     const viewer = await Viewer.open(browser(), `${running.base}/#/nowhere`);

@@ -4,6 +4,7 @@ import { chmodSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { executableOf, newFolder, passwordTool, type ApplicationName } from './environment';
 import { Rest } from './rest';
+import { until, within } from './waiting';
 
 export interface User {
   readonly name: string;
@@ -22,9 +23,6 @@ export interface StartOptions {
 
 /** Those that run now: what they said explains why a test failed. */
 export const runningApplications = new Set<Application>();
-
-const startWithin = 30_000;
-const endWithin = 15_000;
 
 export class Application {
   private said = '';
@@ -95,7 +93,7 @@ export class Application {
   async stop(signal: NodeJS.Signals = 'SIGTERM'): Promise<number | NodeJS.Signals | null> {
     this.process.kill('SIGCONT');
     this.process.kill(signal);
-    const timer = setTimeout(() => this.process.kill('SIGKILL'), endWithin);
+    const timer = setTimeout(() => this.process.kill('SIGKILL'), within);
     const how = await this.ended;
     clearTimeout(timer);
     rmSync(this.folder, { recursive: true, force: true });
@@ -109,23 +107,19 @@ export class Application {
   }
 
   private async findAddress(): Promise<void> {
-    const until = Date.now() + startWithin;
     let over: unknown;
     void this.ended.then((how) => { over = how ?? 'ended'; });
-    for (;;) {
-      const found = /Panel: (https?:\/\/\S+)\n/.exec(this.said);
-      if (found) {
-        this.address = found[1]!;
-        this.base = new URL(this.address).origin;
-        return;
-      }
-      if (over !== undefined) throw new Error(`the application ended (${String(over)}): ${this.said}`);
-      if (Date.now() > until) {
-        this.process.kill('SIGKILL');
-        throw new Error(`the application printed no address: ${this.said}`);
-      }
-      await new Promise((resolve) => setTimeout(resolve, 20));
+    try {
+      this.address = await until(() => {
+        const found = /Panel: (https?:\/\/\S+)\n/.exec(this.said)?.[1];
+        if (found === undefined && over !== undefined) throw new Error(`the application ended (${String(over)}): ${this.said}`);
+        return found;
+      }, () => `the application printed no address: ${this.said}`);
+    } catch (failure) {
+      this.process.kill('SIGKILL');
+      throw failure;
     }
+    this.base = new URL(this.address).origin;
   }
 }
 

@@ -4,9 +4,10 @@ import { readFileSync } from 'node:fs';
 import { chromium as chromiumType, type Browser, type BrowserContext, type BrowserServer, type Locator, type Page } from 'playwright-core';
 import { chromium, outerAddress } from './environment';
 import { Rest } from './rest';
+import { within } from './waiting';
 
-/** For whatever comes by itself; only so that a test which waits for what never comes ends at all. */
-export const within = 30_000;
+/** After this time a person presses a button once more. */
+const pressAgainAfter = 7_500;
 
 const options = {
   executablePath: chromium,
@@ -101,7 +102,7 @@ export class Viewer {
     const taken = this.page.getByText('You have control');
     await take.click();
     for (let presses = 1; presses < 4; ++presses) {
-      await taken.waitFor({ timeout: within / 4 }).catch(() => undefined);
+      await taken.waitFor({ timeout: pressAgainAfter }).catch(() => undefined);
       if (await taken.isVisible()) return;
       if (!(await take.isEnabled())) continue;
       console.log(`"Take control" is pressed again; the page says, ${await frames(this.page)}:\n${await this.page.getByRole('banner').ariaSnapshot()}`);

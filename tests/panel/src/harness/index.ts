@@ -8,3 +8,4 @@ export * from './rest';
 export * from './screenshot';
 export * from './socket';
 export * from './stage';
+export * from './waiting';

@@ -1,5 +1,6 @@
 // The panel's REST half, as a script would use it: with a cookie, and without a browser's rules about headers.
 import { request, type IncomingHttpHeaders } from 'node:http';
+import { until } from './waiting';
 
 export interface RestAnswer {
   readonly status: number;
@@ -14,8 +15,6 @@ export interface RestOptions {
   readonly body?: unknown;
   readonly headers?: { readonly [name: string]: string };
 }
-
-const publishedWithin = 30_000;
 
 export class Rest {
   cookie = '';
@@ -80,12 +79,7 @@ export class Rest {
 
   /** The panel is there before each unit has made its first step; until then it has published nothing. */
   private async published(component: string, kind: 'feedback' | 'runtime'): Promise<object> {
-    const until = Date.now() + publishedWithin;
-    for (;;) {
-      const values = (await this.do(`components/${component}/parameters`)).body[kind] as object | null;
-      if (values !== null) return values;
-      if (Date.now() > until) throw new Error(`${component} published no ${kind}`);
-      await new Promise((resolve) => setTimeout(resolve, 20));
-    }
+    return until(async () => ((await this.do(`components/${component}/parameters`)).body[kind] as object | null) ?? undefined,
+      () => `${component} published no ${kind}`);
   }
 }

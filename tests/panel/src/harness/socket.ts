@@ -2,6 +2,7 @@
 import { randomBytes } from 'node:crypto';
 import { connect, type Socket } from 'node:net';
 import type { Rest } from './rest';
+import { until } from './waiting';
 
 export interface Frame {
   readonly opcode: number;
@@ -38,9 +39,7 @@ export class RawSocket {
     raw.socket.on('error', () => { raw.closed = true; });
     raw.socket.on('close', () => { raw.closed = true; });
     raw.socket.write(`GET /api/v1/live HTTP/1.1\r\n${Object.entries(lines).map(([name, value]) => `${name}: ${value}\r\n`).join('')}\r\n`);
-    for (let tries = 0; tries < 500 && !raw.open && !raw.refusal && !raw.closed; tries += 1) {
-      await new Promise((resolve) => setTimeout(resolve, 10));
-    }
+    await until(() => raw.open || raw.closed || raw.refusal !== '' || undefined, () => 'the server did not answer the upgrade');
     return raw;
   }
 
