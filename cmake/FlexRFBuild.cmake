@@ -76,12 +76,20 @@ function(flexrf_test_reads name)
   set_property(TARGET tests_unit APPEND PROPERTY flexrf_reads ${lines})
 endfunction()
 
-# flexrf_add_test(NAME name SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT seconds] [SERIAL] [THREADS]
+# flexrf_test_computes(NAME...)
+# Tests that use a processor for most of their time, by measure: each takes all four places of a CPU, any other test one of them
+# (cmake/tool/ctest.sh).
+function(flexrf_test_computes)
+  set_tests_properties(${ARGN} PROPERTIES PROCESSORS 4)
+endfunction()
+
+# flexrf_add_test(NAME name SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT seconds] [SERIAL] [THREADS] [COMPUTES]
 #                 [PRECOMPILED target] [FAMILY program])
 # One CMocka executable that ctest runs. Labels: unit (default), stress, whole for whole cells, virtual for those in virtual
 # time; long beside one of these for what only `flexrf test --full` runs. SERIAL: nothing else runs meanwhile, for a test that
 # needs the CPUs to itself. THREADS: a unit or stress test that starts threads, which `flexrf test` gives to the thread
 # sanitizer, too; one that does not say so fails in the release build, and so does one of virtual time that starts a thread.
+# COMPUTES: as for flexrf_test_computes; tests in virtual time and stress tests compute anyhow.
 # PRECOMPILED: the library of LIBRARIES whose precompiled headers the test is built with. The target tests_<label> builds the
 # tests of a label.
 # FAMILY: the tests of one family are one program, which runs the test that its argument names; they are compiled in batches,
@@ -89,7 +97,7 @@ endfunction()
 # of a family do not define the same name twice. ctest still runs each test as a process of its own. The test's NAME is a
 # target that builds the program; flexrf_add_places takes the program, after its tests.
 function(flexrf_add_test)
-  cmake_parse_arguments(PARSE_ARGV 0 test "SERIAL;THREADS" "NAME;TIMEOUT;PRECOMPILED;FAMILY" "SOURCES;LIBRARIES;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 0 test "SERIAL;THREADS;COMPUTES" "NAME;TIMEOUT;PRECOMPILED;FAMILY" "SOURCES;LIBRARIES;LABELS")
   if(NOT test_LABELS)
     set(test_LABELS unit)
   endif()
@@ -97,7 +105,7 @@ function(flexrf_add_test)
     list(APPEND test_LABELS threads)
   endif()
   if(NOT test_TIMEOUT)
-    set(test_TIMEOUT 300) # ends what hangs, also on a machine with much else to do
+    set(test_TIMEOUT 900) # ends what hangs, also on a machine with much else to do
   endif()
   if(FLEXRF_SANITIZER)
     math(EXPR test_TIMEOUT "${test_TIMEOUT} * 5")
@@ -123,6 +131,9 @@ function(flexrf_add_test)
     target_precompile_headers(${program} REUSE_FROM ${test_PRECOMPILED})
   endif()
   set_tests_properties(${test_NAME} PROPERTIES LABELS "${test_LABELS}" TIMEOUT ${test_TIMEOUT})
+  if(test_COMPUTES OR "virtual" IN_LIST test_LABELS OR "stress" IN_LIST test_LABELS)
+    flexrf_test_computes(${test_NAME})
+  endif()
   if(test_SERIAL)
     set_tests_properties(${test_NAME} PROPERTIES RUN_SERIAL ON)
   endif()

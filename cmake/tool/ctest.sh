@@ -18,8 +18,8 @@ find_test_keys() {  # find_test_keys PRESET: of all its tests that say what they
   find_keys "$1" "$build/tests_read.txt" "$stages/definitions-$1"
 }
 
-# A test that waits takes one of four places for each CPU, any other all four of one CPU (flexrf_add_test). So tests that wait for timers and
-# processes run beside those that compute.
+# A CPU has four places: a test that computes takes all of them (flexrf_test_computes), any other test one, as it mostly waits for timers and
+# processes.
 places=$((4 * $(nproc)))
 
 run_tests() {  # run_tests PRESET [SELECTION OF CTEST...]
