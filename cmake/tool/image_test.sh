@@ -56,10 +56,10 @@ stop_pc() {  # as when the power goes, with what it had written on the disk
 
 # save_pc FILE: writes its memory and the state of its devices, and ends it; its disk stays as it is at that moment
 save_pc() {
-  local said='' part file=${1//,/,,}
+  local said='' part file=${1//,/,,} limit=$(($(pc_seconds) + pc_limit))
   printf '%s\n' 'migrate_set_parameter max-bandwidth 10G' "migrate \"exec:zstd -q -1 -T1 -f -o '$file'\"" 'info migrate' quit >&"$to_monitor"
   while kill -0 "$pc_pid" 2>/dev/null; do
-    (($(pc_seconds) <= pc_limit)) || { echo "in $pc_limit s of its processor the PC was not saved" && return 1; }
+    (($(pc_seconds) <= limit)) || { echo "in $pc_limit s of its processor the PC was not saved" && return 1; }
     while IFS= read -r -t 0.2 -u "$from_monitor" part; do said+=$part$'\n'; done
   done
   while IFS= read -r -t 0.01 -u "$from_monitor" part; do said+=$part$'\n'; done
@@ -151,10 +151,11 @@ claim_pc() {
 log_in() {  # again and again where a host that does much else gives the PC no time for it
   local status try
   for try in {1..10}; do
-    status=$(ask_panel api/v1/login -c "$pc_folder/cookies" -o "$pc_folder/login.json" -w '%{http_code}' -H 'Content-Type: application/json' \
+    # Without the retries of curl, which wait longer each time.
+    status=$(ask_panel api/v1/login --retry 0 -c "$pc_folder/cookies" -o "$pc_folder/login.json" -w '%{http_code}' -H 'Content-Type: application/json' \
       -d '{"user": "anna", "password": "only for this test"}')
     [[ $status == 200 ]] && return
-    [[ $status == 503 || $status == 429 ]] || break
+    [[ $status == 000 || $status == 503 || $status == 429 ]] || break
     sleep "$try"
   done
   echo "the log-in was answered: $(<"$pc_folder/login.json")"
