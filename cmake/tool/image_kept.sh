@@ -50,7 +50,8 @@ kept() {  # kept NAME: prints its folder if it is there and whole; one that is d
   printf '%s\n' "$folder"
 }
 
-checksums_of() { (cd "$1" && find . -type f ! -name checksums ! -name progress -print0 | sort -z | xargs -0 cksum); } # checksums_of FOLDER
+# checksums_of FOLDER: of all files in it but the progress of a campaign; holes are not read
+checksums_of() { tar -C "$1" -cSf - --sort=name --mtime=@0 --exclude=./checksums --exclude=./progress . | cksum; }
 
 keep() {  # keep NAME FILE...: moves the files into a folder of that name, all of them or none
   local folder new
