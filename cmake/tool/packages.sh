@@ -26,6 +26,8 @@ install_packages() {  # install_packages USE...: ends with a message if what is 
     say "this is not a Debian system: what packages.txt lists has to be here already"
     return
   fi
+  # The page of the panel is kept in the repository; only after its sources have changed is it built.
+  if [[ " $* " == *' build '* ]] && ! bash "$root/web-ui/page/page.sh" fits; then set -- "$@" page; fi
   missing=$(missing_packages "$@")
   [[ $missing ]] || return 0
   say "Debian packages that are missing:"

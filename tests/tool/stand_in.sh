@@ -18,6 +18,10 @@ cp -r "$repository/cmake/tool" "$tree/cmake/"
 touch "$tree/apps/keyboard/keyboard.toml" "$tree/apps/keyboard-single/keyboard_single.toml" \
   "$tree/apps/visual-servoing/visual_servoing.toml" "$calls"
 
+# The kept page fits unless a test has made $work/changed_page.
+mkdir -p "$tree/web-ui/page"
+echo '[[ $1 == fits && ! -e $STAND_IN/changed_page ]]' >"$tree/web-ui/page/page.sh"
+
 stand_in() {  # stand_in NAME: a program of that name, whose body is read from standard input
   {
     printf '#!/bin/bash\nprintf "%%s\\n" "%s $*" >>"$STAND_IN/calls"\n' "$1"

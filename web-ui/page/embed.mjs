@@ -1,9 +1,9 @@
-// Writes a C++ source that holds the built page: `node embed.mjs DIST OUTPUT`, where OUTPUT is a folder.
-// Every file that gets smaller is compressed here, once, and not whenever somebody asks for it.
+// Packs the built page for page_files.cpp: `node embed.mjs DIST OUTPUT` writes page.data and page_rows.inc to the folder OUTPUT.
+// Every file that gets smaller is compressed here, once, and not at each request.
+import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { extname, join, relative, resolve, sep } from 'node:path';
-import { constants, gzipSync } from 'node:zlib';
 
 const types = {
   '.html': 'text/html; charset=utf-8',
@@ -24,51 +24,26 @@ function filesIn(folder) {
 }
 
 const [dist, output] = process.argv.slice(2).map((path) => resolve(path));
-const blobs = join(output, 'blobs');
-rmSync(blobs, { recursive: true, force: true });
-mkdirSync(blobs, { recursive: true });
 
 const rows = [];
-const symbols = [];
-for (const [index, file] of filesIn(dist).entries()) {
+const contents = [];
+let offset = 0;
+for (const file of filesIn(dist)) {
   const path = '/' + relative(dist, file).split(sep).join('/');
   const type = types[extname(file)];
   if (type === undefined) throw new Error(`${path}: embed.mjs knows no content type for it`);
   const plain = readFileSync(file);
-  const smaller = gzipSync(plain, { level: constants.Z_BEST_COMPRESSION });
+  // Not with Node's zlib, whose output differs between versions of Node: the same sources have to give the same bytes.
+  const smaller = execFileSync('gzip', ['-9', '-n', '-c'], { input: plain, maxBuffer: 2 * plain.length + 1024 });
   const compressed = smaller.length < plain.length * 0.9;
+  const content = compressed ? smaller : plain;
   const tag = createHash('sha256').update(plain).digest('hex').slice(0, 20);
-  const blob = join(blobs, `${index}`);
-  writeFileSync(blob, compressed ? smaller : plain);
-  const name = `flexrf_page_${index}`;
-  symbols.push(`asm(".section .rodata\\n.balign 16\\n${name}:\\n.incbin \\"${blob}\\"\\n${name}_end:\\n.previous\\n");
-extern const char ${name}[] asm("${name}");
-extern const char ${name}_end[] asm("${name}_end");`);
   const lasting = path.startsWith('/assets/');
-  rows.push(
-    `    {"${path}", "${type}", "${tag}", ${compressed}, ${lasting}, {${name}, static_cast<std::size_t>(${name}_end - ${name})}},`,
-  );
+  rows.push(`{"${path}", "${type}", "${tag}", ${compressed}, ${lasting}, {flexrf_page + ${offset}, ${content.length}}},\n`);
+  contents.push(content);
+  offset += content.length;
 }
 if (!rows.some((row) => row.includes('"/index.html"'))) throw new Error(`there is no index.html in ${dist}`);
 
-writeFileSync(
-  join(output, 'page_files.cpp'),
-  `// Made by embed.mjs; do not edit.
-#include <cstddef>
-
-#include "web-ui/server/files.hpp"
-
-${symbols.join('\n')}
-
-namespace flexrf::panel {
-
-std::span<const PageFile> page_files() noexcept {
-  static const PageFile files[] = {
-${rows.join('\n')}
-  };
-  return files;
-}
-
-}  // namespace flexrf::panel
-`,
-);
+writeFileSync(join(output, 'page.data'), Buffer.concat(contents));
+writeFileSync(join(output, 'page_rows.inc'), rows.join(''));
