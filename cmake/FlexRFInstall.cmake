@@ -80,9 +80,9 @@ foreach(kind IN ITEMS TYPES INTERFACES DRIVERS UNITS)
       string(APPEND of_tables "table ${place}/${header}\n")
     endif()
     string(REGEX REPLACE "^flexrf_" "FlexRF::" exported ${target})
-    string(APPEND registry "set_property(GLOBAL APPEND PROPERTY FLEXRF_${kind} ${exported})\n"
-           "set_target_properties(${exported} PROPERTIES FLEXRF_FOLDER \"\${_flexrf_tables}/${place}\" "
-           "FLEXRF_ROOT \"\${_flexrf_tables}/${searched}\" FLEXRF_NAME \"${name}\" FLEXRF_CLASS \"${class}\")\n")
+    string(APPEND registry "set_target_properties(${exported} PROPERTIES FLEXRF_FOLDER \"\${_flexrf_tables}/${place}\" "
+           "FLEXRF_ROOT \"\${_flexrf_tables}/${searched}\" FLEXRF_NAME \"${name}\" FLEXRF_CLASS \"${class}\")\n"
+           "flexrf_registered(${kind} ${exported})\n")
   endforeach()
 endforeach()
 target_include_directories(flexrf_options INTERFACE
