@@ -3,7 +3,7 @@
 source "$(dirname "$0")/stand_in.sh"
 shopt -s extglob
 
-grep -v -x -e nodejs -e npm -e lld -e g++ -e clang-tidy -e rt-tests "$work/installed" >"$work/less" && mv "$work/less" "$work/installed"
+grep -v -x -e nodejs -e npm -e g++ -e clang-tidy -e rt-tests "$work/installed" >"$work/less" && mv "$work/less" "$work/installed"
 if ((EUID != 0)); then
   stand_in sudo <<'BODY'
 exec "$@"
@@ -12,7 +12,7 @@ fi
 flexrf run <<<"wd"
 expect "exit code" "$status" 0
 expect "what is missing, and why" "$errors" "*missing:*g++ *compiler*installed 1 packages*"
-expect "what run does not need" "$errors" "!(*clang-tidy*|*rt-tests*|*chromium*|*nodejs*|*npm*|*lld*)"
+expect "what run does not need" "$errors" "!(*clang-tidy*|*rt-tests*|*chromium*|*nodejs*|*npm*)"
 expect "standard input" "$output" "*input: wd"
 expect "calls" "$(<"$calls")" "*apt-get *update*apt-get *-y*install --no-install-recommends g++*cmake --preset release*"
 

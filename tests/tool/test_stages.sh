@@ -21,6 +21,8 @@ exec "${@:2}"
 BODY
 
 # The PC's own are tried by themselves.
+mkdir -p "$tree/image/disk"
+echo 'mib_of() { echo 1; }' >"$tree/image/disk/partitions.sh"
 cat >"$tree/cmake/tool/image_test.sh" <<'BODY'
 image_levels=(first gate full soak)
 image_test_list() { printf '%s\n' 'boots first a' 'updates gate b' 'flagship full c' 'campaign soak d'; }
@@ -35,7 +37,7 @@ BODY
 
 last_line() { printf '%s\n' "${output##*$'\n'}"; }
 stages_of() {  # stages_of OUTPUT: the names in the table, sorted
-  sed -n -E 's/^([a-z]+( [a-z]+)*) +[0-9.]+ s +.* (passed|FAILED)$/\1/p' <<<"$output" | LC_ALL=C sort | paste -s -d ,
+  sed -n -E 's/^([a-z]+( [a-z]+)*) +([0-9]+ min )?[0-9.]+ s .* (passed|FAILED)$/\1/p' <<<"$output" | LC_ALL=C sort | paste -s -d ,
 }
 test_calls() { grep "^ctest .*-j" "$calls" | grep -v -e ' -N' | LC_ALL=C sort; }
 

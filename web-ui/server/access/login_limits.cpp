@@ -58,7 +58,7 @@ void LoginLimits::succeeded(const Address& address) noexcept {
 
 void LoginLimits::could_not_be_checked(const Address& address, Time now) noexcept {
   Entry* const known = find(address.neighbourhood());
-  if (known == nullptr) return;
+  if (known == nullptr || known->failures == 0) return;  // a log-in that succeeded meanwhile has forgiven it
   --known->failures;
   known->not_before = std::min(known->not_before, now);
 }

@@ -61,6 +61,14 @@ void an_attempt_that_could_not_be_checked_is_no_failure(void**) {
   assert_true(is_admitted("127.0.0.1", true));
 }
 
+void a_success_meanwhile_has_forgiven_it_already(void**) {
+  assert_true(is_admitted("10.0.0.1"));
+  limits->succeeded(*Address::parse("10.0.0.1"));
+  limits->could_not_be_checked(*Address::parse("10.0.0.1"), now);
+  for (int i = 0; i < 4; ++i) assert_true(is_admitted("10.0.0.1"));
+  assert_false(is_admitted("10.0.0.1"));
+}
+
 void an_attempt_that_could_not_be_checked_delays_all_addresses(void**) {
   for (unsigned i = 0; i <= LoginLimits::shared_free_failures; ++i) {
     assert_true(is_admitted("10.0.0.1"));
@@ -125,6 +133,7 @@ int main() {
       cmocka_unit_test_setup(some_failures_are_free_then_delays_grow, begin),
       cmocka_unit_test_setup(success_forgives, begin),
       cmocka_unit_test_setup(an_attempt_that_could_not_be_checked_is_no_failure, begin),
+      cmocka_unit_test_setup(a_success_meanwhile_has_forgiven_it_already, begin),
       cmocka_unit_test_setup(an_attempt_that_could_not_be_checked_delays_all_addresses, begin),
       cmocka_unit_test_setup(time_forgets, begin),
       cmocka_unit_test_setup(a_network_of_64_bits_is_one_party, begin),
