@@ -17,7 +17,7 @@ export function executableOf(name: ApplicationName): string {
 export const passwordTool = join(build, 'web-ui/server/access/flexrf-password');
 export const playedPc = join(build, 'tests/panel/played_pc');
 export const freezer = join(build, 'tests/panel/freeze_thread');
-export const chromium = process.env['FLEXRF_CHROMIUM'] ?? '/usr/bin/chromium';
+export const chromium = fileURLToPath(new URL('chromium.sh', import.meta.url));
 
 /** Folder for screenshots; undefined: none are taken. */
 export const screenshots = process.env['FLEXRF_PANEL_SCREENSHOTS'];
