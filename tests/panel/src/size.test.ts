@@ -42,6 +42,9 @@ it('a first view: at most 40 kB', async () => {
 
 it('the 3D view: at most 175 kB, in a file of its own', async () => {
   const files = await loadedBy('keyboard', async (viewer) => {
+    // The canvas is there before the file that draws in it.
+    await viewer.page.waitForFunction(() => performance.getEntriesByType('resource')
+      .some((entry) => entry.name.includes('/assets/scene-') && (entry as PerformanceResourceTiming).encodedBodySize > 0));
     await viewer.page.getByRole('img', { name: /in 3D/ }).waitFor();
     await viewer.page.waitForLoadState('networkidle');
   });
