@@ -37,7 +37,7 @@ run_ctest() {
   local -a launcher
   log=$(mktemp "$stages/ctest.XXXXXX")
   set_launcher "$preset"
-  "${launcher[@]}" ctest --test-dir "$root/build/$preset" --output-on-failure --no-tests=error --no-label-summary \
+  nice -n 5 "${launcher[@]}" ctest --test-dir "$root/build/$preset" --output-on-failure --no-tests=error --no-label-summary \
     -j "$places" "${selection[@]}" -R "^($(IFS='|' && echo "$*"))\$" </dev/null 2>&1 |
     sed -u '/^Could not find executable/,/^Unable to find executable/d' | tee "$log"
   status=${PIPESTATUS[0]}

@@ -111,7 +111,7 @@ await_line() {  # await_line PATTERN: until the console has a line like it, whic
 }
 
 ask_panel() {  # ask_panel [PATH [OPTION OF CURL...]]
-  curl -s -S -k --retry 10 --retry-all-errors --max-time 60 "${@:2}" "https://localhost:$pc_port/${1-}"
+  curl -s -S -k --retry 10 --retry-all-errors --max-time 300 "${@:2}" "https://localhost:$pc_port/${1-}"
 }
 
 # A disk whose power went is no damaged disk: nobody is to read that on the screen.

@@ -88,10 +88,12 @@ release_is_built() {  # all else takes its generator, and most its programs
   find_test_keys release
 }
 
-# The lanes' priorities have those tests of the foreground win that a person looks at first; none of them relies on it.
+# Priorities follow how much a test minds to wait. A PC of the image has real time in it, and cannot confirm its version when its panel is
+# slow; the tests of ctest, the browser's too, wait for events (run_ctest: nice 5); the guest's clock counts
+# instructions; builds and analyses only have to end.
 start_first_lanes() {
   start_lane 0 panel_lane
-  [[ $no_guest ]] || start_lane 5 guest_lane
+  [[ $no_guest ]] || start_lane 10 guest_lane
 }
 
 await_first_lanes() {
@@ -99,7 +101,7 @@ await_first_lanes() {
   if [[ $no_guest ]]; then skip guest "$no_guest"; else await_stage guest; fi
 }
 
-start_image_lane() { [[ $no_image ]] || start_lane 5 image_lane_of "$@"; } # start_image_lane LEVEL...
+start_image_lane() { [[ $no_image ]] || start_lane 0 image_lane_of "$@"; } # start_image_lane LEVEL...
 await_image_lane() {  # await_image_lane LEVEL...
   local level
   for level; do
@@ -130,7 +132,7 @@ level_first() {
 
 level_gate() {
   release_is_built
-  start_lane 5 presets_lane checked tsan asan
+  start_lane 12 presets_lane checked tsan asan
   start_image_lane gate
   start_lane 15 analysis_lane
   test_presets checked tsan asan
@@ -144,7 +146,7 @@ level_full() {
   stage "source layout" count_as_test check_layout
   release_is_built
   start_first_lanes
-  start_lane 5 presets_lane checked tsan asan fuzz
+  start_lane 12 presets_lane checked tsan asan fuzz
   start_image_lane first gate full
   start_lane 15 analysis_lane
   stage "test release" test_release
@@ -159,11 +161,11 @@ level_presets() {  # level_presets PRESET...: these and nothing else
     release_is_built
     shift
     start_lane 0 panel_lane
-    start_lane 5 presets_lane "$@"
+    start_lane 12 presets_lane "$@"
     stage "test release" test_release
     await_stage panel
   else
-    start_lane 5 presets_lane "$@"
+    start_lane 12 presets_lane "$@"
   fi
   test_presets "$@"
 }
