@@ -88,16 +88,15 @@ release_is_built() {  # all else takes its generator, and most its programs
   find_test_keys release
 }
 
-# Priorities follow how much a test minds to wait. A PC of the image has real time in it, and cannot confirm its version when its panel is
-# slow; the tests of ctest, the browser's too, wait for events (run_ctest: nice 5); the guest's clock counts
-# instructions; builds and analyses only have to end.
+# Priorities follow how much a test minds to wait: the tests of ctest, the browser's too, wait for events (run_ctest: nice 5); the guest's
+# clock counts instructions; builds and analyses only have to end. A PC of the image has real time in it, and cannot confirm its version
+# when its panel is slow: it starts when the tests of ctest are over, beside nothing that has its priority.
 start_first_lanes() {
   start_lane 0 panel_lane
   [[ $no_guest ]] || start_lane 10 guest_lane
 }
 
-await_first_lanes() {
-  await_stage panel
+await_guest() {
   if [[ $no_guest ]]; then skip guest "$no_guest"; else await_stage guest; fi
 }
 
@@ -124,20 +123,20 @@ level_first() {
   stage "source layout" count_as_test check_layout
   release_is_built
   start_first_lanes
-  start_image_lane first
   stage "test release" test_release
-  await_first_lanes
+  await_stage panel
+  start_image_lane first
+  await_guest
   await_image_lane first
 }
 
 level_gate() {
   release_is_built
   start_lane 12 presets_lane checked tsan asan
-  start_image_lane gate
   start_lane 15 analysis_lane
   test_presets checked tsan asan
   await_stage "static analysis"
-  await_image_lane gate
+  image_stage gate
 }
 
 level_full() {
@@ -147,12 +146,13 @@ level_full() {
   release_is_built
   start_first_lanes
   start_lane 12 presets_lane checked tsan asan fuzz
-  start_image_lane first gate full
   start_lane 15 analysis_lane
   stage "test release" test_release
-  await_first_lanes
+  await_stage panel
   test_presets checked tsan asan fuzz
   await_stage "static analysis"
+  start_image_lane first gate full
+  await_guest
   await_image_lane first gate full
 }
 
