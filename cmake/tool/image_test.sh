@@ -277,12 +277,12 @@ first_boot_by_bios first boot
 updates_are_made gate variant
 updates_by_bundles gate variant
 an_update_is_cut_short gate variant
-second_boot_by_uefi gate uefi
-an_admin_at_the_panel gate uefi
 what_a_power_cut_leaves gate cut
-what_runs_and_what_hangs gate report
-data_beyond_repair gate damage
-grubs_menu_wants_a_password gate menu
+second_boot_by_uefi full uefi
+an_admin_at_the_panel full uefi
+what_runs_and_what_hangs full report
+data_beyond_repair full damage
+grubs_menu_wants_a_password full menu
 more_power_cuts full cut
 a_missing_flush_is_found full twin
 more_cuts_of_an_update full variant

@@ -90,7 +90,7 @@ release_is_built() {  # all else takes its generator, and most its programs
 
 # Priorities follow how much a test minds to wait: the tests of ctest, the browser's too, wait for events (run_ctest: nice 5); the guest's
 # clock counts instructions; builds and analyses only have to end. A PC of the image has real time in it, and cannot confirm its version
-# when its panel is slow: it starts when the tests of ctest are over, beside nothing that has its priority.
+# when its panel is slow: it starts when the tests of ctest are over, beside a guest or an analysis of lower priority.
 start_first_lanes() {
   start_lane 0 panel_lane
   [[ $no_guest ]] || start_lane 10 guest_lane
@@ -135,8 +135,9 @@ level_gate() {
   start_lane 12 presets_lane checked tsan asan
   start_lane 15 analysis_lane
   test_presets checked tsan asan
+  start_image_lane gate
   await_stage "static analysis"
-  image_stage gate
+  await_image_lane gate
 }
 
 level_full() {
@@ -150,8 +151,8 @@ level_full() {
   stage "test release" test_release
   await_stage panel
   test_presets checked tsan asan fuzz
-  await_stage "static analysis"
   start_image_lane first gate full
+  await_stage "static analysis"
   await_guest
   await_image_lane first gate full
 }
