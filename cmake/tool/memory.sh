@@ -34,7 +34,7 @@ package_versions() {
     }' <(dpkg-query -W -f '${Package}\t${Version}\t${Depends}\t${Pre-Depends}\t${Provides}\n') - | sort
 }
 
-# What every test depends on beside the files that it reads: the same for all of one run.
+# Prints the checksum of the inputs that all tests of a run share: kernel, processors, user and packages.
 environment_key() {
   [[ -s $stages/environment ]] || {
     uname -srm
@@ -114,7 +114,7 @@ key_of() {  # key_of NAME TEST: its key; fails if it has none
 passed_before() {  # passed_before NAME TEST: prints the day on which the test passed with these inputs; fails if it did not
   local key
   key=$(key_of "$1" "$2") && [[ -s $passed_folder/$key ]] || return
-  touch -a "$passed_folder/$key"
+  touch "$passed_folder/$key" # an entry that is still asked for is kept
   cut -d ' ' -f 1 "$passed_folder/$key"
 }
 

@@ -43,7 +43,7 @@ TEXT
   cp "$repository/packages.txt" "$1/"
 }
 
-# As `flexrf test` has them, in a process of its own.
+# Runs the tests of a project in a process of its own, with the functions that `flexrf test` uses.
 tests() (  # tests FOLDER: builds, and prints the names of those that ran, and how many were unchanged
   root=$1 tool=$repository/cmake/tool cache=$work/cache stages=$work/stages counts=$work/counts
   rm -rf "$stages" "$counts"

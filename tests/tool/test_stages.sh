@@ -86,7 +86,7 @@ expect "exit code of two presets" "$status" 0
 expect "presets" "$(grep '^ctest.* -j' "$calls" | sed 's|.*/build/\([a-z]*\) .*|\1|')" "tsan"$'\n'"debug"
 expect "last line of two presets" "$(last_line)" "100% tests passed, 0 tests failed out of 10"
 
-# What builds in a lane ends while the tests of asan wait.
+# The build of asan in its lane ends while the tests of tsan wait.
 touch "$work/busy"
 flexrf test tsan asan --no-memory </dev/null
 expect "processor time of a build" "$output" "*"$'\n'"build asan +([^s])s +( )[1-9]* s   passed*"
