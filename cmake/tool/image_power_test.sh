@@ -236,7 +236,7 @@ judge_points() {
   local progress=$1 boots=$2 judge=$3 recording=$4 point number=0 wrong=0 fresh=0 booted=0 every work=$pc_folder/cut result
   local -a points
   mapfile -t points
-  every=$((boots ? ${#points[@]} / boots : ${#points[@]} + 1))
+  every=$((boots ? ${#points[@]} / boots : 0)) # none, if there are fewer points than boots
   touch "$progress"
   for point in "${points[@]}"; do
     number=$((number + 1))
@@ -244,7 +244,7 @@ judge_points() {
     fresh=$((fresh + 1)) result=right
     if ! "$judge" "$recording" "$point" "$work"; then
       result=wrong
-    elif ((number % every == every / 2)); then
+    elif ((every > 0 && number % every == every / 2)); then
       booted=$((booted + 1))
       boots_again "$work/cut" || { echo "booted at point $point" && result=wrong; }
     fi
