@@ -19,6 +19,18 @@ MotionLimits part_of(const MotionLimits& limits, std::size_t axis) {
   return {part * limits.velocity, part * limits.acceleration, part * limits.jerk};
 }
 
+/// A rotation whose first axis points along `way`: the smallest one, as Quaterniond::FromTwoVectors() gives
+/// it. Near straight back that loses digits and takes an SVD, which takes longer to compile than all else of
+/// this file: there it is the frame of the way forth, turned by half.
+Eigen::Matrix3d frame_along(const Eigen::Vector3d& way) {
+  const Eigen::Vector3d direction = way.normalized();
+  const double cosine = direction.x();
+  if (cosine < -0.999) return frame_along(-way) * Eigen::Vector3d(-1, -1, 1).asDiagonal();
+  const double twice = std::sqrt((1 + cosine) * 2);
+  const Eigen::Vector3d axis = Eigen::Vector3d::UnitX().cross(direction) * (1 / twice);
+  return Eigen::Quaterniond(twice * 0.5, axis.x(), axis.y(), axis.z()).toRotationMatrix();
+}
+
 }  // namespace
 
 bool AxesMotion::is_at_rest() const {
@@ -30,7 +42,7 @@ Eigen::Vector3d AxesMotion::advance(const Eigen::Vector3d& goal, const MotionLim
                                     double time) {
   const double distance = goal.norm();
   if (is_at_rest() && distance > no_way) {
-    frame_ = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), goal).toRotationMatrix();
+    frame_ = frame_along(goal);
   }
   const Eigen::Vector3d seen = frame_.transpose() * goal;
   Eigen::Vector3d way;

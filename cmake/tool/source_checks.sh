@@ -41,7 +41,7 @@ analyse() {
     find "$memory" -type f -mtime +30 -delete
     sums_of_memory "$memory" "$root" >"$analysis/sums"
   fi
-  awk -v root="$root" -v out="$analysis" -v size=8 -f "$tool/tidy_batches.awk" \
+  awk -v root="$root" -v out="$analysis" -v size=12 -f "$tool/tidy_batches.awk" \
     "$root/build/release/compile_commands.json" | tr '\n' '\0' >"$analysis/batches"
   xargs -0 -r -a "$analysis/batches" -n 1 -P "$(nproc)" \
     bash "$tool/tidy.sh" "$root" "$analysis" "$headers" "$memory" "$(clang-tidy --version)" </dev/null || status=1

@@ -61,10 +61,17 @@ function write_list(list, most, names, n, i) {
   }
 }
 
-# The names that a file gives at its left margin: what stands before the first bracket, brace, = or ; there.
-function names_of(file, line, found) {
+# The names that a file gives at its left margin: what stands before the first bracket, brace, = or ; there. None where it has a
+# namespace of its own name.
+function names_of(file, line, found, own) {
   found = " "
+  own = file
+  gsub(/.*\/|\.cpp$/, "", own)
   while ((getline line < file) > 0) {
+    if (line ~ "^namespace .*::" own " {$") {
+      close(file)
+      return " "
+    }
     if (line !~ /^[A-Za-z]/ || line ~ /^(using )?namespace |^template |^static_assert|^int main\(/) continue
     if (sub(/^(class|struct|union|enum( class)?) /, "", line)) sub(/[^A-Za-z0-9_].*/, "", line)
     sub(/[({=;\[].*/, "", line)
@@ -84,21 +91,23 @@ function share_a_name(left, right, names, n, i) {
   return 0
 }
 
-# Files of several programs have the same names again and again: each goes into the first batch that has none of its own.
-function write_packed(list, most, names, n, i, b, bins, given, content, count, packed) {
+# Files of several programs have the same names again and again: each goes into the first batch that has none of its own, and no
+# other "places.hpp", of which each program has one.
+function write_packed(list, most, names, n, i, b, bins, given, place, place_of, content, count, packed) {
   n = split(list, names, "\n") - 1
   bins = 0
   for (i = 1; i <= n; ++i) {
     given = names_of(names[i])
-    if (includes_of[names[i]] ~ /\/places\//) given = given "places.hpp " # one of its own for each program
+    place = match(includes_of[names[i]], /\/places\/[^\n]*/) ? substr(includes_of[names[i]], RSTART, RLENGTH) : ""
     for (b = 1; b <= bins; ++b)
-      if (count[b] < most && !share_a_name(given, content[b])) break
+      if (count[b] < most && (!place || !place_of[b] || place == place_of[b]) && !share_a_name(given, content[b])) break
     if (b > bins) {
       bins = b
       count[b] = 0
       content[b] = " "
-      packed[b] = ""
+      packed[b] = place_of[b] = ""
     }
+    if (place) place_of[b] = place
     ++count[b]
     content[b] = content[b] given
     packed[b] = packed[b] names[i] "\n"
@@ -121,6 +130,8 @@ BEGIN { database = out "/compile_commands.json"; printf "[\n" > database }
   sub(/ -o [^ ]+ -c [^ ]+$/, "", command)
   # A precompiled header is the other compiler's, and each file names what it needs.
   gsub(/ -Winvalid-pch| -include [^ ]*cmake_pch\.hxx| -Werror/, "", command)
+  # What hardly matters to an analysis, so that files of several libraries go together.
+  gsub(/ -(O[0-9]|g1|fPIC|fno-builtin|ffp-contract=off|DBOOST_ALL_NO_LIB|DSIMDJSON_THREADS_ENABLED=1|D[a-z_]+_EXPORTS)/, "", command)
   # The compiler's cache stands before it.
   if (match(command, /[^ ]*ccache /) == 1) command = substr(command, RLENGTH + 1)
   includes = ""
@@ -136,7 +147,7 @@ function add(file, part, key) {
   if (index(file, root "/") != 1 || index(file, root "/build/") == 1 || file in seen) return
   seen[file] = 1
   split(substr(file, length(root) + 2), part, "/")
-  key = (file ~ /\/(tests|conformance|benchmarks)\/|_(test|stress)\.cpp$/) SUBSEP (file ~ /\/asio\.cpp$/) SUBSEP part[1] "/" part[2] SUBSEP command
+  key = (file ~ /\/(tests|conformance|benchmarks)\/|_(test|stress)\.cpp$/) SUBSEP (file ~ /\/asio\.cpp$/) SUBSEP part[1] SUBSEP command
   if (!(key in files_of)) keys[++key_count] = key
   files_of[key] = files_of[key] file "\n"
   command_of[file] = command

@@ -5,7 +5,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::config_gen {
+namespace flexrf::config_gen::csv_test {
 namespace {
 
 struct Parsed {
@@ -108,10 +108,10 @@ void values(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::config_gen
+}  // namespace flexrf::config_gen::csv_test
 
 int main() {
-  using namespace flexrf::config_gen;
+  using namespace flexrf::config_gen::csv_test;
   const CMUnitTest tests[] = {cmocka_unit_test(both_separators),
                               cmocka_unit_test(quotes),
                               cmocka_unit_test(comments_and_line_ends),

@@ -8,7 +8,7 @@
 #include "config-gen/model/limits.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf::config_gen {
+namespace flexrf::config_gen::diagnostics_test {
 namespace {
 
 Position line(std::size_t number) {
@@ -85,10 +85,10 @@ void too_many_warnings_do_not(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::config_gen
+}  // namespace flexrf::config_gen::diagnostics_test
 
 int main() {
-  using namespace flexrf::config_gen;
+  using namespace flexrf::config_gen::diagnostics_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(many_messages_are_cut_and_counted), cmocka_unit_test(what_is_alike_is_told_once),
       cmocka_unit_test(a_message_is_one_line_whatever_it_quotes), cmocka_unit_test(too_many_errors_end_it),

@@ -16,7 +16,7 @@
 #include "places.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf::config_gen::tests {
+namespace flexrf::config_gen::tests::eds_test {
 namespace {
 
 struct Parsed {
@@ -292,10 +292,10 @@ void identifiers_that_are_fixed(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::config_gen::tests
+}  // namespace flexrf::config_gen::tests::eds_test
 
 int main() {
-  using namespace flexrf::config_gen::tests;
+  using namespace flexrf::config_gen::tests::eds_test;
   const CMUnitTest tests[] = {cmocka_unit_test(a_variable),
                               cmocka_unit_test(line_ends_capitals_and_comments),
                               cmocka_unit_test(numbers),

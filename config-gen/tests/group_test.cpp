@@ -4,7 +4,7 @@
 #include "places.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf::config_gen::tests {
+namespace flexrf::config_gen::tests::group_test {
 namespace {
 
 const Result& axes() {
@@ -90,10 +90,10 @@ void a_thread_around_lists_units_inside(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::config_gen::tests
+}  // namespace flexrf::config_gen::tests::group_test
 
 int main() {
-  using namespace flexrf::config_gen::tests;
+  using namespace flexrf::config_gen::tests::group_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(it_reads_without_a_word),       cmocka_unit_test(names_have_prefixes_in_source_order),
       cmocka_unit_test(arguments_reach_the_innermost), cmocka_unit_test(ports_connect_across),

@@ -14,7 +14,7 @@
 #include "places.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf::config_gen::tests {
+namespace flexrf::config_gen::tests::model_test {
 namespace {
 
 const Result& cell(const std::string& name) {
@@ -306,10 +306,10 @@ void a_large_application_reads_the_same_twice(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::config_gen::tests
+}  // namespace flexrf::config_gen::tests::model_test
 
 int main() {
-  using namespace flexrf::config_gen::tests;
+  using namespace flexrf::config_gen::tests::model_test;
   const CMUnitTest tests[] = {cmocka_unit_test(the_keyboard_example),
                               cmocka_unit_test(a_downloaded_robot),
                               cmocka_unit_test(values_override_defaults),

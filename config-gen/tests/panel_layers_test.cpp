@@ -6,7 +6,7 @@
 #include "places.hpp"
 #include "tests/cmocka.hpp"
 
-namespace flexrf::config_gen::tests {
+namespace flexrf::config_gen::tests::panel_layers_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -53,10 +53,10 @@ void bodies_and_frames(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::config_gen::tests
+}  // namespace flexrf::config_gen::tests::panel_layers_test
 
 int main() {
-  using namespace flexrf::config_gen::tests;
+  using namespace flexrf::config_gen::tests::panel_layers_test;
   const CMUnitTest tests[] = {cmocka_unit_test(overlays), cmocka_unit_test(bodies_and_frames)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -7,7 +7,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::config_gen::tests {
+namespace flexrf::config_gen::tests::parts_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,10 +105,10 @@ void what_is_broken_is_left_out(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::config_gen::tests
+}  // namespace flexrf::config_gen::tests::parts_test
 
 int main() {
-  using namespace flexrf::config_gen::tests;
+  using namespace flexrf::config_gen::tests::parts_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_unit_names_the_interfaces_of_its_devices),
       cmocka_unit_test(an_interface_has_a_class),

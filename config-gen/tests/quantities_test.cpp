@@ -2,7 +2,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::config_gen {
+namespace flexrf::config_gen::quantities_test {
 namespace {
 
 void units_of_measure(void**) {
@@ -36,10 +36,10 @@ void names_of_quantities(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::config_gen
+}  // namespace flexrf::config_gen::quantities_test
 
 int main() {
-  using namespace flexrf::config_gen;
+  using namespace flexrf::config_gen::quantities_test;
   const CMUnitTest tests[] = {cmocka_unit_test(units_of_measure), cmocka_unit_test(symbols_are_replaced),
                               cmocka_unit_test(names_of_quantities)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -2,7 +2,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::config_gen {
+namespace flexrf::config_gen::words_test {
 namespace {
 
 void names(void**) {
@@ -93,10 +93,10 @@ void quantities_for_people(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::config_gen
+}  // namespace flexrf::config_gen::words_test
 
 int main() {
-  using namespace flexrf::config_gen;
+  using namespace flexrf::config_gen::words_test;
   const CMUnitTest tests[] = {cmocka_unit_test(names),
                               cmocka_unit_test(spellings),
                               cmocka_unit_test(nearest_word),

@@ -10,7 +10,7 @@
 #include "image/boot/tests/grub_environment.hpp"
 #include "runtime/executive/tests/checks.hpp"
 
-namespace flexrf::boot {
+namespace flexrf::boot::blocks_test {
 namespace {
 
 // Every mixture of what a choice can say.
@@ -174,10 +174,10 @@ void a_choice_that_cannot_be_is_none() {
 }
 
 }  // namespace
-}  // namespace flexrf::boot
+}  // namespace flexrf::boot::blocks_test
 
 int main() {
-  using namespace flexrf::boot;
+  using namespace flexrf::boot::blocks_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(the_block_is_as_documented),
       CONTAINED_TEST(the_checksum_is_that_of_iso_3309),

@@ -17,7 +17,7 @@
 #include "image/boot/verbs.hpp"
 #include "runtime/executive/tests/checks.hpp"
 
-namespace flexrf::boot {
+namespace flexrf::boot::folder_medium_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,10 +169,10 @@ void missing_files_are_made_again() {
 }
 
 }  // namespace
-}  // namespace flexrf::boot
+}  // namespace flexrf::boot::folder_medium_test
 
 int main() {
-  using namespace flexrf::boot;
+  using namespace flexrf::boot::folder_medium_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_file_is_made_and_written_over_in_its_place),
       CONTAINED_TEST(a_file_of_another_length_gets_the_right_one),

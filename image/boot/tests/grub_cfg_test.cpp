@@ -15,7 +15,7 @@
 #include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
 
-namespace flexrf::boot {
+namespace flexrf::boot::grub_cfg_test {
 namespace {
 
 const ScriptCommands& script() {
@@ -349,10 +349,10 @@ void the_interpreter_refuses_what_it_does_not_know() {
 }
 
 }  // namespace
-}  // namespace flexrf::boot
+}  // namespace flexrf::boot::grub_cfg_test
 
 int main() {
-  using namespace flexrf::boot;
+  using namespace flexrf::boot::grub_cfg_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(every_state_has_its_decision),
       CONTAINED_TEST(the_newer_copy_counts),

@@ -11,7 +11,7 @@
 #include "places.hpp"
 #include "runtime/executive/tests/checks.hpp"
 
-namespace flexrf::boot {
+namespace flexrf::boot::power_cut_test {
 namespace {
 
 // A program in which one flush is missing; none in the one that there is.
@@ -281,10 +281,10 @@ void a_missing_flush_is_found() {
 }
 
 }  // namespace
-}  // namespace flexrf::boot
+}  // namespace flexrf::boot::power_cut_test
 
 int main() {
-  using namespace flexrf::boot;
+  using namespace flexrf::boot::power_cut_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(every_power_cut_leads_to_a_whole_slot),
       CONTAINED_TEST(a_missing_flush_is_found),

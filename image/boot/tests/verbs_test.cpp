@@ -11,7 +11,7 @@
 #include "image/boot/tests/lost_power.hpp"
 #include "runtime/executive/tests/checks.hpp"
 
-namespace flexrf::boot {
+namespace flexrf::boot::verbs_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -277,10 +277,10 @@ void damaged_bytes_are_survived() {
 }
 
 }  // namespace
-}  // namespace flexrf::boot
+}  // namespace flexrf::boot::verbs_test
 
 int main() {
-  using namespace flexrf::boot;
+  using namespace flexrf::boot::verbs_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_new_disk_has_one_slot),
       CONTAINED_TEST(rauc_installs),

@@ -8,7 +8,7 @@
 #include "image/helper/state_answer.hpp"
 #include "image/helper/tests/pc.hpp"
 
-namespace flexrf::helper {
+namespace flexrf::helper::helper_test {
 namespace {
 
 void the_word_says_what_stands_against_motion() {
@@ -244,10 +244,10 @@ void a_word_that_cannot_be_left_is_left_when_it_can() {
 }
 
 }  // namespace
-}  // namespace flexrf::helper
+}  // namespace flexrf::helper::helper_test
 
 int main() {
-  using namespace flexrf::helper;
+  using namespace flexrf::helper::helper_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(the_word_says_what_stands_against_motion),
       CONTAINED_TEST(a_minute_of_health_confirms_the_version),

@@ -3,7 +3,7 @@
 
 #include "image/helper/tests/bench.hpp"
 
-namespace flexrf::helper {
+namespace flexrf::helper::install_test {
 namespace {
 
 void installing_forbids_motion_first() {
@@ -218,10 +218,10 @@ void a_unit_that_never_begins_is_given_up() {
 }
 
 }  // namespace
-}  // namespace flexrf::helper
+}  // namespace flexrf::helper::install_test
 
 int main() {
-  using namespace flexrf::helper;
+  using namespace flexrf::helper::install_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(installing_forbids_motion_first),
       CONTAINED_TEST(an_installation_that_failed_may_be_tried_again),

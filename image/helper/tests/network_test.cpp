@@ -3,7 +3,7 @@
 
 #include "image/helper/tests/bench.hpp"
 
-namespace flexrf::helper {
+namespace flexrf::helper::network_test {
 namespace {
 
 const std::string restart_networkd = "restart --no-block systemd-networkd.service";
@@ -192,10 +192,10 @@ void networkd_that_is_not_told_is_said() {
 }
 
 }  // namespace
-}  // namespace flexrf::helper
+}  // namespace flexrf::helper::network_test
 
 int main() {
-  using namespace flexrf::helper;
+  using namespace flexrf::helper::network_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(an_address_is_tried_and_kept),
       CONTAINED_TEST(what_nobody_keeps_is_taken_back),

@@ -6,7 +6,7 @@
 
 #include "runtime/executive/tests/checks.hpp"
 
-namespace flexrf::helper {
+namespace flexrf::helper::request_test {
 namespace {
 
 std::variant<Request, Answer> parse(const std::string& message) {
@@ -99,10 +99,10 @@ void an_answer_is_an_object() {
 }
 
 }  // namespace
-}  // namespace flexrf::helper
+}  // namespace flexrf::helper::request_test
 
 int main() {
-  using namespace flexrf::helper;
+  using namespace flexrf::helper::request_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(each_verb_has_its_members),
       CONTAINED_TEST(what_is_no_request_is_told_what_is_wrong),

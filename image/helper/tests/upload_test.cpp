@@ -7,16 +7,12 @@
 #include <csignal>
 #include <string>
 
-#include "image/helper/tests/pc.hpp"
+#include "image/helper/tests/bench.hpp"
 
-namespace flexrf::helper {
+namespace flexrf::helper::upload_test {
 namespace {
 
 using std::chrono::minutes;
-
-std::string refusal(const Answer& answer) {
-  return std::to_string(answer.status) + ' ' + answer.why;
-}
 
 class Bench {
  public:
@@ -164,10 +160,10 @@ void a_folder_that_is_not_there_is_told() {
 }
 
 }  // namespace
-}  // namespace flexrf::helper
+}  // namespace flexrf::helper::upload_test
 
 int main() {
-  using namespace flexrf::helper;
+  using namespace flexrf::helper::upload_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(parts_become_the_bundle),
       CONTAINED_TEST(a_part_in_the_wrong_place_is_told_the_right_one),

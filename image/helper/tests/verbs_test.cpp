@@ -3,7 +3,7 @@
 
 #include "image/helper/tests/bench.hpp"
 
-namespace flexrf::helper {
+namespace flexrf::helper::verbs_test {
 namespace {
 
 void only_an_admin_with_the_right_password_may() {
@@ -183,10 +183,10 @@ void the_state_tells_all() {
 }
 
 }  // namespace
-}  // namespace flexrf::helper
+}  // namespace flexrf::helper::verbs_test
 
 int main() {
-  using namespace flexrf::helper;
+  using namespace flexrf::helper::verbs_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(only_an_admin_with_the_right_password_may),
       CONTAINED_TEST(wrong_passwords_are_slowed),

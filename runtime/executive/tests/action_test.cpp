@@ -6,7 +6,7 @@
 
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::action_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -420,10 +420,10 @@ void a_narrowed_range_is_enforced() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::action_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::action_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_unit_that_owns_an_actuator_comes_to_rest_before_it_is_stopped),
       CONTAINED_TEST(who_does_not_come_to_rest_has_its_devices_made_safe),

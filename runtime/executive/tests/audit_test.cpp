@@ -13,7 +13,7 @@
 
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::audit_test {
 namespace {
 
 using Cell = ProducerAndConsumer;
@@ -306,10 +306,10 @@ void what_cannot_be_written_is_told_at_the_start() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::audit_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::audit_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_change_is_told_with_its_old_and_its_new_value),
       CONTAINED_TEST(a_drag_is_one_entry_and_one_there_and_back_none),

@@ -8,7 +8,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::backoff_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -197,10 +197,10 @@ void silent_source_is_polled_ever_less(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::backoff_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::backoff_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(periodic_source),
       cmocka_unit_test(jittering_source),

@@ -6,7 +6,7 @@
 #include "runtime/executive/tests/running_cell.hpp"
 #include "runtime/log/log.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::determinism_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -269,10 +269,10 @@ void two_runs_say_the_same() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::determinism_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::determinism_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(two_runs_have_the_same_digest),
       CONTAINED_TEST(however_long_steps_take_on_this_machine),

@@ -1,7 +1,7 @@
 // A device that guards motion: safe state within a cycle, latched until a person clears it and gives Start.
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::emergency_stop_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -147,10 +147,10 @@ void a_sleeping_threads_actuators_are_made_safe_too() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::emergency_stop_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::emergency_stop_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(it_is_safe_within_a_cycle_and_stays_so_until_cleared_and_started),
       CONTAINED_TEST(another_threads_actuators_are_safe_within_their_cycle),

@@ -10,7 +10,7 @@
 #include "runtime/executive/tests/running_cell.hpp"
 #include "runtime/log/log.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::heartbeat_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -246,10 +246,10 @@ void a_running_application_tells_of_itself() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::heartbeat_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::heartbeat_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(nobody_is_judged_before_somebody_asks),
       CONTAINED_TEST(it_is_met_while_every_thread_turns),

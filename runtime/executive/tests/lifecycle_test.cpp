@@ -3,7 +3,7 @@
 
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::lifecycle_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -328,10 +328,10 @@ void readers_of_a_faulted_device_see_why() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::lifecycle_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::lifecycle_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(initialised_in_table_order_stopped_in_reverse),
       CONTAINED_TEST(configuration_and_parameters_are_there_at_initialise),

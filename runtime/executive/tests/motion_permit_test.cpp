@@ -10,7 +10,7 @@
 
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::motion_permit_test {
 namespace {
 
 struct Machine {
@@ -140,10 +140,10 @@ void without_a_file_nobody_is_asked() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::motion_permit_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::motion_permit_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(no_word_is_no_permission),
       CONTAINED_TEST(the_word_permits_a_start_and_gives_none),

@@ -1,7 +1,7 @@
 // Nothing moves by itself: Start, Stop motion, holds and their leases.
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::motion_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -216,10 +216,10 @@ void stop_motion_is_seen_by_sleeping_threads_on_the_wall_clock() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::motion_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::motion_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(nothing_moves_before_start),
       CONTAINED_TEST(autostart_lifts_it_at_power_on),

@@ -9,7 +9,7 @@
 #include "runtime/executive/tests/running_cell.hpp"
 #include "runtime/run/run_application.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::observer_test {
 namespace {
 
 using Cell = ProducerAndConsumer;
@@ -162,10 +162,10 @@ void what_it_refuses_or_nobody_knows_is_an_error() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::observer_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::observer_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(it_lives_as_long_as_the_application_runs),
       CONTAINED_TEST(what_it_cannot_prepare_refuses_the_start),

@@ -10,7 +10,7 @@
 #include "runtime/executive/file_options.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::options_test {
 namespace {
 
 using Cell = ProducerAndConsumer;
@@ -205,10 +205,10 @@ void a_report_is_no_file_of_a_driver() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::options_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::options_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_driver_has_its_values_before_it_is_initialised),
       CONTAINED_TEST(a_value_that_does_not_fit_is_refused),

@@ -3,7 +3,7 @@
 #include "runtime/executive/tests/running_cell.hpp"
 #include "tests/log_ear.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::overrun_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -223,10 +223,10 @@ void a_real_overrun_is_noticed_on_the_wall_clock() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::overrun_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::overrun_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(skipped_releases_are_left_out),
       CONTAINED_TEST(every_release_is_caught_up_with),

@@ -1,7 +1,7 @@
 // Populations: members that are activated, cloned and retired while the application runs.
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::population_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -167,10 +167,10 @@ void under_load_every_request_is_answered_and_nothing_is_torn() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::population_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::population_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(all_are_initialised_and_the_active_ones_step),
       CONTAINED_TEST(members_come_and_go_between_steps),

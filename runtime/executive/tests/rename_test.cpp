@@ -7,7 +7,7 @@
 
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::rename_test {
 namespace {
 
 /// What is in the file after a run that found the old names in it.
@@ -50,10 +50,10 @@ void without_renames_they_are_left_out() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::rename_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::rename_test;
   const CMUnitTest tests[] = {CONTAINED_TEST(values_saved_under_old_names_are_kept),
                               CONTAINED_TEST(without_renames_they_are_left_out)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

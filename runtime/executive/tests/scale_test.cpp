@@ -3,7 +3,7 @@
 
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::scale_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -81,10 +81,10 @@ void on_the_wall_clock_too() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::scale_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::scale_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(in_virtual_time_all_units_step),
       CONTAINED_TEST(on_the_wall_clock_too),

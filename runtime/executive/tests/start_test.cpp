@@ -6,7 +6,7 @@
 #include "runtime/run/report.hpp"
 #include "tests/log_ear.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::start_test {
 namespace {
 
 using Cell = ProducerAndConsumer;
@@ -98,10 +98,10 @@ void a_thread_that_waits_for_too_much_is_refused() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::start_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::start_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_right_lost_before_the_start_is_named),
       CONTAINED_TEST(a_driver_is_told_how_long_a_step_may_take),

@@ -2,7 +2,7 @@
 // steps only.
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::step_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -294,10 +294,10 @@ void steps_are_traced_while_somebody_asks() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::step_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::step_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(units_step_in_the_order_of_the_thread),
       CONTAINED_TEST(a_bus_receives_before_what_it_carries_and_sends_after_it),

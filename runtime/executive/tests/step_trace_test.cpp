@@ -6,7 +6,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf {
+namespace flexrf::step_trace_test {
 namespace {
 
 Time at(std::int64_t ns) {
@@ -102,10 +102,10 @@ void a_reader_beside_the_writer_sees_whole_steps(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf
+}  // namespace flexrf::step_trace_test
 
 int main() {
-  using namespace flexrf;
+  using namespace flexrf::step_trace_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_newest_are_copied_the_oldest_first),
       cmocka_unit_test(what_was_overwritten_is_gone),

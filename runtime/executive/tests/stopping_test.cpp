@@ -7,7 +7,7 @@
 #include "runtime/executive/tests/running_cell.hpp"
 #include "runtime/run/report.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::stopping_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -376,10 +376,10 @@ void a_driver_that_cannot_live_in_virtual_time_is_refused_by_name() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::stopping_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::stopping_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_controlled_stop_lets_units_come_to_rest),
       CONTAINED_TEST(who_does_not_come_to_rest_is_cut_short),

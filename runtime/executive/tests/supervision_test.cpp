@@ -8,7 +8,7 @@
 #include "runtime/executive/thread_loop.hpp"
 #include "runtime/log/log.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::supervision_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -173,10 +173,10 @@ void time_alone_does_not_end_an_application() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::supervision_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::supervision_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_step_that_is_watched_all_the_time_hangs_after_its_time_out),
       CONTAINED_TEST(a_thread_may_have_a_time_out_of_its_own),

@@ -8,7 +8,7 @@
 
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::trigger_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -334,10 +334,10 @@ void a_free_thread_steps_without_a_reason() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::trigger_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::trigger_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_period_has_its_phase_and_no_drift),
       CONTAINED_TEST(a_publication_releases_when_it_becomes_visible),

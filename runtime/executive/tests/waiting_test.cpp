@@ -4,7 +4,7 @@
 
 #include "runtime/executive/tests/running_cell.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::waiting_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -266,10 +266,10 @@ void what_waits_wakes_a_sleeping_thread() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::waiting_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::waiting_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_burst_is_worked_off_one_by_one),
       CONTAINED_TEST(a_burst_keeps_the_least_interval),

@@ -6,7 +6,7 @@
 #include "runtime/executive/tests/fixture_components.hpp"
 #include "runtime/executive/trigger.hpp"
 
-namespace flexrf::fixture {
+namespace flexrf::fixture::waiting_trigger_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -128,10 +128,10 @@ void two_releases_by_back_off_are_never_closer_than_the_shortest_sleep() {
 }
 
 }  // namespace
-}  // namespace flexrf::fixture
+}  // namespace flexrf::fixture::waiting_trigger_test
 
 int main() {
-  using namespace flexrf::fixture;
+  using namespace flexrf::fixture::waiting_trigger_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(readers_of_one_queue_do_not_keep_each_other_awake),
       CONTAINED_TEST(what_waited_before_the_start_is_offered),

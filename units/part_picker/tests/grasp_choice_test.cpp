@@ -11,6 +11,7 @@
 #include "hal/scene/world/tabletop_world.hpp"
 #include "tests/cmocka.hpp"
 
+namespace flexrf::grasp_choice_test {
 namespace {
 
 using namespace flexrf;
@@ -404,8 +405,10 @@ void passes(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::grasp_choice_test
 
 int main() {
+  using namespace flexrf::grasp_choice_test;
   const CMUnitTest tests[] = {
       {"the hand is the scene's", passes<the_hand_is_the_scenes>, nullptr, nullptr, nullptr},
       {"the tool points down where it shall", passes<the_tool_points_down_where_it_shall>, nullptr, nullptr,

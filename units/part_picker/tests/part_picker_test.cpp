@@ -10,6 +10,7 @@
 #include "tests/cmocka.hpp"
 #include "units/unit_bench.hpp"
 
+namespace flexrf::part_picker_test {
 namespace {
 
 using namespace flexrf;
@@ -240,8 +241,10 @@ void passes(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::part_picker_test
 
 int main() {
+  using namespace flexrf::part_picker_test;
   const CMUnitTest tests[] = {
       {"a part into its bin", passes<a_part_is_brought_into_its_bin>, nullptr, nullptr, nullptr},
       {"holds without tracks", passes<holds_without_tracks>, nullptr, nullptr, nullptr},

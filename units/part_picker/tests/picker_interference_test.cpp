@@ -4,6 +4,7 @@
 
 #include "units/part_picker/tests/picker_world.hpp"
 
+namespace flexrf::picker_interference_test {
 namespace {
 
 using namespace flexrf;
@@ -254,8 +255,10 @@ void passes(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::picker_interference_test
 
 int main() {
+  using namespace flexrf::picker_interference_test;
   const CMUnitTest tests[] = {
       {"nothing may move", passes<nothing_moves_when_nothing_may>, nullptr, nullptr, nullptr},
       {"no pose", passes<an_arm_that_does_not_say_where_it_is_rests>, nullptr, nullptr, nullptr},

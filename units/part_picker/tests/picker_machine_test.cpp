@@ -3,6 +3,7 @@
 
 #include "units/part_picker/tests/picker_world.hpp"
 
+namespace flexrf::picker_machine_test {
 namespace {
 
 using namespace flexrf;
@@ -310,8 +311,10 @@ void passes(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::picker_machine_test
 
 int main() {
+  using namespace flexrf::picker_machine_test;
   const CMUnitTest tests[] = {
       {"a cycle in order", passes<a_cycle_is_gone_through_in_order>, nullptr, nullptr, nullptr},
       {"each kind into its bin", passes<each_kind_comes_into_its_bin>, nullptr, nullptr, nullptr},

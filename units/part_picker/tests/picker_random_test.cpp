@@ -4,6 +4,7 @@
 
 #include "units/part_picker/tests/picker_world.hpp"
 
+namespace flexrf::picker_random_test {
 namespace {
 
 using namespace flexrf;
@@ -177,8 +178,10 @@ void passes(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::picker_random_test
 
 int main() {
+  using namespace flexrf::picker_random_test;
   const CMUnitTest tests[] = {
       {"random disturbances", passes<random_disturbances_are_survived>, nullptr, nullptr, nullptr},
   };

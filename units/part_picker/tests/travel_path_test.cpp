@@ -12,6 +12,7 @@
 
 #include "tests/cmocka.hpp"
 
+namespace flexrf::travel_path_test {
 namespace {
 
 using namespace flexrf::user;
@@ -223,8 +224,10 @@ void passes(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::travel_path_test
 
 int main() {
+  using namespace flexrf::travel_path_test;
   const CMUnitTest tests[] = {
       {"random ways are free and short", passes<random_ways_are_free_and_short>, nullptr, nullptr, nullptr},
       {"around one box", passes<around_one_box_it_is_the_shorter_side>, nullptr, nullptr, nullptr},

@@ -4,6 +4,7 @@
 #include "tests/cmocka.hpp"
 #include "units/robot_control/tests/robot_world.hpp"
 
+namespace flexrf::robot_control_test {
 namespace {
 
 using namespace flexrf;
@@ -272,8 +273,10 @@ void passes(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::robot_control_test
 
 int main() {
+  using namespace flexrf::robot_control_test;
   const CMUnitTest tests[] = {
       {"moves to the target", passes<moves_to_the_target>, nullptr, nullptr, nullptr},
       {"takes the latest when finished", passes<takes_the_latest_when_finished>, nullptr, nullptr, nullptr},

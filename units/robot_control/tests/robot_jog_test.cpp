@@ -5,6 +5,7 @@
 #include "tests/cmocka.hpp"
 #include "units/robot_control/tests/robot_world.hpp"
 
+namespace flexrf::robot_jog_test {
 namespace {
 
 using namespace flexrf;
@@ -351,8 +352,10 @@ void passes(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::robot_jog_test
 
 int main() {
+  using namespace flexrf::robot_jog_test;
   const CMUnitTest tests[] = {
       {"each arrow moves the tool while held", passes<each_arrow_moves_the_tool_while_it_is_held>, nullptr,
        nullptr, nullptr},

@@ -5,6 +5,7 @@
 #include "tests/cmocka.hpp"
 #include "units/robot_control/tests/robot_world.hpp"
 
+namespace flexrf::robot_servo_test {
 namespace {
 
 using namespace flexrf;
@@ -179,8 +180,10 @@ void passes(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::robot_servo_test
 
 int main() {
+  using namespace flexrf::robot_servo_test;
   const CMUnitTest tests[] = {
       {"follows a goal that moves", passes<follows_a_goal_that_moves>, nullptr, nullptr, nullptr},
       {"holds when no more comes", passes<holds_when_no_more_comes>, nullptr, nullptr, nullptr},

@@ -7,6 +7,7 @@
 #include "units/vision/tests/drawn_table.hpp"
 #include "units/vision/tests/vision_bench.hpp"
 
+namespace flexrf::camera_view_test {
 namespace {
 
 using namespace flexrf;
@@ -106,8 +107,10 @@ void wrong_cameras_are_refused(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::camera_view_test
 
 int main() {
+  using namespace flexrf::camera_view_test;
   const CMUnitTest tests[] = {cmocka_unit_test(interpolation), cmocka_unit_test(what_is_projected_comes_back),
                               cmocka_unit_test(along_the_axis_is_the_principal_point),
                               cmocka_unit_test(what_cannot_be_seen_is_not),

@@ -6,6 +6,7 @@
 #include "units/vision/evolution.hpp"
 #include "units/vision/tests/evolution_world.hpp"
 
+namespace flexrf::evolution_judgement_test {
 namespace {
 
 using namespace flexrf::user;
@@ -175,8 +176,10 @@ void places(void**) {
   assert_true(a_new_member_in_an_old_place_begins_anew());
 }
 }  // namespace
+}  // namespace flexrf::evolution_judgement_test
 
 int main() {
+  using namespace flexrf::evolution_judgement_test;
   const CMUnitTest tests[] = {cmocka_unit_test(judgement), cmocka_unit_test(standing),
                               cmocka_unit_test(places)};
   return cmocka_run_group_tests_name("judgement of evolution", tests, nullptr, nullptr);

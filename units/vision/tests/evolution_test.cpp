@@ -7,6 +7,7 @@
 #include "tests/cmocka.hpp"
 #include "units/vision/tests/evolution_world.hpp"
 
+namespace flexrf::evolution_test {
 namespace {
 
 using namespace flexrf::user;
@@ -182,8 +183,10 @@ void windows(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::evolution_test
 
 int main() {
+  using namespace flexrf::evolution_test;
   const CMUnitTest tests[] = {cmocka_unit_test(survival), cmocka_unit_test(the_best),
                               cmocka_unit_test(cost),     cmocka_unit_test(in_hand),
                               cmocka_unit_test(freezing), cmocka_unit_test(probation),

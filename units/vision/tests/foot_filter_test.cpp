@@ -4,6 +4,7 @@
 
 #include "tests/cmocka.hpp"
 
+namespace flexrf::foot_filter_test {
 namespace {
 
 using namespace flexrf::user;
@@ -74,8 +75,10 @@ void what_drifts_is_followed(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::foot_filter_test
 
 int main() {
+  using namespace flexrf::foot_filter_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(one_view_is_taken_as_it_is), cmocka_unit_test(two_sides_tell_height_and_place),
       cmocka_unit_test(one_side_tells_no_height), cmocka_unit_test(no_height_is_below_the_table),

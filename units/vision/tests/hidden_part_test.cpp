@@ -4,6 +4,7 @@
 #include "tests/cmocka.hpp"
 #include "units/vision/tests/drawn_table.hpp"
 
+namespace flexrf::hidden_part_test {
 namespace {
 
 using namespace flexrf;
@@ -74,8 +75,10 @@ void check(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::hidden_part_test
 
 int main() {
+  using namespace flexrf::hidden_part_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(check<an_empty_hand_hides_what_the_table_says>),
       cmocka_unit_test(check<a_held_part_hides_what_it_covers>),

@@ -7,6 +7,7 @@
 
 #include "tests/cmocka.hpp"
 
+namespace flexrf::integral_images_test {
 namespace {
 
 using namespace flexrf::user;
@@ -138,8 +139,10 @@ void forgetting(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::integral_images_test
 
 int main() {
+  using namespace flexrf::integral_images_test;
   const CMUnitTest tests[] = {cmocka_unit_test(sums), cmocka_unit_test(white), cmocka_unit_test(noise),
                               cmocka_unit_test(forgetting)};
   return cmocka_run_group_tests_name("integral images", tests, nullptr, nullptr);

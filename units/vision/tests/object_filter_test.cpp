@@ -5,6 +5,7 @@
 
 #include "tests/cmocka.hpp"
 
+namespace flexrf::object_filter_test {
 namespace {
 
 using namespace flexrf::user;
@@ -69,8 +70,10 @@ void angles_that_look_the_same_are_the_same(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::object_filter_test
 
 int main() {
+  using namespace flexrf::object_filter_test;
   const CMUnitTest tests[] = {cmocka_unit_test(what_lies_is_known_better_and_better),
                               cmocka_unit_test(what_is_not_seen_is_known_less),
                               cmocka_unit_test(on_a_belt_its_velocity_is_found),

@@ -6,6 +6,7 @@
 #include "tests/cmocka.hpp"
 #include "units/vision/tests/drawn_table.hpp"
 
+namespace flexrf::part_finder_test {
 namespace {
 
 using namespace flexrf::user;
@@ -309,8 +310,10 @@ void expectations(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::part_finder_test
 
 int main() {
+  using namespace flexrf::part_finder_test;
   const CMUnitTest tests[] = {cmocka_unit_test(blocks),
                               cmocka_unit_test(discs),
                               cmocka_unit_test(hexagons),

@@ -13,6 +13,7 @@
 #include "units/vision/table_light.hpp"
 #include "units/vision/tests/drawn_table.hpp"
 
+namespace flexrf::region_bitmap_test {
 namespace {
 
 using namespace flexrf::user;
@@ -236,8 +237,10 @@ void rectangles(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::region_bitmap_test
 
 int main() {
+  using namespace flexrf::region_bitmap_test;
   const CMUnitTest tests[] = {cmocka_unit_test(colours),   cmocka_unit_test(bare_table),
                               cmocka_unit_test(shadows),   cmocka_unit_test(edges),
                               cmocka_unit_test(blind),     cmocka_unit_test(cut),

@@ -6,6 +6,7 @@
 #include "tests/cmocka.hpp"
 #include "units/vision/tests/drawn_table.hpp"
 
+namespace flexrf::table_light_test {
 namespace {
 
 using namespace flexrf::user;
@@ -111,8 +112,10 @@ void without_light_there_is_none(void**) {
 }
 
 }  // namespace
+}  // namespace flexrf::table_light_test
 
 int main() {
+  using namespace flexrf::table_light_test;
   const CMUnitTest tests[] = {cmocka_unit_test(any_light_is_told),
                               cmocka_unit_test(the_table_need_not_be_most_of_it),
                               cmocka_unit_test(where_it_is_not_seen_the_light_is_as_it_was),

@@ -14,7 +14,7 @@
 #include "tests/cmocka.hpp"
 #include "web-ui/server/tests/served.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::encryption_test {
 namespace {
 
 char folder[] = "/tmp/flexrf_encryption_XXXXXX";
@@ -150,10 +150,10 @@ void what_encrypts_without_authenticating_is_not_offered(void** state) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::encryption_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::encryption_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(wrong_files_are_named),
       cmocka_unit_test_setup_teardown(requests_travel_encrypted, serve, end),

@@ -7,7 +7,7 @@
 #include "web-ui/server/gunzip.hpp"
 #include "web-ui/server/gzip.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::files_test {
 namespace {
 
 using namespace std::string_view_literals;
@@ -140,10 +140,10 @@ void files_can_only_be_read(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::files_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::files_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_page_is_asked_for_anew_each_time),
       cmocka_unit_test(hashed_names_last),

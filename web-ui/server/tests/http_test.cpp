@@ -5,7 +5,7 @@
 #include "tests/cmocka.hpp"
 #include "web-ui/server/tests/served.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::http_test {
 namespace {
 
 /// Time limits which nothing but a hang exceeds: what a test is about has one of its own.
@@ -409,10 +409,10 @@ void clients_that_do_not_read_are_cut_and_delay_nobody(void** state) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::http_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::http_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(a_request_is_answered, serve, end),
       cmocka_unit_test_setup_teardown(a_connection_is_kept, serve, end),

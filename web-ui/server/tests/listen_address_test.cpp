@@ -5,7 +5,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::listen_address_test {
 namespace {
 
 struct Case {
@@ -58,10 +58,10 @@ void a_refusal_says_what_is_wanted(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::listen_address_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::listen_address_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(addresses_are_understood),
       cmocka_unit_test(a_refusal_says_what_is_wanted),

@@ -5,7 +5,7 @@
 #include "tests/cmocka.hpp"
 #include "web-ui/server/tests/served.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::live_test {
 namespace {
 
 /// Time limits which nothing but a hang exceeds: what a test is about has one of its own.
@@ -289,10 +289,10 @@ void the_end_of_the_server_is_told(void** state) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::live_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::live_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(messages_go_both_ways, serve, end),
       cmocka_unit_test_setup_teardown(fragments_are_put_together, serve, end),

@@ -4,7 +4,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::request_target_test {
 namespace {
 
 struct Target {
@@ -78,10 +78,10 @@ void tags_are_compared(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::request_target_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::request_target_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(targets_are_decoded),
       cmocka_unit_test(gzip_is_found),

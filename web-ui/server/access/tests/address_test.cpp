@@ -2,7 +2,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::address_test {
 namespace {
 
 bool is_same(const char* one, const char* other) {
@@ -40,10 +40,10 @@ void a_neighbourhood_is_what_one_party_can_choose_from(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::address_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::address_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(one_address_however_it_is_written),
       cmocka_unit_test(what_is_no_address),

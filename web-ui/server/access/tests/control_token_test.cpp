@@ -4,7 +4,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::control_token_test {
 namespace {
 
 using Taking = ControlToken::Taking;
@@ -174,10 +174,10 @@ void every_change_shows_in_the_revision(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::control_token_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::control_token_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup(a_free_token_is_taken_by_operators, begin),
       cmocka_unit_test_setup(no_answer_is_consent_after_ten_seconds, begin),

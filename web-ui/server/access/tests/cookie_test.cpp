@@ -2,7 +2,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::cookie_test {
 namespace {
 
 /// The values of "id", with '|' after each.
@@ -35,10 +35,10 @@ void what_set_cookie_says(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::cookie_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::cookie_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(values_by_name),
       cmocka_unit_test(what_set_cookie_says),

@@ -8,7 +8,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::entrance_test {
 namespace {
 
 constexpr std::uint32_t places = 4;
@@ -251,10 +251,10 @@ void without_passwords_others_see_nothing(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::entrance_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::entrance_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup(a_visitor_on_loopback_is_a_viewer, begin),
       cmocka_unit_test_setup(a_foreign_host_is_misdirected, begin),

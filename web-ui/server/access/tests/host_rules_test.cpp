@@ -4,7 +4,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::host_rules_test {
 namespace {
 
 struct HostCase {
@@ -136,10 +136,10 @@ void the_machine_has_names(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::host_rules_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::host_rules_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(hosts),
       cmocka_unit_test(long_hosts_are_refused),

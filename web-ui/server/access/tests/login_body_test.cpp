@@ -2,7 +2,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::login_body_test {
 namespace {
 
 bool reads(std::string_view text) {
@@ -38,10 +38,10 @@ void neither_length_nor_depth_hurts(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::login_body_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::login_body_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(what_a_client_sends),
       cmocka_unit_test(nothing_else_is_taken),

@@ -5,7 +5,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::login_limits_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -125,10 +125,10 @@ void at_the_machine_nobody_waits_long(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::login_limits_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::login_limits_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup(some_failures_are_free_then_delays_grow, begin),
       cmocka_unit_test_setup(success_forgives, begin),

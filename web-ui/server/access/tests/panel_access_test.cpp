@@ -6,7 +6,7 @@
 
 #include "tests/cmocka.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::panel_access_test {
 namespace {
 
 using Taking = AccessControl::Taking;
@@ -301,10 +301,10 @@ void changes_show_in_the_revision(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::panel_access_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::panel_access_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup(on_loopback_everybody_is_a_viewer, begin),
       cmocka_unit_test_setup(a_cookie_brings_the_session_back, begin),

@@ -6,7 +6,7 @@
 #include "tests/cmocka.hpp"
 #include "web-ui/server/access/panel_access.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::session_table_test {
 namespace {
 
 using std::chrono::hours;
@@ -154,10 +154,10 @@ void long_texts_are_cut(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::session_table_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::session_table_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup(a_session_is_found_by_its_cookie, begin),
       cmocka_unit_test_setup(other_cookies_find_nothing, begin),

@@ -11,7 +11,7 @@
 #include "tests/cmocka.hpp"
 #include "web-ui/server/access/start_rules.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::user_file_test {
 namespace {
 
 #define HASH \
@@ -126,10 +126,10 @@ void other_machines_need_passwords_and_tls(void**) {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::user_file_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::user_file_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(what_is_written_is_read, begin, end),
       cmocka_unit_test(comments_and_empty_lines_are_left_out),

@@ -1,7 +1,7 @@
 // The configuration flow, and start, stop and initialise of single components.
 #include "web-ui/server/api/tests/rig.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::edits_test {
 namespace {
 
 using fixture::ProducerAndConsumer;
@@ -208,10 +208,10 @@ void members_come_and_go() {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::edits_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::edits_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(an_edit_is_applied_and_ends_inhibited),
       CONTAINED_TEST(a_failed_initialise_rolls_back),

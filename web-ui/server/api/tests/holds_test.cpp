@@ -5,7 +5,7 @@
 #include "runtime/parameters/parameter_store.hpp"
 #include "web-ui/server/api/tests/rig.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::holds_test {
 namespace {
 
 using fixture::ProducerAndConsumer;
@@ -202,10 +202,10 @@ void stop_motion_by_rest_needs_no_body_and_no_token() {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::holds_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::holds_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_hold_lives_while_it_is_refreshed),
       CONTAINED_TEST(a_release_ends_it),

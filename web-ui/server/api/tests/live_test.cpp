@@ -5,7 +5,7 @@
 #include "runtime/log/log.hpp"
 #include "web-ui/server/api/tests/rig.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::live_test {
 namespace {
 
 using fixture::ProducerAndConsumer;
@@ -377,10 +377,10 @@ void links_count_for_their_session_until_it_ends() {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::live_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::live_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_page_is_greeted_and_told_the_state),
       CONTAINED_TEST(a_fault_is_told_with_its_cause),

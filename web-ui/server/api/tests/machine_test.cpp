@@ -7,7 +7,7 @@
 #include "web-ui/server/api/tests/rig.hpp"
 #include "web-ui/server/machine/tests/played_helper.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::machine_test {
 namespace {
 
 using fixture::ProducerAndConsumer;
@@ -301,10 +301,10 @@ void eight_may_wait() {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::machine_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::machine_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(everybody_sees_how_the_pc_is),
       CONTAINED_TEST(without_a_pc_there_is_nothing),

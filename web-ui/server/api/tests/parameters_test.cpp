@@ -1,7 +1,7 @@
 // Runtime parameters by REST and live: set, reset, press; roles, the token, what is stale or wrong.
 #include "web-ui/server/api/tests/rig.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::parameters_test {
 namespace {
 
 using fixture::ProducerAndConsumer;
@@ -202,10 +202,10 @@ void answers_of_other_threads_ring() {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::parameters_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::parameters_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(a_set_is_answered_with_the_values_in_force),
       CONTAINED_TEST(what_changed_since_is_stale),

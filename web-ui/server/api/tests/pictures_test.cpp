@@ -9,7 +9,7 @@
 #include "web-ui/server/api/picture.hpp"
 #include "web-ui/server/api/tests/rig.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::pictures_test {
 namespace {
 
 constexpr std::size_t columns = 64;
@@ -380,10 +380,10 @@ void what_cannot_be_encoded_is_logged_once() {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::pictures_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::pictures_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(every_format_keeps_its_colours),
       CONTAINED_TEST(rows_may_have_gaps),

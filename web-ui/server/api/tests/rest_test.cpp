@@ -5,7 +5,7 @@
 #include "web-ui/server/api/routes.hpp"
 #include "web-ui/server/api/tests/rig.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::rest_test {
 namespace {
 
 using fixture::ProducerAndConsumer;
@@ -230,10 +230,10 @@ void the_state_says_who_stopped() {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::rest_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::rest_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(everything_can_be_read),
       CONTAINED_TEST(what_is_not_there_is_told),

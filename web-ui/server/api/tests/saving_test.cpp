@@ -8,7 +8,7 @@
 
 #include "web-ui/server/api/tests/rig.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::saving_test {
 namespace {
 
 using fixture::ProducerAndConsumer;
@@ -119,10 +119,10 @@ void without_a_file_it_is_told_how_to_have_one() {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::saving_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::saving_test;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(what_is_set_is_saved_when_somebody_asks),
       CONTAINED_TEST(by_rest_too),

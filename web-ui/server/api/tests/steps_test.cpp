@@ -3,7 +3,7 @@
 #include "web-ui/server/api/tests/rig.hpp"
 #include "web-ui/server/api/topic_bodies.hpp"
 
-namespace flexrf::panel {
+namespace flexrf::panel::steps_test {
 namespace {
 
 using fixture::ProducerAndConsumer;
@@ -75,10 +75,10 @@ void a_polling_thread_tells_what_it_learned() {
 }
 
 }  // namespace
-}  // namespace flexrf::panel
+}  // namespace flexrf::panel::steps_test
 
 int main() {
-  using namespace flexrf::panel;
+  using namespace flexrf::panel::steps_test;
   const CMUnitTest tests[] = {CONTAINED_TEST(steps_are_told_while_somebody_subscribes),
                               CONTAINED_TEST(a_polling_thread_tells_what_it_learned)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
