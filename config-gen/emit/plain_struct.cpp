@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config-gen/model/footprint.hpp"
 #include "config-gen/model/layout.hpp"
 #include "config-gen/model/words.hpp"
 
