@@ -45,11 +45,6 @@ if(FLEXRF_SANITIZER)
   add_compile_options(-fsanitize=${FLEXRF_SANITIZER} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${FLEXRF_SANITIZER})
   target_compile_definitions(flexrf_options INTERFACE FLEXRF_SANITIZER=1)
-  if(FLEXRF_SANITIZER MATCHES undefined AND NOT FLEXRF_FUZZ)
-    # A quarter of the time to compile, with Eigen half of it. The address sanitizer sees null too, and the preset fuzz looks for
-    # both in what reads bytes from outside.
-    add_compile_options(-fno-sanitize=null,alignment)
-  endif()
 endif()
 
 find_package(PkgConfig REQUIRED)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# fresh.sh ROOT [--gate|--full]: tries the two set-up commands, and then the level that is named, on the current commit in an empty Debian 12
-# (minbase with git and ca-certificates). The root is made with the mirrors, the apt settings and the npm settings of this machine, so that what
-# works here behind a proxy works there too. It is removed afterwards; the records of the levels are kept in build/test-records.
+# fresh.sh ROOT [--gate|--full]: tries the README's two commands, and then the level that is named, on the current commit in an empty Debian 12
+# (minbase with git and ca-certificates), and says after how long the page of the first one answers. The root is made with the mirrors, the apt
+# settings and the npm settings of this machine, so that what works here behind a proxy works there too. It is removed afterwards; the records
+# of the levels are kept in build/test-records.
 set -eu -o pipefail
 root=$1 level=${2-}
 suite=bookworm
@@ -58,9 +59,27 @@ set -eu -o pipefail
 cd /root
 git -c advice.detachedHead=false clone --quiet flexrf.bundle flexrf
 cd flexrf
+echo "== ./flexrf run, in an empty Debian 12"
+page_answers() (
+  exec 3<>/dev/tcp/127.0.0.1/8080
+  printf 'GET / HTTP/1.0\r\n\r\n' >&3
+  read -r -t 5 line <&3
+  [[ $line == HTTP/* ]]
+) 2>/dev/null
+status=0 start=$SECONDS
+./flexrf run </dev/null >run.log 2>&1 &
+until page_answers || ! kill -0 $! 2>/dev/null; do sleep 1; done
+seconds=$((SECONDS - start))
+if page_answers; then result="the page answers $seconds s after the clone, packages included"; else result='the page does not answer' status=1; fi
+kill -TERM $! 2>/dev/null || true
+wait $! || true
+cat run.log
+echo "$result"
+rm run.log
 echo "== ./flexrf run keyboard, in an empty Debian 12"
-printf 'wwwwddd' | ./flexrf run keyboard
-status=0
+start=$SECONDS
+printf 'wwwwddd' | ./flexrf run keyboard || status=1
+echo "built, run and ended after $((SECONDS - start)) s"
 for level in '' "$@"; do
   echo "== ./flexrf test $level, in an empty Debian 12"
   ./flexrf test $level </dev/null || status=1
