@@ -1,7 +1,6 @@
 #include "image/helper/upload.hpp"
 
 #include <fcntl.h>
-#include <linux/ioprio.h>
 #include <sodium.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -18,17 +17,22 @@
 namespace flexrf::helper {
 namespace {
 
+// As ioprio_set(2) has them: <linux/ioprio.h> is no C++ in every version, as it calls a parameter `class`.
+constexpr int of_a_thread = 1;       // IOPRIO_WHO_PROCESS
+constexpr int class_none = 0 << 13;  // IOPRIO_CLASS_NONE
+constexpr int class_idle = 3 << 13;  // IOPRIO_CLASS_IDLE
+
 /// While it lives, this thread's writes wait for everybody else's: the cell saves, and the journal is
 /// written. If the kernel refuses, they are like others'.
 class IdleWrites {
  public:
-  IdleWrites() noexcept { set(IOPRIO_PRIO_VALUE(IOPRIO_CLASS_IDLE, 0)); }
-  ~IdleWrites() { set(IOPRIO_PRIO_VALUE(IOPRIO_CLASS_NONE, 0)); }
+  IdleWrites() noexcept { set(class_idle); }
+  ~IdleWrites() { set(class_none); }
   IdleWrites(const IdleWrites&) = delete;
   IdleWrites& operator=(const IdleWrites&) = delete;
 
  private:
-  static void set(int priority) noexcept { syscall(SYS_ioprio_set, IOPRIO_WHO_PROCESS, 0, priority); }
+  static void set(int priority) noexcept { syscall(SYS_ioprio_set, of_a_thread, 0, priority); }
 };
 
 std::string new_token() {
