@@ -215,6 +215,7 @@ Status Cell::construct_device(std::uint16_t index) {
                        options_->values(), options_->virtual_time ? nullptr : &heartbeat_};
   if (!options_->virtual_time && record.thread != no_index)
     state.environment.longest_step = longest_step_of(application_->threads[record.thread]);
+  state.unconfirmed.store(false, std::memory_order_relaxed);
   state.device->set_name(record.name);
   state.device->set_type_in_force(*state.type);
   state.device->set_environment(&state.environment);
@@ -284,7 +285,23 @@ Status Cell::construct() {
         record.population == no_index || record.member < application_->populations[record.population].active);
     if (const Status status = construct(component); !status) return status;
   }
+  choose_witnesses();
   return {};
+}
+
+/// Actuators, and the threads that own one.
+void Cell::choose_witnesses() {
+  for (std::size_t i = 0; i < application_->threads.size(); ++i) {
+    const ThreadRecord& thread = application_->threads[i];
+    if (std::any_of(thread.devices.begin(), thread.devices.end(),
+                    [this](std::uint16_t device) { return driver(device).actuates; }))
+      threads_that_move_.push_back({thread.name, &application_->thread_states[i].inhibited_for});
+  }
+  for (std::uint16_t i = 0; i < application_->devices.size(); ++i) {
+    if (driver(i).actuates)
+      actuators_.push_back({application_->devices[i].name, &application_->device_states[i].unconfirmed});
+  }
+  control_.use_witnesses(threads_that_move_, actuators_);
 }
 
 Status Cell::construct(ComponentIndex component) {

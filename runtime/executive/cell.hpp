@@ -175,6 +175,7 @@ class Cell {
   Status choose_drivers();
   void choose_ports() noexcept;
   void narrow_ranges();
+  void choose_witnesses();
   Duration longest_step_of(const ThreadRecord& thread) const noexcept;
   Status construct_device(std::uint16_t device);
   Status construct_unit(std::uint16_t unit);
@@ -189,6 +190,8 @@ class Cell {
   std::vector<const PortBinding*> ports_;
   std::vector<ComponentIndex> starting_order_;
   Control control_;
+  std::vector<MotionWitness> threads_that_move_;
+  std::vector<SafetyWitness> actuators_;
   std::unique_ptr<AuditIntake> audit_;
   Heartbeat heartbeat_;
   std::unique_ptr<RuntimeParameters[]> parameters_;  // one per component

@@ -38,9 +38,30 @@ enum class EndCause : std::uint8_t {
 /// The word for it, in files and on the wire: "end of input".
 const char* name_of(EndCause cause) noexcept;
 
+/// Of a thread that owns an actuator.
+struct MotionWitness {
+  const char* thread = "";
+  /// Control::withdrawals() up to which it has had a whole cycle in which its actuators were inhibited.
+  const std::atomic<std::uint32_t>* inhibited_for = nullptr;
+};
+
+/// Of an actuator.
+struct SafetyWitness {
+  const char* device = "";
+  /// It was told to be safe and has not confirmed it.
+  const std::atomic<bool>* unconfirmed = nullptr;
+};
+
 class Control {
  public:
   constexpr explicit Control(std::span<Doorbell* const> bells) noexcept : bells_(bells) {}
+
+  /// Start waits for each of them. They live as long as this; before anything runs.
+  void use_witnesses(std::span<const MotionWitness> threads,
+                     std::span<const SafetyWitness> actuators) noexcept {
+    threads_ = threads;
+    actuators_ = actuators;
+  }
 
   Mode mode() const noexcept { return mode_.load(std::memory_order_acquire); }
   /// Any thread; ignored when the mode is further already. Wakes every thread.
@@ -93,7 +114,7 @@ class Control {
 
   /// autostart: actuators may move from power-on. Before anything is initialised, so that no unit takes the
   /// moment in between for an inhibition.
-  void permit_motion_at_power_on() noexcept { started_.store(true, std::memory_order_seq_cst); }
+  void permit_motion_at_power_on() noexcept { permission_.fetch_or(granted, std::memory_order_seq_cst); }
   /// Nothing moves, and Start is refused with this reason, until permit_motion(); after that everything waits
   /// for a new Start. Any thread but a real-time one.
   void forbid_motion(const Status& reason) noexcept {
@@ -108,6 +129,8 @@ class Control {
 
   /// Why Start would be refused now. Any thread but a real-time one.
   Status check_start() const noexcept {
+    // First, as a demand of the time before does not withdraw what autostart gave.
+    if (const Status running = check_running(); !running) return running;
     if (stop_motion_.load(std::memory_order_seq_cst)) {
       return Status::error(StatusCode::not_permitted, "Stop motion is latched; clear it before Start");
     }
@@ -120,17 +143,36 @@ class Control {
           StatusCode::not_permitted,
           "an emergency-stop input does not permit motion; release it, or see to its wiring");
     }
-    return check_running();
+    for (const SafetyWitness& witness : actuators_) {
+      if (!witness.unconfirmed->load(std::memory_order_acquire)) continue;
+      return Status::error(
+          StatusCode::not_permitted,
+          "%s was told to be safe and has not confirmed it; see to it that it stands, and give "
+          "Start when it has, or when it was initialised anew",
+          witness.device);
+    }
+    for (const MotionWitness& witness : threads_) {
+      if (witness.inhibited_for->load(std::memory_order_acquire) == withdrawals()) continue;
+      return Status::error(StatusCode::not_permitted,
+                           "thread %s has not inhibited its actuators since the last stop; give Start again "
+                           "when it has had a cycle",
+                           witness.thread);
+    }
+    return {};
   }
-  /// A person's Start: actuators may move. Refused where check_start() says so. Any thread but a real-time
-  /// one.
+  /// A person's Start: actuators may move. Refused where check_start() says so, and where the permission was
+  /// withdrawn at the same time: it is never kept for later. Any thread but a real-time one.
   Status start_motion() noexcept {
+    const std::uint64_t before = permission_.load(std::memory_order_seq_cst);
     if (const Status status = check_start(); !status) return status;
-    started_.store(true, std::memory_order_seq_cst);
-    // What came in between wins.
-    if (stop_motion_.load(std::memory_order_seq_cst) || forbidden_.load(std::memory_order_seq_cst) ||
-        demands_.load(std::memory_order_seq_cst) != 0)
-      started_.store(false, std::memory_order_seq_cst);
+    // Whatever withdraws it says why first, and then makes this another word.
+    std::uint64_t seen = before;
+    if (!permission_.compare_exchange_strong(seen, before | granted, std::memory_order_seq_cst) &&
+        seen != (before | granted)) {
+      return Status::error(
+          StatusCode::not_permitted,
+          "motion was stopped, or Start was needed anew, at the same time; give Start again");
+    }
     wake_all();
     return {};
   }
@@ -141,11 +183,14 @@ class Control {
   }
   /// How often the permission to move was withdrawn, so that nobody overlooks one that was given again at
   /// once.
-  std::uint32_t withdrawals() const noexcept { return withdrawals_.load(std::memory_order_acquire); }
+  std::uint32_t withdrawals() const noexcept {
+    return static_cast<std::uint32_t>(permission_.load(std::memory_order_seq_cst) / one_withdrawal);
+  }
   bool motion_stopped() const noexcept { return stop_motion_.load(std::memory_order_acquire); }
   bool may_move() const noexcept {
-    return started_.load(std::memory_order_acquire) && !stop_motion_.load(std::memory_order_acquire) &&
-           !forbidden_.load(std::memory_order_acquire) && demands_.load(std::memory_order_acquire) == 0;
+    return (permission_.load(std::memory_order_acquire) & granted) != 0 &&
+           !stop_motion_.load(std::memory_order_acquire) && !forbidden_.load(std::memory_order_acquire) &&
+           demands_.load(std::memory_order_acquire) == 0;
   }
 
   /// The process is about to be stopped by somebody's wish, and what its threads miss is no fault of theirs.
@@ -177,17 +222,26 @@ class Control {
   }
 
  private:
+  // One word, so that a Start and what withdraws it cannot miss each other: whether motion is permitted, and
+  // how often that was withdrawn.
+  static constexpr std::uint64_t granted = 1;
+  static constexpr std::uint64_t one_withdrawal = 2;
+
   void withdraw() noexcept {
-    started_.store(false, std::memory_order_seq_cst);
-    withdrawals_.fetch_add(1, std::memory_order_seq_cst);
+    std::uint64_t seen = permission_.load(std::memory_order_relaxed);
+    while (!permission_.compare_exchange_weak(seen, (seen & ~granted) + one_withdrawal,
+                                              std::memory_order_seq_cst, std::memory_order_relaxed)) {
+    }
   }
 
   std::span<Doorbell* const> bells_;
+  std::span<const MotionWitness> threads_;
+  std::span<const SafetyWitness> actuators_;
   std::atomic<Mode> mode_{Mode::starting};
   std::atomic<EndCause> cause_{EndCause::none};
   std::atomic<bool> stop_motion_{false};
   std::atomic<bool> safe_state_{false};
-  std::atomic<bool> started_{false};
+  std::atomic<std::uint64_t> permission_{0};
   std::atomic<bool> forbidden_{false};
   mutable std::mutex forbidding_;
   Status forbidden_because_;  // under the mutex
@@ -195,7 +249,6 @@ class Control {
   std::atomic<std::int64_t> longest_standstill_{0};
   std::atomic<std::int64_t> looked_at_{0};
   std::atomic<std::uint32_t> demands_{0};
-  std::atomic<std::uint32_t> withdrawals_{0};
   std::atomic<std::uint32_t> faults_{0};
 };
 

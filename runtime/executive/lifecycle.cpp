@@ -169,6 +169,7 @@ void Lifecycle::begin(ComponentIndex index) noexcept {
   for (const std::uint16_t device : cell_->devices_of(index)) {
     cell_->application().device_states[device].make_safe.store(false);
     cell_->application().device_states[device].safe.store(false);
+    cell_->application().device_states[device].unconfirmed.store(false);
   }
   cell_->set_writer_state(index, state.active.load() ? WriterState::running : WriterState::retired);
 }

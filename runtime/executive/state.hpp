@@ -62,8 +62,11 @@ struct DeviceState : ComponentState {
   Device* device = nullptr;
   std::atomic<bool> make_safe{false};  ///< its unit or itself is in fault: its thread makes it safe
   std::atomic<bool> safe{false};       ///< make_safe() said so
-  std::atomic<bool> guards{false};     ///< guards_motion(), as it was or is to be initialised
-  bool demands = false;  ///< counted in Control; its thread only, before the start the main thread
+  /// It was told to be safe, as an actuator, and has not confirmed it: its thread goes on telling it.
+  std::atomic<bool> unconfirmed{false};
+  Time unconfirmed_since{};         ///< its thread only; no time: somebody was told
+  std::atomic<bool> guards{false};  ///< guards_motion(), as it was or is to be initialised
+  bool demands = false;             ///< counted in Control; its thread only, before the start the main thread
   DeviceEnvironment environment;
 };
 
@@ -78,6 +81,8 @@ struct ThreadState {
   std::atomic<std::int64_t> step_began{0};          ///< ns; 0 while not stepping: how a hung thread is seen
   std::atomic<const char*> stepped{nullptr};  ///< unit or device that its thread is busy with; null: none
   std::atomic<std::uint64_t> turns{0};  ///< with a step or without: that it runs at all; see HeartbeatWatch
+  /// Control::withdrawals() as of its last whole cycle without the permission to move.
+  std::atomic<std::uint32_t> inhibited_for{0};
   std::atomic<std::int32_t> thread_id{0};  ///< kernel's, for /proc
   // Of a thread that polls by back-off: what it learned of the time between arrivals, ns; 0 before.
   std::atomic<std::int64_t> backoff_mean{0};

@@ -11,6 +11,9 @@
 namespace flexrf {
 namespace {
 
+/// Until somebody is told that an actuator does not confirm that it is safe.
+constexpr Duration longest_unconfirmed = std::chrono::seconds{1};
+
 /// Its first fault stays.
 void blame(Component& component, const Status& cause) noexcept {
   if (component.fault().is_ok()) component.set_fault(cause);
@@ -42,7 +45,9 @@ Stepper::Stepper(Cell& cell, std::uint16_t thread)
       record_(&application_->threads[thread]),
       state_(&application_->thread_states[thread]),
       context_(record_->context),
-      receives_(!record_->devices.empty()) {}
+      receives_(!record_->devices.empty()) {
+  state_->inhibited_for.store(0, std::memory_order_relaxed);
+}
 
 bool Stepper::owns_device(std::uint16_t device) const noexcept {
   return application_->device_states[device].is_owned_by_thread();
@@ -151,7 +156,9 @@ void Stepper::follow_motion_permission(Time now) noexcept {
   const Control& control = cell_->control();
   const std::uint32_t withdrawals = control.withdrawals();
   const bool could_move = may_move_;
-  may_move_ = control.may_move() && control.mode() < Mode::safe;
+  // A permission that was withdrawn counts again only when each unit and device here has had a cycle without.
+  may_move_ = control.may_move() && control.mode() < Mode::safe &&
+              state_->inhibited_for.load(std::memory_order_relaxed) == withdrawals;
   follow_safe_state();
   // Every time, not only when it changes: the lifecycle thread has judged by itself when it initialised a
   // device, and may have seen the moment before.
@@ -243,8 +250,13 @@ Time Stepper::run(const Release& release) noexcept {
     now = ended;
   }
   send(now);
-  state_->step_began.store(0, std::memory_order_release);
+  finish();
   return receives_ ? MonotonicClock::now() : now;
+}
+
+void Stepper::finish() noexcept {
+  if (inhibited_) state_->inhibited_for.store(*inhibited_, std::memory_order_release);
+  state_->step_began.store(0, std::memory_order_release);
 }
 
 /// Null while nobody asks.
@@ -264,6 +276,7 @@ void Stepper::begin(const Release& release) noexcept {
   tick_.finishing = mode == Mode::finishing;
   stopping_ = mode >= Mode::stopping;
   tick_.motion_inhibited = !may_move_;
+  inhibited_ = may_move_ ? std::nullopt : std::optional(withdrawals_);
   making_safe_ = mode >= Mode::safe;
   add(state_->cycles, std::uint64_t{1});
   state_->step_began.store(nanoseconds(release.now), std::memory_order_release);
@@ -386,13 +399,33 @@ void Stepper::make_safe() noexcept {
     if (!is_to_be_safe(index) || state.safe.load(std::memory_order_relaxed) || !owns_device(index)) continue;
     if (cell_->driver(index).actuates) state.device->set_inhibited(true);
     begin_step(context_->now);
-    if (state.device->make_safe()) state.safe.store(true, std::memory_order_release);
+    const bool is_safe = state.device->make_safe();
+    if (is_safe) state.safe.store(true, std::memory_order_release);
+    if (cell_->driver(index).actuates) note_confirmation(index, is_safe);
   }
 }
 
+/// One that does not say that it is safe is told so until it does, also when nobody wants it any more.
+void Stepper::note_confirmation(std::uint16_t index, bool is_safe) noexcept {
+  DeviceState& state = application_->device_states[index];
+  const bool is_first = !state.unconfirmed.load(std::memory_order_relaxed);
+  state.unconfirmed.store(!is_safe, std::memory_order_release);
+  if (is_safe) return;
+  if (is_first) state.unconfirmed_since = context_->now;
+  if (state.unconfirmed_since == Time{} || context_->now - state.unconfirmed_since < longest_unconfirmed)
+    return;
+  state.unconfirmed_since = Time{};
+  log_error(application_->devices[index].name,
+            "it was told to be safe {} ms ago and has not confirmed it: it may still move. It is told so on, "
+            "and Start is "
+            "refused until it does, or is initialised anew",
+            longest_unconfirmed / std::chrono::milliseconds{1});
+}
+
 bool Stepper::is_to_be_safe(std::uint16_t device) const noexcept {
-  return making_safe_ || application_->device_states[device].make_safe.load(std::memory_order_relaxed) ||
-         (safe_state_ && cell_->driver(device).actuates);
+  const DeviceState& state = application_->device_states[device];
+  return making_safe_ || state.make_safe.load(std::memory_order_relaxed) ||
+         state.unconfirmed.load(std::memory_order_relaxed) || (safe_state_ && cell_->driver(device).actuates);
 }
 
 bool Stepper::is_safe() const noexcept {
@@ -405,6 +438,7 @@ bool Stepper::needs_attention() const noexcept {
   const Mode mode = cell_->control().mode();
   if (mode >= Mode::safe) return !is_safe();
   if (mode == Mode::stopping) return true;
+  if (state_->inhibited_for.load(std::memory_order_relaxed) != cell_->control().withdrawals()) return true;
   for (const std::uint16_t unit : record_->units) {
     const UnitState& state = application_->unit_states[unit];
     if (state.stop_requested.load(std::memory_order_relaxed) &&

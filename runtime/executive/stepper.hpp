@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "runtime/executive/cell.hpp"
@@ -36,6 +37,8 @@ class Stepper {
   /// Steps the unit at this place in the thread's order, if it runs. Whether it did.
   bool step(std::size_t place, Time now) noexcept;
   void send(Time now) noexcept;
+  /// The release is over.
+  void finish() noexcept;
 
   /// Puts every unit of the thread in fault (its overrun limit is reached).
   void fault_all(const Status& cause) noexcept;
@@ -60,6 +63,7 @@ class Stepper {
   void follow_safe_state() noexcept;
   void follow_demands(Time now) noexcept;
   void make_safe() noexcept;
+  void note_confirmation(std::uint16_t device, bool is_safe) noexcept;
   bool is_to_be_safe(std::uint16_t device) const noexcept;
   void check_device(std::uint16_t device) noexcept;
   void fault_unit(std::uint16_t unit, const Status& cause) noexcept;
@@ -74,8 +78,9 @@ class Stepper {
   StepContext* context_;
   Tick tick_{};
   bool may_move_ = false;
-  std::uint32_t withdrawals_ = 0;  // of the permission to move, as seen last
-  bool receives_ = false;          // has any device at all
+  std::uint32_t withdrawals_ = 0;           // of the permission to move, as seen last
+  std::optional<std::uint32_t> inhibited_;  // withdrawals at the beginning of a cycle without the permission
+  bool receives_ = false;                   // has any device at all
   bool making_safe_ = false;
   bool safe_state_ = false;  // demanded by a device and not cleared, as seen last
   bool stopping_ = false;    // the whole application

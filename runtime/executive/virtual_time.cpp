@@ -176,7 +176,7 @@ void VirtualTime::go_on(Thread& thread) noexcept {
 
 void VirtualTime::end(Thread& thread) noexcept {
   thread.stepper().send(now_);
-  thread.stepper().state().step_began.store(0, std::memory_order_relaxed);
+  thread.stepper().finish();
   commit_devices(thread);
   thread.releases.finish(thread.release, now_);
   thread.releases.say(now_);

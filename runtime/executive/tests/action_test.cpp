@@ -359,7 +359,8 @@ void after_a_reconfiguration_nothing_moves_before_start() {
     CHECK_EQUAL(machine.reconfigure(component).outcome, ReconfigureOutcome::done);
     CHECK_EQUAL(machine.life(), Life::running);
     CHECK(!machine.executive().control().may_move());
-    CHECK(machine.executive().control().start_motion().is_ok());
+    // Its thread sees that first.
+    CHECK(wait_until([&] { return machine.executive().control().start_motion().is_ok(); }));
   }
 }
 

@@ -97,6 +97,45 @@ void pressed_from_the_start_nothing_ever_moves() {
   CHECK_EQUAL(cell.moved.back(), safe_position);
 }
 
+/// One that was told to be safe and does not say that it is: nobody knows whether it moves.
+// [stop-97]
+void an_actuator_that_does_not_confirm_blocks_start_and_is_told_on() {
+  GuardedCell cell(Cell::consuming, 20, 40);
+  bool confirms = false;
+  int told = 0;
+  cell.device(Cell::actuator).script.make_safe = [&](TestDevice&) {
+    ++told;
+    return confirms;
+  };
+  std::optional<Executive> executive;
+  int told_when_cleared = 0;
+  cell.unit(Cell::producer).script.step = [&](TestUnit&, const Tick& tick) {
+    Control& control = executive->control();
+    switch (tick.stop_requested ? 0 : tick.number) {
+      case 45:
+        control.clear_stop_motion();
+        told_when_cleared = told;
+        break;
+      case 60: {
+        const Status refused = control.start_motion();
+        expect(!refused && std::string_view{refused.cause()}.find("actuator was told to be safe") == 0,
+               "Start, or another reason");
+        expect(told > told_when_cleared + 10, "it was told no longer");
+        confirms = true;
+        break;
+      }
+      case 65:
+        expect(control.start_motion().is_ok(), "Start was refused after all");
+        break;
+      default:
+        break;
+    }
+  };
+  executive.emplace(cell.application(), in_virtual_time(milliseconds{70}));
+  CHECK_EQUAL(run_to_the_end(*executive).exit_code, 0);
+  CHECK(!cell.inhibited[66]);
+}
+
 /// An input in fault says nothing any more, so it permits nothing.
 // [stop-12] [stop-16]
 void an_input_in_fault_stops_all() {
@@ -154,6 +193,7 @@ int main() {
   const CMUnitTest tests[] = {
       CONTAINED_TEST(it_is_safe_within_a_cycle_and_stays_so_until_cleared_and_started),
       CONTAINED_TEST(another_threads_actuators_are_safe_within_their_cycle),
+      CONTAINED_TEST(an_actuator_that_does_not_confirm_blocks_start_and_is_told_on),
       CONTAINED_TEST(pressed_from_the_start_nothing_ever_moves),
       CONTAINED_TEST(an_input_in_fault_stops_all),
       CONTAINED_TEST(a_sleeping_threads_actuators_are_made_safe_too),

@@ -105,6 +105,56 @@ void start_lets_move_and_stop_motion_ends_it_in_the_next_period() {
   }
 }
 
+/// All three between two looks of the thread that moves something.
+// [stop-8] [stop-94] [stop-95]
+void a_stop_that_was_cleared_at_once_is_not_lost() {
+  std::string refused;
+  Machine machine(true, milliseconds{60}, [&](Machine& self, std::uint64_t number) {
+    if (number == 20) {
+      self.control().stop_motion();
+      self.control().clear_stop_motion();
+      refused = self.control().start_motion().cause();
+    }
+    if (number == 40) {
+      self.control().require_start();
+      if (self.control().start_motion()) throw CheckFailed{"Start before the thread has looked"};
+    }
+    if ((number == 21 || number == 41) && !self.control().start_motion())
+      throw CheckFailed{"Start was refused"};
+  });
+  CHECK_EQUAL(machine.exit_code, 0);
+  CHECK(refused.find("consuming") != std::string::npos);
+  for (std::size_t i = 0; i < 60; ++i) CHECK_EQUAL(machine.inhibited[i], i == 20 || i == 40);
+  CHECK_EQUAL(machine.moved[21], machine.moved[20]);
+}
+
+/// Its thread owns nothing that moves, and Start does not wait for it; but what its unit does next may well
+/// lead an actuator.
+// [stop-94]
+void a_unit_without_an_actuator_sees_each_stop() {
+  Cell cell;
+  cell.autostart = true;
+  cell.thread(Cell::consuming).trigger =
+      TriggerPlan::periodic(milliseconds{1}, std::chrono::microseconds{500});
+  cell.thread(Cell::producing).trigger = TriggerPlan::periodic(milliseconds{10});
+  std::optional<Executive> executive;
+  std::vector<std::uint64_t> inhibited;
+  cell.unit(Cell::consumer).script.step = [&](TestUnit&, const Tick& tick) {
+    Control& control = executive->control();
+    if (tick.number == 22) {
+      control.stop_motion();
+      control.clear_stop_motion();
+    }
+    if (tick.number == 24 && !control.start_motion()) throw CheckFailed{"Start was refused"};
+  };
+  cell.unit(Cell::producer).script.step = [&](TestUnit&, const Tick& tick) {
+    if (tick.motion_inhibited) inhibited.push_back(tick.number);
+  };
+  executive.emplace(cell.application(), in_virtual_time(milliseconds{60}));
+  CHECK_EQUAL(run_to_the_end(*executive).exit_code, 0);
+  CHECK_EQUAL(inhibited.size(), 1U);
+}
+
 /// The device was initialised while motion was permitted, and its thread has not looked yet.
 // [stop-9]
 void stop_motion_counts_before_the_first_step() {
@@ -210,7 +260,7 @@ void stop_motion_is_seen_by_sleeping_threads_on_the_wall_clock() {
   running.control().stop_motion();
   CHECK(wait_until([&] { return actuator->is_inhibited(); }));
   running.control().clear_stop_motion();
-  CHECK(running.control().start_motion().is_ok());
+  CHECK(wait_until([&] { return running.control().start_motion().is_ok(); }));
   CHECK(wait_until([&] { return !actuator->is_inhibited(); }));
   CHECK_EQUAL(running.finish().exit_code, 0);
 }
@@ -225,6 +275,8 @@ int main() {
       CONTAINED_TEST(autostart_lifts_it_at_power_on),
       CONTAINED_TEST(without_autostart_the_table_does_not_count),
       CONTAINED_TEST(start_lets_move_and_stop_motion_ends_it_in_the_next_period),
+      CONTAINED_TEST(a_stop_that_was_cleared_at_once_is_not_lost),
+      CONTAINED_TEST(a_unit_without_an_actuator_sees_each_stop),
       CONTAINED_TEST(stop_motion_counts_before_the_first_step),
       CONTAINED_TEST(a_hold_lasts_as_long_as_its_lease_is_refreshed),
       CONTAINED_TEST(a_lease_counts_from_the_persons_act),
