@@ -86,11 +86,16 @@ void Node::advance(Time now, Outbox& outbox) noexcept {
     case NodeState::operational:
       if (!heartbeat_.is_lost(now)) return;
       ++silences_;
-      begin_again(Status::error(StatusCode::unavailable,
-                                "no %s of node %u for %lld ms: is it powered, is the cable in?",
-                                plan_.is_guarded ? "answer to guarding" : "heartbeat", unsigned{plan_.node},
-                                milliseconds_of(plan_.heartbeat_limit)),
-                  now, outbox);
+      problem_ = Status::error(StatusCode::unavailable,
+                               "no %s of node %u for %lld ms: is it powered, is the cable in?",
+                               plan_.is_guarded ? "answer to guarding" : "heartbeat", unsigned{plan_.node},
+                               milliseconds_of(plan_.heartbeat_limit));
+      if (plan_.grace == Duration{}) {
+        ask_to_boot(now, outbox);
+      } else {
+        state_ = NodeState::awaited;
+        deadline_ = now + plan_.grace;
+      }
       return;
   }
 }
@@ -140,7 +145,7 @@ void Node::observe(NmtState heard, Time now, Outbox& outbox) noexcept {
     state_ = NodeState::configuring;
     step_ = 0;
     left_out_.reset();
-    mapping_is_fixed_ = reads_back_ = false;
+    mapping_is_fixed_ = reads_back_ = was_operational_ = false;
     brought_back_ = 0;
     // It may be about to start itself (object 1F80), and takes no mapping then.
     outbox.push(nmt_message(NmtCommand::enter_pre_operational, plan_.node));
@@ -155,6 +160,7 @@ void Node::observe(NmtState heard, Time now, Outbox& outbox) noexcept {
   }
   if (state_ == NodeState::starting && heard == NmtState::operational) {
     state_ = NodeState::operational;
+    was_operational_ = true;
     ++times_operational_;
     problem_ = {};
   } else if (state_ == NodeState::operational && heard != NmtState::operational) {
@@ -300,6 +306,7 @@ void Node::start(Time now, Outbox& outbox) noexcept {
   }
   // Nothing will tell: it is believed.
   state_ = NodeState::operational;
+  was_operational_ = true;
   ++times_operational_;
   problem_ = {};
 }

@@ -21,6 +21,7 @@ struct NodePlan {
       std::chrono::seconds(1);  ///< from the start command to the first operational heartbeat
   Duration heartbeat_period = std::chrono::milliseconds(100);  ///< of the node; whole ms
   Duration heartbeat_limit = std::chrono::milliseconds(250);   ///< the longest silence of the node
+  Duration grace{};  ///< from its silence to its reset: in which it may be stopped by its process data
   /// It has no heartbeat: it is asked for its state each heartbeat_period (node guarding), and notices itself
   /// when it no longer is, for heartbeat_limit (life guarding; rounded up to whole periods).
   bool is_guarded = false;
@@ -32,7 +33,7 @@ struct NodePlan {
 
 enum class NodeState : std::uint8_t {
   off,          ///< nothing was begun
-  awaited,      ///< it was told to reset its communication, and has not said boot-up
+  awaited,      ///< it fell silent, or was told to reset its communication, and has not said boot-up
   configuring,  ///< it is asked who it is, and told how to work
   starting,     ///< it was told to start, and no heartbeat says that it has
   operational,
@@ -58,6 +59,8 @@ class Node {
 
   NodeState state() const noexcept { return state_; }
   bool is_operational() const noexcept { return state_ == NodeState::operational; }
+  /// It was operational, and has not booted since: what its PDOs carry is what they carried.
+  bool was_lost() const noexcept { return state_ == NodeState::awaited && was_operational_; }
   /// Why it is not operational, or was not last time; ok from the moment at which it is.
   const Status& problem() const noexcept { return problem_; }
   /// What it said last of what is wrong in it; none while nothing is.
@@ -100,8 +103,9 @@ class Node {
   std::size_t step_ = 0;
   bool mapping_is_fixed_ = false;  // of the PDO that is being configured
   std::bitset<Configuration::capacity> left_out_;
-  bool reads_back_ = false;    // what the step could not write
-  unsigned brought_back_ = 0;  // to pre-operational, since it booted
+  bool was_operational_ = false;  // since it booted
+  bool reads_back_ = false;       // what the step could not write
+  unsigned brought_back_ = 0;     // to pre-operational, since it booted
   Time deadline_{};
   Status problem_;
   std::optional<Emergency> emergency_;

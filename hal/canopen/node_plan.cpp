@@ -75,6 +75,7 @@ Status Node::begin(const NodePlan& plan, Time now, Outbox& outbox) noexcept {
   client_ = SdoClient{plan.node, plan.sdo_timeout};
   problem_ = {};
   emergency_.reset();
+  was_operational_ = false;
   ask_to_boot(now, outbox);
   return {};
 }

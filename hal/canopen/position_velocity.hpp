@@ -18,12 +18,18 @@ class PositionVelocity {
   double take(double position, Time now) noexcept {
     const Heard& oldest = heard_[count_ < cycles ? 0 : next_];
     const bool has_one = count_ > 0 && now > oldest.at;
+    const Time oldest_at = oldest.at;
     const double velocity = has_one ? (position - oldest.position) / seconds(now - oldest.at) : 0;
     heard_[next_] = {position, now};
     next_ = (next_ + 1) % cycles;
     if (count_ < cycles) ++count_;
+    window_ = has_one ? seconds(now - oldest_at) : 0;
     return velocity;
   }
+  /// There were as many positions as it takes to tell.
+  bool is_known() const noexcept { return count_ == cycles && window_ > 0; }
+  /// What an increment more or less makes of the velocity; the increment in the positions' unit, above 0.
+  double doubt(double increment) const noexcept { return window_ > 0 ? increment / window_ : 0; }
 
  private:
   static constexpr std::size_t cycles = 8;
@@ -36,6 +42,7 @@ class PositionVelocity {
   std::array<Heard, cycles> heard_{};
   std::size_t next_ = 0;
   std::size_t count_ = 0;
+  double window_ = 0;  // s, from the oldest of them to the newest
 };
 
 }  // namespace flexrf::canopen::cia402

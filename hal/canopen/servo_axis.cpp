@@ -46,6 +46,10 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   was_operational_ = false;
   bring_ups_ = node_.times_operational();
   was_commanded_ = halts_ = false;
+  may_have_torque_ = false;
+  off_heard_ = 0;
+  velocity_heard_ = Time{};
+  position_velocity_ = 0;
   velocity_ = asked_velocity_ = 0;
   ignored_ = 0;
   most_torque_ = 1;
@@ -63,7 +67,8 @@ void ServoAxis::end(Outbox& outbox) noexcept {
 
 void ServoAxis::receive(const Message& message, Time now, Outbox& outbox) noexcept {
   // What comes in every cycle first.
-  if (node_.is_operational() && take_process_data(message, now)) return;
+  // One whose heartbeat alone stays away goes on telling them.
+  if ((node_.is_operational() || node_.was_lost()) && take_process_data(message, now)) return;
   node_.receive(message, now, outbox);
 }
 
@@ -72,15 +77,18 @@ bool ServoAxis::take_process_data(const Message& message, Time now) noexcept {
   std::uint64_t values[3] = {};
   if (message.identifier == motion_.identifier) {
     if (!state_ || !unpack(motion_, message, values)) return true;
-    take_motion(values);
+    take_motion(values, now);
     return true;
   }
   if (message.identifier != states_.identifier) return false;
   if (!unpack(states_, message, values)) return true;
-  if (!state_) state_.emplace();
   statusword_ = static_cast<std::uint16_t>(values[0]);
+  note_torque();
+  if (!node_.is_operational()) return true;
+  if (!state_) state_.emplace();
   state_->position = position_of(static_cast<std::int32_t>(with_sign(values[1], 32)));
-  if (!plan_.maps_velocity) state_->velocity = from_positions_.take(way_, now);
+  position_velocity_ = from_positions_.take(way_, now);
+  if (!hears_of_velocity(now)) state_->velocity = position_velocity_;
   state_->at_internal_limit = (statusword_ & status_bit::internal_limit) != 0;
   state_->target_reached = has_reached(statusword_);
   if (plan_.maps_mode) mode_shown_ = static_cast<Mode>(with_sign(values[2], 8));
@@ -89,14 +97,39 @@ bool ServoAxis::take_process_data(const Message& message, Time now) noexcept {
   return true;
 }
 
-void ServoAxis::take_motion(const std::uint64_t* values) noexcept {
+void ServoAxis::take_motion(const std::uint64_t* values, Time now) noexcept {
   for (std::size_t i = 0; i < motion_.count; ++i) {
     if (motion_.entries[i].object == objects::actual_velocity) {
+      velocity_heard_ = now;
       state_->velocity = static_cast<double>(with_sign(values[i], 32)) / to_velocity_object(1);
     } else {
       state_->torque = static_cast<double>(with_sign(values[i], 16)) / whole_torque;
     }
   }
+}
+
+// Of a drive that is to be off, once with each statusword.
+void ServoAxis::note_torque() noexcept {
+  const bool is_led = node_.is_operational() && power_.goal() == DrivePower::Goal::enabled;
+  off_heard_ = is_led || has_torque(state_of(statusword_)) ? 0 : std::min(off_heard_ + 1, off_cycles);
+  if (has_torque(state_of(statusword_))) may_have_torque_ = true;
+  if (off_heard_ == off_cycles) may_have_torque_ = false;
+}
+
+bool ServoAxis::hears_of_velocity(Time now) const noexcept {
+  return plan_.maps_velocity && velocity_heard_ != Time{} &&
+         now - velocity_heard_ <= silent_cycles * plan_.period;
+}
+
+// The drive's velocity, and its positions beside it: either of them may be one that no longer changes.
+bool ServoAxis::is_at_rest(Time now) const noexcept {
+  constexpr double clearly = 10;
+  const double by_positions = std::abs(position_velocity_);
+  const double doubt = from_positions_.doubt(2 / std::abs(plan_.increments_per_unit));
+  if (hears_of_velocity(now))
+    return std::abs(state_->velocity) <= plan_.rest_velocity &&
+           by_positions <= std::max(clearly * plan_.rest_velocity, 2 * doubt);
+  return from_positions_.is_known() && by_positions <= std::max(plan_.rest_velocity, doubt);
 }
 
 /// The drive's counter runs over after 2^32 increments; an endless axis goes on.
@@ -120,17 +153,21 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   watch(may_move, now);
   outbox.push({sync_identifier, 0, {}});
   if (beat_.is_due(now)) outbox.push(heartbeat_message(NmtState::operational, plan_.master));
-  if (!node_.is_operational()) return;
+  // What is not heard may well hear us.
+  if (!node_.is_operational()) {
+    if (may_have_torque_ && node_.was_lost()) say(command::quick_stop, outbox);
+    return;
+  }
   if (!state_) {
-    // It is not heard, and may well hear us.
-    if (!fault_.is_ok()) say(command::quick_stop, outbox);
+    if (may_have_torque_ || !fault_.is_ok()) say(command::quick_stop, outbox);
     return;
   }
   if (is_told_by_sdo()) settle_unmapped(now, outbox);
   const bool wanted = may_move && fault_.is_ok();
   const bool enables = mode_is_taken(wanted, now) && wanted && fault_.is_ok();
   power_.pursue(enables ? DrivePower::Goal::enabled : DrivePower::Goal::off);
-  const bool at_rest = std::abs(state_->velocity) <= plan_.rest_velocity;
+  if (enables) may_have_torque_ = true;
+  const bool at_rest = is_at_rest(now);
   std::uint16_t word = power_.advance(statusword_, at_rest, now);
   if (!power_.problem().is_ok()) fail(power_.problem());
   if (!power_.is_enabled()) homing_.interrupt();

@@ -122,8 +122,9 @@ class ServoAxis {
   bool is_enabled() const noexcept {
     return power_.is_enabled() && (plan_.mode != Mode::interpolated_position || interpolation_.was_active());
   }
-  /// It has no torque, or nobody hears it: then it has stopped by itself, if it does as it was told.
-  bool is_off() const noexcept { return !node_.is_operational() || power_.is_off(); }
+  /// It was not led to torque since begin(), or has said some times, one after the other, that it has none.
+  /// One that is not heard is not off.
+  bool is_off() const noexcept { return !may_have_torque_; }
   /// What stopped it, for a person; ok while nothing did.
   const Status& fault() const noexcept { return fault_; }
   /// What it is told when this process dies; nothing while it is not heard, or where plan.abort_connection
@@ -158,6 +159,7 @@ class ServoAxis {
  private:
   static constexpr int silent_cycles = 10;    // without process data it is not known where it is
   static constexpr int ignoring_cycles = 10;  // with set-points that it says it ignores, before that is told
+  static constexpr int off_cycles = 3;     // without torque: what came first may be from before it was told
   static constexpr int settle_cycles = 5;  // from a velocity that is commanded to a status that is about it
 
   Status check(const AxisPlan& plan) const noexcept;
@@ -166,6 +168,9 @@ class ServoAxis {
   void fail(const Status& cause) noexcept;
   void watch(bool may_move, Time now) noexcept;
   bool take_process_data(const Message& message, Time now) noexcept;
+  void note_torque() noexcept;
+  bool hears_of_velocity(Time now) const noexcept;
+  bool is_at_rest(Time now) const noexcept;
   bool is_told_by_sdo() const noexcept;
   std::uint32_t speed_object() const noexcept { return to_amount(to_velocity_object(handshake_.speed())); }
   void settle_unmapped(Time now, Outbox& outbox) noexcept;
@@ -179,7 +184,7 @@ class ServoAxis {
   double by_the_shorter_way(double position, double from) const noexcept;
   double in_reach(double way) noexcept;
   double position_of(std::int32_t increments) noexcept;
-  void take_motion(const std::uint64_t* values) noexcept;
+  void take_motion(const std::uint64_t* values, Time now) noexcept;
   double told(double way) const noexcept;
   void tell_restraint() noexcept;
   double within(double value, double lowest, double highest, const char* reason) noexcept;
@@ -215,6 +220,10 @@ class ServoAxis {
   PositionVelocity from_positions_;
   Status fault_;
   Time heard_{};
+  Time velocity_heard_{};
+  double position_velocity_ = 0;  // as its positions tell it
+  bool may_have_torque_ = false;
+  int off_heard_ = 0;       // one after the other, at most off_cycles
   bool heard_now_ = false;  // since the last send()
   std::optional<Time> mode_wanted_;
   std::uint16_t statusword_ = 0;

@@ -104,6 +104,7 @@ NodePlan ServoAxis::node_plan() noexcept {
                 .sdo_timeout = plan_.sdo_timeout,
                 .heartbeat_period = plan_.heartbeat_period,
                 .heartbeat_limit = plan_.heartbeat_limit,
+                .grace = std::chrono::seconds(1),
                 .is_guarded = plan_.is_guarded,
                 .master_heartbeat_limit = plan_.is_supervised_by_it ? plan_.heartbeat_limit : Duration{}};
   Configuration& list = node.configuration;

@@ -60,6 +60,10 @@ class SimulatedCia402Drive {
   }
   /// The wires of its motor are torn: it has no torque, and stays where it is.
   void cut_motor(bool on) { is_cut_ = on; }
+  /// Somebody moves its axis by so many increments, which it resists while it has torque.
+  void be_moved(double increments) {
+    if (!powered_ || !canopen::cia402::has_torque(state_)) motion_.stop_at(motion_.position() + increments);
+  }
   DriveObjects& objects() { return objects_; }
 
   // ---- what it is doing

@@ -49,14 +49,15 @@ struct Cell {
       return one.identifier < other.identifier;
     });
     for (const Message& frame : frames) {
-      if (cable && (syncs || frame.identifier != canopen::sync_identifier)) drive.receive(frame, now, heard);
+      const bool passes = cable && (syncs || frame.identifier != canopen::sync_identifier) && !is_lost(frame);
+      if (passes) drive.receive(frame, now, heard);
     }
     for (int ms = 0; ms < 7; ++ms) {
       now += milliseconds(1);
       drive.advance(now, heard);
     }
     for (; !heard.is_empty(); heard.pop()) {
-      if (cable) axis.receive(heard.front(), now, said);
+      if (cable && !is_lost(heard.front())) axis.receive(heard.front(), now, said);
     }
     if (position) axis.command_position(*position);
     if (velocity) axis.command_velocity(*velocity);
@@ -70,6 +71,7 @@ struct Cell {
     for (int i = 0; i < 500 && axis.fault().is_ok() && !axis.is_enabled(); ++i) step();
     return axis.is_enabled();
   }
+  bool is_lost(const Message& message) const { return lost && message.identifier == *lost; }
   bool is_at(double expected) const {
     return axis.state() && std::abs(axis.state()->position - expected) <= resolution;
   }
@@ -89,6 +91,7 @@ struct Cell {
   Outbox heard;
   bool cable = true;
   bool syncs = true;
+  std::optional<std::uint32_t> lost;  // messages of this identifier do not arrive
   bool may_move = false;
   std::optional<double> position;
   std::optional<double> velocity;

@@ -73,6 +73,65 @@ void a_second_homing_is_not_the_first_one(void**) {
   }
 }
 
+/// In full motion, with a velocity mode: what a drive does next is seen in where it goes.
+struct RunningCell : Cell {
+  static AxisPlan by_velocity() {
+    AxisPlan result = plan();
+    result.mode = Mode::cyclic_velocity;
+    result.endless = true;
+    result.quick_stop_deceleration = 10;
+    return result;
+  }
+  RunningCell() : Cell(by_velocity()) {
+    assert_true(run_until_enabled());
+    velocity = 4;
+    run(700);
+    assert_false(drive.motion().is_at_rest());
+  }
+  // Never said to be off while it moves, and never without torque in full motion.
+  void run_watched(int ms) {
+    for (int i = 0; i < ms; i += 7) {
+      const double before = std::abs(drive.motion().velocity());
+      step();
+      assert_false(axis.is_off() && !drive.motion().is_at_rest());
+      assert_false(drive.state() == DriveState::switch_on_disabled && before > 1000);
+    }
+  }
+};
+
+/// It goes on with everything else, and does not heed NMT commands either.
+void a_drive_whose_heartbeat_alone_is_lost_is_stopped(void**) {
+  RunningCell cell;
+  cell.drive.silence_heartbeat(true);
+  cell.lost = 0;  // NMT
+  cell.run_watched(3000);
+  assert_true(cell.fault_says("no heartbeat of node 5"));
+  assert_true(cell.drive.motion().is_at_rest());
+  assert_true(cell.axis.is_off());
+}
+
+void a_drive_that_no_longer_tells_its_velocity_is_not_off_in_motion(void**) {
+  RunningCell cell;
+  cell.lost = canopen::transmit_pdo_identifier(2, node);
+  cell.run_watched(140);
+  cell.may_move = false;
+  cell.run_watched(3000);
+  assert_true(cell.drive.motion().is_at_rest() && cell.axis.is_off());
+  assert_true(cell.axis.fault().is_ok());
+}
+
+void a_drive_that_is_not_heard_is_not_off(void**) {
+  RunningCell cell;
+  cell.cable = false;
+  for (int i = 0; i < 500; ++i) {
+    cell.step();
+    assert_false(cell.axis.is_off());
+  }
+  cell.cable = true;
+  cell.run_watched(3000);
+  assert_true(cell.axis.is_off());
+}
+
 AxisPlan guarded_plan() {
   AxisPlan result = plan();
   result.is_guarded = true;
@@ -204,6 +263,9 @@ void a_homing_whose_mode_is_refused_by_sdo_fails_alone(void**) {
 
 int run_odd_drives() {
   const CMUnitTest tests[] = {
+      cmocka_unit_test(a_drive_whose_heartbeat_alone_is_lost_is_stopped),
+      cmocka_unit_test(a_drive_that_no_longer_tells_its_velocity_is_not_off_in_motion),
+      cmocka_unit_test(a_drive_that_is_not_heard_is_not_off),
       cmocka_unit_test(permission_withdrawn_and_given_again_is_no_fault),
       cmocka_unit_test(permission_that_comes_and_goes_while_it_is_enabled_is_no_fault),
       cmocka_unit_test(a_second_homing_is_not_the_first_one),
