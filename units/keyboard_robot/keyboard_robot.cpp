@@ -21,22 +21,29 @@ constexpr int most_keys_per_step = 64;
 
 Status KeyboardRobot::initialise() {
   motion_.use(arm->kinematic_chain());
-  moved_ = false;
+  moved_ = is_to_be_seeded_ = false;
   return {};
 }
 
 void KeyboardRobot::step(const Tick& tick) {
   const auto state = arm->state();
+  const bool follows = !tick.motion_inhibited && arm->is_ready();
+  is_to_be_seeded_ = is_to_be_seeded_ || !motion_.is_seeded() || !follows || !state;
+  // It stops by itself, and not where a motion of before would have it.
+  if (!follows && motion_.is_seeded()) motion_.seed(motion_.set_point());
   if (!state) {
     motion_.stop();
   } else {
     const Pose actual = to_pose(forward_kinematics(arm->kinematic_chain(), state->position_map()));
     pose.publish(actual);
-    if (tick.motion_inhibited || !motion_.is_seeded()) {
+    // The set-point is where the arm is, also after a time in which it did not follow or was not heard.
+    if (is_to_be_seeded_ && !motion_.is_moving()) {
       motion_.seed(state->position_map());
       target_ = kept_ = actual;
+      is_to_be_seeded_ = !follows;
+      moved_ = false;
     }
-    if (tick.motion_inhibited) {
+    if (!follows) {
       for (int n = 0; n < most_keys_per_step && keyboard->read(); ++n)
         continue;  // not kept for when the arm may move again
     } else if (tick.stop_requested) {

@@ -22,7 +22,8 @@ class KeyboardRobot final : public KeyboardRobotUnit {
   Pose target_{};
   Pose kept_{};  // the last one moved to
   LogLimit refusals_;
-  bool moved_ = false;  // the target was, since the last motion began
+  bool moved_ = false;            // the target was, since the last motion began
+  bool is_to_be_seeded_ = false;  // it did not follow, or told nothing, since it was seeded
   bool idle_ = true;
 };
 

@@ -29,7 +29,7 @@ Status RobotControl::initialise() {
   has_ignored_target_ = false;
   followed_servo_ = false;
   last_cycle_ = Time{};
-  is_seeded_ = false;
+  is_seeded_ = is_to_be_seeded_ = false;
   stands_still_ = true;
   return {};
 }
@@ -46,8 +46,15 @@ void RobotControl::step(const Tick& tick) {
   const auto state = arm->state();
   if (state) publish(*state);
   const auto wanted = target.latest();
-  // The first set-point is where the arm is, and a target from before the Start is not followed after it.
-  if (state && (tick.motion_inhibited || !is_seeded_)) seed(*state);
+  // The first set-point is where the arm is, also after a time in which it did not follow or was not heard.
+  const bool follows = !tick.motion_inhibited && arm->is_ready();
+  is_to_be_seeded_ = is_to_be_seeded_ || !is_seeded_ || !follows || !state;
+  if (!follows) active_ = nullptr;  // it stops by itself, and not where a motion of before would have it
+  if (state && is_to_be_seeded_ && !is_moving()) {
+    seed(*state);
+    is_to_be_seeded_ = !follows;
+  }
+  // What was wanted before the last Start is not done after it.
   if (wanted && tick.motion_inhibited) targets_.leave(*wanted);
   if (!is_seeded_) {
     feedback.set_holding("no joint positions from the arm yet");
@@ -59,9 +66,10 @@ void RobotControl::step(const Tick& tick) {
   const char* const held = !arm->fault().is_ok()   ? broken
                            : !state                ? "the arm no longer tells its joint positions"
                            : tick.motion_inhibited ? "motion is inhibited"
-                           : tick.stop_requested   ? "stop requested"
-                                                   : nullptr;
-  look();
+                           : !follows ? "the arm is not ready: it is being switched on, or finds its home"
+                           : tick.stop_requested ? "stop requested"
+                                                 : nullptr;
+  look(tick);
   MotionSource* const chosen = held == nullptr ? choose(wanted) : nullptr;
   lead(chosen, wanted, elapsed);
   command(elapsed);
@@ -86,7 +94,7 @@ void RobotControl::seed(const JointState& state) noexcept {
 }
 
 /// What is asked for in this cycle.
-void RobotControl::look() noexcept {
+void RobotControl::look(const Tick& tick) noexcept {
   const KinematicChain& chain = arm->kinematic_chain();
   refused_by_mode_ = nullptr;
   if (runtime.mode != ControlMode::manual) has_ignored_target_ = false;
@@ -107,7 +115,7 @@ void RobotControl::look() noexcept {
       refused_by_mode_ = steps_are_refused;
     }
   }
-  servo_.look(servo.latest());
+  servo_.look(servo.latest(), !tick.motion_inhibited);
 }
 
 /// Who leads now, of those that want to and may; null: nobody.

@@ -26,7 +26,7 @@ class RobotControl final : public RobotControlUnit {
 
  private:
   void seed(const JointState& state) noexcept;
-  void look() noexcept;
+  void look(const Tick& tick) noexcept;
   MotionSource* choose(const View<Pose>& wanted) noexcept;
   void lead(MotionSource* chosen, const View<Pose>& wanted, double elapsed) noexcept;
   void follow(const Pose& wanted) noexcept;
@@ -60,6 +60,7 @@ class RobotControl final : public RobotControlUnit {
   LogLimit losses_;
   Time last_cycle_{};
   bool is_seeded_ = false;
+  bool is_to_be_seeded_ = false;  // it did not follow, or told nothing, since it was seeded
   bool stands_still_ = true;
   bool idle_ = true;
 };

@@ -28,17 +28,21 @@ const char* words_of(NullReason reason) {
 void ServoFollower::use(const KinematicChain& chain, const StreamLimits& limits, double max_age) noexcept {
   stream_.use(chain, limits, max_age);
   target_.reset();
+  left_.reset();
   max_age_ = max_age;
   reason_ = "";
 }
 
-void ServoFollower::look(const View<ServoTarget>& said) noexcept {
+void ServoFollower::look(const View<ServoTarget>& said, bool may_move) noexcept {
   target_.reset();
   reason_ = "";
+  if (said && !may_move) left_ = said.sequence();
   if (!said) {
     reason_ = words_of(said.reason());
   } else if (!said->valid) {
     reason_ = "the pose stream has nowhere to go to: the arm holds";
+  } else if (left_ == said.sequence()) {
+    reason_ = "the pose stream is from before the Start: the arm holds";
   } else if (seconds(said.age()) > max_age_) {
     reason_ = "the pose stream is too old: the arm holds";
   } else if (const Eigen::Isometry3d pose = to_isometry(said->pose); !is_pose(pose)) {

@@ -15,8 +15,9 @@ class ServoFollower final : public MotionSource {
   // Before anything else. The chain outlives this. `max_age` in s.
   void use(const KinematicChain& chain, const StreamLimits& limits, double max_age) noexcept;
 
-  // Once a cycle, what the stream says now.
-  void look(const View<ServoTarget>& said) noexcept;
+  // Once a cycle, what the stream says now. What it said in a cycle in which nothing may move is not followed
+  // later.
+  void look(const View<ServoTarget>& said, bool may_move) noexcept;
   // There is a pose to follow that is young enough.
   bool is_wanted() const noexcept { return target_.has_value(); }
   // Why there is none; empty: there is one, or nobody makes any.
@@ -31,6 +32,7 @@ class ServoFollower final : public MotionSource {
  private:
   PoseStream stream_;
   std::optional<Eigen::Isometry3d> target_;
+  std::optional<std::uint64_t> left_;  // the item that was there when nothing could move
   double age_ = 0;
   double max_age_ = 0;
   const char* reason_ = "";

@@ -63,11 +63,18 @@ Restraint said_while(RobotArmWorld& world, const JointVector& to, double duratio
   return said;
 }
 
-// A posture beside the present one, inside the limits.
-JointVector beside(RobotArmWorld& world, double offset) {
+// Leads it to where it is, as whoever leads an arm begins. Where that is.
+JointVector begin_here(RobotArmWorld& world) {
   world.receive(cycle);
+  const JointVector here = sensed(world).value_or(JointVector(JointVector::Zero()));
+  lead_from_here(world.arm());
   world.send();
-  JointVector joints = sensed(world).value_or(JointVector(JointVector::Zero()));
+  return here;
+}
+
+// A posture beside the present one, inside the limits. The arm is led from where it is.
+JointVector beside(RobotArmWorld& world, double offset) {
+  JointVector joints = begin_here(world);
   for (std::size_t i = 0; i < world.arm().kinematic_chain().joint_count; ++i) {
     joints[static_cast<Eigen::Index>(i)] += offset;
   }
@@ -87,9 +94,61 @@ Verdict tells_a_sane_state(RobotArmWorld& world) {
 
 // [robot-arm-10]
 Verdict stays_where_it_is_without_a_command(RobotArmWorld& world) {
-  const JointVector start = beside(world, 0);
+  idle_for(world, 0.05);
+  const auto start = sensed(world);
   idle_for(world, 0.5);
-  return verdict(distance(world, start) <= tolerance + 2 * world.noise());
+  return verdict(start && distance(world, *start) <= tolerance + 2 * world.noise());
+}
+
+// So far that no joint goes there in a few cycles, and inside the limits.
+JointVector far_from(RobotArmWorld& world, const JointVector& here) {
+  JointVector far = here;
+  for (std::size_t i = 0; i < world.arm().kinematic_chain().joint_count; ++i) {
+    const ChainJoint& joint = world.arm().kinematic_chain().joints[i];
+    const auto index = static_cast<Eigen::Index>(i);
+    const double way = 0.1 * joint.velocity;
+    far[index] += here[index] + way < joint.upper ? way : -way;
+  }
+  return far;
+}
+
+/// Whatever was planned before somebody else moved it.
+// [robot-arm-12]
+Verdict begins_only_where_it_is(RobotArmWorld& world) {
+  for (int permission = 0; permission < 2; ++permission) {
+    idle_for(world, 0.5);
+    const auto start = sensed(world);
+    if (!start) return Verdict::failed;
+    const JointVector far = far_from(world, *start);
+    const Restraint said = said_while(world, far, 0.5);
+    if (said.reason == nullptr ||
+        std::string_view{said.reason}.find("do not begin") == std::string_view::npos)
+      return Verdict::failed;
+    if (distance(world, *start) > tolerance + 2 * world.noise() || !world.arm().fault().is_ok())
+      return Verdict::failed;
+    // From where it is it goes there.
+    begin_here(world);
+    command_for(world, far, 2.0);
+    if (distance(world, far) > tolerance + world.noise()) return Verdict::failed;
+    // And what was begun before an inhibition counts no more.
+    world.arm().set_inhibited(true);
+    idle_for(world, 0.3);
+    world.arm().set_inhibited(false);
+  }
+  return Verdict::passed;
+}
+
+/// It was not heard for a while, and nobody knows who moved it meanwhile.
+// [robot-arm-12]
+Verdict begins_anew_after_a_silence(RobotArmWorld& world) {
+  const JointVector here = beside(world, 0);
+  command_for(world, here, 0.1);
+  if (!world.lose_sensors()) return Verdict::skipped;
+  command_for(world, here, 0.05);
+  if (!world.find_sensors()) return Verdict::skipped;
+  idle_for(world, 0.02);
+  const Restraint said = said_while(world, far_from(world, here), 0.2);
+  return verdict(said.reason != nullptr && distance(world, here) <= tolerance + 2 * world.noise());
 }
 
 // [robot-arm-2]
@@ -104,6 +163,7 @@ Verdict follows_commands_and_holds(RobotArmWorld& world) {
 // [robot-arm-3]
 Verdict keeps_to_its_limits(RobotArmWorld& world) {
   const KinematicChain& chain = world.arm().kinematic_chain();
+  begin_here(world);
   JointVector far = JointVector::Zero();
   for (std::size_t i = 0; i < chain.joint_count; ++i) far[static_cast<Eigen::Index>(i)] = 100;
   for (double time = 0; time < 3; time += cycle_seconds) {
@@ -282,6 +342,8 @@ int run_robot_arm_conformance(const char* driver, MakeRobotArmWorld make) {
       {"tells a sane state", judged<tells_a_sane_state>, nullptr, nullptr, nullptr},
       {"stays where it is without a command", judged<stays_where_it_is_without_a_command>, nullptr, nullptr,
        nullptr},
+      {"begins only where it is", judged<begins_only_where_it_is>, nullptr, nullptr, nullptr},
+      {"begins anew after a silence", judged<begins_anew_after_a_silence>, nullptr, nullptr, nullptr},
       {"follows commands and holds the last", judged<follows_commands_and_holds>, nullptr, nullptr, nullptr},
       {"keeps to its limits", judged<keeps_to_its_limits>, nullptr, nullptr, nullptr},
       {"holds while inhibited and forgets", judged<an_inhibited_arm_holds>, nullptr, nullptr, nullptr},

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "hal/robot_arm/interface/robot_arm.hpp"
+#include "motion/kinematics.hpp"
 
 namespace flexrf {
 
@@ -22,11 +23,22 @@ class RobotArmWorld {
   virtual double noise() const { return 0; }
   /// The far end no longer tells its positions. False: cannot be made to happen with this driver.
   virtual bool lose_sensors() { return false; }
+  /// After lose_sensors(): it tells them again. False: cannot be made to happen with this driver.
+  virtual bool find_sensors() { return false; }
   /// A joint stays where it is, whatever is commanded. False: cannot be made to happen with this driver.
   virtual bool stick_joint() { return false; }
   /// The far end's drives trip. False: cannot be made to happen with this driver.
   virtual bool trip_drives() { return false; }
 };
+
+/// Leads it to where it is, as whoever leads an arm begins: between receive and send of a cycle.
+inline void lead_from_here(RobotArm& arm) {
+  const auto state = arm.state();
+  if (!state) return;
+  JointPositions here{};
+  here.position_map() = within_limits(arm.kinematic_chain(), state->position_map());
+  arm.command(here);
+}
 
 using MakeRobotArmWorld = std::unique_ptr<RobotArmWorld> (*)();
 

@@ -1,6 +1,7 @@
 // RobotArm: an arm that follows joint positions cyclically.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -26,11 +27,17 @@ class RobotArm : public Actuator<RobotArmInterface> {
   /// What the sensors said last, as of this cycle; nothing while they say nothing [robot-arm-1].
   virtual std::optional<JointState> state() const noexcept = 0;
 
+  /// It follows commands: it may act, and its drives are on and know where they are. While it does not,
+  /// whoever leads it seeds its set-points with state().
+  bool is_ready() const noexcept { return may_act() && is_operational(); }
+
   /// Where the joints shall be (rad, or m where one slides), sent at the end of the cycle and held until the
-  /// next command [robot-arm-2]; before the first it stays where it is [robot-arm-10]. An arm keeps to its
-  /// own limits whatever it is commanded [robot-arm-3], and tells it (Component::restrain()) while it does
-  /// [robot-arm-4]; what is not finite puts it in fault [robot-arm-5]. Without effect while is_inhibited(),
-  /// and not remembered [robot-arm-6].
+  /// next command [robot-arm-2]; before the first it stays where it is [robot-arm-10]. The first command
+  /// since it is ready, or since it rested and told no positions, is taken only where the arm is, to what a
+  /// joint goes in 50 ms [robot-arm-12]: what was planned before somebody else moved it is not gone back to.
+  /// An arm keeps to its own limits whatever it is commanded [robot-arm-3], and tells it
+  /// (Component::restrain()) while it does [robot-arm-4]; what is not finite puts it in fault [robot-arm-5].
+  /// Without effect while is_inhibited(), and not remembered [robot-arm-6].
   void command(const JointPositions& set_points) noexcept {
     if (!may_act()) return;
     for (std::size_t i = 0; i < chain->joint_count; ++i) {
@@ -40,6 +47,10 @@ class RobotArm : public Actuator<RobotArmInterface> {
                                 "joint %.*s was commanded to a position that is not a number",
                                 static_cast<int>(joint.size()), joint.data()));
     }
+    if (!begun_ && !begins_here(set_points)) return;
+    stands_ = begun_ && set_points.position == commanded_.position;
+    commanded_ = set_points;
+    begun_ = true;
     follow(set_points);
   }
 
@@ -60,6 +71,7 @@ class RobotArm : public Actuator<RobotArmInterface> {
   void begin_supervision(const auto& configuration) noexcept {
     supervision_.begin(*chain, {configuration.following_time, configuration.silence});
     pace_.forget();
+    begun_ = false;
   }
   /// At the end of receive(), by every driver: an arm that does not follow what its drives are asked to
   /// (feedback.following_error), or does not say where it is, is in fault [robot-arm-7]; nothing is expected
@@ -68,6 +80,7 @@ class RobotArm : public Actuator<RobotArmInterface> {
     if (const Status found = supervision_.look(state(), feedback.following_error, may_act(), now); !found)
       set_fault(found);
     if (!may_act()) pace_.forget();
+    if (!is_ready() || (stands_ && !state())) begun_ = false;
     restrain(pace_.look(*chain, looked_at_ == Time{} ? 0 : seconds(now - looked_at_)));
     looked_at_ = now;
   }
@@ -75,9 +88,29 @@ class RobotArm : public Actuator<RobotArmInterface> {
  private:
   /// A command that is taken, finite.
   virtual void follow(const JointPositions& set_points) noexcept = 0;
+  /// While it may act: what is commanded is followed from this cycle on.
+  virtual bool is_operational() const noexcept { return true; }
+
+  bool begins_here(const JointPositions& set_points) noexcept {
+    constexpr double longest = 0.05;  // s, at a joint's greatest velocity
+    const auto told = state();
+    if (!told || !is_operational()) return false;
+    for (std::size_t i = 0; i < chain->joint_count; ++i) {
+      const ChainJoint& joint = chain->joints[i];
+      const double here = std::clamp(told->position[i], joint.lower, joint.upper);
+      if (std::abs(set_points.position[i] - here) <= longest * joint.velocity) continue;
+      restrain(
+          {"set-points do not begin where the arm is, and are not followed", set_points.position[i], here});
+      return false;
+    }
+    return true;
+  }
 
   ArmSupervision supervision_;
   JointPace pace_;
+  bool begun_ = false;          // it is led from where it was
+  bool stands_ = false;         // the last two commands were the same
+  JointPositions commanded_{};  // the last one that was taken
   Time looked_at_{};
 };
 

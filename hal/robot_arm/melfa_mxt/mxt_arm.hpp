@@ -36,8 +36,6 @@ class MxtArm : public Base {
 
   std::optional<JointState> state() const noexcept override { return state_; }
 
-  /// Commands are followed.
-  bool is_leading() const noexcept { return dialogue_.is_leading(); }
   const PacingCounters& counters() const noexcept { return dialogue_.counters(); }
 
  protected:
@@ -74,8 +72,8 @@ class MxtArm : public Base {
     ended_ = dialogue_.has_ended();
     return ended_;
   }
+  bool is_operational() const noexcept override { return dialogue_.is_leading(); }
   void follow(const JointPositions& set_points) noexcept override {
-    if (!dialogue_.is_leading()) return;
     this->tell_limits(set_points);
     dialogue_.command(set_points.position);
   }

@@ -33,8 +33,6 @@ class ArmOfDrives : public Base {
   void stop() override { stop_first(this->chain->joint_count); }
 
   std::optional<JointState> state() const noexcept override { return group_.state(); }
-  /// All drives are enabled and know where they are: commands are followed.
-  bool is_ready() const noexcept { return group_.is_ready(); }
   /// For faults on purpose; of the drive with this joint.
   Drive& drive(std::size_t joint) noexcept { return drives_[joint]; }
 
@@ -70,8 +68,9 @@ class ArmOfDrives : public Base {
   bool become_safe() noexcept override { return group_.make_safe(); }
   void follow(const JointPositions& set_points) noexcept override {
     group_.command(set_points);
-    if (group_.is_ready()) this->tell_limits_and_pace(set_points);
+    this->tell_limits_and_pace(set_points);
   }
+  bool is_operational() const noexcept override { return group_.is_ready(); }
 
   std::span<Drive> drives() noexcept { return std::span(drives_).first(this->chain->joint_count); }
 

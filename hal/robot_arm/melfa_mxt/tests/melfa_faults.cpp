@@ -86,7 +86,7 @@ bool a_silence_while_it_is_led_is_a_fault_until_it_is_restarted(MelfaWorld& worl
   world.idle(40);
   // It is seen again, and does not move by itself.
   const auto rest = world.arm().state();
-  if (!rest || world.arm().is_leading()) return false;
+  if (!rest || world.arm().is_ready()) return false;
   if (!world.restart()) return false;
   world.idle(10);
   world.arm().set_inhibited(false);

@@ -73,7 +73,7 @@ bool is_lost_and_comes_back(const Loss& loss) {
   if (!loss.restore(world) || !is_told || !is_heard_in_time(world)) return false;
   // Nothing moves by itself; a person restarts the unit and gives Start.
   world.idle(20);
-  if (world.arm().is_leading() || !world.restart()) return false;
+  if (world.arm().is_ready() || !world.restart()) return false;
   world.arm().set_inhibited(false);
   return world.begin_leading() && arrives(world) && world.ask("alarm") == "none";
 }

@@ -49,6 +49,7 @@ class MelfaWorld {
     wanted.position = to;
     for (int i = 0; i < cycles; ++i) {
       receive();
+      lead_from_here(arm());
       arm().command(wanted);
       send();
     }
@@ -63,8 +64,8 @@ class MelfaWorld {
     return arm().initialise().is_ok();
   }
   bool begin_leading() {
-    for (int i = 0; i < 100 && !arm().is_leading(); ++i) idle(1);
-    return arm().is_leading();
+    for (int i = 0; i < 100 && !arm().is_ready(); ++i) idle(1);
+    return arm().is_ready();
   }
 
  protected:

@@ -14,7 +14,12 @@ class MockWorld final : public RobotArmWorld {
   void receive(Duration elapsed) override { bench_.receive(elapsed); }
   void send() override { bench_.send(); }
   bool lose_sensors() override {
+    lost_ = bench_.driver().state();
     bench_.driver().set_state(std::nullopt);
+    return initialised_;
+  }
+  bool find_sensors() override {
+    bench_.driver().set_state(lost_);
     return initialised_;
   }
   bool stick_joint() override {
@@ -28,6 +33,7 @@ class MockWorld final : public RobotArmWorld {
 
  private:
   DeviceBench<MockArm> bench_{&six_axis};
+  std::optional<JointState> lost_;  // where it was
   bool initialised_ = false;
 };
 

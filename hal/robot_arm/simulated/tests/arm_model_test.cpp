@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hal/driver/device_bench.hpp"
+#include "hal/robot_arm/conformance/robot_arm_conformance.hpp"
 #include "hal/robot_arm/simulated/simulated_arm.hpp"
 #include "six_axis.hpp"
 #include "tests/cmocka.hpp"
@@ -95,6 +96,7 @@ bool what_is_restarted_stays_where_it_is() {
   goal.position[0] += 0.3;
   for (int k = 0; k < 200; ++k) {
     bench.receive(std::chrono::milliseconds(7));
+    lead_from_here(bench.driver());
     bench.driver().command(goal);
     bench.send();
   }

@@ -12,7 +12,7 @@ class SimulatedMelfaWorld final : public RobotArmWorld {
   SimulatedMelfaWorld() {
     bench_.configuration().cycle = 0.007;  // as the suite's
     initialised_ = bench_.driver().initialise().is_ok();
-    for (int i = 0; i < 100 && initialised_ && !bench_.driver().is_leading(); ++i) {
+    for (int i = 0; i < 100 && initialised_ && !bench_.driver().is_ready(); ++i) {
       receive(std::chrono::milliseconds(7));
       send();
     }

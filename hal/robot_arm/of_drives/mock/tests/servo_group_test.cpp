@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "hal/driver/device_bench.hpp"
+#include "hal/robot_arm/conformance/robot_arm_conformance.hpp"
 #include "hal/robot_arm/of_drives/mock/mock_drive_arm.hpp"
 #include "six_axis.hpp"
 #include "tests/cmocka.hpp"
@@ -88,7 +89,7 @@ bool nothing_is_commanded_before_all_are_enabled() {
   if (!cell->arm().fault().is_ok()) return false;
   cell->arm().drive(5).set_state(ServoState{});
   if (!cell->is_ready_in_time()) return false;
-  cell->arm().command(JointPositions{});
+  lead_from_here(cell->arm());
   return cell->commands() == joints;
 }
 
@@ -138,6 +139,7 @@ bool joints_keep_to_their_limits() {
   if (!cell->is_ready_in_time()) return false;
   JointPositions far{};
   far.position.fill(100);
+  lead_from_here(cell->arm());
   cell->arm().command(far);
   for (std::size_t i = 0; i < joints; ++i) {
     if (cell->arm().drive(i).commanded() != six_axis.joints[i].upper) return false;
