@@ -142,7 +142,8 @@ void MxtDialogue::send(bool may_move, Time now) noexcept {
   if (phase_ == Phase::monitoring && ends_) {
     ends_said_ = 0;
     if (!told_) {
-      phase_ = Phase::ended;
+      // One that fell silent while it was led has not said that it stands.
+      if (!lost_) phase_ = Phase::ended;
     } else if (is_at_rest()) {
       phase_ = Phase::ending;
     }

@@ -271,7 +271,7 @@ Verdict an_input_survives_its_chip(DigitalIoWorld& world) {
                  world.io().fault().is_ok());
 }
 
-// [digital-io-7] [gpio-chip-2] [gpio-chip-4]
+// [digital-io-7] [digital-io-9] [gpio-chip-2] [gpio-chip-4]
 Verdict an_output_comes_back_safe(DigitalIoWorld& world) {
   if (!world.start(output())) return Verdict::failed;
   one_cycle(world);
@@ -285,9 +285,12 @@ Verdict an_output_comes_back_safe(DigitalIoWorld& world) {
   world.io().command(true);  // to nobody
   world.send();
   world.io().set_inhibited(true);
-  if (!world.io().make_safe()) return Verdict::failed;
+  // Nobody knows what it does meanwhile.
+  if (world.io().make_safe()) return Verdict::failed;
   if (!world.plug_in() || !is_back(world, "an output's chip that was gone") || world.sees_high())
     return Verdict::failed;
+  if (!world.io().make_safe()) return Verdict::failed;
+  one_cycle(world);
   world.io().set_inhibited(false);
   world.receive(cycle);
   world.io().command(true);

@@ -10,7 +10,8 @@
 
 namespace flexrf {
 
-/// Everything: the thread the line lives in. Made safe, an output has its safe value at once [digital-io-5].
+/// Everything: the thread the line lives in. Made safe, an output has its safe value at once [digital-io-5];
+/// one whose chip is away does not confirm it before it is back [digital-io-9].
 class DigitalIo : public Actuator<DigitalIoInterface> {
  public:
   using Actuator::Actuator;

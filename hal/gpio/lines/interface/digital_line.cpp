@@ -121,10 +121,11 @@ void DigitalLine::send(Time now) noexcept {
   commanded_.reset();
 }
 
-/// While its chip is away nobody can do anything; it will come back with its safe value.
+/// While its chip is away nobody knows what the line does; it will come back with its safe value.
 bool DigitalLine::make_safe() noexcept {
   commanded_.reset();
-  if (!is_output() || !present_ || !line_->set(settings_.safe_value)) return true;
+  if (!is_output()) return true;
+  if (!present_ || !line_->set(settings_.safe_value)) return false;
   on_ = settings_.safe_value;
   return true;
 }
