@@ -14,7 +14,7 @@ struct Tick {
   Duration elapsed{};             ///< since this unit's step before, 0 at its first
   std::uint64_t number = 0;       ///< steps of this unit before this one
   std::uint32_t fired = 0;        ///< bit n: the trigger's n-th source fired, or items wait in that queue
-  bool timed_out = false;         ///< released by the trigger's timeout
+  bool timed_out = false;         ///< released by the trigger's timeout, or without it to see a stop
   bool finishing = false;         ///< no more input will come: complete what is begun
   bool stop_requested = false;    ///< controlled stop: come to rest within stop_timeout, then be idle
   bool motion_inhibited = false;  ///< no actuator of this application may be moved now
