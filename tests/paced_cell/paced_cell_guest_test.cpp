@@ -75,6 +75,11 @@ class LedCell {
   /// By keys, from where it is.
   void move_tool(int steps) {
     const double before = tool();
+    // The next key leads on from where the target is.
+    wait_for("the target", [&] {
+      const nlohmann::json target = running_.newest("target", "position");
+      return !target.is_null() && std::abs(target.at(0).get<double>() - before) < tolerance;
+    });
     running_.type(std::string(static_cast<std::size_t>(steps), 'w'));
     wait_for("the tool", [&] { return std::abs(tool() - before - steps * key_step) < tolerance; });
   }

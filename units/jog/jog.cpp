@@ -1,5 +1,7 @@
 #include "units/jog/jog.hpp"
 
+#include <utility>
+
 #include "base/text.hpp"
 #include "units/arm_motion/key_motion.hpp"
 
@@ -17,7 +19,7 @@ double towards(bool plus, bool minus) {
 
 Status Jog::initialise() {
   target_.reset();
-  left_behind_ = false;
+  left_behind_ = was_inhibited_ = false;
   return {};
 }
 
@@ -30,7 +32,9 @@ void Jog::step(const Tick& tick) {
   // The target stays with an arm that may not move. One that is moved by hand leaves its target behind,
   // until a key asks for a new one.
   left_behind_ = left_behind_ || held;
-  if (tick.motion_inhibited || (left_behind_ && !keys.is_empty())) target_.reset();
+  // Also in the first step of a Start: the one before may be long ago, and the arm was moved since.
+  const bool was_inhibited = std::exchange(was_inhibited_, tick.motion_inhibited);
+  if (tick.motion_inhibited || was_inhibited || (left_behind_ && !keys.is_empty())) target_.reset();
   if (!target_) {
     const auto pose = actual.latest();
     if (!pose) return;  // keys wait until it is known where the arm is

@@ -21,7 +21,8 @@ class Jog final : public JogUnit {
   void heed_answer();
 
   std::optional<Pose> target_;
-  bool left_behind_ = false;  // the arm was moved by a velocity since the target was seeded
+  bool left_behind_ = false;    // the arm was moved by a velocity since the target was seeded
+  bool was_inhibited_ = false;  // in the step before
 };
 
 }  // namespace flexrf::user
