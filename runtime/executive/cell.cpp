@@ -297,8 +297,8 @@ void Cell::choose_witnesses() {
                     [this](std::uint16_t device) { return driver(device).actuates; }))
       threads_that_move_.push_back({thread.name, &application_->thread_states[i].inhibited_for});
   }
-  for (std::uint16_t i = 0; i < application_->devices.size(); ++i) {
-    if (driver(i).actuates)
+  for (std::size_t i = 0; i < application_->devices.size(); ++i) {
+    if (driver(static_cast<std::uint16_t>(i)).actuates)
       actuators_.push_back({application_->devices[i].name, &application_->device_states[i].unconfirmed});
   }
   control_.use_witnesses(threads_that_move_, actuators_);
