@@ -29,8 +29,7 @@ Status RobotControl::initialise() {
   has_ignored_target_ = false;
   followed_servo_ = false;
   last_cycle_ = Time{};
-  is_seeded_ = is_to_be_seeded_ = is_said_on_ = false;
-  left_.reset();
+  is_seeded_ = is_to_be_seeded_ = false;
   stands_still_ = true;
   return {};
 }
@@ -55,7 +54,8 @@ void RobotControl::step(const Tick& tick) {
     seed(*state);
     is_to_be_seeded_ = !follows;
   }
-  if (wanted) leave_what_was_before(wanted, tick.motion_inhibited);
+  // What was wanted before the last Start is not done after it, also where it is said on and on.
+  if (wanted && tick.motion_inhibited) targets_.leave(*wanted);
   if (!is_seeded_) {
     feedback.set_holding("no joint positions from the arm yet");
     idle_ = true;
@@ -80,19 +80,6 @@ void RobotControl::step(const Tick& tick) {
       wanted && !tick.stop_requested && may_follow_targets(runtime.mode) && targets_.is_pending(*wanted);
   stands_still_ = !is_moving() && settled && !steps_.is_wanted();
   idle_ = stands_still_ && !more;
-}
-
-/// What was wanted before the last Start is not done after it, also where it is said on and on. Where it was
-/// not, and is said again, somebody wants it anew.
-void RobotControl::leave_what_was_before(const View<Pose>& wanted, bool inhibited) noexcept {
-  if (inhibited) {
-    const bool is_another = targets_.leave(*wanted);
-    is_said_on_ = !is_another && left_ && wanted.sequence() != *left_;
-    left_ = wanted.sequence();
-  } else if (left_ && wanted.sequence() != *left_) {
-    if (!is_said_on_) targets_.forget();
-    left_.reset();
-  }
 }
 
 void RobotControl::seed(const JointState& state) noexcept {

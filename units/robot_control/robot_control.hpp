@@ -6,8 +6,6 @@
 // another where the other has come to rest on its way. A target from before is not gone back to.
 #pragma once
 
-#include <optional>
-
 #include "robot_control_unit.hpp"
 #include "runtime/log/log.hpp"
 #include "units/robot_control/jog_steps.hpp"
@@ -29,7 +27,6 @@ class RobotControl final : public RobotControlUnit {
  private:
   void seed(const JointState& state) noexcept;
   void look(const Tick& tick) noexcept;
-  void leave_what_was_before(const View<Pose>& wanted, bool inhibited) noexcept;
   MotionSource* choose(const View<Pose>& wanted) noexcept;
   void lead(MotionSource* chosen, const View<Pose>& wanted, double elapsed) noexcept;
   void follow(const Pose& wanted) noexcept;
@@ -62,8 +59,6 @@ class RobotControl final : public RobotControlUnit {
   LogLimit refusals_;
   LogLimit losses_;
   Time last_cycle_{};
-  std::optional<std::uint64_t> left_;  // the target's item in the last cycle without the permission to move
-  bool is_said_on_ = false;            // and the cycle before had another one that says the same
   bool is_seeded_ = false;
   bool is_to_be_seeded_ = false;  // it did not follow, or told nothing, since it was seeded
   bool stands_still_ = true;

@@ -24,8 +24,6 @@ class TargetFollower final : public MotionSource {
   bool is_pending(const Pose& wanted) const noexcept;
   // It is not followed, now or later. True: it was pending.
   bool leave(const Pose& wanted) noexcept;
-  // One that was moved to, refused or left is followed when it is said again.
-  void forget() noexcept { handled_.reset(); }
   // The one that is moved to is looked at anew afterwards.
   void interrupt() noexcept;
   // While this leads the arm. What became of the target, once for each.

@@ -298,18 +298,6 @@ void one_that_speaks_after_start_stays(void**) {
   tries<ArmOfSimulatedDrives>(order);
 }
 
-/// The very pose that it was led to before, from elsewhere: it is another wish.
-void what_is_wanted_again_after_start_is_done(void**) {
-  World world(std::make_unique<MockedArm>());
-  for (const Event event : {Event::start, Event::target}) world.happens(event);
-  world.run(300);
-  for (const Event event : {Event::stop, Event::by_hand, Event::start, Event::idle}) world.happens(event);
-  const int before = world.moved_as_asked;
-  world.happens(Event::target);
-  world.run(300);
-  assert_true(world.violation == nullptr && world.moved_as_asked > before);
-}
-
 // [robot-arm-12] [stop-3] [stop-96]
 void no_order_of_four_moves_a_mock(void**) {
   tries_all_orders<MockedArm, 4>();
@@ -344,7 +332,6 @@ int main() {
   using namespace flexrf::robot_orders_test;
   const CMUnitTest tests[] = {
       cmocka_unit_test(one_that_speaks_after_start_stays),
-      cmocka_unit_test(what_is_wanted_again_after_start_is_done),
       cmocka_unit_test(no_order_of_four_moves_a_mock),
       cmocka_unit_test(no_order_moves_a_melfa),
       cmocka_unit_test(no_order_moves_an_arm_of_drives),
