@@ -66,8 +66,8 @@ void ServoAxis::end(Outbox& outbox) noexcept {
 }
 
 void ServoAxis::receive(const Message& message, Time now, Outbox& outbox) noexcept {
-  // What comes in every cycle first.
-  // One whose heartbeat alone stays away goes on telling them.
+  // Process data first, as they come in every cycle; a drive that lost only its heartbeat goes on sending
+  // them.
   if ((node_.is_operational() || node_.was_lost()) && take_process_data(message, now)) return;
   node_.receive(message, now, outbox);
 }
@@ -108,7 +108,8 @@ void ServoAxis::take_motion(const std::uint64_t* values, Time now) noexcept {
   }
 }
 
-// Of a drive that is to be off, once with each statusword.
+// Called with each statusword: after some without torque, one after the other, the drive is off, unless it is
+// being enabled.
 void ServoAxis::note_torque() noexcept {
   const bool is_led = node_.is_operational() && power_.goal() == DrivePower::Goal::enabled;
   off_heard_ = is_led || has_torque(state_of(statusword_)) ? 0 : std::min(off_heard_ + 1, off_cycles);
@@ -121,7 +122,8 @@ bool ServoAxis::hears_of_velocity(Time now) const noexcept {
          now - velocity_heard_ <= silent_cycles * plan_.period;
 }
 
-// The drive's velocity, and its positions beside it: either of them may be one that no longer changes.
+// By two sources, because either may be frozen: the velocity that the drive sends, and the change of its
+// positions.
 bool ServoAxis::is_at_rest(Time now) const noexcept {
   constexpr double clearly = 10;
   const double by_positions = std::abs(position_velocity_);
@@ -153,7 +155,7 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   watch(may_move, now);
   outbox.push({sync_identifier, 0, {}});
   if (beat_.is_due(now)) outbox.push(heartbeat_message(NmtState::operational, plan_.master));
-  // What is not heard may well hear us.
+  // A drive that we do not hear may still hear us.
   if (!node_.is_operational()) {
     if (may_have_torque_ && node_.was_lost()) say(command::quick_stop, outbox);
     return;
@@ -166,7 +168,10 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   const bool wanted = may_move && fault_.is_ok();
   const bool enables = mode_is_taken(wanted, now) && wanted && fault_.is_ok();
   power_.pursue(enables ? DrivePower::Goal::enabled : DrivePower::Goal::off);
-  if (enables) may_have_torque_ = true;
+  if (enables) {
+    may_have_torque_ = true;
+    off_heard_ = 0;  // what the drive said so far is from before
+  }
   const bool at_rest = is_at_rest(now);
   std::uint16_t word = power_.advance(statusword_, at_rest, now);
   if (!power_.problem().is_ok()) fail(power_.problem());

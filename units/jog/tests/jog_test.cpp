@@ -66,6 +66,19 @@ bool keys_wait_for_the_arms_pose() {
   return world.target_is(0.72, 0, 1) && world.bench.unit().is_idle() && world.bench.feedback().presses == 2;
 }
 
+// Its thread may not have run since the stop, and the arm was moved by hand meanwhile.
+bool the_first_key_after_start_counts_from_where_the_arm_is() {
+  World world;
+  world.bench.tick().motion_inhibited = true;
+  world.arm_is_at(0.7, 0, 1);
+  world.bench.step(interval);
+  world.bench.tick().motion_inhibited = false;
+  world.arm_is_at(0.4, 0, 1);
+  world.press("w");
+  world.bench.step(interval);
+  return world.target_is(0.41, 0, 1);
+}
+
 bool every_press_counts() {
   World world;
   world.arm_is_at(0.7, 0, 1);
@@ -217,6 +230,7 @@ void waits_for_the_pose(void**) {
   assert_true(keys_wait_for_the_arms_pose());
 }
 void counts_every_press(void**) {
+  assert_true(the_first_key_after_start_counts_from_where_the_arm_is());
   assert_true(every_press_counts());
 }
 void publishes_in_every_step(void**) {

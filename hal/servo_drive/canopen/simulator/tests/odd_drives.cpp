@@ -132,6 +132,23 @@ void a_drive_that_is_not_heard_is_not_off(void**) {
   assert_true(cell.axis.is_off());
 }
 
+/// A statusword from before the drive was enabled does not say that it is off.
+void a_drive_enabled_for_a_cycle_is_not_off_by_what_it_said_before(void**) {
+  Cell cell;
+  cell.run(1000);
+  assert_true(cell.axis.is_off());
+  cell.lost = canopen::transmit_pdo_identifier(1, node);
+  cell.may_move = true;
+  cell.step();
+  cell.may_move = false;
+  cell.step();
+  cell.lost.reset();
+  cell.step();
+  assert_false(cell.axis.is_off());
+  cell.run(500);
+  assert_true(cell.axis.is_off() && cell.axis.fault().is_ok());
+}
+
 AxisPlan guarded_plan() {
   AxisPlan result = plan();
   result.is_guarded = true;
@@ -266,6 +283,7 @@ int run_odd_drives() {
       cmocka_unit_test(a_drive_whose_heartbeat_alone_is_lost_is_stopped),
       cmocka_unit_test(a_drive_that_no_longer_tells_its_velocity_is_not_off_in_motion),
       cmocka_unit_test(a_drive_that_is_not_heard_is_not_off),
+      cmocka_unit_test(a_drive_enabled_for_a_cycle_is_not_off_by_what_it_said_before),
       cmocka_unit_test(permission_withdrawn_and_given_again_is_no_fault),
       cmocka_unit_test(permission_that_comes_and_goes_while_it_is_enabled_is_no_fault),
       cmocka_unit_test(a_second_homing_is_not_the_first_one),
