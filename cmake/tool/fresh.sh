@@ -66,6 +66,10 @@ page_answers() (
   read -r -t 5 line <&3
   [[ $line == HTTP/* ]]
 ) 2>/dev/null
+if page_answers; then
+  echo "another program answers at 127.0.0.1:8080: end it first"
+  exit 1
+fi
 status=0 start=$SECONDS
 ./flexrf run </dev/null >run.log 2>&1 &
 until page_answers || ! kill -0 $! 2>/dev/null; do sleep 1; done

@@ -21,7 +21,7 @@ struct NodePlan {
       std::chrono::seconds(1);  ///< from the start command to the first operational heartbeat
   Duration heartbeat_period = std::chrono::milliseconds(100);  ///< of the node; whole ms
   Duration heartbeat_limit = std::chrono::milliseconds(250);   ///< the longest silence of the node
-  Duration grace{};  ///< from its silence to its reset: in which it may be stopped by its process data
+  Duration grace{};  ///< from the loss of its heartbeat to its reset; process data may stop a drive meanwhile
   /// It has no heartbeat: it is asked for its state each heartbeat_period (node guarding), and notices itself
   /// when it no longer is, for heartbeat_limit (life guarding; rounded up to whole periods).
   bool is_guarded = false;
@@ -59,7 +59,7 @@ class Node {
 
   NodeState state() const noexcept { return state_; }
   bool is_operational() const noexcept { return state_ == NodeState::operational; }
-  /// It was operational, and has not booted since: what its PDOs carry is what they carried.
+  /// Its heartbeat was lost in operation, and it has not booted since, so its PDO mapping is unchanged.
   bool was_lost() const noexcept { return state_ == NodeState::awaited && was_operational_; }
   /// Why it is not operational, or was not last time; ok from the moment at which it is.
   const Status& problem() const noexcept { return problem_; }

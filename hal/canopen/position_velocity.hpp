@@ -16,19 +16,17 @@ class PositionVelocity {
   void forget() noexcept { *this = PositionVelocity{}; }
   /// In each cycle in which a position came. In its unit of measure a second.
   double take(double position, Time now) noexcept {
-    const Heard& oldest = heard_[count_ < cycles ? 0 : next_];
-    const bool has_one = count_ > 0 && now > oldest.at;
-    const Time oldest_at = oldest.at;
-    const double velocity = has_one ? (position - oldest.position) / seconds(now - oldest.at) : 0;
+    const Heard oldest = heard_[count_ < cycles ? 0 : next_];
+    window_ = count_ > 0 && now > oldest.at ? seconds(now - oldest.at) : 0;
     heard_[next_] = {position, now};
     next_ = (next_ + 1) % cycles;
     if (count_ < cycles) ++count_;
-    window_ = has_one ? seconds(now - oldest_at) : 0;
-    return velocity;
+    return window_ > 0 ? (position - oldest.position) / window_ : 0;
   }
-  /// There were as many positions as it takes to tell.
+  /// take() was called often enough since forget() for its result to count.
   bool is_known() const noexcept { return count_ == cycles && window_ > 0; }
-  /// What an increment more or less makes of the velocity; the increment in the positions' unit, above 0.
+  /// The error of the last velocity if a position is off by one increment, in its unit a second. `increment`:
+  /// in the positions' unit, above 0.
   double doubt(double increment) const noexcept { return window_ > 0 ? increment / window_ : 0; }
 
  private:

@@ -122,8 +122,8 @@ class ServoAxis {
   bool is_enabled() const noexcept {
     return power_.is_enabled() && (plan_.mode != Mode::interpolated_position || interpolation_.was_active());
   }
-  /// It was not led to torque since begin(), or has said some times, one after the other, that it has none.
-  /// One that is not heard is not off.
+  /// The drive was not enabled since begin(), or its last off_cycles statuswords said that it has no torque.
+  /// A drive that is not heard is not off.
   bool is_off() const noexcept { return !may_have_torque_; }
   /// What stopped it, for a person; ok while nothing did.
   const Status& fault() const noexcept { return fault_; }

@@ -17,7 +17,8 @@
 namespace flexrf::helper {
 namespace {
 
-// As ioprio_set(2) has them: <linux/ioprio.h> is no C++ in every version, as it calls a parameter `class`.
+// Values of ioprio_set(2). <linux/ioprio.h> defines them too, but some versions of it name a parameter
+// `class`, which C++ rejects.
 constexpr int of_a_thread = 1;       // IOPRIO_WHO_PROCESS
 constexpr int class_none = 0 << 13;  // IOPRIO_CLASS_NONE
 constexpr int class_idle = 3 << 13;  // IOPRIO_CLASS_IDLE

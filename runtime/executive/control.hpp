@@ -38,14 +38,14 @@ enum class EndCause : std::uint8_t {
 /// The word for it, in files and on the wire: "end of input".
 const char* name_of(EndCause cause) noexcept;
 
-/// Of a thread that owns an actuator.
+/// What Start checks of each thread that owns an actuator.
 struct MotionWitness {
   const char* thread = "";
   /// Control::withdrawals() up to which it has had a whole cycle in which its actuators were inhibited.
   const std::atomic<std::uint32_t>* inhibited_for = nullptr;
 };
 
-/// Of an actuator.
+/// What Start checks of each actuator.
 struct SafetyWitness {
   const char* device = "";
   /// It was told to be safe and has not confirmed it.
@@ -129,7 +129,7 @@ class Control {
 
   /// Why Start would be refused now. Any thread but a real-time one.
   Status check_start() const noexcept {
-    // First, as a demand of the time before does not withdraw what autostart gave.
+    // First: an emergency-stop input's demand from before the application runs does not withdraw autostart.
     if (const Status running = check_running(); !running) return running;
     if (stop_motion_.load(std::memory_order_seq_cst)) {
       return Status::error(StatusCode::not_permitted, "Stop motion is latched; clear it before Start");

@@ -405,7 +405,7 @@ void Stepper::make_safe() noexcept {
   }
 }
 
-/// One that does not say that it is safe is told so until it does, also when nobody wants it any more.
+/// make_safe() of an actuator is repeated until it returns true, also after the stop was cleared.
 void Stepper::note_confirmation(std::uint16_t index, bool is_safe) noexcept {
   DeviceState& state = application_->device_states[index];
   const bool is_first = !state.unconfirmed.load(std::memory_order_relaxed);
@@ -415,11 +415,11 @@ void Stepper::note_confirmation(std::uint16_t index, bool is_safe) noexcept {
   if (state.unconfirmed_since == Time{} || context_->now - state.unconfirmed_since < longest_unconfirmed)
     return;
   state.unconfirmed_since = Time{};
-  log_error(application_->devices[index].name,
-            "it was told to be safe {} ms ago and has not confirmed it: it may still move. It is told so on, "
-            "and Start is "
-            "refused until it does, or is initialised anew",
-            longest_unconfirmed / std::chrono::milliseconds{1});
+  log_error(
+      application_->devices[index].name,
+      "make_safe() was called {} ms ago and is not confirmed: it may still move. The call is repeated in "
+      "each cycle; Start is refused until it is confirmed or the device is initialised anew",
+      longest_unconfirmed / std::chrono::milliseconds{1});
 }
 
 bool Stepper::is_to_be_safe(std::uint16_t device) const noexcept {

@@ -32,7 +32,8 @@ void Jog::step(const Tick& tick) {
   // The target stays with an arm that may not move. One that is moved by hand leaves its target behind,
   // until a key asks for a new one.
   left_behind_ = left_behind_ || held;
-  // Also in the first step of a Start: the one before may be long ago, and the arm was moved since.
+  // The first step after an inhibition resets it too: the arm may have been moved by hand since the step
+  // before.
   const bool was_inhibited = std::exchange(was_inhibited_, tick.motion_inhibited);
   if (tick.motion_inhibited || was_inhibited || (left_behind_ && !keys.is_empty())) target_.reset();
   if (!target_) {

@@ -54,7 +54,8 @@ void RobotControl::step(const Tick& tick) {
     seed(*state);
     is_to_be_seeded_ = !follows;
   }
-  // What was wanted before the last Start is not done after it, also where it is said on and on.
+  // A target that was published before the last Start is not followed after it, even if it is published
+  // again.
   if (wanted && tick.motion_inhibited) targets_.leave(*wanted);
   if (!is_seeded_) {
     feedback.set_holding("no joint positions from the arm yet");

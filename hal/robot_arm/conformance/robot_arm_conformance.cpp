@@ -63,7 +63,7 @@ Restraint said_while(RobotArmWorld& world, const JointVector& to, double duratio
   return said;
 }
 
-// Leads it to where it is, as whoever leads an arm begins. Where that is.
+// A cycle in which the arm is commanded to its actual position, which is returned.
 JointVector begin_here(RobotArmWorld& world) {
   world.receive(cycle);
   const JointVector here = sensed(world).value_or(JointVector(JointVector::Zero()));
@@ -112,7 +112,7 @@ JointVector far_from(RobotArmWorld& world, const JointVector& here) {
   return far;
 }
 
-/// Whatever was planned before somebody else moved it.
+/// A first command far from the actual position is ignored, and reported.
 // [robot-arm-12]
 Verdict begins_only_where_it_is(RobotArmWorld& world) {
   for (int permission = 0; permission < 2; ++permission) {
@@ -138,7 +138,7 @@ Verdict begins_only_where_it_is(RobotArmWorld& world) {
   return Verdict::passed;
 }
 
-/// It was not heard for a while, and nobody knows who moved it meanwhile.
+/// Somebody may have moved the arm while it told no positions.
 // [robot-arm-12]
 Verdict begins_anew_after_a_silence(RobotArmWorld& world) {
   const JointVector here = beside(world, 0);
@@ -343,7 +343,8 @@ int run_robot_arm_conformance(const char* driver, MakeRobotArmWorld make) {
       {"stays where it is without a command", judged<stays_where_it_is_without_a_command>, nullptr, nullptr,
        nullptr},
       {"begins only where it is", judged<begins_only_where_it_is>, nullptr, nullptr, nullptr},
-      {"begins anew after a silence", judged<begins_anew_after_a_silence>, nullptr, nullptr, nullptr},
+      {"needs a new beginning after a silence", judged<begins_anew_after_a_silence>, nullptr, nullptr,
+       nullptr},
       {"follows commands and holds the last", judged<follows_commands_and_holds>, nullptr, nullptr, nullptr},
       {"keeps to its limits", judged<keeps_to_its_limits>, nullptr, nullptr, nullptr},
       {"holds while inhibited and forgets", judged<an_inhibited_arm_holds>, nullptr, nullptr, nullptr},

@@ -31,7 +31,7 @@ class RobotArmWorld {
   virtual bool trip_drives() { return false; }
 };
 
-/// Leads it to where it is, as whoever leads an arm begins: between receive and send of a cycle.
+/// Commands the arm to its actual position, as the first command has to. Between receive and send of a cycle.
 inline void lead_from_here(RobotArm& arm) {
   const auto state = arm.state();
   if (!state) return;

@@ -27,14 +27,15 @@ class RobotArm : public Actuator<RobotArmInterface> {
   /// What the sensors said last, as of this cycle; nothing while they say nothing [robot-arm-1].
   virtual std::optional<JointState> state() const noexcept = 0;
 
-  /// It follows commands: it may act, and its drives are on and know where they are. While it does not,
-  /// whoever leads it seeds its set-points with state().
+  /// The arm follows commands: it may act, and its drives are on and homed. While this is false, a unit that
+  /// commands the arm seeds its set-points with state().
   bool is_ready() const noexcept { return may_act() && is_operational(); }
 
   /// Where the joints shall be (rad, or m where one slides), sent at the end of the cycle and held until the
   /// next command [robot-arm-2]; before the first it stays where it is [robot-arm-10]. The first command
-  /// since it is ready, or since it rested and told no positions, is taken only where the arm is, to what a
-  /// joint goes in 50 ms [robot-arm-12]: what was planned before somebody else moved it is not gone back to.
+  /// since is_ready() became true, or since the resting arm told no positions, is followed only if each joint
+  /// is within 50 ms at its greatest velocity of state() [robot-arm-12], so that the arm does not return to a
+  /// set-point of before. Otherwise it is ignored, and told.
   /// An arm keeps to its own limits whatever it is commanded [robot-arm-3], and tells it
   /// (Component::restrain()) while it does [robot-arm-4]; what is not finite puts it in fault [robot-arm-5].
   /// Without effect while is_inhibited(), and not remembered [robot-arm-6].

@@ -285,7 +285,7 @@ Verdict an_output_comes_back_safe(DigitalIoWorld& world) {
   world.io().command(true);  // to nobody
   world.send();
   world.io().set_inhibited(true);
-  // Nobody knows what it does meanwhile.
+  // While the chip is away its output is unknown, so safety is not confirmed.
   if (world.io().make_safe()) return Verdict::failed;
   if (!world.plug_in() || !is_back(world, "an output's chip that was gone") || world.sees_high())
     return Verdict::failed;

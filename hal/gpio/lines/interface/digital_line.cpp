@@ -121,7 +121,7 @@ void DigitalLine::send(Time now) noexcept {
   commanded_.reset();
 }
 
-/// While its chip is away nobody knows what the line does; it will come back with its safe value.
+/// False while the chip is away, as the output is unknown then. The chip comes back with the safe value.
 bool DigitalLine::make_safe() noexcept {
   commanded_.reset();
   if (!is_output()) return true;
