@@ -62,11 +62,11 @@ cd flexrf
 echo "== ./flexrf run, in an empty Debian 12"
 page_answers() (
   exec 3<>/dev/tcp/127.0.0.1/8080
-  printf 'GET / HTTP/1.0\r\n\r\n' >&3
+  printf 'GET / HTTP/1.1\r\nHost: 127.0.0.1:8080\r\nConnection: close\r\n\r\n' >&3
   read -r -t 5 line <&3
-  [[ $line == HTTP/* ]]
+  [[ $line == 'HTTP/1.1 200 '* ]]
 ) 2>/dev/null
-if page_answers; then
+if (exec 3<>/dev/tcp/127.0.0.1/8080) 2>/dev/null; then
   echo "another program answers at 127.0.0.1:8080: end it first"
   exit 1
 fi
