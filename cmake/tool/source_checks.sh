@@ -28,8 +28,8 @@ check_layout() {
   return "$status"
 }
 
-# The static analysis of the files of the release build's list that lie outside build/.
-analyse() {
+# The static analysis of the files of the release build's list that lie outside build/. With `without tests` of what runs beside a machine.
+analyse() {  # analyse [without tests]
   local headers memory='' analysis=$root/build/release/analysis status=0
   headers="^$root/($(cd "$root" && find . -mindepth 1 -maxdepth 1 -type d ! -name build ! -name '.*' -printf '%f\n' |
     sort | paste -s -d '|'))/"
@@ -41,7 +41,7 @@ analyse() {
     find "$memory" -type f -mtime +30 -delete
     sums_of_memory "$memory" "$root" >"$analysis/sums"
   fi
-  awk -v root="$root" -v out="$analysis" -v size=12 -f "$tool/tidy_batches.awk" \
+  awk -v root="$root" -v out="$analysis" -v size=12 -v without_tests="$(($# > 0))" -f "$tool/tidy_batches.awk" \
     "$root/build/release/compile_commands.json" | tr '\n' '\0' >"$analysis/batches"
   xargs -0 -r -a "$analysis/batches" -n 1 -P "$(nproc)" \
     bash "$tool/tidy.sh" "$root" "$analysis" "$headers" "$memory" "$(clang-tidy --version)" </dev/null || status=1

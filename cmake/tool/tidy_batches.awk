@@ -1,7 +1,7 @@
 # Reads BUILD/compile_commands.json and writes, for `flexrf test`, what clang-tidy analyses: files in `out` that include
 # a few of ours each, and a compile database for them. Nearly all of an analysis goes into the headers, which are much
 # the same for all files of a batch, so a batch takes hardly longer than one of its files. Prints the batches.
-# Variables: root, out, size (files of a batch).
+# Variables: root, out, size (files of a batch), without_tests (1: neither tests nor benchmarks).
 
 # What a file defines must not meet the libraries of the next, nor CMocka's macros, which come with a test's own headers, the
 # headers of what it tests.
@@ -143,11 +143,13 @@ BEGIN { database = out "/compile_commands.json"; printf "[\n" > database }
 
 # Files go together that lie in the same two folders and are compiled alike; where they look for headers is put together. So a
 # file that is added changes the batches of its neighbours only. Tests bring CMocka's macros, and asio.cpp is that library itself.
-function add(file, part, key) {
+function add(file, part, key, is_test) {
   if (index(file, root "/") != 1 || index(file, root "/build/") == 1 || file in seen) return
   seen[file] = 1
+  is_test = file ~ /\/(tests|conformance|benchmarks)\/|_(test|stress)\.cpp$/
+  if (is_test && without_tests) return
   split(substr(file, length(root) + 2), part, "/")
-  key = (file ~ /\/(tests|conformance|benchmarks)\/|_(test|stress)\.cpp$/) SUBSEP (file ~ /\/asio\.cpp$/) SUBSEP part[1] SUBSEP command
+  key = is_test SUBSEP (file ~ /\/asio\.cpp$/) SUBSEP part[1] SUBSEP command
   if (!(key in files_of)) keys[++key_count] = key
   files_of[key] = files_of[key] file "\n"
   command_of[file] = command

@@ -81,6 +81,10 @@ void Running::type(const std::string& keys) {
   CHECK(write(keys_, keys.data(), keys.size()) == static_cast<ssize_t>(keys.size()));
 }
 
+void Running::start_motion() {
+  CHECK(wait_until([this] { return control().start_motion().is_ok(); }));
+}
+
 std::uint16_t Running::unit(const std::string& name) {
   const std::span<const UnitRecord> units = application().units;
   for (std::size_t i = 0; i < units.size(); ++i)

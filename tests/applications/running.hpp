@@ -46,6 +46,8 @@ class Running {
   nlohmann::json newest(const std::string& slot, const std::string& field);
   /// Sends, and waits for the answer.
   ParameterAnswer ask(ParameterRequest request);
+  /// A person's Start, given until it is accepted: each thread looks first.
+  void start_motion();
   /// Asks for the controlled stop and waits for the end.
   RunSummary stop();
 

@@ -100,7 +100,7 @@ void what_is_started_again_waits_for_start() {
   CHECK_EQUAL(machine.life(), Life::running);
   CHECK(wait_until([&] { return machine.steps() > 5; }));
   CHECK(!machine.executive().control().may_move());
-  CHECK(machine.executive().control().start_motion().is_ok());
+  CHECK(wait_until([&] { return machine.executive().control().start_motion().is_ok(); }));
   const Status again = machine.act(ComponentAction::start, Cell::consumer);
   CHECK_EQUAL(again.code(), StatusCode::not_permitted);
   CHECK_CONTAINS(again.cause(), "consumer runs already");
