@@ -33,8 +33,9 @@ stand_in() {  # stand_in NAME: a program of that name, whose body is read from s
 # What is installed is listed in $work/installed.
 stand_in dpkg-query <<'BODY'
 status=0
+installed=$'\n'$(<"$STAND_IN/installed")$'\n'
 for name in "${@:4}"; do
-  grep -q -x -e "$name" "$STAND_IN/installed" && echo "$name installed" || status=1
+  if [[ $installed == *$'\n'"$name"$'\n'* ]]; then echo "$name installed"; else status=1; fi
 done
 exit $status
 BODY
