@@ -15,7 +15,9 @@ void emit_register_map(const RegisterMap& map, const std::string& constant, Text
         << value("Access", register_accesses[entry.access]) << ", "
         << value("PollGroup", register_poll_groups[entry.poll_group]) << ", " << double_literal(entry.scale)
         << ", " << string_literal(entry.unit) << ", " << double_literal(entry.safe_value);
-    if (entry.bit) out << ", " << int{*entry.bit};
+    if (entry.bit || !entry.refreshed)
+      out << ", " << (entry.bit ? std::to_string(*entry.bit) : "ModbusRegister::whole");
+    if (!entry.refreshed) out << ", false";
     out << "},\n";
   }
   out << "};\nconstexpr ModbusRegisterMap " << constant << "{" << constant << "_registers};\n";

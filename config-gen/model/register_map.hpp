@@ -21,6 +21,7 @@ struct ModbusRegister {
   std::string unit;
   double safe_value = 0;            // in the unit; of what is written
   std::optional<std::uint8_t> bit;  // of a bool in a register
+  bool refreshed = true;            // written again though it did not change
 };
 
 struct RegisterMap {

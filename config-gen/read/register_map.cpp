@@ -20,6 +20,7 @@ constexpr std::size_t write_only = 1;    // likewise
 constexpr std::size_t first_double = 3;  // types from here on have two registers
 constexpr std::size_t first_long = 6;    // and from here on four
 constexpr std::uint16_t whole = 0xFFFF;  // all bits of a register
+const std::vector<std::string> yes_and_no = {"yes", "no"};
 
 struct Range {
   double least;
@@ -44,6 +45,7 @@ std::size_t words_of(const ModbusRegister& entry) {
 struct Taken {
   std::string name;
   std::uint16_t bits;
+  bool refreshed;
 };
 
 class MapReader : CsvRowReader {
@@ -59,11 +61,12 @@ class MapReader : CsvRowReader {
     access,
     poll_group,
     safe_value,
+    refresh,
     columns
   };
   static constexpr std::array<const char*, columns> column_names = {
-      "name",  "address", "bit",    "type",       "area",      "word_order",
-      "scale", "unit",    "access", "poll_group", "safe_value"};
+      "name",  "address", "bit",    "type",       "area",       "word_order",
+      "scale", "unit",    "access", "poll_group", "safe_value", "refresh"};
 
  public:
   MapReader(const CsvTable& table, Diagnostics& diagnostics)
@@ -109,6 +112,7 @@ class MapReader : CsvRowReader {
       read_word_order();
       read_scale();
       read_safe_value();
+      read_refresh();
     }
     read_address();
     if (!failed_) {
@@ -200,6 +204,15 @@ class MapReader : CsvRowReader {
             "change the value, the type or the scale");
   }
 
+  void read_refresh() {
+    const auto chosen = word(refresh, yes_and_no);
+    if (!chosen) return;
+    if (entry_.access == read_only)
+      error(place(refresh), "what is only read is not written again",
+            "leave the cell empty, or make the register's access read_write");
+    entry_.refreshed = *chosen == 0;
+  }
+
   void read_address() {
     const CsvCell& found = place(address);
     const auto value = CsvTable::integer(found, diagnostics_);
@@ -250,7 +263,14 @@ class MapReader : CsvRowReader {
             std::find_if(here.begin(), here.end(), [&](const Taken& one) { return (one.bits & bits) != 0; });
         if (other == here.end()) {
           if (here.empty()) ++(writing ? written_ : read_);
-          here.push_back({entry_.name, bits});
+          if (writing && !here.empty() && here.front().refreshed != entry_.refreshed) {
+            error(place(refresh),
+                  quote(entry_.name) + " is in one register with " + quote(here.front().name) +
+                      ", and the two are not refreshed alike",
+                  "bits of one register are written together: give both the same refresh");
+            return;
+          }
+          here.push_back({entry_.name, bits, entry_.refreshed});
           continue;
         }
         error(place(entry_.bit ? bit : address),

@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace flexrf::robotiq {
 namespace {
 
 constexpr Duration old_fault = std::chrono::seconds(1);
+/// A status that is told for so long, with fingers that stand, is no longer that of the way before.
+constexpr Duration old_status = std::chrono::milliseconds(300);
+/// Counts beside its goal at which a gripper has arrived; and at most, where its fingers meet or its travel
+/// ends: a 2F-85 that is sent to 255 ends near 228.
+constexpr int beside_goal = 4;
+constexpr int end_of_travel = 40;
 
 std::uint8_t count_of(double value, double at_first, double at_last, double first, double last) {
   const double share = std::clamp((value - at_first) / (at_last - at_first), 0.0, 1.0);
@@ -111,7 +118,7 @@ void Control::follow(const Told& told) noexcept {
     case Phase::going:
       // Until its echoes are those of this goal, what it found belongs to the one before.
       if (told.fault >= first_major_fault || !told.activate) phase_ = Phase::idle;
-      if (!taken_ || !told.go || told.requested != action_->position || told.found == Found::moving) break;
+      if (!taken_ || !told.go || told.requested != action_->position || !is_borne_out(told)) break;
       object_ = object_of(told.found);
       phase_ = Phase::idle;
       break;
@@ -132,6 +139,29 @@ void Control::follow(const Told& told) noexcept {
                              "the gripper was switched off or reset by somebody else; activate it");
   }
   check_time();
+}
+
+/// For a moment gOBJ may be that of the way before, with the echoes of this goal already: the position has to
+/// bear it out (manual of the 2F-85, 4.4).
+bool Control::is_borne_out(const Told& told) noexcept {
+  if (told.position != stands_at_) {
+    stands_at_ = told.position;
+    stands_since_ = now_;
+  }
+  moved_ = moved_ || told.found == Found::moving;
+  const bool is_new = moved_ || now_ - stands_since_ >= old_status;
+  const int to_go = int{told.requested} - int{told.position};
+  switch (told.found) {
+    case Found::moving:
+      return false;
+    case Found::nothing:
+      return std::abs(to_go) <= (is_new ? end_of_travel : beside_goal);
+    case Found::while_closing:
+      return is_new || to_go >= 0;
+    case Found::while_opening:
+      break;
+  }
+  return is_new || to_go <= 0;
 }
 
 void Control::watch_grip(const Told& told) noexcept {
@@ -197,6 +227,8 @@ void Control::command(const GripperGoal& goal) noexcept {
   tell(next);
   phase_ = Phase::going;
   began_ = now_;
+  moved_ = false;
+  stands_since_ = now_;
   object_ = GripperObject::unknown;
   latched_ = {};
   renew_trouble();

@@ -55,6 +55,7 @@ class Control {
   void lose(std::string_view silence) noexcept;
   void adopt(const Told& told) noexcept;
   void follow(const Told& told) noexcept;
+  bool is_borne_out(const Told& told) noexcept;
   void watch_grip(const Told& told) noexcept;
   void check_time() noexcept;
   void tell(const Action& action) noexcept;
@@ -70,6 +71,9 @@ class Control {
   bool was_active_ = false;  // when it was last heard
   Time now_{};
   std::optional<Time> began_;  // what it is at
+  bool moved_ = false;         // since it has this goal
+  std::uint8_t stands_at_ = 0;
+  Time stands_since_{};
   GripperObject object_ = GripperObject::unknown;
   Status latched_;  // until the next command or activation
   Status silence_;

@@ -80,6 +80,89 @@ void what_it_found_before_is_not_taken_for_the_new_goal(void**) {
   assert_true(control.state()->object == GripperObject::gripped);
 }
 
+struct Closing {
+  Closing() {
+    control.begin({});
+    control.receive(active_at(3), true, now += cycle, "");
+    control.command({.opening = 0});
+    told = active_at(3);
+    told.requested = 255;
+  }
+  void tell(Found found, std::uint8_t position) {
+    told.found = found;
+    told.position = position;
+    control.receive(told, true, now += cycle, "");
+  }
+  bool is_moving() const { return control.state()->moving; }
+  GripperObject object() const { return control.state()->object; }
+
+  Control control;
+  Time now = start;
+  Told told;
+};
+
+// The echo is the new goal's already, and gOBJ that of the way before.
+void where_the_fingers_are_has_to_bear_out_what_is_told(void**) {
+  Closing closing;
+  for (int i = 0; i < 100; ++i) closing.tell(Found::nothing, 3);
+  assert_true(closing.is_moving());  // it says that it is there, and it is not
+  closing.tell(Found::moving, 60);
+  closing.tell(Found::while_closing, 120);
+  assert_false(closing.is_moving());
+  assert_int_equal(closing.object(), GripperObject::gripped);
+}
+
+void what_nothing_bears_out_is_told_when_the_time_is_over(void**) {
+  Closing closing;
+  for (int i = 0; i < 400; ++i) closing.tell(Found::nothing, 3);
+  assert_false(closing.control.trouble().is_ok());
+  assert_non_null(std::strstr(closing.control.trouble().cause(), "did not come to rest"));
+  assert_true(closing.control.action() && !closing.control.action()->go);
+}
+
+// A 2F-85 that is sent to 255 ends near 228, where its fingers meet.
+void fingers_that_meet_before_the_goal_have_arrived(void**) {
+  Closing seen;
+  seen.tell(Found::moving, 60);
+  seen.tell(Found::nothing, 228);
+  assert_false(seen.is_moving());
+  assert_int_equal(seen.object(), GripperObject::none);
+  Closing unseen;  // too quick to be seen on its way
+  unseen.tell(Found::nothing, 228);
+  assert_true(unseen.is_moving());
+  for (int i = 0; i < 31; ++i) unseen.tell(Found::nothing, 228);
+  assert_false(unseen.is_moving());
+}
+
+// What it held is told for a moment yet when it opens.
+void what_was_gripped_is_not_taken_for_what_is_met_when_it_opens(void**) {
+  Control control;
+  control.begin({});
+  Told told = active_at(120);
+  told.requested = 255;
+  told.found = Found::while_closing;
+  Time now = start;
+  control.receive(told, true, now += cycle, "");
+  control.command({.opening = 0.085});
+  told.requested = 0;
+  control.receive(told, true, now += cycle, "");
+  assert_true(control.state()->moving);
+  assert_int_equal(control.state()->object, GripperObject::unknown);
+  told.found = Found::nothing;
+  told.position = 2;
+  control.receive(told, true, now += cycle, "");
+  assert_false(control.state()->moving);
+  assert_int_equal(control.state()->object, GripperObject::none);
+  // More force at the same object: it is held, and the fingers do not move.
+  told.position = 120;
+  told.requested = 255;
+  told.found = Found::while_closing;
+  control.command({.opening = 0, .force = 200});
+  control.receive(told, true, now += cycle, "");
+  assert_false(control.state()->moving);
+  assert_int_equal(control.state()->object, GripperObject::gripped);
+}
+
 // One that somebody else led holds what it holds; nothing is said to it before it is commanded.
 void a_gripper_that_holds_something_is_left_as_it_is(void**) {
   Control control;
@@ -182,6 +265,10 @@ int main() {
       cmocka_unit_test(statuses_are_decoded_as_the_manual_has_them),
       cmocka_unit_test(every_fault_has_words),
       cmocka_unit_test(what_it_found_before_is_not_taken_for_the_new_goal),
+      cmocka_unit_test(where_the_fingers_are_has_to_bear_out_what_is_told),
+      cmocka_unit_test(what_nothing_bears_out_is_told_when_the_time_is_over),
+      cmocka_unit_test(fingers_that_meet_before_the_goal_have_arrived),
+      cmocka_unit_test(what_was_gripped_is_not_taken_for_what_is_met_when_it_opens),
       cmocka_unit_test(a_gripper_that_holds_something_is_left_as_it_is),
       cmocka_unit_test(one_that_moves_when_it_is_met_can_be_halted),
       cmocka_unit_test(activation_takes_the_bit_away_and_gives_it_again),

@@ -15,6 +15,9 @@
 namespace flexrf {
 namespace {
 
+constexpr std::size_t tcp_header = 7;  // with the unit id
+constexpr std::size_t crc_bytes = 2;
+
 constexpr Duration shortest_silence = std::chrono::microseconds(1750);  // also above 19200 bit/s
 
 const char* advice_to_open(int error) {
@@ -50,14 +53,15 @@ void limit_answers(_modbus* context, Duration timeout) noexcept {
 }
 
 /// Bytes of request and answer together, unit id and CRC included (Modbus Application Protocol V1.1b3, 6.1 to
-/// 6.6, 6.11, 6.12; Modbus over serial line V1.02, 2.5.1).
+/// 6.6, 6.11, 6.12; Modbus over serial line V1.02, 2.5.1). Of a single one written by the longer of its
+/// functions.
 std::int64_t bytes_of(const ModbusBlock& block, bool writes) noexcept {
   const bool registers =
       block.area == ModbusArea::holding_register || block.area == ModbusArea::input_register;
   const std::int64_t data = registers ? 2 * block.count : (block.count + 7) / 8;
   constexpr std::int64_t address_and_count = 8;
   if (!writes) return address_and_count + 5 + data;
-  return block.count == 1 ? 2 * address_and_count : address_and_count + 9 + data;
+  return address_and_count + 9 + data;
 }
 
 /// Two masters on one line garble each other. The lock keeps out who asks for it, as every link does, root's
@@ -130,6 +134,7 @@ Status ModbusClient::open() noexcept {
     return cannot_open(EBUSY);
   }
   quiet_since_ = now();
+  is_answered_ = false;
   if (serial_) modbus_flush(context_);
   return {};
 }
@@ -167,63 +172,150 @@ void ModbusClient::prepare(std::uint8_t unit_id, const ModbusBlock& block, bool 
 ModbusReply ModbusClient::read(std::uint8_t unit_id, const ModbusBlock& block,
                                std::uint16_t* words) noexcept {
   prepare(unit_id, block, false);
-  if (block.area == ModbusArea::holding_register)
-    return outcome(modbus_read_registers(context_, block.address, block.count, words));
-  if (block.area == ModbusArea::input_register)
-    return outcome(modbus_read_input_registers(context_, block.address, block.count, words));
-  std::array<std::uint8_t, MODBUS_MAX_READ_BITS> bits{};
-  const ModbusReply reply =
-      outcome(block.area == ModbusArea::coil
-                  ? modbus_read_bits(context_, block.address, block.count, bits.data())
-                  : modbus_read_input_bits(context_, block.address, block.count, bits.data()));
-  std::copy_n(bits.data(), block.count, words);
+  const ModbusReply reply = exchange(unit_id, read_request(block));
+  if (reply.outcome == ModbusOutcome::answered) take_words(block, answer_, words);
   return reply;
 }
 
-/// A single one has a request of its own, which the simplest stations know alone.
-ModbusReply ModbusClient::write(std::uint8_t unit_id, const ModbusBlock& block,
-                                const std::uint16_t* words) noexcept {
+ModbusReply ModbusClient::write(std::uint8_t unit_id, const ModbusBlock& block, const std::uint16_t* words,
+                                bool multiple) noexcept {
   prepare(unit_id, block, true);
-  if (block.area == ModbusArea::holding_register) {
-    return outcome(block.count == 1 ? modbus_write_register(context_, block.address, words[0])
-                                    : modbus_write_registers(context_, block.address, block.count, words));
+  const bool listens = serial_ && !is_answered_ && block.count == 1 && !multiple;
+  ModbusReply reply = exchange(unit_id, write_request(block, words, multiple || listens));
+  if (listens && reply.is_of_unknown_function()) {
+    // Somebody is there, who may know the other one yet; that is another request.
+    reply.exception = 0;
+    reply.cause = "the station does not know the functions 15 and 16; 5 or 6 is tried next";
   }
-  if (block.count == 1) return outcome(modbus_write_bit(context_, block.address, words[0] != 0 ? 1 : 0));
-  std::array<std::uint8_t, MODBUS_MAX_WRITE_BITS> bits{};
-  for (std::size_t i = 0; i < block.count; ++i) bits[i] = words[i] != 0 ? 1 : 0;
-  return outcome(modbus_write_bits(context_, block.address, block.count, bits.data()));
+  return reply;
 }
 
-ModbusReply ModbusClient::outcome(int result) noexcept {
+bool ModbusClient::send(std::uint8_t unit_id, const ModbusPdu& request) noexcept {
+  if (serial_) {
+    std::array<std::uint8_t, 1 + ModbusPdu::most> raw{unit_id};
+    std::copy_n(request.bytes.begin(), request.size, raw.begin() + 1);
+    return modbus_send_raw_request(context_, raw.data(), static_cast<int>(1 + request.size)) >= 0;
+  }
+  // libmodbus would send it under transaction 0, as every raw one (Messaging on TCP/IP V1.0b, 3.1.3).
+  ++transaction_;
+  const std::size_t follows = 1 + request.size;
+  std::array<std::uint8_t, tcp_header + ModbusPdu::most> frame{
+      static_cast<std::uint8_t>(transaction_ >> 8U),
+      static_cast<std::uint8_t>(transaction_ & 0xFFU),
+      0,
+      0,
+      static_cast<std::uint8_t>(follows >> 8U),
+      static_cast<std::uint8_t>(follows & 0xFFU),
+      unit_id};
+  std::copy_n(request.bytes.begin(), request.size, frame.begin() + tcp_header);
+  const std::size_t size = tcp_header + request.size;
+  const ssize_t sent = ::send(modbus_get_socket(context_), frame.data(), size, MSG_NOSIGNAL);
+  if (sent >= 0 && static_cast<std::size_t>(sent) < size) errno = ECONNABORTED;
+  return sent == static_cast<ssize_t>(size);
+}
+
+bool ModbusClient::hears_itself(std::uint8_t unit_id, const ModbusPdu& request) const noexcept {
+  // libmodbus reads on where the frame of an answer would end: at least what stands here has come by then.
+  constexpr std::size_t compared = 4;
+  return serial_ && frame_[0] == unit_id &&
+         std::equal(request.bytes.begin(), request.bytes.begin() + compared, frame_.begin() + 1);
+}
+
+ModbusReply ModbusClient::exchange(std::uint8_t unit_id, const ModbusPdu& request) noexcept {
+  frame_.fill(0);
+  answer_ = {};
+  const int length = send(unit_id, request) ? modbus_receive_confirmation(context_, frame_.data()) : -1;
   const int error = errno;
   quiet_since_ = now();
-  if (result >= 0) return {};
+  if (length >= 0) return judge(unit_id, request, static_cast<std::size_t>(length));
+  if ((error == ETIMEDOUT || error > MODBUS_ENOBASE) && hears_itself(unit_id, request)) return own_echo();
+  // In a whole time-out a line that hears itself would have been heard.
+  if (error == ETIMEDOUT) is_answered_ = true;
+  return failure(error);
+}
+
+ModbusReply ModbusClient::own_echo() noexcept {
+  is_answered_ = false;
+  return bad_reply(
+      "the line hears itself: what was sent came back; switch the echo of its adapter off, and look after "
+      "its "
+      "wiring");
+}
+
+ModbusReply ModbusClient::judge(std::uint8_t unit_id, const ModbusPdu& request, std::size_t length) noexcept {
+  const std::size_t header = serial_ ? 1 : tcp_header;
+  const std::size_t trailer = serial_ ? crc_bytes : 0;
+  if (frame_[header - 1] != unit_id)
+    return bad_reply("an answer of unit %u came; is there another master, or a gateway that mixes them up?",
+                     unsigned{frame_[header - 1]});
+  if (length < header + trailer) return bad_reply("the answer is cut short");
+  if (!serial_) {
+    if (frame_[0] * 256U + frame_[1] != transaction_)
+      return bad_reply("the answer is to another request (transaction %u instead of %u)",
+                       frame_[0] * 256U + frame_[1], unsigned{transaction_});
+    if (frame_[2] != 0 || frame_[3] != 0 || frame_[4] * 256U + frame_[5] != length - (tcp_header - 1))
+      return bad_reply("the answer's header is none of Modbus TCP, or tells another length");
+  }
+  answer_ = std::span(frame_).subspan(header, length - header - trailer);
+  const ModbusJudgement judgement = judge_answer(request, answer_);
+  if (judgement.kind == ModbusJudgement::Kind::other) {
+    return hears_itself(unit_id, request) ? own_echo()
+                                          : bad_reply("the answer does not fit: %s", judgement.why);
+  }
+  is_answered_ = true;
+  return judgement.kind == ModbusJudgement::Kind::exception ? exception(judgement.exception) : ModbusReply{};
+}
+
+ModbusReply ModbusClient::exception(int code) noexcept {
   ModbusReply reply;
   reply.cause = cause_.data();
-  if (error == EMBXGPATH || error == EMBXGTAR) {
+  const char* const words = modbus_strerror(MODBUS_ENOBASE + code);
+  if (code == MODBUS_EXCEPTION_GATEWAY_PATH || code == MODBUS_EXCEPTION_GATEWAY_TARGET) {
     reply.outcome = ModbusOutcome::unreachable;
     std::snprintf(cause_.data(), cause_.size(),
                   "a gateway answers in its place: %s; is the unit id right, and the station behind it on?",
-                  modbus_strerror(error));
-  } else if (error > MODBUS_ENOBASE && error < MODBUS_ENOBASE + MODBUS_EXCEPTION_MAX) {
-    reply.outcome = ModbusOutcome::exception;
-    const char* advice = error == EMBXILADD   ? "; is the register map that of this station?"
-                         : error == EMBXILFUN ? "; the station does not know this kind of register"
-                                              : "";
-    std::snprintf(cause_.data(), cause_.size(), "the station refuses: %s%s", modbus_strerror(error), advice);
-  } else if (error == ETIMEDOUT) {
+                  words);
+    return reply;
+  }
+  reply.outcome = ModbusOutcome::exception;
+  reply.exception = static_cast<std::uint8_t>(code);
+  if (code <= 0 || code >= MODBUS_EXCEPTION_MAX) {
+    std::snprintf(cause_.data(), cause_.size(),
+                  "the station refuses: exception %d, which the standard does not have", code);
+    return reply;
+  }
+  const char* advice = code == MODBUS_EXCEPTION_ILLEGAL_DATA_ADDRESS
+                           ? "; is the register map that of this station?"
+                       : reply.is_of_unknown_function() ? "; the station does not know this kind of register"
+                                                        : "";
+  std::snprintf(cause_.data(), cause_.size(), "the station refuses: %s%s", words, advice);
+  return reply;
+}
+
+ModbusReply ModbusClient::failure(int error) noexcept {
+  if (error > MODBUS_ENOBASE)
+    return bad_reply("the answer is damaged: %s%s", modbus_strerror(error),
+                     serial_ ? "; check baud rate, parity, wiring and termination" : "");
+  ModbusReply reply;
+  reply.cause = cause_.data();
+  if (error == ETIMEDOUT) {
     reply.outcome = ModbusOutcome::timeout;
     std::snprintf(cause_.data(), cause_.size(),
                   "no whole answer within %.3g s; is the station on, and its unit id right?",
                   seconds(waits_));
-  } else if (error > MODBUS_ENOBASE) {
-    reply.outcome = ModbusOutcome::bad_reply;
-    std::snprintf(cause_.data(), cause_.size(), "the answer is damaged or another's: %s%s",
-                  modbus_strerror(error), serial_ ? "; check baud rate, parity, wiring and termination" : "");
   } else {
     reply.outcome = ModbusOutcome::lost;
     std::snprintf(cause_.data(), cause_.size(), "%s was lost: %s", where_.data(), modbus_strerror(error));
   }
+  return reply;
+}
+
+template <class... Values>
+ModbusReply ModbusClient::bad_reply(const char* format, Values... values) noexcept {
+  std::snprintf(cause_.data(), cause_.size(), format, values...);
+  ModbusReply reply;
+  reply.outcome = ModbusOutcome::bad_reply;
+  reply.cause = cause_.data();
   return reply;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "hal/modbus/link/client/modbus_pdu.hpp"
 #include "hal/modbus/link/interface/modbus_transport.hpp"
 
 struct _modbus;
@@ -11,7 +12,13 @@ struct _modbus;
 namespace flexrf {
 
 /// Settings: lifecycle thread. All else: the link's thread. Waits for answers, for at most longest_wait()
-/// each; libmodbus' own recovery, which sleeps, stays off.
+/// each; libmodbus' own recovery, which sleeps, stays off. libmodbus carries requests and answers; whether an
+/// answer is this request's is judged here: by its transaction, its unit id and its content, since libmodbus
+/// takes any unit's over TCP, and any value as the confirmation of a write [modbus-client-1].
+///
+/// An adapter of RS-485 may hear what it sends, and the answer to function 5 or 6 is the request itself. So
+/// on a serial line that nobody has answered yet a single value goes out by 15 or 16: what comes back of that
+/// is no answer, and is told [modbus-client-2].
 class ModbusClient final : public ModbusTransport {
  public:
   ModbusClient() = default;
@@ -34,8 +41,8 @@ class ModbusClient final : public ModbusTransport {
   void close() noexcept override;
   bool is_open() const noexcept override { return open_; }
   ModbusReply read(std::uint8_t unit_id, const ModbusBlock& block, std::uint16_t* words) noexcept override;
-  ModbusReply write(std::uint8_t unit_id, const ModbusBlock& block,
-                    const std::uint16_t* words) noexcept override;
+  ModbusReply write(std::uint8_t unit_id, const ModbusBlock& block, const std::uint16_t* words,
+                    bool multiple) noexcept override;
   Duration longest_wait(const ModbusBlock& block, bool writes) const noexcept override;
   void resynchronise() noexcept override;
   Time now() const noexcept override { return MonotonicClock::now(); }
@@ -47,7 +54,17 @@ class ModbusClient final : public ModbusTransport {
   /// Before a request. A serial line is silent between two frames, for the time of 3.5 characters (Modbus
   /// over serial line V1.02, 2.5.1.1); and an answer that came after its time is not the next one's.
   void prepare(std::uint8_t unit_id, const ModbusBlock& block, bool writes) noexcept;
-  ModbusReply outcome(int result) noexcept;
+  /// The request and its answer, of which answer_ has the data.
+  ModbusReply exchange(std::uint8_t unit_id, const ModbusPdu& request) noexcept;
+  bool send(std::uint8_t unit_id, const ModbusPdu& request) noexcept;
+  /// What was sent has come back.
+  bool hears_itself(std::uint8_t unit_id, const ModbusPdu& request) const noexcept;
+  ModbusReply own_echo() noexcept;
+  ModbusReply judge(std::uint8_t unit_id, const ModbusPdu& request, std::size_t length) noexcept;
+  ModbusReply exception(int error) noexcept;
+  ModbusReply failure(int error) noexcept;
+  template <class... Values>
+  ModbusReply bad_reply(const char* format, Values... values) noexcept;
 
   _modbus* context_ = nullptr;
   bool serial_ = false;
@@ -57,8 +74,12 @@ class ModbusClient final : public ModbusTransport {
   Duration waits_{};      // for the answer to the request under way
   Duration silence_{};
   Time quiet_since_{};
-  std::array<char, 96> where_{};   // for messages
-  std::array<char, 160> cause_{};  // of the last reply
+  bool is_answered_ = false;               // since it was opened: by somebody, and not by the line itself
+  std::uint16_t transaction_ = 0;          // over TCP
+  std::array<std::uint8_t, 260> frame_{};  // of the last answer, as much as came
+  std::span<const std::uint8_t> answer_;   // in it
+  std::array<char, 96> where_{};           // for messages
+  std::array<char, 160> cause_{};          // of the last reply
 };
 
 }  // namespace flexrf

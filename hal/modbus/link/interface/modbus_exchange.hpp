@@ -18,6 +18,8 @@ struct ModbusStationSetup {
   std::uint8_t unit_id = 1;
   std::array<Duration, 3> poll_periods{};  ///< by poll group; 0: in every cycle of the link
   Duration refresh_period{};               ///< what did not change is written again; 0: never
+  bool writes_multiple = false;  ///< single values by the functions for several; else until it knows no other
+  std::uint16_t most_registers = 125;  ///< of a request
   /// Of what would move by itself if it were told again what it was told before it was switched off: nothing
   /// is written before it has answered, and after it was not heard only what is commanded anew. Whether it is
   /// safe it knows itself.
@@ -59,7 +61,11 @@ struct ModbusExchange {
     bool reads_first = false;
     std::uint64_t stale = 0;  ///< of who listens first: commands up to this are not for it
     Time retry_at{};
-    std::uint32_t failures = 0;  ///< in a row
+    std::uint32_t failures = 0;        ///< in a row; of readings, where it is read
+    Time write_at{};                   ///< what is written, if that failed: not before
+    std::uint32_t write_failures = 0;  ///< in a row
+    bool safe_has_failed = false;      ///< the last of them were safe values: new ones do not wait
+    bool writes_multiple = false;      ///< single values: which functions the station was found to know
   };
   LinkSide link;
   SlotReader command_reader{&command_slot.control()};

@@ -36,9 +36,11 @@ Result<ModbusExchange*> ModbusMaster::attach(const ModbusStationSetup& setup) {
     if (owned_[i] == nullptr) owned_[i] = std::make_unique<ModbusExchange>();
     ModbusExchange& exchange = *owned_[i];
     exchange.setup = setup;
-    if (const Status status = plan_requests(*setup.map, exchange.plan); !status) return status;
+    if (const Status status = plan_requests(*setup.map, setup.most_registers, exchange.plan); !status)
+      return status;
     if (const Status status = check_waits(exchange); !status) return status;
     exchange.link = {};
+    exchange.link.writes_multiple = setup.writes_multiple;
     exchange.link.written.assign(exchange.plan.writes.size(), false);
     exchange.link.write_due.assign(exchange.plan.writes.size(), Time{});
     exchange.link.read_due.assign(exchange.plan.reads.size(), Time{});
@@ -84,8 +86,10 @@ Status ModbusMaster::start(const char* name, ModbusTransport& transport, Pauses 
   transport_ = &transport;
   shortest_ = pauses.shortest;
   longest_ = std::max(pauses.shortest, pauses.longest);
+  after_connecting_ = pauses.after_connecting;
   longest_turn_ = std::chrono::duration_cast<Duration>(part_of_step * longest_step);
   open_at_ = Time{};
+  ready_at_ = Time{};
   open_failures_ = 0;
   last_error_ = {};
   note_lost();
@@ -123,6 +127,7 @@ bool ModbusMaster::open() noexcept {
   if (connections_ > 0 && open_failures_ > 0) log_info(name_, "open again");
   open_failures_ = 0;
   ++connections_;
+  ready_at_ = transport_->now() + after_connecting_;
   return true;
 }
 
@@ -155,7 +160,7 @@ void ModbusMaster::serve() noexcept {
   turn_is_new_ = true;
   // After that one goes on in a ring, so that nobody is kept from a turn by those who answer.
   const bool goes_round = std::exchange(out_of_time_, false);
-  const bool is_open = open();
+  const bool is_open = open() && transport_->now() >= ready_at_;
   // Who answered last comes first: those who did not may take a whole response timeout, and end the turn.
   for (const bool failing : {false, true}) {
     for (std::size_t n = 0; n < max_stations; ++n) {
@@ -166,7 +171,8 @@ void ModbusMaster::serve() noexcept {
       if (state == ModbusExchange::State::leaving)
         exchange->state.store(ModbusExchange::State::free, std::memory_order_release);
       if (state != ModbusExchange::State::active || !is_open) continue;
-      if (failing != (exchange->link.failures > 0 && !goes_round)) continue;
+      const bool has_failed = exchange->link.failures > 0 || exchange->link.write_failures > 0;
+      if (failing != (has_failed && !goes_round)) continue;
       const bool goes_on = serve_station(*exchange);
       if (exchange->link.touched) publish(*exchange, transport_->now());
       if (goes_on) continue;
@@ -177,9 +183,13 @@ void ModbusMaster::serve() noexcept {
 }
 
 bool ModbusMaster::serve_station(ModbusExchange& exchange) noexcept {
-  if (transport_->now() < exchange.link.retry_at) return true;
-  // Where time ran out in the reads the last time: what is written in every turn must not keep them for ever.
-  if (!std::exchange(exchange.link.reads_first, false) && !write_what_is_due(exchange)) return false;
+  ModbusExchange::LinkSide& side = exchange.link;
+  if (transport_->now() < side.retry_at) return true;
+  // Who is not heard is written nothing before it answers. Where time ran out in the reads the last time, or
+  // writing failed: what is written in every turn must not keep them for ever.
+  const bool reads =
+      std::exchange(side.reads_first, false) || (side.failures > 0 && !exchange.plan.reads.empty());
+  if (!reads && !write_what_is_due(exchange)) return false;
   return read_what_is_due(exchange);
 }
 
@@ -189,6 +199,8 @@ bool ModbusMaster::write_what_is_due(ModbusExchange& exchange) noexcept {
   const auto& command = *static_cast<const ModbusCommand*>(exchange.command_reader.payload());
   if (command.sequence == 0) return true;
   if (exchange.setup.listens_first && (!side.image.online || command.sequence <= side.stale)) return true;
+  // Safe values are tried at once, whatever failed before them.
+  if (transport_->now() < side.write_at && (!command.safe || side.safe_has_failed)) return true;
   bool all_written = true;
   const std::size_t count = exchange.plan.writes.size();
   const std::size_t first = std::exchange(side.next_write, 0);
@@ -203,7 +215,7 @@ bool ModbusMaster::write_what_is_due(ModbusExchange& exchange) noexcept {
     }
     const Time now = transport_->now();
     const bool waited = now >= side.write_due[i];
-    const bool again = exchange.setup.refresh_period > Duration{} && waited;
+    const bool again = block.refreshed && exchange.setup.refresh_period > Duration{} && waited;
     if (!changed && side.written[i] && !again) continue;
     if (!changed && !side.written[i] && !waited) {  // refused a moment ago
       all_written = false;
@@ -215,9 +227,18 @@ bool ModbusMaster::write_what_is_due(ModbusExchange& exchange) noexcept {
     }
     side.written[i] = false;
     std::memcpy(&side.sent[block.offset], words, bytes);
-    const ModbusReply reply = transport_->write(exchange.setup.unit_id, block, words);
-    if (!judge(exchange, block, "writing", reply, now)) return false;
+    const ModbusReply reply = transport_->write(exchange.setup.unit_id, block, words, side.writes_multiple);
+    if (!judge(exchange, block, true, reply, now)) {
+      side.safe_has_failed = command.safe;
+      return false;
+    }
     side.written[i] = reply.outcome == ModbusOutcome::answered;
+    if (block.count == 1 && reply.is_of_unknown_function() && !exchange.setup.writes_multiple) {
+      // The other one is tried next: a station may know but one of the two.
+      side.writes_multiple = !side.writes_multiple;
+      log_info(exchange.setup.name, "single values are written by the functions {} from now on",
+               side.writes_multiple ? "15 and 16" : "5 and 6");
+    }
     side.write_due[i] = transport_->now() + (side.written[i] ? exchange.setup.refresh_period : refused_pause);
     all_written = all_written && side.written[i];
   }
@@ -243,7 +264,7 @@ bool ModbusMaster::read_what_is_due(ModbusExchange& exchange) noexcept {
     }
     std::array<std::uint16_t, 2000> words{};
     const ModbusReply reply = transport_->read(exchange.setup.unit_id, block, words.data());
-    if (!judge(exchange, block, "reading", reply, now)) return false;
+    if (!judge(exchange, block, false, reply, now)) return false;
     const Duration period = exchange.setup.poll_periods[static_cast<std::size_t>(block.group)];
     const bool answered = reply.outcome == ModbusOutcome::answered;
     side.image.refused[i] = !answered;
@@ -260,7 +281,7 @@ bool ModbusMaster::read_what_is_due(ModbusExchange& exchange) noexcept {
   return true;
 }
 
-bool ModbusMaster::judge(ModbusExchange& exchange, const ModbusBlock& block, const char* verb,
+bool ModbusMaster::judge(ModbusExchange& exchange, const ModbusBlock& block, bool writes,
                          const ModbusReply& reply, Time asked) noexcept {
   ModbusExchange::LinkSide& side = exchange.link;
   ++requests_;
@@ -269,35 +290,50 @@ bool ModbusMaster::judge(ModbusExchange& exchange, const ModbusBlock& block, con
   if (reply.outcome != ModbusOutcome::answered) {
     const int last = block.address + block.count - 1;
     std::array<char, 192> text{};
-    std::snprintf(text.data(), text.size(), "%s %s %d to %d of unit %d: %s", verb, name_of(block.area),
-                  int{block.address}, last, int{exchange.setup.unit_id}, reply.cause);
+    std::snprintf(text.data(), text.size(), "%s %s %d to %d of unit %d: %s", writes ? "writing" : "reading",
+                  name_of(block.area), int{block.address}, last, int{exchange.setup.unit_id}, reply.cause);
     side.image.set_last_error(text.data());
   }
   if (reply.outcome == ModbusOutcome::answered || reply.outcome == ModbusOutcome::exception) {
     if (reply.outcome == ModbusOutcome::exception && ++side.image.exceptions == 1)
       log_warning(exchange.setup.name, "{}", side.image.last_error_view());
     side.image.round_trip = (transport_->now() - asked).count();
-    if (!side.image.online) {
-      if (side.failures > 0) log_info(exchange.setup.name, "answers again");
-      // An answer to a reading: nothing is being written to who listens first and is not heard.
-      if (exchange.setup.listens_first && exchange.command_reader.newest() != nullptr)
-        side.stale = static_cast<const ModbusCommand*>(exchange.command_reader.payload())->sequence;
-    }
-    side.image.online = true;
-    side.failures = 0;
+    note_answer(exchange, writes);
     return true;
   }
-  fail(exchange, reply);
+  fail(exchange, reply, writes);
   return false;
 }
 
-void ModbusMaster::fail(ModbusExchange& exchange, const ModbusReply& reply) noexcept {
+void ModbusMaster::note_answer(ModbusExchange& exchange, bool writes) noexcept {
   ModbusExchange::LinkSide& side = exchange.link;
-  if (side.failures++ == 0) log_warning(exchange.setup.name, "{}", side.image.last_error_view());
-  side.image.online = false;
+  if (writes && std::exchange(side.write_failures, 0) > 0)
+    log_info(exchange.setup.name, "answers to what is written again");
+  if (!side.image.online) {
+    if (side.failures > 0) log_info(exchange.setup.name, "answers again");
+    // An answer to a reading: nothing is being written to who listens first and is not heard.
+    if (exchange.setup.listens_first && exchange.command_reader.newest() != nullptr)
+      side.stale = static_cast<const ModbusCommand*>(exchange.command_reader.payload())->sequence;
+  }
+  side.image.online = true;
+  side.failures = 0;
+}
+
+void ModbusMaster::fail(ModbusExchange& exchange, const ModbusReply& reply, bool writes) noexcept {
+  ModbusExchange::LinkSide& side = exchange.link;
   side.written.assign(side.written.size(), false);
   side.write_due.assign(side.write_due.size(), Time{});
   side.safe = false;
+  // Whether it is there is told by readings, where there are any: they go on while writing fails.
+  const bool goes_on = writes && !exchange.plan.reads.empty() && reply.outcome != ModbusOutcome::lost;
+  std::uint32_t& failures = goes_on ? side.write_failures : side.failures;
+  if (failures++ == 0) log_warning(exchange.setup.name, "{}", side.image.last_error_view());
+  if (goes_on) {
+    side.write_at = transport_->now() + pause_after(failures);
+    side.reads_first = true;
+  } else {
+    side.image.online = false;
+  }
   if (reply.outcome == ModbusOutcome::lost) {
     ++side.image.lost;
     last_error_ = Status::error(StatusCode::unavailable, "%s", reply.cause);
@@ -307,7 +343,7 @@ void ModbusMaster::fail(ModbusExchange& exchange, const ModbusReply& reply) noex
     return;
   }
   ++(reply.outcome == ModbusOutcome::bad_reply ? side.image.bad_replies : side.image.timeouts);
-  side.retry_at = transport_->now() + pause_after(side.failures);
+  if (!goes_on) side.retry_at = transport_->now() + pause_after(failures);
   if (reply.outcome == ModbusOutcome::unreachable) return;  // answered in its place: nothing is to come
   transport_->resynchronise();
   if (!transport_->is_open()) note_lost();

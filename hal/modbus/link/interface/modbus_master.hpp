@@ -28,8 +28,9 @@ class ModbusMaster {
   static void detach(ModbusExchange& exchange) noexcept;
 
   struct Pauses {
-    Duration shortest{};  ///< after a failure
-    Duration longest{};   ///< after many
+    Duration shortest{};          ///< after a failure
+    Duration longest{};           ///< after many
+    Duration after_connecting{};  ///< nobody is asked in it [modbus-master-8]
   };
   /// Lifecycle thread. `name` is the link's, for messages; all outlive the last serve(). `longest_step`: of
   /// the link's thread; 0: nobody judges. Error, as of attach(): a station's request may take
@@ -38,10 +39,13 @@ class ModbusMaster {
   void stop() noexcept;
 
   /// The link's thread: everything that is due, one request after the other; of stations whose last request
-  /// failed after that of the others [modbus-master-2]. A request that fails ends it, so that one call waits
-  /// for at most one of them; the next begins behind that station [modbus-master-3]. So does the lack of time
-  /// for the next request, in what a step of its thread may take; then the next begins with that request
-  /// [modbus-master-4].
+  /// failed after that of the others [modbus-master-2]. Who is read and not heard is written nothing before
+  /// it answers; who answers to readings alone is read on, and its safe values are tried at once
+  /// [modbus-master-5]. A single value is written by the functions that its station was found to know
+  /// [modbus-master-6], and what wears only when it changes, or the station was not heard [modbus-master-7].
+  /// A request that fails ends it, so that one call waits for at most one of them; the next begins behind
+  /// that station [modbus-master-3]. So does the lack of time for the next request, in what a step of its
+  /// thread may take; then the next begins with that request [modbus-master-4].
   void serve() noexcept;
   /// Every station has its safe values, as of its last answer; but for those that know that themselves.
   bool is_safe() const noexcept;
@@ -60,9 +64,10 @@ class ModbusMaster {
   bool write_what_is_due(ModbusExchange& exchange) noexcept;
   bool read_what_is_due(ModbusExchange& exchange) noexcept;
   /// False when the station, or the link, must be left alone for a while.
-  bool judge(ModbusExchange& exchange, const ModbusBlock& block, const char* verb, const ModbusReply& reply,
+  bool judge(ModbusExchange& exchange, const ModbusBlock& block, bool writes, const ModbusReply& reply,
              Time asked) noexcept;
-  void fail(ModbusExchange& exchange, const ModbusReply& reply) noexcept;
+  void note_answer(ModbusExchange& exchange, bool writes) noexcept;
+  void fail(ModbusExchange& exchange, const ModbusReply& reply, bool writes) noexcept;
   void note_lost() noexcept;
   Duration pause_after(std::uint32_t failures) const noexcept;
 
@@ -78,7 +83,9 @@ class ModbusMaster {
   Time turn_began_{};
   bool turn_is_new_ = false;  // nothing that waits was done in it
   bool out_of_time_ = false;
+  Duration after_connecting_{};
   Time open_at_{};
+  Time ready_at_{};  // for requests
   std::uint32_t open_failures_ = 0;
   std::uint64_t connections_ = 0;
   std::uint64_t requests_ = 0;

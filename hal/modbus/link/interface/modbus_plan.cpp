@@ -6,10 +6,10 @@
 namespace flexrf {
 namespace {
 
-std::size_t most_of(ModbusArea area, bool writing) {
+std::size_t most_of(ModbusArea area, bool writing, std::size_t most_registers) {
   const bool bits = area == ModbusArea::coil || area == ModbusArea::discrete_input;
-  if (writing) return bits ? 1968 : 123;
-  return bits ? 2000 : 125;
+  if (bits) return writing ? 1968 : 2000;
+  return std::min<std::size_t>(writing ? 123 : 125, most_registers);
 }
 
 // Reads go by poll group too; writes are sent when they change, whatever their group.
@@ -31,7 +31,8 @@ bool share_a_register(const ModbusRegister& one, const ModbusRegister& other) {
          one.address == other.address;
 }
 
-std::size_t place_all(const ModbusRegisterMap& map, bool writing, ModbusPlan& plan) {
+std::size_t place_all(const ModbusRegisterMap& map, bool writing, std::size_t most_registers,
+                      ModbusPlan& plan) {
   std::vector<ModbusBlock>& blocks = writing ? plan.writes : plan.reads;
   std::uint16_t ModbusPlace::*const place = writing ? &ModbusPlace::output : &ModbusPlace::input;
   std::size_t words = 0;
@@ -39,14 +40,18 @@ std::size_t place_all(const ModbusRegisterMap& map, bool writing, ModbusPlan& pl
   for (const std::size_t i : sorted_by_address(map, writing)) {
     const ModbusRegister& entry = map.registers[i];
     const ModbusPollGroup group = writing ? ModbusPollGroup::fast : entry.poll_group;
-    const bool continues =
-        !blocks.empty() && blocks.back().area == entry.area && blocks.back().group == group;
+    const bool continues = !blocks.empty() && blocks.back().area == entry.area &&
+                           blocks.back().group == group &&
+                           (!writing || blocks.back().refreshed == entry.refreshed);
     if (continues && share_a_register(*before, entry)) {
       words -= 1;  // which has been counted
     } else {
-      const bool joins = continues && blocks.back().address + blocks.back().count == entry.address &&
-                         blocks.back().count + std::size_t{entry.words()} <= most_of(entry.area, writing);
-      if (!joins) blocks.push_back({entry.area, group, entry.address, 0, static_cast<std::uint16_t>(words)});
+      const bool joins =
+          continues && blocks.back().address + blocks.back().count == entry.address &&
+          blocks.back().count + std::size_t{entry.words()} <= most_of(entry.area, writing, most_registers);
+      if (!joins)
+        blocks.push_back(
+            {entry.area, group, entry.address, 0, static_cast<std::uint16_t>(words), entry.refreshed});
       blocks.back().count = static_cast<std::uint16_t>(blocks.back().count + entry.words());
     }
     plan.places[i].*place = static_cast<std::uint16_t>(words);
@@ -59,15 +64,23 @@ std::size_t place_all(const ModbusRegisterMap& map, bool writing, ModbusPlan& pl
 
 }  // namespace
 
-Status plan_requests(const ModbusRegisterMap& map, ModbusPlan& plan) {
+Status plan_requests(const ModbusRegisterMap& map, std::uint16_t most_registers, ModbusPlan& plan) {
   plan = {};
+  for (const ModbusRegister& entry : map.registers) {
+    if (entry.words() <= most_registers) continue;
+    return Status::error(
+        StatusCode::invalid_argument,
+        "`%.*s` has %d registers, and a request may have %d: a value that is told in two parts may be "
+        "of two times; raise most_registers",
+        static_cast<int>(entry.name.size()), entry.name.data(), int{entry.words()}, int{most_registers});
+  }
   plan.places.resize(map.registers.size());
   if (map.registers.size() > max_modbus_registers) {
     return Status::error(StatusCode::invalid_argument, "the register map has %zu registers, at most %zu fit",
                          map.registers.size(), max_modbus_registers);
   }
-  const std::size_t inputs = place_all(map, false, plan);
-  const std::size_t outputs = place_all(map, true, plan);
+  const std::size_t inputs = place_all(map, false, most_registers, plan);
+  const std::size_t outputs = place_all(map, true, most_registers, plan);
   if (inputs > max_modbus_input_words || outputs > max_modbus_output_words) {
     return Status::error(StatusCode::invalid_argument,
                          "the register map has %zu words to read and %zu to write, at most %zu and %zu fit",

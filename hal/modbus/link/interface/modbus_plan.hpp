@@ -20,6 +20,7 @@ struct ModbusBlock {
   std::uint16_t address = 0;
   std::uint16_t count = 0;   ///< registers or bits
   std::uint16_t offset = 0;  ///< of its first word in the image or command
+  bool refreshed = true;     ///< of writes: again each time that the station's refresh period is over
 };
 
 /// Where a register of the map lies.
@@ -38,9 +39,11 @@ struct ModbusPlan {
 
 /// Registers with consecutive addresses of one area (and, read, of one poll group) share a
 /// request [modbus-plan-1], up to the protocol's 125 registers or 2000 bits to read and 123 or 1968 to
-/// write [modbus-plan-2] (Modbus Application Protocol V1.1b3, 6.1 to 6.4, 6.11, 6.12). No address is asked
-/// for that the map does not have: a station may refuse it [modbus-plan-3]. Error: it takes too many requests
-/// [modbus-plan-4]. Lifecycle thread; allocates.
-Status plan_requests(const ModbusRegisterMap& map, ModbusPlan& plan);
+/// write [modbus-plan-2] (Modbus Application Protocol V1.1b3, 6.1 to 6.4, 6.11, 6.12), and up to
+/// `most_registers` of the station's [modbus-plan-5]. What is written at changes alone goes by itself
+/// [modbus-plan-6]. No address is asked for that the map does not have: a station may refuse it
+/// [modbus-plan-3]. Error: it takes too many requests [modbus-plan-4], or a value has more registers than one
+/// may have. Lifecycle thread; allocates.
+Status plan_requests(const ModbusRegisterMap& map, std::uint16_t most_registers, ModbusPlan& plan);
 
 }  // namespace flexrf

@@ -20,7 +20,10 @@ enum class ModbusOutcome : std::uint8_t {
 
 struct ModbusReply {
   ModbusOutcome outcome = ModbusOutcome::answered;
-  const char* cause = "";  ///< in words, of what is not answered; valid until the next request
+  const char* cause = "";      ///< in words, of what is not answered; valid until the next request
+  std::uint8_t exception = 0;  ///< its code (Modbus Application Protocol V1.1b3, 7); 0: there is none
+
+  bool is_of_unknown_function() const noexcept { return exception == 1; }
 };
 
 /// All in the link's thread.
@@ -33,8 +36,9 @@ class ModbusTransport {
   virtual bool is_open() const noexcept = 0;
   /// `words`: block.count of them, a bit in each for bits. May wait for as long as longest_wait() says.
   virtual ModbusReply read(std::uint8_t unit_id, const ModbusBlock& block, std::uint16_t* words) noexcept = 0;
-  virtual ModbusReply write(std::uint8_t unit_id, const ModbusBlock& block,
-                            const std::uint16_t* words) noexcept = 0;
+  /// `multiple`: a single one, too, by the functions that write several (15 and 16).
+  virtual ModbusReply write(std::uint8_t unit_id, const ModbusBlock& block, const std::uint16_t* words,
+                            bool multiple) noexcept = 0;
   /// How long a request of it may keep the link's thread; 0 where none does. Any thread.
   virtual Duration longest_wait(const ModbusBlock& block, bool writes) const noexcept = 0;
   /// After a timeout or a bad reply: whatever still comes must not be taken for the next answer. May close.

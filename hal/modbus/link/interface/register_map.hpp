@@ -37,6 +37,9 @@ struct ModbusRegister {
   /// Of a boolean in a register: its bit, 0 the least significant. Bits of one register are read and written
   /// together [register-map-6]; those that no row writes are written as 0.
   std::uint8_t bit = whole;
+  /// Written again each time that the station's refresh period is over; else when it changes, and after it
+  /// was not heard. What lies in EEPROM or flash wears with each write.
+  bool refreshed = true;
 
   constexpr bool is_read() const noexcept { return access != ModbusAccess::write; }
   constexpr bool is_written() const noexcept { return access != ModbusAccess::read; }

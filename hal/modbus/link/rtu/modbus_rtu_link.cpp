@@ -27,7 +27,8 @@ Status ModbusRtuLink::initialise() {
   if (!status) return status;
   return master().start(
       name(), client_,
-      {duration_of(configuration.reconnect_shortest), duration_of(configuration.reconnect_longest)},
+      {duration_of(configuration.reconnect_shortest), duration_of(configuration.reconnect_longest),
+       duration_of(configuration.pause_after_connecting)},
       environment().longest_step);
 }
 

@@ -69,22 +69,22 @@ std::uint16_t* SimulatedRegisters::answer(std::uint8_t unit_id, const ModbusBloc
   const bool is_there = std::any_of(stations_.begin(), stations_.end(),
                                     [&](const Station& one) { return one.unit_id == unit_id; });
   if (fault_ == ModbusWireFault::disconnected) {
-    reply = {ModbusOutcome::lost, "the simulated link was cut"};
+    reply = {ModbusOutcome::lost, "the simulated link was cut", 0};
     return nullptr;
   }
   if (fault_ == ModbusWireFault::silent || !is_there || delay_ > response_timeout_) {
     now_ += response_timeout_;
-    reply = {ModbusOutcome::timeout, "no answer in time; is the station on, and its unit id right?"};
+    reply = {ModbusOutcome::timeout, "no answer in time; is the station on, and its unit id right?", 0};
     return nullptr;
   }
   now_ += delay_;
   if (fault_ == ModbusWireFault::damaged) {
-    reply = {ModbusOutcome::bad_reply, "the answer is damaged, as it was asked to be"};
+    reply = {ModbusOutcome::bad_reply, "the answer is damaged, as it was asked to be", 0};
     return nullptr;
   }
   const auto last = static_cast<std::uint16_t>(block.address + block.count - 1);
   if (fault_ == ModbusWireFault::refused || find(unit_id, block.area, last) == nullptr) {
-    reply = {ModbusOutcome::exception, "the station refuses: illegal data address"};
+    reply = {ModbusOutcome::exception, "the station refuses: illegal data address", 2};
     return nullptr;
   }
   return find(unit_id, block.area, block.address);
@@ -102,7 +102,7 @@ ModbusReply SimulatedRegisters::read(std::uint8_t unit_id, const ModbusBlock& bl
 }
 
 ModbusReply SimulatedRegisters::write(std::uint8_t unit_id, const ModbusBlock& block,
-                                      const std::uint16_t* words) noexcept {
+                                      const std::uint16_t* words, bool /*multiple*/) noexcept {
   const std::lock_guard lock(mutex_);
   ModbusReply reply;
   std::uint16_t* target = answer(unit_id, block, reply);

@@ -47,8 +47,8 @@ class SimulatedRegisters final : public ModbusTransport {
   void close() noexcept override { open_ = false; }
   bool is_open() const noexcept override { return open_; }
   ModbusReply read(std::uint8_t unit_id, const ModbusBlock& block, std::uint16_t* words) noexcept override;
-  ModbusReply write(std::uint8_t unit_id, const ModbusBlock& block,
-                    const std::uint16_t* words) noexcept override;
+  ModbusReply write(std::uint8_t unit_id, const ModbusBlock& block, const std::uint16_t* words,
+                    bool multiple) noexcept override;
   /// It waits in its own time.
   Duration longest_wait(const ModbusBlock& /*block*/, bool /*writes*/) const noexcept override { return {}; }
   void resynchronise() noexcept override {}

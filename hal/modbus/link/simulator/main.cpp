@@ -9,7 +9,8 @@
 //   word AREA ADDRESS          what it is
 //   clear                      every register becomes 0
 //   requests                   to this unit so far
-//   well | silent | slow | refuses | off_behind_gateway | damaged | truncated | other_unit | cut
+//   well | silent | slow | refuses | off_behind_gateway | damaged | truncated | other_unit | only_single |
+//   only_multiple | cut
 //                              how it answers from now on
 //   unplug | plug              a pseudo-terminal: its adapter is pulled out; plugged in, with the line's new
 //                              name and every register 0

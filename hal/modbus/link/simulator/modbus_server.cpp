@@ -32,7 +32,7 @@ std::uint16_t port_of(int listener) {
 
 std::optional<ModbusServer::Behaviour> ModbusServer::behaviour_named(std::string_view name) noexcept {
   using enum Behaviour;
-  constexpr std::array<std::pair<std::string_view, Behaviour>, 9> names{
+  constexpr std::array<std::pair<std::string_view, Behaviour>, 11> names{
       {{"well", well},
        {"silent", silent},
        {"slow", slow},
@@ -41,6 +41,8 @@ std::optional<ModbusServer::Behaviour> ModbusServer::behaviour_named(std::string
        {"damaged", damaged},
        {"truncated", truncated},
        {"other_unit", other_unit},
+       {"only_single", only_single},
+       {"only_multiple", only_multiple},
        {"cut", cut}}};
   for (const auto& [known, behaviour] : names) {
     if (known == name) return behaviour;
@@ -181,6 +183,17 @@ void ModbusServer::answer(std::uint8_t* request, int length) {
     case Behaviour::slow:
       thread_.wait(slow_delay);
       break;
+    case Behaviour::only_single:
+    case Behaviour::only_multiple: {
+      const int function = request[header];
+      const bool is_unknown =
+          behaviour_.load() == Behaviour::only_single
+              ? function == MODBUS_FC_WRITE_MULTIPLE_COILS || function == MODBUS_FC_WRITE_MULTIPLE_REGISTERS
+              : function == MODBUS_FC_WRITE_SINGLE_COIL || function == MODBUS_FC_WRITE_SINGLE_REGISTER;
+      if (!is_unknown) break;
+      modbus_reply_exception(context_, request, MODBUS_EXCEPTION_ILLEGAL_FUNCTION);
+      return;
+    }
     case Behaviour::well:
       break;
   }

@@ -33,6 +33,8 @@ class ModbusServer {
     damaged,             ///< sends what is no answer
     truncated,           ///< the answer ends early
     other_unit,          ///< answers as the next unit
+    only_single,         ///< writes by functions 5 and 6 alone: the others are unknown to it
+    only_multiple,       ///< writes by functions 15 and 16 alone
     cut,                 ///< ends every connection at once; over TCP only
   };
   /// By its name above, for what is commanded by text.

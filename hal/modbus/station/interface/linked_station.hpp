@@ -47,6 +47,8 @@ class LinkedStation : public Base {
     setup.poll_periods = {duration_of(settings.fast_period), duration_of(settings.normal_period),
                           duration_of(settings.slow_period)};
     setup.refresh_period = duration_of(settings.refresh_period);
+    setup.writes_multiple = settings.writes_multiple;
+    setup.most_registers = settings.most_registers;
     this->begin_outputs();
     return end_.attach(*this->bus, setup, duration_of(settings.max_age));
   }

@@ -40,11 +40,12 @@ void it_is_what_request_and_answer_take_on_the_line() {
   CHECK_EQUAL(of(ModbusArea::discrete_input, 9, false), 8 + 7);
   CHECK_EQUAL(of(ModbusArea::holding_register, 123, true), 255 + 8);
   CHECK_EQUAL(of(ModbusArea::coil, 1968, true), 255 + 8);
-  CHECK_EQUAL(of(ModbusArea::holding_register, 1, true), 8 + 8);
+  // A single one by the longer of its functions.
+  CHECK_EQUAL(of(ModbusArea::holding_register, 1, true), 11 + 8);
   const ModbusBlock one = block_of(ModbusArea::holding_register, 1);
-  CHECK_EQUAL(std::lround(characters(one, true, 'N', 1, 10)), 16);
-  CHECK_EQUAL(std::lround(characters(one, true, 'N', 2, 11)), 16);
-  CHECK_EQUAL(std::lround(characters(one, true, 'O', 2, 12)), 16);
+  CHECK_EQUAL(std::lround(characters(one, true, 'N', 1, 10)), 19);
+  CHECK_EQUAL(std::lround(characters(one, true, 'N', 2, 11)), 19);
+  CHECK_EQUAL(std::lround(characters(one, true, 'O', 2, 12)), 19);
 }
 
 void over_tcp_it_is_the_stations_alone() {

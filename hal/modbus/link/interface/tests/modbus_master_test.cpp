@@ -27,6 +27,10 @@ class ScriptedLine final : public ModbusTransport {
  public:
   struct Station {
     ModbusOutcome outcome = ModbusOutcome::answered;
+    ModbusOutcome write_outcome = ModbusOutcome::answered;
+    bool knows_single = true;
+    bool knows_multiple = true;
+    bool refuses = false;  // whatever is written, for another reason
     int reads = 0;
     int writes = 0;
     std::uint16_t written = 0;
@@ -51,14 +55,20 @@ class ScriptedLine final : public ModbusTransport {
     Station& asked = stations_[unit_id];
     ++asked.reads;
     words[0] = unit_id;
-    return answer(asked);
+    return answer(asked.outcome);
   }
-  ModbusReply write(std::uint8_t unit_id, const ModbusBlock& /*block*/,
-                    const std::uint16_t* words) noexcept override {
+  ModbusReply write(std::uint8_t unit_id, const ModbusBlock& block, const std::uint16_t* words,
+                    bool multiple) noexcept override {
     Station& asked = stations_[unit_id];
     ++asked.writes;
-    if (asked.outcome == ModbusOutcome::answered) asked.written = words[0];
-    return answer(asked);
+    const bool is_known = multiple || block.count > 1 ? asked.knows_multiple : asked.knows_single;
+    if (asked.outcome == ModbusOutcome::answered && (!is_known || asked.refuses)) {
+      now_ += answer_time_;
+      return {ModbusOutcome::exception, "as the script has it", is_known ? std::uint8_t{4} : std::uint8_t{1}};
+    }
+    if (asked.outcome != ModbusOutcome::answered) return answer(asked.outcome);
+    if (asked.write_outcome == ModbusOutcome::answered) asked.written = words[0];
+    return answer(asked.write_outcome);
   }
   Duration longest_wait(const ModbusBlock& /*block*/, bool /*writes*/) const noexcept override {
     return wait_;
@@ -67,10 +77,10 @@ class ScriptedLine final : public ModbusTransport {
   Time now() const noexcept override { return now_; }
 
  private:
-  ModbusReply answer(const Station& asked) noexcept {
-    now_ += asked.outcome == ModbusOutcome::timeout ? wait_ : answer_time_;
-    if (asked.outcome != ModbusOutcome::answered) ++failures_;
-    return {asked.outcome, "as the script has it"};
+  ModbusReply answer(ModbusOutcome outcome) noexcept {
+    now_ += outcome == ModbusOutcome::timeout ? wait_ : answer_time_;
+    if (outcome != ModbusOutcome::answered) ++failures_;
+    return {outcome, "as the script has it", 0};
   }
 
   std::array<Station, 256> stations_{};
@@ -298,6 +308,138 @@ void what_a_step_cannot_wait_for_is_refused_with_the_least_that_can() {
                            std::chrono::milliseconds(512)));
 }
 
+// Many stations know but one of the functions that write a register.
+// [modbus-master-6]
+void single_values_are_written_by_the_functions_that_a_station_knows() {
+  for (const bool knows_single : {false, true}) {
+    Line world(1);
+    world.line.station(1).knows_single = knows_single;
+    world.line.station(1).knows_multiple = !knows_single;
+    world.command(1, 7, 1, false);
+    for (int turn = 0; turn < 20; ++turn) world.turn();
+    CHECK_EQUAL(world.line.station(1).written, 7);
+    CHECK_EQUAL(world.image(1).written, 1U);
+    // It is remembered, also after it was not heard.
+    const std::uint64_t exceptions = world.image(1).exceptions;
+    CHECK_EQUAL(exceptions, knows_single ? 0U : 1U);
+    world.make(1, 1, ModbusOutcome::timeout);
+    for (int turn = 0; turn < 20; ++turn) world.turn();
+    world.make(1, 1, ModbusOutcome::answered);
+    world.command(1, 0, 2, true);
+    for (int turn = 0; turn < 200; ++turn) world.turn();
+    CHECK_EQUAL(world.line.station(1).written, 0);
+    CHECK_EQUAL(world.image(1).exceptions, exceptions);
+    CHECK(world.master.is_safe());
+  }
+}
+
+// A refusal for any other reason is none of the function's.
+void another_refusal_does_not_change_the_function() {
+  Line world(1);
+  world.line.station(1).refuses = true;
+  world.command(1, 7, 1, false);
+  for (int turn = 0; turn < 50; ++turn) world.turn();
+  CHECK_EQUAL(world.image(1).written, 0U);
+  world.line.station(1).refuses = false;
+  const std::uint64_t exceptions = world.image(1).exceptions;
+  world.line.station(1).knows_multiple = false;
+  for (int turn = 0; turn < 50; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(1).written, 7);
+  CHECK_EQUAL(world.image(1).exceptions, exceptions);
+}
+
+// [modbus-master-5]
+void readings_go_on_while_writing_fails_and_safe_values_do_not_wait() {
+  Line world(1);
+  world.command(1, 7, 1, false);
+  for (int turn = 0; turn < 5; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(1).written, 7);
+  world.line.station(1).write_outcome = ModbusOutcome::timeout;
+  world.command(1, 8, 2, false);
+  for (int turn = 0; turn < 50; ++turn) {
+    const int reads = world.line.station(1).reads;
+    for (int two = 0; two < 2; ++two) world.turn();
+    CHECK(world.line.station(1).reads > reads);
+    CHECK(world.image(1).online);
+  }
+  CHECK(world.image(1).timeouts > 2);
+  const int writes = world.line.station(1).writes;
+  CHECK(writes < 30);  // they have their pauses
+  CHECK(!world.master.is_safe());
+  // Right after one that failed.
+  while (world.line.station(1).writes == writes) world.turn();
+  world.line.station(1).write_outcome = ModbusOutcome::answered;
+  world.command(1, 0, 3, true);
+  for (int two = 0; two < 2; ++two) world.turn();
+  CHECK_EQUAL(world.line.station(1).written, 0);
+  CHECK(world.master.is_safe());
+}
+
+// [modbus-master-5]
+void who_is_not_heard_is_written_nothing_before_it_answers() {
+  Line world(1);
+  world.make(1, 1, ModbusOutcome::timeout);
+  world.command(1, 7, 1, false);
+  for (int turn = 0; turn < 100; ++turn) world.turn();
+  CHECK(world.line.station(1).writes <= 1);  // before anybody knew
+  CHECK(world.line.station(1).reads >= 3);
+  world.make(1, 1, ModbusOutcome::answered);
+  for (int turn = 0; turn < 200; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(1).written, 7);
+}
+
+constexpr ModbusRegister wearing[] = {
+    {"level", 0, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::read,
+     ModbusPollGroup::fast, 1, "", 0},
+    {"setting", 10, ModbusArea::holding_register, ModbusType::u16, ModbusWordOrder::abcd, ModbusAccess::write,
+     ModbusPollGroup::fast, 1, "", 0, ModbusRegister::whole, false},
+};
+constexpr ModbusRegisterMap wearing_map{wearing};
+
+// [modbus-master-7]
+void what_wears_is_written_at_changes_alone() {
+  Line world(0);
+  for (const ModbusRegisterMap* one : {&map, &wearing_map}) {
+    ModbusStationSetup setup = Line::setup_of(world.exchanges.size() + 1, *one);
+    setup.refresh_period = std::chrono::milliseconds(50);
+    const Result<ModbusExchange*> exchange = world.master.attach(setup);
+    CHECK(exchange);
+    world.exchanges.push_back(*exchange);
+  }
+  for (const std::size_t unit : {1, 2}) world.command(unit, 7, 1, false);
+  for (int turn = 0; turn < 100; ++turn) world.turn();
+  CHECK(world.line.station(1).writes > 10);
+  CHECK_EQUAL(world.line.station(2).writes, 1);
+  world.command(2, 8, 2, false);
+  for (int turn = 0; turn < 100; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(2).writes, 2);
+  // It may have been switched off meanwhile.
+  world.make(2, 2, ModbusOutcome::timeout);
+  for (int turn = 0; turn < 10; ++turn) world.turn();
+  world.make(2, 2, ModbusOutcome::answered);
+  for (int turn = 0; turn < 200; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(2).writes, 3);
+}
+
+// [modbus-master-8]
+void nobody_is_asked_right_after_connecting() {
+  Line world(1);
+  constexpr Duration pause = std::chrono::milliseconds(200);
+  CHECK(world.master.start("line", world.line, {shortest_pause, longest_pause, pause}, Duration{}));
+  const Time began = world.line.now();
+  while (world.line.station(1).reads == 0) world.turn();
+  CHECK(world.line.now() - began >= pause);
+  CHECK(world.line.now() - began < 2 * pause);
+  world.make(1, 1, ModbusOutcome::lost);
+  world.turn();
+  world.make(1, 1, ModbusOutcome::answered);
+  while (!world.line.is_open()) world.turn();
+  const Time again = world.line.now();
+  const int reads = world.line.station(1).reads;
+  while (world.line.station(1).reads == reads) world.turn();
+  CHECK(world.line.now() - again >= pause - cycle);
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -313,6 +455,12 @@ int main() {
       CONTAINED_TEST(who_is_not_reached_behind_a_gateway_is_not_online),
       CONTAINED_TEST(turns_end_in_time_and_go_on_where_they_ended),
       CONTAINED_TEST(what_a_step_cannot_wait_for_is_refused_with_the_least_that_can),
+      CONTAINED_TEST(single_values_are_written_by_the_functions_that_a_station_knows),
+      CONTAINED_TEST(another_refusal_does_not_change_the_function),
+      CONTAINED_TEST(readings_go_on_while_writing_fails_and_safe_values_do_not_wait),
+      CONTAINED_TEST(who_is_not_heard_is_written_nothing_before_it_answers),
+      CONTAINED_TEST(what_wears_is_written_at_changes_alone),
+      CONTAINED_TEST(nobody_is_asked_right_after_connecting),
   };
   return cmocka_run_group_tests_name("Modbus master", tests, nullptr, nullptr);
 }

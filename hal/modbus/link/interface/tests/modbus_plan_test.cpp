@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "tests/cmocka.hpp"
+#include "runtime/executive/tests/checks.hpp"
 
 namespace flexrf {
 namespace {
@@ -23,7 +23,7 @@ ModbusRegister at(int address, ModbusArea area = ModbusArea::holding_register,
 // 0 when the plan is refused.
 std::size_t reads_of(const std::vector<ModbusRegister>& registers) {
   ModbusPlan plan;
-  if (!plan_requests({registers}, plan)) return 0;
+  if (!plan_requests({registers}, 125, plan)) return 0;
   return plan.reads.size();
 }
 
@@ -46,7 +46,7 @@ std::size_t requests_of(ModbusAccess access, int count) {
     registers.back().access = access;
   }
   ModbusPlan plan;
-  if (!plan_requests({registers}, plan)) return 0;
+  if (!plan_requests({registers}, 125, plan)) return 0;
   return access == ModbusAccess::read ? plan.reads.size() : plan.writes.size();
 }
 
@@ -108,7 +108,7 @@ void bits_of_a_register_share_its_word(void**) {
         bit_of(7, 3, ModbusAccess::write), bit_of(7, 0, ModbusAccess::read_write), at(8),
         bit_of(7, 15, ModbusAccess::read), bit_of(6, 0, ModbusAccess::write)};
     ModbusPlan plan;
-    if (plan_requests({registers}, plan)) {
+    if (plan_requests({registers}, 125, plan)) {
       std::copy(plan.places.begin(), plan.places.end(), places);
       reads = plan.reads.size();
       writes = plan.writes.size();
@@ -137,7 +137,7 @@ void written_and_read_lie_in_their_own_words(void**) {
     registers[1].access = ModbusAccess::read_write;
     registers[2].access = ModbusAccess::write;
     ModbusPlan plan;
-    if (plan_requests({registers}, plan)) {
+    if (plan_requests({registers}, 125, plan)) {
       place = plan.places[1];
       reads = plan.reads.size();
       writes = plan.writes.size();
@@ -156,11 +156,51 @@ void scattered_registers_are_refused_with_a_hint(void**) {
     std::vector<ModbusRegister> registers;
     for (int i = 0; i < 65; ++i) registers.push_back(at(2 * i));
     ModbusPlan plan;
-    const Status status = plan_requests({registers}, plan);
+    const Status status = plan_requests({registers}, 125, plan);
     std::memcpy(cause, status.cause(), sizeof(cause));
   }
   assert_non_null(std::strstr(cause, "takes 65 requests, at most 64"));
   assert_non_null(std::strstr(cause, "list the registers between"));
+}
+
+std::vector<ModbusRegister> written(int count) {
+  std::vector<ModbusRegister> registers;
+  for (int i = 0; i < count; ++i) {
+    registers.push_back(at(i));
+    registers.back().access = ModbusAccess::read_write;
+  }
+  return registers;
+}
+
+// [modbus-plan-5]
+void a_request_has_no_more_registers_than_the_station_takes() {
+  const std::vector<ModbusRegister> registers = written(10);
+  ModbusPlan plan;
+  CHECK(plan_requests({registers}, 4, plan));
+  CHECK_EQUAL(plan.reads.size(), 3U);
+  CHECK_EQUAL(plan.writes.size(), 3U);
+  CHECK_EQUAL(plan.reads[2].count, 2);
+  const std::vector<ModbusRegister> coils = {at(0, ModbusArea::coil, ModbusType::boolean),
+                                             at(1, ModbusArea::coil, ModbusType::boolean)};
+  CHECK(plan_requests({coils}, 1, plan));
+  CHECK_EQUAL(plan.reads.size(), 1U);
+  const std::vector<ModbusRegister> wide = {at(0, ModbusArea::holding_register, ModbusType::i32)};
+  const Status refused = plan_requests({wide}, 1, plan);
+  CHECK_EQUAL(refused.code(), StatusCode::invalid_argument);
+  CHECK_CONTAINS(refused.cause(), "`value` has 2 registers, and a request may have 1");
+  CHECK_CONTAINS(refused.cause(), "raise most_registers");
+}
+
+// [modbus-plan-6]
+void what_is_written_at_changes_alone_goes_by_itself() {
+  std::vector<ModbusRegister> registers = written(4);
+  registers[2].refreshed = false;
+  ModbusPlan plan;
+  CHECK(plan_requests({registers}, 125, plan));
+  CHECK_EQUAL(plan.reads.size(), 1U);
+  CHECK_EQUAL(plan.writes.size(), 3U);
+  CHECK(plan.writes[0].refreshed && !plan.writes[1].refreshed && plan.writes[2].refreshed);
+  CHECK_EQUAL(plan.writes[1].address, 2);
 }
 
 }  // namespace
@@ -175,6 +215,8 @@ int main() {
       cmocka_unit_test(areas_groups_and_gaps_are_apart_and_the_list_s_order_is_free),
       cmocka_unit_test(bits_of_a_register_share_its_word),
       cmocka_unit_test(written_and_read_lie_in_their_own_words),
-      cmocka_unit_test(scattered_registers_are_refused_with_a_hint)};
+      cmocka_unit_test(scattered_registers_are_refused_with_a_hint),
+      CONTAINED_TEST(a_request_has_no_more_registers_than_the_station_takes),
+      CONTAINED_TEST(what_is_written_at_changes_alone_goes_by_itself)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -115,6 +115,31 @@ bool a_station_that_is_off_behind_a_gateway_is_not_online() {
          feedback_of(world.link()).connections == connections;
 }
 
+// Over TCP, and on a serial line, which nobody has answered yet when the first value is written.
+template <class World>
+bool a_station_is_written_to_by_the_functions_that_it_knows() {
+  for (const char* const knows : {"only_single", "only_multiple"}) {
+    World world;
+    if (!world.start(map) || !world.say(knows)) return false;
+    world.station().set_inhibited(false);
+    const auto set = [&](double value) {
+      return until(world, [&] {
+        world.station().set(1, value);
+        const ModbusValue speed = world.station().read(1);
+        return speed && speed.value == value;
+      });
+    };
+    if (!set(41) || !set(42)) return false;
+    const Time start = world.now();
+    for (world.receive(); !world.station().make_safe(); world.receive())
+      if (world.now() - start > patience) return false;
+    if (world.held(1) != 0) return false;
+    // One exception for the function that it does not know, and no more, whatever was written.
+    if (feedback_of(world.station()).exceptions > 1) return false;
+  }
+  return true;
+}
+
 class Serial {
  public:
   explicit Serial(const std::string& device) {
@@ -309,6 +334,10 @@ int main() {
       {"a refusal is told in words", judged<a_refusal_is_told_in_words>, nullptr, nullptr, nullptr},
       {"a station that is off behind a gateway is not online",
        judged<a_station_that_is_off_behind_a_gateway_is_not_online>, nullptr, nullptr, nullptr},
+      {"a station over TCP is written to by the functions that it knows",
+       judged<a_station_is_written_to_by_the_functions_that_it_knows<TcpWorld>>, nullptr, nullptr, nullptr},
+      {"a station on a serial line is written to by the functions that it knows",
+       judged<a_station_is_written_to_by_the_functions_that_it_knows<RtuWorld>>, nullptr, nullptr, nullptr},
       {"a missing serial line is no failure to start, and is told",
        judged<a_missing_serial_line_is_no_failure_to_start_and_is_told>, nullptr, nullptr, nullptr},
       {"a line that another link has is told, and taken once it is free",

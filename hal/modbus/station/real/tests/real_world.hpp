@@ -43,7 +43,7 @@ class RealWorld : public LinkedWorld<Link, RealModbusStation> {
       case ModbusFarEnd::truncated:
         return say("truncated");
       case ModbusFarEnd::other_unit:
-        return checks_unit() && say("other_unit");
+        return say("other_unit");
     }
     return false;
   }
@@ -59,8 +59,6 @@ class RealWorld : public LinkedWorld<Link, RealModbusStation> {
   virtual bool reconnect() { return say("well"); }
   /// A serial line has none, and none is cut.
   virtual bool has_connections() const { return false; }
-  /// Over TCP libmodbus knows an answer by its transaction, and does not look at its unit.
-  bool checks_unit() const { return !has_connections(); }
 
   /// What it says of where it is to be found; empty: it did not begin.
   const std::string& switch_on(const std::vector<std::string>& arguments) {
