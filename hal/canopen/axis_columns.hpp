@@ -21,6 +21,7 @@ void read_axis_columns(const Columns& columns, cia402::AxisPlan& plan) noexcept 
   plan.rest_velocity = columns.rest_velocity;
   plan.homing_creep_speed = columns.homing_creep_speed;
   plan.homing_settle = whole_milliseconds(columns.homing_settle);
+  plan.homing_tells_reached = columns.homing_tells_reached;
   plan.abort_connection = columns.abort_connection;
   plan.tells_abort_connection = columns.tells_abort_connection;
   plan.tells_period = columns.tells_period;

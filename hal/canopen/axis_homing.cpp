@@ -7,7 +7,7 @@ void AxisHoming::begin(const Limits& limits, Mode own, bool needed) noexcept {
   limits_ = limits;
   own_ = own;
   needed_ = needed;
-  run_ = HomingRun{limits.run, limits.settle};
+  run_ = HomingRun{limits.run, limits.settle, limits.tells_reached};
 }
 
 void AxisHoming::start() noexcept {
@@ -100,7 +100,7 @@ std::uint16_t AxisHoming::advance(const HomingView& view, Time now) noexcept {
 }
 
 std::uint16_t AxisHoming::advance_run(const HomingView& view, Time now) noexcept {
-  const std::uint16_t bits = run_.advance(view.statusword, view.is_new, now);
+  const std::uint16_t bits = run_.advance(view.statusword, view.is_new, view.at_rest, now);
   if (run_.state() == HomingRun::State::done) {
     homed_ = true;
     enter(Phase::leaving);

@@ -22,6 +22,7 @@ class AxisHoming {
   struct Limits {
     Duration run = std::chrono::seconds(60);
     Duration settle = std::chrono::milliseconds(50);  ///< see HomingRun
+    bool tells_reached = true;                        ///< likewise
     Duration mode = std::chrono::milliseconds(500);   ///< until the drive shows another mode
     Duration stop = std::chrono::seconds(5);          ///< until it is at rest
   };
@@ -63,7 +64,7 @@ class AxisHoming {
   std::uint16_t advance_run(const HomingView& view, Time now) noexcept;
 
   Limits limits_;
-  HomingRun run_{std::chrono::seconds(60), std::chrono::milliseconds(50)};
+  HomingRun run_{std::chrono::seconds(60), std::chrono::milliseconds(50), true};
   Mode own_ = Mode::cyclic_position;
   bool needed_ = false;
   bool homed_ = false;

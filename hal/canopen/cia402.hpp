@@ -22,6 +22,7 @@ inline constexpr ObjectAddress mode{0x6060, 0};                     ///< i8
 inline constexpr ObjectAddress mode_display{0x6061, 0};             ///< i8
 inline constexpr ObjectAddress actual_position{0x6064, 0};          ///< i32
 inline constexpr ObjectAddress following_window{0x6065, 0};         ///< u32
+inline constexpr ObjectAddress position_window{0x6067, 0};          ///< u32
 inline constexpr ObjectAddress actual_velocity{0x606C, 0};          ///< i32
 inline constexpr ObjectAddress most_torque{0x6072, 0};              ///< u16: of 1000 of its rated torque
 inline constexpr ObjectAddress actual_torque{0x6077, 0};            ///< i16: likewise
@@ -72,6 +73,7 @@ bool has_torque(DriveState state) noexcept;
 /// Bits of the statusword beside the state; 12 and 13 depend on the mode.
 namespace status_bit {
 inline constexpr std::uint16_t warning = 1 << 7;
+inline constexpr std::uint16_t remote = 1 << 9;  ///< controlwords are obeyed
 inline constexpr std::uint16_t target_reached = 1 << 10;
 inline constexpr std::uint16_t internal_limit = 1 << 11;
 inline constexpr std::uint16_t set_point_acknowledged = 1 << 12;  ///< profile position

@@ -20,6 +20,10 @@ void Configuration::write_if_there(ObjectAddress object, std::uint8_t size, std:
   add({.act = Act::write, .size = size, .object = object, .value = value, .held = value, .optional = true});
 }
 
+void Configuration::ask(ObjectAddress object) noexcept {
+  add({.act = Act::ask, .object = object, .optional = true});
+}
+
 void Configuration::expect(ObjectAddress object, std::uint32_t value, std::uint32_t mask,
                            const char* meaning) noexcept {
   add({.act = Act::expect, .object = object, .value = value, .mask = mask, .meaning = meaning});

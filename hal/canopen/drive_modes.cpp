@@ -147,7 +147,7 @@ bool HomingRun::is_about_this_run(bool is_in_progress, Time now) noexcept {
   return saw_it_running_ || now - heard_since_ > settle_;
 }
 
-std::uint16_t HomingRun::advance(std::uint16_t statusword, bool is_new, Time now) noexcept {
+std::uint16_t HomingRun::advance(std::uint16_t statusword, bool is_new, bool at_rest, Time now) noexcept {
   if (state_ != State::running) return 0;
   if (!lowered_) {
     lowered_ = true;
@@ -162,21 +162,26 @@ std::uint16_t HomingRun::advance(std::uint16_t statusword, bool is_new, Time now
   const bool attained = (statusword & status_bit::homing_attained) != 0;
   const bool reached = (statusword & status_bit::target_reached) != 0;
   const bool error = (statusword & status_bit::homing_error) != 0;
-  if (is_about_this_run(!attained && !error && !reached, now)) {
+  if (is_about_this_run(!attained && !error && !(tells_reached_ && reached), now)) {
     if (error) {
       fail(Status::error(StatusCode::device_fault,
                          "the drive could not home (statusword %04X): does the method fit its switches?",
                          unsigned{statusword}));
       return 0;
     }
-    if (attained && reached) {
+    if (attained && (tells_reached_ ? reached : at_rest)) {
       state_ = State::done;
       return 0;
     }
   }
   if (now - since_ > timeout_) {
-    fail(Status::error(StatusCode::timeout, "the drive did not home within %lld ms (statusword %04X)",
-                       static_cast<long long>(timeout_.count() / 1'000'000), unsigned{statusword}));
+    const bool says_it_by_one_bit = attained && !reached && tells_reached_;
+    fail(Status::error(StatusCode::timeout, "the drive did not home within %lld ms (statusword %04X)%s",
+                       static_cast<long long>(timeout_.count() / 1'000'000), unsigned{statusword},
+                       says_it_by_one_bit
+                           ? ": it says that it found its home (bit 12), and not that it is there (bit 10); "
+                             "for a drive that never says that: `homing_tells_reached = false`"
+                           : ""));
     return 0;
   }
   return control_bit::start_homing;

@@ -132,12 +132,15 @@ class HomingRun {
 
   /// `timeout`: for the whole run. `settle`: so long after it heard of the start the drive may still say what
   /// it said of the run before. Time in which it is not heard does not count, as it may not hear us either.
-  HomingRun(Duration timeout, Duration settle) noexcept : timeout_{timeout}, settle_{settle} {}
+  /// `tells_reached` false: a drive that says that its home was found by bit 12 alone, and leaves bit 10;
+  /// then it has to be at rest, too.
+  HomingRun(Duration timeout, Duration settle, bool tells_reached) noexcept
+      : timeout_{timeout}, settle_{settle}, tells_reached_{tells_reached} {}
 
   void start() noexcept;
   /// Once for each cycle in which operation is enabled in mode homing: the bits to add to the controlword.
   /// `is_new`: the statusword came since the cycle before.
-  std::uint16_t advance(std::uint16_t statusword, bool is_new, Time now) noexcept;
+  std::uint16_t advance(std::uint16_t statusword, bool is_new, bool at_rest, Time now) noexcept;
   /// Operation is not enabled any more: what was running has failed.
   void interrupt() noexcept;
 
@@ -156,6 +159,7 @@ class HomingRun {
 
   Duration timeout_;
   Duration settle_;
+  bool tells_reached_;
   State state_ = State::idle;
   bool lowered_ = false;  // bit 4 was sent low, so that it rises
   bool raised_ = false;

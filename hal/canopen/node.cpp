@@ -145,6 +145,7 @@ void Node::observe(NmtState heard, Time now, Outbox& outbox) noexcept {
     state_ = NodeState::configuring;
     step_ = 0;
     left_out_.reset();
+    answered_.reset();
     mapping_is_fixed_ = reads_back_ = was_operational_ = false;
     brought_back_ = 0;
     // It may be about to start itself (object 1F80), and takes no mapping then.
@@ -179,6 +180,13 @@ bool Node::has_left_out(ObjectAddress object) const noexcept {
   return false;
 }
 
+std::optional<std::uint32_t> Node::answered(ObjectAddress object) const noexcept {
+  for (std::size_t i = 0; i < plan_.configuration.size(); ++i) {
+    if (answered_.test(i) && plan_.configuration[i].object == object) return answers_[i];
+  }
+  return std::nullopt;
+}
+
 void Node::configure(Time now, Outbox& outbox) noexcept {
   if (client_.state() == SdoClient::State::done || client_.state() == SdoClient::State::failed) {
     end_step(now, outbox);
@@ -209,6 +217,9 @@ void Node::end_step(Time now, Outbox& outbox) noexcept {
       return;
     }
     if (!judge_refusal(step, now, outbox)) return;
+  } else if (step.act == Act::ask) {
+    answered_.set(step_);
+    answers_[step_] = static_cast<std::uint32_t>(client_.number());
   } else if (reads(step) && !judge_value(step)) {
     return;
   }
@@ -221,7 +232,7 @@ void Node::end_step(Time now, Outbox& outbox) noexcept {
 bool Node::judge_refusal(const ConfigurationStep& step, Time now, Outbox& outbox) noexcept {
   const std::uint32_t code = client_.abort_code();
   const bool is_missing = code == sdo_abort::no_object || code == sdo_abort::no_subindex;
-  if (step.optional && is_missing) {
+  if (step.optional && (is_missing || step.act == Act::ask)) {
     left_out_.set(step_);
     return true;
   }
@@ -284,7 +295,8 @@ bool Node::judge_value(const ConfigurationStep& step) noexcept {
 }
 
 bool Node::reads(const ConfigurationStep& step) const noexcept {
-  return reads_back_ || step.act == Act::expect || (step.act == Act::map && mapping_is_fixed_);
+  return reads_back_ || step.act == Act::expect || step.act == Act::ask ||
+         (step.act == Act::map && mapping_is_fixed_);
 }
 
 // Taking the mapping out of use is the first thing that such a node refuses.

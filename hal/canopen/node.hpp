@@ -68,6 +68,8 @@ class Node {
 
   /// Of its configuration, since it booted: what is optional, and it has no object for.
   bool has_left_out(ObjectAddress object) const noexcept;
+  /// Of its configuration, since it booted: what it said when it was asked; nothing: it was not, or refused.
+  std::optional<std::uint32_t> answered(ObjectAddress object) const noexcept;
 
   std::uint64_t emergencies() const noexcept { return emergencies_; }
   std::uint64_t times_operational() const noexcept { return times_operational_; }
@@ -103,9 +105,11 @@ class Node {
   std::size_t step_ = 0;
   bool mapping_is_fixed_ = false;  // of the PDO that is being configured
   std::bitset<Configuration::capacity> left_out_;
-  bool was_operational_ = false;  // since it booted
-  bool reads_back_ = false;       // what the step could not write
-  unsigned brought_back_ = 0;     // to pre-operational, since it booted
+  std::bitset<Configuration::capacity> answered_;
+  std::array<std::uint32_t, Configuration::capacity> answers_{};  // of the steps that ask
+  bool was_operational_ = false;                                  // since it booted
+  bool reads_back_ = false;                                       // what the step could not write
+  unsigned brought_back_ = 0;                                     // to pre-operational, since it booted
   Time deadline_{};
   Status problem_;
   std::optional<Emergency> emergency_;

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "hal/servo_drive/interface/range_end.hpp"
 #include "hal/servo_drive/interface/servo_restraints.hpp"
 
 namespace flexrf::canopen::cia402 {
 namespace {
 
 constexpr double largest_object = std::numeric_limits<std::int32_t>::max();
+// From what a drive says to what it does for that are two or three cycles.
+constexpr double cycles_ahead = 8;     // see slowed_before_end()
 constexpr double whole_torque = 1000;  // how objects count the rated torque
 
 std::uint64_t to_object(double increments) {
@@ -32,6 +35,7 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   interpolation_ = InterpolationSwitch{plan.set_point_timeout};
   homing_.begin({.run = plan.homing_timeout,
                  .settle = plan.homing_settle,
+                 .tells_reached = plan.homing_tells_reached,
                  .mode = plan.mode_timeout,
                  .stop = plan.limits.stop},
                 plan.mode, plan.homing_method != 0);
@@ -353,20 +357,45 @@ double ServoAxis::velocity_for(Duration elapsed) noexcept {
     velocity_ -= std::clamp(velocity_, -step, step);
   }
   cycles_ = std::min(cycles_ + 1, settle_cycles);
-  if (!would_leave()) return velocity_;
-  restraint_ = {servo_restraints::end_of_range, velocity_, 0};
-  return 0;
+  const double permitted = permitted_velocity();
+  if (permitted != velocity_) restraint_ = {servo_restraints::end_of_range, velocity_, permitted};
+  return permitted;
 }
 
-bool ServoAxis::would_leave() const noexcept {
-  if (plan_.endless) return false;
-  return (velocity_ > 0 && state_->position >= plan_.highest) ||
-         (velocity_ < 0 && state_->position <= plan_.lowest);
+double ServoAxis::permitted_velocity() const noexcept {
+  if (plan_.endless || velocity_ == 0) return velocity_;
+  const bool rises = velocity_ > 0;
+  const double left = rises ? plan_.highest - state_->position : state_->position - plan_.lowest;
+  return slowed_before_end(velocity_, left, cycles_ahead * seconds(plan_.period), plan_.acceleration);
 }
 
 double ServoAxis::beside_target() const noexcept {
   const std::int64_t beside = count_ - handshake_.target();
   return static_cast<double>(plan_.endless ? wrapped(beside) : beside) / plan_.increments_per_unit;
+}
+
+double ServoAxis::widest_beside_target() const noexcept {
+  constexpr std::uint32_t no_window = 0xFFFFFFFF;  // it does not look (CiA 402, object 6067)
+  const std::uint32_t window = node_.answered(objects::position_window).value_or(no_window);
+  const double own = window == no_window ? 0 : window / std::abs(plan_.increments_per_unit);
+  return std::max(own, plan_.fastest * seconds(plan_.period));
+}
+
+/// Of a target that it does not come nearer to.
+const char* ServoAxis::what_it_says() const noexcept {
+  if ((statusword_ & status_bit::remote) == 0)
+    return "the drive says that it does not obey the bus (statusword, bit 9 is 0): is its maker's tool "
+           "connected?";
+  if ((statusword_ & status_bit::internal_limit) != 0)
+    return "the drive says that a limit of its own holds it (statusword, bit 11): a limit switch, or objects "
+           "607D and 607F?";
+  if ((statusword_ & status_bit::following_error) != 0)
+    return "the drive says that it cannot follow (statusword, bit 13): is its load too great, or does it "
+           "stick?";
+  if ((statusword_ & status_bit::target_reached) != 0)
+    return "the drive says that it is there (statusword, bit 10), beyond its own window (object 6067): do "
+           "`increments_per_unit` and its own units agree?";
+  return "";
 }
 
 std::optional<ProfileTarget> ServoAxis::profile_target() const noexcept {
@@ -375,18 +404,19 @@ std::optional<ProfileTarget> ServoAxis::profile_target() const noexcept {
   if (!is_on_its_way || !state_ || state_->target_reached) return std::nullopt;
   // A drive that is told no speed has one of its own, that is taken for no less than this.
   const double speed = plan_.tells_speed ? handshake_.speed() : plan_.fastest / 10;
-  return ProfileTarget{
-      .position = handshake_.target() / plan_.increments_per_unit, .left = -beside_target(), .speed = speed};
+  return ProfileTarget{.position = handshake_.target() / plan_.increments_per_unit,
+                       .left = -beside_target(),
+                       .speed = speed,
+                       .says = what_it_says()};
 }
 
 bool ServoAxis::has_reached(std::uint16_t statusword) const noexcept {
   if (!power_.is_enabled() || !was_commanded_ || halts_) return false;
   if (plan_.mode == Mode::profile_position) {
     // What the drive says may be about another target: it is there only if it is there.
-    return handshake_.is_reached(statusword) &&
-           std::abs(beside_target()) <= plan_.fastest * seconds(plan_.period);
+    return handshake_.is_reached(statusword) && std::abs(beside_target()) <= widest_beside_target();
   }
-  if (plan_.mode != Mode::profile_velocity || would_leave()) return false;
+  if (plan_.mode != Mode::profile_velocity || permitted_velocity() != velocity_) return false;
   return cycles_ == settle_cycles && (statusword & status_bit::target_reached) != 0;
 }
 

@@ -60,6 +60,7 @@ struct AxisPlan {
   Duration set_point_timeout = std::chrono::milliseconds(500);  ///< until it acknowledges one
   Duration homing_timeout = std::chrono::seconds(60);
   Duration homing_settle = std::chrono::milliseconds(50);  ///< see HomingRun
+  bool homing_tells_reached = true;                        ///< likewise
   Duration boot_timeout = std::chrono::seconds(1);
   Duration sdo_timeout = std::chrono::milliseconds(500);
   Duration heartbeat_period = std::chrono::milliseconds(100);
@@ -73,8 +74,10 @@ struct AxisState {
   double following_error = 0;  ///< the last set-point less position, unit; 0 in other modes
   bool enabled = false;
   bool at_internal_limit = false;
-  bool target_reached = false;  ///< in profile modes: it took the last command and has done it
-  double torque = 0;            ///< of its rated torque, with a sign; 0 where the plan does not ask for it
+  /// In profile modes: it took the last command and has done it. Of a position the drive says so, and it is
+  /// within the drive's own window (object 6067), or within what it goes in a period where that is more.
+  bool target_reached = false;
+  double torque = 0;  ///< of its rated torque, with a sign; 0 where the plan does not ask for it
 };
 
 /// Without I/O; never blocks, never allocates. One thread. A cycle: receive() of what came, then commands,
@@ -100,8 +103,8 @@ class ServoAxis {
   /// In modes cyclic_position and interpolated_position: unit, kept within lowest and highest; with a modulo
   /// by the shorter way from the one before. Held until the next one.
   void command_position(double position) noexcept;
-  /// In modes cyclic_velocity and profile_velocity: unit/s, kept within fastest; zero once the axis is beyond
-  /// its range and would go on.
+  /// In modes cyclic_velocity and profile_velocity: unit/s, kept within fastest, and slowed down with the
+  /// plan's acceleration so that the axis comes to rest at the end of its range.
   void command_velocity(double velocity) noexcept;
   /// In mode profile_position: unit, kept within lowest and highest, and unit/s, above 0, kept within
   /// fastest; with a modulo by the shorter way from where it is. Gives up the target before.
@@ -179,7 +182,7 @@ class ServoAxis {
   bool is_led_in(Mode one, Mode other) const noexcept { return plan_.mode == one || plan_.mode == other; }
   bool takes(Mode one, Mode other) noexcept;
   bool may_be_commanded() const noexcept;
-  bool would_leave() const noexcept;
+  double permitted_velocity() const noexcept;
   bool is_number(double value, const char* what) noexcept;
   double by_the_shorter_way(double position, double from) const noexcept;
   double in_reach(double way) noexcept;
@@ -193,6 +196,8 @@ class ServoAxis {
   double target_for(Duration elapsed) noexcept;
   double velocity_for(Duration elapsed) noexcept;
   double beside_target() const noexcept;
+  double widest_beside_target() const noexcept;
+  const char* what_it_says() const noexcept;
   bool has_reached(std::uint16_t statusword) const noexcept;
   Message process_data(std::uint16_t word) const noexcept;
   void say(std::uint16_t word, Outbox& outbox) const noexcept;

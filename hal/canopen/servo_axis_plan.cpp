@@ -142,6 +142,7 @@ void ServoAxis::plan_motion(Configuration& list) const noexcept {
     // Where it is missing, the acceleration serves for both (CiA 402).
     list.write_if_there(objects::profile_deceleration, 4, to_amount(acceleration));
   }
+  if (plan_.mode == Mode::profile_position) list.ask(objects::position_window);
   if (plan_.mode == Mode::interpolated_position) {
     constexpr std::uint32_t linear = 0;
     constexpr std::uint32_t points_come_in = 1;

@@ -219,43 +219,61 @@ void a_set_point_is_offered_once_and_the_newest_counts(void**) {
 }
 
 void what_homing_said_before_does_not_count(void**) {
-  HomingRun homing(milliseconds(1000), milliseconds(50));
-  assert_int_equal(homing.advance(0x1400, true, at(0)), 0);
+  HomingRun homing(milliseconds(1000), milliseconds(50), true);
+  assert_int_equal(homing.advance(0x1400, true, true, at(0)), 0);
   homing.start();
-  assert_int_equal(homing.advance(0x1400, true, at(0)), 0x0000);
-  assert_int_equal(homing.advance(0x1400, true, at(7)), 0x0010);
-  assert_int_equal(homing.advance(0x0000, true, at(14)), 0x0010);  // not of the start: it comes too soon
-  assert_int_equal(homing.advance(0x1400, true, at(21)), 0x0010);
-  assert_int_equal(homing.advance(0x1400, true, at(28)), 0x0010);
-  assert_int_equal(homing.advance(0x0000, true, at(35)), 0x0010);
-  assert_int_equal(homing.advance(0x1000, true, at(42)), 0x0010);  // attained, and still moving
-  assert_int_equal(homing.advance(0x1400, true, at(49)), 0x0000);
+  assert_int_equal(homing.advance(0x1400, true, true, at(0)), 0x0000);
+  assert_int_equal(homing.advance(0x1400, true, true, at(7)), 0x0010);
+  assert_int_equal(homing.advance(0x0000, true, true, at(14)),
+                   0x0010);  // not of the start: it comes too soon
+  assert_int_equal(homing.advance(0x1400, true, true, at(21)), 0x0010);
+  assert_int_equal(homing.advance(0x1400, true, true, at(28)), 0x0010);
+  assert_int_equal(homing.advance(0x0000, true, true, at(35)), 0x0010);
+  assert_int_equal(homing.advance(0x1000, true, true, at(42)), 0x0010);  // attained, and still moving
+  assert_int_equal(homing.advance(0x1400, true, true, at(49)), 0x0000);
   assert_true(homing.state() == HomingRun::State::done);
 }
 
 void homing_goes_by_what_is_heard(void**) {
-  HomingRun homing(milliseconds(1000), milliseconds(50));
+  HomingRun homing(milliseconds(1000), milliseconds(50), true);
   homing.start();
-  homing.advance(0x1400, true, at(0));
+  homing.advance(0x1400, true, true, at(0));
   // For longer than it may take to settle nothing comes, and what came last is of the run before.
-  for (int ms = 7; ms <= 140; ms += 7) assert_int_equal(homing.advance(0x1400, false, at(ms)), 0x0010);
+  for (int ms = 7; ms <= 140; ms += 7) assert_int_equal(homing.advance(0x1400, false, true, at(ms)), 0x0010);
   // One that need not move says at once that it is there, and has to go on saying so.
-  for (int ms = 147; ms <= 197; ms += 7) assert_int_equal(homing.advance(0x1400, true, at(ms)), 0x0010);
-  assert_int_equal(homing.advance(0x1400, true, at(204)), 0x0000);
+  for (int ms = 147; ms <= 197; ms += 7) assert_int_equal(homing.advance(0x1400, true, true, at(ms)), 0x0010);
+  assert_int_equal(homing.advance(0x1400, true, true, at(204)), 0x0000);
   assert_true(homing.state() == HomingRun::State::done);
 }
 
-void homing_that_fails_says_why(void**) {
-  HomingRun homing(milliseconds(1000), milliseconds(50));
+// A drive that leaves bit 10: its home is found when it says so, and stands.
+void homing_goes_by_bit_12_and_rest_where_that_is_said(void**) {
+  HomingRun homing(milliseconds(1000), milliseconds(50), false);
   homing.start();
-  for (int ms = 0; ms < 5; ++ms) homing.advance(0x0000, true, at(ms));
-  homing.advance(0x2400, true, at(5));
+  homing.advance(0x0000, true, true, at(0));
+  homing.advance(0x0000, true, true, at(7));
+  for (int ms = 14; ms <= 70; ms += 7) assert_int_equal(homing.advance(0x0000, true, false, at(ms)), 0x0010);
+  assert_int_equal(homing.advance(0x1000, true, false, at(77)), 0x0010);  // it moves on
+  assert_int_equal(homing.advance(0x1000, true, true, at(84)), 0x0000);
+  assert_true(homing.state() == HomingRun::State::done);
+  HomingRun unsaid(milliseconds(1000), milliseconds(50), true);
+  unsaid.start();
+  for (int ms = 0; ms <= 1008; ms += 7) unsaid.advance(ms < 70 ? 0x0000 : 0x1000, true, true, at(ms));
+  assert_true(unsaid.problem().code() == StatusCode::timeout);
+  assert_non_null(std::strstr(unsaid.problem().cause(), "`homing_tells_reached = false`"));
+}
+
+void homing_that_fails_says_why(void**) {
+  HomingRun homing(milliseconds(1000), milliseconds(50), true);
+  homing.start();
+  for (int ms = 0; ms < 5; ++ms) homing.advance(0x0000, true, true, at(ms));
+  homing.advance(0x2400, true, true, at(5));
   assert_true(homing.state() == HomingRun::State::failed);
   assert_non_null(std::strstr(homing.problem().cause(), "could not home"));
   homing.start();
-  homing.advance(0x0000, true, at(6));
-  homing.advance(0x0000, true, at(7));
-  homing.advance(0x0000, true, at(1007));
+  homing.advance(0x0000, true, true, at(6));
+  homing.advance(0x0000, true, true, at(7));
+  homing.advance(0x0000, true, true, at(1007));
   assert_true(homing.problem().code() == StatusCode::timeout);
   homing.start();
   homing.interrupt();
@@ -281,6 +299,7 @@ int main() {
       cmocka_unit_test(a_set_point_is_offered_once_and_the_newest_counts),
       cmocka_unit_test(what_homing_said_before_does_not_count),
       cmocka_unit_test(homing_goes_by_what_is_heard),
+      cmocka_unit_test(homing_goes_by_bit_12_and_rest_where_that_is_said),
       cmocka_unit_test(homing_that_fails_says_why),
   };
   return cmocka_run_group_tests_name("cia402 power", tests, nullptr, nullptr);

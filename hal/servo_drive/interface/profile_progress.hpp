@@ -11,9 +11,10 @@ namespace flexrf {
 
 /// A target that the drive took and that it is not at yet.
 struct ProfileTarget {
-  double position = 0;  ///< unit
-  double left = 0;      ///< of the way to it, unit, with a sign; to the nearer side with a modulo
-  double speed = 0;     ///< that the drive is told, or at least has, unit/s, above 0
+  double position = 0;    ///< unit
+  double left = 0;        ///< of the way to it, unit, with a sign; to the nearer side with a modulo
+  double speed = 0;       ///< that the drive is told, or at least has, unit/s, above 0
+  const char* says = "";  ///< what the drive says of it, for a person; empty: nothing that helps
 };
 
 /// Whatever its profile: within `patience` it comes nearer by a tenth of what its speed makes in that time,

@@ -58,8 +58,8 @@ class ServoDrive : public Actuator<ServoDriveInterface> {
     if (may_act()) follow_position(position);
   }
   /// In mode cyclic_velocity or profile_velocity: how fast it shall be, kept to the velocity of the
-  /// configuration; zero once the axis is beyond its range and would go on, unless it is
-  /// endless [servo-drive-11].
+  /// configuration, and to that with which the axis comes to rest at the end of its range, by the
+  /// configuration's acceleration, unless it is endless [servo-drive-11].
   void command_velocity(double velocity) noexcept {
     if (may_act()) follow_velocity(velocity);
   }
@@ -132,8 +132,8 @@ class ServoDrive : public Actuator<ServoDriveInterface> {
     set_fault(Status::error(
         StatusCode::device_fault,
         "its axis is %.4g from its target and has not come nearer in %.3g s (four times `following_time` and "
-        "its ramps) by a tenth of what its speed makes: does it stick, or does its encoder?",
-        *away, patience));
+        "its ramps) by a tenth of what its speed makes: %s",
+        *away, patience, target->says[0] == '\0' ? "does it stick, or does its encoder?" : target->says));
   }
 
   VelocityLag lag_;

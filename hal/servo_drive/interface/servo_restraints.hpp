@@ -7,7 +7,8 @@ namespace flexrf::servo_restraints {
 inline constexpr char out_of_range[] = "a position outside of `lowest` to `highest` is not gone to";
 inline constexpr char too_far[] =
     "a way of more than half of what the drive's counter holds is not gone at once";
-inline constexpr char end_of_range[] = "it goes no farther than the end of its range, `lowest` or `highest`";
+inline constexpr char end_of_range[] =
+    "it is slowed down before the end of its range, `lowest` or `highest`, and goes no farther";
 inline constexpr char too_fast[] = "a velocity above `fastest` is not taken";
 inline constexpr char led_too_fast[] =
     "set-points that move faster than `fastest` are followed no faster, and it falls behind them";

@@ -7,6 +7,7 @@
 
 #include "hal/driver/mock/mock_delay.hpp"
 #include "hal/driver/mock/mock_noise.hpp"
+#include "hal/servo_drive/interface/range_end.hpp"
 #include "hal/servo_drive/interface/servo_drive.hpp"
 #include "hal/servo_drive/interface/servo_restraints.hpp"
 #include "mock_servo_drive_driver.hpp"
@@ -222,11 +223,16 @@ class MockServoDrive final : public MockServoDriveDriver {
       return;
     }
     if (sticks_) return;
-    const double wanted = way_ + *commanded_ * elapsed;
-    const bool endless = configuration.endless;
-    go_on_to(endless ? wanted : std::clamp(wanted, configuration.lowest, configuration.highest));
-    is_at_its_end_ = way_ != wanted;
-    state_->target_reached = configuration.mode == ServoMode::profile_velocity && way_ == wanted;
+    const double velocity = permitted_velocity(elapsed);
+    const double next = way_ + velocity * elapsed;
+    go_on_to(configuration.endless ? next : std::clamp(next, configuration.lowest, configuration.highest));
+    is_at_its_end_ = velocity != *commanded_;
+    state_->target_reached = configuration.mode == ServoMode::profile_velocity && !is_at_its_end_;
+  }
+  double permitted_velocity(double elapsed) const noexcept {
+    if (configuration.endless) return *commanded_;
+    const double left = *commanded_ > 0 ? configuration.highest - way_ : way_ - configuration.lowest;
+    return slowed_before_end(*commanded_, left, elapsed, configuration.acceleration);
   }
   // True: the set-point is there, and with it the axis.
   bool go_to(double wanted, double most) noexcept {

@@ -46,7 +46,7 @@ struct Axis {
         word |= handshake.advance(status, bench.now());
         target = handshake.target();
       }
-      if (mode == Mode::homing) word |= homing.advance(status, true, bench.now());
+      if (mode == Mode::homing) word |= homing.advance(status, true, true, bench.now());
     }
     if (halts) word |= canopen::cia402::control_bit::halt;
     const std::uint64_t values[] = {word, static_cast<std::uint64_t>(std::llround(target)),
@@ -78,7 +78,7 @@ struct Axis {
   DrivePower power;
   CyclicSetPoint cyclic{fastest};
   SetPointHandshake handshake{milliseconds(500)};
-  HomingRun homing{std::chrono::seconds(20), milliseconds(50)};
+  HomingRun homing{std::chrono::seconds(20), milliseconds(50), true};
   double velocity = 0;
   bool halts = false;
   bool came_up = false;

@@ -78,6 +78,7 @@ void ForeignDrive::boot() {
   add(0x6060, 0, 1, 0, true, true);
   add(0x6061, 0, 1, 0, false, true);
   add(0x6064, 0, 4, 0, false, true);
+  if (nature_.window) add(0x6067, 0, 4, *nature_.window, true, false);
   add(0x606C, 0, 4, 0, false, true);
   add(0x607A, 0, 4, 0, true, true);
   add(0x6081, 0, 4, 777, true, true);
@@ -222,7 +223,8 @@ void ForeignDrive::unpack(std::uint16_t number, const Message& frame) {
 void ForeignDrive::act_on(std::uint16_t index, std::uint8_t subindex) {
   if (index == 0x6060) {
     const auto mode = static_cast<std::int8_t>(object(0x6060));
-    const bool has_it = mode == 6 || (nature_.interpolates ? mode == 7 : mode == 1 || mode == 3 || mode == 8);
+    const bool has_it =
+        mode == 6 || (nature_.interpolates ? mode == 7 : mode == 1 || mode == 3 || mode == 8 || mode == 9);
     if (has_it) objects_[key(0x6061, 0)].value = object(0x6060);
   }
   if (index == 0x6040 && nature_.acts_at_last)
@@ -319,10 +321,11 @@ std::uint16_t ForeignDrive::statusword() const {
   const std::uint32_t mode = object(0x6061);
   if (state_ != State::operation_enabled) return word;
   if (mode == 6 && homed_) word |= 0x1000;
+  if (mode == 6 && nature_.homes_without_bit_10) word &= 0xFBFF;
   if ((mode == 1 && acknowledged_) || (mode == 7 && interpolates_now_) ||
       (mode == 8 && !nature_.leaves_bit_12))
     word |= 0x1000;
-  return word;
+  return static_cast<std::uint16_t>((word | beside_) & ~never_);
 }
 
 void ForeignDrive::synchronise(Outbox& says) {
@@ -394,12 +397,20 @@ void ForeignDrive::move() {
   const std::uint32_t mode = object(0x6061);
   if (state_ == State::operation_enabled && (word_ & 0x100) == 0 && !sticks_) {
     if (mode == 1) {
-      towards(goal_, goal_speed_);
-      if (std::abs(position_ - goal_) < 0.5) reached_ = true;
+      const double place = goal_ > position_ ? goal_ - nature_.stops_short : goal_ + nature_.stops_short;
+      if (std::abs(goal_ - position_) > nature_.stops_short) towards(place, goal_speed_);
+      if (std::abs(position_ - goal_) <= std::max<double>(0.5, nature_.window.value_or(0))) reached_ = true;
     }
     if (mode == 6 && (word_ & 0x10) != 0) {
       towards(goal_, 2000);
       homed_ = reached_ = std::abs(position_) < 0.5;
+    }
+    if (mode == 9) position_ += static_cast<std::int32_t>(object(0x60FF)) * step_s;
+    if (mode == 3) {
+      constexpr double ramp = 10000;  // increments/s^2
+      const double asked = static_cast<std::int32_t>(object(0x60FF));
+      ramped_ += std::clamp(asked - ramped_, -ramp * step_s, ramp * step_s);
+      position_ += ramped_ * step_s;
     }
     if (mode == 8) towards(static_cast<std::int32_t>(object(0x607A)), 30000);
     if (mode == 7 && interpolates_now_) {

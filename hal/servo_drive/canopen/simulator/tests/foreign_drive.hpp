@@ -28,7 +28,10 @@ class ForeignDrive {
     int serves_after = 0;                   ///< ms until it looks at a request by SDO
     bool acts_at_last = false;              ///< on a controlword behind all else that came before SYNC
     bool leaves_bit_12 = false;             ///< of its statusword at 0 in cyclic position, as older drives do
-    bool interpolates = false;              ///< of the position modes it has interpolated position (7) alone
+    bool homes_without_bit_10 = false;      ///< that its home is found it says by bit 12 alone
+    std::optional<std::uint32_t> window{};  ///< object 6067; nothing: it has none
+    double stops_short = 0;     ///< increments before its target; it says that it is there within its window
+    bool interpolates = false;  ///< of the position modes it has interpolated position (7) alone
   };
   struct SetPoint {
     std::int32_t target = 0;
@@ -50,6 +53,11 @@ class ForeignDrive {
   void stop_interpolation() { interpolates_now_ = false; }
   /// Something holds its axis, and nothing in it notices.
   void stick() { sticks_ = true; }
+  /// Bits of its statusword that it says beside its state.
+  void say_beside(std::uint16_t bits, std::uint16_t never = 0) {
+    beside_ = bits;
+    never_ = never;
+  }
   /// 0 where there is none.
   std::uint32_t object(std::uint16_t index, std::uint8_t subindex = 0) const;
   /// Aborts that it answered with.
@@ -94,6 +102,7 @@ class ForeignDrive {
   std::uint16_t word_ = 0;
   double position_;
   double velocity_ = 0;
+  double ramped_ = 0;  // in mode profile velocity
   double goal_ = 0;
   double goal_speed_ = 0;
   bool word_came_ = false;
@@ -103,6 +112,8 @@ class ForeignDrive {
   bool homed_ = false;
   bool interpolates_now_ = false;
   bool sticks_ = false;
+  std::uint16_t beside_ = 0;
+  std::uint16_t never_ = 0;
   double longest_jump_ = 0;
   std::vector<SetPoint> set_points_;
   std::vector<std::uint32_t> aborts_;

@@ -55,6 +55,7 @@ struct ForeignCell {
     }
     for (; !heard.is_empty(); heard.pop()) axis.receive(heard.front(), now, said);
     if (position) axis.command_position(*position);
+    if (velocity) axis.command_velocity(*velocity);
     axis.send(may_move, now, milliseconds(cycle_of_7_ms), said);
     if (const Restraint held = axis.take_restraint(); held.reason != nullptr) restraint = held;
   }
@@ -102,6 +103,7 @@ struct ForeignCell {
   Outbox heard;
   bool may_move = false;
   std::optional<double> position;
+  std::optional<double> velocity;
   Restraint restraint;
 };
 
@@ -396,6 +398,92 @@ void what_cannot_be_written_and_is_right_already_is_taken(void**) {
 }
 
 // At the other end of a driver's bus.
+// By bit 12 alone, as some do.
+void a_home_that_is_told_by_one_bit_needs_the_column_and_rest(void**) {
+  for (const bool is_said : {true, false}) {
+    AxisPlan plan = plan_for(Mode::cyclic_position);
+    plan.homing_method = 35;
+    plan.homing_timeout = std::chrono::seconds(5);
+    plan.homing_tells_reached = !is_said;
+    ForeignCell cell(plan, {.homes_without_bit_10 = true});
+    assert_true(cell.comes_up());
+    cell.axis.home();
+    cell.run(8000);
+    assert_true(cell.axis.fault().is_ok());
+    if (is_said) {
+      assert_true(cell.axis.homing() == canopen::cia402::Homing::homed);
+      assert_true(cell.is_at(0));
+    } else {
+      assert_true(cell.axis.homing() == canopen::cia402::Homing::failed);
+      assert_non_null(std::strstr(cell.axis.homing_problem().cause(), "homing_tells_reached = false"));
+    }
+  }
+}
+
+// Its position controller leaves something, and its window is as wide.
+void a_drive_that_stops_within_its_own_window_has_arrived(void**) {
+  struct Case {
+    std::optional<std::uint32_t> window;
+    double short_by;
+    bool arrives;
+  };
+  // As far as it goes in a period it may always be away; a window that is off says nothing.
+  for (const Case& one : {Case{std::nullopt, 0, true}, Case{10, 8, true}, Case{100, 80, true},
+                          Case{10, 80, false}, Case{0xFFFFFFFF, 80, false}, Case{0xFFFFFFFF, 2, true}}) {
+    AxisPlan plan = plan_for(Mode::profile_position);
+    plan.fastest = 0.5;
+    ForeignCell cell(plan, {.window = one.window, .stops_short = one.short_by});
+    assert_true(cell.comes_up());
+    cell.axis.move_to(2, 0.5);
+    for (int i = 0; i < 600 && !cell.axis.state()->target_reached; ++i) cell.step();
+    assert_true(cell.axis.state()->target_reached == one.arrives);
+    assert_true(cell.axis.fault().is_ok());
+  }
+}
+
+// Before it moves at all, the drive may still say of the target before that it is there.
+void a_target_is_not_reached_before_the_axis_is_near_it(void**) {
+  AxisPlan plan = plan_for(Mode::profile_position);
+  ForeignCell cell(plan, {.window = 10, .stops_short = 8});
+  assert_true(cell.comes_up());
+  cell.drive.say_beside(0x0400);
+  cell.axis.move_to(3, 2);
+  for (int i = 0; i < 600 && !cell.axis.state()->target_reached; ++i) cell.step();
+  assert_true(std::abs(cell.drive.position() - 3000) < 20);
+}
+
+// However the drive follows velocities: at once, or by a ramp of its own that is the plan's.
+void an_axis_that_is_led_by_velocities_comes_to_rest_at_the_end_of_its_range(void**) {
+  for (const Mode mode : {Mode::cyclic_velocity, Mode::profile_velocity}) {
+    for (const double speed : {0.05, 1.0, 5.0}) {
+      for (const double direction : {1.0, -1.0}) {
+        AxisPlan plan = plan_for(mode);
+        plan.lowest = 0;
+        plan.highest = 2;
+        ForeignCell cell(plan);
+        assert_true(cell.comes_up());
+        cell.velocity = direction * speed;
+        double farthest = cell.drive.position();
+        for (int i = 0; i < 5000; ++i) {
+          cell.step();
+          farthest = direction > 0 ? std::max(farthest, cell.drive.position())
+                                   : std::min(farthest, cell.drive.position());
+        }
+        const double end = direction > 0 ? 2000 : 0;
+        if (std::abs(farthest - end) > 3) print_message("%g of %g at %g\n", farthest, end, speed);
+        assert_true(std::abs(farthest - end) <= 3);
+        assert_true(cell.axis.state()->velocity == 0);
+        assert_ptr_equal(cell.restraint.reason, servo_restraints::end_of_range);
+        // And back, from the end.
+        cell.velocity = -direction * speed;
+        cell.run(700);
+        assert_true(std::abs(cell.drive.position() - end) > 20);
+        assert_true(cell.axis.fault().is_ok());
+      }
+    }
+  }
+}
+
 class ForeignOnCan final : public CanNode {
  public:
   ForeignOnCan(const ForeignDrive::Nature& nature, Time now) : drive_{nature}, now_{now} {}
@@ -487,7 +575,10 @@ bool a_stuck_one_is_a_fault(bool tells_speed, double way) {
   if (way > 0) cell.drive().move_to(-1 + way, 2);
   cell.run(2500);
   const Status& fault = cell.drive().fault();
-  if (std::strstr(fault.cause(), "from its target") != nullptr && !cell.far_end().is_enabled()) return true;
+  if (std::strstr(fault.cause(), "from its target") != nullptr &&
+      std::strstr(fault.cause(), "does it stick, or does its encoder?") != nullptr &&
+      !cell.far_end().is_enabled())
+    return true;
   print_message("fault: %s\n", fault.cause());
   return false;
 }
@@ -517,12 +608,39 @@ void an_axis_that_sticks_on_its_way_is_a_fault_where_the_drive_does_not_notice(v
   }
 }
 
+// Why it does not come nearer, the drive may know.
+void an_axis_that_does_not_come_nearer_is_told_with_what_its_drive_says(void**) {
+  struct Case {
+    std::uint16_t bits;
+    std::uint16_t never;
+    const char* words;
+  };
+  for (const Case& one :
+       {Case{0, 0x0200, "does not obey the bus"}, Case{0x0800, 0, "a limit of its own holds it"},
+        Case{0x2000, 0, "that it cannot follow"}, Case{0x0400, 0, "beyond its own window (object 6067)"}}) {
+    DriverCell cell{true};
+    assert_true(cell.comes_up());
+    cell.far_end().stick();
+    cell.far_end().say_beside(one.bits, one.never);
+    cell.drive().move_to(2, 2);
+    cell.run(2500);
+    if (std::strstr(cell.drive().fault().cause(), one.words) == nullptr)
+      print_message("fault: %s\n", cell.drive().fault().cause());
+    assert_non_null(std::strstr(cell.drive().fault().cause(), one.words));
+  }
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_drive_that_acts_on_each_object_goes_where_it_is_told),
       cmocka_unit_test(a_drive_that_acts_at_last_goes_where_it_is_told),
+      cmocka_unit_test(a_home_that_is_told_by_one_bit_needs_the_column_and_rest),
+      cmocka_unit_test(a_drive_that_stops_within_its_own_window_has_arrived),
+      cmocka_unit_test(a_target_is_not_reached_before_the_axis_is_near_it),
+      cmocka_unit_test(an_axis_that_is_led_by_velocities_comes_to_rest_at_the_end_of_its_range),
+      cmocka_unit_test(an_axis_that_does_not_come_nearer_is_told_with_what_its_drive_says),
       cmocka_unit_test(a_speed_that_is_in_no_pdo_is_told_before_its_target_counts),
       cmocka_unit_test(a_drive_without_a_second_pdo_is_told_its_speed_by_sdo),
       cmocka_unit_test(a_drive_without_an_object_for_its_speed_says_what_it_does),
