@@ -1,6 +1,8 @@
 // Devices: owners, buses, IO threads, drivers.
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 
 #include "config-gen/check/checks.hpp"
 #include "config-gen/model/words.hpp"
@@ -161,6 +163,77 @@ void check_bus_threads(const Model& model, const Device& bus, Diagnostics& diagn
   }
 }
 
+/// Where a device is on its bus, by one of the drivers that its row permits: a number, or a line's name.
+struct Address {
+  std::string value;
+  std::string name;  // of the parameter
+};
+
+void take_addresses(const ParameterBlock& block, const std::vector<Literal>& values,
+                    std::vector<Address>& addresses) {
+  const auto take = [&](const Parameter& parameter, const Literal& literal) {
+    const auto* number = std::get_if<std::int64_t>(&literal.value);
+    const auto* text = std::get_if<std::string>(&literal.value);
+    if (number != nullptr && *number != 0)
+      addresses.push_back({std::to_string(*number), parameter.field.name});
+    if (text != nullptr && !text->empty()) addresses.push_back({quote(*text), parameter.field.name});
+  };
+  for (std::size_t i = 0; i < block.parameters.size() && i < values.size(); ++i) {
+    if (!block.parameters[i].address) continue;
+    take(block.parameters[i], values[i]);
+    // An array's default has numbers for more than there are, as for joints.
+    const Position& set = values[i].position;
+    const Position& initial = block.parameters[i].initial.position;
+    if (set.file == initial.file && set.line == initial.line) continue;
+    for (const Literal& element : values[i].elements) take(block.parameters[i], element);
+  }
+}
+
+std::vector<Address> addresses_of(const Model& model, const Device& device, const DriverChoice& choice) {
+  const Driver& driver = model.drivers[choice.driver];
+  std::vector<Address> addresses;
+  if (!driver.bus_interface) return addresses;
+  take_addresses(model.interfaces[device.interface].configuration, device.configuration, addresses);
+  take_addresses(driver.configuration, choice.configuration, addresses);
+  return addresses;
+}
+
+// Two that answer to one address are led as if they were one, whichever of their drivers are chosen. Told
+// once of a device.
+void check_bus_addresses(const Model& model, const Device& bus, Diagnostics& diagnostics) {
+  std::map<std::string, const Device*> taken;
+  for (const Index index : bus.children) {
+    const Device& child = model.devices[index];
+    std::map<std::string, std::string> own;
+    std::optional<Address> doubled;
+    for (const DriverChoice& choice : child.drivers) {
+      std::set<std::string> of_driver;
+      for (const Address& address : addresses_of(model, child, choice)) {
+        own.emplace(address.value, address.name);
+        if (!of_driver.insert(address.value).second) doubled = address;
+      }
+    }
+    if (doubled) {
+      diagnostics.error(child.position,
+                        "the address " + doubled->value + " (" + quote(doubled->name) + ") of device " +
+                            quote(child.name) + " is there twice",
+                        "give each its own, as it is on the device");
+      continue;
+    }
+    for (const auto& [value, name] : own) {
+      const auto [other, fresh] = taken.emplace(value, &child);
+      if (fresh) continue;
+      diagnostics.error(child.position,
+                        "the address " + value + " (" + quote(name) + ") of device " + quote(child.name) +
+                            " on bus " + quote(bus.name) + " is that of " + quote(other->second->name) +
+                            ", too",
+                        "give each its own, as it is on the device; the other one is at " +
+                            to_string(other->second->position));
+      break;
+    }
+  }
+}
+
 void check_restart(const Model& model, const Unit& unit, Diagnostics& diagnostics) {
   if (unit.restart == Unit::Restart::never) return;
   for (const auto& index : unit.devices) {
@@ -207,6 +280,7 @@ void check_devices(const Model& model, Diagnostics& diagnostics) {
     check_drivers(model, device, diagnostics);
     check_bus_circle(model, index, diagnostics);
     check_bus_threads(model, device, diagnostics);
+    check_bus_addresses(model, device, diagnostics);
   }
   for (const Unit& unit : model.units) check_restart(model, unit, diagnostics);
   check_autostart(model, diagnostics);

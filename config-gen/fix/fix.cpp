@@ -165,10 +165,53 @@ class Fixer {
   // Replaces what can be, in what was read in the round before; false when that is nothing.
   bool replace_words(const Diagnostics& found) {
     if (round_ == 1) said_ = texts_of(found);
+    note_outvoted(found);
     bool changed = false;
     for (const Diagnostic& one : found.sorted())
       if (can_be_done(one) && replace_word(one)) changed = true;
     return changed;
+  }
+
+  /// A row that several places refer to by another name than its own, and none by its own, is what may be
+  /// misspelt.
+  void note_outvoted(const Diagnostics& found) {
+    std::map<std::pair<std::string, std::string>, std::set<Position>> places;
+    for (const Diagnostic& one : found.sorted())
+      if (can_be_done(one)) places[{one.replacement->found, one.replacement->wanted}].insert(one.position);
+    for (const auto& [words, where] : places) {
+      if (where.size() < 2 || !obstacle_of(where.begin()->file).empty()) continue;
+      const Mentions of_wanted = mentions_of(words.second, file_at(where.begin()->file)->text(round_));
+      if (of_wanted.row == 0 || of_wanted.others >= where.size()) continue;
+      outvoted_.emplace(words, "it stands so in " + std::to_string(where.size()) + " places, and " +
+                                   quote(words.second) + " in " + std::to_string(of_wanted.others) +
+                                   " beside its own row in line " + std::to_string(of_wanted.row) +
+                                   ", which may be what is misspelt");
+    }
+  }
+
+  struct Mentions {
+    std::size_t row = 0;     // the line of its own row, as "[unit.NAME]"; 0: it has none there
+    std::size_t others = 0;  // beside that
+  };
+  static Mentions mentions_of(const std::string& word, const std::string& text) {
+    const auto is_of_word = [](char c) {
+      return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+             c == '-';
+    };
+    Mentions mentions;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      const std::size_t end = at + word.size();
+      if ((at > 0 && is_of_word(text[at - 1])) || (end < text.size() && is_of_word(text[end]))) continue;
+      const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;  // npos + 1 is 0
+      const bool is_row = text[line] == '[' && end < text.size() && text[end] == ']';
+      if (is_row && mentions.row == 0)
+        mentions.row = static_cast<std::size_t>(
+                           std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) +
+                       1;
+      else
+        ++mentions.others;
+    }
+    return mentions;
   }
 
   bool replace_word(const Diagnostic& one) {
@@ -181,6 +224,11 @@ class Fixer {
     const auto at = file.before_edits(place->begin, round_);
     const auto token = file.before_edits(place->token, round_);
     if (!at || !token || reasons_.contains({file.name(), *at})) return false;
+    if (const auto outvoted = outvoted_.find({replacement.found, replacement.wanted});
+        outvoted != outvoted_.end()) {
+      reasons_.emplace(std::pair(file.name(), *at), outvoted->second);
+      return false;
+    }
     if (const Edit* const known = file.find(*at)) {
       if (known->wanted != replacement.wanted)
         refuse(file, *at, "it could mean " + quote(known->wanted) + ", too");
@@ -345,6 +393,7 @@ class Fixer {
   std::set<std::string> said_;  // before this round
   std::map<std::string, EditedFile, std::less<>> files_;
   std::map<std::string, std::string, std::less<>> obstacles_;
+  std::map<std::pair<std::string, std::string>, std::string> outvoted_;  // found and wanted, and why
   std::map<std::pair<std::string_view, std::size_t>, std::string>
       reasons_;  // of words that stay, by file and byte
 };

@@ -141,6 +141,7 @@ struct Parameter {
   std::string menu;
   PanelRole role = PanelRole::op;
   bool persist = true;      // runtime only
+  bool address = false;     // configuration only: what one device alone may have on its bus
   std::vector<Need> needs;  // of a button or a hold: all of them
 };
 

@@ -230,6 +230,15 @@ Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kin
   }
   if (kind == Parameter::Kind::runtime) row.also("needs");  // when the feedback is known, too
   if (kind == Parameter::Kind::runtime) parameter.persist = row.boolean("persist").value_or(true);
+  if (kind == Parameter::Kind::configuration && row.boolean("address").value_or(false)) {
+    parameter.address = true;
+    const FieldType& type = parameter.field.type;
+    const bool fits =
+        type.kind == FieldType::Kind::scalar && (is_integer(type.scalar) || type.scalar == Scalar::text);
+    if (field && !fits)
+      library.diagnostics().error(row.position("address"), row.name() + " cannot be an address",
+                                  "an address on a bus is a whole number, an array of them, or a text");
+  }
   row.finish();
   return parameter;
 }

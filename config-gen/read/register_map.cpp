@@ -37,6 +37,10 @@ constexpr std::array<Range, 9> raw_ranges = {{{0, 1},
                                               {0, 18446744073709551615.0},
                                               {-1.7e308, 1.7e308}}};
 
+bool is_fraction(std::size_t type) {
+  return register_types[type][0] == 'f';
+}
+
 std::size_t words_of(const ModbusRegister& entry) {
   return entry.type >= first_long ? 4 : entry.type >= first_double ? 2 : 1;
 }
@@ -197,7 +201,15 @@ class MapReader : CsvRowReader {
     entry_.safe_value = *value;
     const double raw = *value / entry_.scale;
     const Range range = raw_ranges[entry_.type];
-    if (!(raw >= range.least && raw <= range.most))
+    // What a scale as 0.1 makes of a whole count is off by a few of its last digits.
+    const bool is_count =
+        is_fraction(entry_.type) || std::abs(raw - std::round(raw)) <= 1e-6 * std::max(1.0, std::abs(raw));
+    if (raw >= range.least && raw <= range.most && !is_count)
+      error(*found,
+            "the safe_value " + found->text + " is no whole count of its type, " + register_types[entry_.type] +
+                (entry_.scale == 1 ? "" : ", with the scale of " + quote(entry_.name)),
+            "write the value that the register shall have, to its last count");
+    else if (!(raw >= range.least && raw <= range.most))
       error(*found,
             "the safe_value " + found->text + " does not fit a " + register_types[entry_.type] +
                 (entry_.scale == 1 ? "" : " with the scale of " + quote(entry_.name)),

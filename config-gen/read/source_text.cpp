@@ -142,6 +142,20 @@ std::optional<std::string> read_source(const std::filesystem::path& file, Diagno
     if (found != tried_texts->texts_.end()) return found->second;
   }
   const Position place{intern(file.generic_string()), 1, 1};
+  // Who opens a pipe waits for somebody to write into it.
+  std::error_code unknown;
+  const auto kind = std::filesystem::status(file, unknown).type();
+  using Kind = std::filesystem::file_type;
+  if (kind == Kind::fifo || kind == Kind::socket || kind == Kind::character || kind == Kind::block) {
+    diagnostics.error(place,
+                      std::string("this is ") +
+                          (kind == Kind::fifo     ? "a pipe"
+                           : kind == Kind::socket ? "a socket"
+                                                  : "a device") +
+                          ", and no file that could be read as a whole",
+                      "write what comes from it into a file, and name that");
+    return std::nullopt;
+  }
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   std::string text;

@@ -126,6 +126,12 @@ std::optional<Trigger> read_backoff_trigger(Assembly& assembly, Row& row, const 
       row.missing(key, "add shortest = \"100 us\" and longest = \"50 ms\": the bounds of its sleeps");
   trigger.shortest = row.positive_duration("shortest").value_or(0);
   trigger.longest = row.positive_duration("longest").value_or(0);
+  constexpr Nanoseconds longest_sleep = 3'600'000'000'000;
+  if (trigger.longest > longest_sleep)
+    assembly.diagnostics.error(row.position("longest"),
+                               "'longest' of " + row.name() + " is " + duration_text(trigger.longest) +
+                                   ": what comes would wait for so long",
+                               "write at most \"3600 s\"");
   trigger.tries = static_cast<std::size_t>(row.integer("tries", 1, 1000).value_or(4));
   if (trigger.shortest > trigger.longest && trigger.longest > 0)
     assembly.diagnostics.error(row.position("shortest"),
@@ -333,6 +339,13 @@ void read_thread_row(Assembly& assembly, const FlatRow& flat) {
   thread.above_interrupts = row.boolean("above_interrupts").value_or(false);
   thread.deadline = row.positive_duration("deadline");
   thread.hang_timeout = row.positive_duration("hang_timeout");
+  constexpr Nanoseconds shortest_hang = 1'000'000;
+  if (thread.hang_timeout && *thread.hang_timeout < shortest_hang)
+    assembly.diagnostics.error(row.position("hang_timeout"),
+                               "'hang_timeout' of " + row.name() + " is " +
+                                   duration_text(*thread.hang_timeout) +
+                                   ": every step would be taken for a hang",
+                               "write at least \"1 ms\", and more than its longest step");
   thread.stack = read_stack(row, assembly.diagnostics).value_or(thread.stack);
   thread.summary = row.sentence("summary").value_or("");
   read_overrun(assembly, row, thread.overrun);

@@ -219,6 +219,28 @@ void what_is_in_doubt_is_left_alone(void**) {
   assert_true(is(Cell::text("cell.toml"), before));
 }
 
+// Several right references against one wrong definition: a person decides.
+void a_row_that_nobody_refers_to_outvotes_no_references(void**) {
+  Files files = with(base("buses"), "cell.toml", "[device.can0]", "[device.cann0]");
+  const std::string before = files["cell.toml"];
+  {
+    const Cell cell(files);
+    const Fixed fixed = Cell::fix();
+    assert_false(fixed.good);
+    assert_true(says(
+        fixed.told,
+        "left alone: 'can0' -> 'cann0': it stands so in 2 places, and 'cann0' in 0 beside its own row in "
+        "line 4, which may be what is misspelt\n"));
+    assert_true(is(Cell::text("cell.toml"), before));
+  }
+  // One wrong reference beside a right one is a slip.
+  const Cell cell(with(base("buses"), "cell.toml",
+                       "drivers = [\"simulated\", \"can\"]\non = \"can0\"\n\n[device.right]",
+                       "drivers = [\"simulated\", \"can\"]\non = \"cann0\"\n\n[device.right]"));
+  const Fixed fixed = Cell::fix();
+  assert_true(fixed.good);
+}
+
 // The column that is missing is rightly named; the one that is there is what is corrected.
 void only_the_word_that_is_wrong_is_replaced(void**) {
   Files files = with(base("station"), "registers.csv", "name,address", "nmae,address");
@@ -494,6 +516,7 @@ int main() {
                               cmocka_unit_test(cells_of_lists_are_corrected),
                               cmocka_unit_test(lists_of_devices_are_corrected),
                               cmocka_unit_test(what_is_in_doubt_is_left_alone),
+                              cmocka_unit_test(a_row_that_nobody_refers_to_outvotes_no_references),
                               cmocka_unit_test(only_the_word_that_is_wrong_is_replaced),
                               cmocka_unit_test(a_key_that_is_there_already_is_left_alone),
                               cmocka_unit_test(a_change_that_leads_to_another_error_is_taken_back),

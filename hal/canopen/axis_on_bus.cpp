@@ -16,15 +16,17 @@ bool is_cyclic(const Message& message) {
 
 }  // namespace
 
-Status AxisOnBus::open(const cia402::AxisPlan& plan, CanBus& bus) {
+Status AxisOnBus::open(const cia402::AxisPlan& plan, CanBus& bus, const char* name) {
   plan_ = plan;
   bus_ = &bus;
+  name_ = name;
   outbox_.clear();
   began_ = told_own_ramps_ = false;
   last_sent_ = Time{};
   // Tried here, for its errors; begun in the first cycle, whose time counts.
   if (const Status status = axis_.begin(plan_, Time{}, outbox_); !status.is_ok()) return status;
   outbox_.clear();
+  if (const Status status = bus_->claim_node(plan_.node, name_); !status.is_ok()) return status;
   if (last_word_ < 0) last_word_ = bus_->claim_last_word();
   const std::uint8_t node = plan_.node;
   const CanIdentifier heard[] = {
@@ -39,6 +41,7 @@ void AxisOnBus::close() {
   // No message: the thread that could send it no longer steps. Without our heartbeat the drive stays off.
   if (bus_ == nullptr) return;
   bus_->close(inbox_);
+  bus_->release_node(name_);
   bus_->release_last_word(last_word_);
   last_word_ = CanBus::no_last_word;
 }

@@ -17,8 +17,9 @@ namespace flexrf::canopen {
 /// longer hears our heartbeat.
 class AxisOnBus {
  public:
-  /// The lifecycle thread. Error: the plan makes no sense, or the bus has no place.
-  Status open(const cia402::AxisPlan& plan, CanBus& bus);
+  /// The lifecycle thread. Error: the plan makes no sense, the bus has no place, or its node is another
+  /// device's. `name`: of the device; lives for ever.
+  Status open(const cia402::AxisPlan& plan, CanBus& bus, const char* name);
   void close();
 
   /// The thread that the bus lives in; never block, never allocate.
@@ -43,6 +44,7 @@ class AxisOnBus {
   Outbox outbox_;
   CanInbox inbox_;
   CanBus* bus_ = nullptr;
+  const char* name_ = "";
   int last_word_ = CanBus::no_last_word;  // its place
   bool began_ = false;
   bool told_own_ramps_ = false;  // since open()

@@ -33,7 +33,7 @@ class CanopenDrive : public Base {
     plan.homing_timeout = canopen::whole_milliseconds(from.homing_timeout);
     return plan;
   }
-  Status open(const canopen::cia402::AxisPlan& plan) { return link_.open(plan, *this->bus); }
+  Status open(const canopen::cia402::AxisPlan& plan) { return link_.open(plan, *this->bus, this->name()); }
 
  private:
   void take_in(const Tick& tick) noexcept override {

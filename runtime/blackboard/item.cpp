@@ -35,6 +35,8 @@ const char* name_of(NullReason reason) noexcept {
       return "no longer kept";
     case NullReason::driver_not_chosen:
       return "driver not chosen";
+    case NullReason::ahead_of_time:
+      return "stamped ahead of time";
   }
   return "unknown";
 }

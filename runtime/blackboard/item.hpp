@@ -20,6 +20,7 @@ enum class NullReason : std::uint8_t {
   wrong_type,         ///< the slot's type is another than the input's
   no_longer_kept,     ///< a history no longer keeps that time
   driver_not_chosen,  ///< only a driver writes it that was not chosen at the start
+  ahead_of_time,      ///< stamped later than the step's time, by more than the input's max_age
 };
 const char* name_of(NullReason reason) noexcept;
 

@@ -190,6 +190,9 @@ class InputCursor {
         reason_ = NullReason::nothing_yet;
       } else if (max_age_.count() > 0 && age(*header_) > max_age_) {
         reason_ = NullReason::too_old;
+      } else if (max_age_.count() > 0 && age(*header_) < -max_age_) {
+        // It would never become too old.
+        reason_ = NullReason::ahead_of_time;
       } else if (header_->sequence == cursor_) {
         freshness_ = Freshness::old_item;
         return;

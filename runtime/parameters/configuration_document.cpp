@@ -54,6 +54,11 @@ Status upgrade_format(pugi::xml_node root, unsigned target, std::span<const Form
   return {};
 }
 
+bool is_stray_text(pugi::xml_node node) {
+  const bool is_text = node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata;
+  return is_text && std::string_view(node.value()).find_first_not_of(" \t\r\n") != std::string_view::npos;
+}
+
 bool ConfigurationDocument::parse(std::string path, std::string text) {
   path_ = std::move(path);
   text_ = std::move(text);
@@ -61,13 +66,23 @@ bool ConfigurationDocument::parse(std::string path, std::string text) {
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n') line_starts_.push_back(i + 1);
   const pugi::xml_parse_result result = document_.load_buffer(
-      text_.data(), text_.size(), pugi::parse_default | pugi::parse_ws_pcdata_single, pugi::encoding_utf8);
+      text_.data(), text_.size(),
+      // A fragment's text outside of the document is kept, to be found.
+      pugi::parse_default | pugi::parse_ws_pcdata_single | pugi::parse_fragment, pugi::encoding_utf8);
   if (!result) {
     damage_ = position_at(result.offset) + "error: damaged: " + result.description();
     return false;
   }
-  for (pugi::xml_node node = root().next_sibling(); node; node = node.next_sibling()) {
-    if (node.type() != pugi::node_element) continue;
+  if (!root()) {
+    damage_ = position_at(0) + "error: damaged: there is no element in it";
+    return false;
+  }
+  for (const pugi::xml_node node : document_.children()) {
+    if (is_stray_text(node)) {
+      damage_ = position_of(node) + "error: damaged: text outside of the outermost element";
+      return false;
+    }
+    if (node.type() != pugi::node_element || node == root()) continue;
     damage_ = position_of(node) + "error: damaged: a second document begins here";
     return false;
   }

@@ -25,6 +25,9 @@ struct FormatStep {
 /// Brings the document to `target`; refuses one that is newer, or older than the oldest step.
 Status upgrade_format(pugi::xml_node root, unsigned target, std::span<const FormatStep> steps);
 
+/// Characters beside blanks, which no element may have around those in it.
+bool is_stray_text(pugi::xml_node node);
+
 class ConfigurationDocument {
  public:
   enum class Checksum : std::uint8_t { right, edited, wrong };

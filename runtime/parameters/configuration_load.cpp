@@ -241,8 +241,17 @@ void Reader::read_driver(pugi::xml_node node, std::size_t index) {
     return;
   }
   staged_[index].is_given = true;
-  for (const pugi::xml_node section : node.children())
-    if (section.type() == pugi::node_element) read_block(section, index);
+  std::unordered_set<std::string_view> seen;
+  for (const pugi::xml_node section : node.children()) {
+    if (is_stray_text(section)) unfit(section, [&] { return "text between the sections of " + shown(); });
+    if (section.type() != pugi::node_element) continue;
+    if (seen.insert(section.name()).second) {
+      read_block(section, index);
+    } else {
+      unfit(section,
+            [&] { return std::string("<") + section.name() + "> of " + shown() + " is given twice"; });
+    }
+  }
 }
 
 void Reader::read_block(pugi::xml_node section, std::size_t component) {
@@ -350,8 +359,14 @@ void Reader::read_structure(pugi::xml_node node, const FieldDescriptor& field, c
     check_attributes(node, {});
   }
   const std::size_t at = offset + field.offset + element * element_size(field);
+  std::unordered_set<std::string> seen;
   for (const pugi::xml_node child : node.children()) {
+    if (is_stray_text(child)) unfit(child, [&] { return "text between the members of " + quoted(here); });
     if (child.type() != pugi::node_element) continue;
+    if (!seen.insert(std::string(child.name()) + " " + child.attribute("index").value()).second) {
+      unfit(child, [&] { return quoted(here + "." + child.name()) + " is given twice"; });
+      continue;
+    }
     const auto member = std::find_if(
         field.type->fields.begin(), field.type->fields.end(),
         [&](const FieldDescriptor& candidate) { return std::strcmp(candidate.name, child.name()) == 0; });

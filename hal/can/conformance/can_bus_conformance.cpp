@@ -1,5 +1,7 @@
 #include "hal/can/conformance/can_bus_conformance.hpp"
 
+#include <cstring>
+
 #include "hal/can/conformance/can_bus_cases.hpp"
 #include "tests/conformance.hpp"
 
@@ -135,6 +137,27 @@ Verdict refuses_identifiers_that_cannot_be(CanBusWorld& world) {
 }
 
 // [can-bus-1] [can-bus-9] [can-send-queue-1]
+// [can-bus-13]
+Verdict a_node_has_one_owner(CanBusWorld& world) {
+  constexpr char left[] = "left";
+  constexpr char right[] = "right";
+  CanBus& bus = world.bus();
+  if (!bus.claim_node(5, left) || !bus.claim_node(5, left) || !bus.claim_node(6, right))
+    return Verdict::failed;
+  const Status refused = bus.claim_node(5, right);
+  if (refused || std::strstr(refused.cause(), "node 5") == nullptr ||
+      std::strstr(refused.cause(), "`left`") == nullptr)
+    return Verdict::failed;
+  // Whoever gets another number gives back the one before; who goes, each.
+  if (!bus.claim_node(7, left) || !bus.claim_node(5, right)) return Verdict::failed;
+  bus.release_node(left);
+  bus.release_node(right);
+  const bool are_free = bus.claim_node(5, left).is_ok() && bus.claim_node(7, right).is_ok();
+  bus.release_node(left);
+  bus.release_node(right);
+  return verdict(are_free);
+}
+
 Verdict sends_the_most_urgent_first(CanBusWorld& world) {
   world.receive();
   // As devices do it: the process data first, and SYNC by the one that comes last.
@@ -231,6 +254,7 @@ int run_can_bus_conformance(const char* driver, MakeCanBusWorld make) {
        nullptr},
       {"refuses identifiers that cannot be", judged<refuses_identifiers_that_cannot_be>, nullptr, nullptr,
        nullptr},
+      {"a node has one owner", judged<a_node_has_one_owner>, nullptr, nullptr, nullptr},
       {"sends the most urgent first", judged<sends_the_most_urgent_first>, nullptr, nullptr, nullptr},
       {"what is posted twice is said once", judged<what_is_posted_twice_is_said_once>, nullptr, nullptr,
        nullptr},

@@ -44,6 +44,25 @@ Status CanBus::open(CanInbox& inbox, std::span<const CanIdentifier> identifiers,
   return {};
 }
 
+Status CanBus::claim_node(std::uint8_t node, const char* owner) {
+  const char*& holder = nodes_[node % nodes_.size()];
+  if (holder != nullptr && holder != owner) {
+    return Status::error(
+        StatusCode::invalid_argument,
+        "node %u on the bus %s is that of `%s` already: give each device its own number, as it is set on "
+        "the device",
+        unsigned{node}, name(), holder);
+  }
+  release_node(owner);
+  holder = owner;
+  return {};
+}
+
+void CanBus::release_node(const char* owner) noexcept {
+  for (const char*& holder : nodes_)
+    if (holder == owner) holder = nullptr;
+}
+
 void CanBus::close(CanInbox& inbox) {
   registry_.take();
   forget(inbox);

@@ -1,6 +1,7 @@
 // CanBus: a CAN bus and the devices on it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
@@ -45,6 +46,12 @@ class CanBus : public CanBusInterface {
   }
   /// From now on nothing comes into the inbox [can-bus-7]. Before it goes; nothing when it is not open.
   void close(CanInbox& inbox);
+
+  /// From now on `owner` alone is this node of CANopen, 1 to 127, on the bus [can-bus-13]: a device that is
+  /// called twice is led by two. `owner` lives for ever; again, it is the same one. Error: another has it,
+  /// whose name is told.
+  Status claim_node(std::uint8_t node, const char* owner);
+  void release_node(const char* owner) noexcept;
 
   /// A place for a device's last word, see prepare_last_word(). Below 0: this bus says nothing then, or has
   /// no place left, which it has told.
@@ -111,6 +118,7 @@ class CanBus : public CanBusInterface {
   void deliver_to(std::uint16_t wish, const CanFrame& frame) noexcept;
   CanSendQueue waiting_;
   bool was_usable_ = false;
+  std::array<const char*, 128> nodes_{};  // their owners; the lifecycle thread's
 
   // Who has the turn may touch what follows.
   Turn registry_;

@@ -51,7 +51,7 @@ class AxisGripper : public Base {
     fastest_ = axis.fastest;
     weakest_ = plan.weakest;
     strongest_ = plan.strongest;
-    return control_.open(plan, axis, *this->bus);
+    return control_.open(plan, axis, *this->bus, this->name());
   }
 
  private:

@@ -20,7 +20,8 @@ Status check(const GripperAxisPlan& plan) noexcept {
 
 }  // namespace
 
-Status GripperAxis::open(const GripperAxisPlan& plan, const cia402::AxisPlan& axis, CanBus& bus) {
+Status GripperAxis::open(const GripperAxisPlan& plan, const cia402::AxisPlan& axis, CanBus& bus,
+                         const char* name) {
   if (const Status status = check(plan); !status) return status;
   plan_ = plan;
   axis_plan_ = axis;
@@ -30,7 +31,7 @@ Status GripperAxis::open(const GripperAxisPlan& plan, const cia402::AxisPlan& ax
   drop();
   state_.reset();
   trouble_ = {};
-  return link_.open(axis_plan_, bus);
+  return link_.open(axis_plan_, bus, name);
 }
 
 bool GripperAxis::activates() const noexcept {

@@ -29,7 +29,7 @@ struct GripperAxisPlan {
 class GripperAxis {
  public:
   /// `axis`: its mode and range follow from `plan`. Error: a plan makes no sense, or the bus has no place.
-  Status open(const GripperAxisPlan& plan, const cia402::AxisPlan& axis, CanBus& bus);
+  Status open(const GripperAxisPlan& plan, const cia402::AxisPlan& axis, CanBus& bus, const char* name);
   void close() { link_.close(); }
 
   void receive(const Tick& tick) noexcept;

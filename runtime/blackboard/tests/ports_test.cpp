@@ -171,6 +171,24 @@ void null_says_too_old(void**) {
   assert_int_equal(cell.input.latest()->number, 2);
 }
 
+// By another clock, or a writer that is wrong: it would stay new for ever.
+// [board-47]
+void null_says_ahead_of_time(void**) {
+  Cell cell{Duration{100}};
+  cell.step(1000);
+  cell.output.publish(Sample{1, 0, 0}, at(1100));
+  cell.step(1000);
+  assert_true(bool{cell.input.latest()});  // as a thread's that runs ahead of this one
+  cell.output.publish(Sample{2, 0, 0}, at(1'000'000'000));
+  for (const int now : {1001, 2000, 900'000'000}) {
+    cell.step(now);
+    assert_int_equal(cell.input.latest().reason(), NullReason::ahead_of_time);
+  }
+  cell.output.publish(Sample{3, 0, 0}, at(900'000'001));
+  cell.step(900'000'002);
+  assert_int_equal(cell.input.latest()->number, 3);
+}
+
 // [board-22]
 void null_says_not_registered(void**) {
   Input<Sample> never_connected;
@@ -224,7 +242,7 @@ void null_says_no_longer_kept(void**) {
 }
 
 void every_reason_has_a_name(void**) {
-  for (int reason = 0; reason <= static_cast<int>(NullReason::driver_not_chosen); ++reason) {
+  for (int reason = 0; reason <= static_cast<int>(NullReason::ahead_of_time); ++reason) {
     assert_string_not_equal(name_of(static_cast<NullReason>(reason)), "unknown");
   }
   assert_string_equal(name_of(static_cast<NullReason>(200)), "unknown");
@@ -412,6 +430,7 @@ int main() {
       cmocka_unit_test(null_says_why_the_writer_is_silent),
       cmocka_unit_test(null_says_nothing_yet),
       cmocka_unit_test(null_says_too_old),
+      cmocka_unit_test(null_says_ahead_of_time),
       cmocka_unit_test(null_says_not_registered),
       cmocka_unit_test(null_says_wrong_type),
       cmocka_unit_test(null_says_no_longer_kept),

@@ -425,6 +425,37 @@ void a_damaged_file_falls_back_to_the_previous(void**) {
   assert_true(contents(".previous").find("0.02") != std::string::npos);
 }
 
+// Nothing of a file is passed over: neither the second of two, nor what stands beside the elements.
+void what_would_be_passed_over_is_refused(void**) {
+  write(
+      "<flexrf>\n"
+      "  <unit name=\"jog\">\n"
+      "    <runtime><step>0.02</step></runtime>\n"
+      "    <runtime><step>0.03</step></runtime>\n"
+      "    and more\n"
+      "    <configuration><limits index=\"0\"><low>0</low>x<low>1</low></limits></configuration>\n"
+      "  </unit>\n"
+      "</flexrf>\n");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  std::size_t line = 0;
+  expect_problem(line++, "config.xml:4:5: error: <runtime> of unit 'jog' is given twice");
+  expect_problem(line++, "config.xml:4:40: error: text between the sections of unit 'jog'");
+  expect_problem(line++, "config.xml:6:49: error: text between the members of 'jog.limits[0]'");
+  expect_problem(line++, "config.xml:6:51: error: 'jog.limits[0].low' is given twice");
+  assert_true(has_unchanged_values());
+  write("<flexrf>\n</flexrf>\n<!-- a comment -->\nand more\n");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  expect_problem(0, "config.xml:3:18: error: damaged: text outside of the outermost element");
+  write("and more <flexrf/>\n");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  expect_problem(0, "config.xml:1:1: error: damaged: text outside of the outermost element");
+  write("<!-- nothing else -->\n");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  expect_problem(0, "config.xml:1:1: error: damaged: there is no element in it");
+  write("<!-- before --><flexrf>\n  <unit name=\"jog\">\n  </unit>\n</flexrf>\n<!-- behind -->\n");
+  assert_int_equal(load(), ConfigurationSource::file);
+}
+
 void a_syntax_error_has_line_and_column(void**) {
   write("<flexrf>\n  <unit name=\"jog\">\n    <runtime><step>0.02</stpe></runtime>\n  </unit>\n</flexrf>\n");
   assert_int_equal(load(), ConfigurationSource::refused);
@@ -613,6 +644,7 @@ int main() {
       cmocka_unit_test_setup_teardown(a_failed_save_leaves_the_file, begin, end),
       cmocka_unit_test_setup_teardown(a_damaged_file_falls_back_to_the_previous, begin, end),
       cmocka_unit_test_setup_teardown(a_lost_file_falls_back_to_the_previous, begin, end),
+      cmocka_unit_test_setup_teardown(what_would_be_passed_over_is_refused, begin, end),
       cmocka_unit_test_setup_teardown(a_syntax_error_has_line_and_column, begin, end),
       cmocka_unit_test_setup_teardown(an_edited_file_is_taken_with_a_notice, begin, end),
       cmocka_unit_test_setup_teardown(all_that_does_not_fit_is_named_at_once_and_nothing_is_taken, begin,

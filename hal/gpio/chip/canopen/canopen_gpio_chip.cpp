@@ -51,6 +51,7 @@ Status CanopenGpioChip::initialise() {
       {canopen::identifier_of(canopen::sdo_answer_base, node)},
       {canopen::identifier_of(canopen::heartbeat_base, node)},
   };
+  if (const Status status = bus->claim_node(node, name()); !status) return status;
   if (const Status status = bus->open(inbox_, heard, 64); !status) return status;
   last_word_ = bus->claim_last_word();
   const std::lock_guard lock(mutex_);
@@ -65,6 +66,7 @@ void CanopenGpioChip::stop() {
   if (open_) {
     bus->close(inbox_);
     bus->release_last_word(last_word_);
+    bus->release_node(name());
   }
   open_ = began_ = false;
   last_word_ = CanBus::no_last_word;

@@ -14,11 +14,11 @@ namespace flexrf {
 /// Settings: lifecycle thread. All else: the link's thread. Waits for answers, for at most longest_wait()
 /// each; libmodbus' own recovery, which sleeps, stays off. libmodbus carries requests and answers; whether an
 /// answer is this request's is judged here: by its transaction, its unit id and its content, since libmodbus
-/// takes any unit's over TCP, and any value as the confirmation of a write [modbus-client-1].
+/// takes any unit's over TCP, and any value as the confirmation of a write.
 ///
 /// An adapter of RS-485 may hear what it sends, and the answer to function 5 or 6 is the request itself. So
 /// on a serial line that nobody has answered yet a single value goes out by 15 or 16: what comes back of that
-/// is no answer, and is told [modbus-client-2].
+/// is no answer, and is told.
 class ModbusClient final : public ModbusTransport {
  public:
   ModbusClient() = default;

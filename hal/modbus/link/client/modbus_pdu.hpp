@@ -36,7 +36,7 @@ struct ModbusJudgement {
 };
 
 /// An answer fits when it has the request's function, as many bytes as were asked for, and of a write the
-/// address and value (or count) that were sent [modbus-pdu-1].
+/// address and value (or count) that were sent.
 ModbusJudgement judge_answer(const ModbusPdu& request, std::span<const std::uint8_t> answer) noexcept;
 
 /// The words in an answer that fits a read_request() of this block.

@@ -29,6 +29,16 @@ ModbusMaster::ModbusMaster() noexcept = default;
 ModbusMaster::~ModbusMaster() = default;
 
 Result<ModbusExchange*> ModbusMaster::attach(const ModbusStationSetup& setup) {
+  for (const auto& other : owned_) {
+    if (other == nullptr || other->state.load(std::memory_order_acquire) != ModbusExchange::State::active ||
+        other->setup.unit_id != setup.unit_id)
+      continue;
+    return Status::error(
+        StatusCode::invalid_argument,
+        "unit %d on this link is that of `%s` already: give each station its own unit_id, as it is set "
+        "on the device",
+        int{setup.unit_id}, other->setup.name);
+  }
   for (std::size_t i = 0; i < max_stations; ++i) {
     if (owned_[i] != nullptr &&
         owned_[i]->state.load(std::memory_order_acquire) != ModbusExchange::State::free)

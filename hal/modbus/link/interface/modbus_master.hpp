@@ -22,7 +22,8 @@ class ModbusMaster {
   ModbusMaster() noexcept;
   ~ModbusMaster();
 
-  /// Lifecycle thread; allocates. The exchange stays the link's.
+  /// Lifecycle thread; allocates. The exchange stays the link's. Error: another station that is attached has
+  /// this unit id [modbus-master-9], or its registers cannot be asked for.
   Result<ModbusExchange*> attach(const ModbusStationSetup& setup);
   /// Lifecycle thread. The link may be in the middle of a request of this station, and ends it.
   static void detach(ModbusExchange& exchange) noexcept;

@@ -26,6 +26,10 @@ struct ModbusReply {
   bool is_of_unknown_function() const noexcept { return exception == 1; }
 };
 
+/// A request is answered by what is its answer alone: to this request, of this unit, with its function and as
+/// many values as were asked for, and of a write with the address and the value (or count) that were sent
+/// [modbus-transport-1]. What the line itself sends back is none [modbus-transport-2].
+///
 /// All in the link's thread.
 class ModbusTransport {
  public:

@@ -144,7 +144,7 @@ Bytes refused(const Bytes& request, std::uint8_t code) {
 }
 
 // With nobody on the line, or everybody.
-// [modbus-client-2]
+// [modbus-transport-2]
 void a_line_that_hears_itself_confirms_nothing() {
   for (const ModbusBlock& block :
        {setting, block_of(ModbusArea::coil, 7), block_of(ModbusArea::holding_register, 0x0305),
@@ -163,7 +163,7 @@ void a_line_that_hears_itself_confirms_nothing() {
   }
 }
 
-// [modbus-client-2]
+// [modbus-transport-2]
 void a_line_that_hears_itself_and_its_station_confirms_nothing() {
   SerialFarEnd far([](const Bytes& request) {
     Bytes both = request;
@@ -226,7 +226,7 @@ Bytes over_tcp(const Bytes& request, Bytes rest) {
   return answer;
 }
 
-// [modbus-client-1]
+// [modbus-transport-1]
 void an_answer_over_tcp_has_to_be_this_requests() {
   struct Case {
     const char* told;
@@ -277,7 +277,7 @@ void an_answer_over_tcp_has_to_be_this_requests() {
     CHECK(well.client.write(unit, setting, value, false).outcome == ModbusOutcome::answered);
 }
 
-// [modbus-client-1]
+// [modbus-transport-1]
 void a_reading_of_another_unit_is_none() {
   std::uint16_t words[1] = {77};
   TcpFarEnd far([](const Bytes& r) { return over_tcp(r, {10, r[7], 2, 0x12, 0x34}); });

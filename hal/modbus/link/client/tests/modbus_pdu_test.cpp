@@ -86,7 +86,7 @@ void the_largest_fit() {
               6U + 246U);
 }
 
-// [modbus-pdu-1]
+// [modbus-transport-1]
 void an_answer_that_confirms_something_else_is_none() {
   const std::uint16_t words[] = {3, 4};
   const ModbusPdu single = write_request(block_of(ModbusArea::holding_register, 1, 1), words, false);

@@ -421,6 +421,16 @@ void what_wears_is_written_at_changes_alone() {
   CHECK_EQUAL(world.line.station(2).writes, 3);
 }
 
+// [modbus-master-9]
+void a_unit_has_one_station() {
+  Line world(2);
+  const Result<ModbusExchange*> refused = world.master.attach(Line::setup_of(2, map));
+  CHECK(!refused);
+  CHECK_CONTAINS(refused.status().cause(), "unit 2 on this link is that of `station` already");
+  ModbusMaster::detach(*world.exchanges[1]);
+  CHECK(world.master.attach(Line::setup_of(2, map)));
+}
+
 // [modbus-master-8]
 void nobody_is_asked_right_after_connecting() {
   Line world(1);
@@ -460,6 +470,7 @@ int main() {
       CONTAINED_TEST(readings_go_on_while_writing_fails_and_safe_values_do_not_wait),
       CONTAINED_TEST(who_is_not_heard_is_written_nothing_before_it_answers),
       CONTAINED_TEST(what_wears_is_written_at_changes_alone),
+      CONTAINED_TEST(a_unit_has_one_station),
       CONTAINED_TEST(nobody_is_asked_right_after_connecting),
   };
   return cmocka_run_group_tests_name("Modbus master", tests, nullptr, nullptr);
