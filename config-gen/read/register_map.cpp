@@ -206,7 +206,8 @@ class MapReader : CsvRowReader {
         is_fraction(entry_.type) || std::abs(raw - std::round(raw)) <= 1e-6 * std::max(1.0, std::abs(raw));
     if (raw >= range.least && raw <= range.most && !is_count)
       error(*found,
-            "the safe_value " + found->text + " is no whole count of its type, " + register_types[entry_.type] +
+            "the safe_value " + found->text + " is no whole count of its type, " +
+                register_types[entry_.type] +
                 (entry_.scale == 1 ? "" : ", with the scale of " + quote(entry_.name)),
             "write the value that the register shall have, to its last count");
     else if (!(raw >= range.least && raw <= range.most))
