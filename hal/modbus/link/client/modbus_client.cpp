@@ -53,8 +53,8 @@ void limit_answers(_modbus* context, Duration timeout) noexcept {
 }
 
 /// Bytes of request and answer together, unit id and CRC included (Modbus Application Protocol V1.1b3, 6.1 to
-/// 6.6, 6.11, 6.12; Modbus over serial line V1.02, 2.5.1). Of a single one written by the longer of its
-/// functions.
+/// 6.6, 6.11, 6.12; Modbus over serial line V1.02, 2.5.1). A single value may be written by two functions:
+/// the longer one counts.
 std::int64_t bytes_of(const ModbusBlock& block, bool writes) noexcept {
   const bool registers =
       block.area == ModbusArea::holding_register || block.area == ModbusArea::input_register;
@@ -134,7 +134,7 @@ Status ModbusClient::open() noexcept {
     return cannot_open(EBUSY);
   }
   quiet_since_ = now();
-  is_answered_ = false;
+  is_without_echo_ = false;
   if (serial_) modbus_flush(context_);
   return {};
 }
@@ -180,10 +180,10 @@ ModbusReply ModbusClient::read(std::uint8_t unit_id, const ModbusBlock& block,
 ModbusReply ModbusClient::write(std::uint8_t unit_id, const ModbusBlock& block, const std::uint16_t* words,
                                 bool multiple) noexcept {
   prepare(unit_id, block, true);
-  const bool listens = serial_ && !is_answered_ && block.count == 1 && !multiple;
-  ModbusReply reply = exchange(unit_id, write_request(block, words, multiple || listens));
-  if (listens && reply.is_of_unknown_function()) {
-    // Somebody is there, who may know the other one yet; that is another request.
+  const bool tries_echo = serial_ && !is_without_echo_ && block.count == 1 && !multiple;
+  ModbusReply reply = exchange(unit_id, write_request(block, words, multiple || tries_echo));
+  if (tries_echo && reply.is_of_unknown_function()) {
+    // The refusal is about 15 or 16, which nobody asked for; whether 5 or 6 is known, the next request tells.
     reply.exception = 0;
     reply.cause = "the station does not know the functions 15 and 16; 5 or 6 is tried next";
   }
@@ -215,9 +215,13 @@ bool ModbusClient::send(std::uint8_t unit_id, const ModbusPdu& request) noexcept
 }
 
 bool ModbusClient::hears_itself(std::uint8_t unit_id, const ModbusPdu& request) const noexcept {
-  // libmodbus reads on where the frame of an answer would end: at least what stands here has come by then.
-  constexpr std::size_t compared = 4;
-  return serial_ && frame_[0] == unit_id &&
+  if (!serial_ || request.is_answered_by_itself()) return false;
+  // libmodbus reads as many bytes as the frame of an answer would have, and takes the request's own for its
+  // checksum. Of a write, compare those too: a damaged answer repeats address and count, but not what follows
+  // them.
+  constexpr std::uint8_t last_reading_function = 4;
+  const std::size_t compared = request.function() > last_reading_function ? 7 : request.bytes[1] == 0 ? 4 : 5;
+  return frame_[0] == unit_id &&
          std::equal(request.bytes.begin(), request.bytes.begin() + compared, frame_.begin() + 1);
 }
 
@@ -229,13 +233,13 @@ ModbusReply ModbusClient::exchange(std::uint8_t unit_id, const ModbusPdu& reques
   quiet_since_ = now();
   if (length >= 0) return judge(unit_id, request, static_cast<std::size_t>(length));
   if ((error == ETIMEDOUT || error > MODBUS_ENOBASE) && hears_itself(unit_id, request)) return own_echo();
-  // In a whole time-out a line that hears itself would have been heard.
-  if (error == ETIMEDOUT) is_answered_ = true;
+  // An echo comes back within any time-out.
+  if (error == ETIMEDOUT) is_without_echo_ = true;
   return failure(error);
 }
 
 ModbusReply ModbusClient::own_echo() noexcept {
-  is_answered_ = false;
+  is_without_echo_ = false;
   return bad_reply(
       "the line hears itself: what was sent came back; switch the echo of its adapter off, and look after "
       "its "
@@ -262,7 +266,7 @@ ModbusReply ModbusClient::judge(std::uint8_t unit_id, const ModbusPdu& request, 
     return hears_itself(unit_id, request) ? own_echo()
                                           : bad_reply("the answer does not fit: %s", judgement.why);
   }
-  is_answered_ = true;
+  is_without_echo_ = true;
   return judgement.kind == ModbusJudgement::Kind::exception ? exception(judgement.exception) : ModbusReply{};
 }
 

@@ -16,9 +16,9 @@ namespace flexrf {
 /// answer is this request's is judged here: by its transaction, its unit id and its content, since libmodbus
 /// takes any unit's over TCP, and any value as the confirmation of a write.
 ///
-/// An adapter of RS-485 may hear what it sends, and the answer to function 5 or 6 is the request itself. So
-/// on a serial line that nobody has answered yet a single value goes out by 15 or 16: what comes back of that
-/// is no answer, and is told.
+/// An RS-485 adapter may echo what it sends, and the answer to function 5 or 6 is the request itself. So the
+/// first single value on a serial line is written by function 15 or 16: the echo of that request is not its
+/// answer, and gives an error.
 class ModbusClient final : public ModbusTransport {
  public:
   ModbusClient() = default;
@@ -57,7 +57,7 @@ class ModbusClient final : public ModbusTransport {
   /// The request and its answer, of which answer_ has the data.
   ModbusReply exchange(std::uint8_t unit_id, const ModbusPdu& request) noexcept;
   bool send(std::uint8_t unit_id, const ModbusPdu& request) noexcept;
-  /// What was sent has come back.
+  /// Whether the bytes received are an echo of the request.
   bool hears_itself(std::uint8_t unit_id, const ModbusPdu& request) const noexcept;
   ModbusReply own_echo() noexcept;
   ModbusReply judge(std::uint8_t unit_id, const ModbusPdu& request, std::size_t length) noexcept;
@@ -74,7 +74,7 @@ class ModbusClient final : public ModbusTransport {
   Duration waits_{};      // for the answer to the request under way
   Duration silence_{};
   Time quiet_since_{};
-  bool is_answered_ = false;               // since it was opened: by somebody, and not by the line itself
+  bool is_without_echo_ = false;           // since the serial line was opened: a request did not come back
   std::uint16_t transaction_ = 0;          // over TCP
   std::array<std::uint8_t, 260> frame_{};  // of the last answer, as much as came
   std::span<const std::uint8_t> answer_;   // in it

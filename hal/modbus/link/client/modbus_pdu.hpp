@@ -27,7 +27,7 @@ ModbusPdu read_request(const ModbusBlock& block) noexcept;
 /// `words`: block.count of them, a bit in each for bits.
 ModbusPdu write_request(const ModbusBlock& block, const std::uint16_t* words, bool multiple) noexcept;
 
-/// What an answer is to a request.
+/// Whether an answer belongs to a request.
 struct ModbusJudgement {
   enum class Kind : std::uint8_t { fits, exception, other };
   Kind kind = Kind::fits;

@@ -195,11 +195,9 @@ void ModbusMaster::serve() noexcept {
 bool ModbusMaster::serve_station(ModbusExchange& exchange) noexcept {
   ModbusExchange::LinkSide& side = exchange.link;
   if (transport_->now() < side.retry_at) return true;
-  // Who is not heard is written nothing before it answers. Where time ran out in the reads the last time, or
-  // writing failed: what is written in every turn must not keep them for ever.
-  const bool reads =
-      std::exchange(side.reads_first, false) || (side.failures > 0 && !exchange.plan.reads.empty());
-  if (!reads && !write_what_is_due(exchange)) return false;
+  // A turn that ran out of time before its readings, or whose writing failed, is followed by one that reads
+  // only: what is written in every turn must not keep the readings for ever.
+  if (!std::exchange(side.reads_first, false) && !write_what_is_due(exchange)) return false;
   return read_what_is_due(exchange);
 }
 
@@ -318,7 +316,7 @@ bool ModbusMaster::judge(ModbusExchange& exchange, const ModbusBlock& block, boo
 void ModbusMaster::note_answer(ModbusExchange& exchange, bool writes) noexcept {
   ModbusExchange::LinkSide& side = exchange.link;
   if (writes && std::exchange(side.write_failures, 0) > 0)
-    log_info(exchange.setup.name, "answers to what is written again");
+    log_info(exchange.setup.name, "answers writing again");
   if (!side.image.online) {
     if (side.failures > 0) log_info(exchange.setup.name, "answers again");
     // An answer to a reading: nothing is being written to who listens first and is not heard.
@@ -334,13 +332,16 @@ void ModbusMaster::fail(ModbusExchange& exchange, const ModbusReply& reply, bool
   side.written.assign(side.written.size(), false);
   side.write_due.assign(side.write_due.size(), Time{});
   side.safe = false;
-  // Whether it is there is told by readings, where there are any: they go on while writing fails.
-  const bool goes_on = writes && !exchange.plan.reads.empty() && reply.outcome != ModbusOutcome::lost;
+  const bool is_read = !exchange.plan.reads.empty();
+  if (writes) side.reads_first = is_read;
+  // A station that answers readings stays online while writing fails, and is read on. One that listens first
+  // may have been switched off, though: it must not be told again what it was told before.
+  const bool goes_on = writes && is_read && side.failures == 0 && !exchange.setup.listens_first &&
+                       reply.outcome != ModbusOutcome::lost;
   std::uint32_t& failures = goes_on ? side.write_failures : side.failures;
   if (failures++ == 0) log_warning(exchange.setup.name, "{}", side.image.last_error_view());
   if (goes_on) {
     side.write_at = transport_->now() + pause_after(failures);
-    side.reads_first = true;
   } else {
     side.image.online = false;
   }

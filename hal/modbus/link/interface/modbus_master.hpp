@@ -40,13 +40,14 @@ class ModbusMaster {
   void stop() noexcept;
 
   /// The link's thread: everything that is due, one request after the other; of stations whose last request
-  /// failed after that of the others [modbus-master-2]. Who is read and not heard is written nothing before
-  /// it answers; who answers to readings alone is read on, and its safe values are tried at once
-  /// [modbus-master-5]. A single value is written by the functions that its station was found to know
-  /// [modbus-master-6], and what wears only when it changes, or the station was not heard [modbus-master-7].
-  /// A request that fails ends it, so that one call waits for at most one of them; the next begins behind
-  /// that station [modbus-master-3]. So does the lack of time for the next request, in what a step of its
-  /// thread may take; then the next begins with that request [modbus-master-4].
+  /// failed after that of the others [modbus-master-2]. A station that answers readings is read on while
+  /// writing to it fails, one that answers writing is written to while its readings fail; safe values do not
+  /// wait for the pause after other values have failed [modbus-master-5]. A single value is written by the
+  /// functions that its station was found to know [modbus-master-6]. A register with refresh = no is written
+  /// when its value changes, and after the station was not heard [modbus-master-7]. A request that fails ends
+  /// the call, so that one call waits for at most one of them; the next begins behind that station
+  /// [modbus-master-3]. The call also ends when the next request might take longer than what is left of the
+  /// step of its thread; then the next call begins with that request [modbus-master-4].
   void serve() noexcept;
   /// Every station has its safe values, as of its last answer; but for those that know that themselves.
   bool is_safe() const noexcept;

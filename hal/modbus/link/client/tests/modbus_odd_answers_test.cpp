@@ -1,5 +1,4 @@
-// What comes back from lines and stations that are not as they should be: the far end is bytes, as the
-// standard or the trouble has them.
+// Faulty lines and stations: the test plays the far end byte by byte, from the standard's text alone.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
@@ -21,7 +20,7 @@ namespace flexrf {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-/// What comes back for a request, as it was on the wire.
+/// Makes the bytes that the far end sends for a request.
 using Answer = std::function<Bytes(const Bytes&)>;
 
 constexpr Duration response_timeout = std::chrono::milliseconds(200);
@@ -205,6 +204,23 @@ void a_station_that_knows_the_function_for_one_alone_is_written_to() {
   CHECK(silent.client.write(unit, setting, value, false).outcome == ModbusOutcome::answered);
 }
 
+// Its first bytes are those of the request, as the standard has it, and its checksum is wrong.
+void a_damaged_confirmation_is_no_echo() {
+  for (const ModbusBlock& block : {setting, block_of(ModbusArea::holding_register, 20, 3)}) {
+    bool is_damaged = false;
+    SerialFarEnd far([&is_damaged](const Bytes& request) {
+      Bytes answer = confirmed(request);
+      if (is_damaged) answer.back() = static_cast<std::uint8_t>(answer.back() ^ 0x01U);
+      return answer;
+    });
+    CHECK(far.client.write(unit, block, several_values, false).outcome == ModbusOutcome::answered);
+    is_damaged = true;
+    const ModbusReply reply = far.client.write(unit, block, several_values, false);
+    CHECK(reply.outcome == ModbusOutcome::bad_reply);
+    CHECK_CONTAINS(reply.cause, "the answer is damaged");
+  }
+}
+
 void a_function_that_is_not_known_is_told_as_that() {
   SerialFarEnd far([](const Bytes& request) { return refused(request, request[1] == 3 ? 2 : 1); });
   std::uint16_t words[1] = {};
@@ -321,6 +337,7 @@ int main() {
       CONTAINED_TEST(a_line_that_hears_itself_and_its_station_confirms_nothing),
       CONTAINED_TEST(the_function_for_one_is_used_on_a_line_that_somebody_has_answered),
       CONTAINED_TEST(a_station_that_knows_the_function_for_one_alone_is_written_to),
+      CONTAINED_TEST(a_damaged_confirmation_is_no_echo),
       CONTAINED_TEST(a_function_that_is_not_known_is_told_as_that),
       CONTAINED_TEST(an_answer_over_tcp_has_to_be_this_requests),
       CONTAINED_TEST(a_reading_of_another_unit_is_none),

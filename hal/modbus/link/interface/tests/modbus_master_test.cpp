@@ -1,6 +1,7 @@
 // Whose turn it is, on a link whose stations are a script and whose clock is the test's.
 #include "hal/modbus/link/interface/modbus_master.hpp"
 
+#include <cstdlib>
 #include <vector>
 
 #include "hal/modbus/link/interface/modbus_exchange.hpp"
@@ -27,12 +28,14 @@ class ScriptedLine final : public ModbusTransport {
  public:
   struct Station {
     ModbusOutcome outcome = ModbusOutcome::answered;
+    ModbusOutcome read_outcome = ModbusOutcome::answered;
     ModbusOutcome write_outcome = ModbusOutcome::answered;
     bool knows_single = true;
     bool knows_multiple = true;
     bool refuses = false;  // whatever is written, for another reason
     int reads = 0;
-    int writes = 0;
+    int writes = 0;  // asked of it; `taken`: that it answered
+    int taken = 0;
     std::uint16_t written = 0;
   };
   Station& station(std::size_t unit_id) { return stations_[unit_id]; }
@@ -55,7 +58,7 @@ class ScriptedLine final : public ModbusTransport {
     Station& asked = stations_[unit_id];
     ++asked.reads;
     words[0] = unit_id;
-    return answer(asked.outcome);
+    return answer(asked.outcome != ModbusOutcome::answered ? asked.outcome : asked.read_outcome);
   }
   ModbusReply write(std::uint8_t unit_id, const ModbusBlock& block, const std::uint16_t* words,
                     bool multiple) noexcept override {
@@ -67,7 +70,10 @@ class ScriptedLine final : public ModbusTransport {
       return {ModbusOutcome::exception, "as the script has it", is_known ? std::uint8_t{4} : std::uint8_t{1}};
     }
     if (asked.outcome != ModbusOutcome::answered) return answer(asked.outcome);
-    if (asked.write_outcome == ModbusOutcome::answered) asked.written = words[0];
+    if (asked.write_outcome == ModbusOutcome::answered) {
+      asked.written = words[0];
+      ++asked.taken;
+    }
     return answer(asked.write_outcome);
   }
   Duration longest_wait(const ModbusBlock& /*block*/, bool /*writes*/) const noexcept override {
@@ -376,16 +382,52 @@ void readings_go_on_while_writing_fails_and_safe_values_do_not_wait() {
 }
 
 // [modbus-master-5]
-void who_is_not_heard_is_written_nothing_before_it_answers() {
+void safe_values_reach_a_station_whose_readings_fail() {
+  Line world(1);
+  world.command(1, 7, 1, false);
+  for (int turn = 0; turn < 5; ++turn) world.turn();
+  world.line.station(1).read_outcome = ModbusOutcome::timeout;
+  for (int turn = 0; turn < 50; ++turn) world.turn();
+  world.command(1, 0, 2, true);
+  for (int turn = 0; turn < 200; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(1).written, 0);
+}
+
+// Both are tried, in turn, and each costs the others one time-out.
+void a_station_that_answers_nothing_is_read_and_written_in_turn() {
   Line world(1);
   world.make(1, 1, ModbusOutcome::timeout);
   world.command(1, 7, 1, false);
-  for (int turn = 0; turn < 100; ++turn) world.turn();
-  CHECK(world.line.station(1).writes <= 1);  // before anybody knew
-  CHECK(world.line.station(1).reads >= 3);
+  for (int turn = 0; turn < 400; ++turn) world.turn();
+  const ScriptedLine::Station& station = world.line.station(1);
+  CHECK(station.reads >= 3 && station.writes >= 3);
+  CHECK(std::abs(station.reads - station.writes) <= 2);
   world.make(1, 1, ModbusOutcome::answered);
   for (int turn = 0; turn < 200; ++turn) world.turn();
   CHECK_EQUAL(world.line.station(1).written, 7);
+}
+
+// It may have been switched off when it did not answer: what it was told before would move it.
+void who_listens_first_is_not_told_again_what_was_not_answered() {
+  Line world(0);
+  ModbusStationSetup setup = Line::setup_of(1, map);
+  setup.listens_first = true;
+  const Result<ModbusExchange*> exchange = world.master.attach(setup);
+  CHECK(exchange);
+  world.exchanges.push_back(*exchange);
+  for (int turn = 0; turn < 5; ++turn) world.turn();
+  world.line.station(1).write_outcome = ModbusOutcome::timeout;
+  world.command(1, 7, 1, false);
+  for (int turn = 0; turn < 10; ++turn) world.turn();
+  CHECK(world.line.station(1).writes >= 1);
+  world.line.station(1).write_outcome = ModbusOutcome::answered;
+  const int writes = world.line.station(1).writes;
+  for (int turn = 0; turn < 200; ++turn) world.turn();
+  CHECK(world.image(1).online);
+  CHECK_EQUAL(world.line.station(1).writes, writes);
+  world.command(1, 8, 2, false);
+  for (int turn = 0; turn < 5; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(1).written, 8);
 }
 
 constexpr ModbusRegister wearing[] = {
@@ -408,17 +450,17 @@ void what_wears_is_written_at_changes_alone() {
   }
   for (const std::size_t unit : {1, 2}) world.command(unit, 7, 1, false);
   for (int turn = 0; turn < 100; ++turn) world.turn();
-  CHECK(world.line.station(1).writes > 10);
-  CHECK_EQUAL(world.line.station(2).writes, 1);
+  CHECK(world.line.station(1).taken > 10);
+  CHECK_EQUAL(world.line.station(2).taken, 1);
   world.command(2, 8, 2, false);
   for (int turn = 0; turn < 100; ++turn) world.turn();
-  CHECK_EQUAL(world.line.station(2).writes, 2);
+  CHECK_EQUAL(world.line.station(2).taken, 2);
   // It may have been switched off meanwhile.
   world.make(2, 2, ModbusOutcome::timeout);
   for (int turn = 0; turn < 10; ++turn) world.turn();
   world.make(2, 2, ModbusOutcome::answered);
   for (int turn = 0; turn < 200; ++turn) world.turn();
-  CHECK_EQUAL(world.line.station(2).writes, 3);
+  CHECK_EQUAL(world.line.station(2).taken, 3);
 }
 
 // [modbus-master-9]
@@ -468,7 +510,9 @@ int main() {
       CONTAINED_TEST(single_values_are_written_by_the_functions_that_a_station_knows),
       CONTAINED_TEST(another_refusal_does_not_change_the_function),
       CONTAINED_TEST(readings_go_on_while_writing_fails_and_safe_values_do_not_wait),
-      CONTAINED_TEST(who_is_not_heard_is_written_nothing_before_it_answers),
+      CONTAINED_TEST(safe_values_reach_a_station_whose_readings_fail),
+      CONTAINED_TEST(a_station_that_answers_nothing_is_read_and_written_in_turn),
+      CONTAINED_TEST(who_listens_first_is_not_told_again_what_was_not_answered),
       CONTAINED_TEST(what_wears_is_written_at_changes_alone),
       CONTAINED_TEST(a_unit_has_one_station),
       CONTAINED_TEST(nobody_is_asked_right_after_connecting),
