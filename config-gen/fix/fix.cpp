@@ -172,8 +172,8 @@ class Fixer {
     return changed;
   }
 
-  /// A row that several places refer to by another name than its own, and none by its own, is what may be
-  /// misspelt.
+  // Where more places have the one name than have the name of the row that is meant, it may be the row that
+  // is misspelt.
   void note_outvoted(const Diagnostics& found) {
     std::map<std::pair<std::string, std::string>, std::set<Position>> places;
     for (const Diagnostic& one : found.sorted())
@@ -194,14 +194,10 @@ class Fixer {
     std::size_t others = 0;  // beside that
   };
   static Mentions mentions_of(const std::string& word, const std::string& text) {
-    const auto is_of_word = [](char c) {
-      return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
-             c == '-';
-    };
     Mentions mentions;
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
       const std::size_t end = at + word.size();
-      if ((at > 0 && is_of_word(text[at - 1])) || (end < text.size() && is_of_word(text[end]))) continue;
+      if ((at > 0 && is_bare(text[at - 1])) || (end < text.size() && is_bare(text[end]))) continue;
       const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;  // npos + 1 is 0
       const bool is_row = text[line] == '[' && end < text.size() && text[end] == ']';
       if (is_row && mentions.row == 0)

@@ -12,10 +12,6 @@ bool is_word_letter(char c) {
          static_cast<unsigned char>(c) >= 0x80;
 }
 
-bool is_bare(char c) {
-  return c == '-' || (is_word_letter(c) && static_cast<unsigned char>(c) < 0x80);
-}
-
 // What needs no escape in a text, and no quotes in a cell.
 bool is_plain(std::string_view word) {
   return !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
@@ -125,6 +121,10 @@ std::optional<std::size_t> find_once(std::string_view content, std::string_view 
 }
 
 }  // namespace
+
+bool is_bare(char c) {
+  return c == '-' || (is_word_letter(c) && static_cast<unsigned char>(c) < 0x80);
+}
 
 std::optional<WordPlace> find_word(std::string_view text, const Position& place,
                                    const Replacement& replacement, SourceKind kind) {

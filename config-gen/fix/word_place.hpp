@@ -24,6 +24,9 @@ struct WordPlace {
 std::optional<WordPlace> find_word(std::string_view text, const Position& place,
                                    const Replacement& replacement, SourceKind kind);
 
+/// Whether a character can stand in a bare key of TOML.
+bool is_bare(char c);
+
 // The place of a byte, as messages count.
 Position place_of(std::string_view text, std::size_t byte, std::string_view file, SourceKind kind);
 

@@ -201,7 +201,8 @@ class MapReader : CsvRowReader {
     entry_.safe_value = *value;
     const double raw = *value / entry_.scale;
     const Range range = raw_ranges[entry_.type];
-    // What a scale as 0.1 makes of a whole count is off by a few of its last digits.
+    // Dividing by a scale such as 0.1 rounds: a whole count may come out a few units of the last digit beside
+    // it.
     const bool is_count =
         is_fraction(entry_.type) || std::abs(raw - std::round(raw)) <= 1e-6 * std::max(1.0, std::abs(raw));
     if (raw >= range.least && raw <= range.most && !is_count)

@@ -142,7 +142,7 @@ std::optional<std::string> read_source(const std::filesystem::path& file, Diagno
     if (found != tried_texts->texts_.end()) return found->second;
   }
   const Position place{intern(file.generic_string()), 1, 1};
-  // Who opens a pipe waits for somebody to write into it.
+  // Opening a named pipe would block until another process writes into it.
   std::error_code unknown;
   const auto kind = std::filesystem::status(file, unknown).type();
   using Kind = std::filesystem::file_type;

@@ -1,8 +1,11 @@
 #include "config-gen/read/csv.hpp"
 
+#include <sys/stat.h>
+
 #include <cstring>
 #include <sstream>
 
+#include "config-gen/tests/temporary_folder.hpp"
 #include "tests/cmocka.hpp"
 
 namespace flexrf::config_gen::csv_test {
@@ -31,6 +34,19 @@ std::string cells(const Parsed& parsed) {
     text += "\n";
   }
   return text;
+}
+
+// Reading it would not end before somebody has written.
+void a_pipe_is_no_list(void**) {
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path pipe = folder.path() / "list.csv";
+  assert_int_equal(mkfifo(pipe.c_str(), 0600), 0);
+  Diagnostics diagnostics;
+  assert_false(read_csv(pipe, diagnostics).has_value());
+  std::ostringstream out;
+  diagnostics.print(out);
+  assert_non_null(
+      std::strstr(out.str().c_str(), "this is a pipe, and no file that could be read as a whole"));
 }
 
 void both_separators(void**) {
@@ -112,7 +128,8 @@ void values(void**) {
 
 int main() {
   using namespace flexrf::config_gen::csv_test;
-  const CMUnitTest tests[] = {cmocka_unit_test(both_separators),
+  const CMUnitTest tests[] = {cmocka_unit_test(a_pipe_is_no_list),
+                              cmocka_unit_test(both_separators),
                               cmocka_unit_test(quotes),
                               cmocka_unit_test(comments_and_line_ends),
                               cmocka_unit_test(places),

@@ -11,7 +11,7 @@ struct ConfigurationStep {
     write,   ///< write `value`; what cannot be written has to be `held` already, under `mask`
     expect,  ///< read, and be equal to `value` under `mask`
     map,     ///< as write; refused by a node whose mapping is fixed: then what is there must be equal
-    ask,     ///< read, for Node::answered(); a node that refuses does without
+    ask,     ///< read for Node::answered(); a refusal is no error
   };
   Act act = Act::write;
   std::uint8_t size = 4;  ///< bytes written: 1, 2 or 4
@@ -33,7 +33,7 @@ class Configuration {
   void write(ObjectAddress object, std::uint8_t size, std::uint32_t value, const char* helps = "") noexcept;
   /// Left out of a node that has no such object.
   void write_if_there(ObjectAddress object, std::uint8_t size, std::uint32_t value) noexcept;
-  /// What the node has there is for Node::answered().
+  /// Reads the object, so that Node::answered() has its value.
   void ask(ObjectAddress object) noexcept;
   /// `meaning` outlives the configuration.
   void expect(ObjectAddress object, std::uint32_t value, std::uint32_t mask, const char* meaning) noexcept;

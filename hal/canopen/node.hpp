@@ -68,7 +68,8 @@ class Node {
 
   /// Of its configuration, since it booted: what is optional, and it has no object for.
   bool has_left_out(ObjectAddress object) const noexcept;
-  /// Of its configuration, since it booted: what it said when it was asked; nothing: it was not, or refused.
+  /// The value that a step `ask` of its configuration has read since the node booted; nothing: there was no
+  /// such step, or the node refused it.
   std::optional<std::uint32_t> answered(ObjectAddress object) const noexcept;
 
   std::uint64_t emergencies() const noexcept { return emergencies_; }

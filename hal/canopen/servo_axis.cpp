@@ -51,7 +51,7 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   bring_ups_ = node_.times_operational();
   was_commanded_ = halts_ = false;
   may_have_torque_ = false;
-  off_heard_ = 0;
+  off_heard_ = stood_ = 0;
   velocity_heard_ = Time{};
   position_velocity_ = 0;
   velocity_ = asked_velocity_ = 0;
@@ -94,6 +94,7 @@ bool ServoAxis::take_process_data(const Message& message, Time now) noexcept {
   position_velocity_ = from_positions_.take(way_, now);
   if (!hears_of_velocity(now)) state_->velocity = position_velocity_;
   state_->at_internal_limit = (statusword_ & status_bit::internal_limit) != 0;
+  stood_ = handshake_.is_reached(statusword_) && is_at_rest(now) ? std::min(stood_ + 1, standing_cycles) : 0;
   state_->target_reached = has_reached(statusword_);
   if (plan_.maps_mode) mode_shown_ = static_cast<Mode>(with_sign(values[2], 8));
   heard_ = now;
@@ -374,15 +375,14 @@ double ServoAxis::beside_target() const noexcept {
   return static_cast<double>(plan_.endless ? wrapped(beside) : beside) / plan_.increments_per_unit;
 }
 
-double ServoAxis::widest_beside_target() const noexcept {
-  constexpr std::uint32_t no_window = 0xFFFFFFFF;  // it does not look (CiA 402, object 6067)
+double ServoAxis::own_window() const noexcept {
+  constexpr std::uint32_t no_window = 0xFFFFFFFF;  // the drive does not compare (CiA 402, object 6067)
   const std::uint32_t window = node_.answered(objects::position_window).value_or(no_window);
-  const double own = window == no_window ? 0 : window / std::abs(plan_.increments_per_unit);
-  return std::max(own, plan_.fastest * seconds(plan_.period));
+  return window == no_window ? 0 : window / std::abs(plan_.increments_per_unit);
 }
 
-/// Of a target that it does not come nearer to.
-const char* ServoAxis::what_it_says() const noexcept {
+/// What the statusword says about an axis that comes no nearer to its target; empty: nothing.
+const char* ServoAxis::why_target_is_not_reached() const noexcept {
   if ((statusword_ & status_bit::remote) == 0)
     return "the drive says that it does not obey the bus (statusword, bit 9 is 0): is its maker's tool "
            "connected?";
@@ -407,14 +407,16 @@ std::optional<ProfileTarget> ServoAxis::profile_target() const noexcept {
   return ProfileTarget{.position = handshake_.target() / plan_.increments_per_unit,
                        .left = -beside_target(),
                        .speed = speed,
-                       .says = what_it_says()};
+                       .says = why_target_is_not_reached()};
 }
 
 bool ServoAxis::has_reached(std::uint16_t statusword) const noexcept {
   if (!power_.is_enabled() || !was_commanded_ || halts_) return false;
   if (plan_.mode == Mode::profile_position) {
     // What the drive says may be about another target: it is there only if it is there.
-    return handshake_.is_reached(statusword) && std::abs(beside_target()) <= widest_beside_target();
+    const double beside = std::abs(beside_target());
+    return handshake_.is_reached(statusword) && (beside <= plan_.fastest * seconds(plan_.period) ||
+                                                 (stood_ == standing_cycles && beside <= own_window()));
   }
   if (plan_.mode != Mode::profile_velocity || permitted_velocity() != velocity_) return false;
   return cycles_ == settle_cycles && (statusword & status_bit::target_reached) != 0;

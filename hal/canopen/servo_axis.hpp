@@ -74,8 +74,9 @@ struct AxisState {
   double following_error = 0;  ///< the last set-point less position, unit; 0 in other modes
   bool enabled = false;
   bool at_internal_limit = false;
-  /// In profile modes: it took the last command and has done it. Of a position the drive says so, and it is
-  /// within the drive's own window (object 6067), or within what it goes in a period where that is more.
+  /// In profile modes: the drive took the last command and says that it has done it. Of a position, the axis
+  /// is also within what it moves in a period, or it has stood for some cycles within the drive's own window
+  /// (object 6067).
   bool target_reached = false;
   double torque = 0;  ///< of its rated torque, with a sign; 0 where the plan does not ask for it
 };
@@ -162,7 +163,8 @@ class ServoAxis {
  private:
   static constexpr int silent_cycles = 10;    // without process data it is not known where it is
   static constexpr int ignoring_cycles = 10;  // with set-points that it says it ignores, before that is told
-  static constexpr int off_cycles = 3;     // without torque: what came first may be from before it was told
+  static constexpr int off_cycles = 3;  // without torque: what came first may be from before it was told
+  static constexpr int standing_cycles = 10;  // within the drive's own window, before that counts as reached
   static constexpr int settle_cycles = 5;  // from a velocity that is commanded to a status that is about it
 
   Status check(const AxisPlan& plan) const noexcept;
@@ -196,8 +198,8 @@ class ServoAxis {
   double target_for(Duration elapsed) noexcept;
   double velocity_for(Duration elapsed) noexcept;
   double beside_target() const noexcept;
-  double widest_beside_target() const noexcept;
-  const char* what_it_says() const noexcept;
+  double own_window() const noexcept;
+  const char* why_target_is_not_reached() const noexcept;
   bool has_reached(std::uint16_t statusword) const noexcept;
   Message process_data(std::uint16_t word) const noexcept;
   void say(std::uint16_t word, Outbox& outbox) const noexcept;
@@ -228,7 +230,8 @@ class ServoAxis {
   Time velocity_heard_{};
   double position_velocity_ = 0;  // as its positions tell it
   bool may_have_torque_ = false;
-  int off_heard_ = 0;       // one after the other, at most off_cycles
+  int stood_ = 0;      // cycles at rest in which the drive said that it is there, at most standing_cycles
+  int off_heard_ = 0;  // one after the other, at most off_cycles
   bool heard_now_ = false;  // since the last send()
   std::optional<Time> mode_wanted_;
   std::uint16_t statusword_ = 0;

@@ -46,6 +46,20 @@ expect_analysed() {  # expect_analysed WHEN TIMES
   expect "analyses $1" "$calls_made" "$2"
 }
 
+# What goes into batches: everything, or what runs beside a machine.
+mkdir -p "$work/list/build"
+for file in hal/a.cpp hal/tests/a_test.cpp hal/conformance/a.cpp benchmarks/b.cpp hal/a_stress.cpp build/generated.cpp; do
+  printf '{\n  "directory": "%s",\n  "command": "c++ -c %s",\n  "file": "%s"\n},\n' "$work/list/build" "$work/list/$file" "$work/list/$file"
+done >"$work/list/build/compile_commands.json"
+analysed() {  # analysed WITHOUT_TESTS: the files that stand in batches
+  rm -rf "$work/list/out" && mkdir "$work/list/out"
+  awk -v root="$work/list" -v out="$work/list/out" -v size=12 -v without_tests="$1" -f "$tree/cmake/tool/tidy_batches.awk" \
+    "$work/list/build/compile_commands.json" >"$work/batches"
+  xargs sed -n "s|^#include \"$work/list/\(.*\)\"|\1|p" <"$work/batches" | LC_ALL=C sort | paste -s -d ' '
+}
+expect "what is analysed" "$(analysed 0)" "benchmarks/b.cpp hal/a.cpp hal/a_stress.cpp hal/conformance/a.cpp hal/tests/a_test.cpp"
+expect "what is analysed without tests" "$(analysed 1)" "hal/a.cpp"
+
 clone here batch_1
 clone elsewhere batch_7
 analyse here batch_1

@@ -148,7 +148,7 @@ Verdict a_node_has_one_owner(CanBusWorld& world) {
   if (refused || std::strstr(refused.cause(), "node 5") == nullptr ||
       std::strstr(refused.cause(), "`left`") == nullptr)
     return Verdict::failed;
-  // Whoever gets another number gives back the one before; who goes, each.
+  // An owner that claims another node releases its former one; release_node() releases all that it has.
   if (!bus.claim_node(7, left) || !bus.claim_node(5, right)) return Verdict::failed;
   bus.release_node(left);
   bus.release_node(right);

@@ -47,9 +47,9 @@ class CanBus : public CanBusInterface {
   /// From now on nothing comes into the inbox [can-bus-7]. Before it goes; nothing when it is not open.
   void close(CanInbox& inbox);
 
-  /// From now on `owner` alone is this node of CANopen, 1 to 127, on the bus [can-bus-13]: a device that is
-  /// called twice is led by two. `owner` lives for ever; again, it is the same one. Error: another has it,
-  /// whose name is told.
+  /// Reserves a CANopen node, 1 to 127, for one device: two that lead the same node would contradict each
+  /// other [can-bus-13]. `owner` is the device's name(), and is known by its address; its former node is
+  /// released. Error: the node is another device's, whose name the message has.
   Status claim_node(std::uint8_t node, const char* owner);
   void release_node(const char* owner) noexcept;
 

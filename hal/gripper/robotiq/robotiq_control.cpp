@@ -8,7 +8,7 @@ namespace flexrf::robotiq {
 namespace {
 
 constexpr Duration old_fault = std::chrono::seconds(1);
-/// A status that is told for so long, with fingers that stand, is no longer that of the way before.
+/// When the fingers have stood for so long, gOBJ is no longer that of the goal before.
 constexpr Duration old_status = std::chrono::milliseconds(300);
 /// Counts beside its goal at which a gripper has arrived; and at most, where its fingers meet or its travel
 /// ends: a 2F-85 that is sent to 255 ends near 228.
@@ -141,8 +141,8 @@ void Control::follow(const Told& told) noexcept {
   check_time();
 }
 
-/// For a moment gOBJ may be that of the way before, with the echoes of this goal already: the position has to
-/// bear it out (manual of the 2F-85, 4.4).
+/// Right after a command gOBJ may still be that of the goal before, while gPR already echoes the new one. So
+/// gOBJ counts when the position gPO agrees with it (manual of the 2F-85, 4.4).
 bool Control::is_borne_out(const Told& told) noexcept {
   if (told.position != stands_at_) {
     stands_at_ = told.position;

@@ -66,8 +66,8 @@ void CanopenGpioChip::stop() {
   if (open_) {
     bus->close(inbox_);
     bus->release_last_word(last_word_);
-    bus->release_node(name());
   }
+  bus->release_node(name());  // also after an initialise() that failed behind it
   open_ = began_ = false;
   last_word_ = CanBus::no_last_word;
   outbox_.clear();

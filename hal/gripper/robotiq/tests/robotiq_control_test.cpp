@@ -134,7 +134,7 @@ void fingers_that_meet_before_the_goal_have_arrived(void**) {
   assert_false(unseen.is_moving());
 }
 
-// What it held is told for a moment yet when it opens.
+// When it opens, gOBJ is still "gripped" for a moment.
 void what_was_gripped_is_not_taken_for_what_is_met_when_it_opens(void**) {
   Control control;
   control.begin({});
