@@ -6,16 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "hal/can/in_process/in_process_can_bus.hpp"
-#include "hal/can/interface/can_node.hpp"
-#include "hal/canopen/can_message.hpp"
 #include "hal/canopen/servo_axis.hpp"
-#include "hal/driver/device_bench.hpp"
-#include "hal/servo_drive/canopen/canopen_servo_drive.hpp"
 #include "hal/servo_drive/canopen/simulator/tests/foreign_drive.hpp"
 #include "hal/servo_drive/interface/servo_restraints.hpp"
 #include "tests/cmocka.hpp"
-#include "tests/log_ear.hpp"
 
 namespace {
 
@@ -488,152 +482,6 @@ void an_axis_that_is_led_by_velocities_comes_to_rest_at_the_end_of_its_range(voi
   }
 }
 
-class ForeignOnCan final : public CanNode {
- public:
-  ForeignOnCan(const ForeignDrive::Nature& nature, Time now) : drive_{nature}, now_{now} {}
-  void on_frame(const CanFrame& frame, CanPort& port) noexcept override {
-    if (!frame.extended) drive_.receive(canopen::to_message(frame), says_);
-    say(port);
-  }
-  Time next_event() const noexcept override { return now_ + milliseconds(1); }
-  void on_time(Time now, CanPort& port) noexcept override {
-    now_ = now;
-    drive_.step(says_);
-    say(port);
-  }
-  ForeignDrive& drive() { return drive_; }
-
- private:
-  void say(CanPort& port) noexcept {
-    for (; !says_.is_empty(); says_.pop()) port.send(canopen::to_frame(says_.front()));
-  }
-
-  ForeignDrive drive_;
-  Outbox says_;
-  Time now_;
-};
-
-// The driver of a foreign drive in mode profile_position.
-class DriverCell {
- public:
-  explicit DriverCell(bool tells_speed, const ForeignDrive::Nature& nature = {}) : nature_{nature} {
-    auto& configuration = driver_.configuration();
-    configuration.mode = ServoMode::profile_position;
-    configuration.node = 5;
-    configuration.lowest = -10;
-    configuration.highest = 10;
-    configuration.fastest = 5;
-    configuration.tells_speed = tells_speed;
-    good_ = bus_.driver().initialise().is_ok() && driver_.driver().initialise().is_ok() &&
-            bus_.driver().wire()->attach(far_end_) != nullptr;
-  }
-  ~DriverCell() {
-    driver_.driver().stop();
-    bus_.driver().wire()->detach(far_end_);
-    bus_.driver().stop();
-  }
-
-  CanopenServoDrive& drive() { return driver_.driver(); }
-  ForeignDrive& far_end() { return far_end_.drive(); }
-  void run(int ms) {
-    for (int i = 0; i < ms; i += cycle_of_7_ms) {
-      bus_.receive(milliseconds(cycle_of_7_ms));
-      driver_.receive(milliseconds(cycle_of_7_ms));
-      driver_.send();
-      bus_.send();
-    }
-  }
-  bool comes_up() {
-    for (int i = 0; i < 1000 && drive().fault().is_ok() && !is_enabled(); ++i) run(cycle_of_7_ms);
-    return good_ && is_enabled();
-  }
-  bool goes_to(double place, double speed) {
-    drive().move_to(place, speed);
-    for (int i = 0; i < 2000 && drive().fault().is_ok(); ++i) {
-      run(cycle_of_7_ms);
-      if (drive().state() && drive().state()->target_reached) return true;
-    }
-    print_message("fault: %s\n", drive().fault().cause());
-    return false;
-  }
-
- private:
-  bool is_enabled() { return drive().state() && drive().state()->enabled; }
-
-  ForeignDrive::Nature nature_;
-  DeviceBench<InProcessCanBus> bus_{nullptr};
-  DeviceBench<CanopenServoDrive> driver_{nullptr, {}, &bus_.driver()};
-  ForeignOnCan far_end_{nature_, bus_.now()};
-  bool good_ = false;
-};
-
-// Its drive has no following error window, and says nothing.
-bool a_stuck_one_is_a_fault(bool tells_speed, double way) {
-  DriverCell cell{tells_speed};
-  if (!cell.comes_up() || !cell.goes_to(2, 0.5) || !cell.goes_to(-1, 5)) return false;
-  if (way < 0) {
-    cell.drive().move_to(-1 + way, 2);
-    cell.run(300);
-  }
-  cell.far_end().stick();
-  if (way > 0) cell.drive().move_to(-1 + way, 2);
-  cell.run(2500);
-  const Status& fault = cell.drive().fault();
-  if (std::strstr(fault.cause(), "from its target") != nullptr &&
-      std::strstr(fault.cause(), "does it stick, or does its encoder?") != nullptr &&
-      !cell.far_end().is_enabled())
-    return true;
-  print_message("fault: %s\n", fault.cause());
-  return false;
-}
-
-// The driver says it in the log, each time that the drive was brought up by it and not in each cycle.
-bool own_ramps_are_told(bool has_own) {
-  const LogEar ear;
-  std::vector<std::uint32_t> lacks;
-  if (has_own) lacks = {0x608300, 0x608400};
-  DriverCell cell{true, {.lacks = lacks}};
-  return cell.comes_up() && cell.goes_to(2, 5) && ear.has_heard("its ramps are its own") == has_own;
-}
-
-void that_ramps_are_the_drives_own_stands_in_the_log(void**) {
-  for (const bool has_own : {true, false}) {
-    const bool good = own_ramps_are_told(has_own);
-    assert_true(good);
-  }
-}
-
-void an_axis_that_sticks_on_its_way_is_a_fault_where_the_drive_does_not_notice(void**) {
-  for (const bool tells_speed : {true, false}) {
-    for (const double way : {5.0, 0.2, -6.0}) {
-      const bool good = a_stuck_one_is_a_fault(tells_speed, way);
-      assert_true(good);
-    }
-  }
-}
-
-// Why it does not come nearer, the drive may know.
-void an_axis_that_does_not_come_nearer_is_told_with_what_its_drive_says(void**) {
-  struct Case {
-    std::uint16_t bits;
-    std::uint16_t never;
-    const char* words;
-  };
-  for (const Case& one :
-       {Case{0, 0x0200, "does not obey the bus"}, Case{0x0800, 0, "a limit of its own holds it"},
-        Case{0x2000, 0, "that it cannot follow"}, Case{0x0400, 0, "beyond its own window (object 6067)"}}) {
-    DriverCell cell{true};
-    assert_true(cell.comes_up());
-    cell.far_end().stick();
-    cell.far_end().say_beside(one.bits, one.never);
-    cell.drive().move_to(2, 2);
-    cell.run(2500);
-    if (std::strstr(cell.drive().fault().cause(), one.words) == nullptr)
-      print_message("fault: %s\n", cell.drive().fault().cause());
-    assert_non_null(std::strstr(cell.drive().fault().cause(), one.words));
-  }
-}
-
 }  // namespace
 
 int main() {
@@ -644,7 +492,6 @@ int main() {
       cmocka_unit_test(a_drive_that_stops_within_its_own_window_has_arrived),
       cmocka_unit_test(a_target_is_not_reached_before_the_axis_stands_near_it),
       cmocka_unit_test(an_axis_that_is_led_by_velocities_comes_to_rest_at_the_end_of_its_range),
-      cmocka_unit_test(an_axis_that_does_not_come_nearer_is_told_with_what_its_drive_says),
       cmocka_unit_test(a_speed_that_is_in_no_pdo_is_told_before_its_target_counts),
       cmocka_unit_test(a_drive_without_a_second_pdo_is_told_its_speed_by_sdo),
       cmocka_unit_test(a_drive_without_an_object_for_its_speed_says_what_it_does),
@@ -660,8 +507,6 @@ int main() {
       cmocka_unit_test(the_product_is_asked_for_only_where_it_is_named),
       cmocka_unit_test(identifiers_that_are_right_already_need_not_be_written),
       cmocka_unit_test(what_cannot_be_written_and_is_right_already_is_taken),
-      cmocka_unit_test(that_ramps_are_the_drives_own_stands_in_the_log),
-      cmocka_unit_test(an_axis_that_sticks_on_its_way_is_a_fault_where_the_drive_does_not_notice),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
