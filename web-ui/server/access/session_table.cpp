@@ -152,6 +152,7 @@ SessionIndex SessionTable::expired(Time now) const noexcept {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& known = entries_[i];
     if (known.serial == 0 || known.links > 0) continue;
+    if (known.had_links && now - known.used <= limits_.return_time) continue;
     // The cookie of who did not log in is all that he has.
     const bool logged_in = !known.info.user.empty();
     if (known.info.lapsed || now - known.used > limits_.idle ||

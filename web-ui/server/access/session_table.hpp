@@ -17,6 +17,9 @@ struct SessionLimits {
   std::size_t places = 64;                    ///< at most no_session
   Duration idle = std::chrono::hours{1};      ///< without an act, or without a page and a request
   Duration absolute = std::chrono::hours{8};  ///< of one that logged in, however busy it is
+  /// Of one whose time is over, without a live connection: a page that lost its link for a moment comes back,
+  /// and can still stop motion.
+  Duration return_time = std::chrono::seconds{30};
 };
 
 /// All memory is taken by the constructor. The server's thread.
@@ -54,11 +57,12 @@ class SessionTable {
   /// One of who logged in by this name; no_session: there is none.
   SessionIndex of_user(std::string_view user) const noexcept;
   void acted(SessionIndex session, Time now) noexcept;
-  /// One whose time is over, and that has no page; no_session: none.
+  /// One whose time is over, and that has no page, nor had one within the time to return; no_session: none.
   SessionIndex expired(Time now) const noexcept;
   /// One that logged in, whose time is over while its page is open; no_session: none.
   SessionIndex lapsing(Time now) const noexcept;
-  /// From now on it is a viewer's, and ends with its last live connection.
+  /// From now on it is a viewer's, and ends when it has been without a live connection for the time to
+  /// return.
   void lapse(SessionIndex session) noexcept;
   /// Who makes room for a new one: of those without a live connection and other than `kept`, the viewer that
   /// was used longest ago, or else whoever was. no_session: nobody can.

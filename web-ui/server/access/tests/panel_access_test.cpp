@@ -253,10 +253,29 @@ void a_session_that_logged_in_lapses_in_place(void**) {
   assert_int_equal(watcher.ended, 0);
   access_control->acted(ann, start + minutes{111});
   assert_int_equal(access_control->take(ann, start + minutes{111}), Taking::refused_role);
-  // It ends with its page.
+  // A link that is lost for a moment takes Stop motion from nobody; without a page it ends.
   access_control->link_closed(ann, start + minutes{112});
-  access_control->update(start + minutes{112});
+  access_control->update(start + minutes{112} + seconds{30});
+  assert_true(access_control->has_role(ann, Role::viewer));
+  access_control->link_opened(ann);
+  access_control->update(start + minutes{120});
+  assert_int_equal(watcher.ended, 0);
+  access_control->link_closed(ann, start + minutes{120});
+  access_control->update(start + minutes{120} + seconds{31});
   assert_int_equal(watcher.ended, 1);
+}
+
+void a_session_whose_time_ends_while_its_link_is_lost_lapses_when_it_is_back(void**) {
+  const SessionIndex ann = log_in("ann", Role::admin);
+  access_control->link_opened(ann);
+  access_control->link_closed(ann, start + hours{8});
+  access_control->update(start + hours{8} + seconds{30});
+  access_control->link_opened(ann);
+  access_control->update(start + hours{8} + seconds{30});
+  assert_true(access_control->session(ann)->lapsed);
+  access_control->link_closed(ann, start + hours{8} + seconds{30});
+  access_control->update(start + hours{8} + seconds{61});
+  assert_null(access_control->session(ann));
 }
 
 void eight_hours_are_enough_for_a_password_but_not_for_a_token(void**) {
@@ -321,6 +340,8 @@ int main() {
       cmocka_unit_test_setup(room_is_made_but_never_by_the_holder, begin),
       cmocka_unit_test_setup(the_one_time_token_is_good_once_and_another_follows, begin),
       cmocka_unit_test_setup(a_session_that_logged_in_lapses_in_place, begin_with_logins),
+      cmocka_unit_test_setup(a_session_whose_time_ends_while_its_link_is_lost_lapses_when_it_is_back,
+                             begin_with_logins),
       cmocka_unit_test_setup(eight_hours_are_enough_for_a_password_but_not_for_a_token, begin_with_logins),
       cmocka_unit_test_setup(by_tls_the_cookie_is_this_hosts_alone, begin),
       cmocka_unit_test_setup(changes_show_in_the_revision, begin),
