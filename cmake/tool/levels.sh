@@ -115,7 +115,8 @@ test_presets() {  # test_presets PRESET...: each when it is built
   local preset
   for preset; do
     await_stage "build $preset"
-    stage "test $preset" test_preset "$preset"
+    start_lane 0 lane_stage "test $preset" test_preset "$preset"
+    await_stage "test $preset"
   done
 }
 
@@ -131,6 +132,7 @@ level_first() {
 }
 
 level_gate() {
+  limit_time
   release_is_built
   start_lane 12 presets_lane checked tsan asan
   start_lane 15 analysis_lane without tests

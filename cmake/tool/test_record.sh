@@ -38,7 +38,7 @@ end_record() {  # end_record WALL LOAD
   printf 'total\t%d\t%d\n' "$1" "$2" >>"$record"
   awk '{ tests += $1; unchanged += $3 } END { printf "tests\t%d\t%d\n", tests, unchanged }' "$stages"/*.counts >>"$record"
   read -r level state <<<"$(awk -F '\t' '$1 == "level" || $1 == "state" { printf "%s ", $2 }' "$record")"
-  [[ $state != again ]] || return 0
+  [[ $state != again && $left_out == 0 ]] || return 0
   mkdir -p "$records" && cp "$record" "$records/$level-$state.txt"
 }
 

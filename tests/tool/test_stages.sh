@@ -113,6 +113,29 @@ expect "exit code of a broken build" "$status" 1
 expect "tests after a broken build" "$output" "*error: broken*build release *FAILED*test release *passed*panel *passed*"
 expect "last line of a broken build" "$(last_line)" "88% tests passed, 1 tests failed out of 9"
 
+# The tests of tsan take longer than the limit: what had failed by then has failed.
+rm "$work/broken"
+stand_in ctest <<'BODY'
+[[ $* == *" -N"* ]] && { echo "  Test #1: it"; exit; }
+case $2 in
+  */checked) echo "100% tests passed, 0 tests failed out of 4" ;;
+  */tsan) touch "$STAND_IN/late" && echo "1/4 Test #1: it ....***Failed  1 s" && sleep 1000 ;;
+esac
+BODY
+flexrf test --gate --time-limit 0s --no-memory </dev/null
+expect "exit code without time" "$status" 0
+expect "what there is no time for" "$output" "*build checked * left out: it had not ended after 0s*test asan * left out: *"
+expect "sum without time" "$output" "*8 stages had not ended when the time was over: ./flexrf test --gate does them*"
+flexrf test --gate --time-limit 15s --no-memory </dev/null
+expect "exit code of a stage that is ended" "$status" 1
+expect "what ended in time" "$output" "*test checked * passed*"
+expect "what was ended" "$output" "*test tsan * left out: it had not ended after 15s*"
+expect "failures of what was ended" "$(last_line)" "* 1 tests failed out of *"
+flexrf test --time-limit 5min </dev/null
+expect "message of a limit without --gate" "$errors" "flexrf: --time-limit goes with --gate*"
+flexrf test --gate --time-limit soon </dev/null
+expect "message of a limit that is no number" "$errors" "flexrf: --time-limit takes a time, such as 40min or 90s*"
+
 flexrf test --gate --full </dev/null
 expect "message with two levels" "$errors" "flexrf: --full comes first, and one level at a time*"
 flexrf test --long </dev/null
