@@ -387,21 +387,21 @@ await_reset() {  # await_reset REQUEST LIMIT: while the machine does this its wa
 
 test_request() { printf 'run_test' && printf ' %q' "$mark" "$limit" "$setting" "$root/build/release/guest/$1"; }
 
-guest_test() {  # guest_test NAME: sets result, taken (microseconds) and told, what is to be read when it did not pass
+guest_test() {  # guest_test NAME: sets result, taken (the guest's microseconds), used (processor seconds) and told, what is to be read when it did not pass
   local mark="end of $1" setting="FLEXRF_LONG=${FLEXRF_LONG-}" offset status limit=$test_limit start=start_guest resets=''
   local -a files
   [[ ${FLEXRF_LONG-} ]] && limit=$long_test_limit
-  told=''
+  told='' used=0
   if [[ $1 == *_reset_guest_test ]]; then # on a machine that was booted: a restored one has nothing to boot from
     resets=1 start=boot_guest
     stop_guest
   fi
   if [[ $guest_pid == '' ]] && { ((unbootable)) || ! "$start" "${unattended[@]}" </dev/null; }; then
-    result='Not Run' taken=0 unbootable=1
+    result='Not Run' taken=0 used=0 unbootable=1
     return
   fi
   offset=$(stat -c %s "$guest_console")
-  lost=''
+  lost='' used=$(machine_seconds)
   mapfile -t files < <(guest_test_files "$1")
   if [[ $resets ]]; then # run until the machine is reset, and once more after it
     offer_files "${files[@]}" && await_reset "$(test_request "$1")" "$limit" && setting=FLEXRF_AFTER_RESET=1
@@ -418,6 +418,7 @@ guest_test() {  # guest_test NAME: sets result, taken (microseconds) and told, w
     stop_guest
     result="Failed: $lost" taken=0
   fi
+  if [[ $guest_pid ]]; then used=$(($(machine_seconds) - used)); else used=0; fi
   [[ $result == Passed ]] || told=$(printf 'The console of the guest during %s:\n' "$1" && show_console "$offset" "$mark")
   # QEMU's CAN controllers are read from another place than they are written at once the machine was reset: they would tell
   # frames of before.
@@ -434,25 +435,25 @@ next_test() {  # prints the number of the one that is nobody's yet; fails when t
 }
 
 guest_machine_tests() {  # guest_machine_tests NUMBER: one after the other in this machine, until none is left
-  local number name result taken told unbootable=0
+  local number name result taken used told unbootable=0
   trap stop_guest EXIT
   use_machine "$1" || return
   while number=$(next_test); do
     name=${names[number - 1]}
     guest_test "$name"
     [[ $result == Passed ]] || printf '%s (%s)\n' "$name" "$result" >>"$guest_run/failed"
-    guest_report "$number" "$name" "$result" "$taken" "$told"
+    guest_report "$number" "$name" "$result" "$taken" "$used" "$told"
   done
 }
 
-guest_report() {  # guest_report NUMBER NAME RESULT MICROSECONDS TEXT: a line as ctest's, behind what there is to be read
+guest_report() {  # guest_report NUMBER NAME RESULT MICROSECONDS SECONDS TEXT: a line as ctest's, behind what there is to be read
   local line
   line=$(printf '%3d/%d Test #%d: %s ' "$1" "${#names[@]}" "$1" "$2")
   while ((${#line} < 60)); do line+=.; done
   (
     flock 9
-    [[ $5 ]] && printf '%s\n' "$5"
-    printf '%s   %s  %d.%02d sec\n' "$line" "$3" $(($4 / 1000000)) $(($4 % 1000000 / 10000))
+    [[ $6 ]] && printf '%s\n' "$6"
+    printf '%s   %s  %d.%02d sec, %d s of processor time\n' "$line" "$3" $(($4 / 1000000)) $(($4 % 1000000 / 10000)) "$5"
   ) 9>"$guest_run/reporting"
 }
 

@@ -234,8 +234,8 @@ void Connection::check_live(Time now) {
   if (transport_.take_reads() > most_reads) flooded_ = true;
   if (flooded_) {
     close(1008, "too many frames");
-  } else if (now - heard_ > settings.live_silence) {
-    // So its holds end at the latest, whatever became of the page.
+  } else if (now - heard_ > settings.live_silence && span <= settings.live_silence / 2) {
+    // A server that was kept from its work itself hears first what waits.
     close(1008, "silent for too long");
   }
 }

@@ -5,8 +5,10 @@ import type { Answer, Hello, Problem, ServerEvent } from './protocol';
 
 export const pingPeriod = 250;
 export const staleAfter = 1000;
-/** Silent so long, the other end has closed its side (it waits 1 s): try anew rather than wait for TCP. */
-export const hopelessAfter = 2500;
+/** Silent so long, the other end has closed its side (it waits 3 s): try anew rather than wait for TCP. */
+export const hopelessAfter = 4000;
+const connectWithin = 5000;
+const tickPeriod = 100;
 const longestBackoff = 2000;
 const requestTimeout = 10_000;
 
@@ -49,6 +51,7 @@ export class Connection {
   #roundTrip: number | undefined;
   #lastHeard = -Infinity;
   #lastPing = -Infinity;
+  #lastTick = -Infinity;
   #began = 0;
   #failures = 0;
   #lastId = 0;
@@ -67,7 +70,7 @@ export class Connection {
 
   start(): void {
     if (this.#ticking !== undefined) return;
-    this.#ticking = setInterval(() => this.#tick(), 100);
+    this.#ticking = setInterval(() => this.#tick(), tickPeriod);
     this.#connect();
   }
 
@@ -213,11 +216,15 @@ export class Connection {
 
   #tick(): void {
     const now = this.#now();
+    // After a pause of the browser's own, what was said meanwhile waits behind this tick.
+    const wasAway = now - this.#lastTick > 5 * tickPeriod;
+    this.#lastTick = now;
     if (this.#phase === 'connecting') {
-      if (now - this.#began > hopelessAfter * 2) this.#drop('The server does not answer.', true);
+      if (wasAway) return;
+      if (now - this.#began > connectWithin) this.#drop('The server does not answer.', true);
     } else if (this.#phase === 'open') {
       const silence = now - this.#lastHeard;
-      if (silence > hopelessAfter) return this.#drop('The server fell silent.', true);
+      if (silence > hopelessAfter && !wasAway) return this.#drop('The server fell silent.', true);
       if (silence > staleAfter) this.#setStale(true);
       this.#ping(now);
     }

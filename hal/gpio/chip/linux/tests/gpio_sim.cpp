@@ -11,7 +11,11 @@ constexpr int most_lines = 8;
 }  // namespace
 
 void GpioSim::pull(const std::string& line, bool high) {
-  write(folder_of(line) + "/pull", high ? "pull-up" : "pull-down");
+  const std::string text = high ? "pull-up" : "pull-down";
+  std::string& pulled = pulled_[line];
+  if (pulled == text) return;
+  write(folder_of(line) + "/pull", text);
+  pulled = text;
 }
 
 bool GpioSim::is_high(const std::string& line) {
@@ -25,11 +29,18 @@ void GpioSim::unplug() {
 
 void GpioSim::plug_in() {
   write(folder_ + "/live", "1");
+  folders_.clear();
+  pulled_.clear();
   plugged_ = true;
 }
 
-/// Its number and the chip's may be others after the chip came back.
-std::string GpioSim::folder_of(const std::string& line) {
+const std::string& GpioSim::folder_of(const std::string& line) {
+  std::string& folder = folders_[line];
+  if (folder.empty()) folder = find_folder(line);
+  return folder;
+}
+
+std::string GpioSim::find_folder(const std::string& line) {
   for (int i = 0; i < most_lines; ++i) {
     if (read(folder_ + "/lines/line" + std::to_string(i) + "/name") != line) continue;
     return "/sys/devices/platform/" + read(folder_ + "/dev_name") + "/" + read(folder_ + "/lines/chip_name") +

@@ -1,6 +1,7 @@
 // GpioSim: the far end of the guest's simulated chip, through its sysfs and configfs.
 #pragma once
 
+#include <map>
 #include <string>
 
 namespace flexrf {
@@ -25,11 +26,15 @@ class GpioSim {
   bool is_good() const { return good_; }
 
  private:
-  std::string folder_of(const std::string& line);
+  const std::string& folder_of(const std::string& line);
+  std::string find_folder(const std::string& line);
   void write(const std::string& file, const std::string& text);
   std::string read(const std::string& file);
 
   std::string folder_;
+  // By the lines' names; their numbers and the chip's may be others after the chip came back.
+  std::map<std::string, std::string> folders_;
+  std::map<std::string, std::string> pulled_;
   bool plugged_ = true;
   bool good_ = true;
 };

@@ -112,11 +112,27 @@ describe('silence', () => {
     const connection = connect();
     newest().hello();
     const silent = newest();
-    vi.advanceTimersByTime(2700);
+    vi.advanceTimersByTime(4200);
     expect(silent.readyState).toBe(3);
     expect(connection.status.phase).toBe('waiting');
     vi.advanceTimersByTime(300);
     expect(sockets).toHaveLength(2);
+  });
+  it('is not judged by a page that did nothing itself, before it has heard what waited', () => {
+    let away = 0;
+    const connection = connect(() => performance.now() + away);
+    newest().hello();
+    vi.advanceTimersByTime(200);
+    away = 10_000;
+    vi.advanceTimersByTime(100);
+    expect(connection.status).toMatchObject({ stale: true, phase: 'open' });
+    newest().say(frameOf([]));
+    vi.advanceTimersByTime(100);
+    expect(connection.status).toMatchObject({ stale: false, phase: 'open' });
+    expect(sockets).toHaveLength(1);
+    away = 20_000; // and nothing waited
+    vi.advanceTimersByTime(200);
+    expect(connection.status.phase).toBe('waiting');
   });
 });
 
