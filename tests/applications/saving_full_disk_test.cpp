@@ -173,11 +173,11 @@ void a_log_that_finds_no_room_says_how_much_is_missing() {
   CHECK(wait_until([&] { return contents_of(log).size() == 4096; }));
   disk.make_room();
   process.send(SIGUSR1);
-  // After the first line that is written again.
+  CHECK(is_saved(log, "has no meaning here"));
+  // After the first line that is written again, which on a busy machine is another one.
   const std::string missing = "lines were not written here";
   CHECK(is_saved(log, missing));
   const std::string text = contents_of(log);
-  CHECK_CONTAINS(text, "has no meaning here");
   const std::size_t at = text.find(missing);
   CHECK_EQUAL(text[text.rfind('\n', at) + 1], '[');
   process.end_input();
