@@ -20,7 +20,8 @@ struct SessionInfo {
   std::string_view address;  ///< numeric, of its newest connection
   Role role = Role::viewer;
   bool local = false;  ///< from an address that the application's table calls local
-  /// Its time is over while its page is open, or gone for a moment: it sees, may stop motion, and has to log in for more.
+  /// Its time is over while its page is open, or gone for a moment: it sees, may stop motion, and has to log
+  /// in for more.
   bool lapsed = false;
 };
 
