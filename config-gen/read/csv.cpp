@@ -1,5 +1,6 @@
 #include "config-gen/read/csv.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include "config-gen/model/words.hpp"
@@ -21,15 +22,19 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+bool has_text(const CsvCell& cell) {
+  return !cell.text.empty();
+}
+
 class Scanner {
  public:
   Scanner(std::string_view text, std::string_view file, Diagnostics& diagnostics)
       : text_(text), diagnostics_(diagnostics), place_{file, 1, 1} {
     if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
-    separator_ = find_separator();
+    if (!take_separator()) separator_ = find_separator();
   }
 
-  // The next record that is neither empty nor a comment.
+  // The next record that is neither a comment nor without any text, as spreadsheets write rows below a list.
   std::optional<std::vector<CsvCell>> next() {
     while (at_ < text_.size()) {
       if (peek() == '#') {
@@ -40,12 +45,34 @@ class Scanner {
         step();
         continue;
       }
-      return record();
+      std::vector<CsvCell> cells = record();
+      if (std::any_of(cells.begin(), cells.end(), has_text)) return cells;
     }
     return std::nullopt;
   }
 
  private:
+  // Excel's own first line, `sep=;`, by which it opens a list wherever it is.
+  bool take_separator() {
+    std::string_view line = text_.substr(0, text_.find('\n'));
+    while (line.ends_with(' ')) line.remove_suffix(1);
+    if (line.starts_with('"') && line.ends_with('"') && line.size() > 1)
+      line = line.substr(1, line.size() - 2);
+    if (!line.starts_with("sep=") && !line.starts_with("SEP=")) return false;
+    line.remove_prefix(4);
+    const bool is_one = !line.empty() && line.find_first_not_of(line.front()) == std::string_view::npos;
+    constexpr std::string_view possible = ";,\t|:";
+    const bool is_good = is_one && possible.find(line.front()) != std::string_view::npos;
+    if (is_good) {
+      separator_ = line.front();
+    } else {
+      diagnostics_.error(place_, quote(line) + " separates no cells",
+                         "write sep=; or sep=, or remove the line: the first line of the list tells it");
+    }
+    while (at_ < text_.size() && peek() != '\n') step();
+    return is_good;
+  }
+
   char peek() const { return text_[at_]; }
 
   void step() {
@@ -62,7 +89,7 @@ class Scanner {
 
   char find_separator() const {
     bool quoted = false, comment = false, fresh = true;
-    for (const char c : text_) {
+    for (const char c : text_.substr(at_)) {
       if (fresh && c == '#') comment = true;
       fresh = c == '\n';
       if (fresh) comment = false;
@@ -129,6 +156,17 @@ class Scanner {
   char separator_ = ',';
 };
 
+// A spreadsheet keeps columns that were used once: without a name, and without a cell.
+void leave_out_empty_columns(CsvTable& table) {
+  for (std::size_t i = table.header.size(); i-- > 0;) {
+    const auto is_used = [i](const CsvRow& row) { return has_text(row[i]); };
+    if (has_text(table.header[i]) || std::any_of(table.rows.begin(), table.rows.end(), is_used)) continue;
+    const auto place = static_cast<std::ptrdiff_t>(i);
+    table.header.erase(table.header.begin() + place);
+    for (CsvRow& row : table.rows) row.cells.erase(row.cells.begin() + place);
+  }
+}
+
 }  // namespace
 
 std::optional<std::size_t> CsvTable::column(std::string_view name) const {
@@ -194,20 +232,26 @@ std::optional<CsvTable> parse_csv(std::string_view text, const std::filesystem::
   }
   for (std::size_t i = 0; i < table.header.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
-      if (table.header[i].text == table.header[k].text)
+      if (has_text(table.header[i]) && table.header[i].text == table.header[k].text)
         diagnostics.error(table.header[i].position,
                           "the column " + quote(table.header[i].text) + " is there twice",
                           "rename one; the other is at " + to_string(table.header[k].position));
+  const std::size_t columns = table.header.size();
+  std::size_t named = columns;
+  while (!has_text(table.header[named - 1])) --named;
   while (auto cells = scanner.next()) {
-    if (cells->size() == table.header.size()) {
+    while (cells->size() > columns && !has_text(cells->back())) cells->pop_back();
+    while (cells->size() >= named && cells->size() < columns) cells->push_back({"", cells->back().position});
+    if (cells->size() == columns) {
       table.rows.push_back({std::move(*cells)});
       continue;
     }
     diagnostics.error(cells->front().position,
                       "this row has " + std::to_string(cells->size()) + " cells, but there are " +
-                          std::to_string(table.header.size()) + " columns",
+                          std::to_string(columns) + " columns",
                       "put cells that contain the separator in double quotes");
   }
+  leave_out_empty_columns(table);
   return table;
 }
 

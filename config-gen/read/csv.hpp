@@ -1,5 +1,6 @@
 // Lists in CSV, as spreadsheets and vendors write them: RFC 4180 quoting, separated by ',' or ';', lines that
-// begin with '#' are comments, the first line names the columns.
+// begin with '#' are comments, the first line names the columns. What Excel adds is taken as it is meant: a
+// line sep=; before the list, rows without any text, columns without a name and without a cell.
 #pragma once
 
 #include <filesystem>
@@ -38,7 +39,8 @@ class CsvTable {
   static std::optional<double> number(const CsvCell& cell, Diagnostics& diagnostics);
 };
 
-// The separator is the one of ';' and ',' that occurs first outside of quotes in the header. Nothing when the
+// The separator is what a line sep= tells, else the one of ';' and ',' that occurs first outside of quotes in
+// the header. Nothing when the
 // file cannot be read or is empty; rows with too many or too few cells are reported and left out.
 std::optional<CsvTable> read_csv(const std::filesystem::path& file, Diagnostics& diagnostics);
 std::optional<CsvTable> parse_csv(std::string_view text, const std::filesystem::path& file,

@@ -10,9 +10,13 @@ namespace flexrf::config_gen {
 bool CsvRowReader::find_columns(std::initializer_list<std::size_t> needed) {
   const std::vector<std::string> known(columns_.begin(), columns_.end());
   for (const CsvCell& one : table_.header) {
-    if (std::find(known.begin(), known.end(), one.text) == known.end())
+    if (one.text.empty()) {
+      error(one, std::string(list_) + " has a column without a name, and cells in it",
+            "name it in the first line, one of " + listed(known));
+    } else if (std::find(known.begin(), known.end(), one.text) == known.end()) {
       error(one, std::string(list_) + " has no column " + quote(one.text),
             suggest(one.text, known, "columns", "remove it"));
+    }
   }
   for (const char* const column : columns_) places_.push_back(table_.column(column));
   for (const std::size_t column : needed) {

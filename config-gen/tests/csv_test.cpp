@@ -66,8 +66,35 @@ void comments_and_line_ends(void**) {
   assert_string_equal(cells(parse("a,b\n1,\n,2\n")).c_str(), "1||\n|2|\n");
 }
 
+void as_excel_writes_it(void**) {
+  const char* const lists[] = {"sep=;\r\na;b\r\n1,5;2\r\n",
+                               "\xEF\xBB\xBFsep=;\na;b\n1,5;2\n",
+                               "\"sep=;\"\na;b\n1,5;2\n",
+                               "sep=;;;\na;b;;\n1,5;2;;\n",
+                               "sep=\t\na\tb\n1,5\t2\n",
+                               "# made by hand\na;b\n;\n1,5;2\n;\n;;;\n",
+                               "a;b;\n1,5;2;\n",
+                               "a;b;\n1,5;2\n"};
+  for (const char* const list : lists) {
+    const Parsed parsed = parse(list);
+    assert_true(parsed.table.has_value());
+    assert_string_equal(parsed.messages.c_str(), "");
+    assert_string_equal(cells(parsed).c_str(), "1,5|2|\n");
+  }
+  // Places are those of the file; a column without a name that has cells is the reader's to judge.
+  const Parsed used = parse("sep=;\na;;b\n1;tag;2\n");
+  assert_string_equal(cells(used).c_str(), "1|tag|2|\n");
+  assert_int_equal(used.table->rows[0][1].position.line, 3);
+  assert_string_equal(
+      parse("sep=x\na,b\n").messages.c_str(),
+      "list.csv:1:1: error: 'x' separates no cells\n"
+      "list.csv:1:1: hint: write sep=; or sep=, or remove the line: the first line of the list "
+      "tells it\n");
+  assert_false(parse("sep=;\n;;\n").table.has_value());
+}
+
 void places(void**) {
-  const Parsed parsed = parse("# c\na,b\n\"x\ny\",ä,\n");
+  const Parsed parsed = parse("# c\na,b\n\"x\ny\",ä,z\n");
   assert_string_equal(parsed.messages.c_str(),
                       "list.csv:3:1: error: this row has 3 cells, but there are 2 columns\n"
                       "list.csv:3:1: hint: put cells that contain the separator in double quotes\n");
@@ -132,6 +159,7 @@ int main() {
                               cmocka_unit_test(both_separators),
                               cmocka_unit_test(quotes),
                               cmocka_unit_test(comments_and_line_ends),
+                              cmocka_unit_test(as_excel_writes_it),
                               cmocka_unit_test(places),
                               cmocka_unit_test(line_ends_of_carriage_returns),
                               cmocka_unit_test(mistakes),

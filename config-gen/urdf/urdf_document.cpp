@@ -1,6 +1,8 @@
 #include "config-gen/urdf/urdf_document.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -29,6 +31,10 @@ Position UrdfDocument::position(const pugi::xml_node& node) const {
 void UrdfDocument::error(const pugi::xml_node& node, std::string text, Hint hint) {
   failed_ = true;
   diagnostics_.error(position(node), std::move(text), std::move(hint));
+}
+
+void UrdfDocument::warning(const pugi::xml_node& node, std::string text, Hint hint) {
+  diagnostics_.warning(position(node), std::move(text), std::move(hint));
 }
 
 bool UrdfDocument::read() {
@@ -62,6 +68,12 @@ bool UrdfDocument::is_robot() {
   }
   name_ = root.attribute("name").value();
   if (name_.empty()) error(root, "<robot> has no name", "write <robot name=\"...\">");
+  const std::vector<std::string> versions = {"", "1", "1.0", "1.1", "1.2"};
+  const std::string version = root.attribute("version").value();
+  if (std::find(versions.begin(), versions.end(), version) == versions.end()) {
+    warning(root, "version " + quote(version) + " of URDF is not known: it is read as 1.2",
+            "see what it has that 1.2 has not");
+  }
   return true;
 }
 
@@ -124,20 +136,38 @@ std::string UrdfDocument::read_end(const DocumentJoint& joint, const char* end) 
   return link;
 }
 
-void UrdfDocument::read_origin(DocumentJoint& joint) {
+bool UrdfDocument::read_numbers(const DocumentJoint& joint, const char* attribute, std::span<double> values,
+                                const char* hint) {
   const pugi::xml_node origin = joint.node.child("origin");
+  const pugi::xml_attribute found = origin.attribute(attribute);
+  if (!found) return false;
+  if (parse_numbers(found.value(), values)) return true;
+  error(origin,
+        "joint '" + joint.name + "': " + attribute + "=\"" + found.value() + "\" is not " +
+            (values.size() == 3 ? "three" : "four") + " numbers up to 1e6",
+        hint);
+  return false;
+}
+
+void UrdfDocument::read_origin(DocumentJoint& joint) {
+  read_numbers(joint, "xyz", joint.origin.position, "x, y and z in m, as xyz=\"0 0 0.24\"");
   std::array<double, 3> rpy{};
-  for (const auto& [attribute, values] : {std::pair{"xyz", &joint.origin.position}, std::pair{"rpy", &rpy}}) {
-    const pugi::xml_attribute found = origin.attribute(attribute);
-    if (found && !parse_triple(found.value(), *values)) {
-      error(origin,
-            "joint '" + joint.name + "': " + attribute + "=\"" + found.value() +
-                "\" is not three numbers up to 1e6",
-            attribute == std::string_view("xyz") ? "x, y and z in m, as xyz=\"0 0 0.24\""
-                                                 : "roll, pitch and yaw in rad, as rpy=\"0 1.5708 0\"");
-    }
-  }
+  const bool has_rpy = read_numbers(joint, "rpy", rpy, "roll, pitch and yaw in rad, as rpy=\"0 1.5708 0\"");
   joint.origin.rotation = rotation_of(rpy);
+  std::array<double, 4> quaternion{};
+  if (!read_numbers(joint, "quat_xyzw", quaternion,
+                    "a quaternion of length 1, as quat_xyzw=\"0 0 0.7071068 0.7071068\""))
+    return;
+  const pugi::xml_node origin = joint.node.child("origin");
+  if (has_rpy) {
+    error(origin, "joint '" + joint.name + "' is turned twice, by rpy and by quat_xyzw",
+          "keep the one that is meant");
+  } else if (!(std::hypot(std::hypot(quaternion[0], quaternion[1], quaternion[2]), quaternion[3]) > 1e-6)) {
+    error(origin, "joint '" + joint.name + "': quat_xyzw has no length",
+          "no rotation is quat_xyzw=\"0 0 0 1\"");
+  } else {
+    joint.origin.rotation = rotation_of_quaternion(quaternion);
+  }
 }
 
 void UrdfDocument::check_type(const DocumentJoint& joint) {

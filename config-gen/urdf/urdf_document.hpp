@@ -3,6 +3,7 @@
 
 #include <map>
 #include <pugixml.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,7 @@ class UrdfDocument {
   pugi::xml_node robot() const { return document_.document_element(); }
   Position position(const pugi::xml_node& node) const;
   void error(const pugi::xml_node& node, std::string text, Hint hint);
+  void warning(const pugi::xml_node& node, std::string text, Hint hint);
   bool failed() const { return failed_; }
 
  private:
@@ -56,6 +58,9 @@ class UrdfDocument {
   void read_joints();
   std::string read_end(const DocumentJoint& joint, const char* end);
   void read_origin(DocumentJoint& joint);
+  // True where the joint's origin has this attribute, and no error.
+  bool read_numbers(const DocumentJoint& joint, const char* attribute, std::span<double> values,
+                    const char* hint);
   void check_type(const DocumentJoint& joint);
   void connect();
 

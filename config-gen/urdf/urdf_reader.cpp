@@ -13,6 +13,7 @@
 #include "config-gen/urdf/urdf_document.hpp"
 #include "config-gen/urdf/urdf_path.hpp"
 #include "config-gen/urdf/urdf_transform.hpp"
+#include "config-gen/urdf/urdf_words.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -51,6 +52,7 @@ class Reader {
     chain_.base = row_.base ? row_.base->link : document_.roots().front();
     UrdfTransform pending = path->start;  // fixed joints since the last movable one
     for (const DocumentJoint* joint : path->joints) {
+      check_words(*joint, document_);
       pending = compose(pending, joint->origin);
       if (!joint->moves()) continue;
       chain_.joints.push_back(read_joint(*joint));
@@ -91,7 +93,7 @@ class Reader {
   void read_axis(const DocumentJoint& from, UrdfJoint& joint) {
     const pugi::xml_node axis = from.node.child("axis");
     if (!axis) return;  // URDF's default, x
-    if (!parse_triple(axis.attribute("xyz").value(), joint.axis)) {
+    if (!parse_numbers(axis.attribute("xyz").value(), joint.axis)) {
       document_.error(axis, "joint '" + from.name + "': the axis's xyz is not three numbers up to 1e6",
                       "a direction, as xyz=\"0 0 1\"");
       return;
@@ -129,11 +131,22 @@ class Reader {
     if (!lower || !upper) return;
     joint.lower = *lower;
     joint.upper = *upper;
+    if (!row.lower && !row.upper) narrow(from, joint);
     if (joint.lower < joint.upper) return;
     document_.error(limit ? limit : from.node,
                     "joint '" + from.name + "': lower (" + shown(joint.lower) + ") is not below upper (" +
                         shown(joint.upper) + ")",
                     hint);
+  }
+
+  // Where the arm's controller holds it back before its ends.
+  void narrow(const DocumentJoint& from, UrdfJoint& joint) {
+    const pugi::xml_node soft = from.node.child("safety_controller");
+    const auto lower = number(from, soft, "soft_lower_limit", 0);
+    const auto upper = number(from, soft, "soft_upper_limit", 0);
+    if (!lower || !upper || !(*lower < *upper)) return;  // both are 0 where there are none
+    joint.lower = std::max(joint.lower, *lower);
+    joint.upper = std::min(joint.upper, *upper);
   }
 
   void read_velocity(const DocumentJoint& from, UrdfJoint& joint) {
@@ -149,8 +162,15 @@ class Reader {
 
   void read_motion(const DocumentJoint& from, UrdfJoint& joint) {
     const UrdfJointRow row = own(joint);
-    const auto acceleration = positive(from, "flexrf", "acceleration", row.acceleration);
-    const auto jerk = positive(from, "flexrf", "jerk", row.jerk);
+    auto acceleration = positive(from, "flexrf", "acceleration", row.acceleration);
+    auto jerk = positive(from, "flexrf", "jerk", row.jerk);
+    // URDF 1.2. Motions are planned with one for speeding up and slowing down.
+    if (!acceleration) {
+      acceleration = positive(from, "limit", "acceleration", {});
+      const auto deceleration = positive(from, "limit", "deceleration", {});
+      if (deceleration) acceleration = std::min(acceleration.value_or(*deceleration), *deceleration);
+    }
+    if (!jerk) jerk = positive(from, "limit", "jerk", {});
     joint.acceleration = acceleration.value_or(joint.velocity / seconds_to_velocity);
     joint.jerk = jerk.value_or(joint.acceleration / seconds_to_acceleration);
     if (!acceleration || !jerk) defaulted_.push_back(chain_.joints.size());
@@ -180,8 +200,17 @@ class Reader {
     document_.error(node,
                     "joint '" + from.name + "': <" + node.name() + "> " + attribute + "=\"" + found.value() +
                         "\" is not a number up to 1e6",
-                    std::string("write a decimal number, as ") + attribute + "=\"1.57\"");
+                    std::string("write what the arm can, as ") + attribute +
+                        "=\"1.57\"; or leave the file as it is, and " +
+                        in_row(key_of(from.name) + row_of(attribute)));
     return std::nullopt;
+  }
+
+  // The keys that go before this attribute of the file.
+  static std::string row_of(std::string_view attribute) {
+    if (attribute == "lower" || attribute == "upper" || attribute.starts_with("soft_"))
+      return " = { lower = -1.57, upper = 1.57 }";
+    return " = { " + std::string(attribute == "deceleration" ? "acceleration" : attribute) + " = 1.0 }";
   }
 
   // Above 0, of the row or of the file's element; nothing where neither has it.
@@ -193,7 +222,7 @@ class Reader {
     if (!value || *value > 0) return value;
     document_.error(node, "joint '" + from.name + "': " + attribute + " must be above 0",
                     "write what the arm can here, or in the application: " +
-                        in_row(key_of(from.name) + " = { " + attribute + " = 1.0 }"));
+                        in_row(key_of(from.name) + row_of(attribute)));
     return std::nullopt;
   }
 

@@ -44,9 +44,11 @@ struct UrdfRow {
 // Without a row for it, the tool is the only fixed frame at the chain's end; else the one called tool0; else
 // the last link that moves, with a warning. The chain ends where a hand begins: at a link that carries
 // several movable joints, with fewer in a row than came before. What a joint lacks beside URDF's own limits:
-// acceleration and jerk may be in its <flexrf acceleration jerk home>; else they are such that it comes to
-// its full velocity in 1 s, and to its full acceleration in 0.2 s, with a warning. Its home is 0, or the
-// middle of a range without 0.
+// acceleration and jerk may be in its <flexrf acceleration jerk home>, or in URDF 1.2's <limit acceleration
+// deceleration jerk>, of which the smaller acceleration counts; else they are such that it comes to its full
+// velocity in 1 s, and to its full acceleration in 0.2 s, with a warning. Its home is 0, or the middle of a
+// range without 0. Its range is the narrower one of <limit> and the soft limits of <safety_controller>.
+// check_words() tells what becomes of what else stands in a joint.
 std::optional<UrdfChain> read_urdf(const std::filesystem::path& file, const UrdfRow& row,
                                    Diagnostics& diagnostics);
 std::optional<UrdfChain> parse_urdf(std::string_view text, const std::string& file_name, const UrdfRow& row,

@@ -30,7 +30,7 @@ constexpr Expected robots[] = {
      "wrist_3_joint:r ",
      {0.82, 0.225, 0.06},
      {0, 1, 0},
-     {-6.283185307179586, 6.283185307179586},
+     {-6.13, 6.13},  // its soft limits
      7,
      nullptr},
     {"kuka_style",

@@ -135,8 +135,10 @@ void test_errors_cite_their_place(void**) {
              "[device.arm.urdf]"));
   lines = {};
   lines.first_limit = "    <limit lower='-1' upper='nan' velocity='1'/>";
-  assert_true(yields(lines, "arm.urdf:5:5", "joint 'j1': <limit> upper=\"nan\" is not a number up to 1e6",
-                     "write a decimal number, as upper=\"1.57\""));
+  assert_true(yields(
+      lines, "arm.urdf:5:5", "joint 'j1': <limit> upper=\"nan\" is not a number up to 1e6",
+      "write what the arm can, as upper=\"1.57\"; or leave the file as it is, and write joint.j1 = { lower "
+      "= -1.57, upper = 1.57 } in [device.arm.urdf]"));
   lines = {};
   lines.first_axis = "    <axis xyz='0 0 0'/>";
   assert_true(
@@ -164,6 +166,122 @@ void test_errors_cite_their_place(void**) {
   lines.first_extra = "    <flexrf acceleration='1' jerk='4' home='3'/></joint>";
   assert_true(yields(lines, "arm.urdf:6:5", "joint 'j1': home (3) is outside the limits",
                      "it must be from -1 to 1 rad"));
+}
+
+// URDF 1.1: a rotation as a quaternion, of whatever length.
+void test_a_quaternion_turns_as_rpy_does(void**) {
+  Lines lines;
+  lines.mount_origin =
+      "    <origin xyz='0.5 0 0' quat_xyzw='0 0 1.4142135623730951 1.4142135623730951'/></joint>";
+  const bool same = [&] {
+    const Read read = parsed(lines.text());
+    const Read by_rpy = parsed(Lines().text());
+    return read.chain && says(read, "") && read.chain->tool.rotation == by_rpy.chain->tool.rotation;
+  }();
+  assert_true(same);
+  // About all three axes: 0.36 0.48 0 0.8 is a turn about (0.6, 0.8, 0) by 2 acos(0.8).
+  lines.mount_origin = "    <origin quat_xyzw='0.36 0.48 0 0.8'/></joint>";
+  const bool turned = [&] {
+    const Read read = parsed(lines.text());
+    const double expected[9] = {0.5392, 0.3456, -0.768, 0.3456, 0.7408, 0.576, 0.768, -0.576, 0.28};
+    if (!read.chain) return false;
+    for (std::size_t i = 0; i < 9; ++i)
+      if (std::abs(read.chain->tool.rotation[i] - expected[i]) > 1e-12) return false;
+    return true;
+  }();
+  assert_true(turned);
+  lines.mount_origin = "    <origin rpy='0 0 1' quat_xyzw='0 0 0 1'/></joint>";
+  assert_true(yields(lines, "arm.urdf:10:5", "joint 'm' is turned twice, by rpy and by quat_xyzw",
+                     "keep the one that is meant"));
+  lines.mount_origin = "    <origin quat_xyzw='0 0 0 0'/></joint>";
+  assert_true(yields(lines, "arm.urdf:10:5", "joint 'm': quat_xyzw has no length",
+                     "no rotation is quat_xyzw=\"0 0 0 1\""));
+  lines.mount_origin = "    <origin quat_xyzw='0 0 1'/></joint>";
+  assert_true(yields(lines, "arm.urdf:10:5", "joint 'm': quat_xyzw=\"0 0 1\" is not four numbers up to 1e6",
+                     "a quaternion of length 1, as quat_xyzw=\"0 0 0.7071068 0.7071068\""));
+}
+
+// URDF 1.2.
+void test_a_limit_tells_how_quickly_speed_changes(void**) {
+  Lines lines;
+  lines.first_limit =
+      "    <limit lower='-1' upper='1' velocity='2' effort='9' acceleration='0.4' deceleration='0.2' "
+      "jerk='3'/>";
+  lines.first_extra = "    </joint>";
+  const auto first_is = [&](double acceleration, double jerk) {
+    const Read read = parsed(lines.text());
+    return read.chain && says(read, "") && read.chain->joints[0].acceleration == acceleration &&
+           read.chain->joints[0].jerk == jerk;
+  };
+  assert_true(first_is(0.2, 3));
+  lines.first_extra = "    <flexrf acceleration='0.3'/></joint>";
+  assert_true(first_is(0.3, 3));
+  lines.first_limit = "    <limit lower='-1' upper='1' velocity='2' acceleration='0' jerk='3'/>";
+  lines.first_extra = "    </joint>";
+  assert_true(
+      yields(lines, "arm.urdf:5:5", "joint 'j1': acceleration must be above 0",
+             "write what the arm can here, or in the application: write joint.j1 = { acceleration = 1.0 } "
+             "in [device.arm.urdf]"));
+}
+
+void test_soft_limits_narrow_the_range(void**) {
+  Lines lines;
+  lines.first_extra =
+      "    <safety_controller soft_lower_limit='-0.9' soft_upper_limit='3' k_velocity='1'/>"
+      "<flexrf acceleration='3' jerk='4'/></joint>";
+  const bool narrower = [&] {
+    const Read read = parsed(lines.text());
+    return read.chain && says(read, "") && read.chain->joints[0].lower == -0.9 &&
+           read.chain->joints[0].upper == 1;
+  }();
+  assert_true(narrower);
+}
+
+// As exporters write that there is none: the file is the vendor's.
+void test_a_limit_without_end_names_the_row(void**) {
+  for (const char* const number : {"-inf", "-1e16"}) {
+    Lines lines;
+    lines.first_limit = std::string("    <limit lower='") + number + "' upper='1' velocity='2'/>";
+    assert_true(yields(lines, "arm.urdf:5:5",
+                       std::string("joint 'j1': <limit> lower=\"") + number + "\" is not a number up to 1e6",
+                       "write what the arm can, as lower=\"1.57\"; or leave the file as it is, and write "
+                       "joint.j1 = { lower = -1.57, upper = 1.57 } in [device.arm.urdf]"));
+    UrdfRow row = row_of_cell();
+    row.joints["j1"].lower = -1;
+    row.joints["j1"].upper = 1;
+    assert_true(parsed(lines.text(), row).chain.has_value());
+  }
+}
+
+void test_what_is_not_read_is_told(void**) {
+  Lines lines;
+  lines.first_axis = "    <origin xyz='0 0 1' rpyy='0 0 1'/><axis xyz='0 0 2'/>";
+  assert_true(yields(lines, "arm.urdf:4:5",
+                     "joint 'j1': <origin> has the attribute 'rpyy', and what it means is not known",
+                     "did you mean 'rpy'?"));
+  lines = {};
+  lines.first_limit = "    <limits lower='-1' upper='1' velocity='2'/>";
+  assert_true(parsed(lines.text())
+                  .messages.find("arm.urdf:5:5: error: joint 'j1' has <limits>, which no URDF "
+                                 "has\narm.urdf:5:5: hint: did you mean 'limit'?") != std::string::npos);
+  lines = {};
+  lines.first_axis += "<axis xyz='0 1 0'/>";
+  assert_true(yields(lines, "arm.urdf:4:45", "joint 'j1' has a second <axis>", "keep the one that is meant"));
+  lines = {};
+  // A simulator's, another program's, and one that nobody knows.
+  lines.first_axis += "<dynamics damping='1'/><gazebo/><drake:thing/><cable length='1'/><cable length='2'/>";
+  const bool told = [&] {
+    const Read read = parsed(lines.text());
+    return read.chain &&
+           says(read,
+                "arm.urdf:4:91: warning: joint 'j1' has <cable>, which no URDF has: it is passed over\n"
+                "arm.urdf:4:91: hint: remove it, or see what it is meant to say\n");
+  }();
+  assert_true(told);
+  Read read = parsed("<robot name='r' version='3.0'><link name='a'/></robot>");
+  assert_true(
+      read.messages.find("arm.urdf:1:1: warning: version '3.0' of URDF is not known: it is read as 1.2") !=
+      std::string::npos);
 }
 
 void test_only_a_chain_of_known_joints(void**) {
@@ -411,6 +529,11 @@ int main() {
       cmocka_unit_test(test_fixed_joints_are_merged),
       cmocka_unit_test(test_six_axis_arm_is_read),
       cmocka_unit_test(test_errors_cite_their_place),
+      cmocka_unit_test(test_a_quaternion_turns_as_rpy_does),
+      cmocka_unit_test(test_a_limit_tells_how_quickly_speed_changes),
+      cmocka_unit_test(test_soft_limits_narrow_the_range),
+      cmocka_unit_test(test_a_limit_without_end_names_the_row),
+      cmocka_unit_test(test_what_is_not_read_is_told),
       cmocka_unit_test(test_only_a_chain_of_known_joints),
       cmocka_unit_test(test_too_many_joints_are_told),
       cmocka_unit_test(test_the_application_says_more),

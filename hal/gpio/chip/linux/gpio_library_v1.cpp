@@ -6,6 +6,7 @@
 
 #include "hal/gpio/chip/linux/gpio_library.hpp"
 #include "hal/gpio/chip/linux/gpio_messages.hpp"
+#include "hal/gpio/chip/linux/line_offset.hpp"
 
 namespace flexrf {
 namespace {
@@ -82,8 +83,15 @@ Result<std::unique_ptr<LibraryLine>> LibraryLine::request(const char* name,
   errno = ENOENT;
   Chip chip = open_chip(name);
   if (chip == nullptr) return cannot_open_chip(name, errno);
-  gpiod_line* const line = gpiod_chip_find_line(chip.get(), settings.name);
-  if (line == nullptr) return has_no_line(name, settings.name);
+  const Result<unsigned> offset =
+      offset_of_line(name, settings.name, gpiod_chip_num_lines(chip.get()), [&chip](unsigned at) {
+        gpiod_line* const one = gpiod_chip_get_line(chip.get(), at);
+        const char* const known = one == nullptr ? nullptr : gpiod_line_name(one);
+        return std::string(known == nullptr ? "" : known);
+      });
+  if (!offset) return offset.status();
+  gpiod_line* const line = gpiod_chip_get_line(chip.get(), *offset);
+  if (line == nullptr) return cannot_request_line(name, settings.name, nullptr, errno);
   const bool output = settings.direction == LineDirection::output;
   const gpiod_line_request_config config{
       consumer, output ? GPIOD_LINE_REQUEST_DIRECTION_OUTPUT : GPIOD_LINE_REQUEST_EVENT_BOTH_EDGES,

@@ -9,6 +9,7 @@
 
 #include "hal/gpio/chip/linux/gpio_library.hpp"
 #include "hal/gpio/chip/linux/gpio_messages.hpp"
+#include "hal/gpio/chip/linux/line_offset.hpp"
 
 namespace flexrf {
 namespace {
@@ -154,15 +155,23 @@ Result<std::unique_ptr<LibraryLine>> LibraryLine::request(const char* name,
                                                           const GpioLineSettings& settings) {
   const Chip chip = open_chip(name);
   if (chip == nullptr) return cannot_open_chip(name, errno);
-  const int offset = gpiod_chip_get_line_offset_from_name(chip.get(), settings.name);
-  if (offset < 0) return has_no_line(name, settings.name);
+  const ChipInfo chip_info{gpiod_chip_get_info(chip.get())};
+  if (chip_info == nullptr) return cannot_open_chip(name, errno);
+  const auto count = static_cast<unsigned>(gpiod_chip_info_get_num_lines(chip_info.get()));
+  const Result<unsigned> found = offset_of_line(name, settings.name, count, [&chip](unsigned at) {
+    const LineInfo info{gpiod_chip_get_line_info(chip.get(), at)};
+    const char* const known = info == nullptr ? nullptr : gpiod_line_info_get_name(info.get());
+    return std::string(known == nullptr ? "" : known);
+  });
+  if (!found) return found.status();
+  const unsigned offset = *found;
   const auto cannot_request = [&](int error) {
-    const LineInfo info{gpiod_chip_get_line_info(chip.get(), static_cast<unsigned>(offset))};
+    const LineInfo info{gpiod_chip_get_line_info(chip.get(), offset)};
     return cannot_request_line(name, settings.name,
                                info == nullptr ? nullptr : gpiod_line_info_get_consumer(info.get()), error);
   };
   // The request is of its own: the chip may be closed.
-  LineRequest request = request_line(chip.get(), static_cast<unsigned>(offset), settings);
+  LineRequest request = request_line(chip.get(), offset, settings);
   if (request == nullptr) return cannot_request(errno);
   EdgeEvents events;
   if (settings.direction == LineDirection::input) {
@@ -173,7 +182,7 @@ Result<std::unique_ptr<LibraryLine>> LibraryLine::request(const char* name,
     if (fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK) < 0) return cannot_request(errno);
   }
   return std::unique_ptr<LibraryLine>(
-      std::make_unique<LineV2>(std::move(request), static_cast<unsigned>(offset), std::move(events)));
+      std::make_unique<LineV2>(std::move(request), offset, std::move(events)));
 }
 
 }  // namespace flexrf

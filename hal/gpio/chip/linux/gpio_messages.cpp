@@ -26,8 +26,21 @@ Status cannot_open_chip(const char* chip, int error) {
 Status has_no_line(const char* chip, const char* line) {
   return Status::error(StatusCode::not_found,
                        "GPIO chip %s has no line named %s; gpioinfo lists the names, which come from the "
-                       "device tree or ACPI",
+                       "device tree or ACPI. A line without a name is meant by its offset, as \"#3\"",
                        chip, line);
+}
+
+Status has_fewer_lines(const char* chip, const char* line, unsigned count) {
+  return Status::error(StatusCode::not_found,
+                       "GPIO chip %s has no line %s: it has %u, and their offsets begin at 0 (gpioinfo)",
+                       chip, line, count);
+}
+
+Status is_a_double_name(const char* chip, const char* line, unsigned first, unsigned second) {
+  return Status::error(StatusCode::invalid_argument,
+                       "GPIO chip %s has two lines named %s, at the offsets %u and %u: name the one that is "
+                       "meant by its offset, as \"#%u\"",
+                       chip, line, first, second, first);
 }
 
 Status cannot_request_line(const char* chip, const char* line, const char* user, int error) {
