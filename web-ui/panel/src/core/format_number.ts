@@ -6,7 +6,7 @@
  */
 export function formatNumber(value: number, options: { digits?: number; range?: readonly [number, number]; integer?: boolean } = {}): string {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? 'not a number' : value > 0 ? '∞' : '−∞';
-  if (options.integer) return String(Math.round(value)).replace('-', '−');
+  if (options.integer) return `${Number.isSafeInteger(Math.round(value)) ? '' : '≈ '}${Math.round(value)}`.replace('-', '−');
   const digits = options.digits ?? 4;
   const largest = options.range ? Math.max(Math.abs(options.range[0]), Math.abs(options.range[1])) : Math.abs(value);
   if (largest !== 0 && (largest >= 1e9 || largest < 1e-4)) return value.toExponential(digits - 1).replaceAll('-', '−');

@@ -19,7 +19,17 @@ export abstract class EditorBase extends ControlBase {
   protected abstract write(value: Value | null): void;
 
   protected override show(value: Value | null): void {
+    const before = this.isRounded;
     this.edit.echo(value);
+    if (this.isRounded !== before) this.takeAccess();
+  }
+
+  private get isRounded(): boolean {
+    return this.quantity.isRounded(this.edit.inForce);
+  }
+
+  protected override lockReason(): string {
+    return super.lockReason() || (this.isRounded ? 'this value has more digits than the page keeps: set it in the configuration file' : '');
   }
 
   protected override redraw(): void {

@@ -1,6 +1,7 @@
 // How one number is shown and typed in: SI inside, the person's unit outside, a fixed number of decimals.
 import type { ItemInfo, Scalar, Value } from '../contract';
 import { displayUnits, significantText } from '../core/units';
+import { isRounded, wholeText } from '../core/whole_number';
 
 const integers: ReadonlySet<Scalar> = new Set<Scalar>(['i8', 'u8', 'i16', 'u16', 'i32', 'u32', 'i64', 'u64']);
 
@@ -154,7 +155,7 @@ export class Quantity {
   private digits(si: number, decimals: number): string {
     if (!Number.isFinite(si)) return Number.isNaN(si) ? 'NaN' : si > 0 ? '∞' : '-∞';
     const shown = si * this.factor;
-    if (this.integer && this.factor === 1) return String(Math.round(shown));
+    if (this.integer && this.factor === 1) return wholeText(shown);
     if (Math.abs(shown) >= 1e12) return shown.toExponential(3);
     const text = shown.toFixed(decimals);
     return text.startsWith('-') && Number(text) === 0 ? text.slice(1) : text;
@@ -193,6 +194,11 @@ export class Quantity {
   /** Where a slider stands: no more decimals than are shown. */
   rounded(shown: number): number {
     return Number(shown.toFixed(this.entryDecimals(shown)));
+  }
+
+  /** A whole number that this page cannot count to. */
+  isRounded(value: Value | null): boolean {
+    return this.integer && isRounded(value);
   }
 
   /** A step on from a value, SI, within the range; without the digits that neither value nor step has. */

@@ -33,7 +33,8 @@ describe('display units', () => {
 describe('formatNumber', () => {
   it.each([
     [0, {}, '0'], [1.23456, {}, '1.235'], [-1.5, {}, '−1.500'], [12345.6, {}, '12346'], [0.00001234, {}, '1.234e−5'],
-    [3e12, {}, '3.000e+12'], [NaN, {}, 'not a number'], [-Infinity, {}, '−∞'], [5, { integer: true }, '5'],
+    [3e12, {}, '3.000e+12'], [NaN, {}, 'not a number'], [-Infinity, {}, '−∞'], [5, { integer: true }, '5'], [2 ** 53 - 1, { integer: true }, '9007199254740991'],
+    [2 ** 53, { integer: true }, '≈ 9007199254740992'], [-72057319193579525, { integer: true }, '≈ −72057319193579530'],
     [-5, { integer: true }, '−5'], [0.5, { range: [0, 100] }, '0.5'], [100, { range: [0, 100] }, '100.0'],
     [-0.001, { range: [0, 100] }, '0.0'], [1.5, { digits: 2 }, '1.5'],
   ] as const)('%d with %o is %s', (value, options, expected) => {

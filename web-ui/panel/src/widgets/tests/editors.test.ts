@@ -22,6 +22,25 @@ function hangSet(host: FakeHost): (outcome: Outcome) => Promise<void> {
   };
 }
 
+describe('a whole number of 64 bits', () => {
+  const item = makeParameter({ scalar: 'u64', unit: '', default: 0 });
+
+  it('is changed while the page can count it, and marked and left alone beyond', async () => {
+    const { host, find, text } = await show(item);
+    const field = find<HTMLInputElement>('#field');
+    host.publish('jog.step', 2 ** 53 - 1);
+    await settled();
+    expect([field.value, field.disabled]).toEqual(['9007199254740991', false]);
+    host.publish('jog.step', 18446744073709551615);
+    await settled();
+    expect([field.value, field.disabled]).toEqual(['≈ 18446744073709552000', true]);
+    expect(text('#lock')).toContain('more digits than the page keeps');
+    host.publish('jog.step', 7);
+    await settled();
+    expect([field.value, field.disabled]).toEqual(['7', false]);
+  });
+});
+
 describe('slider', () => {
   const item = makeParameter({ unit: 'm', range: [0, 0.1], default: 0.01 });
   const make = async (): Promise<Shown & { slider: HTMLInputElement; field: HTMLInputElement }> => {
