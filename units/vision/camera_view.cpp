@@ -68,17 +68,19 @@ NullReason tool_pose_at(const Input<Pose>& poses, Time time, Pose& pose) noexcep
   }
   std::size_t after = 0;
   while (after < count && headers[after].sampled_at < time) ++after;
-  if (after == count) {
-    pose = values[count - 1];
+  if (after < count && headers[after].sampled_at == time) {
+    pose = values[after];
     return NullReason::none;
   }
-  pose = values[after];
-  if (after == 0 || headers[after].sampled_at == time) return NullReason::none;
-  const Pose& before = values[after - 1];
-  const double share = seconds(time - headers[after - 1].sampled_at) /
-                       seconds(headers[after].sampled_at - headers[after - 1].sampled_at);
-  const Eigen::Isometry3d from = to_isometry(before);
-  const Eigen::Isometry3d to = to_isometry(pose);
+  if (after == 0) return NullReason::no_longer_kept;
+  if (after == count) --after;  // ahead of the newest: on from the last two
+  if (after == 0) return NullReason::too_old;
+  const Time before = headers[after - 1].sampled_at;
+  const Duration apart = headers[after].sampled_at - before;
+  if (apart <= Duration{} || time - before > 2 * apart) return NullReason::too_old;
+  const double share = seconds(time - before) / seconds(apart);
+  const Eigen::Isometry3d from = to_isometry(values[after - 1]);
+  const Eigen::Isometry3d to = to_isometry(values[after]);
   Eigen::Isometry3d between = Eigen::Isometry3d::Identity();
   between.translation() = from.translation() + share * (to.translation() - from.translation());
   between.linear() =

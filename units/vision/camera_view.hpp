@@ -43,8 +43,10 @@ class CameraView {
 };
 
 /// The tool's pose at `time`, between the two that the slot's history has beside it: positions linearly, the
-/// orientation by the shortest turn. Behind the newest and before the oldest of within 50 ms it takes that
-/// one. Otherwise the reason why there is none.
+/// orientation by the shortest turn. A picture may be newer than the newest pose by as much as the last two
+/// are apart, one cycle of the arm: so long the motion goes on as between them, which at an acceleration a is
+/// wrong by a * cycle^2. Otherwise the reason why there is none: `too_old`, `no_longer_kept`, or the slot's
+/// own.
 NullReason tool_pose_at(const Input<Pose>& poses, Time time, Pose& pose) noexcept;
 
 }  // namespace flexrf::user

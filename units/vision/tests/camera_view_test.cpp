@@ -38,22 +38,37 @@ bool between_two_poses_it_is_between() {
   return found && off < 1e-9 && std::abs(std::abs(dot) - 1) < 1e-9;
 }
 
-bool beside_all_poses_it_is_the_nearest_or_unknown() {
+/// At 0.9 m/s a pose of 50 ms before is 45 mm away.
+bool outside_of_the_history_it_is_unknown() {
   const auto world = std::make_unique<World>();
   Pose pose{};
   const bool nothing = world->ask(0, pose) == NullReason::nothing_yet;
   world->history.publish(tool_above(0.40, 0, 0.45), World::at(0));
+  const bool one = world->ask(0, pose) == NullReason::none && world->ask(1, pose) == NullReason::too_old;
   world->history.publish(tool_above(0.44, 0, 0.45), World::at(8));
   const bool exact = world->ask(8, pose) == NullReason::none && std::abs(pose.position[0] - 0.44) < 1e-9;
-  const bool after = world->ask(40, pose) == NullReason::none && std::abs(pose.position[0] - 0.44) < 1e-9;
-  const bool before = world->ask(-30, pose) == NullReason::none && std::abs(pose.position[0] - 0.40) < 1e-9;
-  return nothing && exact && after && before && world->ask(100, pose) == NullReason::too_old &&
-         world->ask(-100, pose) != NullReason::none;
+  const bool before =
+      world->ask(-1, pose) == NullReason::no_longer_kept && world->ask(-100, pose) != NullReason::none;
+  return nothing && one && exact && before && world->ask(17, pose) == NullReason::too_old &&
+         world->ask(40, pose) == NullReason::too_old && world->ask(100, pose) == NullReason::too_old;
+}
+
+bool within_a_cycle_of_the_newest_the_motion_goes_on() {
+  const auto world = std::make_unique<World>();
+  world->history.publish(tool_above(0.40, 0, 0.45), World::at(0));
+  world->history.publish(tool_above(0.44, 0, 0.45, 0.2), World::at(8));
+  Pose pose{};
+  const bool found = world->ask(14, pose) == NullReason::none;
+  const Pose expected = tool_above(0.47, 0, 0.45, 0.35);
+  double dot = 0;
+  for (std::size_t i = 0; i < 4; ++i) dot += pose.orientation[i] * expected.orientation[i];
+  return found && std::abs(pose.position[0] - 0.47) < 1e-9 && std::abs(std::abs(dot) - 1) < 1e-9;
 }
 
 void interpolation(void**) {
   assert_true(between_two_poses_it_is_between());
-  assert_true(beside_all_poses_it_is_the_nearest_or_unknown());
+  assert_true(outside_of_the_history_it_is_unknown());
+  assert_true(within_a_cycle_of_the_newest_the_motion_goes_on());
 }
 
 void what_is_projected_comes_back(void**) {
