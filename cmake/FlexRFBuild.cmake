@@ -77,10 +77,10 @@ function(flexrf_test_reads name)
 endfunction()
 
 # flexrf_test_computes(NAME...)
-# Tests that use a processor for most of their time, by measure: each takes all four places of a CPU, any other test one of them
+# Tests that use a processor for most of their time, by measure: each takes all three places of a CPU, any other test one of them
 # (cmake/tool/ctest.sh).
 function(flexrf_test_computes)
-  set_tests_properties(${ARGN} PROPERTIES PROCESSORS 4)
+  set_tests_properties(${ARGN} PROPERTIES PROCESSORS 3)
 endfunction()
 
 # flexrf_add_test(NAME name SOURCES file... LIBRARIES target... [LABELS label...] [TIMEOUT seconds] [SERIAL] [THREADS] [COMPUTES]

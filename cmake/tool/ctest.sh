@@ -18,9 +18,9 @@ find_test_keys() {  # find_test_keys PRESET: of all its tests that say what they
   find_keys "$1" "$build/tests_read.txt" "$stages/definitions-$1"
 }
 
-# A CPU has four places: a test that computes takes all of them (flexrf_test_computes), any other test one, as it mostly waits for timers and
-# processes.
-places=$((4 * $(nproc)))
+# A CPU has three places: a test that computes takes all of them (flexrf_test_computes), any other test one, as it mostly waits for timers and
+# processes. Other lanes have work for a CPU that is idle.
+places=$((3 * $(nproc)))
 
 run_tests() {  # run_tests PRESET [SELECTION OF CTEST...]
   local preset=$1

@@ -46,7 +46,7 @@ expect "exit code" "$status" 0
 expect "last line" "$(last_line)" "100% tests passed, 0 tests failed out of 19"
 expect "stages" "$(stages_of)" "build release,guest,image first,panel,source layout,test release"
 expect "use of the processors" "$output" "*total * % of 1 CPUs*"
-expect "selections" "$(test_calls)" "*/release * -j 4 -L ^panel\$ -LE ^long\$ -R ^(it)\$"$'\n'"*/release * -j 4 -LE ^panel\$|^long\$ -R ^(it)\$"
+expect "selections" "$(test_calls)" "*/release * -j 1 -L ^panel\$ -LE ^long\$ -R ^(it)\$"$'\n'"*/release * -j 3 -LE ^panel\$|^long\$ -R ^(it)\$"
 expect "image" "$(grep ^image "$calls")" "image first boots; long: unset"
 expect "long tests" "$(sort -u <(grep ^long: "$calls"))" "long: unset"
 expect "record" "$(cut -f 1-2 "$tree"/build/test-records/first-*.txt)" $'level\tfirst\nstate\tcold\n*'$'stage\tguest\n*'

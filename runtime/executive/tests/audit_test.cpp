@@ -163,7 +163,8 @@ void who_stopped_is_known_until_the_stop_is_cleared() {
   CHECK(audit.stopped_by()->at > 1'600'000'000'000);
   audited.inside().clear_stop_motion("bob (127.0.0.1)");
   CHECK(wait_until([&] { return !audit.stopped_by().has_value(); }));
-  CHECK(audited.inside().start_motion("bob (127.0.0.1)").is_ok());
+  // Its threads see the stop first.
+  CHECK(wait_until([&] { return audited.inside().start_motion("bob (127.0.0.1)").is_ok(); }));
   CHECK(audited.is_told("gave Start"));
 }
 

@@ -182,7 +182,8 @@ void stop_motion_ends_it_whoever_gives_it() {
   CHECK(rig.ask(link, {{"op", "start_motion"}}).at("ok") == false);
   CHECK(rig.ask(link, {{"op", "clear_stop_motion"}}).at("ok") == true);
   CHECK(!rig.executive().control().may_move());
-  CHECK(rig.ask(link, {{"op", "start_motion"}}).at("ok") == true);
+  // The thread that moves something sees the stop first.
+  CHECK(rig.wait_until([&] { return rig.ask(link, {{"op", "start_motion"}}).at("ok") == true; }));
   CHECK(rig.executive().control().may_move());
   CHECK(rig.ask(link, {{"op", "refresh"}, {"lease", lease}}).at("ok") == false);
   CHECK(rig.wait_until([&] { return rig.ask(link, hold).at("ok") == true; }));
