@@ -21,6 +21,7 @@ find_test_keys() {  # find_test_keys PRESET: of all its tests that say what they
 # A CPU has three places: a test that computes takes all of them (flexrf_test_computes), any other test one, as it mostly waits for timers and
 # processes. Other lanes have work for a CPU that is idle.
 places=$((3 * $(nproc)))
+niceness=5
 
 run_tests() {  # run_tests PRESET [SELECTION OF CTEST...]
   local preset=$1
@@ -37,7 +38,7 @@ run_ctest() {
   local -a launcher
   log=$(mktemp "$stages/ctest.XXXXXX")
   set_launcher "$preset"
-  nice -n 5 "${launcher[@]}" ctest --test-dir "$root/build/$preset" --output-on-failure --no-tests=error --no-label-summary \
+  nice -n "$niceness" "${launcher[@]}" ctest --test-dir "$root/build/$preset" --output-on-failure --no-tests=error --no-label-summary \
     -j "$places" "${selection[@]}" -R "^($(IFS='|' && echo "$*"))\$" </dev/null 2>&1 |
     sed -u '/^Could not find executable/,/^Unable to find executable/d' | tee "$log"
   status=${PIPESTATUS[0]}

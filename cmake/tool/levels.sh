@@ -41,11 +41,12 @@ test_preset() {  # test_preset PRESET: a test that was not built fails, and the 
   run_tests "$1" "${selection[@]}" "${without_long[@]}"
 }
 
-# The page is tried by a browser, in the release preset alone. A browser and what it shows keep a CPU busy: more of them at once only wait for
-# each other, and pages go dead meanwhile.
 test_release() { run_tests release -LE "^panel\$${without_long[1]:+|${without_long[1]}}"; }
+
+# The page is tried by a browser, in the release preset alone. A browser draws as long as it is there: the longer its test waits for a CPU, the
+# more it takes of it. So there is one for each CPU, and nothing goes before them.
 test_panel() {
-  local places
+  local places niceness=0
   places=$(nproc)
   run_tests release -L '^panel$' "${without_long[@]}"
 }
@@ -93,8 +94,8 @@ release_is_built() {  # all else takes its generator, and most its programs
   find_test_keys release
 }
 
-# Priorities follow how much a test minds to wait: the tests of ctest, the browser's too, wait for events (run_ctest: nice 5); the guest's
-# clock counts instructions; builds and analyses only have to end. A PC of the image has real time in it, and cannot confirm its version
+# Priorities follow how much a test minds to wait: a browser draws meanwhile; the other tests of ctest wait for events (run_ctest: nice 5); the
+# guest's clock counts instructions; builds and analyses only have to end. A PC of the image has real time in it, and cannot confirm its version
 # when its panel is slow: it starts when the tests of ctest are over, beside a guest or an analysis of lower priority.
 start_first_lanes() {
   start_lane 0 panel_lane
