@@ -40,8 +40,8 @@ class CsvTable {
 };
 
 // The separator is what a line sep= tells, else the one of ';' and ',' that occurs first outside of quotes in
-// the header. Nothing when the
-// file cannot be read or is empty; rows with too many or too few cells are reported and left out.
+// the header. Nothing when the file cannot be read or is empty; rows with too many or too few cells are
+// reported and left out.
 std::optional<CsvTable> read_csv(const std::filesystem::path& file, Diagnostics& diagnostics);
 std::optional<CsvTable> parse_csv(std::string_view text, const std::filesystem::path& file,
                                   Diagnostics& diagnostics);

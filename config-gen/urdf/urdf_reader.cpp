@@ -131,7 +131,7 @@ class Reader {
     if (!lower || !upper) return;
     joint.lower = *lower;
     joint.upper = *upper;
-    if (!row.lower && !row.upper) narrow(from, joint);
+    narrow(from, row, joint);
     if (joint.lower < joint.upper) return;
     document_.error(limit ? limit : from.node,
                     "joint '" + from.name + "': lower (" + shown(joint.lower) + ") is not below upper (" +
@@ -139,14 +139,14 @@ class Reader {
                     hint);
   }
 
-  // Where the arm's controller holds it back before its ends.
-  void narrow(const DocumentJoint& from, UrdfJoint& joint) {
+  // The arm's controller holds it back at soft limits. An end that the row gives is not moved.
+  void narrow(const DocumentJoint& from, const UrdfJointRow& row, UrdfJoint& joint) {
     const pugi::xml_node soft = from.node.child("safety_controller");
     const auto lower = number(from, soft, "soft_lower_limit", 0);
     const auto upper = number(from, soft, "soft_upper_limit", 0);
     if (!lower || !upper || !(*lower < *upper)) return;  // both are 0 where there are none
-    joint.lower = std::max(joint.lower, *lower);
-    joint.upper = std::min(joint.upper, *upper);
+    if (!row.lower) joint.lower = std::max(joint.lower, *lower);
+    if (!row.upper) joint.upper = std::min(joint.upper, *upper);
   }
 
   void read_velocity(const DocumentJoint& from, UrdfJoint& joint) {

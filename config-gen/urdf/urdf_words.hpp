@@ -1,4 +1,4 @@
-// What a joint of the arm says beyond what is read. Private to config-gen/urdf.
+// Refuses elements and attributes of a URDF joint that the reader does not know. Private to config-gen/urdf.
 #pragma once
 
 #include "config-gen/urdf/urdf_document.hpp"

@@ -30,8 +30,8 @@ struct ServerSettings {
   Duration reply_timeout = std::chrono::seconds{60};  ///< of a handler that answers later
   Duration write_timeout = std::chrono::seconds{5};   ///< of a client that does not read
   Duration linger_timeout = std::chrono::seconds{1};  ///< for the client's side of an end
-  /// A live client that says nothing is gone. What it holds has ended long before, with its lease; a page on
-  /// a busy computer that was closed each time would have to begin anew each time.
+  /// A live connection on which neither a message nor a ping came for this long is closed. The client's holds
+  /// have ended before, by their leases. A shorter limit would close pages on busy computers again and again.
   Duration live_silence = std::chrono::seconds{3};
   std::uint32_t live_message_rate = 2000;             ///< messages and pings a second of one client
   Duration slow_call = std::chrono::milliseconds{5};  ///< what no handler may take

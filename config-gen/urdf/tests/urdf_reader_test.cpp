@@ -235,9 +235,20 @@ void test_soft_limits_narrow_the_range(void**) {
            read.chain->joints[0].upper == 1;
   }();
   assert_true(narrower);
+  const bool other_end_too = [&] {
+    lines.first_extra =
+        "    <safety_controller soft_lower_limit='-0.9' soft_upper_limit='0.8'/>"
+        "<flexrf acceleration='3' jerk='4'/></joint>";
+    UrdfRow row = row_of_cell();
+    row.joints["j1"].lower = -1.5;
+    const Read read = parsed(lines.text(), row);
+    return read.chain && read.chain->joints[0].lower == -1.5 && read.chain->joints[0].upper == 0.8;
+  }();
+  assert_true(other_end_too);
 }
 
-// As exporters write that there is none: the file is the vendor's.
+// Exporters write -inf or -1e16 for "no limit". The file is the vendor's, so the hint names the application's
+// row.
 void test_a_limit_without_end_names_the_row(void**) {
   for (const char* const number : {"-inf", "-1e16"}) {
     Lines lines;

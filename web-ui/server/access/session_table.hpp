@@ -17,8 +17,8 @@ struct SessionLimits {
   std::size_t places = 64;                    ///< at most no_session
   Duration idle = std::chrono::hours{1};      ///< without an act, or without a page and a request
   Duration absolute = std::chrono::hours{8};  ///< of one that logged in, however busy it is
-  /// Of one whose time is over, without a live connection: a page that lost its link for a moment comes back,
-  /// and can still stop motion.
+  /// For how long a session whose time is over is kept without a live connection. A page that loses its link
+  /// for a moment connects again within it, and can still stop motion.
   Duration return_time = std::chrono::seconds{30};
 };
 

@@ -5,10 +5,10 @@ import type { Answer, Hello, Problem, ServerEvent } from './protocol';
 
 export const pingPeriod = 250;
 export const staleAfter = 1000;
-/** Silent so long, the other end has closed its side (it waits 3 s): try anew rather than wait for TCP. */
+/** After this silence of the server, ms, the page connects anew. The server has closed the connection by then (after 3 s), which TCP may not tell. */
 export const hopelessAfter = 4000;
-const connectWithin = 5000;
-const tickPeriod = 100;
+const connectWithin = 5000; // ms
+const tickPeriod = 100; // ms
 const longestBackoff = 2000;
 const requestTimeout = 10_000;
 

@@ -1,7 +1,7 @@
 // How one number is shown and typed in: SI inside, the person's unit outside, a fixed number of decimals.
 import type { ItemInfo, Scalar, Value } from '../contract';
+import { wholeText } from '../core/format_number';
 import { displayUnits, significantText } from '../core/units';
-import { isRounded, wholeText } from '../core/whole_number';
 
 const integers: ReadonlySet<Scalar> = new Set<Scalar>(['i8', 'u8', 'i16', 'u16', 'i32', 'u32', 'i64', 'u64']);
 
@@ -196,9 +196,10 @@ export class Quantity {
     return Number(shown.toFixed(this.entryDecimals(shown)));
   }
 
-  /** A whole number that this page cannot count to. */
+  /** A whole number, or one of several, beyond 2^53: sent back, it would be another value. */
   isRounded(value: Value | null): boolean {
-    return this.integer && isRounded(value);
+    if (Array.isArray(value)) return value.some((element) => this.isRounded(element));
+    return this.integer && typeof value === 'number' && Number.isFinite(value) && !Number.isSafeInteger(Math.round(value));
   }
 
   /** A step on from a value, SI, within the range; without the digits that neither value nor step has. */
