@@ -280,7 +280,9 @@ void ObjectTracks::predict_to(std::int64_t time) noexcept {
 
 void ObjectTracks::post(const VisualFeatures& of, Time sampled_at) noexcept {
   Pose tool{};
-  sees_ = tool_pose_at(tool_poses, Time{Duration{of.time}}, tool) == NullReason::none;
+  const NullReason reason = tool_pose_at(tool_poses, Time{Duration{of.time}}, tool);
+  sees_ = reason == NullReason::none;
+  if (!sees_ && !lacks_poses(reason, tool_poses)) return;
   if (!sees_) {
     constexpr const char* trouble =
         "where the tool was when the picture was taken is not known: its slot needs a history that reaches "

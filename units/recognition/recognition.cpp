@@ -187,9 +187,10 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
   if (const NullReason reason = tool_pose_at(tool_poses, Time{Duration{frame->time}}, tool);
       reason != NullReason::none) {
     ++feedback.outdated;
-    complain(
-        "where the tool was when the picture was taken is not known: its slot needs a history that reaches "
-        "back");
+    if (lacks_poses(reason, tool_poses))
+      complain(
+          "where the tool was when the picture was taken is not known: its slot needs a history that reaches "
+          "back");
     return false;
   }
   feedback.set_trouble({});

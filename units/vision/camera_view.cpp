@@ -62,19 +62,18 @@ NullReason tool_pose_at(const Input<Pose>& poses, Time time, Pose& pose) noexcep
   std::array<Pose, 56> values{};
   const std::size_t count =
       poses.between(time - beside_a_picture, time + beside_a_picture, headers, values.data());
-  if (count == 0) {
-    const NullReason reason = poses.at(time, pose);
-    return reason == NullReason::none ? NullReason::too_old : reason;
-  }
   std::size_t after = 0;
   while (after < count && headers[after].sampled_at < time) ++after;
   if (after < count && headers[after].sampled_at == time) {
     pose = values[after];
     return NullReason::none;
   }
-  if (after == 0) return NullReason::no_longer_kept;
+  if (after == 0) {
+    const NullReason reason = poses.at(time, pose);
+    return reason == NullReason::none ? NullReason::too_old : reason;
+  }
   if (after == count) --after;  // ahead of the newest: on from the last two
-  if (after == 0) return NullReason::too_old;
+  if (after == 0) return headers[0].sequence == 1 ? NullReason::nothing_yet : NullReason::too_old;
   const Time before = headers[after - 1].sampled_at;
   const Duration apart = headers[after].sampled_at - before;
   if (apart <= Duration{} || time - before > 2 * apart) return NullReason::too_old;
@@ -87,6 +86,12 @@ NullReason tool_pose_at(const Input<Pose>& poses, Time time, Pose& pose) noexcep
       Eigen::Quaterniond(from.linear()).slerp(share, Eigen::Quaterniond(to.linear())).toRotationMatrix();
   pose = to_pose(between);
   return NullReason::none;
+}
+
+bool lacks_poses(NullReason reason, const Input<Pose>& poses) noexcept {
+  if (reason != NullReason::nothing_yet) return reason != NullReason::none;
+  Pose newest{};
+  return poses.at(Time{Duration::max()}, newest) != NullReason::none;
 }
 
 }  // namespace flexrf::user

@@ -45,8 +45,12 @@ class CameraView {
 /// The tool's pose at `time`, between the two that the slot's history has beside it: positions linearly, the
 /// orientation by the shortest turn. A picture may be newer than the newest pose by as much as the last two
 /// are apart, one cycle of the arm: so long the motion goes on as between them, which at an acceleration a is
-/// wrong by a * cycle^2. Otherwise the reason why there is none: `too_old`, `no_longer_kept`, or the slot's
-/// own.
+/// wrong by a * cycle^2. Otherwise the reason why there is none: `too_old`, `no_longer_kept`,
+/// `nothing_yet` before the arm's second pose, or the slot's own.
 NullReason tool_pose_at(const Input<Pose>& poses, Time time, Pose& pose) noexcept;
+
+/// Whether the operator is to be told that tool_pose_at() found no pose, by its reason. Not where the picture
+/// is older than the arm's second pose, as the first pictures after a start are: the next one has its pose.
+bool lacks_poses(NullReason reason, const Input<Pose>& poses) noexcept;
 
 }  // namespace flexrf::user

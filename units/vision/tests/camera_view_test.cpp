@@ -44,13 +44,28 @@ bool outside_of_the_history_it_is_unknown() {
   Pose pose{};
   const bool nothing = world->ask(0, pose) == NullReason::nothing_yet;
   world->history.publish(tool_above(0.40, 0, 0.45), World::at(0));
-  const bool one = world->ask(0, pose) == NullReason::none && world->ask(1, pose) == NullReason::too_old;
+  const bool one = world->ask(0, pose) == NullReason::none && world->ask(1, pose) == NullReason::nothing_yet;
   world->history.publish(tool_above(0.44, 0, 0.45), World::at(8));
   const bool exact = world->ask(8, pose) == NullReason::none && std::abs(pose.position[0] - 0.44) < 1e-9;
   const bool before =
-      world->ask(-1, pose) == NullReason::no_longer_kept && world->ask(-100, pose) != NullReason::none;
+      world->ask(-1, pose) == NullReason::nothing_yet && world->ask(-100, pose) == NullReason::nothing_yet;
   return nothing && one && exact && before && world->ask(17, pose) == NullReason::too_old &&
          world->ask(40, pose) == NullReason::too_old && world->ask(100, pose) == NullReason::too_old;
+}
+
+/// The first pictures after a start are none of a slot's that keeps too little.
+bool only_what_stays_unknown_is_told() {
+  const auto world = std::make_unique<World>();
+  Pose pose{};
+  const bool without_a_writer = lacks_poses(world->ask(0, pose), world->poses);
+  world->history.publish(tool_above(0.40, 0, 0.45), World::at(0));
+  const bool at_the_start = !lacks_poses(world->ask(-30, pose), world->poses) &&
+                            !lacks_poses(world->ask(5, pose), world->poses) &&
+                            !lacks_poses(world->ask(0, pose), world->poses);
+  for (int i = 1; i < 20; ++i) world->history.publish(tool_above(0.40, 0, 0.45), World::at(8 * i));
+  return without_a_writer && at_the_start && world->ask(0, pose) == NullReason::no_longer_kept &&
+         lacks_poses(NullReason::no_longer_kept, world->poses) &&
+         lacks_poses(world->ask(300, pose), world->poses);
 }
 
 bool within_a_cycle_of_the_newest_the_motion_goes_on() {
@@ -69,6 +84,7 @@ void interpolation(void**) {
   assert_true(between_two_poses_it_is_between());
   assert_true(outside_of_the_history_it_is_unknown());
   assert_true(within_a_cycle_of_the_newest_the_motion_goes_on());
+  assert_true(only_what_stays_unknown_is_told());
 }
 
 void what_is_projected_comes_back(void**) {
