@@ -128,6 +128,10 @@ bool GripperAxis::rests_for(Duration time) const noexcept {
   return still_since_ && now_ - *still_since_ >= time;
 }
 
+bool GripperAxis::is_at_rest() const noexcept {
+  return phase_ == Phase::idle && (has_power_ ? rests_for(rest_time) : link_.axis().is_off());
+}
+
 void GripperAxis::follow_homing() noexcept {
   const auto& axis = link_.axis();
   if (axis.homing() == cia402::Homing::homed) {

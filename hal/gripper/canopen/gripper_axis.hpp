@@ -43,7 +43,8 @@ class GripperAxis {
   void command(const GripperGoal& goal) noexcept;
   /// Ends what it is at; what it holds stays held. An activation is given up, the drive is off then.
   void halt() noexcept;
-  bool is_at_rest() const noexcept { return phase_ == Phase::idle; }
+  /// Nothing is under way, and the drive says that it stands, or that it is off where it is to have no power.
+  bool is_at_rest() const noexcept;
   bool is_active() const noexcept;
 
   const std::optional<GripperState>& state() const noexcept { return state_; }

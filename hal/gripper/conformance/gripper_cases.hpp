@@ -110,6 +110,10 @@ Verdict halted_it_holds_what_it_holds(GripperWorld& world);
 Verdict inhibited_it_ends_its_motion_and_forgets(GripperWorld& world);
 Verdict made_safe_it_holds_what_it_holds(GripperWorld& world);
 Verdict made_safe_it_releases_where_it_shall(GripperWorld& world);
+template <GripperFarEnd Behaviour>
+Verdict made_safe_while_it_is_not_heard_it_confirms_nothing(GripperWorld& world);
+/// In a world of its own for each order.
+Verdict no_order_of_events_moves_it(MakeGripperWorld make);
 Verdict fingers_that_do_not_move_are_told(GripperWorld& world);
 template <GripperFarEnd Behaviour>
 Verdict is_heard_again(GripperWorld& world);

@@ -15,6 +15,11 @@ void judged(void**) {
   judge(make_world, Run);
 }
 
+// [gripper-3] [gripper-12] [gripper-20] [gripper-22]
+void holds_in_all_orders(void**) {
+  conclude(no_order_of_events_moves_it(make_world));
+}
+
 CMUnitTest test(const char* name, CMUnitTestFunction run) {
   return {name, run, nullptr, nullptr, nullptr};
 }
@@ -46,6 +51,13 @@ int run_gripper_conformance(const char* driver, MakeGripperWorld make) {
       test("inhibited it ends its motion and forgets", judged<inhibited_it_ends_its_motion_and_forgets>),
       test("made safe it holds what it holds", judged<made_safe_it_holds_what_it_holds>),
       test("made safe it releases, where it shall", judged<made_safe_it_releases_where_it_shall>),
+      test("made safe and silent, it confirms nothing",
+           judged<made_safe_while_it_is_not_heard_it_confirms_nothing<silent>>),
+      test("made safe and unplugged, it confirms nothing",
+           judged<made_safe_while_it_is_not_heard_it_confirms_nothing<unplugged>>),
+      test("made safe and without power, it confirms nothing",
+           judged<made_safe_while_it_is_not_heard_it_confirms_nothing<off>>),
+      test("no order of events moves it", holds_in_all_orders),
       test("fingers that do not move: no air, or jammed", judged<fingers_that_do_not_move_are_told>),
       test("silent peer", judged<is_heard_again<silent>>),
       test("garbage for an answer", judged<is_heard_again<damaged>>),

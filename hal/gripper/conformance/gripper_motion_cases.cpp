@@ -262,8 +262,36 @@ Verdict made_safe_it_releases_where_it_shall(GripperWorld& world) {
   return verdict(fingers_at(world, opened) && goes_to(world, closed) && fingers_at(world, closed));
 }
 
+// Its fingers may go on, or may have lost their force: nobody knows.
+// [gripper-22]
+template <GripperFarEnd Behaviour>
+Verdict made_safe_while_it_is_not_heard_it_confirms_nothing(GripperWorld& world) {
+  if (!starts_active(world) || !goes_to(world, opened)) return Verdict::failed;
+  act(world, [](Gripper& gripper) { gripper.close(); });
+  if (!world.make(Behaviour)) return Verdict::skipped;
+  if (!until(world, [&] { return !world.gripper().state(); })) return Verdict::failed;
+  world.gripper().set_inhibited(true);
+  for (int cycles = 0; cycles < 50; ++cycles) {
+    world.receive();
+    const bool is_heard = world.gripper().state().has_value();
+    const bool safe = world.gripper().make_safe();
+    world.send();
+    if (safe && !is_heard) return Verdict::failed;
+  }
+  world.make(GripperFarEnd::well);
+  if (!is_made_safe(world)) return Verdict::failed;
+  const double rest = world.fingers();
+  idle_for(world, std::chrono::milliseconds(300));
+  return verdict(world.fingers() == rest);
+}
+
 template Verdict nonsense_is_a_fault_and_never_followed<0>(GripperWorld& world);
 template Verdict nonsense_is_a_fault_and_never_followed<1>(GripperWorld& world);
 template Verdict nonsense_is_a_fault_and_never_followed<2>(GripperWorld& world);
+template Verdict made_safe_while_it_is_not_heard_it_confirms_nothing<GripperFarEnd::silent>(
+    GripperWorld& world);
+template Verdict made_safe_while_it_is_not_heard_it_confirms_nothing<GripperFarEnd::unplugged>(
+    GripperWorld& world);
+template Verdict made_safe_while_it_is_not_heard_it_confirms_nothing<GripperFarEnd::off>(GripperWorld& world);
 
 }  // namespace flexrf::gripper_cases

@@ -7,6 +7,7 @@ void Gripper::command(const GripperGoal& goal) noexcept {
   const GripperCapabilities can = capabilities();
   if (const Status status = check_goal(goal, can); !status) return fail(status);
   restrain(restraint_of(goal, can));
+  was_led_ = true;
   go({within_reach(goal.opening, can), goal.speed, goal.force});
 }
 
@@ -20,9 +21,10 @@ bool Gripper::become_safe() noexcept {
     halt();
   } else if (!releasing_) {
     go({.opening = capabilities().open_width});
-    releasing_ = true;
+    releasing_ = was_led_ = true;
   }
-  return is_at_rest();
+  const auto heard = state();
+  return heard ? !heard->moving && is_at_rest() : !was_led_;
 }
 
 }  // namespace flexrf

@@ -51,8 +51,10 @@ struct GripperState {
 /// Everything: the thread the gripper lives in. Commands are sent at the end of the cycle; without effect
 /// while is_inhibited(), and not remembered: what it was at is ended, and the fingers stay as they
 /// are [gripper-3]. By itself it does nothing [gripper-12]. Made safe, it holds what it holds [gripper-13],
-/// or opens, as configured [gripper-14], and stays so until it is commanded [gripper-20]. What of a command
-/// is kept to a limit or is without effect is told (Component::restrain()) [gripper-15].
+/// or opens, as configured [gripper-14], and stays so until it is commanded [gripper-20]. make_safe() is true
+/// only while the gripper is heard and its fingers stand; one that is not heard is safe only if it was told
+/// nothing since initialise() [gripper-22]. What of a command is kept to a limit or is without effect is told
+/// (Component::restrain()) [gripper-15].
 class Gripper : public Actuator<GripperInterface> {
  public:
   using Actuator::Actuator;
@@ -72,7 +74,9 @@ class Gripper : public Actuator<GripperInterface> {
   /// to both ends, and drop what they hold. Without effect while it is activated and nothing is
   /// wrong [gripper-17], so a unit may call it whenever a person starts it.
   void activate() noexcept {
-    if (may_act()) begin_activation();
+    if (!may_act()) return;
+    was_led_ = true;
+    begin_activation();
   }
   /// Towards an opening, gripping what is in the way [gripper-7]. Without effect while it is not
   /// activated [gripper-8]. Replaces the goal before [gripper-18]. Not a finite number, or an opening that it
@@ -89,7 +93,7 @@ class Gripper : public Actuator<GripperInterface> {
   /// In initialise(), by every driver, with its configuration.
   void begin(const auto& configuration) noexcept {
     safe_state_ = configuration.safe_state;
-    releasing_ = false;
+    releasing_ = was_led_ = false;
     report_.reset();
   }
 
@@ -102,6 +106,7 @@ class Gripper : public Actuator<GripperInterface> {
   virtual void go(const GripperGoal& goal) noexcept = 0;
   /// It is heard and activated: a goal is followed.
   virtual bool is_ready() const noexcept = 0;
+  /// As it was heard last: nothing is under way, and it has what it was told. Asked only while it is heard.
   virtual bool is_at_rest() const noexcept = 0;
   /// The end of the cycle. `safe`: it may not act.
   virtual void tell(const Tick& tick, bool safe) noexcept = 0;
@@ -121,6 +126,7 @@ class Gripper : public Actuator<GripperInterface> {
   GripperReport report_;
   GripperSafeState safe_state_ = GripperSafeState::hold;
   bool releasing_ = false;  // until it may act again
+  bool was_led_ = false;    // since initialise()
 };
 
 }  // namespace flexrf

@@ -43,6 +43,8 @@ class Control {
   /// The valve that is to be on, towards this end; never both, and never one sooner than the dead time after
   /// the other. Once in each cycle.
   End valve() noexcept;
+  /// The valve that is to be on once the dead time is over.
+  End wanted_valve() const noexcept { return wanted_; }
   bool is_moving() const noexcept { return phase_ == Phase::going; }
   bool follows() const noexcept { return reeds_ && !contradict(); }
 

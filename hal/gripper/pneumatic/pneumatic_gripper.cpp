@@ -73,6 +73,17 @@ void PneumaticGripper::tell(const Tick& tick, bool /*safe*/) noexcept {
   if (on == pneumatic::End::closed && is_vented(valve_open_)) set(valve_close_, true);
 }
 
+/// The chip has taken what its valves were told, too.
+bool PneumaticGripper::is_at_rest() const noexcept {
+  const auto is = [](const DigitalLine& valve, bool on) {
+    const auto state = valve.state();
+    return state && state->on == on;
+  };
+  const pneumatic::End on = control_.wanted_valve();
+  return !control_.is_moving() && is(valve_open_, on == pneumatic::End::open) &&
+         is(valve_close_, on == pneumatic::End::closed);
+}
+
 Time PneumaticGripper::next_event() const noexcept {
   return std::min(reed_open_.next_event(), reed_closed_.next_event());
 }

@@ -24,7 +24,7 @@ class PneumaticGripper final : public PneumaticGripperDriver {
   void begin_activation() noexcept override { control_.forgive(); }
   void go(const GripperGoal& goal) noexcept override;
   bool is_ready() const noexcept override { return control_.follows(); }
-  bool is_at_rest() const noexcept override { return !control_.is_moving(); }
+  bool is_at_rest() const noexcept override;
   void tell(const Tick& tick, bool safe) noexcept override;
 
   std::optional<pneumatic::Reeds> reeds() const noexcept;

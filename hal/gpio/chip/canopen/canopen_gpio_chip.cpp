@@ -76,6 +76,7 @@ void CanopenGpioChip::stop() {
 }
 
 void CanopenGpioChip::receive(const Tick& tick) noexcept {
+  now_ = tick.now;
   const std::uint64_t safe = safe_.load(std::memory_order_acquire);
   if (!began_ || safe != safe_told_) {
     began_ = module_.begin(plan_, safe, tick.now, outbox_).is_ok();
@@ -156,6 +157,7 @@ void CanopenGpioChip::tell_outputs(Time now) noexcept {
   if (!message) return;
   const bool is_due = sent_ != image_.outputs || now - sent_at_ >= plan_.heartbeat_period;
   if (is_due && bus->queue(canopen::to_frame(*message))) {
+    if (sent_ != image_.outputs) module_.forget_outputs();
     sent_ = image_.outputs;
     sent_at_ = now;
   }
@@ -164,9 +166,10 @@ void CanopenGpioChip::tell_outputs(Time now) noexcept {
                          canopen::to_frame({canopen::sync_identifier, 0, {}}));
 }
 
-// What its outputs were told last has left.
+// Lines that are away say so themselves.
 bool CanopenGpioChip::make_safe() noexcept {
-  return !image_.outputs || plan_.output_bytes == 0 || sent_ == image_.outputs;
+  if (!image_.outputs || plan_.output_bytes == 0) return true;
+  return sent_ == image_.outputs && module_.has_outputs(*image_.outputs, now_, outbox_);
 }
 
 // DI1, DI2, ... and DO1, DO2, ...: counted from 1, as CiA 401 does. Null: no such line.

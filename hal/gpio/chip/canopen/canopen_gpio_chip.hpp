@@ -21,6 +21,8 @@ namespace flexrf {
 /// Outputs are told their safe values before the module is started, by the process should it die, and each
 /// time that the module comes back; an output that no device has is at its safe value. A line that is asked
 /// for with another safe value than the module was told has it brought up anew, with all that it is told.
+///
+/// make_safe() is true once the module, asked for its outputs, has answered that they are as they were told.
 class CanopenGpioChip final : public CanopenGpioChipDriver {
  public:
   CanopenGpioChip();
@@ -53,6 +55,7 @@ class CanopenGpioChip final : public CanopenGpioChipDriver {
   std::uint64_t safe_told_ = 0;
   IoImage image_;
   std::optional<std::uint64_t> sent_;  // outputs, since the module is there
+  Time now_{};                         // of this cycle
   Time sent_at_{};
   StatusCode logged_ = StatusCode::ok;
   std::uint64_t logged_emergencies_ = 0;

@@ -142,6 +142,7 @@ void IoModule::look(bool usable, Time now) noexcept {
   is_there_ = usable && node_.is_operational();
   if (!is_there_) {
     inputs_.reset();
+    forget_outputs();
   } else if (!was_there) {
     heard_ = now;
     silent_cycles_ = 0;
@@ -151,6 +152,25 @@ void IoModule::look(bool usable, Time now) noexcept {
   const bool silent = is_there_ && is_silent(now);
   if (silent) inputs_.reset();
   trouble_ = find_trouble(usable, silent);
+}
+
+bool IoModule::has_outputs(std::uint64_t bits, Time now, Outbox& outbox) noexcept {
+  SdoClient& client = node_.client();
+  if (client.state() == SdoClient::State::busy) return false;
+  if (asks_) {
+    asks_ = false;
+    const bool is_right = is_confirmed(byte_of(bits, static_cast<std::uint8_t>(confirmed_ + 1)));
+    confirmed_ = is_right ? static_cast<std::uint8_t>(confirmed_ + 1) : std::uint8_t{0};
+  }
+  if (confirmed_ >= plan_.output_bytes) return true;
+  asks_ = client.read(cia401::objects::output(static_cast<std::uint8_t>(confirmed_ + 1)), now, outbox);
+  return false;
+}
+
+bool IoModule::is_confirmed(std::uint8_t lines) noexcept {
+  const SdoClient& client = node_.client();
+  if (client.state() == SdoClient::State::done) return (client.number() & 0xFF) == lines;
+  return client.status().code() != StatusCode::timeout;
 }
 
 bool IoModule::is_silent(Time now) const noexcept {

@@ -50,6 +50,15 @@ class IoModule {
   const std::optional<std::uint64_t>& inputs() const noexcept { return inputs_; }
   /// Tells it all of its outputs. Nothing: it has none.
   std::optional<Message> outputs(std::uint64_t bits) const noexcept;
+  /// Once for each cycle in which it is there: asks the module for its outputs (object 6200, a byte in each
+  /// request). True once each byte was answered as it is in `bits`; a byte that the module does not let be
+  /// read is taken for right.
+  bool has_outputs(std::uint64_t bits, Time now, Outbox& outbox) noexcept;
+  /// What it answered of its outputs is from before: has_outputs() asks for all of them anew.
+  void forget_outputs() noexcept {
+    confirmed_ = 0;
+    asks_ = false;
+  }
 
   /// Why it is not there, does not tell its inputs, or what it says is wrong in it; ok while nothing is.
   const Status& trouble() const noexcept { return trouble_; }
@@ -66,6 +75,7 @@ class IoModule {
   NodePlan node_plan(std::uint64_t safe) noexcept;
   void plan_inputs(Configuration& list) const noexcept;
   void plan_outputs(Configuration& list, std::uint64_t safe) const noexcept;
+  bool is_confirmed(std::uint8_t lines) noexcept;
   bool is_silent(Time now) const noexcept;
   Status find_trouble(bool usable, bool silent) noexcept;
 
@@ -77,8 +87,10 @@ class IoModule {
   bool is_there_ = false;
   bool is_coming_ = true;
   std::optional<std::uint64_t> inputs_;
-  Time heard_{};           // its inputs, or since it is there
-  int silent_cycles_ = 0;  // at most most_silent_cycles + 1
+  Time heard_{};                // its inputs, or since it is there
+  int silent_cycles_ = 0;       // at most most_silent_cycles + 1
+  std::uint8_t confirmed_ = 0;  // bytes of outputs, from the first
+  bool asks_ = false;           // for the next one
   Status trouble_;
 };
 
