@@ -28,6 +28,7 @@ void read_axis_columns(const Columns& columns, cia402::AxisPlan& plan) noexcept 
   plan.is_supervised_by_it = columns.supervises_us;
   plan.forbids_remote = columns.forbids_remote;
   plan.is_guarded = columns.guarded;
+  plan.changes_mode_enabled = columns.changes_mode_enabled;
   plan.maps_mode = columns.maps_mode;
   plan.maps_speed = columns.maps_speed;
   plan.maps_velocity = columns.maps_velocity;

@@ -32,6 +32,19 @@ void AxisHoming::interrupt() noexcept {
   enter(Phase::idle);
 }
 
+void AxisHoming::refuse_mode() noexcept {
+  if (!is_running()) return;
+  problem_ = mode_refused();
+  enter(Phase::idle);
+}
+
+Status AxisHoming::mode_refused() noexcept {
+  return Status::error(StatusCode::timeout,
+                       "the drive does not take mode %d, homing: does it have it? One that changes its mode "
+                       "only while it is off needs `changes_mode_enabled = false`",
+                       static_cast<int>(Mode::homing));
+}
+
 void AxisHoming::forget() noexcept {
   interrupt();
   homed_ = false;
@@ -74,8 +87,7 @@ std::uint16_t AxisHoming::advance(const HomingView& view, Time now) noexcept {
         run_.start();
         enter(Phase::running);
       } else if (in_phase > limits_.mode) {
-        fail(Status::error(StatusCode::timeout, "the drive does not take mode %d, homing: does it have it?",
-                           static_cast<int>(Mode::homing)));
+        fail(mode_refused());
       }
       return 0;
     case Phase::running:

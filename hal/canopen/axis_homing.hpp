@@ -36,6 +36,8 @@ class AxisHoming {
   void halt() noexcept;
   /// Operation is not enabled any more: what was running has failed.
   void interrupt() noexcept;
+  /// It was switched off to change its mode, and does not take mode homing: what was running has failed.
+  void refuse_mode() noexcept;
   /// The drive was gone: what it knew is forgotten.
   void forget() noexcept;
 
@@ -61,6 +63,7 @@ class AxisHoming {
 
   void enter(Phase phase) noexcept;
   void fail(const Status& problem) noexcept;
+  static Status mode_refused() noexcept;
   std::uint16_t advance_run(const HomingView& view, Time now) noexcept;
 
   Limits limits_;

@@ -1,46 +1,6 @@
 #include "hal/canopen/drive_modes.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace flexrf::canopen::cia402 {
-
-void CyclicSetPoint::seed(double actual) noexcept {
-  set_point_ = wanted_ = actual;
-  velocity_ = deceleration_ = 0;
-}
-
-void CyclicSetPoint::command(double wanted) noexcept {
-  wanted_ = wanted;
-  deceleration_ = 0;
-}
-
-void CyclicSetPoint::halt(double deceleration, double lowest, double highest) noexcept {
-  deceleration_ = deceleration;
-  lowest_ = std::min(lowest, set_point_);
-  highest_ = std::max(highest, set_point_);
-}
-
-double CyclicSetPoint::next(Duration elapsed) noexcept {
-  const double time = seconds(elapsed);
-  const double before = set_point_;
-  if (deceleration_ > 0) {
-    velocity_ = slowed(time);
-    set_point_ = wanted_ = std::clamp(before + velocity_ * time, lowest_, highest_);
-    return set_point_;
-  }
-  most_ = fastest_ * time;
-  // Not by adding the clamped difference alone: what is in reach is met exactly.
-  const double difference = wanted_ - before;
-  set_point_ = std::abs(difference) <= most_ ? wanted_ : before + std::clamp(difference, -most_, most_);
-  if (time > 0) velocity_ = (set_point_ - before) / time;
-  return set_point_;
-}
-
-double CyclicSetPoint::slowed(double time) const noexcept {
-  const double step = deceleration_ * time;
-  return std::abs(velocity_) <= step ? 0 : velocity_ - std::copysign(step, velocity_);
-}
 
 void SetPointHandshake::reset(std::int32_t actual) noexcept {
   step_ = Step::free;

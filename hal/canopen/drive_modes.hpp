@@ -1,7 +1,6 @@
-// What the modes of CiA 402 ask for beside the state machine: handshakes, and set-points that do not jump.
+// What the modes of CiA 402 ask for beside the state machine: handshakes.
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "base/status.hpp"
@@ -9,44 +8,6 @@
 #include "hal/canopen/cia402.hpp"
 
 namespace flexrf::canopen::cia402 {
-
-/// Cyclic set-points: the drive follows them without a profile of its own, so that none may jump. In the
-/// drive's increments, or increments/s.
-class CyclicSetPoint {
- public:
-  /// `fastest`: change per second, above 0.
-  explicit CyclicSetPoint(double fastest) noexcept : fastest_{fastest} {}
-
-  /// At every enabling, and after whatever else moved the axis: the set-point is where it is now, and so is
-  /// what is wanted.
-  void seed(double actual) noexcept;
-  void command(double wanted) noexcept;
-  /// Until the next command: comes to rest with this deceleration, above 0, and no farther than `lowest` or
-  /// `highest`, and is what is wanted then.
-  void halt(double deceleration, double lowest, double highest) noexcept;
-  /// The set-point of this cycle, `elapsed` after the one before: as near to what is wanted as may be.
-  double next(Duration elapsed) noexcept;
-  double set_point() const noexcept { return set_point_; }
-  /// Where it is on its way to.
-  double wanted() const noexcept { return wanted_; }
-  /// What is wanted is farther away than the axis may go in the cycle.
-  bool is_limited() const noexcept { return set_point_ != wanted_; }
-  /// And by more than another cycle makes up for: it is led faster than it may go. What a cycle that came
-  /// early or late makes of a motion at its greatest velocity is less.
-  bool is_outpaced() const noexcept { return std::abs(wanted_ - set_point_) > most_; }
-
- private:
-  double slowed(double time) const noexcept;
-
-  double fastest_;
-  double set_point_ = 0;
-  double wanted_ = 0;
-  double most_ = 0;          // in the last cycle
-  double velocity_ = 0;      // of the last cycle, a second
-  double deceleration_ = 0;  // above 0: it halts
-  double lowest_ = 0;
-  double highest_ = 0;
-};
 
 /// Profile position: hands one set-point after the other to the drive, by new set-point (controlword bit 4)
 /// and its acknowledge (statusword bit 12).

@@ -241,16 +241,22 @@ bool Node::judge_refusal(const ConfigurationStep& step, Time now, Outbox& outbox
     return true;
   }
   if (code == sdo_abort::device_state && brings_back(now, outbox)) return false;
-  if (step.act == Act::write && !reads_back_ && cannot_be_written(code)) {
+  // Whatever the reason: it may be so already.
+  if (!reads(step) && !is_missing) {
     reads_back_ = true;
+    refused_with_ = code;
+    refusal_ = client_.status();
     begin_step(now, outbox);
     return false;
   }
-  const Status refusal = client_.status();
+  refuse_step(step, reads_back_ ? refusal_ : client_.status());
+  return false;
+}
+
+void Node::refuse_step(const ConfigurationStep& step, const Status& refusal) noexcept {
   refuse(step.helps[0] == '\0' ? refusal
                                : Status::error(refusal.code(), "%s; if it is a matter of that: `%s`",
                                                refusal.cause(), step.helps));
-  return false;
 }
 
 // What it refuses in operation it may take in pre-operational. False: it was brought there often enough.
@@ -265,15 +271,18 @@ bool Node::brings_back(Time now, Outbox& outbox) noexcept {
 // False: it is not what is needed, and the node is refused.
 bool Node::judge_value(const ConfigurationStep& step) noexcept {
   const std::uint32_t in_size = step.size == 4 ? 0xFFFFFFFF : (1U << (8U * step.size)) - 1;
-  const std::uint32_t mask = reads_back_ ? step.mask & in_size : step.mask;
-  const std::uint32_t wanted = (reads_back_ ? step.held : step.value) & mask;
+  const bool is_constant = reads_back_ && cannot_be_written(refused_with_);
+  const std::uint32_t mask = is_constant ? step.mask & in_size : reads_back_ ? in_size : step.mask;
+  const std::uint32_t wanted = (is_constant ? step.held : step.value) & mask;
   const std::uint32_t found = static_cast<std::uint32_t>(client_.number()) & mask;
   if (found == wanted) return true;
   const auto shown = static_cast<unsigned long>(found);
   const auto needed = static_cast<unsigned long>(wanted);
   const unsigned index = step.object.index;
   const unsigned subindex = step.object.subindex;
-  if (reads_back_) {
+  if (reads_back_ && !is_constant) {
+    refuse_step(step, refusal_);
+  } else if (is_constant) {
     const bool helps = step.helps[0] != '\0';
     refuse(Status::error(
         StatusCode::device_fault,

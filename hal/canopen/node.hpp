@@ -86,6 +86,7 @@ class Node {
   void ask_to_boot(Time now, Outbox& outbox) noexcept;
   void begin_again(const Status& problem, Time now, Outbox& outbox) noexcept;
   void refuse(const Status& problem) noexcept;
+  void refuse_step(const ConfigurationStep& step, const Status& refusal) noexcept;
   void observe(NmtState heard, Time now, Outbox& outbox) noexcept;
   void configure(Time now, Outbox& outbox) noexcept;
   void begin_step(Time now, Outbox& outbox) noexcept;
@@ -110,6 +111,8 @@ class Node {
   std::array<std::uint32_t, Configuration::capacity> answers_{};  // of the steps that ask
   bool was_operational_ = false;                                  // since it booted
   bool reads_back_ = false;                                       // what the step could not write
+  std::uint32_t refused_with_ = 0;                                // the code of that refusal
+  Status refusal_;                                                // and what it says
   unsigned brought_back_ = 0;                                     // to pre-operational, since it booted
   Time deadline_{};
   Status problem_;

@@ -14,6 +14,7 @@ constexpr double largest_object = std::numeric_limits<std::int32_t>::max();
 // From what a drive says to what it does for that are two or three cycles.
 constexpr double cycles_ahead = 8;     // see slowed_before_end()
 constexpr double whole_torque = 1000;  // how objects count the rated torque
+constexpr double no_end = std::numeric_limits<double>::infinity();
 
 std::uint64_t to_object(double increments) {
   return static_cast<std::uint64_t>(std::llround(std::clamp(increments, -largest_object, largest_object)));
@@ -30,7 +31,10 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   if (const Status status = check(plan); !status.is_ok()) return status;
   plan_ = plan;
   power_.begin(plan.limits);
-  cyclic_ = CyclicSetPoint{plan.fastest};
+  cyclic_ = SetPointFollower{{.lowest = plan.endless ? -no_end : plan.lowest,
+                              .highest = plan.endless ? no_end : plan.highest,
+                              .velocity = plan.fastest,
+                              .acceleration = plan.acceleration}};
   handshake_ = SetPointHandshake{plan.set_point_timeout, plan.fastest};
   interpolation_ = InterpolationSwitch{plan.set_point_timeout};
   homing_.begin({.run = plan.homing_timeout,
@@ -41,6 +45,7 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
                 plan.mode, plan.homing_method != 0);
   beat_.begin(plan.heartbeat_period, now);
   unmapped_.forget();
+  sdo_stop_.forget();
   state_.reset();
   fault_ = {};
   mode_wanted_.reset();
@@ -49,7 +54,7 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   mode_said_ = plan.mode;
   was_operational_ = false;
   bring_ups_ = node_.times_operational();
-  was_commanded_ = halts_ = false;
+  was_commanded_ = halts_ = is_off_for_mode_ = false;
   may_have_torque_ = false;
   off_heard_ = stood_ = 0;
   velocity_heard_ = Time{};
@@ -160,17 +165,19 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   watch(may_move, now);
   outbox.push({sync_identifier, 0, {}});
   if (beat_.is_due(now)) outbox.push(heartbeat_message(NmtState::operational, plan_.master));
-  // A drive that we do not hear may still hear us.
   if (!node_.is_operational()) {
-    if (may_have_torque_ && node_.was_lost()) say(command::quick_stop, outbox);
+    if (may_have_torque_ && node_.was_lost()) stop_unheard(now, outbox);
     return;
   }
   if (!state_) {
-    if (may_have_torque_ || !fault_.is_ok()) say(command::quick_stop, outbox);
+    if (may_have_torque_ || !fault_.is_ok()) stop_unheard(now, outbox);
     return;
   }
+  sdo_stop_.forget();
   if (is_told_by_sdo()) settle_unmapped(now, outbox);
   const bool wanted = may_move && fault_.is_ok();
+  if (!plan_.changes_mode_enabled && mode_shown_ != homing_.mode()) is_off_for_mode_ = true;
+  if (!wanted || !homing_.is_running()) is_off_for_mode_ = false;
   const bool enables = mode_is_taken(wanted, now) && wanted && fault_.is_ok();
   power_.pursue(enables ? DrivePower::Goal::enabled : DrivePower::Goal::off);
   if (enables) {
@@ -180,7 +187,8 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   const bool at_rest = is_at_rest(now);
   std::uint16_t word = power_.advance(statusword_, at_rest, now);
   if (!power_.problem().is_ok()) fail(power_.problem());
-  if (!power_.is_enabled()) homing_.interrupt();
+  if (enables && power_.is_enabled()) is_off_for_mode_ = false;
+  if (!power_.is_enabled() && !is_off_for_mode_) homing_.interrupt();
   const bool homes = homing_.is_running() && !homing_.is_resting();
   if (!power_.is_enabled()) interpolation_.reset();
   if (homes) interpolation_.lower();
@@ -189,7 +197,7 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   if (power_.is_enabled()) word |= mode_bits(at_rest, now);
   state_->enabled = is_enabled();
   // Where it stops by itself, it stops in the mode that it moves in.
-  if (power_.is_enabled() || power_.is_off()) mode_said_ = homing_.mode();
+  if ((power_.is_enabled() && plan_.changes_mode_enabled) || power_.is_off()) mode_said_ = homing_.mode();
   const double target = target_for(elapsed);
   target_object_ = plan_.endless && !is_led_in(Mode::cyclic_velocity, Mode::profile_velocity)
                        ? static_cast<std::uint32_t>(wrapped(std::llround(target)))
@@ -198,6 +206,18 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   heard_now_ = false;
   tell_restraint();
   say(word, outbox);
+}
+
+// A drive that we do not hear may still hear us; and one whose process data do not come may answer an SDO.
+void ServoAxis::stop_unheard(Time now, Outbox& outbox) noexcept {
+  power_.pursue(DrivePower::Goal::off);
+  say(command::quick_stop, outbox);
+  if (!may_have_torque_) return;
+  unmapped_.forget();  // there is one client, and what it is asked now is something else
+  const auto answer = sdo_stop_.advance(plan_.limits.stop, node_.client(), now, outbox);
+  if (!answer) return;
+  statusword_ = *answer;
+  note_torque();
 }
 
 // In the cyclic modes bit 12 says whether set-points are followed or ignored. One that is ignored is no error
@@ -223,8 +243,14 @@ void ServoAxis::tell_restraint() noexcept {
   restraint_ = held_;
   if (ignored_ == ignoring_cycles) restraint_ = {.reason = servo_restraints::set_points_ignored};
   const bool is_led = is_led_in(Mode::cyclic_position, Mode::interpolated_position);
-  if (restraint_.reason == nullptr && is_led && cyclic_.is_outpaced())
+  if (restraint_.reason == nullptr && is_led && is_outpaced())
     restraint_ = {servo_restraints::led_too_fast, told(cyclic_.wanted()), told(cyclic_.set_point())};
+}
+
+// By more than another cycle makes up for. What a cycle that came early or late makes of a motion at its
+// greatest velocity is less.
+bool ServoAxis::is_outpaced() const noexcept {
+  return std::abs(cyclic_.wanted() - cyclic_.set_point()) > plan_.fastest * seconds(plan_.period);
 }
 
 // The first cause counts: what follows from it says less.
@@ -241,7 +267,8 @@ void ServoAxis::watch(bool may_move, Time now) noexcept {
   const bool operational = node_.is_operational();
   const bool is_new = node_.times_operational() != bring_ups_;
   if (was_operational_ && (!operational || is_new)) {
-    if (power_.goal() == DrivePower::Goal::enabled && fault_.is_ok()) {
+    const bool was_led = power_.goal() == DrivePower::Goal::enabled || is_off_for_mode_;
+    if (was_led && fault_.is_ok()) {
       fault_ = node_.problem().is_ok() ? Status::error(StatusCode::unavailable,
                                                        "node %u was gone and came back", unsigned{plan_.node})
                                        : node_.problem();
@@ -249,6 +276,7 @@ void ServoAxis::watch(bool may_move, Time now) noexcept {
     power_.begin(plan_.limits);
     homing_.forget();
     unmapped_.forget();
+    sdo_stop_.forget();
     from_positions_.forget();
     state_.reset();
   }
@@ -283,12 +311,18 @@ void ServoAxis::settle_unmapped(Time now, Outbox& outbox) noexcept {
 
 // A drive may take its time to change its mode, and is enabled only then.
 bool ServoAxis::mode_is_taken(bool wanted, Time now) noexcept {
-  if (mode_shown_ == plan_.mode || !wanted || homing_.is_running()) {
+  const Mode needed = homing_.mode();
+  const bool may_wait = homing_.is_running() && !is_off_for_mode_;
+  if (mode_shown_ == needed || !wanted || may_wait) {
     mode_wanted_.reset();
     return true;
   }
+  if (is_off_for_mode_ && !power_.is_off()) return false;
   if (!mode_wanted_) mode_wanted_ = now;
-  if (now - *mode_wanted_ > plan_.mode_timeout) {
+  if (now - *mode_wanted_ <= plan_.mode_timeout) return false;
+  if (needed == Mode::homing) {
+    homing_.refuse_mode();
+  } else {
     fail(Status::error(
         StatusCode::timeout, "the drive does not take mode %d, it shows %d: does it have it%s?",
         static_cast<int>(plan_.mode), static_cast<int>(mode_shown_),
@@ -347,7 +381,7 @@ double ServoAxis::target_for(Duration elapsed) noexcept {
     default:
       break;
   }
-  const double set_point = power_.is_enabled() ? cyclic_.next(elapsed) : way_;
+  const double set_point = power_.is_enabled() ? cyclic_.next(seconds(elapsed)) : way_;
   state_->following_error = set_point - way_;
   return set_point * plan_.increments_per_unit;
 }

@@ -10,8 +10,10 @@
 #include "hal/canopen/drive_power.hpp"
 #include "hal/canopen/node.hpp"
 #include "hal/canopen/position_velocity.hpp"
+#include "hal/canopen/sdo_stop.hpp"
 #include "hal/canopen/unmapped_objects.hpp"
 #include "hal/servo_drive/interface/profile_progress.hpp"
+#include "motion/set_point_follower.hpp"
 #include "runtime/unit/restraint.hpp"
 
 namespace flexrf::canopen::cia402 {
@@ -30,7 +32,7 @@ struct AxisPlan {
   bool endless = false;      ///< it has no end: neither of them counts; its drive's counter runs over
   double modulo = 0;         ///< of an endless one, unit: told from 0 up to this; 0: counted on
   double fastest = 1;        ///< unit/s, above 0
-  double acceleration = 10;  ///< unit/s^2, above 0: of profiles, and of a halt
+  double acceleration = 10;  ///< unit/s^2, above 0: of profiles, of cyclic positions, and of a halt
   double quick_stop_deceleration = 0;  ///< unit/s^2; 0: as the drive has it
   /// The drive's units of velocity for one increment/s, and of acceleration for one increment/s^2; above 0.
   double velocity_factor = 1;
@@ -48,6 +50,7 @@ struct AxisPlan {
   bool is_supervised_by_it = true;     ///< object 1016: it looks for our heartbeat
   bool forbids_remote = true;          ///< bit 30 of the identifiers of what it sends
   bool is_guarded = false;             ///< it has no heartbeat, see NodePlan
+  bool changes_mode_enabled = true;    ///< else it is switched off for that, before and after a homing
   bool maps_mode = true;               ///< objects 6060 and 6061 in its PDOs; else see UnmappedObjects
   bool maps_speed = true;              ///< object 6081 in a PDO; else likewise
   bool maps_velocity = true;           ///< object 606C in a PDO; else its velocity is that of its positions
@@ -102,7 +105,8 @@ class ServoAxis {
   // not remembered. What is not finite is a fault.
 
   /// In modes cyclic_position and interpolated_position: unit, kept within lowest and highest; with a modulo
-  /// by the shorter way from the one before. Held until the next one.
+  /// by the shorter way from the one before. Held until the next one. Set-points go there as fast as it moves
+  /// itself, within fastest and acceleration.
   void command_position(double position) noexcept;
   /// In modes cyclic_velocity and profile_velocity: unit/s, kept within fastest, and slowed down with the
   /// plan's acceleration so that the axis comes to rest at the end of its range.
@@ -177,8 +181,10 @@ class ServoAxis {
   bool hears_of_velocity(Time now) const noexcept;
   bool is_at_rest(Time now) const noexcept;
   bool is_told_by_sdo() const noexcept;
+  bool is_outpaced() const noexcept;
   std::uint32_t speed_object() const noexcept { return to_amount(to_velocity_object(handshake_.speed())); }
   void settle_unmapped(Time now, Outbox& outbox) noexcept;
+  void stop_unheard(Time now, Outbox& outbox) noexcept;
   void watch_following() noexcept;
   bool mode_is_taken(bool wanted, Time now) noexcept;
   bool is_led_in(Mode one, Mode other) const noexcept { return plan_.mode == one || plan_.mode == other; }
@@ -213,11 +219,12 @@ class ServoAxis {
   AxisPlan plan_;
   Node node_;
   DrivePower power_;
-  CyclicSetPoint cyclic_{1};
+  SetPointFollower cyclic_;  // the drive follows without a profile of its own: none may jump
   SetPointHandshake handshake_{std::chrono::milliseconds(500)};
   InterpolationSwitch interpolation_{std::chrono::milliseconds(500)};
   AxisHoming homing_;
   UnmappedObjects unmapped_;
+  SdoStop sdo_stop_;
   PdoPlan commands_;
   PdoPlan profile_;  // in mode profile_position; may be empty
   PdoPlan states_;
@@ -234,6 +241,7 @@ class ServoAxis {
   int off_heard_ = 0;  // one after the other, at most off_cycles
   bool heard_now_ = false;  // since the last send()
   std::optional<Time> mode_wanted_;
+  bool is_off_for_mode_ = false;  // on its way off, into another mode and on again, for a homing
   std::uint16_t statusword_ = 0;
   Mode mode_shown_ = Mode::none;
   Mode mode_said_ = Mode::none;

@@ -66,9 +66,7 @@ void ServoAxis::halt() noexcept {
   if (!power_.is_enabled() || !state_) return;
   homing_.halt();
   if (homing_.is_running()) return;
-  constexpr double no_end = std::numeric_limits<double>::infinity();
-  cyclic_.halt(plan_.acceleration, plan_.endless ? -no_end : plan_.lowest,
-               plan_.endless ? no_end : plan_.highest);
+  cyclic_.brake();
   handshake_.reset(handshake_.target());
   held_ = {};
   was_commanded_ = false;

@@ -173,22 +173,6 @@ void what_was_told_to_go_off_goes_there_first(void**) {
   assert_true(power.problem().is_ok());
 }
 
-void cyclic_set_points_go_no_faster_than_they_may(void**) {
-  CyclicSetPoint set_point(1000);
-  set_point.seed(50);
-  assert_true(set_point.next(milliseconds(10)) == 50);
-  set_point.command(75);
-  assert_true(set_point.next(milliseconds(10)) == 60);
-  assert_true(set_point.is_limited());
-  assert_true(set_point.next(milliseconds(10)) == 70);
-  assert_true(set_point.next(milliseconds(10)) == 75);
-  assert_false(set_point.is_limited());
-  set_point.command(-1000);
-  assert_true(set_point.next(milliseconds(10)) == 65);
-  set_point.seed(0);
-  assert_true(set_point.next(milliseconds(10)) == 0);
-}
-
 void a_set_point_is_offered_once_and_the_newest_counts(void**) {
   SetPointHandshake handshake(milliseconds(100));
   handshake.command(1, 5);
@@ -295,7 +279,6 @@ int main() {
       cmocka_unit_test(a_fault_is_reset_by_a_rising_bit),
       cmocka_unit_test(what_leaves_operation_by_itself_stops_and_stays_off),
       cmocka_unit_test(what_was_told_to_go_off_goes_there_first),
-      cmocka_unit_test(cyclic_set_points_go_no_faster_than_they_may),
       cmocka_unit_test(a_set_point_is_offered_once_and_the_newest_counts),
       cmocka_unit_test(what_homing_said_before_does_not_count),
       cmocka_unit_test(homing_goes_by_what_is_heard),

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "motion/kinematic_chain.hpp"
+#include "motion/set_point_follower.hpp"
 #include "runtime/unit/restraint.hpp"
 
 namespace flexrf {
@@ -12,9 +14,8 @@ namespace flexrf {
 /// In rad, or m where a joint slides; from the base to the tool; 0 beyond the last joint.
 using JointAngles = std::array<double, max_joints>;
 
-/// For controllers that follow what they are told as it is. Each joint keeps to its range, its velocity and
-/// its acceleration; what moves within them is met exactly, what jumps is approached and not passed. One
-/// thread; never blocks, never allocates.
+/// A SetPointFollower for each joint, with the limits of its chain. One thread; never blocks, never
+/// allocates.
 class JointFollower {
  public:
   /// `cycle`: of the controller, in s. The chain outlives the follower.
@@ -25,9 +26,9 @@ class JointFollower {
   /// Finite. Without effect while it brakes.
   void command(const JointAngles& wanted) noexcept;
   /// Comes to rest, and stays there until it is seeded.
-  void brake() noexcept { brakes_ = true; }
+  void brake() noexcept;
   /// The controller may have missed a cycle, in which its joints stood still: from now on they begin at rest.
-  void stand() noexcept { velocity_ = {}; }
+  void stand() noexcept;
 
   /// One cycle further.
   const JointAngles& next() noexcept;
@@ -36,19 +37,16 @@ class JointFollower {
   /// velocity: what a packet that was lost makes is less.
   Restraint restraint() const noexcept;
   bool brakes() const noexcept { return brakes_; }
-  bool is_at_rest() const noexcept { return velocity_ == JointAngles{}; }
+  bool is_at_rest() const noexcept;
 
  private:
-  double pursue(std::size_t joint) const noexcept;
-  double within_range(std::size_t joint, double velocity) const noexcept;
+  std::span<SetPointFollower> joints() noexcept { return std::span(joints_).first(chain_->joint_count); }
 
   const KinematicChain* chain_ = nullptr;
   double cycle_ = 0.007;
   bool brakes_ = false;
+  std::array<SetPointFollower, max_joints> joints_{};
   JointAngles set_point_{};
-  JointAngles velocity_{};  // of the last cycle, per s
-  JointAngles wanted_{};
-  JointAngles wanted_before_{};  // in the last cycle
 };
 
 }  // namespace flexrf

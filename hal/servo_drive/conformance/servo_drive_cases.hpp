@@ -11,8 +11,9 @@ namespace flexrf::servo_drive_cases {
 inline constexpr Duration cycle = std::chrono::milliseconds(7);
 inline constexpr double cycle_seconds = 0.007;
 inline constexpr double tolerance = 2e-3;  // an increment of a coarse drive, and its rounding
-inline constexpr double start = 1;         // where the world's axis is
-inline constexpr int most_cycles = 1000;   // far more than any of it takes
+inline constexpr double acceleration = 100;
+inline constexpr double start = 1;        // where the world's axis is
+inline constexpr int most_cycles = 1000;  // far more than any of it takes
 
 inline void idle_for(ServoDriveWorld& world, double duration) {
   for (double time = 0; time < duration; time += cycle_seconds) {
@@ -106,5 +107,8 @@ Verdict can_be_homed_again_out_of_a_motion(ServoDriveWorld& world);
 Verdict a_halted_homing_has_failed(ServoDriveWorld& world);
 Verdict a_homing_without_permission_has_failed(ServoDriveWorld& world);
 Verdict tells_why_it_found_no_home(ServoDriveWorld& world);
+
+/// In a world of its own for each order.
+Verdict no_order_of_events_moves_it(MakeServoDriveWorld make, ServoMode mode);
 
 }  // namespace flexrf::servo_drive_cases

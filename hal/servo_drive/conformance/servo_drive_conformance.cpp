@@ -1,5 +1,6 @@
 #include "hal/servo_drive/conformance/servo_drive_conformance.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -39,6 +40,12 @@ void judged(void**) {
   conclude(result);
 }
 
+// [servo-drive-3] [servo-drive-4] [servo-drive-20]
+template <ServoMode Mode>
+void holds_in_all_orders(void**) {
+  conclude(no_order_of_events_moves_it(make_world, Mode));
+}
+
 // [servo-drive-2]
 Verdict enables_itself_where_it_is(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
@@ -68,6 +75,30 @@ Verdict goes_no_faster_than_it_may(ServoDriveWorld& world) {
     before = state->position;
   }
   return verdict(is_at(world, -9));
+}
+
+// A jump is approached in each cycle by no other velocity than the one before and what the acceleration makes
+// of it, and is not passed.
+// [servo-drive-27]
+Verdict keeps_to_its_acceleration(ServoDriveWorld& world) {
+  if (!world.shares_its_cycle()) return Verdict::skipped;
+  if (!is_enabled_in_time(world)) return Verdict::failed;
+  constexpr double counted = 2 * tolerance / cycle_seconds;  // what increments make of a velocity
+  double before = world.drive().state()->position;
+  double velocity = 0;
+  double farthest = before;
+  for (int cycles = 0; cycles < 300; ++cycles) {
+    const bool back = cycles > 40 && cycles < 60;
+    command_for(world, back ? -9 : 9, cycle_seconds / 2);
+    const auto state = world.drive().state();
+    if (!state) return Verdict::failed;
+    const double now = (state->position - before) / cycle_seconds;
+    if (std::abs(now - velocity) > acceleration * cycle_seconds + 2 * counted) return Verdict::failed;
+    velocity = now;
+    before = state->position;
+    farthest = std::max(farthest, before);
+  }
+  return verdict(is_at(world, 9) && farthest <= 9 + tolerance);
 }
 
 // [servo-drive-9]
@@ -190,9 +221,11 @@ Verdict says_that_it_is_led_too_fast(ServoDriveWorld& world) {
   if (!is_enabled_in_time(world)) return Verdict::failed;
   static_cast<void>(world.drive().take_restraint());
   double wanted = start;
-  const auto lead = [&](double speed, int cycles) {
+  double speed = 0;
+  const auto lead = [&](double towards, int cycles) {
     Restraint said;
     for (int i = 0; i < cycles; ++i) {
+      speed += std::clamp(towards - speed, -acceleration * cycle_seconds, acceleration * cycle_seconds);
       wanted += speed * cycle_seconds;
       command_for(world, wanted, cycle_seconds / 2);
       if (const Restraint now = world.drive().take_restraint(); now.reason != nullptr) said = now;
@@ -200,10 +233,11 @@ Verdict says_that_it_is_led_too_fast(ServoDriveWorld& world) {
     return said;
   };
   // As fast as it may, to either side, with what sums of such steps leave over.
-  if (lead(20, 50).reason != nullptr || lead(-20, 50).reason != nullptr) return Verdict::failed;
-  const Restraint fast = lead(30, 20);
-  const bool counts = fast.reason == servo_restraints::led_too_fast && fast.asked > fast.given + 0.14;
+  if (lead(20, 40).reason != nullptr || lead(-20, 80).reason != nullptr) return Verdict::failed;
+  const Restraint fast = lead(-30, 40);
+  const bool counts = fast.reason == servo_restraints::led_too_fast && fast.asked < fast.given - 0.14;
   // While it makes up for it, and no longer.
+  speed = 0;
   if (!counts || lead(0, 2).reason != servo_restraints::led_too_fast) return Verdict::failed;
   idle_for(world, 1);
   static_cast<void>(world.drive().take_restraint());
@@ -332,7 +366,11 @@ int run_servo_drive_conformance(const char* driver, MakeServoDriveWorld make) {
       test("never follows what is no number", judged<nonsense_is_a_fault_and_never_followed<0>>),
       test("never follows what is infinite", judged<nonsense_is_a_fault_and_never_followed<1>>),
       test("can be made safe", judged<can_be_made_safe>),
+      test("no order of events moves it, cyclic position", holds_in_all_orders<cyclic_position>),
+      test("no order of events moves it, cyclic velocity", holds_in_all_orders<cyclic_velocity>),
+      test("no order of events moves it, profile position", holds_in_all_orders<profile_position>),
       test("is silent when it is not heard", judged<says_nothing_when_it_is_not_heard>),
+      test("keeps to its acceleration", judged<keeps_to_its_acceleration>),
       test("says what it holds back", judged<says_what_it_holds_back>),
       test("says that it is led too fast", judged<says_that_it_is_led_too_fast>),
       test("says that it turns no faster, cyclic",

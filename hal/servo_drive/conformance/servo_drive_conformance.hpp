@@ -24,6 +24,11 @@ class ServoDriveWorld {
   virtual bool shares_its_cycle() const { return true; }
   /// The far end is no longer heard. False: cannot be made to happen with this driver.
   virtual bool lose_drive() { return false; }
+  /// What lose_drive() did is undone. False: cannot be made to happen with this driver.
+  virtual bool find_drive() { return false; }
+  /// Somebody moves the axis so far, who cannot while it resists. False: cannot be made to happen with this
+  /// driver.
+  virtual bool move_by_hand(double /*way*/) { return false; }
   /// The axis stays where it is, whatever is commanded. False: cannot be made to happen with this driver.
   virtual bool stick_axis() { return false; }
   /// The drive trips. False: cannot be made to happen with this driver.

@@ -51,9 +51,10 @@ class ServoDrive : public Actuator<ServoDriveInterface> {
   virtual std::optional<ServoState> state() const noexcept = 0;
 
   /// In mode cyclic_position: where the axis shall be, sent at the end of the cycle and held until the next
-  /// command [servo-drive-8]. Kept to the range and the velocity of the configuration [servo-drive-9]; an
-  /// endless axis has no range, and with a modulo goes the shorter way from the command
-  /// before [servo-drive-10].
+  /// command [servo-drive-8]. Kept to the range and the velocity of the configuration [servo-drive-9], and to
+  /// its acceleration: what moves within these is met exactly, what jumps is approached and not
+  /// passed [servo-drive-27]. An endless axis has no range, and with a modulo goes the shorter way from the
+  /// command before [servo-drive-10].
   void command_position(double position) noexcept {
     if (may_act()) follow_position(position);
   }

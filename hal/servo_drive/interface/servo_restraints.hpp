@@ -11,7 +11,8 @@ inline constexpr char end_of_range[] =
     "it is slowed down before the end of its range, `lowest` or `highest`, and goes no farther";
 inline constexpr char too_fast[] = "a velocity above `fastest` is not taken";
 inline constexpr char led_too_fast[] =
-    "set-points that move faster than `fastest` are followed no faster, and it falls behind them";
+    "set-points that jump, or move faster than `fastest` and `acceleration`, are followed no faster, and it "
+    "falls behind them";
 inline constexpr char set_points_ignored[] =
     "the drive says that it does not follow its set-points (bit 12 of its statusword is 0)";
 inline constexpr char own_speed[] =

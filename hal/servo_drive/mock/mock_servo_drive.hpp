@@ -1,9 +1,10 @@
-// MockServoDrive: is where it was commanded by the next cycle, and records what is commanded.
+// MockServoDrive: is where its set-points are by the next cycle, and records what is commanded.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "hal/driver/mock/mock_delay.hpp"
 #include "hal/driver/mock/mock_noise.hpp"
@@ -11,6 +12,7 @@
 #include "hal/servo_drive/interface/servo_drive.hpp"
 #include "hal/servo_drive/interface/servo_restraints.hpp"
 #include "mock_servo_drive_driver.hpp"
+#include "motion/set_point_follower.hpp"
 
 namespace flexrf {
 
@@ -21,6 +23,12 @@ class MockServoDrive final : public MockServoDriveDriver {
   Status initialise() override {
     state_ = ServoState{};
     set_point_ = way_ = 0;
+    constexpr double no_end = std::numeric_limits<double>::infinity();
+    const bool endless = configuration.endless;
+    follower_ = SetPointFollower{{.lowest = endless ? -no_end : configuration.lowest,
+                                  .highest = endless ? no_end : configuration.highest,
+                                  .velocity = configuration.fastest,
+                                  .acceleration = configuration.acceleration}};
     forget();
     homing_ = ServoHoming::not_homed;
     homing_problem_ = {};
@@ -208,18 +216,26 @@ class MockServoDrive final : public MockServoDriveDriver {
   void move(double elapsed) noexcept {
     const bool cyclic = configuration.mode == ServoMode::cyclic_position;
     is_outpaced_ = is_at_its_end_ = false;
-    if (!cyclic || !commanded_) set_point_ = way_;
+    if (!cyclic || !commanded_) {
+      set_point_ = way_;
+      follower_.seed(way_);
+    }
     if (homing_ == ServoHoming::running) {
       const bool reached = go_to(0, configuration.homing_speed * elapsed);
       if (reached && !sticks_) homing_ = ServoHoming::homed;
       return;
     }
     if (!commanded_) return;
+    if (cyclic) {
+      follower_.command(*commanded_);
+      set_point_ = follower_.next(elapsed);
+      is_outpaced_ = std::abs(*commanded_ - set_point_) > configuration.fastest * elapsed;
+      state_->target_reached = false;
+      if (!sticks_) go_on_to(set_point_);
+      return;
+    }
     if (takes_positions()) {
-      const double most = (cyclic ? configuration.fastest : speed_) * elapsed;
-      const bool reached = go_to(*commanded_, most);
-      is_outpaced_ = cyclic && std::abs(*commanded_ - set_point_) > most;
-      state_->target_reached = reached && !sticks_ && !cyclic;
+      state_->target_reached = go_to(*commanded_, speed_ * elapsed) && !sticks_;
       return;
     }
     if (sticks_) return;
@@ -281,6 +297,7 @@ class MockServoDrive final : public MockServoDriveDriver {
   std::optional<double> commanded_;
   double way_ = 0;        // its position but for its modulo
   double set_point_ = 0;  // where the axis is to be by now, on its way to what is commanded
+  SetPointFollower follower_;
   double speed_ = 1;
   bool sticks_ = false;
   bool is_at_its_end_ = false;

@@ -49,6 +49,14 @@ class CanopenWorld final : public ServoDriveWorld {
     far_end_.drive().power_off();
     return initialised_;
   }
+  bool find_drive() override {
+    far_end_.drive().power_on(bus_.now());
+    return initialised_;
+  }
+  bool move_by_hand(double way) override {
+    far_end_.drive().be_moved(1000 * way);
+    return initialised_;
+  }
   bool stick_axis() override {
     far_end_.drive().cut_motor(true);
     return initialised_;

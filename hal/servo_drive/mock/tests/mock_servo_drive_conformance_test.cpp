@@ -26,7 +26,21 @@ class MockWorld final : public ServoDriveWorld {
   void receive(Duration elapsed) override { bench_.receive(elapsed); }
   void send() override { bench_.send(); }
   bool lose_drive() override {
+    if (const auto state = bench_.driver().state()) at_ = *state;
+    at_.enabled = false;
     bench_.driver().set_state(std::nullopt);
+    return initialised_;
+  }
+  bool find_drive() override {
+    if (!bench_.driver().state()) bench_.driver().set_state(at_);
+    return initialised_;
+  }
+  bool move_by_hand(double way) override {
+    const auto state = bench_.driver().state();
+    if (state && state->enabled) return true;
+    at_ = state.value_or(at_);
+    at_.position += way;
+    if (state) bench_.driver().set_state(at_);
     return initialised_;
   }
   bool stick_axis() override {
@@ -44,6 +58,7 @@ class MockWorld final : public ServoDriveWorld {
 
  private:
   DeviceBench<MockServoDrive> bench_{nullptr};
+  ServoState at_{.position = 1};  // while it is not heard
   bool initialised_ = false;
 };
 

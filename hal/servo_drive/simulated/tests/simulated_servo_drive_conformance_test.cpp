@@ -43,6 +43,14 @@ class SimulatedWorld final : public ServoDriveWorld {
     if (initialised_) drive_.driver().far_end().drive().power_off();
     return initialised_;
   }
+  bool find_drive() override {
+    if (initialised_) drive_.driver().far_end().drive().power_on(bus_.now());
+    return initialised_;
+  }
+  bool move_by_hand(double way) override {
+    if (initialised_) drive_.driver().far_end().drive().be_moved(-2000 * way);
+    return initialised_;
+  }
   bool stick_axis() override {
     if (!initialised_) return false;
     // Between two obstacles, against which it presses.

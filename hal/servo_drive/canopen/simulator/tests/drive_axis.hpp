@@ -6,10 +6,10 @@
 
 #include "hal/canopen/drive_modes.hpp"
 #include "hal/servo_drive/canopen/simulator/tests/drive_bench.hpp"
+#include "motion/set_point_follower.hpp"
 
 namespace flexrf {
 
-using canopen::cia402::CyclicSetPoint;
 using canopen::cia402::DrivePower;
 using canopen::cia402::HomingRun;
 using canopen::cia402::Mode;
@@ -41,7 +41,7 @@ struct Axis {
     }
     double target = position;
     if (power.is_enabled()) {
-      if (mode == Mode::cyclic_position) target = cyclic.next(cycle);
+      if (mode == Mode::cyclic_position) target = cyclic.next(seconds(cycle));
       if (mode == Mode::profile_position) {
         word |= handshake.advance(status, bench.now());
         target = handshake.target();
@@ -76,7 +76,7 @@ struct Axis {
   DriveBench bench;
   Mode mode;
   DrivePower power;
-  CyclicSetPoint cyclic{fastest};
+  SetPointFollower cyclic{{.velocity = fastest, .acceleration = 1e6}};
   SetPointHandshake handshake{milliseconds(500)};
   HomingRun homing{std::chrono::seconds(20), milliseconds(50), true};
   double velocity = 0;

@@ -131,7 +131,7 @@ void a_following_error_is_a_fault_with_its_code(void**) {
   Axis one;
   assert_true(one.enable());
   one.bench.drive.objects().set(axis::following_window, 20);
-  one.cyclic = CyclicSetPoint{1e6};  // faster than the motor
+  one.cyclic = SetPointFollower{{.velocity = 1e6, .acceleration = 1e9}};  // faster than the motor
   one.cyclic.seed(one.position);
   one.cyclic.command(200000);
   one.run(300);

@@ -185,6 +185,7 @@ std::uint32_t ForeignDrive::write(std::uint16_t index, std::uint8_t subindex, un
   Entry& entry = objects_[key(index, subindex)];
   if (!entry.writable) return 0x06010002;
   if (bytes != entry.bytes) return 0x06070010;
+  if (nature_.refuses_what_is_so && entry.value == value) return 0x08000022;
   if (const std::uint32_t abort = refusal_of(index, subindex, value); abort != 0) return abort;
   entry.value = value;
   act_on(index, subindex);
@@ -225,7 +226,12 @@ void ForeignDrive::act_on(std::uint16_t index, std::uint8_t subindex) {
     const auto mode = static_cast<std::int8_t>(object(0x6060));
     const bool has_it =
         mode == 6 || (nature_.interpolates ? mode == 7 : mode == 1 || mode == 3 || mode == 8 || mode == 9);
-    if (has_it) objects_[key(0x6061, 0)].value = object(0x6060);
+    const bool is_another = object(0x6060) != object(0x6061);
+    if (nature_.changes_mode_off && is_another && state_ == State::operation_enabled) {
+      ++modes_refused_;
+    } else if (has_it) {
+      objects_[key(0x6061, 0)].value = object(0x6060);
+    }
   }
   if (index == 0x6040 && nature_.acts_at_last)
     word_came_ = true;

@@ -28,6 +28,8 @@ class ForeignDrive {
     int serves_after = 0;                   ///< ms until it looks at a request by SDO
     bool acts_at_last = false;              ///< on a controlword behind all else that came before SYNC
     bool leaves_bit_12 = false;             ///< of its statusword at 0 in cyclic position, as older drives do
+    bool changes_mode_off = false;          ///< it takes another mode only while it is off
+    bool refuses_what_is_so = false;        ///< to be written what an object is already, in any state
     bool homes_without_bit_10 = false;      ///< that its home is found it says by bit 12 alone
     std::optional<std::uint32_t> window{};  ///< object 6067; nothing: it has none
     double stops_short = 0;     ///< increments before its target; it says that it is there within its window
@@ -62,6 +64,8 @@ class ForeignDrive {
   std::uint32_t object(std::uint16_t index, std::uint8_t subindex = 0) const;
   /// Aborts that it answered with.
   const std::vector<std::uint32_t>& aborts() const { return aborts_; }
+  /// Modes that it was told, and did not take because it was not off.
+  unsigned modes_refused() const { return modes_refused_; }
 
  private:
   enum class State { off, ready, switched_on, operation_enabled, quick_stop, fault };
@@ -117,6 +121,7 @@ class ForeignDrive {
   double longest_jump_ = 0;
   std::vector<SetPoint> set_points_;
   std::vector<std::uint32_t> aborts_;
+  unsigned modes_refused_ = 0;
 };
 
 }  // namespace flexrf

@@ -414,6 +414,69 @@ void a_home_that_is_told_by_one_bit_needs_the_column_and_rest(void**) {
   }
 }
 
+// And is off for that on the way to its home and on the way back.
+void a_drive_that_changes_its_mode_while_it_is_off_needs_the_column(void**) {
+  for (const bool maps_mode : {true, false}) {
+    for (const bool is_said : {true, false}) {
+      AxisPlan plan = plan_for(Mode::cyclic_position);
+      plan.homing_method = 35;
+      plan.maps_mode = maps_mode;
+      plan.changes_mode_enabled = !is_said;
+      ForeignCell cell(plan, {.changes_mode_off = true});
+      assert_true(cell.comes_up());
+      cell.position = 3;
+      cell.run(1500);
+      cell.position.reset();
+      cell.axis.home();
+      cell.run(8000);
+      assert_true(cell.axis.fault().is_ok() && cell.axis.is_enabled());
+      if (!is_said) {
+        assert_true(cell.axis.homing() == canopen::cia402::Homing::failed);
+        assert_non_null(std::strstr(cell.axis.homing_problem().cause(), "changes_mode_enabled = false"));
+        continue;
+      }
+      assert_true(cell.axis.homing() == canopen::cia402::Homing::homed);
+      assert_int_equal(cell.drive.modes_refused(), 0);
+      assert_true(cell.is_at(0));
+      cell.position = 2;
+      cell.run(2000);
+      assert_true(cell.is_at(2));
+    }
+  }
+}
+
+// In whichever moment of it the permission is withdrawn: it is off and stays so, and begins anew where it is.
+void a_homing_that_switches_off_is_stopped_in_each_of_its_cycles(void**) {
+  for (int cycles = 0; cycles < 120; ++cycles) {
+    AxisPlan plan = plan_for(Mode::cyclic_position);
+    plan.homing_method = 35;
+    plan.changes_mode_enabled = false;
+    ForeignCell cell(plan, {.position = 4000, .changes_mode_off = true});
+    assert_true(cell.comes_up());
+    cell.axis.home();
+    cell.run(cycles * cycle_of_7_ms);
+    cell.may_move = false;
+    cell.run(1000);
+    assert_true(cell.axis.is_off() && !cell.drive.is_enabled() && cell.axis.fault().is_ok());
+    assert_true(cell.axis.homing() != canopen::cia402::Homing::running);
+    const double rest = cell.drive.position();
+    assert_true(cell.comes_up());
+    cell.run(500);
+    assert_true(cell.drive.position() == rest);
+    cell.position = cell.axis.state()->position + 1;
+    cell.run(1000);
+    assert_true(std::abs(cell.drive.position() - rest - 1000) < 2);
+  }
+}
+
+// It has been told before, and keeps that over a reset.
+void what_a_drive_refuses_because_it_is_so_is_as_good(void**) {
+  ForeignCell cell{plan_for(Mode::profile_position), {.refuses_what_is_so = true}};
+  assert_true(cell.comes_up());
+  assert_false(cell.drive.aborts().empty());
+  assert_true(each_set_point_has_its_speed(cell, 3));
+}
+
 // Its position controller leaves something, and its window is as wide.
 void a_drive_that_stops_within_its_own_window_has_arrived(void**) {
   struct Case {
@@ -489,6 +552,9 @@ int main() {
       cmocka_unit_test(a_drive_that_acts_on_each_object_goes_where_it_is_told),
       cmocka_unit_test(a_drive_that_acts_at_last_goes_where_it_is_told),
       cmocka_unit_test(a_home_that_is_told_by_one_bit_needs_the_column_and_rest),
+      cmocka_unit_test(a_drive_that_changes_its_mode_while_it_is_off_needs_the_column),
+      cmocka_unit_test(a_homing_that_switches_off_is_stopped_in_each_of_its_cycles),
+      cmocka_unit_test(what_a_drive_refuses_because_it_is_so_is_as_good),
       cmocka_unit_test(a_drive_that_stops_within_its_own_window_has_arrived),
       cmocka_unit_test(a_target_is_not_reached_before_the_axis_stands_near_it),
       cmocka_unit_test(an_axis_that_is_led_by_velocities_comes_to_rest_at_the_end_of_its_range),

@@ -93,21 +93,22 @@ void points_are_gone_to_while_interpolation_is_enabled(void**) {
   assert_int_equal(cycle_with(0x02, 9000) & 0x1000, 0);
 }
 
-void a_halt_of_cyclic_positions_takes_its_deceleration(void**) {
+void braked_cyclic_positions_come_to_rest_with_their_acceleration(void**) {
   Axis one;
+  one.cyclic =
+      SetPointFollower{{.lowest = -10000, .highest = 8000, .velocity = fastest, .acceleration = 50000}};
   assert_true(one.enable());
   one.cyclic.command(9000);
-  one.run(203);  // 29 cycles of 140
-  one.cyclic.halt(50000, -10000, 8000);
-  one.run(1000);
+  one.run(1500);
   assert_true(one.bench.drive.motion().is_at_rest());
   assert_true(one.actual() == 8000);  // as far as it may
   one.cyclic.command(-5000);
   one.run(203);
-  one.cyclic.halt(50000, -10000, 8000);
+  one.cyclic.brake();
   one.run(1000);
-  // From 20000/s, over 4000.
-  assert_true(std::abs(one.actual() - (8000 - 29 * 140 - 4000)) < 200);
+  assert_true(one.bench.drive.motion().is_at_rest());
+  // 0.203 s of acceleration, and as much of braking.
+  assert_true(std::abs(one.actual() - (8000 - 50000 * 0.203 * 0.203)) < 200);
 }
 
 void an_internal_limit_is_shown(void**) {
@@ -231,7 +232,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(cyclic_positions_are_followed_without_a_jump),
       cmocka_unit_test(points_are_gone_to_while_interpolation_is_enabled),
-      cmocka_unit_test(a_halt_of_cyclic_positions_takes_its_deceleration),
+      cmocka_unit_test(braked_cyclic_positions_come_to_rest_with_their_acceleration),
       cmocka_unit_test(an_internal_limit_is_shown),
       cmocka_unit_test(cyclic_velocities_are_followed),
       cmocka_unit_test(profile_positions_are_handed_over_one_by_one),

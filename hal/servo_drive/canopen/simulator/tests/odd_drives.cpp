@@ -26,7 +26,7 @@ void permission_withdrawn_and_given_again_is_no_fault(void**) {
     cell.may_move = false;
     cell.run(7 * cycles);
     cell.may_move = true;
-    cell.run(1500);
+    cell.run(2500);
     assert_true(cell.axis.fault().is_ok());
     assert_true(cell.axis.is_enabled());
     assert_true(cell.is_at(5));
@@ -57,7 +57,7 @@ void a_second_homing_is_not_the_first_one(void**) {
     cell.run(2500);
     assert_true(cell.axis.homing() == Homing::homed && cell.is_at(0));
     cell.position = 5;
-    cell.run(1000);
+    cell.run(2000);
     assert_true(cell.is_at(5));
     cell.position = std::nullopt;
     cell.axis.home();

@@ -33,7 +33,7 @@ void an_enabled_axis_stays_where_it_is_and_follows(void**) {
   assert_true(cell.is_at(-1));
   assert_true(cell.drive.longest_jump() == 0);
   cell.position = 5;
-  cell.run(700);
+  cell.run(2000);
   assert_true(cell.is_at(5));
   assert_true(cell.drive.motion().position() == -5000);
   assert_true(std::abs(cell.axis.state()->following_error) <= resolution);
@@ -44,7 +44,7 @@ void it_keeps_to_its_range(void**) {
   Cell cell;
   assert_true(cell.run_until_enabled());
   cell.position = 1e9;
-  cell.run(1500);
+  cell.run(2500);
   assert_true(cell.is_at(10));
   assert_true(cell.axis.fault().is_ok());
 }
@@ -133,6 +133,35 @@ void a_set_point_counts_only_with_its_target_and_its_speed(void**) {
       assert_true(std::abs(cell.drive.set_point() + leg.position * 1000) < 1);
       assert_true(std::abs(cell.drive.set_point_speed() - leg.speed * 1000) <= 1);
     }
+  }
+}
+
+/// Its PDOs no longer go in either direction, with its heartbeat or without: it is stopped by SDO, and is off
+/// only when it has said so.
+void a_drive_without_process_data_is_stopped_by_sdo(void**) {
+  constexpr std::uint64_t not_in_use = 0x80000000;
+  for (const bool beats : {true, false}) {
+    AxisPlan with = plan();
+    with.mode = Mode::cyclic_velocity;
+    Cell cell(with);
+    assert_true(cell.run_until_enabled());
+    cell.velocity = 2;
+    cell.run(500);
+    constexpr std::uint16_t pdos[] = {0x1400, 0x1401, 0x1800, 0x1801};
+    for (const std::uint16_t index : pdos) {
+      cell.drive.objects().set({index, 1}, not_in_use);
+    }
+    cell.drive.silence_heartbeat(!beats);
+    cell.run(50);
+    assert_false(cell.axis.is_off());
+    bool was_off = false;
+    for (int i = 0; i < 1000 && !was_off; i += 7) {
+      cell.step();
+      was_off = cell.axis.is_off();
+    }
+    assert_true(was_off);
+    assert_true(cell.drive.state() == DriveState::switch_on_disabled);
+    assert_true(cell.drive.motion().velocity() == 0);
   }
 }
 
@@ -238,9 +267,9 @@ void an_endless_axis_that_was_homed_counts_from_its_home(void**) {
   Cell cell(with, {.node = node, .first_position = 2147480000});
   assert_true(cell.run_until_enabled());
   cell.position = cell.axis.state()->position + 3;
-  cell.run(1000);
+  cell.run(1500);
   cell.position = *cell.position + 3;
-  cell.run(1000);
+  cell.run(1500);
   assert_true(cell.drive.motion().position() > 2147483648.0);
   cell.position.reset();
   cell.axis.home();
@@ -248,7 +277,7 @@ void an_endless_axis_that_was_homed_counts_from_its_home(void**) {
   assert_true(cell.axis.homing() == canopen::cia402::Homing::homed);
   assert_true(cell.is_at(0));
   cell.position = 3;
-  cell.run(1000);
+  cell.run(1500);
   assert_true(cell.is_at(3) && std::abs(cell.drive.motion().position() - 3000) < 2);
   assert_true(cell.axis.fault().is_ok());
 }
@@ -259,18 +288,19 @@ void interpolated_positions_are_followed(void**) {
     AxisPlan with = plan();
     with.mode = Mode::interpolated_position;
     with.homing_method = 33;
+    with.homing_speed = 2;
     Cell cell(with, {.node = node, .acts_on_each_object = on_each_object});
     assert_true(cell.run_until_enabled());
     cell.run(300);
     assert_true(cell.is_at(-1) && cell.drive.longest_jump() == 0);
     cell.position = 5;
-    cell.run(700);
+    cell.run(2000);
     assert_true(cell.is_at(5) && cell.drive.motion().position() == -5000);
     assert_int_equal(cell.drive.objects().get(canopen::cia402::objects::period_value), 7);
     cell.position = -5;
-    cell.run(200);
+    cell.run(850);
     cell.may_move = false;
-    cell.run(500);
+    cell.run(1000);
     const double rest = cell.axis.state()->position;
     assert_true(cell.axis.is_off() && rest > -5 && rest < 5);
     cell.position = std::nullopt;
@@ -281,7 +311,7 @@ void interpolated_positions_are_followed(void**) {
     cell.run(4000);
     assert_true(cell.axis.homing() == canopen::cia402::Homing::homed && cell.is_at(0));
     cell.position = 3;
-    cell.run(1000);
+    cell.run(1500);
     assert_true(cell.is_at(3) && cell.axis.fault().is_ok());
     assert_true(cell.drive.longest_jump() <= 20000 * 0.007 * 2);
   }
@@ -446,7 +476,7 @@ void a_drive_without_homing_says_so_and_goes_on(void**) {
   assert_non_null(std::strstr(cell.axis.homing_problem().cause(), "does it have it?"));
   assert_true(cell.axis.fault().is_ok() && cell.axis.is_enabled());
   cell.position = 3;
-  cell.run(700);
+  cell.run(2000);
   assert_true(cell.is_at(3));
 }
 
@@ -503,6 +533,7 @@ int main() {
       cmocka_unit_test(what_is_no_number_is_a_fault_and_never_followed),
       cmocka_unit_test(velocities_are_followed_up_to_the_range),
       cmocka_unit_test(a_set_point_counts_only_with_its_target_and_its_speed),
+      cmocka_unit_test(a_drive_without_process_data_is_stopped_by_sdo),
       cmocka_unit_test(what_is_held_back_is_said),
       cmocka_unit_test(an_endless_axis_has_no_end),
       cmocka_unit_test(an_endless_axis_goes_on_when_the_counter_runs_over),
