@@ -18,6 +18,7 @@ void read_axis_columns(const Columns& columns, cia402::AxisPlan& plan) noexcept 
   plan.velocity_factor = columns.velocity_factor;
   plan.acceleration_factor = columns.acceleration_factor;
   plan.quick_stop_deceleration = columns.quick_stop_deceleration;
+  plan.quick_stop_option = columns.quick_stop_option;
   plan.rest_velocity = columns.rest_velocity;
   plan.homing_creep_speed = columns.homing_creep_speed;
   plan.homing_settle = whole_milliseconds(columns.homing_settle);

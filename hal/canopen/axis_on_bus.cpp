@@ -21,7 +21,7 @@ Status AxisOnBus::open(const cia402::AxisPlan& plan, CanBus& bus, const char* na
   bus_ = &bus;
   name_ = name;
   outbox_.clear();
-  began_ = told_own_ramps_ = false;
+  began_ = told_oddities_ = false;
   last_sent_ = Time{};
   // Tried here, for its errors; begun in the first cycle, whose time counts.
   if (const Status status = axis_.begin(plan_, Time{}, outbox_); !status.is_ok()) return status;
@@ -76,9 +76,17 @@ void AxisOnBus::send(const Tick& tick, bool may_move) noexcept {
   }
 }
 
-void AxisOnBus::tell_own_ramps(const char* name) noexcept {
-  if (told_own_ramps_ || !axis_.has_own_ramps()) return;
-  told_own_ramps_ = true;
+void AxisOnBus::tell_oddities(const char* name) noexcept {
+  if (told_oddities_ || !axis_.node().is_operational()) return;
+  told_oddities_ = true;
+  if (axis_.quick_stop_coasts()) {
+    log_warning(
+        name,
+        "node {} only switches its torque off at a quick stop (object 605A is 0), and the axis coasts: set "
+        "`quick_stop_option`, or the object by its maker's tool",
+        unsigned{plan_.node});
+  }
+  if (!axis_.has_own_ramps()) return;
   log_warning(
       name,
       "node {} takes no acceleration (it has no object 6083): its ramps are its own, and `acceleration` "

@@ -28,9 +28,9 @@ class AxisOnBus {
   /// Likewise: with the next receive() the node is brought up anew, and the axis's fault is forgotten.
   void begin_again() noexcept { began_ = false; }
 
-  /// Likewise, behind receive(): says in the log, once, that the drive has ramps of its own. `name`: of the
-  /// device; lives for ever.
-  void tell_own_ramps(const char* name) noexcept;
+  /// Likewise, behind receive(): says in the log, once, that the drive has ramps of its own, and that its
+  /// quick stop lets the axis coast. `name`: of the device; lives for ever.
+  void tell_oddities(const char* name) noexcept;
 
   cia402::ServoAxis& axis() noexcept { return axis_; }
   const cia402::ServoAxis& axis() const noexcept { return axis_; }
@@ -47,7 +47,7 @@ class AxisOnBus {
   const char* name_ = "";
   int last_word_ = CanBus::no_last_word;  // its place
   bool began_ = false;
-  bool told_own_ramps_ = false;  // since open()
+  bool told_oddities_ = false;  // since open()
   Time last_sent_{};
 };
 

@@ -38,7 +38,7 @@ class CanopenDrive : public Base {
  private:
   void take_in(const Tick& tick) noexcept override {
     link_.receive(tick);
-    link_.tell_own_ramps(this->name());
+    link_.tell_oddities(this->name());
     auto& told = this->feedback;
     told.homing = link_.homing();
     const canopen::Node& node = link_.axis().node();

@@ -8,8 +8,8 @@ namespace flexrf::canopen {
 
 struct ConfigurationStep {
   enum class Act : std::uint8_t {
-    write,  ///< write `value`; what is refused has to be it already, and what cannot be written at all
-            ///< `held`, under `mask`
+    write,   ///< write `value`; what is refused has to be it already, and what cannot be written at all
+             ///< `held`, under `mask`
     expect,  ///< read, and be equal to `value` under `mask`
     map,     ///< as write; refused by a node whose mapping is fixed: then what is there must be equal
     ask,     ///< read for Node::answered(); a refusal is no error

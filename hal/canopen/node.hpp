@@ -54,7 +54,7 @@ class Node {
   /// Tells the node to leave its operation; nothing is supervised any more.
   void end(Outbox& outbox) noexcept;
 
-  /// While it is operational, for what no PDO carries; else it is the node's own.
+  /// While it is operational, or was_lost(), for what no PDO carries; else it is the node's own.
   SdoClient& client() noexcept { return client_; }
 
   NodeState state() const noexcept { return state_; }

@@ -34,6 +34,7 @@ struct AxisPlan {
   double fastest = 1;        ///< unit/s, above 0
   double acceleration = 10;  ///< unit/s^2, above 0: of profiles, of cyclic positions, and of a halt
   double quick_stop_deceleration = 0;  ///< unit/s^2; 0: as the drive has it
+  std::int16_t quick_stop_option = 0;  ///< object 605A; 0: as the drive has it
   /// The drive's units of velocity for one increment/s, and of acceleration for one increment/s^2; above 0.
   double velocity_factor = 1;
   double acceleration_factor = 1;
@@ -158,6 +159,8 @@ class ServoAxis {
   double asked_velocity() const noexcept { return asked_velocity_; }
   /// In the modes with a profile: the drive has no object for an acceleration (6083) and was told none.
   bool has_own_ramps() const noexcept { return node_.has_left_out(objects::profile_acceleration); }
+  /// It was not told an option of its quick stop (object 605A), and says that it only goes off.
+  bool quick_stop_coasts() const noexcept { return node_.answered(objects::quick_stop_option) == 0U; }
   /// In mode profile_position, what the drive took and is not at yet; else nothing.
   std::optional<ProfileTarget> profile_target() const noexcept;
   bool is_restrained() const noexcept { return restraint_.reason != nullptr; }

@@ -132,6 +132,12 @@ NodePlan ServoAxis::node_plan() noexcept {
 void ServoAxis::plan_motion(Configuration& list) const noexcept {
   const double scale = plan_.increments_per_unit * plan_.acceleration_factor;
   const double acceleration = plan_.acceleration * scale;
+  if (plan_.quick_stop_option != 0) {
+    list.write(objects::quick_stop_option, 2, static_cast<std::uint16_t>(plan_.quick_stop_option),
+               "quick_stop_option = 0");
+  } else {
+    list.ask(objects::quick_stop_option);
+  }
   if (plan_.quick_stop_deceleration > 0) {
     list.write(objects::quick_stop_deceleration, 4, to_amount(plan_.quick_stop_deceleration * scale),
                "quick_stop_deceleration = 0");

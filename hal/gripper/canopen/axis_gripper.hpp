@@ -57,7 +57,7 @@ class AxisGripper : public Base {
  private:
   void hear(const Tick& tick) noexcept override {
     control_.receive(tick);
-    control_.tell_own_ramps(this->name());
+    control_.tell_oddities(this->name());
   }
   void begin_activation() noexcept override { control_.activate(); }
   void go(const GripperGoal& goal) noexcept override { control_.command(goal); }

@@ -34,7 +34,7 @@ class GripperAxis {
 
   void receive(const Tick& tick) noexcept;
   /// See AxisOnBus.
-  void tell_own_ramps(const char* name) noexcept { link_.tell_own_ramps(name); }
+  void tell_oddities(const char* name) noexcept { link_.tell_oddities(name); }
   void send(const Tick& tick) noexcept { link_.send(tick, has_power_); }
 
   /// Enables the drive, resets its fault before, and homes it where it does not know where it is.

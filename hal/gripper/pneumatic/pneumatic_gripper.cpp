@@ -77,7 +77,7 @@ void PneumaticGripper::tell(const Tick& tick, bool /*safe*/) noexcept {
 bool PneumaticGripper::is_at_rest() const noexcept {
   const auto is = [](const DigitalLine& valve, bool on) {
     const auto state = valve.state();
-    return state && state->on == on;
+    return state && state->on == on && valve.is_set();
   };
   const pneumatic::End on = control_.wanted_valve();
   return !control_.is_moving() && is(valve_open_, on == pneumatic::End::open) &&

@@ -76,7 +76,6 @@ void CanopenGpioChip::stop() {
 }
 
 void CanopenGpioChip::receive(const Tick& tick) noexcept {
-  now_ = tick.now;
   const std::uint64_t safe = safe_.load(std::memory_order_acquire);
   if (!began_ || safe != safe_told_) {
     began_ = module_.begin(plan_, safe, tick.now, outbox_).is_ok();
@@ -88,6 +87,7 @@ void CanopenGpioChip::receive(const Tick& tick) noexcept {
   }
   module_.look(bus->is_usable(), tick.now);
   renew_image();
+  confirm_outputs(tick.now);
   tell();
 }
 
@@ -108,6 +108,13 @@ void CanopenGpioChip::renew_image() noexcept {
   const std::uint64_t renewed = renewed_.exchange(0, std::memory_order_acq_rel);
   const std::uint64_t before = image_.outputs.value_or(safe_told_);
   image_.outputs = (before & ~renewed) | (safe_told_ & renewed);
+}
+
+// While a line asks for it.
+void CanopenGpioChip::confirm_outputs(Time now) noexcept {
+  image_.are_confirmed = image_.asks && image_.outputs && sent_ == image_.outputs &&
+                         module_.has_outputs(*image_.outputs, now, outbox_);
+  image_.asks = false;
 }
 
 void CanopenGpioChip::tell() noexcept {
@@ -164,12 +171,6 @@ void CanopenGpioChip::tell_outputs(Time now) noexcept {
   if (last_word_ < 0) return;
   bus->prepare_last_word(last_word_, canopen::to_frame(*module_.outputs(safe_told_)),
                          canopen::to_frame({canopen::sync_identifier, 0, {}}));
-}
-
-// Lines that are away say so themselves.
-bool CanopenGpioChip::make_safe() noexcept {
-  if (!image_.outputs || plan_.output_bytes == 0) return true;
-  return sent_ == image_.outputs && module_.has_outputs(*image_.outputs, now_, outbox_);
 }
 
 // DI1, DI2, ... and DO1, DO2, ...: counted from 1, as CiA 401 does. Null: no such line.

@@ -22,7 +22,7 @@ namespace flexrf {
 /// time that the module comes back; an output that no device has is at its safe value. A line that is asked
 /// for with another safe value than the module was told has it brought up anew, with all that it is told.
 ///
-/// make_safe() is true once the module, asked for its outputs, has answered that they are as they were told.
+/// An output is safe once the module, asked for its outputs, has answered that they are as they were told.
 class CanopenGpioChip final : public CanopenGpioChipDriver {
  public:
   CanopenGpioChip();
@@ -31,7 +31,6 @@ class CanopenGpioChip final : public CanopenGpioChipDriver {
   void stop() override;
   void receive(const Tick& tick) noexcept override;
   void send(const Tick& tick) noexcept override;
-  bool make_safe() noexcept override;
 
   Result<GpioLine*> request(const GpioLineSettings& settings) override;
   void release(GpioLine* line) noexcept override;
@@ -43,6 +42,7 @@ class CanopenGpioChip final : public CanopenGpioChipDriver {
   Status check(const GpioLineSettings& settings, const IoLine& line) const;
   void pass_on(std::uint64_t changed, Time at) noexcept;
   void renew_image() noexcept;
+  void confirm_outputs(Time now) noexcept;
   void tell() noexcept;
   void tell_outputs(Time now) noexcept;
 
@@ -55,7 +55,6 @@ class CanopenGpioChip final : public CanopenGpioChipDriver {
   std::uint64_t safe_told_ = 0;
   IoImage image_;
   std::optional<std::uint64_t> sent_;  // outputs, since the module is there
-  Time now_{};                         // of this cycle
   Time sent_at_{};
   StatusCode logged_ = StatusCode::ok;
   std::uint64_t logged_emergencies_ = 0;

@@ -21,7 +21,9 @@ std::optional<GpioEdge> IoLine::next_edge() noexcept {
 bool IoLine::set(bool on) noexcept {
   if (!image_->outputs) return false;
   const bool high = on != active_low_;
-  *image_->outputs = high ? *image_->outputs | bit_ : *image_->outputs & ~bit_;
+  const std::uint64_t before = *image_->outputs;
+  *image_->outputs = high ? before | bit_ : before & ~bit_;
+  if (*image_->outputs != before) image_->are_confirmed = false;
   return true;
 }
 

@@ -15,6 +15,8 @@ namespace flexrf {
 struct IoImage {
   std::optional<std::uint64_t> inputs{};
   std::optional<std::uint64_t> outputs{};
+  bool asks = false;           ///< somebody wants to know whether the module has its outputs
+  bool are_confirmed = false;  ///< it has answered that it has them
 };
 
 /// Its chip, and the device that asked for it, live in one thread.
@@ -47,6 +49,10 @@ class IoLine final : public GpioLine {
   std::optional<bool> level() const noexcept override { return level_; }
   std::optional<GpioEdge> next_edge() noexcept override;
   bool set(bool on) noexcept override;
+  bool is_set() noexcept override {
+    image_->asks = true;
+    return image_->are_confirmed;
+  }
 
  private:
   IoImage* image_ = nullptr;

@@ -36,6 +36,9 @@ class GpioLine {
   /// An output. False: it is as it was, as the chip did not take it or is away. After it came back the line
   /// is as `initially_on` says [gpio-chip-4].
   virtual bool set(bool on) noexcept = 0;
+  /// What was set last is at the terminal, as far as the chip can know [gpio-chip-7]. A chip that has to ask
+  /// for that does so while it is asked here, once in each cycle.
+  virtual bool is_set() noexcept { return true; }
   /// Readable when an edge has come; −1: none, or away.
   virtual int descriptor() const noexcept { return -1; }
   /// In virtual time: when the next edge will come, as far as known [gpio-chip-6].

@@ -10,8 +10,9 @@
 
 namespace flexrf {
 
-/// Everything: the thread the line lives in. Made safe, an output has its safe value at once [digital-io-5];
-/// one whose chip is away does not confirm it before it is back [digital-io-9].
+/// Everything: the thread the line lives in. Made safe, an output is told its safe value at once
+/// [digital-io-5], and confirms it once its chip knows that it has it; one whose chip is away does not before
+/// it is back [digital-io-9].
 class DigitalIo : public Actuator<DigitalIoInterface> {
  public:
   using Actuator::Actuator;

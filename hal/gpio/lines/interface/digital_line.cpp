@@ -121,13 +121,14 @@ void DigitalLine::send(Time now) noexcept {
   commanded_.reset();
 }
 
-/// False while the chip is away, as the output is unknown then. The chip comes back with the safe value.
+/// False while the chip is away, as the output is unknown then, and until the chip knows that it has the
+/// value. The chip comes back with the safe value.
 bool DigitalLine::make_safe() noexcept {
   commanded_.reset();
   if (!is_output()) return true;
   if (!present_ || !line_->set(settings_.safe_value)) return false;
   on_ = settings_.safe_value;
-  return true;
+  return line_->is_set();
 }
 
 Time DigitalLine::next_event() const noexcept {

@@ -37,6 +37,8 @@ class DigitalLine {
   void forget() noexcept { commanded_.reset(); }
   void send(Time now) noexcept;
   bool make_safe() noexcept;
+  /// Of an output: its chip knows that it has what it was told. To be asked in each cycle until it is so.
+  bool is_set() const noexcept { return present_ && line_->is_set(); }
   /// Of an emergency stop: unless it is there [digital-line-1], was on throughout this cycle
   /// [digital-line-2], and has been for as long as its debouncing asks [digital-line-3].
   bool demands_safe_state() const noexcept { return settings_.emergency_stop && !permits_; }

@@ -396,20 +396,22 @@ bool outputs_of_before_are_not_followed_again(World& world) {
 }
 
 bool confirms_that_it_is_safe(World& world) {
-  return world.until([&] { return world.chip().make_safe(); }, std::chrono::milliseconds(100));
+  const auto are_safe = [&] {
+    const bool first = world.line(valve).make_safe();
+    return world.line(brake).make_safe() && first;
+  };
+  return world.until(are_safe, std::chrono::milliseconds(100));
 }
 
 // Its heartbeat comes, its inputs come, and what its outputs are told it does not take.
+// [gpio-chip-7]
 bool outputs_that_are_not_taken_are_not_confirmed(World& world) {
   constexpr std::int64_t not_in_use = 0x80000000;
   if (!works(world)) return false;
   auto& objects = world.far_end().module().objects();
   const auto before = static_cast<std::int64_t>(objects.get({0x1400, 1}));
   objects.set({0x1400, 1}, not_in_use);
-  for (const std::size_t line : {valve, brake}) {
-    world.line(line).set_inhibited(true);
-    if (!world.line(line).make_safe()) return false;
-  }
+  for (const std::size_t line : {valve, brake}) world.line(line).set_inhibited(true);
   if (confirms_that_it_is_safe(world) || is_safe(world)) return false;
   objects.set({0x1400, 1}, before);
   return confirms_that_it_is_safe(world) && is_safe(world);
@@ -419,12 +421,11 @@ bool outputs_are_safe_while_nothing_may_move(World& world) {
   if (!works(world)) return false;
   for (const std::size_t line : {valve, brake}) {
     world.line(line).set_inhibited(true);
-    if (!world.line(line).make_safe()) return false;
+    if (world.line(line).make_safe()) return false;  // it has not left yet
   }
-  if (world.chip().make_safe()) return false;  // it has not left yet
   world.send();
   world.let_arrive();
-  if (!is_safe(world) || world.chip().make_safe()) return false;  // it has not said so yet
+  if (!is_safe(world) || world.line(valve).make_safe()) return false;  // it has not said so yet
   if (!confirms_that_it_is_safe(world)) return false;
   world.command(valve, true);
   world.command(brake, false);

@@ -78,6 +78,7 @@ void ForeignDrive::boot() {
   add(0x6060, 0, 1, 0, true, true);
   add(0x6061, 0, 1, 0, false, true);
   add(0x6064, 0, 4, 0, false, true);
+  if (nature_.quick_stop_option) add(0x605A, 0, 2, *nature_.quick_stop_option, true, false);
   if (nature_.window) add(0x6067, 0, 4, *nature_.window, true, false);
   add(0x606C, 0, 4, 0, false, true);
   add(0x607A, 0, 4, 0, true, true);

@@ -31,7 +31,8 @@ class ForeignDrive {
     bool changes_mode_off = false;          ///< it takes another mode only while it is off
     bool refuses_what_is_so = false;        ///< to be written what an object is already, in any state
     bool homes_without_bit_10 = false;      ///< that its home is found it says by bit 12 alone
-    std::optional<std::uint32_t> window{};  ///< object 6067; nothing: it has none
+    std::optional<std::uint32_t> quick_stop_option{};  ///< object 605A; nothing: it has none
+    std::optional<std::uint32_t> window{};             ///< object 6067; nothing: it has none
     double stops_short = 0;     ///< increments before its target; it says that it is there within its window
     bool interpolates = false;  ///< of the position modes it has interpolated position (7) alone
   };

@@ -49,7 +49,9 @@ class ForeignOnCan final : public CanNode {
 // The driver of a foreign drive in mode profile_position.
 class DriverCell {
  public:
-  explicit DriverCell(bool tells_speed, const ForeignDrive::Nature& nature = {}) : nature_{nature} {
+  explicit DriverCell(bool tells_speed, const ForeignDrive::Nature& nature = {},
+                      std::int16_t quick_stop_option = 0)
+      : nature_{nature} {
     auto& configuration = driver_.configuration();
     configuration.mode = ServoMode::profile_position;
     configuration.node = 5;
@@ -57,6 +59,7 @@ class DriverCell {
     configuration.highest = 10;
     configuration.fastest = 5;
     configuration.tells_speed = tells_speed;
+    configuration.quick_stop_option = quick_stop_option;
     good_ = bus_.driver().initialise().is_ok() && driver_.driver().initialise().is_ok() &&
             bus_.driver().wire()->attach(far_end_) != nullptr;
   }
@@ -129,6 +132,21 @@ bool own_ramps_are_told(bool has_own) {
   return cell.comes_up() && cell.goes_to(2, 5) && ear.has_heard("its ramps are its own") == has_own;
 }
 
+// Unless it is told what to do instead.
+bool a_coasting_quick_stop_is_told(std::int16_t option) {
+  const LogEar ear;
+  DriverCell cell{true, {.quick_stop_option = 0}, option};
+  return cell.comes_up() && ear.has_heard("the axis coasts") == (option == 0) &&
+         cell.far_end().object(0x605A) == static_cast<std::uint32_t>(option);
+}
+
+void that_a_quick_stop_coasts_stands_in_the_log(void**) {
+  for (const std::int16_t option : {std::int16_t{0}, std::int16_t{2}}) {
+    const bool good = a_coasting_quick_stop_is_told(option);
+    assert_true(good);
+  }
+}
+
 void that_ramps_are_the_drives_own_stands_in_the_log(void**) {
   for (const bool has_own : {true, false}) {
     const bool good = own_ramps_are_told(has_own);
@@ -172,6 +190,7 @@ void an_axis_that_does_not_come_nearer_is_told_with_what_its_drive_says(void**) 
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(that_ramps_are_the_drives_own_stands_in_the_log),
+      cmocka_unit_test(that_a_quick_stop_coasts_stands_in_the_log),
       cmocka_unit_test(an_axis_that_sticks_on_its_way_is_a_fault_where_the_drive_does_not_notice),
       cmocka_unit_test(an_axis_that_does_not_come_nearer_is_told_with_what_its_drive_says),
   };
