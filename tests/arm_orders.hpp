@@ -20,9 +20,20 @@ namespace flexrf::arm_orders {
 
 inline constexpr Duration cycle = std::chrono::milliseconds(7);
 
-enum class Event : std::uint8_t { stop, start, silent, speaks, by_hand, target, other_target, idle, count };
+enum class Event : std::uint8_t {
+  stop,
+  start,
+  silent,
+  speaks,
+  by_hand,
+  target,
+  other_target,
+  made_safe,
+  idle,
+  count
+};
 inline constexpr std::array<const char*, events_of<Event>> names{
-    "stop", "start", "silent", "speaks", "by hand", "target", "other target", "idle"};
+    "stop", "start", "silent", "speaks", "by hand", "target", "other target", "made safe", "idle"};
 
 /// An arm, and what a person does to it beside giving Stop and Start.
 class Arm {
@@ -151,6 +162,7 @@ class ArmWorld {
         run_unwatched(1);
         permit(true);
         since_ = held_->arm().state();
+        is_said_safe_ = false;
         break;
       case Event::silent:
         held_->be_silent(true);
@@ -167,7 +179,10 @@ class ArmWorld {
       case Event::target:
       case Event::other_target:
         leader_.ask(event == Event::other_target);
-        is_wanted_ = is_wanted_ || may_move_;
+        is_wanted_ = is_wanted_ || (may_move_ && !is_said_safe_);
+        break;
+      case Event::made_safe:
+        make_safe();
         break;
       default:
         break;
@@ -185,6 +200,17 @@ class ArmWorld {
     is_wanted_ = false;
     held_->arm().set_inhibited(!on);
     leader_.permit(on);
+  }
+  void make_safe() {
+    is_wanted_ = false;
+    for (int n = 0; n < 2 * held_->patience() && !is_said_safe_; ++n) {
+      held_->receive();
+      leader_.step();
+      is_said_safe_ = held_->arm().make_safe();
+      held_->send();
+    }
+    if (!is_said_safe_) run_unwatched(held_->patience());
+    since_.reset();
   }
   void run_unwatched(int cycles) {
     for (int n = 0; n < cycles; ++n) {
@@ -209,6 +235,8 @@ class ArmWorld {
     if (moved <= held_->far()) return;
     if (is_wanted_) {
       ++moved_as_asked_;
+    } else if (is_said_safe_) {
+      violation_ = "it moved after it had said that it is safe";
     } else {
       violation_ = may_move_ ? "it moved where nobody had asked it to since the last Start"
                              : "it moved without the permission";
@@ -219,7 +247,8 @@ class ArmWorld {
   Leader leader_;
   std::optional<JointState> since_;  // where it was at the last Start, or was moved to
   bool may_move_ = false;
-  bool is_wanted_ = false;  // somebody has asked for a motion since the last Start
+  bool is_wanted_ = false;     // somebody has asked for a motion since the last Start
+  bool is_said_safe_ = false;  // since then
   const char* violation_ = nullptr;
   int moved_as_asked_ = 0;
 };

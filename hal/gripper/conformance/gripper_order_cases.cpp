@@ -65,11 +65,11 @@ class Operator {
         return;
       case Happening::command:
         opens_ = !opens_;
-        is_wanted_ = is_wanted_ || may_move_;
+        is_wanted_ = is_wanted_ || (may_move_ && !is_said_safe_);
         act(world_, [this](Gripper& gripper) { gripper.command({.opening = opens_ ? opened : closed}); });
         break;
       case Happening::activate:
-        is_wanted_ = is_wanted_ || may_move_;
+        is_wanted_ = is_wanted_ || (may_move_ && !is_said_safe_);
         act(world_, [](Gripper& gripper) { gripper.activate(); });
         break;
       case Happening::made_safe:

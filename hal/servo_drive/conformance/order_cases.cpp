@@ -57,11 +57,11 @@ class Person {
         }
         break;
       case Event::command:
-        is_wanted_ = is_wanted_ || may_move_;
+        is_wanted_ = is_wanted_ || (may_move_ && !is_said_safe_);
         command();
         break;
       case Event::home:
-        is_wanted_ = is_wanted_ || may_move_;
+        is_wanted_ = is_wanted_ || (may_move_ && !is_said_safe_);
         do_once(world_, [](ServoDrive& drive) { drive.home(); });
         break;
       case Event::made_safe:

@@ -128,6 +128,7 @@ int arm_tells_after(Duration delay) {
 int drive_tells_after(Duration delay) {
   DeviceBench<MockServoDrive> bench{nullptr};
   bench.configuration().fastest = 1000;
+  bench.configuration().acceleration = 1e6;
   if (!bench.driver().initialise()) return cycles;
   bench.driver().set_delay(delay);
   bench.receive(milliseconds(10));
