@@ -265,7 +265,8 @@ void emit_devices(const Model& model, const ApplicationNames& names, Text& out,
             << instead_of(device) << ",\n      .instance = &constructed_devices[" << i
             << "],\n      .binding = {" << ports << ", " << resources
             << ", nullptr},\n      .bus = " << index_or_none(device.bus)
-            << ",\n      .unit = " << index_or_none(device.owner_unit) << "}},\n";
+            << ",\n      .unit = " << index_or_none(device.owner_unit)
+            << (device.required ? "" : ",\n      .required = false") << "}},\n";
   }
   out << "\nconstexpr DeviceRecord devices_table[] = {\n" << records.str() << "};\n";
 }

@@ -541,6 +541,7 @@ struct Device {
   std::vector<Literal> runtime;
   std::vector<ParameterOverride> overrides;
   Nanoseconds initialise_timeout = 5'000'000'000;
+  bool required = true;                // false: the application runs without it, and takes it in later
   std::optional<Index> feedback_slot;  // none when it has no feedback
   std::optional<Index> values_slot;    // runtime values in force; none when it has no runtime parameters
   bool partial = false;                // as of a slot

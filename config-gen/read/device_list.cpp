@@ -23,8 +23,9 @@ namespace fs = std::filesystem;
 // configuration.
 const std::vector<std::string>& keys_of_device() {
   static const std::vector<std::string> keys = {
-      "name",  "interface", "drivers", "instead",      "on",      "io_thread", "initialise_timeout",
-      "units", "out",       "urdf",    "register_map", "runtime", "parameter", "configuration"};
+      "name",    "interface", "drivers", "instead",      "on",      "io_thread", "initialise_timeout",
+      "units",   "out",       "urdf",    "register_map", "runtime", "parameter", "configuration",
+      "required"};
   return keys;
 }
 

@@ -266,6 +266,7 @@ void read_device_row(Assembly& assembly, const FlatRow& flat) {
   row.table("out");
   device.outputs.resize(assembly.model.interfaces[*interface].outputs.size());
   device.initialise_timeout = row.positive_duration("initialise_timeout").value_or(device.initialise_timeout);
+  device.required = row.boolean("required").value_or(device.required);
   const Interface& kind = assembly.model.interfaces[*interface];
   device.configuration =
       read_values(assembly, row.table("configuration"), kind.configuration, "configuration", row.name());

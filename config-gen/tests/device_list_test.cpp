@@ -116,6 +116,25 @@ void cells_are_read_as_their_parameter_asks(void**) {
   assert_true(std::get<double>(value("green_lamp", 4).value) == 0.01);
 }
 
+// By a row as by a list; only what says so need not be there.
+void a_device_need_not_be_there(void**) {
+  Files written = without_list();
+  std::string& table = written["cell.toml"];
+  table.insert(table.find("[device.green_lamp]") - 1, "required = false\n");
+  Files listed = lines();
+  listed["io_list.csv"] = "name,line,direction,required\nstop_button,ESTOP,,false\ngreen_lamp,LAMP,output,\n";
+  for (const Files& files : {written, listed}) {
+    Cell cell(files);
+    assert_true(cell.is_good());
+    assert_false(named(cell.model().devices, "stop_button").required);
+    assert_true(named(cell.model().devices, "green_lamp").required);
+    std::size_t told = 0;
+    for (const GeneratedFile& file : cell.emitted())
+      if (file.contents.find(".required = false") != std::string::npos) ++told;
+    assert_int_equal(told, 1);
+  }
+}
+
 // Where the table names its list, in the list's order.
 void devices_keep_the_order_of_the_table(void**) {
   Files files = lines();
@@ -161,6 +180,7 @@ int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(all_that_is_made_is_the_same),
                               cmocka_unit_test(the_build_is_told_the_same),
                               cmocka_unit_test(cells_are_read_as_their_parameter_asks),
+                              cmocka_unit_test(a_device_need_not_be_there),
                               cmocka_unit_test(devices_keep_the_order_of_the_table),
                               cmocka_unit_test(a_group_has_them_in_each_instance)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

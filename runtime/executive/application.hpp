@@ -93,6 +93,8 @@ struct DevicePart {
   DeviceBinding binding;  ///< with the interface's ports; the chosen driver's and the bus come at the start
   std::uint16_t bus;      ///< index of the device that carries it, or no_index
   std::uint16_t unit;     ///< index of the unit that owns it, or no_index
+  /// False: while the device is not there the application runs without it, and Lifecycle waits for it.
+  bool required = true;
 };
 struct DeviceRecord : ComponentRecord, DevicePart {};
 

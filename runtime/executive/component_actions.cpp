@@ -61,10 +61,14 @@ Status ComponentActions::initialise(ComponentIndex component) {
   cell_->control().require_start();
   if (std::find(again.begin(), again.end(), component) == again.end()) again.push_back(component);
   // What others stand on is initialised before them.
+  Status first;
   for (std::size_t i = again.size(); i-- > 0;) {
-    if (const Status status = start_one(again[i]); !status) return status;
+    const Status status = start_one(again[i]);
+    if (!status && life(again[i]) != Life::waiting) return status;
+    // What stands on a device that is waited for is waited for as well.
+    if (first) first = status;
   }
-  return {};
+  return first;
 }
 
 Status ComponentActions::stop_one(ComponentIndex component) {

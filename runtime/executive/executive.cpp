@@ -473,7 +473,10 @@ void Executive::live() {
   }
   while (lives_.load(std::memory_order_acquire)) {
     if (lifecycle_.has_jobs()) lifecycle_.run_jobs();
-    if (cell_.control().mode() == Mode::running) lifecycle_.restart_by_policy();
+    if (cell_.control().mode() == Mode::running) {
+      lifecycle_.restart_by_policy();
+      lifecycle_.seek_missing();
+    }
     nanosleep(&lifecycle_pause, nullptr);
   }
   lifecycle_.close();

@@ -1,8 +1,11 @@
 #include "runtime/executive/lifecycle.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <ctime>
 #include <exception>
+#include <string>
+#include <string_view>
 
 #include "runtime/executive/supervision.hpp"
 #include "runtime/log/log.hpp"
@@ -15,6 +18,8 @@ namespace {
 Duration patience_with(const ThreadRecord& thread) noexcept {
   return std::max(Duration{std::chrono::seconds{1}}, Supervision::hang_timeout(thread));
 }
+/// How often a device that is not there is looked for.
+constexpr Duration seek_interval = std::chrono::milliseconds{500};
 /// Steps after which a unit has seen that it is to stop, and has said whether it is idle since.
 constexpr std::uint64_t steps_to_notice = 3;
 
@@ -28,6 +33,11 @@ Status guarded(Call call) noexcept {
   } catch (...) {
     return Status::error(StatusCode::internal, "exception of unknown type");
   }
+}
+
+/// The device is not there, or does not answer; else somebody has to mend something.
+bool is_absence(StatusCode code) noexcept {
+  return code == StatusCode::not_found || code == StatusCode::unavailable || code == StatusCode::timeout;
 }
 
 void pause() noexcept {
@@ -59,9 +69,25 @@ Lifecycle::Operation Lifecycle::operation() const noexcept {
 
 Status Lifecycle::start_all() noexcept {
   for (const ComponentIndex component : cell_->in_starting_order()) {
-    if (const Status status = start(component); !status) return status;
+    const Status status = start(component);
+    if (status || cell_->application().component_state(component).life.load() == Life::waiting) continue;
+    if (!cell_->application().is_unit(component) && is_absence(status.code()))
+      log_info(cell_->component_name(component),
+               "with `required = false` in the device's row the application starts without it, and takes it "
+               "in when it is there");
+    return status;
   }
   return {};
+}
+
+void Lifecycle::seek_missing() noexcept {
+  if (stamp() < seek_at_) return;
+  for (const ComponentIndex component : cell_->in_starting_order()) {
+    if (cell_->application().component_state(component).life.load() != Life::waiting) continue;
+    if (start(component))
+      log_info(cell_->component_name(component), "what was missing is there: it runs now");
+  }
+  seek_at_ = stamp() + seek_interval;
 }
 
 void Lifecycle::stop_all() noexcept {
@@ -111,6 +137,9 @@ Status Lifecycle::start(ComponentIndex index) noexcept {
     return Status::error(StatusCode::not_permitted, "%s is %s already", record.name,
                          name_of(state.life.load()));
   }
+  const bool is_late = state.life.load() == Life::waiting;
+  if (const char* const missing = missing_below(index); missing != nullptr)
+    return wait_for(index, Status::error(StatusCode::unavailable, "the device %s is not there", missing));
   cell_->note_configuration(index);
   state.stop_requested.store(false, std::memory_order_release);
   if (!application.is_unit(index)) prepare_device(application.device_of(index));
@@ -122,12 +151,15 @@ Status Lifecycle::start(ComponentIndex index) noexcept {
   // What the tables or the file say was checked before; accept() may still refuse it.
   const ParameterMemory memory = component.parameter_memory();
   if (status && memory.runtime != nullptr) status = cell_->parameters(index).adopt(memory.runtime, stamp());
+  if (!status && may_be_missing(index, status.code())) return wait_for(index, status);
   if (!status) {
     cell_->set_fault(index, status);
     return Status::error(status.code(), "%s%s: initialise: %s", record.name,
                          cell_->driver_text(index).c_str(), status.cause());
   }
   state.fault.publish({});
+  // What comes while others move begins like what comes at power-on.
+  if (is_late && cell_->moves_something(index)) cell_->control().require_start();
   begin(index);
   state.life.store(Life::running, std::memory_order_release);
   state.ownership.store(Ownership::thread, std::memory_order_release);
@@ -141,6 +173,11 @@ Status Lifecycle::stop(ComponentIndex index) noexcept {
   const ComponentRecord& record = application.component(index);
   ComponentState& state = application.component_state(index);
   if (state.life.load() == Life::created || state.life.load() == Life::stopped) return {};
+  if (state.life.load() == Life::waiting) {
+    state.life.store(Life::stopped, std::memory_order_release);
+    cell_->set_writer_state(index, WriterState::stopped);
+    return {};
+  }
   if (application.is_unit(index)) {
     bring_to_rest(index);
   } else if (cell_->moves_something(index)) {
@@ -160,6 +197,49 @@ Status Lifecycle::stop(ComponentIndex index) noexcept {
   if (state.life.load() != Life::fault) state.life.store(Life::stopped, std::memory_order_release);
   state.idle.store(true, std::memory_order_relaxed);
   return status;
+}
+
+/// The name of a device that the component stands on, its own or a bus below, and that is waited for; null:
+/// there is none.
+const char* Lifecycle::missing_below(ComponentIndex index) const noexcept {
+  const Application& application = cell_->application();
+  for (const std::uint16_t place : cell_->devices_of(index)) {
+    std::uint16_t device = application.is_unit(index) ? place : application.devices[place].bus;
+    for (; device != no_index; device = application.devices[device].bus) {
+      if (application.device_states[device].life.load() == Life::waiting)
+        return application.devices[device].name;
+    }
+  }
+  return nullptr;
+}
+
+bool Lifecycle::may_be_missing(ComponentIndex index, StatusCode code) const noexcept {
+  const Application& application = cell_->application();
+  if (application.is_unit(index) || application.devices[application.device_of(index)].required) return false;
+  return is_absence(code);
+}
+
+/// Says so when the wait begins, and again when the reason is another one.
+Status Lifecycle::wait_for(ComponentIndex index, const Status& cause) noexcept {
+  const ComponentRecord& record = cell_->application().component(index);
+  ComponentState& state = cell_->application().component_state(index);
+  const bool waits_already = state.life.load() == Life::waiting;
+  const std::string why = cell_->driver_text(index) + ": " + cause.cause();
+  if (!waits_already || std::strcmp(state.fault.read().cause(), cause.cause()) != 0)
+    log_warning(record.name, "waits and is started later{}", std::string_view(why));
+  // What initialise() took before it failed is given back; nothing was begun of what stands on another one.
+  if (missing_below(index) == nullptr) {
+    begin_operation(record.name, record.stop_timeout);
+    static_cast<void>(guarded([&] {
+      cell_->component(index).stop();
+      return Status{};
+    }));
+    end_operation();
+  }
+  state.fault.publish(cause);
+  state.life.store(Life::waiting, std::memory_order_release);
+  cell_->set_writer_state(index, WriterState::waiting);
+  return Status::error(cause.code(), "%s waits%s", record.name, why.c_str());
 }
 
 void Lifecycle::begin(ComponentIndex index) noexcept {

@@ -20,13 +20,19 @@ class Lifecycle {
   /// none.
   Lifecycle(Cell& cell, bool threads_run) noexcept : cell_(&cell), threads_run_(threads_run) {}
 
-  /// In the starting order. The first failure ends it and is returned.
+  /// In the starting order. The first failure ends it and is returned; a device that is waited for, and what
+  /// stands on one, is none.
   Status start_all() noexcept;
   /// Takes back and stops everything, in the reverse order.
   void stop_all() noexcept;
 
-  /// Initialises it and hands it over to its thread.
+  /// Initialises it and hands it over to its thread. A device with `required = false` that is not there
+  /// (not_found, unavailable, timeout) is waited for from then on, and so is whatever stands on it: its life
+  /// becomes Life::waiting, and the error says why.
   Status start(ComponentIndex component) noexcept;
+  /// Tries to start what is waited for, twice a second at most. A late component that moves something needs a
+  /// new Start.
+  void seek_missing() noexcept;
   /// A running unit that owns an actuator is brought to rest first: it sees stop_requested and has its
   /// stop_timeout to become idle; then nothing moves before the next Start, and its devices are made safe if
   /// it did not. An actuator is inhibited first.
@@ -59,6 +65,9 @@ class Lifecycle {
 
  private:
   Status take_back(ComponentIndex component) noexcept;
+  const char* missing_below(ComponentIndex component) const noexcept;
+  bool may_be_missing(ComponentIndex component, StatusCode code) const noexcept;
+  Status wait_for(ComponentIndex component, const Status& cause) noexcept;
   void prepare_device(std::uint16_t device) noexcept;
   void begin(ComponentIndex component) noexcept;
   void bring_to_rest(std::uint16_t unit) noexcept;
@@ -81,6 +90,7 @@ class Lifecycle {
   std::atomic<bool> has_jobs_{false};
   std::atomic<const char*> component_{nullptr};
   std::atomic<std::int64_t> overdue_at_{0};
+  Time seek_at_{};
   std::vector<std::uint16_t> restarts_ = std::vector<std::uint16_t>(cell_->application().units.size());
 };
 

@@ -16,6 +16,8 @@ const char* name_of(Life life) noexcept {
       return "stopped";
     case Life::fault:
       return "fault";
+    case Life::waiting:
+      return "waiting";
   }
   return "unknown";
 }

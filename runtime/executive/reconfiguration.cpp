@@ -12,7 +12,8 @@ Component* Reconfiguration::component(std::uint16_t index) {
 
 bool Reconfiguration::is_initialised(std::uint16_t index) const {
   const Life life = cell_->application().component_state(index).life.load();
-  return life == Life::running || life == Life::initialised;
+  // What is waited for is begun anew like what runs, with the values that count then.
+  return life == Life::running || life == Life::initialised || life == Life::waiting;
 }
 
 std::vector<std::uint16_t> Reconfiguration::owners_of(std::span<const std::uint16_t> changed) {
@@ -56,7 +57,9 @@ Status Reconfiguration::stop(std::uint16_t owner) {
 }
 
 Status Reconfiguration::initialise(std::uint16_t owner) {
-  return lifecycle_->start(owner);
+  const Status status = lifecycle_->start(owner);
+  // A device that need not be there takes its values, and is waited for.
+  return cell_->application().component_state(owner).life.load() == Life::waiting ? Status{} : status;
 }
 
 void Reconfiguration::fault(std::uint16_t owner, const Status& cause) {

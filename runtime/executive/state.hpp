@@ -17,7 +17,9 @@ struct ComponentType;
 struct DriverRecord;
 
 /// Life of a unit or device, as the lifecycle thread drives it and everybody may see it.
-enum class Life : std::uint8_t { created, initialised, running, stopped, fault };
+/// `waiting`: a device that is not there and need not be (DeviceRecord::required), or a component that stands
+/// on one. It is not stepped, and is no fault; ComponentState::fault says what it waits for.
+enum class Life : std::uint8_t { created, initialised, running, stopped, fault, waiting };
 const char* name_of(Life life) noexcept;
 
 /// Who may touch a unit's object now. Ownership passes by this word alone: the lifecycle thread asks, the
@@ -32,7 +34,7 @@ enum class Ownership : std::uint8_t {
 struct ComponentState {
   // First, as it is large and seldom asked for: what every step touches lies together behind it, and of a
   // unit in the same cache lines as what UnitState adds.
-  SharedStatus fault;  ///< why; published before life becomes fault
+  SharedStatus fault;  ///< why; published before life becomes fault or waiting
   /// What is declared of it: of a device by the chosen driver, with ranges as the application narrows them.
   const ComponentType* type = nullptr;
   const DriverRecord* driver = nullptr;  ///< the chosen one; null: it has none, as a unit

@@ -89,6 +89,7 @@ Duration VirtualTime::run(Duration duration) noexcept {
     if (control.mode() > Mode::running) supervision_->observe(now_);
     if (events % events_between_drains == 0) drain_log(STDERR_FILENO);
     if (lifecycle_->has_jobs()) lifecycle_->run_jobs();
+    if (control.mode() == Mode::running) lifecycle_->seek_missing();
     if (control.faults() != faults_) {
       faults_ = control.faults();
       if (control.mode() == Mode::running) lifecycle_->restart_by_policy();

@@ -16,7 +16,7 @@ ComponentFigures Statistics::component(ComponentIndex component) const noexcept 
   if (figures.record->population != no_index)
     figures.population = cell_->application().populations[figures.record->population].name;
   figures.life = state.life.load(std::memory_order_acquire);
-  if (figures.life == Life::fault) figures.fault = state.fault.read();
+  if (figures.life == Life::fault || figures.life == Life::waiting) figures.fault = state.fault.read();
   figures.active = state.active.load(std::memory_order_relaxed);
   figures.restraint = state.restraint.read();
   figures.restraints = state.restraint.count();

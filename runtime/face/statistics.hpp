@@ -19,7 +19,7 @@ struct ComponentFigures {
   const char* driver;      ///< name of the chosen one; "": it has none
   const char* population;  ///< name of the one that it is a member of; null: of none
   Life life;
-  Status fault;  ///< the cause while it is in fault, else ok
+  Status fault;  ///< the cause while it is in fault or waits, else ok
   bool active;
   Restraint restraint;       ///< why it does less than it was commanded now
   std::uint64_t restraints;  ///< how often that was so

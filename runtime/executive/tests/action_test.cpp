@@ -238,6 +238,37 @@ void a_bus_stops_after_what_it_carries_and_starts_before_it() {
                                   "consumer: initialise"}));
 }
 
+/// A device that need not be there, away when a person initialises it: it and its unit are waited for, and a
+/// person's Stop ends that.
+// [exec-90] [exec-91]
+void what_is_away_at_an_initialise_is_waited_for() {
+  std::atomic<bool> is_away{false};
+  Machine machine([&](Cell& cell) {
+    cell.device(Cell::actuator).required = false;
+    cell.device(Cell::actuator).script.initialise = [&](TestDevice&) {
+      return is_away ? Status::error(StatusCode::not_found, "no such port") : Status{};
+    };
+  });
+  is_away = true;
+  const Status status = machine.act(ComponentAction::initialise, actuator);
+  CHECK_CONTAINS(status.cause(), "actuator waits (driver mock): no such port");
+  CHECK_EQUAL(machine.life(), Life::waiting);
+  is_away = false;
+  CHECK(wait_until([&] { return machine.life() == Life::running && machine.steps() > 0; }));
+  is_away = true;
+  CHECK(!machine.act(ComponentAction::initialise, actuator));
+  // Values are taken meanwhile.
+  CHECK(machine.reconfigure(Cell::consumer).outcome == ReconfigureOutcome::done);
+  CHECK_EQUAL(machine.life(), Life::waiting);
+  CHECK(machine.act(ComponentAction::stop, actuator).is_ok());
+  is_away = false;
+  const std::size_t tried = machine.cell.events().count_of("actuator: initialise");
+  usleep(700'000);
+  CHECK_EQUAL(machine.cell.events().count_of("actuator: initialise"), tried);
+  CHECK_EQUAL(machine.life(), Life::stopped);
+  CHECK_EQUAL(machine.running->finish().exit_code, 0);
+}
+
 // [exec-48] [exec-49]
 void after_a_fault_initialise_constructs_it_anew() {
   std::atomic<bool> fails{true};
@@ -435,6 +466,7 @@ int main() {
       CONTAINED_TEST(a_device_stops_after_its_unit_and_starts_before_it),
       CONTAINED_TEST(the_ports_of_a_device_begin_anew_when_it_is_initialised),
       CONTAINED_TEST(a_bus_stops_after_what_it_carries_and_starts_before_it),
+      CONTAINED_TEST(what_is_away_at_an_initialise_is_waited_for),
       CONTAINED_TEST(after_a_fault_initialise_constructs_it_anew),
       CONTAINED_TEST(nobody_waits_for_what_he_asked_for),
       CONTAINED_TEST(what_fails_says_why),

@@ -323,6 +323,7 @@ void TestApplication::make_devices() {
     record.unit = owner;
     record.initialise_timeout = plan.initialise_timeout;
     record.stop_timeout = plan.initialise_timeout;
+    record.required = plan.required;
     made_->device_records.push_back(record);
   }
 }

@@ -91,6 +91,7 @@ struct DevicePlan {
   std::uint16_t pops = no_index;    ///< queue
   std::uint16_t pushes = no_index;  ///< queue
   Duration initialise_timeout = patience;
+  bool required = true;
   std::span<const Option> options = {};  ///< of the command line
 };
 

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "runtime/executive/tests/running_cell.hpp"
+#include "tests/log_ear.hpp"
 
 namespace flexrf::fixture::lifecycle_test {
 namespace {
@@ -97,6 +98,142 @@ void a_device_that_cannot_be_initialised_ends_the_start() {
   CHECK_EQUAL(cell.device_state(Cell::actuator).life.load(), Life::fault);
   CHECK_CONTAINS(cell.device_state(Cell::actuator).fault.read().cause(), "no such port");
   CHECK_EQUAL(cell.events().count_of("producer: initialise"), 0U);
+}
+
+// ---- a device that need not be there
+
+/// The usual cell, whose actuator is not there at the start.
+struct CellWithout : Cell {
+  explicit CellWithout(StatusCode code = StatusCode::not_found) {
+    device(actuator).required = false;
+    device(actuator).script.initialise = [this, code](TestDevice&) {
+      return is_there ? Status{} : Status::error(code, "no such port");
+    };
+    thread(consuming).trigger = TriggerPlan::periodic(milliseconds{1});
+  }
+  Life life_of_device() const { return device_state(actuator).life; }
+  Life life_of_unit() const { return unit_state(consumer).life; }
+  std::uint64_t steps() const { return unit_state(producer).steps; }
+
+  std::atomic<bool> is_there{false};
+};
+
+// [exec-88] [exec-89] [exec-90] [exec-91]
+void a_device_that_need_not_be_there_is_waited_for() {
+  CellWithout cell;
+  const LogEar ear;
+  RunningCell running(cell);
+  running.start();
+  CHECK(wait_until([&] { return cell.steps() > 5; }));
+  CHECK_EQUAL(cell.life_of_device(), Life::waiting);
+  CHECK_EQUAL(cell.life_of_unit(), Life::waiting);
+  CHECK_CONTAINS(cell.device_state(Cell::actuator).fault.read().cause(), "no such port");
+  CHECK_CONTAINS(cell.unit_state(Cell::consumer).fault.read().cause(), "the device actuator is not there");
+  CHECK(ear.has_heard("actuator: waits and is started later (driver mock): no such port"));
+  CHECK(ear.has_heard("consumer: waits and is started later: the device actuator is not there"));
+  CHECK_EQUAL(cell.events().count_of("consumer: initialise"), 0U);
+  // It is looked for again and again, and told once.
+  CHECK(wait_until([&] { return cell.events().count_of("actuator: initialise") >= 3; }));
+  const LogEar later;
+  cell.is_there = true;
+  CHECK(wait_until([&] { return cell.unit_state(Cell::consumer).steps > 5; }));
+  CHECK_EQUAL(cell.life_of_device(), Life::running);
+  CHECK(!later.has_heard("waits and is started later"));
+  CHECK(later.has_heard("actuator: what was missing is there: it runs now"));
+  CHECK_EQUAL(running.finish().exit_code, 0);
+}
+
+// [exec-92]
+void a_late_actuator_waits_for_start() {
+  CellWithout cell;
+  RunningCell running(cell);
+  running.start();
+  CHECK(wait_until([&] { return cell.steps() > 5; }));
+  CHECK(running.control().may_move());
+  cell.is_there = true;
+  CHECK(wait_until([&] { return cell.unit_state(Cell::consumer).steps > 5; }));
+  CHECK(!running.control().may_move());
+  CHECK_EQUAL(running.finish().exit_code, 0);
+}
+
+void a_late_device_that_moves_nothing_stops_nobody() {
+  CellWithout cell;
+  cell.device(Cell::actuator).actuates = false;
+  RunningCell running(cell);
+  running.start();
+  CHECK(wait_until([&] { return cell.steps() > 5; }));
+  cell.is_there = true;
+  CHECK(wait_until([&] { return cell.unit_state(Cell::consumer).steps > 5; }));
+  CHECK(running.control().may_move());
+  CHECK_EQUAL(running.finish().exit_code, 0);
+}
+
+// [exec-93]
+void a_device_that_is_waited_for_is_no_fault() {
+  for (const bool comes : {false, true}) {
+    CellWithout cell;
+    Executive executive(cell.application(), in_virtual_time(std::chrono::seconds{2}));
+    cell.unit(Cell::producer).script.step = [&](TestUnit&, const Tick& tick) {
+      if (tick.number == 800) cell.is_there = comes;
+    };
+    CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+    CHECK_EQUAL(executive.control().faults(), 0U);
+    CHECK_EQUAL(cell.unit_state(Cell::consumer).steps.load() > 0, comes);
+  }
+}
+
+// [exec-94]
+void only_a_device_that_is_not_there_is_waited_for() {
+  for (const StatusCode code : {StatusCode::invalid_argument, StatusCode::not_permitted, StatusCode::busy,
+                                StatusCode::device_fault, StatusCode::internal}) {
+    CellWithout cell(code);
+    Executive executive(cell.application(), in_virtual_time(milliseconds{10}));
+    CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
+    CHECK_EQUAL(cell.life_of_device(), Life::fault);
+  }
+  for (const StatusCode code : {StatusCode::unavailable, StatusCode::timeout}) {
+    CellWithout cell(code);
+    Executive executive(cell.application(), in_virtual_time(milliseconds{10}));
+    CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  }
+}
+
+// [exec-90]
+void what_is_on_a_missing_bus_waits_with_it() {
+  Cell cell;
+  std::atomic<bool> is_there{false};
+  DevicePlan bus{.name = "bus", .script = {}, .actuates = false, .required = false};
+  bus.script.initialise = [&](TestDevice&) {
+    return is_there ? Status{} : Status::error(StatusCode::unavailable, "no adapter");
+  };
+  const std::uint16_t place = cell.add(std::move(bus));
+  cell.device(Cell::actuator).bus = place;
+  cell.thread(Cell::consuming).devices = {place, Cell::actuator};
+  RunningCell running(cell);
+  running.start();
+  CHECK(wait_until([&] { return cell.unit_state(Cell::producer).steps > 5; }));
+  CHECK_EQUAL(cell.device_state(Cell::actuator).life.load(), Life::waiting);
+  CHECK_EQUAL(cell.unit_state(Cell::consumer).life.load(), Life::waiting);
+  CHECK_EQUAL(cell.events().count_of("actuator: initialise"), 0U);
+  is_there = true;
+  CHECK(wait_until([&] { return cell.unit_state(Cell::consumer).steps > 5; }));
+  CHECK(cell.events().place_of("actuator: initialise") < cell.events().place_of("consumer: initialise"));
+  CHECK_EQUAL(running.finish().exit_code, 0);
+}
+
+/// An emergency stop that nobody can read permits nothing.
+void a_missing_emergency_stop_permits_no_motion() {
+  Cell cell;
+  DevicePlan guard{.name = "guard", .script = {}, .actuates = false, .required = false};
+  guard.script.initialise = [](TestDevice&) { return Status::error(StatusCode::not_found, "no chip"); };
+  guard.script.demands_safe_state = [] { return false; };
+  cell.thread(Cell::producing).devices.push_back(cell.add(std::move(guard)));
+  RunningCell running(cell);
+  running.start();
+  CHECK(wait_until([&] { return cell.unit_state(Cell::producer).steps > 5; }));
+  CHECK(!running.control().may_move());
+  CHECK(!running.control().start_motion());
+  CHECK_EQUAL(running.finish().exit_code, 0);
 }
 
 // [exec-6] [exec-71] [stop-33] [stop-37]
@@ -338,6 +475,13 @@ int main() {
       CONTAINED_TEST(a_unit_that_cannot_be_initialised_ends_the_start),
       CONTAINED_TEST(an_exception_in_initialise_is_a_fault_with_its_text),
       CONTAINED_TEST(a_device_that_cannot_be_initialised_ends_the_start),
+      CONTAINED_TEST(a_device_that_need_not_be_there_is_waited_for),
+      CONTAINED_TEST(a_late_actuator_waits_for_start),
+      CONTAINED_TEST(a_late_device_that_moves_nothing_stops_nobody),
+      CONTAINED_TEST(a_device_that_is_waited_for_is_no_fault),
+      CONTAINED_TEST(only_a_device_that_is_not_there_is_waited_for),
+      CONTAINED_TEST(what_is_on_a_missing_bus_waits_with_it),
+      CONTAINED_TEST(a_missing_emergency_stop_permits_no_motion),
       CONTAINED_TEST(an_exception_in_a_step_is_that_units_fault),
       CONTAINED_TEST(what_is_no_exception_of_the_library_too),
       CONTAINED_TEST(never_is_never),

@@ -1,7 +1,7 @@
 // Which acts a unit or device offers now, and why some are locked.
 import type { Role } from '../contract';
 
-export type Life = 'created' | 'initialised' | 'running' | 'stopped' | 'fault';
+export type Life = 'created' | 'initialised' | 'running' | 'stopped' | 'fault' | 'waiting';
 
 /** A row of topic "components". */
 export interface ComponentRow {
@@ -10,7 +10,7 @@ export interface ComponentRow {
   readonly type?: string;
   readonly driver?: string;
   readonly life: Life;
-  /** Why it is in fault; empty when it is not. */
+  /** Why it is in fault or waits; empty when it does neither. */
   readonly fault: string;
   /** Why it does less than it is commanded now; empty when it does all. */
   readonly restraint: string;

@@ -134,6 +134,8 @@ export class ComponentPage extends ViewBase {
   }
 
   private fault(row: ComponentRow): unknown {
+    if (row.life === 'waiting')
+      return html`<p class="box abnormal-box ${this.age}" role="status"><strong>Waiting:</strong> ${row.fault}. It is started as soon as the device is there.</p>`;
     if (row.life !== 'fault') return nothing;
     const told = this.core.state?.faults.find((fault) => fault.component === row.name) ?? { component: row.name, kind: row.kind, cause: row.fault };
     return html`

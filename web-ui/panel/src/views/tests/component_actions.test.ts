@@ -15,6 +15,7 @@ describe('acts of a component', () => {
     expect(locks(unit)).toEqual({ start: 'It is running.', stop: '', initialise: '' });
     expect(locks({ ...unit, life: 'stopped' })).toEqual({ start: '', stop: 'It is not running.', initialise: '' });
     expect(locks({ ...unit, life: 'fault' })).toEqual({ start: '', stop: '', initialise: '' });
+    expect(locks({ ...unit, life: 'waiting' })).toEqual({ start: '', stop: '', initialise: '' });
   });
 
   it('include those of populations for members alone', () => {
@@ -36,6 +37,7 @@ describe('acts of a component', () => {
 it('puts faults first, sleeping members last', () => {
   expect(urgency({ ...unit, life: 'fault' })).toBe(0);
   expect(urgency({ ...unit, life: 'stopped' })).toBe(1);
+  expect(urgency({ ...unit, life: 'waiting' })).toBe(1);
   expect(urgency({ ...unit, active: false, life: 'stopped' })).toBe(2);
   expect(stateText({ ...unit, member: { population: 'p', index: 0 }, active: false })).toBe('ready, not active');
   expect(stateText({ ...unit, life: 'fault' })).toBe('in fault');
