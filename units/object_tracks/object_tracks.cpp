@@ -59,7 +59,8 @@ void ObjectTracks::step(const Tick& /*tick*/) {
   const auto of = features.latest();
   if (of && of.is_new()) {
     list_.frame = of->frame;
-    predict_to(of->time);
+    list_.time = of->time;
+    forget_before(of->time);
     post(*of, of.sampled_at());
     is_changed_ = true;
   }
@@ -101,20 +102,21 @@ void ObjectTracks::take(const VisionVerdict& verdict) noexcept {
   if (expected < most_tracks && list_.tracks[expected].measured_at < region.time) miss(expected, region.time);
 }
 
-/// Of the same kind and within its gate; most_tracks: none is.
+/// Of the same kind, and within its gate when the verdict's picture was taken; most_tracks: none is.
 std::size_t ObjectTracks::nearest_to(const VisionVerdict& verdict) const noexcept {
   std::size_t nearest = most_tracks;
   double least = 1e9;
   for (std::size_t i = 0; i < most_tracks; ++i) {
     const ObjectTrack& track = list_.tracks[i];
     if (track.found != verdict.verdict || track.kind != verdict.kind) continue;
-    double gate = runtime.gate + std::min(3 * beside_[i].filter.deviation(), runtime.gate);
+    const ObjectFilter filter = filter_at(i, verdict.region.time);
+    double gate = runtime.gate + std::min(3 * filter.deviation(), runtime.gate);
     // An obstacle's middle moves as more or less of it is seen.
     if (is_piece(verdict) || (track.found == VisualClass::obstacle && !beside_[i].is_whole))
       gate += std::max(track.radius, verdict.radius);
     else if (track.found == VisualClass::obstacle)
       gate += 0.5 * track.radius;
-    const double distance = (beside_[i].filter.position() - verdict.position_map()).norm();
+    const double distance = (filter.position() - verdict.position_map()).norm();
     if (distance > gate || distance >= least) continue;
     least = distance;
     nearest = i;
@@ -136,10 +138,8 @@ void ObjectTracks::measure(std::size_t place, const VisionVerdict& verdict) noex
   is_changed_ = true;
   // Once a picture, however many regions showed it; and pictures go on.
   if (verdict.repeated || region.time <= track.measured_at) return;
-  if (region.time > beside.time) {
-    beside.filter.predict(seconds(Duration{region.time - beside.time}), runtime.belt, noise());
-    beside.time = region.time;
-  }
+  // The verdict is about the track as it was when the picture was taken, however many pictures came since.
+  beside.filter = filter_at(place, region.time);
   if (track.found == VisualClass::obstacle) {
     measure_obstacle(track, beside, verdict);
   } else {
@@ -148,7 +148,8 @@ void ObjectTracks::measure(std::size_t place, const VisionVerdict& verdict) noex
   }
   track.residual = verdict.residual;
   track.measured_at = region.time;
-  track.misses = 0;
+  // A newer picture in which it was not there, told before this one, counts still.
+  track.misses = beside.missed_at > region.time ? 1 : 0;
   ++track.frames;
   ++feedback.measurements;
   track.confirmed = track.confirmed || track.frames >= runtime.confirm_frames;
@@ -211,7 +212,6 @@ void ObjectTracks::begin(const VisionVerdict& verdict) noexcept {
   beside = {};
   beside.filter.begin(verdict.position_map(), verdict.angle, runtime.belt, noise_of(verdict));
   if (track.found == VisualClass::obstacle) measure_obstacle(track, beside, verdict);
-  beside.time = region.time;
   ++feedback.measurements;
   is_changed_ = true;
   if (region.member != no_member) {
@@ -262,20 +262,26 @@ void ObjectTracks::end(std::size_t place) noexcept {
   beside_[place] = {};
 }
 
-void ObjectTracks::predict_to(std::int64_t time) noexcept {
-  list_.time = time;
+/// What was not measured for long.
+void ObjectTracks::forget_before(std::int64_t time) noexcept {
   for (std::size_t i = 0; i < most_tracks; ++i) {
-    ObjectTrack& track = list_.tracks[i];
-    if (track.found == VisualClass::nothing) continue;
-    if (seconds(Duration{time - track.measured_at}) > runtime.forget_after) {
+    const ObjectTrack& track = list_.tracks[i];
+    if (track.found != VisualClass::nothing &&
+        seconds(Duration{time - track.measured_at}) > runtime.forget_after)
       end(i);
-      continue;
-    }
-    Beside& beside = beside_[i];
-    if (time <= beside.time) continue;
-    beside.filter.predict(seconds(Duration{time - beside.time}), runtime.belt, noise());
-    beside.time = time;
   }
+}
+
+/// A track as of a picture: predicted from its last measurement, or gone back to before that.
+ObjectFilter ObjectTracks::filter_at(std::size_t place, std::int64_t time) const noexcept {
+  ObjectFilter filter = beside_[place].filter;
+  const double elapsed = seconds(Duration{time - list_.tracks[place].measured_at});
+  if (elapsed < 0) {
+    filter.go_back(-elapsed);
+  } else {
+    filter.predict(elapsed, runtime.belt, noise());
+  }
+  return filter;
 }
 
 void ObjectTracks::post(const VisualFeatures& of, Time sampled_at) noexcept {
@@ -302,9 +308,9 @@ void ObjectTracks::post(const VisualFeatures& of, Time sampled_at) noexcept {
     region.frame = of.frame;
     region.time = of.time;
     region.score = 1 + std::max(rested, 0.0);
-    region.expected = {beside_[i].filter.position().x(), beside_[i].filter.position().y(),
-                       beside_[i].filter.angle()};
-    if (!predict_region(track, region)) continue;
+    const ObjectFilter filter = filter_at(i, of.time);
+    region.expected = {filter.position().x(), filter.position().y(), filter.angle()};
+    if (!predict_region(track, filter.deviation(), region)) continue;
     if (tracked_regions.push(region, sampled_at))
       ++feedback.posted;
     else
@@ -332,15 +338,14 @@ void ObjectTracks::place_in_picture(ObjectTrack& track) const noexcept {
   track.height = static_cast<std::uint16_t>(seen.height);
 }
 
-/// False: the picture does not show its place.
-bool ObjectTracks::predict_region(const ObjectTrack& track, VisionRegion& region) const noexcept {
+/// False: the picture does not show its place. `deviation`: of that place, m.
+bool ObjectTracks::predict_region(const ObjectTrack& track, double deviation,
+                                  VisionRegion& region) const noexcept {
   const Eigen::Vector3d place(region.expected[0], region.expected[1], height_of(track.kind));
   Eigen::Vector2d pixel;
   if (!view_.to_picture(place, pixel)) return false;
-  const std::size_t index = track_of(track.identity);
   const double half =
-      (track.radius + table_around + std::min(3 * beside_[index].filter.deviation(), table_around)) *
-      view_.pixels_per_metre(place);
+      (track.radius + table_around + std::min(3 * deviation, table_around)) * view_.pixels_per_metre(place);
   const auto& camera = configuration.camera;
   if (pixel.x() < 0 || pixel.y() < 0 || pixel.x() >= camera.width || pixel.y() >= camera.height ||
       half > most_pixels)
@@ -369,7 +374,7 @@ void ObjectTracks::publish() noexcept {
   for (std::size_t i = 0; i < most_tracks; ++i) {
     ObjectTrack& track = list_.tracks[i];
     if (track.found == VisualClass::nothing) continue;
-    const ObjectFilter& filter = beside_[i].filter;
+    const ObjectFilter filter = filter_at(i, std::max(list_.time, track.measured_at));
     track.position_map() = filter.position();
     track.velocity_map() = filter.velocity();
     track.angle = filter.angle();

@@ -23,9 +23,8 @@ class ObjectTracks final : public ObjectTracksUnit {
   static constexpr std::size_t most_recognisers = 16;
   /// What is known of a track beside what is told of it.
   struct Beside {
-    ObjectFilter filter;
+    ObjectFilter filter;         // as of the picture in which it was measured last: see filter_at()
     FootFilter foot;             // of an obstacle that is_whole
-    std::int64_t time = 0;       // ns, that the filter has come to
     std::int64_t missed_at = 0;  // ns, the last picture in which it was not there
     bool is_whole = false;       // an obstacle that some picture showed wholly
   };
@@ -41,10 +40,11 @@ class ObjectTracks final : public ObjectTracksUnit {
   void miss(std::size_t place, std::int64_t time) noexcept;
   void end(std::size_t place) noexcept;
   void trust_the_promoted() noexcept;
-  void predict_to(std::int64_t time) noexcept;
+  void forget_before(std::int64_t time) noexcept;
+  ObjectFilter filter_at(std::size_t place, std::int64_t time) const noexcept;
   void post(const VisualFeatures& of, Time sampled_at) noexcept;
   void place_in_picture(ObjectTrack& track) const noexcept;
-  bool predict_region(const ObjectTrack& track, VisionRegion& region) const noexcept;
+  bool predict_region(const ObjectTrack& track, double deviation, VisionRegion& region) const noexcept;
   void publish() noexcept;
   FilterNoise noise() const noexcept;
   FilterNoise noise_of(const VisionVerdict& verdict) const noexcept;

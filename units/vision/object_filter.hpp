@@ -24,6 +24,8 @@ class ObjectFilter {
 
   /// Goes on by so many s, at least 0.
   void predict(double elapsed, bool on_belt, const FilterNoise& noise) noexcept;
+  /// Back by so many s, at least 0, along its velocity; how well it is known stays as it is.
+  void go_back(double elapsed) noexcept { position_ -= velocity_ * elapsed; }
 
   /// `symmetry`: the angle is one of so many that look the same; 0: it has none.
   void correct(const Eigen::Vector2d& position, double angle, int symmetry,

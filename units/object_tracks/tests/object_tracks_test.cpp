@@ -342,6 +342,82 @@ bool on_a_belt_it_is_expected_further_on() {
          world->posted.size() == 1 && std::abs(world->posted[0].expected[0] - x) < 0.001;
 }
 
+/// A thing on a belt, 0.3 m/s fast, in pictures whose verdicts come later and in any order.
+struct Belt {
+  static constexpr double step = 0.3 * 0.033;  // m, from picture to picture
+
+  Belt() { world->bench.runtime().belt = true; }
+  void picture() {
+    world->picture();
+    VisionVerdict verdict = world->seen(0.3 + step * static_cast<double>(verdicts.size()), 0);
+    verdict.region.probation = false;
+    verdicts.push_back(verdict);
+  }
+  void tell(std::size_t picture) { world->tell(verdicts[picture]); }
+  double place_now() const { return 0.3 + step * static_cast<double>(verdicts.size() - 1); }
+
+  std::unique_ptr<World> world = std::make_unique<World>();
+  std::vector<VisionVerdict> verdicts;
+};
+
+/// Each verdict so many pictures after its own.
+bool follows_by_verdicts_that_are_late(std::size_t late) {
+  Belt belt;
+  for (std::size_t i = 0; i < 20 + late; ++i) {
+    belt.picture();
+    if (i >= late) belt.tell(i - late);
+  }
+  belt.picture();
+  const ObjectTrack track = belt.world->first();
+  const bool good = belt.world->count() == 1 && belt.world->posted.size() == 1 &&
+                    std::abs(belt.world->posted[0].expected[0] - belt.place_now()) < 0.001 &&
+                    std::abs(track.position[0] - belt.place_now()) < 0.001 &&
+                    std::abs(track.velocity[0] - 0.3) < 0.01;
+  if (!good)
+    print_message("%zu late: at %g, is at %g, %u tracks\n", late, belt.place_now(), track.position[0],
+                  belt.world->count());
+  return good;
+}
+
+bool a_verdict_counts_when_its_picture_was_taken() {
+  for (const std::size_t late : {0U, 1U, 2U, 4U})
+    if (!follows_by_verdicts_that_are_late(late)) return false;
+  return true;
+}
+
+/// Of two recognisers one is slower: its verdict is about an older picture than the last that was told.
+bool an_older_picture_shows_the_same_thing_farther_back() {
+  Belt belt;
+  for (std::size_t i = 0; i < 20; ++i) {
+    belt.picture();
+    if (i != 16) belt.tell(i);
+  }
+  const ObjectTrack before = belt.world->first();
+  belt.tell(16);
+  const ObjectTrack after = belt.world->first();
+  return belt.world->count() == 1 && after.frames == before.frames &&
+         after.position[0] == before.position[0] && after.measured_at == before.measured_at;
+}
+
+/// The thing was measured in the first of two pictures and is gone in the second, in each order of telling.
+bool a_picture_without_it_counts_in_any_order() {
+  for (const bool in_order : {true, false}) {
+    const auto world = std::make_unique<World>();
+    world->follow(6, 0.42, 0.03);
+    world->picture();
+    const VisionVerdict seen = world->seen(0.42, 0.03);
+    world->picture();
+    VisionVerdict gone = world->seen(0, 0);
+    gone.verdict = VisualClass::nothing;
+    gone.region.member = no_member;
+    gone.region.track = world->first().identity;
+    world->tell(in_order ? seen : gone);
+    world->tell(in_order ? gone : seen);
+    if (world->first().misses != 1 || world->first().frames != 7) return false;
+  }
+  return true;
+}
+
 /// In here, so that a failing assertion jumps over no destructor.
 template <bool (*holds)()>
 void check(void**) {
@@ -386,6 +462,12 @@ int main() {
       {"forgetting empties the list", check<forgetting_empties_the_list>, nullptr, nullptr, nullptr},
       {"on a belt it is expected further on", check<on_a_belt_it_is_expected_further_on>, nullptr, nullptr,
        nullptr},
+      {"a verdict counts when its picture was taken", check<a_verdict_counts_when_its_picture_was_taken>,
+       nullptr, nullptr, nullptr},
+      {"an older picture shows the same thing farther back",
+       check<an_older_picture_shows_the_same_thing_farther_back>, nullptr, nullptr, nullptr},
+      {"a picture without it counts in any order", check<a_picture_without_it_counts_in_any_order>, nullptr,
+       nullptr, nullptr},
   };
   return cmocka_run_group_tests_name("object tracks", tests, nullptr, nullptr);
 }
