@@ -18,7 +18,7 @@ struct CameraImage {
   std::uint32_t height = 0;            ///< rows
   std::uint32_t stride = 0;            ///< bytes from one row to the next; 0 in mjpeg
   PixelFormat format = PixelFormat::none;
-  Time time{};                 ///< when it was taken, as the kernel says
+  Time time{};                 ///< the middle of its exposure, on the clock of the cycles
   std::uint64_t sequence = 0;  ///< the camera's count: rises, what is left out was lost [camera-1]
 };
 

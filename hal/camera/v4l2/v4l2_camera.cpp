@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "hal/camera/interface/picture_size.hpp"
+#include "runtime/log/log.hpp"
 
 namespace flexrf {
 namespace {
@@ -124,6 +125,13 @@ void V4l2Camera::follow_keeper(Time now) noexcept {
   watch(events_, session_->descriptor());
   journal_.begin_stream();
   feedback.frame_rate = session_->format().frame_rate;
+  const double rate = feedback.frame_rate > 0 ? feedback.frame_rate : configuration.frame_rate;
+  clock_.begin({.period = duration_of(1 / rate),
+                .exposure = duration_of(configuration.exposure_time),
+                .readout = duration_of(configuration.readout_time),
+                .rolling = configuration.rolling_shutter},
+               session_->began());
+  told_clock_ = "";
   heard_.store(nanoseconds(now), std::memory_order_relaxed);
 }
 
@@ -144,12 +152,15 @@ bool V4l2Camera::take_picture(Time now) noexcept {
   if (session_ == nullptr) return false;
   VideoPicture picture;
   int result = session_->take(picture);
-  if (result == 0) return false;
+  if (result == 0) {
+    clock_.note_none(now);
+    return false;
+  }
   if (result > 0) {
     heard_.store(nanoseconds(now), std::memory_order_relaxed);
     if (picture.damage == nullptr) {
       const std::uint64_t sequence = journal_.note_whole(picture.sequence);
-      result = pass_on(picture, picture.time == Time{} ? now : picture.time, sequence);
+      result = pass_on(picture, time_of(picture.stamp), sequence);
     } else {
       journal_.note_damaged(picture.sequence, picture.damage);
       result = session_->give(picture.index);
@@ -163,6 +174,24 @@ bool V4l2Camera::take_picture(Time now) noexcept {
            : Status::error(StatusCode::device_fault, "the camera %s failed (%s); it is begun anew",
                            request_.device.c_str(), std::strerror(-result)));
   return false;
+}
+
+/// By the clock as it is now: a picture may have come since the cycle began.
+Time V4l2Camera::time_of(const PictureStamp& stamp) noexcept {
+  const Time at = clock_.exposed_at(stamp, MonotonicClock::now());
+  const char* const clock = words_for(clock_.source());
+  if (clock_.source() == StampSource::arrival) ++feedback.stamped_on_arrival;
+  if (text_view(feedback.clock) != clock) set_text(feedback.clock, clock);
+  if (clock_.source() == StampSource::arrival && *told_clock_ == '\0') {
+    told_clock_ = clock;
+    log_warning(
+        name(),
+        "pictures are stamped on arrival: the stamps of the kernel's driver are {}, and times may be off "
+        "by what the way to this machine takes",
+        StaticText{stamp.source == StampSource::arrival ? "not by CLOCK_MONOTONIC"
+                                                        : "ahead of now, or too old"});
+  }
+  return at;
 }
 
 int V4l2Camera::pass_on(const VideoPicture& picture, Time at, std::uint64_t sequence) noexcept {

@@ -47,6 +47,7 @@ class V4l2Camera final : public V4l2CameraDriver {
   void follow_keeper(Time now) noexcept;
   void read_report() noexcept;
   bool take_picture(Time now) noexcept;
+  Time time_of(const PictureStamp& stamp) noexcept;
   int pass_on(const VideoPicture& picture, Time at, std::uint64_t sequence) noexcept;
   int publish_filled(const VideoPicture& picture, Time at, std::uint64_t sequence) noexcept;
   int publish_copy(const VideoPicture& picture, Time at, std::uint64_t sequence) noexcept;
@@ -86,6 +87,8 @@ class V4l2Camera final : public V4l2CameraDriver {
   std::array<CameraFrame*, most_loans> lent_{};  // where they are
   std::size_t loan_count_ = 0;
   CameraJournal journal_;
+  PictureClock clock_;
+  const char* told_clock_ = "";  // in the log, of this stream
   std::optional<CameraImage> image_;
   std::optional<std::uint32_t> shown_;  // the kernel's buffer that image_ is in
   std::array<char, 256> wished_{};

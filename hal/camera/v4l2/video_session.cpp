@@ -52,6 +52,15 @@ struct VideoBuffer {
   std::uint32_t begin() const noexcept { return planes ? plane.data_offset : 0; }
 };
 
+PictureStamp stamp_of(const v4l2_buffer& buffer) noexcept {
+  // A copied stamp is somebody else's, an unknown one by any clock.
+  if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) return {};
+  const auto since =
+      std::chrono::seconds(buffer.timestamp.tv_sec) + std::chrono::microseconds(buffer.timestamp.tv_usec);
+  const bool begins = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+  return {begins ? StampSource::begin_of_exposure : StampSource::end_of_frame, Time{since}};
+}
+
 /// Bytes that a whole picture has at least; the last row may lack its padding.
 std::size_t whole_size(const VideoFormat& format) noexcept {
   return std::size_t{format.stride} * (data_rows(format.format, format.height) - 1) +
@@ -109,6 +118,7 @@ Status VideoSession::stream(const VideoRequest& request) {
   }
   if (result < 0) result = use_maps();
   auto type = static_cast<int>(device_.buffer_type());
+  began_ = MonotonicClock::now();
   if (result >= 0) result = device_.calls().control(descriptor(), VIDIOC_STREAMON, &type);
   if (result < 0) return video_error(result, device_.path(), "stream");
   streaming_ = true;
@@ -185,10 +195,7 @@ int VideoSession::take(VideoPicture& picture) noexcept {
                    : taken.begin() != 0                      ? "it does not begin with its buffer"
                                                              : nullptr;
   if (picture.damage == nullptr) judge(picture);
-  const bool monotonic = (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
-  const auto since =
-      std::chrono::seconds(buffer.timestamp.tv_sec) + std::chrono::microseconds(buffer.timestamp.tv_usec);
-  picture.time = monotonic ? Time{since} : Time{};
+  picture.stamp = stamp_of(buffer);
   return 1;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/time.hpp"
+#include "hal/camera/v4l2/picture_clock.hpp"
 #include "hal/camera/v4l2/video_device.hpp"
 #include "types/camera_frame.hpp"
 
@@ -27,7 +28,7 @@ struct VideoPicture {
   std::uint32_t sequence = 0;  ///< the camera's
   std::uint32_t bytes = 0;
   const char* damage = nullptr;  ///< null: it is whole; lives for ever
-  Time time{};                   ///< CLOCK_MONOTONIC; no time: the kernel does not say
+  PictureStamp stamp;
 };
 
 class VideoSession {
@@ -56,6 +57,8 @@ class VideoSession {
 
   bool has_user_pointers() const noexcept { return user_pointers_; }
   const VideoFormat& format() const noexcept { return format_; }
+  /// When the stream began, CLOCK_MONOTONIC.
+  Time began() const noexcept { return began_; }
 
   // ---- who began it, beside the camera's thread
 
@@ -82,6 +85,7 @@ class VideoSession {
   std::size_t room_ = 0;
   bool user_pointers_ = false;
   bool streaming_ = false;
+  Time began_{};
   std::uint32_t count_ = 0;  // of buffers that the kernel knows
   std::array<CameraFrame*, most_buffers> frames_{};
   std::array<std::span<const std::uint8_t>, most_buffers> maps_{};

@@ -7,6 +7,7 @@
 #include "hal/camera/v4l2/tests/scripted_kernel.hpp"
 #include "hal/camera/v4l2/v4l2_camera.hpp"
 #include "tests/cmocka.hpp"
+#include "tests/log_ear.hpp"
 
 namespace flexrf {
 namespace {
@@ -49,6 +50,17 @@ class Injected {
     return Bytes(data.begin(), data.end()) == sent && is_as_asked(frame.stride) &&
            kernel_.was_given(data.data());
   }
+
+  /// When the picture was exposed that comes with this stamp.
+  std::optional<Time> exposed_at(std::uint32_t flags, Time stamp) {
+    camera_.bench().configuration().exposure_time = 0.008;
+    camera_.bench().configuration().readout_time = 0.03;
+    kernel_.inject(Bytes(size_), flags, stamp);
+    camera_.bench().receive(MonotonicClock::now() - camera_.bench().now());
+    const auto image = camera_.driver().frame();
+    return image ? std::optional(image->time) : std::nullopt;
+  }
+  const auto& own_told() { return camera_.bench().feedback(); }
 
  private:
   bool is_as_asked(std::uint32_t stride) {
@@ -138,6 +150,51 @@ bool a_picture_in_the_middle_of_its_buffer_is_left_out() {
          text_view(camera.told().damage) == "it does not begin with its buffer";
 }
 
+/// A column of what the kernel may say of a picture's time.
+struct Stamped {
+  std::uint32_t flags;
+  Duration before_now;  // the stamp, when the picture comes
+  const char* clock;    // that counts
+  Duration after_stamp;
+};
+
+constexpr std::uint32_t monotonic = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+constexpr Duration half = std::chrono::milliseconds(19);  // of exposure and readout
+constexpr Stamped stamps[] = {
+    {monotonic | V4L2_BUF_FLAG_TSTAMP_SRC_EOF, std::chrono::milliseconds(5), "end of frame", -half},
+    {monotonic | V4L2_BUF_FLAG_TSTAMP_SRC_SOE, std::chrono::milliseconds(25), "begin of exposure", half},
+    {monotonic, std::chrono::milliseconds(-500), "arrival", {}},
+    {monotonic, std::chrono::seconds(10), "arrival", {}},
+    {V4L2_BUF_FLAG_TIMESTAMP_COPY, std::chrono::milliseconds(5), "arrival", {}},
+    {V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN, std::chrono::milliseconds(5), "arrival", {}},
+};
+
+bool is_stamped_as(const Stamped& column) {
+  Injected camera(PixelFormat::grey8, false, {.formats = {V4L2_PIX_FMT_GREY}});
+  const LogEar ear;
+  if (!camera.start()) return false;
+  // As the kernel tells it, in whole microseconds.
+  const Time before =
+      Time{std::chrono::floor<std::chrono::microseconds>(MonotonicClock::now().time_since_epoch())};
+  const Time stamp = before - column.before_now;
+  const auto exposed = camera.exposed_at(column.flags, stamp);
+  const bool arrived = std::string_view(column.clock) == "arrival";
+  const bool at_its_time =
+      exposed && (arrived ? *exposed >= before - half && *exposed <= MonotonicClock::now() - half
+                          : *exposed == stamp + column.after_stamp);
+  return at_its_time && text_view(camera.own_told().clock) == column.clock &&
+         camera.own_told().stamped_on_arrival == (arrived ? 1U : 0U) &&
+         ear.has_heard("pictures are stamped on arrival") == arrived;
+}
+
+void a_picture_is_of_the_middle_of_its_exposure(void**) {
+  for (const Stamped& column : stamps) {
+    const bool good = is_stamped_as(column);
+    if (!good) print_message("%s, %X\n", column.clock, column.flags);
+    assert_true(good);
+  }
+}
+
 void a_plane_that_begins_later_is_damaged(void**) {
   assert_true(a_picture_in_the_middle_of_its_buffer_is_left_out());
 }
@@ -153,6 +210,7 @@ int main() {
       cmocka_unit_test(interlaced_pictures_come_and_are_told),
       cmocka_unit_test(fields_that_come_one_after_the_other_are_refused),
       cmocka_unit_test(a_plane_that_begins_later_is_damaged),
+      cmocka_unit_test(a_picture_is_of_the_middle_of_its_exposure),
   };
   return cmocka_run_group_tests_name("scripted camera", tests, nullptr, nullptr);
 }

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/time.hpp"
 #include "hal/camera/v4l2/video_calls.hpp"
 
 namespace flexrf {
@@ -31,9 +32,9 @@ class ScriptedKernel final : public VideoCalls {
       : buffer_size_(buffer_size), camera_(std::move(camera)) {}
 
   /// The next picture, as it lies in the buffer that the driver takes.
-  void inject(std::span<const std::uint8_t> bytes, std::uint32_t flags = 0) {
+  void inject(std::span<const std::uint8_t> bytes, std::uint32_t flags = 0, Time stamp = {}) {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back({{bytes.begin(), bytes.end()}, flags, sequence_++});
+    waiting_.push_back({{bytes.begin(), bytes.end()}, flags, sequence_++, stamp});
   }
   /// Whether it was given this buffer to fill.
   bool was_given(const std::uint8_t* data) {
@@ -94,6 +95,7 @@ class ScriptedKernel final : public VideoCalls {
     std::vector<std::uint8_t> bytes;
     std::uint32_t flags = 0;
     std::uint32_t sequence = 0;
+    Time stamp{};
   };
 
   /// As the kernel: a buffer's type is that of the camera, and its planes are described where it has any.
@@ -175,6 +177,8 @@ class ScriptedKernel final : public VideoCalls {
     }
     buffer.flags = next.flags;
     buffer.sequence = next.sequence;
+    const std::int64_t stamp = nanoseconds(next.stamp) / 1000;
+    buffer.timestamp = {.tv_sec = stamp / 1'000'000, .tv_usec = stamp % 1'000'000};
     waiting_.erase(waiting_.begin());
     return 0;
   }
