@@ -169,6 +169,15 @@ struct Address {
   std::string name;  // of the parameter
 };
 
+// A line's offset has several spellings: "3", "#3", "#03".
+std::string plain_address(std::string_view text) {
+  std::string_view digits = text.substr(text.starts_with('#') ? 1 : 0);
+  if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos)
+    return std::string(text);
+  while (digits.size() > 1 && digits.front() == '0') digits.remove_prefix(1);
+  return "#" + std::string(digits);
+}
+
 void take_addresses(const ParameterBlock& block, const std::vector<Literal>& values,
                     std::vector<Address>& addresses) {
   const auto take = [&](const Parameter& parameter, const Literal& literal) {
@@ -176,7 +185,8 @@ void take_addresses(const ParameterBlock& block, const std::vector<Literal>& val
     const auto* text = std::get_if<std::string>(&literal.value);
     if (number != nullptr && *number != 0)
       addresses.push_back({std::to_string(*number), parameter.field.name});
-    if (text != nullptr && !text->empty()) addresses.push_back({quote(*text), parameter.field.name});
+    if (text != nullptr && !text->empty())
+      addresses.push_back({quote(plain_address(*text)), parameter.field.name});
   };
   for (std::size_t i = 0; i < block.parameters.size() && i < values.size(); ++i) {
     if (!block.parameters[i].address) continue;

@@ -69,9 +69,9 @@ void parameters(const Model& model, std::string_view title, const std::vector<co
           parameter.kind != Parameter::Kind::feedback && parameter.input == Parameter::Input::value;
       rows << " | " << (has_default ? cell(value_text(model, field, parameter.initial)) : "") << " | "
            << cell(field.summary);
-      for (const Need& need : parameter.needs)
-        rows << (&need == parameter.needs.data() ? " It " : ", ") << cell(need.reason);
-      rows << (parameter.needs.empty() ? " |\n" : ". |\n");
+      const std::vector<Need>& needs = parameter.needs.empty() ? parameter.conditions : parameter.needs;
+      for (const Need& need : needs) rows << (&need == needs.data() ? " It " : ", ") << cell(need.reason);
+      rows << (needs.empty() ? " |\n" : ". |\n");
     }
   }
   if (rows.str().empty()) return;

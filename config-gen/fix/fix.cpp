@@ -13,7 +13,7 @@
 #include "config-gen/model/file_contents.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/csv.hpp"
-#include "config-gen/read/source_text.hpp"
+#include "config-gen/model/source_text.hpp"
 #include "config-gen/read/tree.hpp"
 
 namespace flexrf::config_gen {

@@ -113,9 +113,10 @@ struct Literal {
 
 enum class PanelRole { viewer, op, engineer, admin };  // `op`: operator, which is a keyword
 
-// What must be so for a button or a hold to have an effect.
+// What must be so for a button or a hold to have an effect, or for a parameter of the configuration to be
+// set.
 struct Need {
-  enum class Of { motion, runtime, feedback };
+  enum class Of { motion, runtime, feedback, configuration };  // the last of conditions only
   Of of = Of::motion;
   std::string field;          // empty: motion
   std::uint64_t numbers = 0;  // bit n: this value of a bool (0, 1) or an enumeration will do
@@ -140,9 +141,10 @@ struct Parameter {
   std::string label;  // empty: made from the name
   std::string menu;
   PanelRole role = PanelRole::op;
-  bool persist = true;      // runtime only
-  bool address = false;     // configuration only: what one device alone may have on its bus
-  std::vector<Need> needs;  // of a button or a hold: all of them
+  bool persist = true;           // runtime only
+  bool address = false;          // configuration only: what one device alone may have on its bus
+  std::vector<Need> needs;       // of a button or a hold: all of them
+  std::vector<Need> conditions;  // of a parameter of the configuration that is set: all of them
 };
 
 // One generated struct of plain fields: Configuration, Runtime or Feedback.
@@ -514,6 +516,7 @@ struct ParameterOverride {
   std::optional<Literal> high;
   std::optional<Literal> step;
   std::optional<std::string> widget;
+  Position widget_position;
   std::optional<std::string> menu;
   std::optional<std::string> place;
   Position place_position;

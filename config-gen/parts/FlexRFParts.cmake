@@ -7,9 +7,9 @@ endif()
 
 set(folder "${CMAKE_CURRENT_BINARY_DIR}/parts")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
-  parts/CMakeLists.txt parts/main.cpp model/diagnostics.cpp model/diagnostics.hpp model/hint.hpp model/limits.hpp model/words.cpp model/words.hpp
+  parts/CMakeLists.txt parts/main.cpp model/diagnostics.cpp model/diagnostics.hpp model/hint.hpp model/limits.hpp model/source_text.cpp model/source_text.hpp model/words.cpp model/words.hpp
   read/csv.cpp read/csv.hpp read/device_list.cpp read/device_list.hpp read/parts.cpp read/parts.hpp read/row.cpp read/row.hpp
-  read/source_text.cpp read/tree.cpp read/tree.hpp)
+  read/tree.cpp read/tree.hpp)
 set(as_here -G "${CMAKE_GENERATOR}" "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" "-DCMAKE_MAKE_PROGRAM=${CMAKE_MAKE_PROGRAM}")
 if(CMAKE_CXX_COMPILER_LAUNCHER)
   list(APPEND as_here "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}")

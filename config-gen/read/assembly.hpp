@@ -81,6 +81,17 @@ void read_panel(Assembly& assembly);                       // [panel], [widget.N
 std::vector<Literal> read_values(Assembly& assembly, const Node* table, const ParameterBlock& block,
                                  const std::string& section, const std::string& row_name);
 
+// A block of the configuration and its values, one for each parameter.
+struct ConfigurationPart {
+  const ParameterBlock& block;
+  const std::vector<Literal>& values;
+};
+
+// Whether each parameter of `own` that is set in this row has what it needs there, of `own` or of what its
+// interface has.
+void check_needs_of_configuration(Assembly& assembly, const ConfigurationPart& own,
+                                  const std::optional<ConfigurationPart>& of_interface, const Row& row);
+
 // parameter.P = {...} under `table` (may be null), for parameters of `blocks`; `owner` is as "'arm'".
 std::vector<ParameterOverride> read_overrides(Assembly& assembly, const Node* table,
                                               const std::vector<const ParameterBlock*>& blocks,

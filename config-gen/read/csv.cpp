@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "config-gen/model/source_text.hpp"
 #include "config-gen/model/words.hpp"
-#include "config-gen/read/source_text.hpp"
 
 namespace flexrf::config_gen {
 namespace {

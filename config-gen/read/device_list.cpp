@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "config-gen/model/limits.hpp"
+#include "config-gen/model/source_text.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/csv.hpp"
 #include "config-gen/read/row.hpp"
@@ -332,11 +333,7 @@ class Lists {
                          "name one file; its cells may contain arguments, as TANK_${index}_FULL");
       return std::nullopt;
     }
-    if (!fs::is_regular_file(file)) {
-      diagnostics_.error(position, "there is no file " + quote(name),
-                         "it is looked for at " + file.generic_string());
-      return std::nullopt;
-    }
+    if (!check_named_file(file, name, position, diagnostics_)) return std::nullopt;
     files_.push_back(file);
     const std::size_t before = diagnostics_.errors();
     auto list = read_csv(file, diagnostics_);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "config-gen/model/source_text.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
 #include "config-gen/read/eds_check.hpp"
@@ -29,17 +30,17 @@ void read_io_thread(Assembly& assembly, Row& row, Index device) {
     thread.priority = static_cast<int>(io.integer("priority", 0, 98).value_or(0));
     thread.above_interrupts = io.boolean("above_interrupts").value_or(false);
     thread.role = read_role(io).value_or(thread.role);
-    const auto period = io.positive_duration("period");
-    trigger.min_interval = io.positive_duration("min_interval");
+    const auto period = io.positive_duration("period", release_bounds);
+    trigger.min_interval = io.positive_duration("min_interval", release_bounds);
     thread.trigger = trigger;
     if (period) thread.trigger = PeriodTrigger{*period, 0};
     if (period && io.has("min_interval"))
       assembly.diagnostics.error(
           io.position("min_interval"), io.name() + " has both 'period' and 'min_interval'",
           "keep 'period' for a polled device, 'min_interval' for one that wakes its thread");
-    thread.demand = io.positive_duration("budget").value_or(0);
+    thread.demand = io.positive_duration("budget", release_bounds).value_or(0);
     thread.stack = read_stack(io, assembly.diagnostics).value_or(thread.stack);
-    thread.hang_timeout = io.positive_duration("hang_timeout");
+    thread.hang_timeout = io.positive_duration("hang_timeout", supervision_bounds);
     io.finish();
   } else if (value->kind != Node::Kind::boolean) {
     row.wrong_kind(*value, "io_thread", "true or a table",
@@ -150,11 +151,7 @@ void read_resources(Assembly& assembly, Row& row, Device& device) {
     DeviceResource& read = device.resources.back();
     for (const std::string& package : robot.packages)
       read.packages.push_back((folder / package).lexically_normal());
-    if (!std::filesystem::is_regular_file(file)) {
-      assembly.diagnostics.error(robot.urdf.position, "there is no file " + quote(*robot.file),
-                                 "it is looked for at " + file.generic_string());
-      continue;
-    }
+    if (!check_named_file(file, *robot.file, robot.urdf.position, assembly.diagnostics)) continue;
     assembly.model.files.push_back(file);
     if (is_robot)
       read.chain = read_urdf(file, robot.urdf, assembly.diagnostics);
@@ -194,11 +191,7 @@ void check_data_sheets(Assembly& assembly, const Device& device) {
     const Driver& driver = assembly.model.drivers[choice.driver];
     const std::filesystem::path file =
         (assembly.model.application->file.parent_path() / choice.eds).lexically_normal();
-    if (!std::filesystem::is_regular_file(file)) {
-      assembly.diagnostics.error(choice.eds_position, "there is no file " + quote(choice.eds),
-                                 "it is looked for at " + file.generic_string());
-      continue;
-    }
+    if (!check_named_file(file, choice.eds, choice.eds_position, assembly.diagnostics)) continue;
     assembly.model.files.push_back(file);
     const auto eds = read_eds(file, assembly.diagnostics);
     if (!eds) continue;
@@ -265,12 +258,18 @@ void read_device_row(Assembly& assembly, const FlatRow& flat) {
   row.text("on");
   row.table("out");
   device.outputs.resize(assembly.model.interfaces[*interface].outputs.size());
-  device.initialise_timeout = row.positive_duration("initialise_timeout").value_or(device.initialise_timeout);
+  device.initialise_timeout =
+      row.positive_duration("initialise_timeout", supervision_bounds).value_or(device.initialise_timeout);
   device.required = row.boolean("required").value_or(device.required);
   const Interface& kind = assembly.model.interfaces[*interface];
   device.configuration =
       read_values(assembly, row.table("configuration"), kind.configuration, "configuration", row.name());
   device.runtime = read_values(assembly, row.table("runtime"), kind.runtime, "runtime", row.name());
+  const ConfigurationPart common{kind.configuration, device.configuration};
+  check_needs_of_configuration(assembly, common, std::nullopt, row);
+  for (const DriverChoice& choice : device.drivers)
+    check_needs_of_configuration(
+        assembly, {assembly.model.drivers[choice.driver].configuration, choice.configuration}, common, row);
   check_data_sheets(assembly, device);
   read_device_overrides(assembly, row, device);
   read_io_thread(assembly, row, index);

@@ -10,6 +10,7 @@
 #include "config-gen/read/literal.hpp"
 #include "config-gen/read/members.hpp"
 #include "config-gen/read/quantities.hpp"
+#include "config-gen/read/widget_kinds.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -92,7 +93,8 @@ void read_unit_of_measure(Row& row, Field& field, const std::vector<UnitChoice>&
   }
   field.unit = *unit;
   for (const std::string& variant : variants_of(*unit, choices)) {
-    if (const std::string advice = judge_unit(variant, integer); !advice.empty()) {
+    if (const std::string advice = judge_unit(variant, integer ? UnitUse::multiples : UnitUse::si);
+        !advice.empty()) {
       diagnostics.error(row.position("unit"),
                         quote(*unit) + " is not a unit of measure that " + row.name() + " can have", advice);
       field.told_unit = *unit;
@@ -105,6 +107,15 @@ void read_unit_of_measure(Row& row, Field& field, const std::vector<UnitChoice>&
                       row.name() + " is a physical quantity by its name, and 'unit' says that it has none",
                       "write the SI unit that it is measured in, as unit = \"m/s\"; a part or a multiple of "
                       "something says so in its name, as velocity_share or velocity_factor");
+  if (*unit == "1") return;
+  for (const std::string& variant : variants_of(*unit, choices)) {
+    const std::string instead = units_instead(field.name, variant);
+    if (instead.empty()) continue;
+    diagnostics.error(row.position("unit"),
+                      quote(*unit) + " does not measure what " + row.name() + " is by its name",
+                      "write " + instead + ", or name it by what it is");
+    return;
+  }
 }
 
 // Before anything is computed from its size.
@@ -228,7 +239,15 @@ Parameter read_parameter(Library& library, const Node& node, Parameter::Kind kin
     if (const auto role = row.word("role", {"viewer", "operator", "engineer", "admin"}))
       parameter.role = static_cast<PanelRole>(*role);
   }
-  if (kind == Parameter::Kind::runtime) row.also("needs");  // when the feedback is known, too
+  if (field && !parameter.widget.empty()) {
+    const std::string needs = widget_misfit(library.model(), parameter.widget, parameter, false);
+    if (!needs.empty())
+      library.diagnostics().error(
+          row.position("widget"),
+          "the widget " + quote(parameter.widget) + " cannot show " + row.name() + ": it needs " + needs,
+          "remove it, and the page shows the usual one");
+  }
+  if (kind != Parameter::Kind::feedback) row.also("needs");  // when all that it may name is known
   if (kind == Parameter::Kind::runtime) parameter.persist = row.boolean("persist").value_or(true);
   if (kind == Parameter::Kind::configuration && row.boolean("address").value_or(false)) {
     parameter.address = true;

@@ -1,4 +1,5 @@
 // Interface tables and driver tables.
+#include "config-gen/model/source_text.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/library.hpp"
 #include "config-gen/read/members.hpp"
@@ -29,13 +30,13 @@ std::vector<UnitChoice> read_unit_choices(Row& row, Diagnostics& diagnostics) {
     choice.name = child.key;
     choice.position = child.key_position;
     const Node* list = names.list_of_texts(child.key);
-    if (!is_snake_case(choice.name) || judge_unit(choice.name, true).empty())
+    if (!is_snake_case(choice.name) || judge_unit(choice.name, UnitUse::device).empty())
       diagnostics.error(
           child.key_position, quote(choice.name) + " is not a name for a choice of units",
           "write a word in small letters that is no unit itself, as units.axis = [\"m\", \"rad\"]");
     if (list == nullptr) continue;
     for (const Node& unit : list->children) {
-      std::string advice = judge_unit(unit.text, false);
+      std::string advice = judge_unit(unit.text, UnitUse::si);
       if (advice.empty() && unit.text.find_first_of("*/^") != std::string::npos)
         advice = "write a single one, as \"m\"; what is made of it stands in the parameters' units";
       if (advice.empty()) {
@@ -72,11 +73,7 @@ Resource read_resource(const Node& node, Diagnostics& diagnostics) {
 // objects = "FILE": what the driver asks of a device that is described by an EDS file.
 void read_objects(Library& library, const std::string& name, const Position& position, Driver& driver) {
   const std::filesystem::path file = (driver.file.parent_path() / name).lexically_normal();
-  if (!std::filesystem::is_regular_file(file)) {
-    library.diagnostics().error(position, "there is no file " + quote(name),
-                                "it is looked for at " + file.generic_string());
-    return;
-  }
+  if (!check_named_file(file, name, position, library.diagnostics())) return;
   library.model().files.push_back(file);
   std::vector<ListParameter> parameters;
   for (const ParameterBlock* block :
@@ -184,6 +181,7 @@ std::optional<Index> read_interface_table(Library& library, const Node& root,
   read_parameters(library, root, Parameter::Kind::runtime, interface.runtime, interface.units);
   read_parameters(library, root, Parameter::Kind::feedback, interface.feedback, interface.units);
   read_needs(library, root, interface.runtime, interface.feedback);
+  read_needs_of_configuration(library, root, interface.configuration);
   if (!complete) return std::nullopt;
 
   Model& model = library.model();
@@ -203,6 +201,9 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
   Row row(root, "this driver table", diagnostics);
   driver.summary = row.summary();
   driver.class_name = read_class(row, driver.stem, diagnostics);
+  if (!is_snake_case(driver.stem))
+    diagnostics.error(root.position, "the file's name " + quote(driver.stem) + " is not a name for a driver",
+                      "name folder and file in lower_snake_case, as robotiq_gripper/robotiq_gripper.toml");
   driver.base_class = driver.class_name + "Driver";
   driver.header = library.include_path(file, driver.stem + ".hpp");
   driver.base_header = driver.stem + "_driver.hpp";
@@ -254,6 +255,7 @@ std::optional<Index> read_driver_table(Library& library, const Node& root,
   read_parameters(library, root, Parameter::Kind::runtime, driver.runtime, face.units, face.runtime);
   read_parameters(library, root, Parameter::Kind::feedback, driver.feedback, face.units, face.feedback);
   read_needs(library, root, driver.runtime, driver.feedback, face);
+  read_needs_of_configuration(library, root, driver.configuration, face.configuration);
   if (!index) return std::nullopt;
   check_beside(face.configuration, driver.configuration, *interface, diagnostics);
   check_beside(face.runtime, driver.runtime, *interface, diagnostics);

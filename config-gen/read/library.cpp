@@ -23,7 +23,8 @@ std::vector<fs::path> sorted_tables(const fs::path& folder) {
 std::vector<fs::path> sorted_folders(const fs::path& folder) {
   std::vector<fs::path> folders;
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, ignored))
+  for (const fs::directory_entry& entry :
+       fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, ignored))
     if (entry.is_directory(ignored)) folders.push_back(entry.path());
   std::sort(folders.begin(), folders.end());
   return folders;
@@ -123,11 +124,17 @@ std::string_view Library::space_of(const fs::path& file) const {
   return library_with(fs::weakly_canonical(file)) == nullptr ? user_space : library_space;
 }
 
-std::string Library::include_path(const fs::path& file, const std::string& header) const {
+std::string Library::include_path(const fs::path& file, const std::string& header) {
   const fs::path place = fs::weakly_canonical(file).parent_path();
   const fs::path* library = library_with(place);
   const fs::path root = library == nullptr ? place.parent_path().parent_path() : library->parent_path();
-  return (place.lexically_relative(root) / header).generic_string();
+  std::string path = (place.lexically_relative(root) / header).generic_string();
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  const bool is_quoted = path.find('"') == std::string::npos || path.find('>') == std::string::npos;
+  if (!is_quoted || std::any_of(path.begin(), path.end(), is_control))
+    diagnostics_.error({intern(file.generic_string()), 1, 1}, quote(path) + " cannot stand in an #include",
+                       "rename the folder: leave out ends of lines, and one of the signs \" and >");
+  return path;
 }
 
 std::optional<Node> Library::parse(const fs::path& file) {

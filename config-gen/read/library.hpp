@@ -37,7 +37,7 @@ class Library {
   std::string_view space_of(const std::filesystem::path& file) const;
   // How a header beside this table is included: FlexRF's own from the root,
   // "hal/gripper/mock/mock_gripper.hpp"; others by their last two folders, "units/jog/jog.hpp".
-  std::string include_path(const std::filesystem::path& file, const std::string& header) const;
+  std::string include_path(const std::filesystem::path& file, const std::string& header);
 
   Model& model() { return model_; }
   Diagnostics& diagnostics() { return diagnostics_; }

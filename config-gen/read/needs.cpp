@@ -1,10 +1,10 @@
 #include "config-gen/read/needs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "config-gen/model/words.hpp"
@@ -43,13 +43,13 @@ Need motion() {
 
 class NeedReader {
  public:
-  NeedReader(Library& library, const ParameterBlock& runtime, const ParameterBlock& feedback,
-             const Interface& before)
-      : library_(library), blocks_{&feedback, &before.feedback, &runtime, &before.runtime} {}
+  // Looked for in this order. `where` is as "[feedback] or [runtime]".
+  NeedReader(Library& library, std::vector<const ParameterBlock*> blocks, const char* where)
+      : library_(library), blocks_(std::move(blocks)), where_(where) {}
 
   std::optional<Need> read(const Node& node) {
     std::string_view text = without_blanks(node.text);
-    if (text == "motion") return motion();
+    if (text == "motion" && takes_motion()) return motion();
     const bool negated = text.starts_with("not ");
     if (negated) text = without_blanks(text.substr(4));
     const std::size_t equals = text.find('=');
@@ -78,15 +78,21 @@ class NeedReader {
     }
     library_.diagnostics().error(node.position,
                                  quote(name) + " is neither a bool nor an enumeration: nothing can need it",
-                                 "let the unit tell in a bool of its feedback what it needs");
+                                 takes_motion() ? "let the unit tell in a bool of its feedback what it needs"
+                                                : "name a bool or an enumeration");
     return std::nullopt;
   }
 
  private:
+  // A command may need the permission to move; what is configured is so before there is one.
+  bool takes_motion() const { return blocks_.size() > 2; }
+
   const Parameter* find(const std::string& name, Need::Of& of) const {
     for (const ParameterBlock* const block : blocks_) {
       for (const Parameter& parameter : block->parameters) {
-        of = parameter.kind == Parameter::Kind::runtime ? Need::Of::runtime : Need::Of::feedback;
+        of = parameter.kind == Parameter::Kind::runtime    ? Need::Of::runtime
+             : parameter.kind == Parameter::Kind::feedback ? Need::Of::feedback
+                                                           : Need::Of::configuration;
         if (parameter.field.name == name) return &parameter;
       }
     }
@@ -94,11 +100,14 @@ class NeedReader {
   }
 
   std::nullopt_t refuse_name(const Node& node, const std::string& name) {
-    std::vector<std::string> known{"motion"};
+    std::vector<std::string> known;
+    if (takes_motion()) known.emplace_back("motion");
     for (const ParameterBlock* const block : blocks_)
       for (const Parameter& parameter : block->parameters) known.push_back(parameter.field.name);
     library_.diagnostics().error(
-        node.position, quote(name) + " is neither \"motion\" nor a name in [feedback] or [runtime] here",
+        node.position,
+        quote(name) + (takes_motion() ? " is neither \"motion\" nor a name in " : " is no name in ") +
+            where_ + " here",
         suggest(name, known, "names", ""));
     return std::nullopt;
   }
@@ -141,49 +150,70 @@ class NeedReader {
   }
 
   Library& library_;
-  const std::array<const ParameterBlock*, 4> blocks_;
+  std::vector<const ParameterBlock*> blocks_;
+  const char* where_;
 };
+
+// A text, or all of a list; what else stands there is reported.
+std::vector<const Node*> texts_of(const Node& needs, Diagnostics& diagnostics) {
+  std::vector<const Node*> texts;
+  const auto take = [&](const Node& one) {
+    if (one.kind == Node::Kind::text)
+      texts.push_back(&one);
+    else
+      diagnostics.error(one.position, "'needs' is a text or a list of texts, not " + kind_text(one.kind),
+                        "write needs = \"motion\", or needs = [\"motion\", \"state = ready\"]");
+  };
+  if (needs.kind == Node::Kind::array)
+    std::for_each(needs.children.begin(), needs.children.end(), take);
+  else
+    take(needs);
+  return texts;
+}
+
+// Calls `take` with each parameter of the block whose row has 'needs', and with these.
+template <typename Take>
+void each_needs(const Node& root, std::string_view section, ParameterBlock& block, Take take) {
+  const Node* const rows = root.find(section);
+  if (rows == nullptr || rows->kind != Node::Kind::table) return;
+  for (Parameter& parameter : block.parameters) {
+    const Node* const row = rows->find(parameter.field.name);
+    const Node* const needs = row != nullptr && row->kind == Node::Kind::table ? row->find("needs") : nullptr;
+    if (needs != nullptr) take(parameter, *needs);
+  }
+}
 
 }  // namespace
 
 void read_needs(Library& library, const Node& root, ParameterBlock& runtime, const ParameterBlock& feedback,
                 const Interface& before) {
-  const Node* const section = root.find("runtime");
-  if (section == nullptr || section->kind != Node::Kind::table) return;
   // No hold begins without the permission to move.
   for (Parameter& parameter : runtime.parameters)
     if (parameter.input == Parameter::Input::hold) parameter.needs.push_back(motion());
-  NeedReader reader(library, runtime, feedback, before);
-  for (const Node& row : section->children) {
-    const Node* const needs = row.kind == Node::Kind::table ? row.find("needs") : nullptr;
-    if (needs == nullptr) continue;
-    const auto parameter = std::find_if(runtime.parameters.begin(), runtime.parameters.end(),
-                                        [&](const Parameter& one) { return one.field.name == row.key; });
-    if (parameter == runtime.parameters.end()) continue;  // reported before
-    if (parameter->input == Parameter::Input::value) {
+  NeedReader reader(library, {&feedback, &before.feedback, &runtime, &before.runtime},
+                    "[feedback] or [runtime]");
+  each_needs(root, "runtime", runtime, [&](Parameter& parameter, const Node& needs) {
+    if (parameter.input == Parameter::Input::value) {
       library.diagnostics().error(
-          needs->position, "[runtime." + row.key + "] is set, and needs nothing",
+          needs.position, "[runtime." + parameter.field.name + "] is set, and needs nothing",
           "only a button or a hold has 'needs'; let accept() of the unit refuse values");
-      continue;
+      return;
     }
-    std::vector<const Node*> texts;
-    if (needs->kind == Node::Kind::array) {
-      for (const Node& one : needs->children) texts.push_back(&one);
-    } else {
-      texts.push_back(needs);
-    }
-    for (const Node* one : texts) {
-      if (one->kind != Node::Kind::text) {
-        library.diagnostics().error(one->position,
-                                    "'needs' is a text or a list of texts, not " + kind_text(one->kind),
-                                    "write needs = \"motion\", or needs = [\"motion\", \"state = ready\"]");
-        continue;
-      }
+    for (const Node* one : texts_of(needs, library.diagnostics())) {
       auto need = reader.read(*one);
-      if (need && !(need->of == Need::Of::motion && parameter->input == Parameter::Input::hold))
-        parameter->needs.push_back(std::move(*need));
+      if (need && !(need->of == Need::Of::motion && parameter.input == Parameter::Input::hold))
+        parameter.needs.push_back(std::move(*need));
     }
-  }
+  });
+}
+
+void read_needs_of_configuration(Library& library, const Node& root, ParameterBlock& configuration,
+                                 const ParameterBlock& before) {
+  NeedReader reader(library, {&configuration, &before}, "[configuration]");
+  each_needs(root, "configuration", configuration, [&](Parameter& parameter, const Node& needs) {
+    for (const Node* one : texts_of(needs, library.diagnostics()))
+      if (auto need = reader.read(*one)) parameter.conditions.push_back(std::move(*need));
+  });
 }
 
 }  // namespace flexrf::config_gen

@@ -1,4 +1,4 @@
-// What commands need: the key `needs` of buttons and holds.
+// What commands and parameters of the configuration need: the key `needs`.
 #pragma once
 
 #include "config-gen/model/model.hpp"
@@ -11,5 +11,10 @@ namespace flexrf::config_gen {
 // of a driver, its interface, whose values its commands may need, too.
 void read_needs(Library& library, const Node& root, ParameterBlock& runtime, const ParameterBlock& feedback,
                 const Interface& before = {});
+
+// The same of all rows under [configuration.*]: what else of the configuration has to be so where a row sets
+// one of them, to what is neither false nor 0 nor empty.
+void read_needs_of_configuration(Library& library, const Node& root, ParameterBlock& configuration,
+                                 const ParameterBlock& before = {});
 
 }  // namespace flexrf::config_gen

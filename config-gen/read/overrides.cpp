@@ -5,6 +5,7 @@
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
 #include "config-gen/read/literal.hpp"
+#include "config-gen/read/widget_kinds.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -78,11 +79,21 @@ std::vector<ParameterOverride> read_overrides(Assembly& assembly, const Node* ta
     change.label = row.text("label");
     change.hidden = row.boolean("hidden");
     change.widget = row.text("widget");
+    change.widget_position = row.position("widget");
     change.menu = row.text("menu");
     change.place = row.text("place");
     change.place_position = row.position("place");
     change.confirm = row.text("confirm");
     read_override_range(assembly, row, *parameter, change);
+    if (change.widget) {
+      const std::string needs =
+          widget_misfit(assembly.model, *change.widget, *parameter, change.low.has_value());
+      if (!needs.empty())
+        assembly.diagnostics.error(change.widget_position,
+                                   "the widget " + quote(*change.widget) + " cannot show " +
+                                       quote(child.key) + " of " + owner + ": it needs " + needs,
+                                   "remove it, and the page shows the usual one");
+    }
     change.step = read_step(assembly.model, row, *parameter, assembly.diagnostics);
     row.finish();
     changes.push_back(std::move(change));

@@ -1,5 +1,7 @@
 // [panel] and [widget.N] of applications.
 #include <algorithm>
+#include <functional>
+#include <map>
 
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/assembly.hpp"
@@ -7,31 +9,34 @@
 #include "config-gen/read/panel_files.hpp"
 #include "config-gen/read/panel_layers.hpp"
 #include "config-gen/read/panel_lists.hpp"
+#include "config-gen/read/panel_options.hpp"
+#include "config-gen/read/widget_kinds.hpp"
 
 namespace flexrf::config_gen {
 namespace {
 
-const std::vector<std::string>& built_in_kinds() {
-  static const std::vector<std::string> kinds = {
-      "number",  "vector",     "matrix",      "lamp",    "enumeration", "text",
-      "image",   "gauge",      "pose_2d",     "robot",   "histogram",   "structure",
-      "records", "button",     "hold",        "toggle",  "slider",      "number_field",
-      "select",  "text_field", "array_field", "jog_pad", "population",  "timeline"};
-  return kinds;
-}
+struct ShownParameter {
+  const Parameter* parameter = nullptr;
+  const std::vector<ParameterOverride>* overrides = nullptr;  // of its unit or device
+};
 
 /// What a widget's row can name, as the panel calls it.
 struct Names {
   std::vector<std::string> places;      // "overview", units and devices
   std::vector<std::string> slots;       // observed or not
   std::vector<std::string> parameters;  // "jog.step", "arm.configuration.noise", "jog.feedback.presses"
+  std::map<std::string, ShownParameter, std::less<>> shown;  // the parameters; of drivers the first of a name
   std::vector<std::string> devices;
 };
 
-void add_parameters(const std::string& owner, const ParameterBlock& block, std::vector<std::string>& names) {
+void add_parameters(const std::string& owner, const ParameterBlock& block,
+                    const std::vector<ParameterOverride>& overrides, Names& names) {
   constexpr const char* middle[] = {".configuration.", ".", ".feedback."};
-  for (const Parameter& parameter : block.parameters)
-    names.push_back(owner + middle[static_cast<std::size_t>(parameter.kind)] + parameter.field.name);
+  for (const Parameter& parameter : block.parameters) {
+    names.parameters.push_back(owner + middle[static_cast<std::size_t>(parameter.kind)] +
+                               parameter.field.name);
+    names.shown.try_emplace(names.parameters.back(), ShownParameter{&parameter, &overrides});
+  }
 }
 
 Names names_of(const Model& model) {
@@ -42,18 +47,18 @@ Names names_of(const Model& model) {
     names.places.push_back(unit.name);
     const UnitType& type = model.unit_types[unit.type];
     for (const ParameterBlock* block : {&type.runtime, &type.configuration, &type.feedback})
-      add_parameters(unit.name, *block, names.parameters);
+      add_parameters(unit.name, *block, unit.overrides, names);
   }
   for (const Device& device : model.devices) {
     names.places.push_back(device.name);
     names.devices.push_back(device.name);
     const Interface& type = model.interfaces[device.interface];
     for (const ParameterBlock* block : {&type.runtime, &type.configuration, &type.feedback})
-      add_parameters(device.name, *block, names.parameters);
+      add_parameters(device.name, *block, device.overrides, names);
     for (const DriverChoice& choice : device.drivers) {
       const Driver& driver = model.drivers[choice.driver];
       for (const ParameterBlock* block : {&driver.runtime, &driver.configuration, &driver.feedback})
-        add_parameters(device.name, *block, names.parameters);
+        add_parameters(device.name, *block, device.overrides, names);
     }
   }
   return names;
@@ -78,6 +83,14 @@ class Reader {
   void read_parameters(Row& row, PanelWidget& widget);
   void read_device(Row& row, PanelWidget& widget);
   void read_options(Row& row, PanelWidget& widget);
+  void check_roles(Row& row, const PanelWidget& widget);
+  void check_role_names(Row& row, const char* key, const PanelWidget& widget);
+  void check_item(Row& row, const PanelWidget& widget);
+  void check_holds(Row& row, const PanelWidget& widget);
+  /// Takes what a kind that is not built-in is made by into the application; false where there is no such
+  /// file.
+  bool add_own_kind(const std::string& kind);
+  void check_own_kind(const std::string& kind, const Position& position);
   /// The texts of a table { role = "name" }.
   std::vector<const Node*> roles(Row& row, const char* key);
   bool is_broken(const std::string& owner) const { return assembly_.is_broken_device(owner); }
@@ -91,8 +104,10 @@ void Reader::read_settings(const Node& node) {
   Panel& panel = assembly_.model.panel;
   if (const auto connections = row.integer("connections", 4, 256))
     panel.connections = static_cast<std::size_t>(*connections);
-  panel.session_timeout = row.positive_duration("session_timeout").value_or(panel.session_timeout);
-  panel.session_length = row.positive_duration("session_length").value_or(panel.session_length);
+  panel.session_timeout =
+      row.positive_duration("session_timeout", session_bounds).value_or(panel.session_timeout);
+  panel.session_length =
+      row.positive_duration("session_length", session_bounds).value_or(panel.session_length);
   panel.loopback_is_local = row.boolean("loopback_is_local").value_or(true);
   if (const Node* local = row.list_of_texts("local"); local != nullptr) {
     for (const Node& address : local->children) {
@@ -115,9 +130,15 @@ void Reader::check_place(const std::string& place, const Position& position) {
 
 void Reader::check_overrides() {
   const auto check = [this](const std::vector<ParameterOverride>& changes) {
-    for (const ParameterOverride& change : changes)
+    for (const ParameterOverride& change : changes) {
       if (change.place) check_place(*change.place, change.place_position);
+      if (change.widget && !is_built_in_widget(*change.widget))
+        check_own_kind(*change.widget, change.widget_position);
+    }
   };
+  for (const auto& [name, shown] : names_.shown)
+    if (const std::string& kind = shown.parameter->widget; !kind.empty() && !is_built_in_widget(kind))
+      check_own_kind(kind, shown.parameter->field.position);
   std::optional<Index> population;
   for (const Unit& unit : assembly_.model.units) {
     // Members share their row.
@@ -131,24 +152,32 @@ void Reader::check_kind(Row& row, PanelWidget& widget) {
   const auto kind = row.required_text("kind", "add kind = \"gauge\", or the name of a file in widgets/");
   if (!kind) return;
   widget.kind = *kind;
-  if (contains(built_in_kinds(), *kind)) return;
+  if (is_built_in_widget(*kind)) return;
   widget.custom = true;
-  if (!is_snake_case(*kind)) {
-    assembly_.diagnostics.error(row.position("kind"), quote(*kind) + " is not a name for a kind of widget",
+  check_own_kind(*kind, row.position("kind"));
+}
+
+bool Reader::add_own_kind(const std::string& kind) {
+  const std::filesystem::path file =
+      assembly_.model.application->file.parent_path() / "widgets" / (kind + ".js");
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;
+  add_panel_file(assembly_.model, {"widgets/" + kind + ".js", "text/javascript", file});
+  return true;
+}
+
+void Reader::check_own_kind(const std::string& kind, const Position& position) {
+  if (!is_snake_case(kind)) {
+    assembly_.diagnostics.error(position, quote(kind) + " is not a name for a kind of widget",
                                 "names are lower_snake_case: small letters, digits and single underscores");
     return;
   }
-  const std::filesystem::path file =
-      assembly_.model.application->file.parent_path() / "widgets" / (*kind + ".js");
-  if (std::filesystem::is_regular_file(file)) {
-    add_panel_file(assembly_.model, {"widgets/" + *kind + ".js", "text/javascript", file});
-    return;
-  }
-  Hint hint = suggest(*kind, built_in_kinds(), "kinds", "");
-  if (!hint.replacement) hint = "write the file, or use a built-in kind: " + listed(built_in_kinds());
-  assembly_.diagnostics.error(row.position("kind"),
-                              quote(*kind) + " is neither a built-in kind of widget nor a file " +
-                                  quote("widgets/" + *kind + ".js") + " beside this table",
+  if (add_own_kind(kind)) return;
+  Hint hint = suggest(kind, built_in_widgets(), "kinds", "");
+  if (!hint.replacement) hint = "write the file, or use a built-in kind: " + listed(built_in_widgets());
+  assembly_.diagnostics.error(position,
+                              quote(kind) + " is neither a built-in kind of widget nor a file " +
+                                  quote("widgets/" + kind + ".js") + " beside the application's table",
                               std::move(hint));
 }
 
@@ -259,6 +288,91 @@ void Reader::read_options(Row& row, PanelWidget& widget) {
   }
 }
 
+void Reader::check_role_names(Row& row, const char* key, const PanelWidget& widget) {
+  const WidgetRoles roles = roles_of_widget(widget.kind);
+  const bool is_slots = key == std::string_view("slots");
+  const std::vector<std::string>& known = is_slots ? roles.slots : roles.parameters;
+  const Node* const table = row.node().find(key);
+  if (table == nullptr || table->kind != Node::Kind::table || (!is_slots && roles.any_parameters)) return;
+  for (const Node& child : table->children)
+    if (!contains(known, child.key))
+      assembly_.diagnostics.error(
+          child.key_position,
+          quote(child.key) + " in " + quote(key) + " of " + row.name() + " is no role of the widget " +
+              quote(widget.kind),
+          suggest(child.key, known, "roles", "remove it: this widget shows no " + std::string(key)));
+}
+
+void Reader::check_holds(Row& row, const PanelWidget& widget) {
+  for (const auto& [role, name] : widget.parameters) {
+    const auto found = names_.shown.find(name);
+    if (found == names_.shown.end() || found->second.parameter->input == Parameter::Input::hold) continue;
+    assembly_.diagnostics.error(
+        row.node().find("parameters")->find(role)->position,
+        quote(name) + " is no hold, and a jog_pad is made of holds",
+        "name a parameter of the type \"hold\", or place this one by a row of its own");
+  }
+}
+
+// The one item that a widget shows or changes.
+void Reader::check_item(Row& row, const PanelWidget& widget) {
+  const auto named = [&row](const char* key) -> const Node* {
+    const Node* const table = row.node().find(key);
+    return table == nullptr ? nullptr : table->find("value");
+  };
+  const Node* const slot = named("slots");
+  const Node* const parameter = named("parameters");
+  const auto misspelt = [&row](const char* key) {
+    const Node* const table = row.node().find(key);
+    return table != nullptr && !table->children.empty();
+  };
+  if (slot != nullptr && parameter != nullptr) {
+    assembly_.diagnostics.error(slot->key_position,
+                                row.name() + " has a value in 'slots' and one in 'parameters'",
+                                "the widget shows one of them: remove the other");
+    return;
+  }
+  if (slot == nullptr && parameter == nullptr) {
+    if (!misspelt("slots") && !misspelt("parameters"))
+      row.missing(
+          "parameters",
+          "add parameters = { value = \"UNIT.PARAMETER\" }, or slots = { value = \"SLOT\" }: what it shows");
+    return;
+  }
+  std::string needs;
+  if (parameter != nullptr && !widget.parameters.empty()) {
+    const auto found = names_.shown.find(widget.parameters.front().second);
+    if (found == names_.shown.end()) return;
+    const auto& [shown, overrides] = found->second;
+    const bool has_range =
+        std::any_of(overrides->begin(), overrides->end(), [&](const ParameterOverride& change) {
+          return change.parameter == shown->field.name && change.kind == shown->kind &&
+                 change.low.has_value();
+        });
+    needs = widget_misfit(assembly_.model, widget.kind, *shown, has_range);
+  } else if (slot != nullptr && !widget.slots.empty()) {
+    const auto& slots = assembly_.model.slots;
+    const auto found = std::find_if(slots.begin(), slots.end(),
+                                    [&](const Slot& one) { return one.name == widget.slots.front().second; });
+    if (found->partial) return;
+    needs = widget_misfit(declared_type(assembly_.model, *found), widget.kind);
+  }
+  if (needs.empty()) return;
+  const Node& value = slot != nullptr ? *slot : *parameter;
+  assembly_.diagnostics.error(
+      value.position,
+      "the widget " + quote(widget.kind) + " cannot show " + quote(value.text) + ": it needs " + needs,
+      "name another item, or another kind of widget");
+}
+
+void Reader::check_roles(Row& row, const PanelWidget& widget) {
+  if (widget.custom || widget.kind.empty()) return;
+  check_role_names(row, "slots", widget);
+  check_role_names(row, "parameters", widget);
+  if (widget.kind == "jog_pad") check_holds(row, widget);
+  if (roles_of_widget(widget.kind).is_single) check_item(row, widget);
+}
+
 void Reader::read_widget(const Node& node) {
   Row row(node, "[widget." + node.key + "]", assembly_.diagnostics);
   PanelWidget widget;
@@ -275,6 +389,7 @@ void Reader::read_widget(const Node& node) {
   read_parameters(row, widget);
   read_device(row, widget);
   read_options(row, widget);
+  check_roles(row, widget);
   read_layers(assembly_, row, widget);
   if (widget.kind == "population") check_population_row(assembly_, row, widget);
   if (widget.kind == "timeline") check_timeline_row(assembly_, row);

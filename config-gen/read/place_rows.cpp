@@ -91,7 +91,8 @@ void read_slot_row(Assembly& assembly, const FlatRow& flat) {
     slot.observe = observe.value_or(true);
     slot.for_panel = observe.value_or(false);
     slot.wall = wall.value_or(false);
-    slot.history = static_cast<std::size_t>(history.value_or(0));
+    // A history whose length is wrong is one all the same: what reads the past is right.
+    slot.history = static_cast<std::size_t>(history.value_or(row.has("history") ? 1 : 0));
     slot.summary = summary.value_or("");
     if (elements) set_elements(assembly, slot, *elements, row.position("elements"));
   }

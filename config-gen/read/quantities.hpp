@@ -1,4 +1,4 @@
-// Units of measure, as people write them in tables.
+// Units of measure, as people write them in tables: one list of them for all tables and lists.
 #pragma once
 
 #include <string>
@@ -6,10 +6,16 @@
 
 namespace flexrf::config_gen {
 
-// Empty when `unit` is a unit of measure in SI, as "m/s^2", "N*m", "1"; else what to write instead. Decimal
-// multiples ("mm", "ns") are for integers only, which often hold what a device counts. "rad|m" is of one or
-// of the other, as the device's row says of each joint.
-std::string judge_unit(std::string_view unit, bool multiples);
+// Which units are taken where.
+enum class UnitUse {
+  si,         // of floating-point numbers
+  multiples,  // of integers, which often hold what a device counts: decimal multiples too, as "mm" and "ns"
+  device,     // of a device's registers: beside those what devices are read in, as "bar", "degC" and "%"
+};
+
+// Empty when `unit` is a unit of measure, as "m/s^2", "N*m", "1"; else what to write instead. "rad|m" is of
+// one or of the other, as the device's row says of each joint.
+std::string judge_unit(std::string_view unit, UnitUse use);
 
 // The unit with one symbol replaced wherever it stands: "axis/s^2" with "m" for "axis" is "m/s^2".
 std::string replace_symbol(std::string_view unit, std::string_view symbol, std::string_view by);
@@ -18,5 +24,10 @@ std::string replace_symbol(std::string_view unit, std::string_view symbol, std::
 // "homing_velocity". A part or a multiple of one says so by its last word: "velocity_share",
 // "velocity_factor".
 bool names_quantity(std::string_view name);
+
+// What units the quantity that a name ends in is measured in, as "\"m/s\", \"rad/s\" or \"px/s\"", where this
+// unit, which judge_unit() takes, measures something else; empty where it fits, or the name ends in no
+// quantity. "counts_per_force" is measured in none of a force.
+std::string units_instead(std::string_view name, std::string_view unit);
 
 }  // namespace flexrf::config_gen

@@ -16,8 +16,8 @@ void read_save(Row& application, SavePolicy& save, Diagnostics& diagnostics) {
     if (!save.on_change && row.has(key))
       diagnostics.error(row.position(key), row.name() + " has " + quote(key) + ", but saves on command only",
                         "remove it, or write on = \"change\"");
-  save.quiet = row.positive_duration("quiet").value_or(save.quiet);
-  save.interval = row.positive_duration("interval").value_or(save.interval);
+  save.quiet = row.positive_duration("quiet", supervision_bounds).value_or(save.quiet);
+  save.interval = row.positive_duration("interval", supervision_bounds).value_or(save.interval);
   row.finish();
 }
 
@@ -44,10 +44,12 @@ void read_application(Library& library, const std::filesystem::path& file) {
     row.missing("memory_budget",
                 "add memory_budget = \"8 MiB\": what slots, queues, stacks and parameters may take");
   application.autostart = row.boolean("autostart").value_or(false);
-  application.stop_timeout = row.positive_duration("stop_timeout").value_or(application.stop_timeout);
-  application.finish_timeout = row.positive_duration("finish_timeout").value_or(application.finish_timeout);
+  application.stop_timeout =
+      row.positive_duration("stop_timeout", supervision_bounds).value_or(application.stop_timeout);
+  application.finish_timeout =
+      row.positive_duration("finish_timeout", supervision_bounds).value_or(application.finish_timeout);
   application.standstill_limit =
-      row.positive_duration("standstill_limit").value_or(application.standstill_limit);
+      row.positive_duration("standstill_limit", supervision_bounds).value_or(application.standstill_limit);
   read_save(row, application.save, diagnostics);
   for (const char* section :
        {"device", "device_list", "unit", "slot", "queue", "thread", "group", "renamed", "panel", "widget"})

@@ -1,10 +1,11 @@
 #include "config-gen/read/row.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 #include "base/quantity_text.hpp"
-#include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
@@ -12,6 +13,58 @@ namespace {
 
 std::string shown(const Node& node) {
   return node.kind == Node::Kind::text ? "\"" + printable(node.text) + "\"" : kind_text(node.kind);
+}
+
+struct QuantityWords {
+  const char* name;      // as "a duration"
+  const char* smallest;  // what it is a whole number of
+  std::span<const std::string_view> units;
+  const char* hint;
+};
+
+constexpr std::array<std::string_view, 6> duration_units = {"ns", "us", "ms", "s", "min", "h"};
+constexpr QuantityWords duration_words{
+    "a duration", "nanoseconds", duration_units,
+    "write a number and its unit in double quotes, as \"7 ms\", \"300 us\", \"1.5 s\" or \"250 ns\""};
+constexpr std::array<std::string_view, 4> size_units = {"B", "KiB", "MiB", "GiB"};
+constexpr QuantityWords size_words{
+    "a size", "bytes", size_units,
+    "write a number and its unit in double quotes, as \"8 MiB\", \"64 KiB\" or \"512 B\""};
+
+// Why a text that parse_duration() or parse_size() refuses is none.
+std::string flaw_of(std::string_view text, const QuantityWords& words) {
+  const std::string name = words.name;
+  const bool is_negative = text.starts_with('-');
+  if (is_negative) text.remove_prefix(1);
+  const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
+  const std::string_view number = text.substr(0, end);
+  const std::size_t point = number.find('.');
+  const bool is_number =
+      number.find_first_of("0123456789") != std::string_view::npos && point == number.rfind('.');
+  if (!is_number) return name + " begins with a number";
+  if (is_negative) return name + " is never negative";
+  text.remove_prefix(end);
+  if (text.starts_with(',')) return "a fraction is written after a point";
+  if (text.size() > 1 && (text[0] == 'e' || text[0] == 'E') &&
+      std::string_view("+-0123456789").find(text[1]) != std::string_view::npos)
+    return "its number is written without an exponent";
+  if (text.starts_with(' ')) text.remove_prefix(1);
+  if (text.empty()) return "its unit is missing";
+  if (std::find(words.units.begin(), words.units.end(), text) == words.units.end())
+    return quote(text) + " is no unit of " + name;
+  const bool is_whole = point == std::string_view::npos ||
+                        number.substr(point + 1).find_first_not_of('0') == std::string_view::npos;
+  return is_whole ? "it is larger than any that can be kept"
+                  : std::string("it is no whole number of ") + words.smallest;
+}
+
+void refuse_quantity(const Node& value, const std::string& what, const QuantityWords& words,
+                     Diagnostics& diagnostics) {
+  const bool is_text = value.kind == Node::Kind::text;
+  diagnostics.error(value.position,
+                    what + (is_text ? " is " : " must be " + std::string(words.name) + ", not ") +
+                        shown(value) + (is_text ? ": " + flaw_of(value.text, words) : ""),
+                    words.hint);
 }
 
 }  // namespace
@@ -75,32 +128,40 @@ std::optional<std::int64_t> Row::duration(std::string_view key) {
                          "a duration is at most \"8760 h\"");
       return std::nullopt;
     }
-  diagnostics_.error(
-      value->position, quote(key) + " of " + name_ + " must be a duration, not " + shown(*value),
-      "write a number and its unit in double quotes, as \"7 ms\", \"300 us\", \"1.5 s\" or \"250 ns\"");
+  refuse_quantity(*value, quote(key) + " of " + name_, duration_words, diagnostics_);
   return std::nullopt;
 }
 
-std::optional<std::int64_t> Row::positive_duration(std::string_view key) {
+std::optional<std::int64_t> Row::positive_duration(std::string_view key, const DurationBounds& bounds) {
   const auto value = duration(key);
-  if (!value || *value > 0) return value;
-  diagnostics_.error(position(key), quote(key) + " of " + name_ + " is zero",
-                     "give a duration longer than zero");
+  if (!value || (*value >= bounds.least && *value <= bounds.most)) return value;
+  if (*value == 0) {
+    diagnostics_.error(position(key), quote(key) + " of " + name_ + " is zero",
+                       "give a duration longer than zero");
+    return std::nullopt;
+  }
+  const bool is_short = *value < bounds.least;
+  diagnostics_.error(position(key),
+                     quote(key) + " of " + name_ + " is " + duration_text(*value) + ", which is too " +
+                         (is_short ? "short" : "long"),
+                     std::string("write at ") + (is_short ? "least" : "most") + " \"" +
+                         duration_text(is_short ? bounds.least : bounds.most) + "\"");
   return std::nullopt;
 }
 
 std::optional<std::size_t> Row::size(std::string_view key) {
   const Node* value = find(key);
   if (value == nullptr) return std::nullopt;
-  if (value->kind == Node::Kind::text)
-    if (const auto size = parse_size(value->text); size && *size > 0) {
-      if (*size <= max_size) return size;
-      diagnostics_.error(value->position, quote(key) + " of " + name_ + " is " + shown(*value),
-                         "a size is at most \"1024 GiB\"");
-      return std::nullopt;
-    }
-  diagnostics_.error(value->position, quote(key) + " of " + name_ + " must be a size, not " + shown(*value),
-                     "write a number and its unit in double quotes, as \"8 MiB\", \"64 KiB\" or \"512 B\"");
+  const auto size = value->kind == Node::Kind::text ? parse_size(value->text) : std::nullopt;
+  if (size && *size > 0 && *size <= max_size) return size;
+  if (!size)
+    refuse_quantity(*value, quote(key) + " of " + name_, size_words, diagnostics_);
+  else if (*size == 0)
+    diagnostics_.error(value->position, quote(key) + " of " + name_ + " is zero",
+                       "give a size of at least \"1 B\"");
+  else
+    diagnostics_.error(value->position, quote(key) + " of " + name_ + " is " + shown(*value),
+                       "a size is at most \"1024 GiB\"");
   return std::nullopt;
 }
 

@@ -8,9 +8,24 @@
 #include <vector>
 
 #include "config-gen/model/diagnostics.hpp"
+#include "config-gen/model/limits.hpp"
 #include "config-gen/read/tree.hpp"
 
 namespace flexrf::config_gen {
+
+// From the least to the most that can be meant, in nanoseconds.
+struct DurationBounds {
+  std::int64_t least = 1;
+  std::int64_t most = max_duration;
+};
+// Of what releases a thread, and of what a step may take.
+inline constexpr DurationBounds release_bounds{1'000};
+// Of a back-off's sleep: what comes meanwhile waits for its end.
+inline constexpr DurationBounds sleep_bounds{1'000, 3'600'000'000'000};
+// Of how long a person stays logged in.
+inline constexpr DurationBounds session_bounds{1'000'000'000};
+// Of what somebody waits for until something counts as hung or failed.
+inline constexpr DurationBounds supervision_bounds{1'000'000, 3'600'000'000'000};
 
 class Row {
  public:
@@ -21,8 +36,9 @@ class Row {
   std::optional<std::string> text(std::string_view key);
   std::optional<bool> boolean(std::string_view key);
   std::optional<std::int64_t> integer(std::string_view key, std::int64_t least, std::int64_t most);
-  std::optional<std::int64_t> duration(std::string_view key);           // nanoseconds, 0 allowed
-  std::optional<std::int64_t> positive_duration(std::string_view key);  // 0 is an error
+  std::optional<std::int64_t> duration(std::string_view key);  // nanoseconds, 0 allowed
+  // 0 and what lies outside of the bounds are errors.
+  std::optional<std::int64_t> positive_duration(std::string_view key, const DurationBounds& bounds = {});
   std::optional<std::size_t> size(std::string_view key);
   const Node* list_of_texts(std::string_view key);  // an array whose elements are all texts
   const Node* table(std::string_view key);

@@ -110,9 +110,9 @@ class Flattener {
     const auto known = tables_.find(table);
     if (known != tables_.end()) return known->second ? &*known->second : nullptr;
     const std::filesystem::path file = folder_ / "groups" / (table + ".toml");
-    if (!std::filesystem::exists(file)) {
+    std::error_code ignored;
+    if (std::filesystem::status(file, ignored).type() == std::filesystem::file_type::not_found) {
       std::vector<std::string> names;
-      std::error_code ignored;
       for (const auto& entry : std::filesystem::directory_iterator(folder_ / "groups", ignored))
         if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
       diagnostics_.error(place, "unknown group table " + quote(table),

@@ -60,8 +60,8 @@ std::vector<SourceReference> find_sources(Assembly& assembly, const Scope& scope
 // A timeout releases whatever min_interval says, which the schedulability analysis counts on.
 template <typename TimedTrigger>
 void read_times(Assembly& assembly, Row& row, TimedTrigger& trigger) {
-  trigger.min_interval = row.positive_duration("min_interval");
-  trigger.timeout = row.positive_duration("timeout");
+  trigger.min_interval = row.positive_duration("min_interval", release_bounds);
+  trigger.timeout = row.positive_duration("timeout", release_bounds);
   if (trigger.timeout && trigger.min_interval && *trigger.timeout < *trigger.min_interval)
     assembly.diagnostics.error(
         row.position("timeout"),
@@ -124,14 +124,8 @@ std::optional<Trigger> read_backoff_trigger(Assembly& assembly, Row& row, const 
   for (const char* key : {"shortest", "longest"})
     if (!row.has(key))
       row.missing(key, "add shortest = \"100 us\" and longest = \"50 ms\": the bounds of its sleeps");
-  trigger.shortest = row.positive_duration("shortest").value_or(0);
-  trigger.longest = row.positive_duration("longest").value_or(0);
-  constexpr Nanoseconds longest_sleep = 3'600'000'000'000;
-  if (trigger.longest > longest_sleep)
-    assembly.diagnostics.error(row.position("longest"),
-                               "'longest' of " + row.name() + " is " + duration_text(trigger.longest) +
-                                   ": what comes would wait for so long",
-                               "write at most \"3600 s\"");
+  trigger.shortest = row.positive_duration("shortest", sleep_bounds).value_or(0);
+  trigger.longest = row.positive_duration("longest", sleep_bounds).value_or(0);
   trigger.tries = static_cast<std::size_t>(row.integer("tries", 1, 1000).value_or(4));
   if (trigger.shortest > trigger.longest && trigger.longest > 0)
     assembly.diagnostics.error(row.position("shortest"),
@@ -178,7 +172,7 @@ std::optional<Trigger> read_trigger(Assembly& assembly, Row& thread, const Scope
   std::optional<Trigger> trigger;
   if (kinds[0] == "period") {
     PeriodTrigger period;
-    const auto length = row.positive_duration("period");
+    const auto length = row.positive_duration("period", release_bounds);
     period.phase = row.duration("phase").value_or(0);
     if (length) {
       period.period = *length;
@@ -337,15 +331,8 @@ void read_thread_row(Assembly& assembly, const FlatRow& flat) {
   thread.role = read_role(row).value_or(thread.role);
   if (row.word("cpu", {"rest"})) thread.role = CpuRole::rest;
   thread.above_interrupts = row.boolean("above_interrupts").value_or(false);
-  thread.deadline = row.positive_duration("deadline");
-  thread.hang_timeout = row.positive_duration("hang_timeout");
-  constexpr Nanoseconds shortest_hang = 1'000'000;
-  if (thread.hang_timeout && *thread.hang_timeout < shortest_hang)
-    assembly.diagnostics.error(row.position("hang_timeout"),
-                               "'hang_timeout' of " + row.name() + " is " +
-                                   duration_text(*thread.hang_timeout) +
-                                   ": every step would be taken for a hang",
-                               "write at least \"1 ms\", and more than its longest step");
+  thread.deadline = row.positive_duration("deadline", release_bounds);
+  thread.hang_timeout = row.positive_duration("hang_timeout", supervision_bounds);
   thread.stack = read_stack(row, assembly.diagnostics).value_or(thread.stack);
   thread.summary = row.sentence("summary").value_or("");
   read_overrun(assembly, row, thread.overrun);

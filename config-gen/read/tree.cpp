@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "config-gen/read/source_text.hpp"
+#include "config-gen/model/source_text.hpp"
 
 namespace flexrf::config_gen {
 namespace {

@@ -76,14 +76,16 @@ void read_unit_row(Assembly& assembly, const FlatRow& flat) {
   row.table("in");
   row.table("out");
   row.table("device");
-  unit.budget = row.positive_duration("budget");
+  unit.budget = row.positive_duration("budget", release_bounds);
   unit.budget_position = row.position("budget");
-  unit.initialise_timeout = row.positive_duration("initialise_timeout").value_or(unit.initialise_timeout);
-  unit.stop_timeout = row.positive_duration("stop_timeout");
+  unit.initialise_timeout =
+      row.positive_duration("initialise_timeout", supervision_bounds).value_or(unit.initialise_timeout);
+  unit.stop_timeout = row.positive_duration("stop_timeout", supervision_bounds);
   if (const auto restart = row.word("restart", {"never", "once", "always"}))
     unit.restart = static_cast<Unit::Restart>(*restart);
   unit.configuration =
       read_values(assembly, row.table("configuration"), type.configuration, "configuration", row.name());
+  check_needs_of_configuration(assembly, {type.configuration, unit.configuration}, std::nullopt, row);
   unit.runtime = read_values(assembly, row.table("runtime"), type.runtime, "runtime", row.name());
   unit.overrides =
       read_overrides(assembly, row.table("parameter"), {&type.runtime, &type.configuration, &type.feedback},

@@ -1,4 +1,6 @@
 // Unit tables, and the ports that units, interfaces and drivers have in common.
+#include <algorithm>
+
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/library.hpp"
 #include "config-gen/read/members.hpp"
@@ -50,6 +52,16 @@ PortType read_port_type(Library& library, Row& row) {
   return port;
 }
 
+// Of a file in the table's folder or below it: it is written into an #include as it is.
+bool is_header_name(std::string_view name) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./").find(c) != std::string_view::npos;
+  };
+  return !name.empty() && name.front() != '/' && name.back() != '/' &&
+         name.find("..") == std::string_view::npos && std::all_of(name.begin(), name.end(), is_plain);
+}
+
 std::optional<InputPort> read_input(Library& library, const Node& node) {
   Diagnostics& diagnostics = library.diagnostics();
   Row row(node, "[input." + node.key + "]", diagnostics);
@@ -58,7 +70,7 @@ std::optional<InputPort> read_input(Library& library, const Node& node) {
   input.position = node.key_position;
   input.summary = row.summary();
   const PortType port = read_port_type(library, row);
-  input.max_age = row.positive_duration("max_age");
+  input.max_age = row.positive_duration("max_age", release_bounds);
   input.hold = row.boolean("hold").value_or(false);
   input.range = row.boolean("range").value_or(false);
   input.history = row.boolean("history").value_or(false);
@@ -125,7 +137,13 @@ std::optional<Index> read_unit_table(Library& library, const Node& root, const s
   unit.summary = row.summary();
   unit.class_name = row.text("class").value_or(camel_case(unit.name));
   check_class_name(unit.class_name, row.position("class"), camel_case(unit.name), diagnostics);
-  unit.header = library.include_path(file, row.text("header").value_or(unit.name + ".hpp"));
+  const std::string header = row.text("header").value_or(unit.name + ".hpp");
+  if (!is_header_name(header))
+    diagnostics.error(row.position("header"), quote(header) + " is not the name of a header",
+                      "write it as it lies in the table's folder, as " + quote(unit.name + ".hpp") +
+                          ": letters, digits, '_', '-', '.' and '/'");
+  else
+    unit.header = library.include_path(file, header);
   unit.base_class = unit.class_name + "Unit";
   unit.base_header = unit.name + "_unit.hpp";
   if (const auto access = row.text("access")) {
@@ -162,6 +180,7 @@ std::optional<Index> read_unit_table(Library& library, const Node& root, const s
   read_parameters(library, root, Parameter::Kind::runtime, unit.runtime);
   read_parameters(library, root, Parameter::Kind::feedback, unit.feedback);
   read_needs(library, root, unit.runtime, unit.feedback);
+  read_needs_of_configuration(library, root, unit.configuration);
   if (!complete) return std::nullopt;  // connections to ports that are not there would be reported as unknown
 
   Model& model = library.model();

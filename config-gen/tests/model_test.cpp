@@ -187,7 +187,7 @@ void values_of_a_driver_lie_behind_its_interfaces(void**) {
   assert_true(valve.overrides[0].kind == Parameter::Kind::runtime);
   assert_true(valve.overrides[1].kind == Parameter::Kind::feedback);
   assert_string_equal(model.panel.widgets[0].parameters[0].second.c_str(), "valve.feedback.heat");
-  assert_string_equal(model.panel.widgets[0].parameters[1].second.c_str(), "valve.dither");
+  assert_string_equal(model.panel.widgets[1].parameters[0].second.c_str(), "valve.dither");
   assert_string_equal(model.renames[0].to.c_str(), "valve.dither");
 }
 

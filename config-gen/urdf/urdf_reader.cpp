@@ -5,10 +5,9 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
+#include "config-gen/model/source_text.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/urdf/urdf_document.hpp"
 #include "config-gen/urdf/urdf_path.hpp"
@@ -298,13 +297,8 @@ std::optional<UrdfChain> parse_urdf(std::string_view text, const std::string& fi
 
 std::optional<UrdfChain> read_urdf(const std::filesystem::path& file, const UrdfRow& row,
                                    Diagnostics& diagnostics) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    diagnostics.error({intern(file.generic_string())}, "the file cannot be read", "look at its permissions");
-    return std::nullopt;
-  }
-  const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  return parse_urdf(text, file.generic_string(), row, diagnostics);
+  const auto text = read_source(file, diagnostics);
+  return text ? parse_urdf(*text, file.generic_string(), row, diagnostics) : std::nullopt;
 }
 
 }  // namespace flexrf::config_gen

@@ -320,8 +320,8 @@ void the_descriptor_tells_what_a_page_needs(void**) {
   assert_false(gain.at("custom").get<bool>());
   text_equals(gain.at("place"), "source");
   text_equals(gain.at("parameters").at("value"), "source.gain");
-  text_equals(gain.at("parameters").at("presses"), "source.feedback.presses");
-  text_equals(gain.at("parameters").at("first"), "source.configuration.first");
+  text_equals(spectrum.at("parameters").at("presses"), "source.feedback.presses");
+  text_equals(spectrum.at("parameters").at("first"), "source.configuration.first");
   text_equals(gain.at("device"), "station");
   const auto& station = json.at("devices").at(1);
   text_equals(station.at("overrides").at(0).at("confirm"), "Really?");

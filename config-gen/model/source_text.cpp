@@ -1,10 +1,13 @@
-#include "config-gen/read/source_text.hpp"
+#include "config-gen/model/source_text.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
 #include "config-gen/model/limits.hpp"
@@ -122,6 +125,52 @@ class NestingCheck {
   std::size_t dots_ = 0;
 };
 
+// What it is instead of a file that can be read as a whole; empty: it is one.
+std::string other_kind_of(const struct stat& status) {
+  if (S_ISREG(status.st_mode)) return "";
+  if (S_ISFIFO(status.st_mode)) return "a pipe";
+  if (S_ISDIR(status.st_mode)) return "a folder";
+  return S_ISSOCK(status.st_mode) ? "a socket" : "a device";
+}
+
+std::string advice_for_kind(std::string_view kind) {
+  return kind == "a folder" ? "name a file in it" : "write what comes from it into a file, and name that";
+}
+
+struct ReadFailure {
+  std::string kind;  // what it is instead of a file; empty: it is one, or nobody knows
+  int error = 0;     // as errno has it
+};
+
+// At most one byte more than a file may have.
+ReadFailure read_whole(const std::filesystem::path& file, std::string& text) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return {"", errno};
+  if (std::string kind = other_kind_of(status); !kind.empty()) return {std::move(kind), 0};
+  // Another kind of file may have taken its place: opening a pipe would block until another process writes.
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return {"", errno};
+  ReadFailure failure;
+  if (::fstat(descriptor, &status) != 0)
+    failure.error = errno;
+  else
+    failure.kind = other_kind_of(status);
+  if (failure.error == 0 && failure.kind.empty()) {
+    text.resize(max_file_size + 1);
+    std::size_t size = 0;
+    while (size < text.size()) {
+      const ssize_t count = ::read(descriptor, text.data() + size, text.size() - size);
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) failure.error = errno;
+      if (count <= 0) break;
+      size += static_cast<std::size_t>(count);
+    }
+    text.resize(size);
+  }
+  ::close(descriptor);
+  return failure;
+}
+
 }  // namespace
 
 TriedTexts::TriedTexts() {
@@ -142,30 +191,15 @@ std::optional<std::string> read_source(const std::filesystem::path& file, Diagno
     if (found != tried_texts->texts_.end()) return found->second;
   }
   const Position place{intern(file.generic_string()), 1, 1};
-  // Opening a named pipe would block until another process writes into it.
-  std::error_code unknown;
-  const auto kind = std::filesystem::status(file, unknown).type();
-  using Kind = std::filesystem::file_type;
-  if (kind == Kind::fifo || kind == Kind::socket || kind == Kind::character || kind == Kind::block) {
-    diagnostics.error(place,
-                      std::string("this is ") +
-                          (kind == Kind::fifo     ? "a pipe"
-                           : kind == Kind::socket ? "a socket"
-                                                  : "a device") +
-                          ", and no file that could be read as a whole",
-                      "write what comes from it into a file, and name that");
+  std::string text;
+  const ReadFailure failure = read_whole(file, text);
+  if (!failure.kind.empty()) {
+    diagnostics.error(place, "this is " + failure.kind + ", and no file that could be read as a whole",
+                      advice_for_kind(failure.kind));
     return std::nullopt;
   }
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  if (stream) {
-    text.resize(max_file_size + 1);
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-  }
-  if (!stream.is_open() || stream.bad()) {
-    diagnostics.error(place, std::string("cannot read this file: ") + std::strerror(errno != 0 ? errno : EIO),
+  if (failure.error != 0) {
+    diagnostics.error(place, std::string("cannot read this file: ") + std::strerror(failure.error),
                       "check that it exists, is a file and may be read");
     return std::nullopt;
   }
@@ -175,6 +209,25 @@ std::optional<std::string> read_source(const std::filesystem::path& file, Diagno
     return std::nullopt;
   }
   return text;
+}
+
+bool check_named_file(const std::filesystem::path& file, std::string_view name, const Position& position,
+                      Diagnostics& diagnostics) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) {
+    if (errno == ENOENT || errno == ENOTDIR)
+      diagnostics.error(position, "there is no file " + quote(name),
+                        "it is looked for at " + file.generic_string());
+    else
+      diagnostics.error(position, quote(name) + " cannot be read: " + std::strerror(errno),
+                        "it is looked for at " + file.generic_string());
+    return false;
+  }
+  const std::string kind = other_kind_of(status);
+  if (kind.empty()) return true;
+  diagnostics.error(position, quote(name) + " is " + kind + ", and no file that could be read as a whole",
+                    advice_for_kind(kind));
+  return false;
 }
 
 bool check_utf8(std::string_view text, std::string_view file, Diagnostics& diagnostics) {

@@ -11,8 +11,14 @@
 
 namespace flexrf::config_gen {
 
-// The file's bytes; nothing when it cannot be read or is too large, which is then in `diagnostics`.
+// The file's bytes; nothing when it cannot be read or is too large, which is then in `diagnostics`. Never
+// waits: a pipe, a socket, a device and a folder are refused.
 std::optional<std::string> read_source(const std::filesystem::path& file, Diagnostics& diagnostics);
+
+// Whether there is a file that can be read as a whole where a row names one; else it is reported at
+// `position`, where the row calls it `name`.
+bool check_named_file(const std::filesystem::path& file, std::string_view name, const Position& position,
+                      Diagnostics& diagnostics);
 
 // Texts that read_source() finds in place of the files' own, until it goes: so changes are tried before they
 // are written. At most one at a time, in the thread that reads.
