@@ -158,9 +158,9 @@ int run_fix(const Command& command) {
   const fs::path folder = command.target->file.parent_path();
   settings.folders.push_back(folder.empty() ? "." : folder);
   const auto examine = [&command] {
-    Diagnostics diagnostics;
-    make(command, diagnostics);
-    return diagnostics;
+    Examined examined;
+    examined.files = make(command, examined.diagnostics).model.files;
+    return examined;
   };
   return fix(settings, examine, std::cerr) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -8,12 +8,13 @@
 #include <string>
 #include <utility>
 
+#include "config-gen/fix/name_counts.hpp"
 #include "config-gen/fix/replace_file.hpp"
 #include "config-gen/fix/word_place.hpp"
 #include "config-gen/model/file_contents.hpp"
+#include "config-gen/model/source_text.hpp"
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/csv.hpp"
-#include "config-gen/model/source_text.hpp"
 #include "config-gen/read/tree.hpp"
 
 namespace flexrf::config_gen {
@@ -123,13 +124,14 @@ class Fixer {
   bool run() {
     bool good = false;
     {
-      Diagnostics found = examine_();
+      Examined examined = examine_();
+      Diagnostics& found = examined.diagnostics;
       if (settings_.dry_run) good = !found.failed();
       std::optional<TriedTexts> tried;
-      for (round_ = 1; round_ <= most_rounds && replace_words(found); ++round_) {
+      for (round_ = 1; round_ <= most_rounds && replace_words(examined); ++round_) {
         tried.reset();
-        found = examine_with(tried);
-        while (take_back(found)) found = examine_with(tried);
+        examined = examine_with(tried);
+        while (take_back(found)) examined = examine_with(tried);
         said_ = texts_of(found);
       }
       if (settings_.dry_run) {
@@ -139,13 +141,13 @@ class Fixer {
       }
     }
     const bool written = write_files();
-    const Diagnostics left = examine_();
+    const Diagnostics left = examine_().diagnostics;
     tell_what_is_left(left);
     return written && !left.failed();
   }
 
  private:
-  Diagnostics examine_with(std::optional<TriedTexts>& tried) {
+  Examined examine_with(std::optional<TriedTexts>& tried) {
     tried.emplace();
     for (const auto& [name, file] : files_) tried->set(name, file.text(round_ + 1));
     return examine_();
@@ -163,51 +165,63 @@ class Fixer {
   // ---- A round
 
   // Replaces what can be, in what was read in the round before; false when that is nothing.
-  bool replace_words(const Diagnostics& found) {
+  bool replace_words(const Examined& examined) {
+    const Diagnostics& found = examined.diagnostics;
     if (round_ == 1) said_ = texts_of(found);
-    note_outvoted(found);
+    note_outvoted(examined);
     bool changed = false;
     for (const Diagnostic& one : found.sorted())
       if (can_be_done(one) && replace_word(one)) changed = true;
     return changed;
   }
 
-  // Where more places have the one name than have the name of the row that is meant, it may be the row that
-  // is misspelt.
-  void note_outvoted(const Diagnostics& found) {
-    std::map<std::pair<std::string, std::string>, std::set<Position>> places;
-    for (const Diagnostic& one : found.sorted())
-      if (can_be_done(one)) places[{one.replacement->found, one.replacement->wanted}].insert(one.position);
-    for (const auto& [words, where] : places) {
-      if (where.size() < 2 || !obstacle_of(where.begin()->file).empty()) continue;
-      const Mentions of_wanted = mentions_of(words.second, file_at(where.begin()->file)->text(round_));
-      if (of_wanted.row == 0 || of_wanted.others >= where.size()) continue;
-      outvoted_.emplace(words, "it stands so in " + std::to_string(where.size()) + " places, and " +
-                                   quote(words.second) + " in " + std::to_string(of_wanted.others) +
-                                   " beside its own row in line " + std::to_string(of_wanted.row) +
-                                   ", which may be what is misspelt");
+  // Where more places have the one name than have the declared one that is meant, it may be the declaration
+  // that is misspelt. A word alone outvotes nothing.
+  void note_outvoted(const Examined& examined) {
+    const std::vector<Diagnostic> said = examined.diagnostics.sorted();
+    if (std::none_of(said.begin(), said.end(), can_be_done)) return;
+    const NameCounts counts = counts_in(examined.files);
+    for (const Diagnostic& one : said) {
+      if (!can_be_done(one)) continue;
+      for (const auto& part : differing_parts(one.replacement->found, one.replacement->wanted)) {
+        const NameCount& found = counts.of(part.first);
+        const NameCount& wanted = counts.of(part.second);
+        if (!wanted.declared_at || found.references < 2 || wanted.references >= found.references) continue;
+        outvoted_.emplace(part, "it stands so in " + std::to_string(found.references) + " places, and " +
+                                    quote(part.second) + " in " + std::to_string(wanted.references) +
+                                    " beside its declaration at " + to_string(wanted.declared_at) +
+                                    ", which may be what is misspelt");
+      }
     }
   }
 
-  struct Mentions {
-    std::size_t row = 0;     // the line of its own row, as "[unit.NAME]"; 0: it has none there
-    std::size_t others = 0;  // beside that
-  };
-  static Mentions mentions_of(const std::string& word, const std::string& text) {
-    Mentions mentions;
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-      const std::size_t end = at + word.size();
-      if ((at > 0 && is_bare(text[at - 1])) || (end < text.size() && is_bare(text[end]))) continue;
-      const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;  // npos + 1 is 0
-      const bool is_row = text[line] == '[' && end < text.size() && text[end] == ']';
-      if (is_row && mentions.row == 0)
-        mentions.row = static_cast<std::size_t>(
-                           std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) +
-                       1;
-      else
-        ++mentions.others;
+  NameCounts counts_in(const std::vector<fs::path>& files) const {
+    NameCounts counts;
+    std::set<fs::path> counted;
+    for (const fs::path& path : files) {
+      if (!counted.insert(fs::weakly_canonical(path)).second) continue;
+      const std::string name = path.generic_string();
+      const auto edited = files_.find(name);
+      const std::string text = edited != files_.end() ? edited->second.text(round_) : contents_of(path);
+      Diagnostics unused;
+      try {
+        if (path.extension() == ".toml") {
+          if (const auto table = parse_text(text, path, unused)) counts.add(*table);
+        } else if (path.extension() == ".csv") {
+          if (const auto list = parse_csv(text, path, unused)) counts.add(*list);
+        }
+      } catch (const GivenUp&) {
+        // A list with a thousand errors.
+      }
     }
-    return mentions;
+    return counts;
+  }
+
+  // Why the replacement is not made; null: nothing is against it.
+  const std::string* outvoted(const Replacement& replacement) const {
+    for (const auto& part : differing_parts(replacement.found, replacement.wanted))
+      if (const auto found = outvoted_.find(part); found != outvoted_.end()) return &found->second;
+    return nullptr;
   }
 
   bool replace_word(const Diagnostic& one) {
@@ -220,9 +234,8 @@ class Fixer {
     const auto at = file.before_edits(place->begin, round_);
     const auto token = file.before_edits(place->token, round_);
     if (!at || !token || reasons_.contains({file.name(), *at})) return false;
-    if (const auto outvoted = outvoted_.find({replacement.found, replacement.wanted});
-        outvoted != outvoted_.end()) {
-      reasons_.emplace(std::pair(file.name(), *at), outvoted->second);
+    if (const std::string* const why = outvoted(replacement); why != nullptr) {
+      reasons_.emplace(std::pair(file.name(), *at), *why);
       return false;
     }
     if (const Edit* const known = file.find(*at)) {
@@ -389,7 +402,7 @@ class Fixer {
   std::set<std::string> said_;  // before this round
   std::map<std::string, EditedFile, std::less<>> files_;
   std::map<std::string, std::string, std::less<>> obstacles_;
-  std::map<std::pair<std::string, std::string>, std::string> outvoted_;  // found and wanted, and why
+  std::map<std::pair<std::string, std::string>, std::string> outvoted_;  // parts found and wanted, and why
   std::map<std::pair<std::string_view, std::size_t>, std::string>
       reasons_;  // of words that stay, by file and byte
 };

@@ -49,9 +49,11 @@ class Cell {
   Cell(const Cell&) = delete;
   Cell& operator=(const Cell&) = delete;
 
-  static Diagnostics judge() {
-    Model unused;
-    return judge_cell("cell", Stage::emit, unused);
+  static Examined judge() {
+    Model model;
+    Examined examined{judge_cell("cell", Stage::emit, model), {}};
+    examined.files = model.files;
+    return examined;
   }
 
   static Fixed fix(bool dry_run = false, const std::vector<fs::path>& more = {}) {
@@ -229,8 +231,8 @@ void a_row_that_nobody_refers_to_outvotes_no_references(void**) {
     assert_false(fixed.good);
     assert_true(says(
         fixed.told,
-        "left alone: 'can0' -> 'cann0': it stands so in 2 places, and 'cann0' in 0 beside its own row in "
-        "line 4, which may be what is misspelt\n"));
+        "left alone: 'can0' -> 'cann0': it stands so in 2 places, and 'cann0' in 0 beside its declaration at "
+        "cell/cell.toml:4:9, which may be what is misspelt\n"));
     assert_true(is(Cell::text("cell.toml"), before));
   }
   // One wrong reference beside a right one is a slip.
@@ -239,6 +241,39 @@ void a_row_that_nobody_refers_to_outvotes_no_references(void**) {
                        "drivers = [\"simulated\", \"can\"]\non = \"cann0\"\n\n[device.right]"));
   const Fixed fixed = Cell::fix();
   assert_true(fixed.good);
+}
+
+// Whatever the references look like: names, beginnings of names, of several kinds, found in several rounds.
+void a_misspelt_declaration_outvotes_no_references_of_any_kind(void**) {
+  Files files = with(base("jog"), "cell.toml", "[unit.jog]", "[unit.jjog]");
+  files["cell.toml"] +=
+      "\n[widget.step]\nkind = \"slider\"\nplace = \"jog\"\nparameters = { value = \"jog.step\" }\n"
+      "\n[widget.home]\nkind = \"button\"\nplace = \"jog\"\nparameters = { value = \"jog.home\" }\n";
+  const Cell cell(files);
+  const Fixed fixed = Cell::fix();
+  assert_false(fixed.good);
+  const std::string why =
+      "it stands so in 6 places, and 'jjog' in 0 beside its declaration at cell/cell.toml:10:7, which may be "
+      "what is misspelt\n";
+  for (const char* change :
+       {"'jog' -> 'jjog': ", "'jog.step' -> 'jjog.step': ", "'jog.home' -> 'jjog.home': "})
+    assert_true(says(fixed.told, std::string("left alone: ") + change + why));
+  assert_true(is(Cell::text("cell.toml"), files["cell.toml"]));
+}
+
+// The declaration stands in another file than the references: it is a device of a list.
+void a_misspelt_name_in_a_list_outvotes_no_references(void**) {
+  Files files = with(base("lines"), "io_list.csv", "green_lamp;", "gren_lamp;");
+  files["cell.toml"] +=
+      "\n[widget.lamp]\nkind = \"timeline\"\nplace = \"green_lamp\"\n"
+      "options = { rows = \"tower\", frame = \"tower\" }\n";
+  const Cell cell(files);
+  const Fixed fixed = Cell::fix();
+  assert_false(fixed.good);
+  assert_true(says(fixed.told,
+                   "left alone: 'green_lamp' -> 'gren_lamp': it stands so in 2 places, and 'gren_lamp' in 0 "
+                   "beside its declaration at cell/io_list.csv:3:1, which may be what is misspelt\n"));
+  assert_true(is(Cell::text("cell.toml"), files["cell.toml"]));
 }
 
 // The column that is missing is rightly named; the one that is there is what is corrected.
@@ -467,9 +502,9 @@ bool is_no_worse(const fs::path& file, Counts& counts) {
   const auto [files, messages] = read_case(file);
   const Cell cell(files);
   if (messages.find("did you mean") == std::string::npos) return leaves_alone(file, files);
-  const Diagnostics before = Cell::judge();
+  const Diagnostics before = Cell::judge().diagnostics;
   const Fixed first = Cell::fix();
-  const Diagnostics after = Cell::judge();
+  const Diagnostics after = Cell::judge().diagnostics;
   const Files fixed = files_in("cell");
   std::string wrong;
   const auto known = uncovered().find(file.filename().string());
@@ -517,6 +552,8 @@ int main() {
                               cmocka_unit_test(lists_of_devices_are_corrected),
                               cmocka_unit_test(what_is_in_doubt_is_left_alone),
                               cmocka_unit_test(a_row_that_nobody_refers_to_outvotes_no_references),
+                              cmocka_unit_test(a_misspelt_declaration_outvotes_no_references_of_any_kind),
+                              cmocka_unit_test(a_misspelt_name_in_a_list_outvotes_no_references),
                               cmocka_unit_test(only_the_word_that_is_wrong_is_replaced),
                               cmocka_unit_test(a_key_that_is_there_already_is_left_alone),
                               cmocka_unit_test(a_change_that_leads_to_another_error_is_taken_back),
