@@ -9,15 +9,19 @@ void emit_register_map(const RegisterMap& map, const std::string& constant, Text
   };
   out << "constexpr ModbusRegister " << constant << "_registers[] = {\n";
   for (const ModbusRegister& entry : map.registers) {
-    out << "    {" << string_literal(entry.name) << ", " << entry.address << ", "
-        << value("Area", register_areas[entry.area]) << ", " << value("Type", register_types[entry.type])
-        << ",\n     " << value("WordOrder", register_word_orders[entry.word_order]) << ", "
-        << value("Access", register_accesses[entry.access]) << ", "
-        << value("PollGroup", register_poll_groups[entry.poll_group]) << ", " << double_literal(entry.scale)
-        << ", " << string_literal(entry.unit) << ", " << double_literal(entry.safe_value);
-    if (entry.bit || !entry.refreshed)
-      out << ", " << (entry.bit ? std::to_string(*entry.bit) : "ModbusRegister::whole");
-    if (!entry.refreshed) out << ", false";
+    out << "    {.name = " << string_literal(entry.name) << ", .address = " << entry.address
+        << ", .area = " << value("Area", register_areas[entry.area])
+        << ", .type = " << value("Type", register_types[entry.type])
+        << ",\n     .word_order = " << value("WordOrder", register_word_orders[entry.word_order])
+        << ", .access = " << value("Access", register_accesses[entry.access])
+        << ", .poll_group = " << value("PollGroup", register_poll_groups[entry.poll_group])
+        << ",\n     .scale = " << double_literal(entry.scale) << ", .unit = " << string_literal(entry.unit)
+        << ", .safe_value = " << double_literal(entry.safe_value);
+    if (entry.bit) out << ", .bit = " << unsigned{*entry.bit};
+    if (!entry.refreshed) out << ", .refreshed = false";
+    if (entry.offset != 0) out << ", .offset = " << double_literal(entry.offset);
+    if (entry.missing) out << ", .missing = std::uint64_t{" << hash_literal(*entry.missing) << "}";
+    if (entry.scale_register) out << ", .scale_register = " << *entry.scale_register;
     out << "},\n";
   }
   out << "};\nconstexpr ModbusRegisterMap " << constant << "{" << constant << "_registers};\n";

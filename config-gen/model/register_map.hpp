@@ -19,9 +19,12 @@ struct ModbusRegister {
   std::size_t poll_group = 0;  // into register_poll_groups
   double scale = 1;
   std::string unit;
-  double safe_value = 0;            // in the unit; of what is written
-  std::optional<std::uint8_t> bit;  // of a bool in a register
-  bool refreshed = true;            // written again though it did not change
+  double safe_value = 0;                      // in the unit; of what is written
+  std::optional<std::uint8_t> bit;            // of a bool in a register
+  bool refreshed = true;                      // written again though it did not change
+  double offset = 0;                          // in the unit: the value of a count of 0
+  std::optional<std::uint64_t> missing;       // the bits that say that there is no value
+  std::optional<std::size_t> scale_register;  // into the list: what tells the power of ten
 };
 
 struct RegisterMap {
@@ -35,7 +38,7 @@ inline const std::vector<std::string> register_types = {"bool", "i16", "u16", "i
                                                         "f32",  "i64", "u64", "f64"};
 inline const std::vector<std::string> register_word_orders = {"abcd", "cdab", "badc", "dcba"};
 inline const std::vector<std::string> register_accesses = {"read", "write", "read_write"};
-inline const std::vector<std::string> register_poll_groups = {"fast", "normal", "slow"};
+inline const std::vector<std::string> register_poll_groups = {"fast", "normal", "slow", "once"};
 
 // As in the runtime's images: more do not fit.
 inline constexpr std::size_t max_registers_of_station = 256;

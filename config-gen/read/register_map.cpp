@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <charconv>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "config-gen/model/words.hpp"
 #include "config-gen/read/csv_rows.hpp"
+#include "config-gen/read/quantities.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -66,11 +70,14 @@ class MapReader : CsvRowReader {
     poll_group,
     safe_value,
     refresh,
+    offset,
+    missing,
+    scale_register,
     columns
   };
   static constexpr std::array<const char*, columns> column_names = {
-      "name",  "address", "bit",    "type",       "area",       "word_order",
-      "scale", "unit",    "access", "poll_group", "safe_value", "refresh"};
+      "name",   "address",    "bit",        "type",    "area",   "word_order", "scale",         "unit",
+      "access", "poll_group", "safe_value", "refresh", "offset", "missing",    "scale_register"};
 
  public:
   MapReader(const CsvTable& table, Diagnostics& diagnostics)
@@ -84,6 +91,7 @@ class MapReader : CsvRowReader {
     }
     if (table_.rows.empty())
       error(table_.header.front(), "this register map has no registers", "add a row for each value");
+    find_scale_registers();
     check_sizes();
     if (failed_) return std::nullopt;
     return std::move(map_);
@@ -109,18 +117,22 @@ class MapReader : CsvRowReader {
     entry_.type = type_word.value_or(boolean);
     entry_.access = access_word.value_or(read_only);
     entry_.poll_group = word(poll_group, register_poll_groups).value_or(0);
-    if (const CsvCell* found = cell(unit)) entry_.unit = found->text;
+    read_unit();
     if (type_word && access_word) {
       read_bit();
       read_area();
       read_word_order();
       read_scale();
+      read_offset();
+      read_missing();
+      read_scale_register();
       read_safe_value();
       read_refresh();
     }
     read_address();
     if (!failed_) {
       check_against_others();
+      if (const CsvCell* found = cell(scale_register)) scaled_.emplace_back(map_.registers.size(), found);
       map_.registers.push_back(entry_);
     }
     failed_ = failed_ || failed_before;
@@ -156,6 +168,22 @@ class MapReader : CsvRowReader {
             std::string("make its access read, or it a ") + (is_bit ? "coil" : "holding_register"));
   }
 
+  void read_unit() {
+    const CsvCell* found = cell(unit);
+    if (found == nullptr) return;
+    entry_.unit = found->text;
+    if (std::string advice = judge_unit(found->text, UnitUse::device); !advice.empty()) {
+      error(*found, quote(found->text) + " is no unit of measure", std::move(advice));
+      return;
+    }
+    // A valve's position may be read as a part of its way.
+    const bool is_share = found->text == "1" || found->text == "%" || found->text == "ppm";
+    const std::string instead = is_share ? "" : units_instead(entry_.name, found->text);
+    if (!instead.empty())
+      error(*found, quote(found->text) + " does not measure what " + quote(entry_.name) + " is by its name",
+            "write a unit that measures it, as " + instead + ", or name the register by what it is");
+  }
+
   void read_word_order() {
     const auto order = word(word_order, register_word_orders, "only the device's manual tells its order");
     entry_.word_order = order.value_or(0);
@@ -180,6 +208,114 @@ class MapReader : CsvRowReader {
     entry_.scale = *value;
   }
 
+  bool is_plain() const { return entry_.scale == 1 && entry_.offset == 0; }
+
+  void read_offset() {
+    const CsvCell* found = cell(offset);
+    if (found == nullptr) return;
+    const auto value = CsvTable::number(*found, diagnostics_);
+    if (!value) {
+      failed_ = true;
+      return;
+    }
+    if (!std::isfinite(*value))
+      error(*found, "the offset " + quote(found->text) + " would lose the value",
+            "write what a count of 0 is in the unit, as -40");
+    else if (entry_.type == boolean && *value != 0)
+      error(*found, "a bool has no offset", "leave the cell empty");
+    entry_.offset = *value;
+  }
+
+  // Of what is written too, a value might be one that says that there is none.
+  bool is_only_read(Column column) {
+    if (entry_.access == read_only) return true;
+    error(place(column), "what is written has no " + std::string(column_names[column]),
+          "make its access read, and write it by a row of another name at the same address");
+    return false;
+  }
+
+  void read_missing() {
+    const CsvCell* found = cell(missing);
+    if (found == nullptr || !is_only_read(missing)) return;
+    const std::string& called = register_types[entry_.type];
+    if (entry_.type == boolean)
+      error(*found, "a bool is 0 or 1: none of its values says that there is none", "leave the cell empty");
+    else if (const auto bits =
+                 is_fraction(entry_.type) ? bits_of_fraction(found->text) : bits_of_integer(found->text))
+      entry_.missing = *bits;
+    else
+      error(*found, quote(found->text) + " is no value of the type " + called,
+            is_fraction(entry_.type)
+                ? "write what the register tells then, as -9999; \"nan\" says it without this column"
+                : "write the counts that the register tells then, as -32768 or 0x8000");
+  }
+
+  unsigned type_bits() const { return static_cast<unsigned>(16 * words_of(entry_)); }
+
+  // Counts with their sign, or as the bits that they are.
+  std::optional<std::uint64_t> bits_of_integer(std::string_view text) const {
+    const bool is_negative = text.starts_with('-');
+    if (is_negative) text.remove_prefix(1);
+    const bool is_hexadecimal = text.starts_with("0x") || text.starts_with("0X");
+    if (is_hexadecimal) text.remove_prefix(2);
+    std::uint64_t value = 0;
+    const auto [end, failed] =
+        std::from_chars(text.data(), text.data() + text.size(), value, is_hexadecimal ? 16 : 10);
+    const std::uint64_t all = ~std::uint64_t{0} >> (64 - type_bits());
+    if (failed != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    if (!is_negative) return value <= all ? std::optional(value) : std::nullopt;
+    const bool is_signed = register_types[entry_.type][0] == 'i';
+    if (!is_signed || value > all / 2 + 1) return std::nullopt;
+    return (0 - value) & all;
+  }
+
+  std::optional<std::uint64_t> bits_of_fraction(std::string_view text) const {
+    double value = 0;
+    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (failed != std::errc{} || end != text.data() + text.size() || std::isnan(value)) return std::nullopt;
+    if (type_bits() == 64) return std::bit_cast<std::uint64_t>(value);
+    return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  }
+
+  void read_scale_register() {
+    const CsvCell* found = cell(scale_register);
+    if (found == nullptr || !is_only_read(scale_register)) return;
+    if (entry_.type == boolean) error(*found, "a bool has no scale", "leave the cell empty");
+  }
+
+  // Named rows may come later.
+  void find_scale_registers() {
+    std::vector<std::string> known;
+    for (const ModbusRegister& one : map_.registers) known.push_back(one.name);
+    for (const auto& [index, found] : scaled_) {
+      const auto other = std::find(known.begin(), known.end(), found->text);
+      if (other == known.end()) {
+        // A row that is wrong itself has been told.
+        if (!names_.contains(found->text))
+          error(*found, "the register map has no register " + quote(found->text),
+                suggest(found->text, known, "registers", "name the row that tells the power of ten"));
+        continue;
+      }
+      const auto place = static_cast<std::size_t>(other - known.begin());
+      const ModbusRegister& factor = map_.registers[place];
+      const std::string what = quote(factor.name) + " tells no power of ten: ";
+      if (factor.access == write_only)
+        error(*found, what + "it is only written", "name a row whose access is read");
+      else if (register_types[factor.type] != "i16" && register_types[factor.type] != "u16")
+        error(*found, what + "it is a " + register_types[factor.type], "name a row of the type i16 or u16");
+      else if (factor.scale != 1 || factor.offset != 0 || cell_of_scaled(place))
+        error(*found, what + "it has a scale or an offset itself",
+              "leave them out of the row " + quote(factor.name) + ": its counts are the exponent");
+      else
+        map_.registers[index].scale_register = place;
+    }
+  }
+
+  bool cell_of_scaled(std::size_t place) const {
+    return std::any_of(scaled_.begin(), scaled_.end(),
+                       [place](const auto& one) { return one.first == place; });
+  }
+
   void read_safe_value() {
     const CsvCell* found = cell(safe_value);
     if (entry_.access == read_only) {
@@ -199,7 +335,7 @@ class MapReader : CsvRowReader {
       return;
     }
     entry_.safe_value = *value;
-    const double raw = *value / entry_.scale;
+    const double raw = (*value - entry_.offset) / entry_.scale;
     const Range range = raw_ranges[entry_.type];
     // Dividing by a scale such as 0.1 rounds: a whole count may come out a few units of the last digit beside
     // it.
@@ -209,13 +345,13 @@ class MapReader : CsvRowReader {
       error(*found,
             "the safe_value " + found->text + " is no whole count of its type, " +
                 register_types[entry_.type] +
-                (entry_.scale == 1 ? "" : ", with the scale of " + quote(entry_.name)),
+                (is_plain() ? "" : ", with the scale and offset of " + quote(entry_.name)),
             "write the value that the register shall have, to its last count");
     else if (!(raw >= range.least && raw <= range.most))
       error(*found,
             "the safe_value " + found->text + " does not fit a " + register_types[entry_.type] +
-                (entry_.scale == 1 ? "" : " with the scale of " + quote(entry_.name)),
-            "change the value, the type or the scale");
+                (is_plain() ? "" : " with the scale and offset of " + quote(entry_.name)),
+            "change the value, the type, the scale or the offset");
   }
 
   void read_refresh() {
@@ -317,6 +453,7 @@ class MapReader : CsvRowReader {
   ModbusRegister entry_;
   RegisterMap map_;
   std::map<std::string, Position> names_;
+  std::vector<std::pair<std::size_t, const CsvCell*>> scaled_;  // rows with a scale register, and its name
   std::map<std::array<std::uint32_t, 3>, std::vector<Taken>> taken_;
   std::size_t read_ = 0;
   std::size_t written_ = 0;

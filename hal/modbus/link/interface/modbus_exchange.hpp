@@ -16,7 +16,7 @@ struct ModbusStationSetup {
   const char* name = "";                   ///< of the device, for messages; outlives the link
   const ModbusRegisterMap* map = nullptr;  ///< likewise
   std::uint8_t unit_id = 1;
-  std::array<Duration, 3> poll_periods{};  ///< by poll group; 0: in every cycle of the link
+  std::array<Duration, 3> poll_periods{};  ///< by poll group but `once`; 0: in every cycle of the link
   Duration refresh_period{};               ///< what did not change is written again; 0: never
   bool writes_multiple = false;  ///< single values by the functions for several; else until it knows no other
   std::uint16_t most_registers = 125;  ///< of a request

@@ -273,7 +273,9 @@ bool ModbusMaster::read_what_is_due(ModbusExchange& exchange) noexcept {
     std::array<std::uint16_t, 2000> words{};
     const ModbusReply reply = transport_->read(exchange.setup.unit_id, block, words.data());
     if (!judge(exchange, block, false, reply, now)) return false;
-    const Duration period = exchange.setup.poll_periods[static_cast<std::size_t>(block.group)];
+    const bool is_once = block.group == ModbusPollGroup::once;
+    const Duration period =
+        is_once ? Duration{} : exchange.setup.poll_periods[static_cast<std::size_t>(block.group)];
     const bool answered = reply.outcome == ModbusOutcome::answered;
     side.image.refused[i] = !answered;
     // In step with the clock, unless that is more than a period behind.
@@ -285,6 +287,7 @@ bool ModbusMaster::read_what_is_due(ModbusExchange& exchange) noexcept {
     }
     std::copy_n(words.data(), block.count, &side.image.words[block.offset]);
     side.image.sampled_at[i] = nanoseconds(transport_->now());
+    if (is_once) side.read_due[i] = Time::max();
   }
   return true;
 }

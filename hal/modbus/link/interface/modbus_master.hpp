@@ -44,8 +44,9 @@ class ModbusMaster {
   /// writing to it fails, one that answers writing is written to while its readings fail; safe values do not
   /// wait for the pause after other values have failed [modbus-master-5]. A single value is written by the
   /// functions that its station was found to know [modbus-master-6]. A register with refresh = no is written
-  /// when its value changes, and after the station was not heard [modbus-master-7]. A request that fails ends
-  /// the call, so that one call waits for at most one of them; the next begins behind that station
+  /// when its value changes, and after the station was not heard [modbus-master-7]. A register of the poll
+  /// group `once` is read until the station has answered, and not again [modbus-master-10]. A request that
+  /// fails ends the call, so that one call waits for at most one of them; the next begins behind that station
   /// [modbus-master-3]. The call also ends when the next request might take longer than what is left of the
   /// step of its thread; then the next call begins with that request [modbus-master-4].
   void serve() noexcept;

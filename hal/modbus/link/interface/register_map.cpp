@@ -52,6 +52,27 @@ Integer rounded(double raw) {
   return static_cast<Integer>(nearest);
 }
 
+double counts_of(ModbusType type, std::uint64_t bits) {
+  switch (type) {
+    case ModbusType::i16:
+      return static_cast<std::int16_t>(bits);
+    case ModbusType::i32:
+      return static_cast<std::int32_t>(bits);
+    case ModbusType::i64:
+      return static_cast<double>(static_cast<std::int64_t>(bits));
+    case ModbusType::f32:
+      return double{std::bit_cast<float>(static_cast<std::uint32_t>(bits))};
+    case ModbusType::f64:
+      return std::bit_cast<double>(bits);
+    case ModbusType::boolean:
+    case ModbusType::u16:
+    case ModbusType::u32:
+    case ModbusType::u64:
+      break;
+  }
+  return static_cast<double>(bits);
+}
+
 void set_bit(const ModbusRegister& meaning, bool value, std::uint16_t& word) {
   const auto mask = static_cast<std::uint16_t>(1U << meaning.bit);
   word = static_cast<std::uint16_t>(value ? word | mask : word & ~mask);
@@ -64,33 +85,27 @@ const char* name_of(ModbusArea area) noexcept {
   return names[static_cast<std::size_t>(area)];
 }
 
-double decode_register(const ModbusRegister& meaning, const std::uint16_t* words) noexcept {
-  switch (meaning.type) {
-    case ModbusType::boolean:
-      return (meaning.is_bit_of_register() ? words[0] >> meaning.bit & 1 : words[0]) != 0 ? 1 : 0;
-    case ModbusType::i16:
-      return static_cast<std::int16_t>(words[0]) * meaning.scale;
-    case ModbusType::u16:
-      return words[0] * meaning.scale;
-    case ModbusType::i32:
-      return static_cast<std::int32_t>(joined(meaning, words)) * meaning.scale;
-    case ModbusType::u32:
-      return static_cast<double>(joined(meaning, words)) * meaning.scale;
-    case ModbusType::f32:
-      return double{std::bit_cast<float>(static_cast<std::uint32_t>(joined(meaning, words)))} * meaning.scale;
-    case ModbusType::i64:
-      return static_cast<double>(static_cast<std::int64_t>(joined(meaning, words))) * meaning.scale;
-    case ModbusType::u64:
-      return static_cast<double>(joined(meaning, words)) * meaning.scale;
-    case ModbusType::f64:
-      return std::bit_cast<double>(joined(meaning, words)) * meaning.scale;
-  }
-  return 0;
+double decode_register(const ModbusRegister& meaning, const std::uint16_t* words, double factor) noexcept {
+  if (meaning.type == ModbusType::boolean)
+    return (meaning.is_bit_of_register() ? words[0] >> meaning.bit & 1 : words[0]) != 0 ? 1 : 0;
+  const std::uint64_t bits = joined(meaning, words);
+  if (meaning.missing == bits) return std::numeric_limits<double>::quiet_NaN();
+  return counts_of(meaning.type, bits) * (meaning.scale * factor) + meaning.offset;
 }
 
-void encode_register(const ModbusRegister& meaning, double value, std::uint16_t* words) noexcept {
+double factor_of_exponent(double exponent) noexcept {
+  constexpr double most = 10;
+  return std::abs(exponent) <= most ? std::pow(10.0, exponent) : std::numeric_limits<double>::quiet_NaN();
+}
+
+void encode_register(const ModbusRegister& meaning, double value, std::uint16_t* words,
+                     double factor) noexcept {
+  if (std::isnan(value) && meaning.missing) {
+    split(meaning, *meaning.missing, words);
+    return;
+  }
   if (std::isnan(value)) value = meaning.safe_value;
-  const double raw = value / meaning.scale;
+  const double raw = (value - meaning.offset) / (meaning.scale * factor);
   switch (meaning.type) {
     case ModbusType::boolean:
       if (meaning.is_bit_of_register()) {

@@ -43,13 +43,13 @@ class LinkedWorld : public ModbusStationWorld {
   void put(std::size_t index, double value) override {
     const ModbusRegister& entry = map_->registers[index];
     std::array<std::uint16_t, ModbusRegister::most_words> words = words_of(entry);
-    encode_register(entry, value, words.data());
+    encode_register(entry, value, words.data(), factor_of(entry));
     for (std::uint16_t i = 0; i < entry.words(); ++i)
       put_word(entry.area, static_cast<std::uint16_t>(entry.address + i), words[i]);
   }
   double held(std::size_t index) override {
     const ModbusRegister& entry = map_->registers[index];
-    return decode_register(entry, words_of(entry).data());
+    return decode_register(entry, words_of(entry).data(), factor_of(entry));
   }
 
   Link& link() { return link_->driver(); }
@@ -63,6 +63,9 @@ class LinkedWorld : public ModbusStationWorld {
   virtual std::uint16_t word(ModbusArea area, std::uint16_t address) = 0;
 
  private:
+  double factor_of(const ModbusRegister& entry) {
+    return entry.scale_register == ModbusRegister::none ? 1 : factor_of_exponent(held(entry.scale_register));
+  }
   std::array<std::uint16_t, ModbusRegister::most_words> words_of(const ModbusRegister& entry) {
     std::array<std::uint16_t, ModbusRegister::most_words> words{};
     for (std::uint16_t i = 0; i < entry.words(); ++i)

@@ -280,6 +280,75 @@ Verdict a_hundred_and_twenty_registers_in_three_blocks_take_three_requests(Modbu
   return verdict(read && world.requests() == 3 && failures(feedback(world)) == 0);
 }
 
+// Scaled by a power of ten that another register tells; 0x8000 and the like say that there is no value.
+enum OddPlace : std::size_t { exponent, power, heat, gas, odd_places };
+constexpr ModbusRegister odd_registers[odd_places] = {
+    {.name = "exponent", .address = 40, .type = ModbusType::i16, .missing = 0x8000},
+    {.name = "power",
+     .address = 41,
+     .type = ModbusType::i16,
+     .unit = "W",
+     .missing = 0x8000,
+     .scale_register = exponent},
+    {.name = "heat",
+     .address = 42,
+     .type = ModbusType::u16,
+     .scale = 0.1,
+     .unit = "degC",
+     .offset = -40,
+     .missing = 0xFFFF},
+    {.name = "gas", .address = 43, .type = ModbusType::f32, .unit = "l/s", .missing = 0x7FC00000}};
+constexpr ModbusRegisterMap odd_map{odd_registers};
+
+// [modbus-station-9]
+Verdict what_the_station_has_no_value_of_is_told_so(ModbusStationWorld& world) {
+  if (!world.start(odd_map)) return Verdict::failed;
+  world.put(exponent, -2);
+  world.put(power, 12.34);
+  world.put(heat, -12.3);
+  world.put(gas, 0.5);
+  const bool known = until(world, [&] {
+    return reads(world, power, 12.34) && reads(world, heat, -12.3) && reads(world, gas, 0.5);
+  });
+  const auto is_missing = [&](std::size_t index) {
+    const ModbusValue got = world.station().read(index);
+    return !got && got.reason == NullReason::writer_faulted && got.value == 0;
+  };
+  for (const std::size_t index : {heat, gas, exponent}) world.put(index, std::nan(""));
+  const bool missing = until(world, [&] {
+    return is_missing(heat) && is_missing(gas) && is_missing(exponent) && is_missing(power);
+  });
+  world.put(exponent, 11);  // more than a power of ten that anybody means
+  const bool refused = until(world, [&] { return reads(world, exponent, 11) && is_missing(power); });
+  world.put(exponent, 1);
+  world.put(power, 250);
+  world.put(heat, 0);
+  const bool back =
+      until(world, [&] { return reads(world, power, 250) && reads(world, heat, 0) && is_missing(gas); });
+  return verdict(known && missing && refused && back);
+}
+
+constexpr ModbusRegister kept_registers[] = {
+    {.name = "serial", .address = 50, .type = ModbusType::u16, .poll_group = ModbusPollGroup::once},
+    {.name = "count", .address = 51, .type = ModbusType::u16}};
+constexpr ModbusRegisterMap kept_map{kept_registers};
+
+// [modbus-station-10]
+Verdict what_is_read_once_does_not_age(ModbusStationWorld& world) {
+  constexpr std::size_t serial = 0, count = 1;
+  if (!world.start(kept_map)) return Verdict::failed;
+  world.put(serial, 7);
+  world.put(count, 1);
+  if (!until(world, [&] { return reads(world, serial, 7) && reads(world, count, 1); }))
+    return Verdict::failed;
+  world.put(serial, 8);
+  world.put(count, 2);
+  const Time start = world.now();
+  return verdict(until(world, [&] {
+    return reads(world, count, 2) && reads(world, serial, 7) && world.now() - start > std::chrono::seconds(1);
+  }));
+}
+
 CMUnitTest test(const char* name, CMUnitTestFunction run) {
   return {name, run, nullptr, nullptr, nullptr};
 }
@@ -292,6 +361,9 @@ int run_modbus_station_conformance(const char* driver, MakeModbusStationWorld ma
   const CMUnitTest tests[] = {
       test("nothing is known before the first answer", judged<nothing_is_known_before_the_first_answer>),
       test("every kind of register is read", judged<every_kind_of_register_is_read>),
+      test("what the station has no value of is told so",
+           judged<what_the_station_has_no_value_of_is_told_so>),
+      test("what is read once does not age", judged<what_is_read_once_does_not_age>),
       test("values carry their age", judged<values_carry_their_age>),
       test("what is set is written and read back", judged<what_is_set_is_written_and_read_back>),
       test("bits of a register are written together", judged<bits_of_a_register_are_written_together>),

@@ -53,11 +53,14 @@ ModbusValue StationEnd::read(std::size_t index) const noexcept {
     return result;
   }
   const ModbusRegister& meaning = exchange_->setup.map->registers[index];
-  const Duration period = exchange_->setup.poll_periods[static_cast<std::size_t>(meaning.poll_group)];
-  result.value = decode_register(meaning, &image_->words[place.input]);
+  const bool is_scaled = meaning.scale_register != ModbusRegister::none;
+  result = value_of_register(meaning, &image_->words[place.input],
+                             is_scaled ? read(meaning.scale_register) : ModbusValue{});
   // The link's thread may have stamped it after this cycle began.
   result.age = std::max(Duration{}, now_ - Time{Duration{sampled_at}});
-  result.reason = result.age <= period + max_age_ ? NullReason::none
+  if (meaning.poll_group == ModbusPollGroup::once) return result;  // what was read once does not age
+  const Duration period = exchange_->setup.poll_periods[static_cast<std::size_t>(meaning.poll_group)];
+  result.reason = result.age <= period + max_age_ ? result.reason
                   : refused                       ? NullReason::writer_faulted
                   : image_->online                ? NullReason::too_old
                                                   : NullReason::writer_stopped;

@@ -29,6 +29,21 @@ Result<std::size_t> find(const ModbusRegisterMap& map, std::string_view name, bo
 
 }  // namespace
 
+ModbusValue value_of_register(const ModbusRegister& meaning, const std::uint16_t* words,
+                              const ModbusValue& scale) noexcept {
+  ModbusValue result;
+  const bool is_scaled = meaning.scale_register != ModbusRegister::none;
+  if (is_scaled && !scale) {
+    result.reason = scale.reason;
+    return result;
+  }
+  const double value = decode_register(meaning, words, is_scaled ? factor_of_exponent(scale.value) : 1);
+  const bool is_missing = std::isnan(value);
+  result.value = is_missing ? 0 : value;
+  result.reason = is_missing ? NullReason::writer_faulted : NullReason::none;
+  return result;
+}
+
 Result<std::size_t> ModbusStation::input(std::string_view name) const noexcept {
   return find(*registers, name, false);
 }

@@ -19,11 +19,18 @@ struct ModbusValue {
   Duration age{};    ///< since the answer came that it was in
   /// none: valid. nothing_yet: never read. Older than its poll group's period and max_age: writer_faulted
   /// when the station refuses to tell it, writer_stopped when the station does not answer, else
-  /// too_old [modbus-station-1].
+  /// too_old [modbus-station-1]; what is read once does not age [modbus-station-10]. writer_faulted also when
+  /// the station says that it has no value, or tells a power of ten that is none; while its scale register is
+  /// not valid, that one's reason [modbus-station-9].
   NullReason reason = NullReason::nothing_yet;
 
   explicit operator bool() const noexcept { return reason == NullReason::none; }
 };
+
+/// What the words of a register say beside their age, for drivers. `scale`: of its scale register, if it has
+/// one.
+ModbusValue value_of_register(const ModbusRegister& meaning, const std::uint16_t* words,
+                              const ModbusValue& scale) noexcept;
 
 /// input, output: any thread, from connect() on. All else: the thread the station lives in. Made safe, it has
 /// its safe values written, and says so once the station has confirmed them [modbus-station-7].

@@ -34,7 +34,8 @@ class StationOutputs {
     encode_register(meaning, asked, words);
     const double held = decode_register(meaning, words);
     // What is rounded to the register's counts, or to a float, fits.
-    const double rounding = std::max(std::abs(meaning.scale), 1e-6 * std::abs(asked));
+    const double rounding =
+        std::max(std::abs(meaning.scale), 1e-6 * std::max(std::abs(asked), std::abs(meaning.offset)));
     if (std::abs(held - asked) <= rounding) return {};
     return {"a value that its register cannot hold is kept to the nearest that it can", asked, held};
   }

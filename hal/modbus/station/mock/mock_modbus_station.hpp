@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "hal/driver/mock/mock_noise.hpp"
 #include "hal/modbus/station/interface/modbus_station.hpp"
@@ -44,10 +45,13 @@ class MockModbusStation final : public MockModbusStationDriver {
       if (behaviour_ == Fault::refused) result.reason = NullReason::writer_faulted;
       return result;
     }
-    result.value = decode_register(registers->registers[index], cell.told.data());
+    const ModbusRegister& meaning = registers->registers[index];
+    const bool is_scaled = meaning.scale_register != ModbusRegister::none;
+    result = value_of_register(meaning, cell.told.data(),
+                               is_scaled ? read(meaning.scale_register) : ModbusValue{});
     result.age = now_ - cell.told_at;
-    result.reason = seconds(result.age) <= period_of(registers->registers[index]) + configuration.max_age
-                        ? NullReason::none
+    if (meaning.poll_group == ModbusPollGroup::once) return result;
+    result.reason = seconds(result.age) <= period_of(meaning) + configuration.max_age ? result.reason
                     : behaviour_ == Fault::refused ? NullReason::writer_faulted
                     : behaviour_ == Fault::none    ? NullReason::too_old
                                                    : NullReason::writer_stopped;
@@ -56,14 +60,15 @@ class MockModbusStation final : public MockModbusStationDriver {
 
   // ---- for tests
 
-  /// The register of this index holds it from now on, or tells it only `later`.
+  /// The register of this index holds it from now on, or tells it only `later`; not a number: it says that
+  /// there is none.
   void put(std::size_t index, double value, Duration later = {}) noexcept {
-    encode_register(registers->registers[index], value, cells_[index].held.data());
+    encode_register(registers->registers[index], value, cells_[index].held.data(), factor_of(index));
     cells_[index].visible_at = now_ + later;
   }
   /// What it holds, told or not.
   double held(std::size_t index) const noexcept {
-    return decode_register(registers->registers[index], cells_[index].held.data());
+    return decode_register(registers->registers[index], cells_[index].held.data(), factor_of(index));
   }
   /// What the register of this index tells is at most so much more or less than what it holds, at random,
   /// seeded; 0 or more.
@@ -91,11 +96,14 @@ class MockModbusStation final : public MockModbusStationDriver {
     if (behaviour_ != Fault::none) return;
     for (std::size_t i = 0; i < registers->registers.size(); ++i) {
       Cell& cell = cells_[i];
-      if (now_ < cell.visible_at) continue;
+      const bool was_read_once =
+          registers->registers[i].poll_group == ModbusPollGroup::once && cell.told_at != Time{};
+      if (now_ < cell.visible_at || was_read_once) continue;
       cell.told = cell.held;
       cell.told_at = now_;
-      if (cell.noise > 0)
-        encode_register(registers->registers[i], held(i) + noise_.around_zero(cell.noise), cell.told.data());
+      if (cell.noise > 0 && !std::isnan(held(i)))
+        encode_register(registers->registers[i], held(i) + noise_.around_zero(cell.noise), cell.told.data(),
+                        factor_of(i));
     }
   }
   void write(bool /*safe*/) noexcept override {
@@ -128,6 +136,12 @@ class MockModbusStation final : public MockModbusStationDriver {
     feedback.set_last_error(cause);
   }
 
+  // By what the scale register of this one holds.
+  double factor_of(std::size_t index) const noexcept {
+    const std::uint16_t scale = registers->registers[index].scale_register;
+    return scale == ModbusRegister::none ? 1 : factor_of_exponent(held(scale));
+  }
+
   double period_of(const ModbusRegister& entry) const noexcept {
     switch (entry.poll_group) {
       case ModbusPollGroup::fast:
@@ -135,6 +149,7 @@ class MockModbusStation final : public MockModbusStationDriver {
       case ModbusPollGroup::normal:
         return configuration.normal_period;
       case ModbusPollGroup::slow:
+      case ModbusPollGroup::once:
         break;
     }
     return configuration.slow_period;

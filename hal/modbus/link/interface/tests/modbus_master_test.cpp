@@ -463,6 +463,36 @@ void what_wears_is_written_at_changes_alone() {
   CHECK_EQUAL(world.line.station(2).taken, 3);
 }
 
+constexpr ModbusRegister kept[] = {{.name = "events",
+                                    .address = 3,
+                                    .area = ModbusArea::holding_register,
+                                    .type = ModbusType::u16,
+                                    .poll_group = ModbusPollGroup::once}};
+constexpr ModbusRegisterMap kept_map{kept};
+
+// [modbus-master-10]
+void what_reading_changes_is_read_once() {
+  Line world(0);
+  const Result<ModbusExchange*> exchange = world.master.attach(Line::setup_of(1, kept_map));
+  CHECK(exchange);
+  world.exchanges.push_back(*exchange);
+  world.make(1, 1, ModbusOutcome::timeout);
+  for (int turn = 0; turn < 100; ++turn) world.turn();
+  CHECK(world.line.station(1).reads > 1);  // which nobody has answered
+  world.make(1, 1, ModbusOutcome::answered);
+  for (int turn = 0; turn < 200; ++turn) world.turn();
+  const int reads = world.line.station(1).reads;
+  CHECK(world.image(1).sampled_at[0] != 0);
+  for (int turn = 0; turn < 1000; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(1).reads, reads);
+  // Nor when it was gone meanwhile.
+  world.make(1, 1, ModbusOutcome::timeout);
+  for (int turn = 0; turn < 10; ++turn) world.turn();
+  world.make(1, 1, ModbusOutcome::answered);
+  for (int turn = 0; turn < 200; ++turn) world.turn();
+  CHECK_EQUAL(world.line.station(1).reads, reads);
+}
+
 // [modbus-master-9]
 void a_unit_has_one_station() {
   Line world(2);
@@ -514,6 +544,7 @@ int main() {
       CONTAINED_TEST(a_station_that_answers_nothing_is_read_and_written_in_turn),
       CONTAINED_TEST(who_listens_first_is_not_told_again_what_was_not_answered),
       CONTAINED_TEST(what_wears_is_written_at_changes_alone),
+      CONTAINED_TEST(what_reading_changes_is_read_once),
       CONTAINED_TEST(a_unit_has_one_station),
       CONTAINED_TEST(nobody_is_asked_right_after_connecting),
   };

@@ -128,10 +128,57 @@ void what_lies_between_two_counts_becomes_the_nearer(void**) {
 }
 
 // [register-map-4]
-void no_number_becomes_the_safe_value(void**) {
+void no_number_becomes_the_bits_that_say_so_or_the_safe_value(void**) {
   std::uint16_t words[2] = {};
   encode_register(of(ModbusType::u16), std::nan(""), words);
   assert_int_equal(words[0], 3);
+  ModbusRegister meaning = of(ModbusType::i32, ModbusWordOrder::cdab);
+  meaning.missing = 0x80000000;
+  encode_register(meaning, std::nan(""), words);
+  assert_int_equal(words[0], 0);
+  assert_int_equal(words[1], 0x8000);
+}
+
+// [register-map-7]
+void an_offset_is_added_to_the_scaled_counts(void**) {
+  ModbusRegister meaning = of(ModbusType::u16, ModbusWordOrder::abcd, 0.1);
+  meaning.offset = -40;
+  std::uint16_t word = 277;
+  assert_true(std::abs(decode_register(meaning, &word) + 12.3) < 1e-9);
+  assert_true(std::abs(decode_register(meaning, &word, 100) - 2730) < 1e-9);
+  encode_register(meaning, 5.0, &word);
+  assert_int_equal(word, 450);
+  encode_register(meaning, 60, &word, 100);
+  assert_int_equal(word, 10);
+  encode_register(meaning, -50, &word);  // below what a count of 0 is
+  assert_int_equal(word, 0);
+}
+
+// [register-map-8]
+void bits_that_say_that_there_is_no_value_are_no_number(void**) {
+  ModbusRegister meaning = of(ModbusType::i16);
+  meaning.missing = 0x8000;
+  std::uint16_t word = 0x8000;
+  assert_true(std::isnan(decode_register(meaning, &word)));
+  word = 0x8001;
+  assert_true(decode_register(meaning, &word) == -32767);
+  ModbusRegister wide = of(ModbusType::u32, ModbusWordOrder::dcba);
+  wide.missing = 0xFFFFFFFE;
+  std::uint16_t words[4] = {0xFEFF, 0xFFFF};
+  assert_true(std::isnan(decode_register(wide, words)));
+  words[0] = 0xFFFF;
+  assert_true(decode_register(wide, words) == 4294967295.0);
+  const std::uint16_t no_float[] = {0x7FC1, 0x0000};  // without a column for it
+  assert_true(std::isnan(decode_register(of(ModbusType::f32), no_float)));
+}
+
+// [register-map-9]
+void an_exponent_is_a_power_of_ten_within_reason(void**) {
+  assert_true(factor_of_exponent(0) == 1);
+  assert_true(std::abs(factor_of_exponent(-3) - 0.001) < 1e-12);
+  assert_true(factor_of_exponent(10) == 1e10);
+  for (const double exponent : {11.0, -11.0, 32767.0, std::nan("")})
+    assert_true(std::isnan(factor_of_exponent(exponent)));
 }
 
 }  // namespace
@@ -146,6 +193,9 @@ int main() {
                               cmocka_unit_test(signs_and_scales_are_kept),
                               cmocka_unit_test(what_does_not_fit_becomes_the_nearest),
                               cmocka_unit_test(what_lies_between_two_counts_becomes_the_nearer),
-                              cmocka_unit_test(no_number_becomes_the_safe_value)};
+                              cmocka_unit_test(no_number_becomes_the_bits_that_say_so_or_the_safe_value),
+                              cmocka_unit_test(an_offset_is_added_to_the_scaled_counts),
+                              cmocka_unit_test(bits_that_say_that_there_is_no_value_are_no_number),
+                              cmocka_unit_test(an_exponent_is_a_power_of_ten_within_reason)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
