@@ -78,6 +78,10 @@ class EdsReader {
       if (equal_without_case(section.name, "DeviceInfo")) {
         eds_.vendor = optional_number(section, "VendorNumber");
         eds_.product = optional_number(section, "ProductNumber");
+      } else if (equal_without_case(section.name, "DeviceComissioning") ||
+                 equal_without_case(section.name, "DeviceCommissioning")) {
+        // The standard spells it with one m.
+        eds_.node = optional_number(section, "NodeID");
       } else if (equal_without_case(section.name, "MandatoryObjects") ||
                  equal_without_case(section.name, "OptionalObjects") ||
                  equal_without_case(section.name, "ManufacturerObjects")) {
@@ -86,6 +90,7 @@ class EdsReader {
         read_object(section);
       }
     }
+    for (const IniSection& section : sections_) read_compact_values(section);
     for (const IniSection* list : lists_) check_list(*list);
     if (!eds_.objects.empty()) return std::move(eds_);
     diagnostics_.error({sections_.front().position.file, 1, 1},
@@ -127,11 +132,34 @@ class EdsReader {
       count.position = section.position;
       count.data_type = EdsNumber{unsigned_8, false, section.position};
       count.access = "ro";
+      count.value = EdsNumber{compact->value, false, compact->position};
       eds_.variables.try_emplace({index, std::uint8_t{0}}, count);
       for (std::int64_t i = 1; i <= std::min<std::int64_t>(compact->value, 0xFE); ++i)
         eds_.variables.try_emplace({index, static_cast<std::uint8_t>(i)}, variable(section));
     } else if (section.find("DataType") != nullptr) {
       eds_.variables.try_emplace({index, std::uint8_t{0}}, variable(section));
+    }
+  }
+
+  // [1016Value]: what the subindices of a compact object are, where that differs.
+  void read_compact_values(const IniSection& section) {
+    const std::string name = in_small_letters(section.name);
+    constexpr std::string_view ending = "value";
+    const auto index = hexadecimal(name.substr(0, 4));
+    if (name.size() != 4 + ending.size() || !name.ends_with(ending) || !index) return;
+    for (const IniEntry& entry : section.entries) {
+      const auto subindex = whole_number(entry.key);
+      if (!subindex || *subindex < 1 || *subindex > 0xFE || !has_value(&entry)) continue;  // as NrOfEntries
+      const auto found =
+          eds_.variables.find({static_cast<std::uint16_t>(*index), static_cast<std::uint8_t>(*subindex)});
+      if (found == eds_.variables.end()) {
+        diagnostics_.warning(
+            entry.key_position,
+            "the object " + quote(section.name.substr(0, 4)) + " has no subindex " + quote(entry.key),
+            "the value is left out");
+      } else {
+        found->second.value = value_of(entry, entry.key, found->second);
+      }
     }
   }
 
@@ -148,17 +176,31 @@ class EdsReader {
       result.mappable = mappable->value != 0;
       result.mappable_position = mappable->position;
     }
-    // Values and limits may be texts: nobody asks for those.
-    result.value = silent_number(section, "ParameterValue");
-    if (!result.value) result.value = silent_number(section, "DefaultValue");
-    result.low = silent_number(section, "LowLimit");
-    result.high = silent_number(section, "HighLimit");
+    result.configured = has_value(section.find("ParameterValue"));
+    result.value = value_of(section, result.configured ? "ParameterValue" : "DefaultValue", result);
+    result.low = value_of(section, "LowLimit", result);
+    result.high = value_of(section, "HighLimit", result);
+    result.flags = optional_number(section, "ObjFlags");
     return result;
   }
 
-  static std::optional<EdsNumber> silent_number(const IniSection& section, std::string_view key) {
+  static bool has_value(const IniEntry* entry) {
+    return entry != nullptr &&
+           !without_blanks(std::string_view(entry->value).substr(0, entry->value.find(';'))).empty();
+  }
+
+  // Values and limits may be texts: it is for whoever needs a number to say so.
+  static std::optional<EdsNumber> value_of(const IniSection& section, std::string_view key,
+                                           EdsVariable& variable) {
     const IniEntry* entry = section.find(key);
-    return entry == nullptr || entry->value.empty() ? std::nullopt : number(*entry);
+    return entry == nullptr ? std::nullopt : value_of(*entry, key, variable);
+  }
+  static std::optional<EdsNumber> value_of(const IniEntry& entry, std::string_view key,
+                                           EdsVariable& variable) {
+    if (!has_value(&entry)) return std::nullopt;
+    const auto value = number(entry);
+    if (!value) variable.odd.push_back({std::string(key), entry.value, entry.position});
+    return value;
   }
 
   std::optional<EdsNumber> optional_number(const IniSection& section, std::string_view key) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "config-gen/model/diagnostics.hpp"
 
@@ -15,6 +16,13 @@ namespace flexrf::config_gen {
 struct EdsNumber {
   std::int64_t value = 0;
   bool of_node = false;  // $NODEID is to be added
+  Position position;
+};
+
+// A value or a limit that is no number.
+struct EdsOddValue {
+  std::string key;  // as "DefaultValue"
+  std::string text;
   Position position;
 };
 
@@ -28,9 +36,16 @@ struct EdsVariable {
   bool mappable = false;  // into PDOs
   Position mappable_position;
   std::optional<EdsNumber> value;  // of a DCF as configured, else the default
+  bool configured = false;         // it is a DCF's
   std::optional<EdsNumber> low;
   std::optional<EdsNumber> high;
+  std::vector<EdsOddValue> odd;    // which nobody can compare with anything
+  std::optional<EdsNumber> flags;  // ObjFlags
 };
+
+// Bits of ObjFlags (CiA 306-1): by these a tool that configures the device leaves the object alone.
+inline constexpr std::int64_t eds_refuses_writing = 1;
+inline constexpr std::int64_t eds_refuses_reading = 2;
 
 struct Eds {
   // By index and subindex; an object without subindices has 0.
@@ -38,6 +53,7 @@ struct Eds {
   std::map<std::uint16_t, Position> objects;
   std::optional<EdsNumber> vendor;   // of [DeviceInfo]
   std::optional<EdsNumber> product;  // likewise
+  std::optional<EdsNumber> node;     // of a DCF, [DeviceComissioning]
 
   const EdsVariable* find(std::uint16_t index, std::uint8_t subindex) const;
 };

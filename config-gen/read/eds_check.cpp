@@ -38,6 +38,7 @@ class EdsCheck {
   EdsCheck(const EdsUse& use, Diagnostics& diagnostics) : use_(use), diagnostics_(diagnostics) {}
 
   void run() {
+    check_node();
     for (const NeededObject& needed : use_.objects) {
       if (!is_asked_for(needed)) continue;
       needed_ = &needed;
@@ -47,6 +48,19 @@ class EdsCheck {
   }
 
  private:
+  // A DCF is what a tool has set of one device.
+  void check_node() {
+    const Literal* const node = use_.parameter("node");
+    if (!use_.eds.node || node == nullptr) return;
+    const auto configured = static_cast<std::int64_t>(number_of(*node));
+    if (use_.eds.node->value == configured) return;
+    diagnostics_.error(use_.eds.node->position,
+                       "this file is of node " + std::to_string(use_.eds.node->value) +
+                           ", and the device's node is " + std::to_string(configured),
+                       "name the file of the device that is there, or correct the configuration at " +
+                           to_string(node->position));
+  }
+
   bool is_asked_for(const NeededObject& needed) const {
     return std::all_of(needed.when.begin(), needed.when.end(),
                        [this](const NeededObject::Condition& condition) { return holds(condition); });
@@ -87,8 +101,26 @@ class EdsCheck {
     }
     check_type(*found);
     check_access(*found);
+    check_flags(*found);
     check_pdo(*found);
+    for (const EdsOddValue& odd : found->odd)
+      diagnostics_.warning(odd.position,
+                           called_ + " has the " + odd.key + " " + quote(odd.text) + ", which is no number",
+                           "it is left out; numbers are written as 31, 0x1F or $NODEID+0x180");
     check_value(*found);
+  }
+
+  // Of what the driver sets or asks when it brings the device up; what goes in each cycle is another matter.
+  void check_flags(const EdsVariable& found) {
+    if (!found.flags || needed_->pdo != Pdo::none) return;
+    const bool writes = needed_->access != Access::read && (found.flags->value & eds_refuses_writing) != 0;
+    const bool reads = (needed_->access == Access::read || needed_->access == Access::read_write) &&
+                       (found.flags->value & eds_refuses_reading) != 0;
+    if (!writes && !reads) return;
+    diagnostics_.warning(found.flags->position,
+                         called_ + " is not to be " + (writes ? "written" : "read") +
+                             " when the device is configured, its ObjFlags say, and the driver does",
+                         "look into the device's manual what comes of it");
   }
 
   void check_type(const EdsVariable& found) {
@@ -161,6 +193,25 @@ class EdsCheck {
       check_equal(found, *wanted, from, fixed);
     else if (!needed_->of_node)
       check_limits(found, *wanted);
+    if (needed_->access != Access::read && !fixed) tell_configured(found, *wanted);
+  }
+
+  // What a tool has set is replaced when the driver brings the device up.
+  void tell_configured(const EdsVariable& found, std::int64_t wanted) {
+    if (!found.configured || !found.value || found.value->of_node) return;
+    if (needed_->of_node) {
+      const Literal* const node = use_.parameter("node");
+      if (node == nullptr) return;
+      wanted += static_cast<std::int64_t>(number_of(*node));
+    }
+    if (as_typed(found.value->value) == as_typed(wanted)) return;
+    const unsigned bits = object_type_bits[needed_->type];
+    diagnostics_.warning(
+        found.value->position,
+        called_ + " has the ParameterValue " + hexadecimal(found.value->value, bits) +
+            ", and the driver sets it to " + hexadecimal(wanted, bits),
+        "the value of this file is without effect" +
+            (configured_at_ ? ": change the configuration at " + to_string(configured_at_) : ""));
   }
 
   // What the device says of itself, or what is mapped in it for good.

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/ascii.hpp"
-#include "config-gen/model/words.hpp"
 #include "config-gen/model/source_text.hpp"
+#include "config-gen/model/words.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -91,6 +92,11 @@ class IniReader {
     const auto [key, key_position] = lines.part(0, equals);
     const auto [value, position] = lines.part(equals + 1, line.size());
     if (leave_out_) return;
+    if (!keys_.insert(in_small_letters(key)).second) {
+      diagnostics_.warning(key_position, "the key " + quote(key) + " is there twice in its section",
+                           "the first counts");
+      return;
+    }
     sections_.back().entries.push_back({std::string(key), std::string(value), key_position, position});
   }
 
@@ -102,6 +108,7 @@ class IniReader {
     while (!name.empty() && is_blank(name.front())) name.remove_prefix(1);
     while (!name.empty() && is_blank(name.back())) name.remove_suffix(1);
     const auto [known, is_new] = known_.try_emplace(in_small_letters(name), start);
+    keys_.clear();
     leave_out_ = !is_new;
     if (leave_out_)
       diagnostics_.warning(start, "the section " + quote(name) + " is there twice",
@@ -113,6 +120,7 @@ class IniReader {
   Diagnostics& diagnostics_;
   std::vector<IniSection> sections_;
   std::map<std::string, Position> known_;  // by its name in small letters
+  std::set<std::string> keys_;             // of the section that is read, likewise
   bool leave_out_ = false;
   std::size_t stray_ = 0;
   Position first_stray_;

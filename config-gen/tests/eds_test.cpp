@@ -87,6 +87,14 @@ void numbers(void**) {
   assert_false(parsed.eds->find(0x2005, 0)->value.has_value());
 }
 
+void a_key_that_is_there_twice(void**) {
+  const Parsed parsed = parse("[6040]\nDataType=6\ndatatype=7\n[6041]\nDataType=6\n");
+  assert_string_equal(parsed.messages.c_str(),
+                      "drive.eds:3:1: warning: the key 'datatype' is there twice in its section\n"
+                      "drive.eds:3:1: hint: the first counts\n");
+  assert_int_equal(parsed.eds->find(0x6040, 0)->data_type->value, 6);
+}
+
 void compact_arrays_and_configured_values(void**) {
   const Parsed parsed = parse(
       "[1016]\nParameterName=Consumer\nObjectType=8\nCompactSubObj=3\nDataType=7\nAccessType=rw\n"
@@ -97,6 +105,31 @@ void compact_arrays_and_configured_values(void**) {
   assert_null(parsed.eds->find(0x1016, 4));
   assert_int_equal(parsed.eds->find(0x1016, 2)->data_type->value, 6);
   assert_int_equal(parsed.eds->find(0x1016, 2)->value->value, 2);
+}
+
+// What a tool has set: of a DCF, and of a compact object the values of its subindices.
+void values_of_compact_objects_and_of_a_device(void**) {
+  const Parsed parsed = parse(
+      "[DeviceComissioning]\nNodeID=0x05\nBaudrate=500\n"
+      "[1016]\nCompactSubObj=2\nDataType=7\nAccessType=rw\nDefaultValue=1\nObjFlags=0x3\n"
+      "[1016Value]\nNrOfEntries=2\n2=0x7F01F4\n3=1\n[1016Name]\nNrOfEntries=1\n1=Master\n"
+      "[2000]\nDataType=7\nParameterValue= ; not set\nDefaultValue=4\n"
+      "[2001]\nDataType=7\nParameterValue=auto\nDefaultValue=4\nHighLimit=$NODEID*2\n");
+  assert_string_equal(parsed.messages.c_str(),
+                      "drive.eds:13:1: warning: the object '1016' has no subindex '3'\n"
+                      "drive.eds:13:1: hint: the value is left out\n");
+  assert_int_equal(parsed.eds->node->value, 5);
+  assert_int_equal(parsed.eds->find(0x1016, 0)->value->value, 2);
+  assert_int_equal(parsed.eds->find(0x1016, 1)->value->value, 1);
+  assert_int_equal(parsed.eds->find(0x1016, 1)->flags->value, 3);
+  assert_int_equal(parsed.eds->find(0x1016, 2)->value->value, 0x7F01F4);
+  assert_int_equal(parsed.eds->find(0x2000, 0)->value->value, 4);
+  assert_false(parsed.eds->find(0x2000, 0)->configured);
+  const EdsVariable& odd = *parsed.eds->find(0x2001, 0);
+  assert_true(odd.configured && !odd.value);
+  assert_int_equal(odd.odd.size(), 2);
+  assert_string_equal(odd.odd[0].text.c_str(), "auto");
+  assert_string_equal(odd.odd[1].key.c_str(), "HighLimit");
 }
 
 void what_is_no_eds_file(void**) {
@@ -299,7 +332,9 @@ int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(a_variable),
                               cmocka_unit_test(line_ends_capitals_and_comments),
                               cmocka_unit_test(numbers),
+                              cmocka_unit_test(a_key_that_is_there_twice),
                               cmocka_unit_test(compact_arrays_and_configured_values),
+                              cmocka_unit_test(values_of_compact_objects_and_of_a_device),
                               cmocka_unit_test(what_is_no_eds_file),
                               cmocka_unit_test(every_cut_and_every_damage_ends_in_words),
                               cmocka_unit_test(a_cell_with_an_odd_but_good_file),
