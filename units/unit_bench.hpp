@@ -30,6 +30,8 @@ class SlotBench {
     std::memcpy(&value, control().payload(held_), sizeof(T));
     return value;
   }
+  /// When what latest() gave last was true; no time: it gave nothing.
+  Time sampled_at() { return held_ == SlotControl::none ? Time{} : control().header(held_).sampled_at; }
 
  private:
   Slot<T, 1> slot_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/status.hpp"
+#include "base/time.hpp"
 #include "runtime/log/log.hpp"
 
 namespace flexrf {
@@ -10,11 +11,12 @@ namespace flexrf {
 /// something was wrong, and that it no longer is. The device's thread.
 class TroubleLog {
  public:
-  /// Once a cycle. `name`: of the device; lives for ever. That it was not there yet, before nothing was wrong
-  /// for the first time, is not said. What comes and goes is said once a second.
-  void look(const char* name, const Status& trouble) noexcept {
-    if (!was_well_ && !trouble.is_ok()) return;
-    was_well_ = true;
+  /// Once a cycle. `name`: of the device; lives for ever. A device that was never well has `time_to_begin`
+  /// before it is said that it is not there; without `now` that is not said at all. What comes and goes is
+  /// said once a second.
+  void look(const char* name, const Status& trouble, Time now = {}) noexcept {
+    was_well_ = was_well_ || trouble.is_ok();
+    if (!was_well_ && !has_had_time(now)) return;
     if (trouble.code() == told_) return;
     told_ = trouble.code();
     if (trouble.is_ok()) {
@@ -24,8 +26,16 @@ class TroubleLog {
     }
   }
 
+  static constexpr Duration time_to_begin = std::chrono::seconds(1);
+
  private:
+  bool has_had_time(Time now) noexcept {
+    if (began_ == Time{}) began_ = now;
+    return now - began_ >= time_to_begin;
+  }
+
   bool was_well_ = false;
+  Time began_{};  // the first look
   StatusCode told_ = StatusCode::ok;
   LogLimit begins_;
   LogLimit ends_;

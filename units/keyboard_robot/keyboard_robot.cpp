@@ -35,7 +35,7 @@ void KeyboardRobot::step(const Tick& tick) {
     motion_.stop();
   } else {
     const Pose actual = to_pose(forward_kinematics(arm->kinematic_chain(), state->position_map()));
-    pose.publish(actual);
+    pose.publish(actual, arm->measured_at());
     // The set-point is where the arm is, also after a time in which it did not follow or was not heard.
     if (is_to_be_seeded_ && !motion_.is_moving()) {
       motion_.seed(state->position_map());

@@ -258,8 +258,9 @@ void RobotControl::command(double elapsed) noexcept {
 }
 
 void RobotControl::publish(const JointState& state) noexcept {
-  pose.publish(to_pose(forward_kinematics(arm->kinematic_chain(), state.position_map())));
-  joints.publish(state);
+  const Time at = arm->measured_at();
+  pose.publish(to_pose(forward_kinematics(arm->kinematic_chain(), state.position_map())), at);
+  joints.publish(state, at);
 }
 
 StreamLimits RobotControl::hand_limits() const noexcept {

@@ -15,7 +15,7 @@ class MeasuringDriver : public Base {
   void receive(const Tick& tick) noexcept override {
     listen(meter_, tick.now);
     meter_.close(tick.now);
-    log_.look(this->name(), meter_.trouble());
+    log_.look(this->name(), meter_.trouble(), tick.now);
     if (this->runtime.clear_tare > 0) meter_.clear_tare();
     if (this->runtime.tare > 0) meter_.tare();
     meter_.fill(this->feedback);

@@ -3,10 +3,8 @@
 #include <arpa/inet.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <string>
 
 namespace flexrf {
@@ -15,12 +13,6 @@ namespace {
 /// A thread that comes late must not be held for ever by what it missed.
 constexpr int most_per_cycle = 256;
 constexpr std::size_t most_bytes = 1500;
-/// Of both clocks.
-constexpr Duration longest_reading = std::chrono::microseconds(50);
-
-std::int64_t nanoseconds_of(const timespec& time) noexcept {
-  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-}
 
 }  // namespace
 
@@ -41,10 +33,8 @@ Status NetFtSensor::initialise() {
                          address.c_str(), unsigned{configuration.port});
   }
   socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  constexpr int on = 1;
-  if (socket_ < 0 || setsockopt(socket_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof(on)) != 0) {
+  if (socket_ < 0 || !ArrivalClock::enable(socket_))
     return Status::error(StatusCode::internal, "no socket for the sensor: %s", std::strerror(errno));
-  }
   return {};
 }
 
@@ -56,7 +46,7 @@ void NetFtSensor::stop() {
 }
 
 void NetFtSensor::listen(WrenchMeter& meter, Time now) noexcept {
-  compare_clocks();
+  arrival_.compare();
   for (int taken = 0; taken < most_per_cycle && take_datagram(meter, now); ++taken) {
   }
   const auto request = session_.request(now);
@@ -69,20 +59,10 @@ void NetFtSensor::listen(WrenchMeter& meter, Time now) noexcept {
                     std::strerror(error)));
 }
 
-/// Both clocks are read without a system call. One that is set just now makes a time wrong once, and never
-/// later than now. Held up between the two, this thread knows it better from the cycle before.
-void NetFtSensor::compare_clocks() noexcept {
-  const Time before = MonotonicClock::now();
-  timespec wall{};
-  clock_gettime(CLOCK_REALTIME, &wall);
-  if (to_monotonic_ != 0 && MonotonicClock::now() - before > longest_reading) return;
-  to_monotonic_ = nanoseconds(before) - nanoseconds_of(wall);
-}
-
 /// False: there is none.
 bool NetFtSensor::take_datagram(WrenchMeter& meter, Time now) noexcept {
   std::array<std::uint8_t, most_bytes> bytes;
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec))> control;
+  alignas(cmsghdr) std::array<char, ArrivalClock::control_bytes> control;
   sockaddr_in from{};
   iovec part{bytes.data(), bytes.size()};
   msghdr header{};
@@ -99,23 +79,14 @@ bool NetFtSensor::take_datagram(WrenchMeter& meter, Time now) noexcept {
   } else if ((header.msg_flags & MSG_TRUNC) != 0) {
     meter.note_damaged();
   } else {
-    session_.take(std::span(bytes).first(static_cast<std::size_t>(size)), time_of(header, now), meter);
+    session_.take(std::span(bytes).first(static_cast<std::size_t>(size)), arrival_.time_of(header, now),
+                  meter);
   }
   return true;
 }
 
 bool NetFtSensor::is_from_sensor(const sockaddr_in& from) const noexcept {
   return from.sin_addr.s_addr == sensor_.sin_addr.s_addr && from.sin_port == sensor_.sin_port;
-}
-
-Time NetFtSensor::time_of(msghdr& header, Time now) const noexcept {
-  for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {
-    if (part->cmsg_level != SOL_SOCKET || part->cmsg_type != SCM_TIMESTAMPNS) continue;
-    timespec wall{};
-    std::memcpy(&wall, CMSG_DATA(part), sizeof(wall));
-    return std::min(now, Time{Duration{nanoseconds_of(wall) + to_monotonic_}});
-  }
-  return now;
 }
 
 /// 0, or an error number. A socket whose buffer is full loses the request, as the network may.

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <netinet/in.h>
-#include <sys/socket.h>
 
+#include "hal/driver/arrival_clock.hpp"
 #include "hal/force_torque/interface/measuring_driver.hpp"
 #include "hal/force_torque/net_ft/net_ft_session.hpp"
 #include "net_ft_sensor_driver.hpp"
@@ -23,16 +23,14 @@ class NetFtSensor final : public MeasuringDriver<NetFtSensorDriver> {
 
  private:
   void listen(WrenchMeter& meter, Time now) noexcept override;
-  void compare_clocks() noexcept;
   bool take_datagram(WrenchMeter& meter, Time now) noexcept;
   bool is_from_sensor(const sockaddr_in& from) const noexcept;
-  Time time_of(msghdr& header, Time now) const noexcept;
   int send_request(const rdt::RequestBytes& request) noexcept;
 
   int socket_ = -1;
   sockaddr_in sensor_{};
   NetFtSession session_;
-  std::int64_t to_monotonic_ = 0;  // ns, from the wall's clock
+  ArrivalClock arrival_;
 };
 
 }  // namespace flexrf

@@ -92,6 +92,22 @@ Verdict tells_a_sane_state(RobotArmWorld& world) {
   return verdict(at.allFinite() && inside && state->velocity_map().isZero(tolerance));
 }
 
+// [robot-arm-13]
+Verdict tells_when_it_measured(RobotArmWorld& world) {
+  idle_for(world, 0.05);
+  Time before = world.arm().measured_at();
+  if (before == Time{}) return Verdict::failed;
+  for (int look = 0; look < 5; ++look) {
+    idle_for(world, 0.05);
+    const Time now = world.arm().measured_at();
+    if (now <= before) return Verdict::failed;
+    before = now;
+  }
+  if (!world.lose_sensors()) return Verdict::passed;
+  idle_for(world, 0.1);
+  return verdict(!world.arm().state() && world.arm().measured_at() == Time{});
+}
+
 // [robot-arm-10]
 Verdict stays_where_it_is_without_a_command(RobotArmWorld& world) {
   idle_for(world, 0.05);
@@ -340,6 +356,7 @@ int run_robot_arm_conformance(const char* driver, MakeRobotArmWorld make) {
   make_world = make;
   const CMUnitTest tests[] = {
       {"tells a sane state", judged<tells_a_sane_state>, nullptr, nullptr, nullptr},
+      {"tells when it measured", judged<tells_when_it_measured>, nullptr, nullptr, nullptr},
       {"stays where it is without a command", judged<stays_where_it_is_without_a_command>, nullptr, nullptr,
        nullptr},
       {"begins only where it is", judged<begins_only_where_it_is>, nullptr, nullptr, nullptr},

@@ -26,6 +26,10 @@ class RobotArm : public Actuator<RobotArmInterface> {
 
   /// What the sensors said last, as of this cycle; nothing while they say nothing [robot-arm-1].
   virtual std::optional<JointState> state() const noexcept = 0;
+  /// When that was measured, or told where the far end has no clock of ours: at most now, on the clock of the
+  /// cycles. It stands still while nothing new is told [robot-arm-13]. No time while state() is nothing. What
+  /// publishes the state gives it as the item's sampled_at.
+  virtual Time measured_at() const noexcept = 0;
 
   /// The arm follows commands: it may act, and its drives are on and homed. While this is false, a unit that
   /// commands the arm seeds its set-points with state().

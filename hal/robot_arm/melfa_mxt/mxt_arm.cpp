@@ -11,4 +11,19 @@ Status lost_controller(const char* where, double silence_limit, const PacingCoun
       static_cast<unsigned long long>(counters.foreign));
 }
 
+Status not_heard_yet(const char* where, std::size_t unknown_joint) noexcept {
+  if (unknown_joint > 0) {
+    return Status::error(
+        StatusCode::invalid_argument,
+        "%s tells where joint %zu is, which the URDF does not have, and is not led: give the "
+        "URDF each joint of the controller, or name the right controller",
+        where, unknown_joint);
+  }
+  return Status::error(
+      StatusCode::timeout,
+      "no answer from %s yet, it is asked until it answers: is it on, its program at MXT, and "
+      "the cable in?",
+      where);
+}
+
 }  // namespace flexrf::melfa

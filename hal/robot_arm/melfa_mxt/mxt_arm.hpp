@@ -2,6 +2,7 @@
 // What differs between drivers is the link to the controller.
 #pragma once
 
+#include "hal/driver/trouble_log.hpp"
 #include "hal/robot_arm/interface/robot_arm.hpp"
 #include "hal/robot_arm/melfa_mxt/mxt_dialogue.hpp"
 #include "motion/kinematics.hpp"
@@ -10,6 +11,8 @@ namespace flexrf::melfa {
 
 /// `where`: the controller, for a person.
 Status lost_controller(const char* where, double silence_limit, const PacingCounters& counters) noexcept;
+/// `unknown_joint`: see MxtDialogue::unknown_joint().
+Status not_heard_yet(const char* where, std::size_t unknown_joint) noexcept;
 
 template <class Base>
 class MxtArm : public Base {
@@ -21,7 +24,12 @@ class MxtArm : public Base {
     plan.pacing.answer = duration_of(set.answer_timeout);
     plan.pacing.silence = duration_of(set.silence_limit);
     plan.pacing.search = duration_of(set.search_interval);
-    ended_ = false;
+    // Counts on from session to session, faster than packets do: what was said in one before has another
+    // number.
+    constexpr std::int64_t a_number = 1'000'000;  // ns
+    if (!this->environment().virtual_time)
+      plan.pacing.first_number = static_cast<std::uint32_t>(nanoseconds(MonotonicClock::now()) / a_number);
+    ended_ = was_heard_ = false;
     state_.reset();
     this->begin_supervision(this->configuration);
     if (const Status status = open_link(); !status) return status;
@@ -35,6 +43,7 @@ class MxtArm : public Base {
   }
 
   std::optional<JointState> state() const noexcept override { return state_; }
+  Time measured_at() const noexcept override { return dialogue_.told_at(); }
 
   const PacingCounters& counters() const noexcept { return dialogue_.counters(); }
 
@@ -50,6 +59,7 @@ class MxtArm : public Base {
     dialogue_.receive(tick.now);
     if (dialogue_.has_lost_it() && this->fault().is_ok())
       this->fail(lost_controller(where(), this->configuration.silence_limit, dialogue_.counters()));
+    if (!was_heard_) tell_whether_it_is_there(tick.now);
     tell_state();
     this->supervise(tick.now);
   }
@@ -78,6 +88,11 @@ class MxtArm : public Base {
     dialogue_.command(set_points.position);
   }
 
+  /// Until it was heard; that it fell silent later is a fault if it was led, and else the unit says it.
+  void tell_whether_it_is_there(Time now) noexcept {
+    was_heard_ = dialogue_.told().has_value();
+    log_.look(this->name(), was_heard_ ? Status{} : not_heard_yet(where(), dialogue_.unknown_joint()), now);
+  }
   void tell_state() noexcept {
     this->feedback.late = dialogue_.counters().late;
     this->feedback.lost = dialogue_.counters().lost;
@@ -96,6 +111,8 @@ class MxtArm : public Base {
 
   MxtDialogue dialogue_;
   std::optional<JointState> state_;
+  TroubleLog log_;
+  bool was_heard_ = false;
   bool ended_ = false;  // the dialogue, so that the arm is safe; until its end was seen
 };
 

@@ -36,6 +36,13 @@ Status MxtDialogue::begin(const DialoguePlan& plan, const KinematicChain& chain,
                          "answer_timeout has to be shorter than silence_limit: an answer may be late before "
                          "the controller is not there");
   }
+  if (seconds(plan.pacing.answer) <= plan.cycle) {
+    return Status::error(
+        StatusCode::invalid_argument,
+        "answer_timeout (%g s) has to be longer than the controller's cycle (%g s): it answers "
+        "once in a cycle, and every answer would come too late",
+        seconds(plan.pacing.answer), plan.cycle);
+  }
   for (std::size_t i = 0; i < chain.joint_count; ++i) {
     const ChainJoint& joint = chain.joints[i];
     if (joint.kind == JointKind::prismatic) {
@@ -89,11 +96,11 @@ void MxtDialogue::receive(Time now) noexcept {
   // One byte more than a packet, so that a longer datagram shows.
   std::array<std::uint8_t, packet_bytes + 1> bytes{};
   for (int i = 0; i < most_received; ++i) {
-    const auto length = link_->receive(bytes, now);
-    if (!length) break;
-    const auto reply = unpack(std::span(bytes).first(std::min(*length, bytes.size())));
+    const auto datagram = link_->receive(bytes, now);
+    if (!datagram) break;
+    const auto reply = unpack(std::span(bytes).first(std::min(datagram->size, bytes.size())));
     if (reply && is_reply_to_us(*reply)) {
-      take(*reply, now);
+      take(*reply, datagram->at, now);
     } else {
       pacing_.count_foreign();
     }
@@ -107,28 +114,40 @@ void MxtDialogue::receive(Time now) noexcept {
   if (phase_ == Phase::leading) phase_ = Phase::monitoring;
 }
 
-void MxtDialogue::take(const Packet& reply, Time now) noexcept {
+void MxtDialogue::take(const Packet& reply, Time at, Time now) noexcept {
   const auto commanded = joints_told(reply, contents::joints);
   const auto measured = joints_told(reply, contents::measured_joints);
-  if (!commanded && !measured) return pacing_.count_foreign();
+  if ((!commanded && !measured) || has_unknown_joint(commanded) || has_unknown_joint(measured))
+    return pacing_.count_foreign();
   const AnswerPacing::Answer worth = pacing_.judge(reply.counter, now);
   if (worth == AnswerPacing::Answer::foreign) return;
   // What a late answer tells is older than what is known, unless nothing newer came since.
-  if (worth == AnswerPacing::Answer::late && told_ && told_at_ == now) return;
+  if (worth == AnswerPacing::Answer::late && told_ && taken_at_ == now) return;
   const JointAngles before = told_ ? told_->measured : JointAngles{};
   ToldJoints told;
   told.commanded = angles_of(commanded ? *commanded : *measured, chain_->joint_count);
   told.measured = angles_of(measured ? *measured : *commanded, chain_->joint_count);
   if (told_) {
-    const double cycles = std::max(1.0, std::round(seconds(now - told_at_) / plan_.cycle));
+    const double cycles = std::max(1.0, std::round(seconds(at - told_at_) / plan_.cycle));
     for (std::size_t i = 0; i < chain_->joint_count; ++i) {
       told.velocity[i] = (told.measured[i] - before[i]) / (cycles * plan_.cycle);
     }
   }
   told_ = told;
-  told_at_ = now;
+  told_at_ = at;
+  taken_at_ = now;
   if (phase_ == Phase::ending && worth == AnswerPacing::Answer::in_time && ends_said_ > 0)
     phase_ = Phase::ended;
+}
+
+bool MxtDialogue::has_unknown_joint(const std::optional<Joints>& joints) noexcept {
+  if (!joints) return false;
+  for (std::size_t i = chain_->joint_count; i < joints->size(); ++i) {
+    if ((*joints)[i] == 0.0F) continue;
+    unknown_joint_ = i + 1;
+    return true;
+  }
+  return false;
 }
 
 void MxtDialogue::command(const JointAngles& wanted) noexcept {

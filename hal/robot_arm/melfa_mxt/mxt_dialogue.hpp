@@ -46,18 +46,25 @@ class MxtDialogue {
 
   /// Nothing while the controller is not heard.
   const std::optional<ToldJoints>& told() const noexcept { return told_; }
+  /// When the answer that told it arrived; no time: nothing is told.
+  Time told_at() const noexcept { return told_ ? told_at_ : Time{}; }
   /// Commands are followed.
   bool is_leading() const noexcept { return phase_ == Phase::leading && !follower_.brakes(); }
   /// While it leads: that the joints are led faster than they may go or accelerate.
   Restraint restraint() const noexcept { return follower_.restraint(); }
   const PacingCounters& counters() const noexcept { return pacing_.counters(); }
+  /// Answers tell of a position of this joint, counted from 1, which the chain does not have: they are of
+  /// another arm, or the chain lacks an axis, which every packet would command to 0. They are foreign. 0:
+  /// none did.
+  std::size_t unknown_joint() const noexcept { return unknown_joint_; }
   /// The controller fell silent while it was led.
   bool has_lost_it() const noexcept { return lost_; }
 
  private:
   enum class Phase : std::uint8_t { monitoring, leading, ending, ended };
 
-  void take(const Packet& reply, Time now) noexcept;
+  void take(const Packet& reply, Time at, Time now) noexcept;
+  bool has_unknown_joint(const std::optional<Joints>& joints) noexcept;
   void tell(std::uint16_t what, Time now) noexcept;
   void lead(bool may_move, Time now) noexcept;
   void finish(Time now) noexcept;
@@ -74,8 +81,10 @@ class MxtDialogue {
   bool lost_ = false;
   int ends_said_ = 0;
   std::uint64_t strangers_ = 0;
+  std::size_t unknown_joint_ = 0;
   std::optional<ToldJoints> told_;
-  Time told_at_{};
+  Time told_at_{};   // its arrival
+  Time taken_at_{};  // the cycle that took it
   Time now_{};
 };
 

@@ -25,7 +25,8 @@ class MockArm final : public MockArmDriver {
     return {};
   }
 
-  std::optional<JointState> state() const noexcept override { return told_; }
+  std::optional<JointState> state() const noexcept override { return told_.state; }
+  Time measured_at() const noexcept override { return told_.state ? told_.at : Time{}; }
 
   // ---- for tests
 
@@ -42,6 +43,11 @@ class MockArm final : public MockArmDriver {
   std::uint64_t commands() const noexcept { return commands_; }
 
  private:
+  struct Told {
+    std::optional<JointState> state;
+    Time at{};
+  };
+
   void take_in(const Tick& tick) noexcept override {
     move(tick);
     last_cycle_ = tick.now;
@@ -80,17 +86,17 @@ class MockArm final : public MockArmDriver {
       for (std::size_t i = 0; i < chain->joint_count; ++i)
         measured->position[i] += noise_.around_zero(configuration.position_noise[i]);
     }
-    told_ = delay_.pass(measured, now);
+    told_ = delay_.pass({measured, now}, now);
   }
 
   std::optional<JointState> state_;  // where it is
-  std::optional<JointState> told_;
+  Told told_;
   std::optional<JointPositions> commanded_;
   std::uint64_t commands_ = 0;
   bool follows_ = true;
   Time last_cycle_{};
   MockNoise noise_;
-  MockDelay<std::optional<JointState>> delay_;
+  MockDelay<Told> delay_;
 };
 
 }  // namespace flexrf

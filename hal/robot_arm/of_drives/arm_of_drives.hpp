@@ -33,6 +33,7 @@ class ArmOfDrives : public Base {
   void stop() override { stop_first(this->chain->joint_count); }
 
   std::optional<JointState> state() const noexcept override { return group_.state(); }
+  Time measured_at() const noexcept override { return group_.measured_at(); }
   /// For faults on purpose; of the drive with this joint.
   Drive& drive(std::size_t joint) noexcept { return drives_[joint]; }
 

@@ -45,6 +45,13 @@ std::optional<JointState> ServoGroup::state() const noexcept {
   return result;
 }
 
+Time ServoGroup::measured_at() const noexcept {
+  if (!state()) return Time{};
+  Time oldest = Time::max();
+  for (std::size_t i = 0; i < count_; ++i) oldest = std::min(oldest, drives_[i]->state()->measured_at);
+  return oldest;
+}
+
 void ServoGroup::following_error(std::array<double, max_joints>& error) const noexcept {
   for (std::size_t i = 0; i < count_; ++i) {
     const auto state = drives_[i]->state();

@@ -26,6 +26,8 @@ class ServoGroup {
 
   /// Nothing until each drive tells where it is, and knows it.
   std::optional<JointState> state() const noexcept;
+  /// Of the drive that told its position longest ago; no time while state() is nothing.
+  Time measured_at() const noexcept;
   /// Set-point less position, of each joint; rad, or m where it slides.
   void following_error(std::array<double, max_joints>& error) const noexcept;
   /// All drives are enabled and know where they are: commands are followed.

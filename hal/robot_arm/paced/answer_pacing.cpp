@@ -11,6 +11,7 @@ constexpr std::uint32_t longest_way = 256;
 void AnswerPacing::begin(const PacingLimits& limits) noexcept {
   *this = AnswerPacing{};
   limits_ = limits;
+  number_ = limits.first_number;
 }
 
 bool AnswerPacing::is_free(Time now) noexcept {
@@ -37,10 +38,11 @@ void AnswerPacing::sent(Time now) noexcept {
 
 AnswerPacing::Answer AnswerPacing::judge(std::uint32_t number, Time now) noexcept {
   const std::uint32_t behind = number_ - number;
-  if (number != 0 && behind >= longest_way) {
+  if (number == 0 ? numbers_ : behind >= longest_way) {
     ++counters_.foreign;
     return Answer::foreign;
   }
+  numbers_ = number != 0;
   heard_ = true;
   heard_at_ = now;
   if (waits_ && (number == 0 || behind == 0)) {
@@ -54,7 +56,7 @@ AnswerPacing::Answer AnswerPacing::judge(std::uint32_t number, Time now) noexcep
 
 bool AnswerPacing::has_fallen_silent(Time now) noexcept {
   if (!heard_ || now - heard_at_ <= limits_.silence) return false;
-  heard_ = false;
+  heard_ = numbers_ = false;
   return true;
 }
 

@@ -9,9 +9,10 @@
 namespace flexrf {
 
 struct PacingLimits {
-  Duration answer{};   ///< a packet unanswered for so long is lost, and the next goes out
-  Duration silence{};  ///< without any answer for so long, the controller is no longer there
-  Duration search{};   ///< from packet to packet while it is not there
+  Duration answer{};               ///< a packet unanswered for so long is lost, and the next goes out
+  Duration silence{};              ///< without any answer for so long, the controller is no longer there
+  Duration search{};               ///< from packet to packet while it is not there
+  std::uint32_t first_number = 0;  ///< the first packet has the next one
 };
 
 /// Since begin().
@@ -34,11 +35,13 @@ class AnswerPacing {
   bool is_free(Time now) noexcept;
   /// The packet before was given up: nobody knows whether the controller has it.
   bool has_given_up() const noexcept { return given_up_; }
-  /// Of the packet that goes out now; from 1, never 0.
+  /// Of the packet that goes out now; never 0.
   std::uint32_t number_next() noexcept;
   void sent(Time now) noexcept;
 
-  /// `number` as the answer says; 0: it says none, and is taken as the answer to the last packet.
+  /// `number` as the answer says; 0: it says none, and is taken as the answer to the last packet, unless the
+  /// controller has numbered its answers since it was heard. A number that is none of the last packets', as
+  /// one of a session before, is foreign.
   Answer judge(std::uint32_t number, Time now) noexcept;
   void count_foreign(std::uint64_t datagrams = 1) noexcept { counters_.foreign += datagrams; }
 
@@ -56,6 +59,7 @@ class AnswerPacing {
   bool waits_ = false;
   bool given_up_ = false;
   bool heard_ = false;
+  bool numbers_ = false;  // its answers, since it is heard
   Time sent_at_{};
   Time heard_at_{};
 };

@@ -2,9 +2,9 @@
 
 #include <arpa/inet.h>
 #include <poll.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -27,8 +27,10 @@ Status UdpLink::open(const char* address, std::uint16_t port, std::uint16_t loca
                          "'%s' is no numeric IPv4 address; write it as 192.168.0.20", address);
   }
   socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (socket_ < 0) {
-    return Status::error(StatusCode::unavailable, "no UDP socket can be made: %s", std::strerror(errno));
+  if (socket_ < 0 || !ArrivalClock::enable(socket_)) {
+    const int error = errno;
+    close();
+    return Status::error(StatusCode::unavailable, "no UDP socket can be made: %s", std::strerror(error));
   }
   sockaddr_in own{};
   own.sin_family = AF_INET;
@@ -56,15 +58,23 @@ bool UdpLink::send(std::span<const std::uint8_t> datagram, Time /*now*/) noexcep
                 reinterpret_cast<const sockaddr*>(&controller_), sizeof(controller_)) == size;
 }
 
-std::optional<std::size_t> UdpLink::receive(std::span<std::uint8_t> into, Time /*now*/) noexcept {
+std::optional<Datagram> UdpLink::receive(std::span<std::uint8_t> into, Time now) noexcept {
+  arrival_.compare();
   for (int i = 0; i < most_strangers; ++i) {
     sockaddr_in sender{};
-    socklen_t length = sizeof(sender);
-    const ssize_t size = recvfrom(socket_, into.data(), into.size(), MSG_DONTWAIT | MSG_TRUNC,
-                                  reinterpret_cast<sockaddr*>(&sender), &length);
+    alignas(cmsghdr) std::array<char, ArrivalClock::control_bytes> control;
+    iovec part{into.data(), into.size()};
+    msghdr header{};
+    header.msg_name = &sender;
+    header.msg_namelen = sizeof(sender);
+    header.msg_iov = &part;
+    header.msg_iovlen = 1;
+    header.msg_control = control.data();
+    header.msg_controllen = control.size();
+    const ssize_t size = recvmsg(socket_, &header, MSG_DONTWAIT | MSG_TRUNC);
     if (size < 0) return std::nullopt;
     if (sender.sin_addr.s_addr == controller_.sin_addr.s_addr && sender.sin_port == controller_.sin_port)
-      return static_cast<std::size_t>(size);
+      return Datagram{static_cast<std::size_t>(size), arrival_.time_of(header, now)};
     ++strangers_;
   }
   return std::nullopt;

@@ -4,6 +4,7 @@
 #include <netinet/in.h>
 
 #include "base/status.hpp"
+#include "hal/driver/arrival_clock.hpp"
 #include "hal/robot_arm/paced/datagram_link.hpp"
 
 namespace flexrf {
@@ -23,7 +24,7 @@ class UdpLink final : public DatagramLink {
   int descriptor() const noexcept { return socket_; }
 
   bool send(std::span<const std::uint8_t> datagram, Time now) noexcept override;
-  std::optional<std::size_t> receive(std::span<std::uint8_t> into, Time now) noexcept override;
+  std::optional<Datagram> receive(std::span<std::uint8_t> into, Time now) noexcept override;
   std::uint64_t strangers() const noexcept override { return strangers_; }
   void wait(Duration longest) noexcept override;
 
@@ -31,6 +32,7 @@ class UdpLink final : public DatagramLink {
   int socket_ = -1;
   sockaddr_in controller_{};
   std::uint64_t strangers_ = 0;
+  ArrivalClock arrival_;
 };
 
 }  // namespace flexrf

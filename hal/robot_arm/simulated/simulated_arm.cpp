@@ -35,7 +35,7 @@ void SimulatedArm::take_in(const Tick& tick) noexcept {
     joints.velocity_map() = model_.velocity();
     true_joints.publish(joints, tick.now);
   }
-  sense();
+  sense(tick.now);
   supervise(tick.now);
 }
 
@@ -78,7 +78,7 @@ void SimulatedArm::inject_scheduled(Time now) noexcept {
   if (is_due(configuration.sensor_lost_after, started_, now)) inject(Fault::sensors_lost);
 }
 
-void SimulatedArm::sense() noexcept {
+void SimulatedArm::sense(Time now) noexcept {
   if (sensors_lost_) {
     state_.reset();
     return;
@@ -89,6 +89,7 @@ void SimulatedArm::sense() noexcept {
     if (deviation > 0) sensed[static_cast<Eigen::Index>(i)] += deviation * noise_(random_);
   }
   state_.emplace();
+  measured_at_ = now;
   state_->position_map() = sensed;
   state_->velocity_map() = model_.velocity();
   feedback.position_map() = sensed;

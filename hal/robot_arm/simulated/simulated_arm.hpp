@@ -20,6 +20,7 @@ class SimulatedArm final : public SimulatedArmDriver {
   Status initialise() override;
 
   std::optional<JointState> state() const noexcept override { return state_; }
+  Time measured_at() const noexcept override { return state_ ? measured_at_ : Time{}; }
 
   /// For tests: as the configuration's faults, at the next cycle.
   void inject(Fault fault) noexcept;
@@ -33,10 +34,11 @@ class SimulatedArm final : public SimulatedArmDriver {
   void follow(const JointPositions& set_points) noexcept override;
 
   void inject_scheduled(Time now) noexcept;
-  void sense() noexcept;
+  void sense(Time now) noexcept;
 
   ArmModel model_;
   std::optional<JointState> state_;
+  Time measured_at_{};
   std::optional<JointPositions> commanded_;
   std::mt19937_64 random_;
   std::normal_distribution<double> noise_;

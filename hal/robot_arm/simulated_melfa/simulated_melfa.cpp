@@ -4,17 +4,17 @@
 
 namespace flexrf {
 
-std::optional<std::size_t> MxtWireLink::receive(std::span<std::uint8_t> into, Time now) noexcept {
+std::optional<Datagram> MxtWireLink::receive(std::span<std::uint8_t> into, Time now) noexcept {
   const melfa::MxtDatagram* first = wire_->first();
   for (; first != nullptr && first->due <= now && first->by_stranger; first = wire_->first()) {
     ++strangers_;
     wire_->pop();
   }
   if (first == nullptr || first->due > now) return std::nullopt;
-  const std::size_t size = first->size;
-  std::copy_n(first->bytes.begin(), std::min(size, into.size()), into.begin());
+  const Datagram datagram{first->size, first->due};
+  std::copy_n(first->bytes.begin(), std::min(datagram.size, into.size()), into.begin());
   wire_->pop();
-  return size;
+  return datagram;
 }
 
 Status SimulatedMelfa::open_link() {

@@ -27,6 +27,9 @@ struct ServoState {
   /// command on, after a halt, while it homes, and in cyclic modes [servo-drive-26].
   bool target_reached = false;
   ServoHoming homing = ServoHoming::not_homed;
+  /// When the drive told the position, on the clock of the cycles: at most now. It stands still while the
+  /// drive tells nothing new.
+  Time measured_at{};
 };
 
 /// Everything: the thread the drive lives in. With the permission to move, the drive enables itself, with its

@@ -45,6 +45,7 @@ class MockServoDrive final : public MockServoDriveDriver {
     if (told) {
       told->position = measured_.position;
       told->velocity = measured_.velocity;
+      told->measured_at = measured_.at;
     }
     return told;
   }
@@ -87,6 +88,7 @@ class MockServoDrive final : public MockServoDriveDriver {
   struct Measured {
     double position = 0;
     double velocity = 0;
+    Time at{};
   };
 
   void take_in(const Tick& tick) noexcept override {
@@ -273,7 +275,7 @@ class MockServoDrive final : public MockServoDriveDriver {
   void measure() noexcept {
     if (!state_) return;
     const double noise = noise_.around_zero(configuration.position_noise);
-    measured_ = delay_.pass({state_->position + noise, state_->velocity}, last_cycle_);
+    measured_ = delay_.pass({state_->position + noise, state_->velocity, last_cycle_}, last_cycle_);
   }
   void tell() noexcept {
     if (configuration.homing_method == 0) homing_ = ServoHoming::homed;

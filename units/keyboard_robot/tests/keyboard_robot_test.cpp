@@ -96,11 +96,24 @@ bool keys_while_inhibited_are_forgotten() {
   return world.at(0, 0, 0) && world.bench.unit().is_idle();
 }
 
+/// In cycles in which the arm tells nothing new, what it told last grows old.
+bool publishes_when_the_arm_measured() {
+  World world;
+  world.run(0.1);
+  const Time measured = world.arm.now();
+  for (int cycles = 0; cycles < 3; ++cycles) world.bench.step(cycle);
+  return world.ready && world.pose.latest() && world.bench.now() > measured &&
+         world.pose.sampled_at() == measured;
+}
+
 void moves(void**) {
   assert_true(keys_move_the_arm());
 }
 void refuses(void**) {
   assert_true(refuses_and_comes_back());
+}
+void says_when(void**) {
+  assert_true(publishes_when_the_arm_measured());
 }
 void forgets_while_inhibited(void**) {
   assert_true(keys_while_inhibited_are_forgotten());
@@ -113,6 +126,7 @@ int main() {
       cmocka_unit_test(moves),
       cmocka_unit_test(refuses),
       cmocka_unit_test(forgets_while_inhibited),
+      cmocka_unit_test(says_when),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -267,6 +267,17 @@ bool a_hand_stays_within_reach() {
   return world.holding("") && world.bench.feedback().moving && world.smooth();
 }
 
+/// In cycles in which the arm tells nothing new, what it told last grows old.
+bool publishes_when_the_arm_measured() {
+  World world;
+  world.run(0.1);
+  const Time measured = world.arm.now();
+  for (int cycles = 0; cycles < 3; ++cycles) world.bench.step(cycle);
+  const bool is_told = world.pose.latest() && world.joints.latest();
+  return world.ready && is_told && world.bench.now() > measured && world.pose.sampled_at() == measured &&
+         world.joints.sampled_at() == measured;
+}
+
 template <bool (*Run)()>
 void passes(void**) {
   assert_true(Run());
@@ -296,6 +307,7 @@ int main() {
       {"a hand takes over", passes<a_hand_takes_over_from_a_motion_on_its_path>, nullptr, nullptr, nullptr},
       {"a stop request ends a hand's motion", passes<a_stop_request_ends_what_a_hand_holds>, nullptr, nullptr,
        nullptr},
+      {"publishes when the arm measured", passes<publishes_when_the_arm_measured>, nullptr, nullptr, nullptr},
       {"a hand stays within reach", passes<a_hand_stays_within_reach>, nullptr, nullptr, nullptr},
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -179,6 +179,23 @@ void silence_is_delayed_too(void**) {
   assert_true(is_silent_late_and_heard_late());
 }
 
+/// Each cycle tells what was so 20 ms before, and says so.
+// [robot-arm-13]
+bool an_arm_tells_when_it_measured() {
+  DeviceBench<MockArm> bench{&six_axis};
+  if (!bench.driver().initialise()) return false;
+  bench.driver().set_delay(milliseconds(20));
+  for (int cycle = 0; cycle < 10; ++cycle) {
+    bench.receive(milliseconds(10));
+    if (cycle > 2 && bench.driver().measured_at() != bench.now() - milliseconds(20)) return false;
+  }
+  return true;
+}
+
+void a_delay_is_told(void**) {
+  assert_true(an_arm_tells_when_it_measured());
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -189,6 +206,7 @@ int main() {
       cmocka_unit_test(a_delay_is_rounded_up_to_cycles),
       cmocka_unit_test(a_delay_is_bounded),
       cmocka_unit_test(silence_is_delayed_too),
+      cmocka_unit_test(a_delay_is_told),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

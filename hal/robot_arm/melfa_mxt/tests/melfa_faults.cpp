@@ -195,6 +195,19 @@ void an_answer_time_beyond_the_silence_is_refused(void**) {
   assert_non_null(std::strstr(status.cause(), "silence_limit"));
 }
 
+void an_answer_time_within_a_cycle_is_refused(void**) {
+  Status status;
+  {
+    DeviceBench<MelfaMxt> bench(&six_axis);
+    bench.configuration().cycle = 0.02;
+    status = bench.driver().initialise();
+  }
+  assert_true(status.code() == StatusCode::invalid_argument);
+  assert_non_null(std::strstr(status.cause(),
+                              "answer_timeout (0.012 s) has to be longer than the controller's"
+                              " cycle (0.02 s)"));
+}
+
 }  // namespace
 
 bool arrives(MelfaWorld& world) {
@@ -224,6 +237,7 @@ int run_melfa_faults(const char* where, MakeMelfaWorld make) {
       cmocka_unit_test(an_address_that_is_none_is_refused),
       cmocka_unit_test(a_port_of_another_program_is_refused),
       cmocka_unit_test(an_answer_time_beyond_the_silence_is_refused),
+      cmocka_unit_test(an_answer_time_within_a_cycle_is_refused),
   };
   return cmocka_run_group_tests_name(where, tests, nullptr, nullptr);
 }

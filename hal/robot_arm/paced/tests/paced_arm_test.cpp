@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -23,6 +24,12 @@ std::uint32_t say(AnswerPacing& pacing, Time now) {
   assert_true(pacing.is_free(now));
   const std::uint32_t number = pacing.number_next();
   pacing.sent(now);
+  return number;
+}
+
+std::uint32_t say_and_hear(AnswerPacing& pacing) {
+  const std::uint32_t number = say(pacing, beginning);
+  assert_true(pacing.judge(number, beginning) == Answer::in_time);
   return number;
 }
 
@@ -83,6 +90,34 @@ void a_controller_that_does_not_number_its_answers_is_understood(void**) {
     assert_true(it.judge(0, beginning) == Answer::in_time);
   }
   assert_int_equal(it.counters().answered, 3);
+}
+
+/// Who numbered an answer numbers all: one without is somebody else's.
+void a_controller_that_numbers_its_answers_numbers_all(void**) {
+  AnswerPacing it = pacing();
+  const std::uint32_t number = say(it, beginning);
+  assert_true(it.judge(number, beginning) == Answer::in_time);
+  say(it, beginning);
+  assert_true(it.judge(0, beginning) == Answer::foreign);
+  // After a silence another one may be there.
+  assert_true(it.has_fallen_silent(beginning + milliseconds(61)));
+  assert_true(it.judge(0, beginning + milliseconds(62)) == Answer::in_time);
+}
+
+/// Numbers begin where the session says: what was said in the one before is no answer in this one.
+void answers_of_a_session_before_are_foreign(void**) {
+  AnswerPacing before = pacing();
+  std::array<std::uint32_t, 3> old{};
+  for (std::uint32_t& number : old) number = say_and_hear(before);
+  AnswerPacing it;
+  it.begin({.answer = milliseconds(12),
+            .silence = milliseconds(60),
+            .search = milliseconds(100),
+            .first_number = 5000});
+  assert_int_equal(say(it, beginning), 5001);
+  for (const std::uint32_t number : old) assert_true(it.judge(number, beginning) == Answer::foreign);
+  assert_false(it.is_heard());
+  assert_true(it.judge(5001, beginning) == Answer::in_time);
 }
 
 void silence_is_noticed_once(void**) {
@@ -203,6 +238,8 @@ int main() {
       cmocka_unit_test(what_is_not_answered_in_time_is_lost_and_may_come_late),
       cmocka_unit_test(what_nobody_asked_is_foreign),
       cmocka_unit_test(a_controller_that_does_not_number_its_answers_is_understood),
+      cmocka_unit_test(a_controller_that_numbers_its_answers_numbers_all),
+      cmocka_unit_test(answers_of_a_session_before_are_foreign),
       cmocka_unit_test(silence_is_noticed_once),
       cmocka_unit_test(a_jump_is_approached_and_not_passed),
       cmocka_unit_test(what_moves_within_the_limits_is_met_exactly),

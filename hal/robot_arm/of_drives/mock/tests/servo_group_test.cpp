@@ -179,6 +179,19 @@ bool a_joint_without_end_is_refused() {
          std::strstr(status.cause(), "give it lower and upper") != nullptr;
 }
 
+// An arm is where its drives were when the last of them was heard longest ago.
+// [robot-arm-13]
+bool it_is_as_old_as_its_oldest_drive() {
+  const auto cell = std::make_unique<Cell>();
+  cell->run(5);
+  if (cell->arm().measured_at() != cell->bench.now()) return false;
+  cell->arm().drive(2).set_delay(std::chrono::milliseconds(14));
+  cell->run(5);
+  if (cell->arm().measured_at() != cell->bench.now() - std::chrono::milliseconds(14)) return false;
+  cell->arm().drive(4).set_state(std::nullopt);
+  return !cell->arm().state() && cell->arm().measured_at() == Time{};
+}
+
 }  // namespace
 }  // namespace flexrf
 
@@ -198,6 +211,8 @@ int main() {
       {"one that is no number moves no joint", judged<one_that_is_no_number_moves_no_joint>, nullptr, nullptr,
        nullptr},
       {"a joint without end is refused", judged<a_joint_without_end_is_refused>, nullptr, nullptr, nullptr},
+      {"it is as old as its oldest drive", judged<it_is_as_old_as_its_oldest_drive>, nullptr, nullptr,
+       nullptr},
       {"it goes on after it was made safe", judged<it_goes_on_after_it_was_made_safe>, nullptr, nullptr,
        nullptr},
   };
