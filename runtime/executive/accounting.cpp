@@ -11,7 +11,8 @@ void add(std::atomic<Value>& counter, Value value) noexcept {
 
 }  // namespace
 
-bool Accounting::count(const Release& release, Time ended, std::uint64_t past_releases) noexcept {
+Accounting::Verdict Accounting::count(const Release& release, Time ended,
+                                      std::uint64_t past_releases) noexcept {
   state_->lateness.add(release.now - release.nominal);
   state_->execution.add(ended - release.now);
   // Late to begin or long to run: what counts is when it was done.
@@ -24,7 +25,7 @@ bool Accounting::count(const Release& release, Time ended, std::uint64_t past_re
       --level_;
       good_ = 0;
     }
-    return false;
+    return {};
   }
   add(state_->overruns, std::uint64_t{1});
   const std::uint64_t skipped = record_->overrun == OverrunPolicy::catch_up ? 0 : past_releases;
@@ -34,13 +35,13 @@ bool Accounting::count(const Release& release, Time ended, std::uint64_t past_re
   // After the deadline, or after the next release was due.
   const Duration allowed = past_releases > 0 ? record_->trigger.period : record_->deadline;
   log_.note(ended, ended - release.nominal - allowed, skipped, skipped_time);
-  if (record_->overrun == OverrunPolicy::fault && record_->limit.limit == 0) return true;
+  if (record_->overrun == OverrunPolicy::fault && record_->limit.limit == 0) return {true, true};
   level_ += 1 + skipped;
-  if (record_->limit.limit == 0 || level_ < record_->limit.limit) return false;
+  if (record_->limit.limit == 0 || level_ < record_->limit.limit) return {true, false};
   // Counted anew for what is started again, and for what was not yet running when it happened.
   level_ = 0;
   good_ = 0;
-  return true;
+  return {true, true};
 }
 
 }  // namespace flexrf

@@ -14,9 +14,14 @@ class Accounting {
   Accounting(const ThreadRecord& record, ThreadState& state) noexcept
       : record_(&record), state_(&state), log_(record.name) {}
 
-  /// Counts a release that ended at `ended`. True when the thread's overrun policy or limit makes it a fault.
-  /// The limits count time: a release that was left out counts as an overrun of its own.
-  bool count(const Release& release, Time ended, std::uint64_t past_releases) noexcept;
+  struct Verdict {
+    bool overrun = false;
+    bool limit_reached = false;  ///< the thread's overrun policy or limit makes it a fault
+  };
+
+  /// Counts a release that ended at `ended`. The limits count time: a release that was left out counts as an
+  /// overrun of its own.
+  Verdict count(const Release& release, Time ended, std::uint64_t past_releases) noexcept;
   /// In every turn: says of overruns what is to be said by then; at the end, with Time::max(), the rest.
   void say(Time now) noexcept { log_.say(now); }
 

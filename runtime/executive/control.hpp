@@ -193,11 +193,13 @@ class Control {
            demands_.load(std::memory_order_acquire) == 0;
   }
 
-  /// The process is about to be stopped by somebody's wish, and what its threads miss is no fault of theirs.
-  /// The supervising thread.
-  void begin_break() noexcept { on_break_.store(true, std::memory_order_seq_cst); }
-  void end_break() noexcept { on_break_.store(false, std::memory_order_seq_cst); }
-  bool is_on_break() const noexcept { return on_break_.load(std::memory_order_seq_cst); }
+  /// Job control is about to stop the process. From here to end_break() no thread is judged by the time it
+  /// takes, and afterwards none for what was due, or under way, before `now`. The supervising thread.
+  void begin_break() noexcept { judged_from_.store(nanoseconds(Time::max()), std::memory_order_seq_cst); }
+  void end_break(Time now) noexcept { judged_from_.store(nanoseconds(now), std::memory_order_seq_cst); }
+  /// Time before this is no thread's fault; Time::max(): the process is about to be stopped, or goes on just
+  /// now. Any thread.
+  Time judged_from() const noexcept { return Time{Duration{judged_from_.load(std::memory_order_seq_cst)}}; }
 
   /// The longest time in which the process as a whole did nothing although it should have (Standstill). The
   /// supervising thread.
@@ -244,8 +246,8 @@ class Control {
   std::atomic<std::uint64_t> permission_{0};
   std::atomic<bool> forbidden_{false};
   mutable std::mutex forbidding_;
-  Status forbidden_because_;  // under the mutex
-  std::atomic<bool> on_break_{false};
+  Status forbidden_because_;                  // under the mutex
+  std::atomic<std::int64_t> judged_from_{0};  // ns
   std::atomic<std::int64_t> longest_standstill_{0};
   std::atomic<std::int64_t> looked_at_{0};
   std::atomic<std::uint32_t> demands_{0};

@@ -498,11 +498,10 @@ void Executive::supervise(RunSummary& summary) {
     siginfo_t sent;
     const int signal = sigtimedwait(&awaited, &sent, &interval);
     const Time now = MonotonicClock::now();
-    standstill.judge(now - looked);
+    standstill.judge(looked, now);
     control.note_look(now);
     if (signal > 0) obey(sent, summary);
-    // A stop that was asked for is no standstill.
-    looked = signal > 0 ? MonotonicClock::now() : now;
+    looked = now;
     if (running_since == Time{} && control.mode() >= Mode::running) {
       running_since = now;
       summary.start_time = now - began_;

@@ -39,9 +39,9 @@ void JobControl::stop(int signal) noexcept {
   const timespec at_once{};
   while (sigtimedwait(&again, nullptr, &at_once) > 0) {
   }
-  // What they missed in between, they were told to.
+  // The threads are not judged by what they missed meanwhile, however late they go on.
   let_threads_act();
-  control.end_break();
+  control.end_break(MonotonicClock::now());
   log_warning(cell_->application().name, "goes on after {:.1} s; nothing moves before a Start",
               seconds(MonotonicClock::now() - stopped));
 }

@@ -22,16 +22,39 @@ std::uint32_t own_queues(const Cell& cell, const ThreadRecord& thread) noexcept 
   return own;
 }
 
+/// Units of the thread that take from one of its trigger's queues.
+std::vector<const UnitState*> takers(const Cell& cell, const ThreadRecord& thread) {
+  std::vector<const UnitState*> found;
+  for (const std::uint16_t unit : thread.units) {
+    const bool takes = std::any_of(
+        thread.trigger.sources.begin(), thread.trigger.sources.end(), [&](const TriggerSource& source) {
+          return source.queue != nullptr && cell.ports(unit).takes_from(source.queue);
+        });
+    if (takes) found.push_back(&cell.application().unit_states[unit]);
+  }
+  return found;
+}
+
 }  // namespace
 
 Releases::Releases(Cell& cell, std::uint16_t thread)
-    : record_(&cell.application().threads[thread]),
+    : control_(&cell.control()),
+      record_(&cell.application().threads[thread]),
       stepper_(cell, thread),
+      takers_(takers(cell, *record_)),
       trigger_(record_->trigger, cell.application(), own_queues(cell, *record_)),
       accounting_(*record_, cell.application().thread_states[thread]) {}
 
+/// A unit that is not idle holds what it took from a queue and could not complete yet.
+bool Releases::holds_items() const noexcept {
+  return std::any_of(takers_.begin(), takers_.end(), [](const UnitState* unit) {
+    return unit->is_owned_by_thread() && !unit->idle.load(std::memory_order_relaxed);
+  });
+}
+
 Due Releases::next(Time now, bool readable) noexcept {
-  const Due due = trigger_.due(now, readable);
+  if (const Time from = control_->judged_from(); from != Time::max()) trigger_.leave_out_before(from);
+  const Due due = trigger_.due(now, readable, holds_items());
   const Time attention = trigger_.last_release() + Stepper::attention_interval;
   if (due.at <= attention || !stepper_.needs_attention()) return due;
   return Due{attention, due.fired, true};
@@ -50,12 +73,15 @@ Release Releases::take(const Due& due, Time now) noexcept {
   return release;
 }
 
-void Releases::finish(const Release& release, Time ended) noexcept {
+bool Releases::finish(const Release& release, Time ended) noexcept {
   const std::uint64_t past = trigger_.finished(ended, record_->overrun);
-  if (!accounting_.count(release, ended, past)) return;
-  stepper_.fault_all(
-      Status::error(StatusCode::timeout, "thread %s reached its overrun limit: %lld us after it was due",
-                    record_->name, static_cast<long long>((ended - release.nominal).count() / 1000)));
+  if (release.nominal < control_->judged_from()) return false;
+  const Accounting::Verdict verdict = accounting_.count(release, ended, past);
+  if (verdict.limit_reached)
+    stepper_.fault_all(
+        Status::error(StatusCode::timeout, "thread %s reached its overrun limit: %lld us after it was due",
+                      record_->name, static_cast<long long>((ended - release.nominal).count() / 1000)));
+  return verdict.overrun;
 }
 
 }  // namespace flexrf

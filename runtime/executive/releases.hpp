@@ -2,6 +2,8 @@
 // next is due, against which instant it is judged, and what follows from how long it took.
 #pragma once
 
+#include <vector>
+
 #include "runtime/executive/accounting.hpp"
 #include "runtime/executive/stepper.hpp"
 #include "runtime/executive/trigger.hpp"
@@ -21,10 +23,14 @@ class Releases {
   Due next(Time now, bool readable) noexcept;
   /// `due` begins at `now`: what it fired for does not release again.
   Release take(const Due& due, Time now) noexcept;
-  /// It ended: left-out releases and overruns are counted, and at their limit its units are in fault.
-  void finish(const Release& release, Time ended) noexcept;
-  /// Says of overruns what is to be said by `now`; at the end, with Time::max(), the rest.
-  void say(Time now) noexcept { accounting_.say(now); }
+  /// It ended: left-out releases and overruns are counted, and at their limit its units are in fault. True:
+  /// it was an overrun. One that was due before Control::judged_from() is not counted, and is none.
+  bool finish(const Release& release, Time ended) noexcept;
+  /// Logs of overruns and budgets what is to be logged by `now`; at the end, with Time::max(), the rest.
+  void say(Time now) noexcept {
+    accounting_.say(now);
+    stepper_.say(now);
+  }
 
   Stepper& stepper() noexcept { return stepper_; }
   const Stepper& stepper() const noexcept { return stepper_; }
@@ -32,8 +38,12 @@ class Releases {
   int descriptor() const noexcept { return trigger_.descriptor(); }
 
  private:
+  bool holds_items() const noexcept;
+
+  const Control* control_;
   const ThreadRecord* record_;
   Stepper stepper_;
+  std::vector<const UnitState*> takers_;  // units that take from queues which release the thread
   Trigger trigger_;
   Accounting accounting_;
 };

@@ -48,6 +48,7 @@ struct ComponentState {
   std::atomic<std::uint64_t> steps{0};  ///< of its own: a device takes none
   std::atomic<std::int64_t> execution_maximum{0};  ///< ns, longest step
   std::atomic<std::int64_t> execution_total{0};    ///< ns, all steps
+  std::atomic<std::uint64_t> budget_overruns{0};   ///< steps beyond the declared budget, see BudgetWatch
 
   bool is_owned_by_thread() const noexcept {
     return ownership.load(std::memory_order_acquire) == Ownership::thread;

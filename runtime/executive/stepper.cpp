@@ -45,6 +45,7 @@ Stepper::Stepper(Cell& cell, std::uint16_t thread)
       record_(&application_->threads[thread]),
       state_(&application_->thread_states[thread]),
       context_(record_->context),
+      budgets_(*application_, *record_),
       receives_(!record_->devices.empty()) {
   state_->inhibited_for.store(0, std::memory_order_relaxed);
 }
@@ -235,6 +236,7 @@ Time Stepper::run(const Release& release) noexcept {
   receive(release.now);
   Time now = release.now;
   StepTrace* const trace = asked_trace(now);
+  budgets_.begin();
   for (std::size_t place = 0; place < record_->units.size(); ++place) {
     if (!step(place, now)) continue;
     // One reading of the clock ends this step's measurement and stamps the next step.
@@ -247,6 +249,7 @@ Time Stepper::run(const Release& release) noexcept {
     }
     if (trace != nullptr) [[unlikely]]
       trace->note({record_->units[place], now, Duration{took}});
+    if (now >= cell_->control().judged_from()) budgets_.note(record_->units[place], Duration{took}, ended);
     now = ended;
   }
   send(now);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "runtime/executive/budget_watch.hpp"
 #include "runtime/executive/cell.hpp"
 
 namespace flexrf {
@@ -44,6 +45,8 @@ class Stepper {
   void fault_all(const Status& cause) noexcept;
   /// Every device of the thread says it is safe.
   bool is_safe() const noexcept;
+  /// In every turn: logs of budgets what is to be logged by then; at the end, with Time::max(), the rest.
+  void say(Time now) noexcept { budgets_.say(now); }
   /// How often a thread is released without a trigger while it needs attention.
   static constexpr Duration attention_interval = std::chrono::milliseconds{5};
   /// Must be released soon even if nothing triggers it: a stop is to be seen, a device to be made safe.
@@ -76,6 +79,7 @@ class Stepper {
   const ThreadRecord* record_;
   ThreadState* state_;
   StepContext* context_;
+  BudgetWatch budgets_;
   Tick tick_{};
   bool may_move_ = false;
   std::uint32_t withdrawals_ = 0;           // of the permission to move, as seen last

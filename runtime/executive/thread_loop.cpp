@@ -98,17 +98,18 @@ void ThreadLoop::release(const Due& due, Time now) noexcept {
   const Release release = releases_.take(due, now);
   readable_ = false;
   // Before the step: what was commanded before the standstill is not to go on by itself.
-  if (standstill_.judge(missed_before(release))) releases_.stepper().serve(now);
+  if (standstill_.judge(due_since(release), now)) releases_.stepper().serve(now);
   const Time ended = releases_.stepper().run(release);
-  if (record_->hang_timeout.count() == 0) standstill_.judge(ended - now);
-  releases_.finish(release, ended);
+  if (record_->hang_timeout.count() == 0) standstill_.judge(now, ended);
+  const bool overrun = releases_.finish(release, ended);
+  standstill_.judge_release(release.nominal, ended, overrun);
 }
 
-Duration ThreadLoop::missed_before(const Release& release) const noexcept {
-  if (record_->trigger.kind == TriggerKind::period) return release.now - release.nominal;
+Time ThreadLoop::due_since(const Release& release) const noexcept {
+  if (record_->trigger.kind == TriggerKind::period) return release.nominal;
   // Nothing tells when it should have run; while the process is stopped, nobody supervises either.
   const Time looked = cell_->control().looked_at();
-  return looked == Time{} ? Duration{} : release.now - looked;
+  return looked == Time{} ? release.now : looked;
 }
 
 void ThreadLoop::wait(std::uint32_t heard, Time until) noexcept {

@@ -26,7 +26,7 @@ class ThreadLoop {
   void watch_system_calls() noexcept;
   void turn(std::uint32_t heard) noexcept;
   void release(const Due& due, Time now) noexcept;
-  Duration missed_before(const Release& release) const noexcept;
+  Time due_since(const Release& release) const noexcept;
   void wait(std::uint32_t heard, Time until) noexcept;
   void wait_with_descriptor(std::uint32_t heard, Time until, int descriptor) noexcept;
 

@@ -56,7 +56,8 @@ std::uint64_t Trigger::taken() const noexcept {
   return sum;
 }
 
-std::uint32_t Trigger::waiting() const noexcept {
+std::uint32_t Trigger::waiting(bool holds_items) const noexcept {
+  if (holds_items) return own_queues_;
   std::uint32_t queues = 0;
   for (std::size_t i = 0; i < record_->sources.size(); ++i) {
     const std::uint32_t bit = std::uint32_t{1} << i;
@@ -67,10 +68,10 @@ std::uint32_t Trigger::waiting() const noexcept {
 
 /// Own queues in which the last step left something that is still there. The first look after a release
 /// judges its step; what comes later is an arrival.
-std::uint32_t Trigger::left_behind(Time now) noexcept {
+std::uint32_t Trigger::left_behind(Time now, bool holds_items) noexcept {
   if (!judged_) {
     judged_ = true;
-    left_ = waiting();
+    left_ = waiting(holds_items);
     const bool is_backoff = record_->kind == TriggerKind::backoff;
     const Duration soonest = is_backoff ? record_->shortest : record_->min_interval;
     const Duration first = is_backoff ? soonest : std::max(soonest, first_pause);
@@ -80,19 +81,19 @@ std::uint32_t Trigger::left_behind(Time now) noexcept {
     // The pause counts from the end of the step: a long one must not follow on itself.
     offer_at_ = std::max(last_ + soonest, now + pause_);
   }
-  return left_ == 0 ? 0 : left_ & waiting();
+  return left_ == 0 ? 0 : left_ & waiting(holds_items);
 }
 
-Due Trigger::due(Time now, bool readable) noexcept {
+Due Trigger::due(Time now, bool readable, bool holds_items) noexcept {
   switch (record_->kind) {
     case TriggerKind::period:
       return Due{next_, 0, false};
     case TriggerKind::slots:
-      return due_by_sources(now);
+      return due_by_sources(now, holds_items);
     case TriggerKind::device:
       return due_by_device(now, readable);
     case TriggerKind::backoff:
-      return due_by_backoff(now);
+      return due_by_backoff(now, holds_items);
     case TriggerKind::free:
       return Due{now, 0, false};
   }
@@ -105,9 +106,9 @@ void Trigger::add_timeout(Due& due) const noexcept {
   if (timeout < due.at) due = Due{timeout, due.fired, due.fired == 0};
 }
 
-Due Trigger::due_by_sources(Time now) noexcept {
+Due Trigger::due_by_sources(Time now, bool holds_items) noexcept {
   const std::uint32_t arrived = advanced();
-  const std::uint32_t left = left_behind(now);
+  const std::uint32_t left = left_behind(now, holds_items);
   Due due;
   due.fired = arrived | left;
   if (arrived != 0)
@@ -136,8 +137,8 @@ Due Trigger::due_by_device(Time now, bool readable) const noexcept {
   return due;
 }
 
-Due Trigger::due_by_backoff(Time now) noexcept {
-  const Time offer_at = left_behind(now) != 0 ? offer_at_ : Time::max();
+Due Trigger::due_by_backoff(Time now, bool holds_items) noexcept {
+  const Time offer_at = left_behind(now, holds_items) != 0 ? offer_at_ : Time::max();
   if (!found_ && now < std::min(poll_at_, offer_at)) return Due{std::min(poll_at_, offer_at), 0, false};
   advanced();
   if (found_) return Due{now, 1, false};
@@ -173,6 +174,12 @@ std::uint64_t Trigger::finished(Time ended, OverrunPolicy policy) noexcept {
   // left out.
   if (policy != OverrunPolicy::catch_up) next_ += record_->period * static_cast<std::int64_t>(past);
   return past;
+}
+
+void Trigger::leave_out_before(Time time) noexcept {
+  if (record_->kind != TriggerKind::period || next_ >= time) return;
+  // Rounded up: the grid of instants stays.
+  next_ += record_->period * ((time - next_ + record_->period - Duration{1}) / record_->period);
 }
 
 int Trigger::descriptor() const noexcept {

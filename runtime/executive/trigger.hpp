@@ -48,8 +48,10 @@ class Trigger {
   void begin(Time start) noexcept;
 
   /// When the next release is due as far as is known at `now`. `readable`: the trigger's device has
-  /// something. With back-off this is a poll: it finds something or says when to look again.
-  Due due(Time now, bool readable) noexcept;
+  /// something. `holds_items`: a unit has taken from an own queue what it could not complete yet; that waits
+  /// as if it were still in the queue. With back-off this is a poll: it finds something or says when to look
+  /// again.
+  Due due(Time now, bool readable, bool holds_items = false) noexcept;
 
   /// A release begins: what the last due() saw is its, and will not fire again. What was published since then
   /// is of the next release, which is told of it.
@@ -58,6 +60,10 @@ class Trigger {
   /// A periodic release ended at `ended`: how many further releases lie in the past by now; they are left out
   /// unless the policy is catch_up.
   std::uint64_t finished(Time ended, OverrunPolicy policy) noexcept;
+
+  /// Releases of a period that were due before `time` are left out, whatever the policy: job control stopped
+  /// the process.
+  void leave_out_before(Time time) noexcept;
 
   Time last_release() const noexcept { return last_; }
   /// What it learned, where it polls by back-off.
@@ -69,13 +75,13 @@ class Trigger {
   std::uint64_t count_of(std::size_t source) const noexcept;
   std::uint32_t advanced() noexcept;
   const Device* owned_device() const noexcept;  // null while the lifecycle thread has it
-  Due due_by_sources(Time now) noexcept;
+  Due due_by_sources(Time now, bool holds_items) noexcept;
   Due due_by_device(Time now, bool readable) const noexcept;
-  Due due_by_backoff(Time now) noexcept;
+  Due due_by_backoff(Time now, bool holds_items) noexcept;
   void add_timeout(Due& due) const noexcept;
   std::uint64_t taken() const noexcept;
-  std::uint32_t waiting() const noexcept;
-  std::uint32_t left_behind(Time now) noexcept;
+  std::uint32_t waiting(bool holds_items) const noexcept;
+  std::uint32_t left_behind(Time now, bool holds_items) noexcept;
 
   const TriggerRecord* record_;
   const Application* application_;

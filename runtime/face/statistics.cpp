@@ -25,6 +25,7 @@ ComponentFigures Statistics::component(ComponentIndex component) const noexcept 
     figures.execution_mean = Duration{state.execution_total.load(std::memory_order_relaxed) /
                                       static_cast<std::int64_t>(figures.steps)};
   }
+  figures.budget_overruns = state.budget_overruns.load(std::memory_order_relaxed);
   figures.execution_maximum = Duration{state.execution_maximum.load(std::memory_order_relaxed)};
   return figures;
 }

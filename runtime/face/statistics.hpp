@@ -26,6 +26,7 @@ struct ComponentFigures {
   std::uint64_t steps;
   Duration execution_mean;
   Duration execution_maximum;
+  std::uint64_t budget_overruns;
 };
 
 struct DeviceFigures : ComponentFigures {

@@ -58,6 +58,7 @@ void write_components(JsonWriter& json, const ReportData& data) {
     json.member("budget_ns", unit.record->budget.count());
     json.member("execution_mean_ns", unit.execution_mean.count());
     json.member("execution_max_ns", unit.execution_maximum.count());
+    json.member("budget_overruns", unit.budget_overruns);
     write_end(json, unit);
   }
   json.end_array().key("devices").begin_array();

@@ -87,7 +87,7 @@ std::string life_of(const ComponentFigures& component) {
 
 std::string units_text(const ReportData& data) {
   if (data.statistics.units().empty()) return {};
-  TextTable table({"unit", "<life", "steps", "mean", "max", "budget"});
+  TextTable table({"unit", "<life", "steps", "mean", "max", "budget", "exceeded"});
   std::size_t idle = 0;
   for (const ComponentFigures& unit : data.statistics.units()) {
     // A population of hundreds must not hide the rest.
@@ -98,7 +98,7 @@ std::string units_text(const ReportData& data) {
     table.add({unit.record->name, life_of(unit), std::to_string(unit.steps),
                data.summary.virtual_time ? "" : duration_text(unit.execution_mean),
                data.summary.virtual_time ? "" : duration_text(unit.execution_maximum),
-               duration_if_any(unit.record->budget)});
+               duration_if_any(unit.record->budget), or_nothing(unit.budget_overruns)});
   }
   std::string text = "\nUnits\n" + table.text("  ");
   if (idle > 0) text += "  and " + std::to_string(idle) + " members that were never active\n";

@@ -128,12 +128,14 @@ Status Recognition::initialise() {
   return check_camera(configuration.camera);
 }
 
-/// The count of verdicts goes on: who reads them has seen those of before.
+/// The count of verdicts goes on: their readers have seen those of before. A job that was held until now is
+/// nobody's any more, and counts as outdated.
 void Recognition::reset() noexcept {
   finder_.forget();
   lit_.reset();
-  waiting_.reset();
   feedback = {};
+  if (waiting_) ++feedback.outdated;
+  waiting_.reset();
 }
 
 /// Slots are read after the first job was taken: its picture was published before it, so it is there.

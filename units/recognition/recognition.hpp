@@ -14,6 +14,8 @@ class Recognition final : public RecognitionUnit {
   Status initialise() override;
   void reset() noexcept override;
   void step(const Tick& tick) override;
+  /// Not while it holds a job: its thread is released again, though the queue may be empty.
+  bool is_idle() const noexcept override { return !waiting_.has_value(); }
 
  private:
   std::optional<VisionRegion> next_job() noexcept;

@@ -1,5 +1,11 @@
 // Steps that take longer than they may: what is left out, what is caught up with, what is a fault.
+#include <poll.h>
+
+#include <optional>
+
 #include "runtime/executive/accounting.hpp"
+#include "runtime/executive/budget_watch.hpp"
+#include "runtime/executive/releases.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
 #include "tests/log_ear.hpp"
 
@@ -97,7 +103,7 @@ struct Counting {
   /// One release that took so long; whether it is a fault.
   bool cycle(Duration took, std::uint64_t past = 0) {
     at += milliseconds{10};
-    return accounting.count(Release{at, at, 0, false}, at + took, past);
+    return accounting.count(Release{at, at, 0, false}, at + took, past).limit_reached;
   }
   bool good() { return cycle(microseconds{500}); }
   bool bad() { return cycle(microseconds{1500}); }
@@ -194,6 +200,122 @@ void overruns_are_said_at_once_and_then_as_a_sum() {
   CHECK(ear.has_heard("control: overruns since then: 1,"));
 }
 
+// ---- the process was stopped by job control
+
+/// What was due while the process was stopped, and a release that was under way, are no overruns: neither
+/// counted, nor made up for, nor a fault, whatever the policy.
+// [stop-53]
+void a_stop_by_job_control_is_no_overrun() {
+  constexpr Duration stop = std::chrono::seconds{5};
+  for (const OverrunPolicy policy : {OverrunPolicy::skip, OverrunPolicy::catch_up, OverrunPolicy::fault}) {
+    for (const bool in_a_step : {true, false}) {
+      for (const bool goes_on_before_the_break_ends : {true, false}) {
+        Cell cell;
+        const Options options = on_the_wall_clock();
+        cell.thread(Cell::producing).overrun = policy;
+        if (policy != OverrunPolicy::fault) cell.thread(Cell::producing).limit = OverrunLimit{false, 2, 0};
+        flexrf::Cell running(cell.application(), options);
+        Control& control = running.control();
+        CHECK(running.construct().is_ok());
+        Releases releases(running, Cell::producing);
+        Time now = beginning;
+        releases.begin(now);
+        std::optional<Release> under_way;
+        if (in_a_step) under_way = releases.take(releases.next(now, false), now);
+        control.begin_break();
+        const Time resumed = now + stop + microseconds{300};
+        now = resumed + microseconds{100};
+        if (!goes_on_before_the_break_ends) control.end_break(resumed);
+        if (under_way) CHECK(!releases.finish(*under_way, now));
+        if (goes_on_before_the_break_ends) {
+          const Release first = releases.take(releases.next(now, false), now);
+          CHECK(!releases.finish(first, now + microseconds{10}));
+          control.end_break(resumed);
+        }
+        now += milliseconds{1};
+        for (int i = 0; i < 3; ++i) {
+          const Due due = releases.next(now, false);
+          CHECK(due.at >= resumed);
+          CHECK_EQUAL((due.at - beginning).count() % 1'000'000, 0);
+          now = due.at;
+          CHECK(!releases.finish(releases.take(due, now), now + microseconds{10}));
+        }
+        CHECK_EQUAL(cell.thread_state(Cell::producing).overruns.load(), 0U);
+        CHECK_EQUAL(cell.thread_state(Cell::producing).skipped.load(), 0U);
+        CHECK(cell.thread_state(Cell::producing).execution.maximum() < milliseconds{1});
+        CHECK_EQUAL(control.faults(), 0U);
+      }
+    }
+  }
+}
+
+/// The whole way, on the wall clock.
+// [stop-98]
+void a_step_that_always_takes_too_long_ends_the_motion() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger = TriggerPlan::periodic(milliseconds{1});
+  cell.thread(Cell::consuming).deadline = milliseconds{1};
+  cell.unit(Cell::consumer).script.step = [](TestUnit& unit, const Tick& tick) {
+    while (unit.jobs.pop()) continue;
+    const Time until = MonotonicClock::now() + milliseconds{10};
+    while (MonotonicClock::now() < until && !tick.stop_requested) {
+    }
+  };
+  Options options = on_the_wall_clock();
+  options.standstill_limit = milliseconds{200};
+  RunningCell running(cell, options);
+  running.start();
+  CHECK(wait_until([&] { return running.control().motion_stopped(); }));
+  CHECK_EQUAL(running.finish().exit_code, 2);
+}
+
+// ---- budgets
+
+void work_for(Duration time) {
+  const Time until = MonotonicClock::now() + time;
+  while (MonotonicClock::now() < until) {
+  }
+}
+void wait_for(Duration time) {
+  poll(nullptr, 0, static_cast<int>(time / milliseconds{1}));  // the checked build lets nobody sleep
+}
+
+// [exec-89] [exec-90]
+void a_unit_that_exceeds_its_budget_is_logged_and_counted() {
+  for (const auto& takes_long : {&work_for, &wait_for}) {
+    LogEar ear;
+    Cell cell;
+    cell.thread(Cell::producing).priority = 40;
+    cell.unit(Cell::producer).budget = milliseconds{1};
+    cell.unit(Cell::producer).script.step = [&](TestUnit&, const Tick&) { takes_long(milliseconds{5}); };
+    RunningCell running(cell);
+    running.start();
+    CHECK(wait_until([&] { return cell.unit_state(Cell::producer).budget_overruns > 3; }));
+    CHECK_EQUAL(running.finish().exit_code, 0);
+    CHECK(ear.has_heard("producing: a step of producer took "));
+    CHECK(ear.has_heard("ms of its own, its budget is 1.00 ms; shorten the step or raise the budget"));
+    CHECK(ear.has_heard("producing: steps beyond their budget since then: "));
+    CHECK_EQUAL(cell.unit_state(Cell::consumer).budget_overruns.load(), 0U);
+  }
+}
+
+/// Time in which others had the processor is not the unit's own.
+// [exec-89]
+void a_unit_that_was_kept_from_the_processor_exceeds_nothing() {
+  Cell cell;
+  cell.thread(Cell::producing).priority = 40;
+  const Application& application = cell.application();
+  BudgetWatch watch(application, application.threads[Cell::producing]);
+  Time now = beginning;
+  for (int i = 0; i < 10; ++i) {
+    watch.begin();
+    now += milliseconds{10};
+    // By the clock it took 10 ms, of which it hardly had anything.
+    watch.note(Cell::producer, milliseconds{10}, now);
+  }
+  CHECK_EQUAL(cell.unit_state(Cell::producer).budget_overruns.load(), 0U);
+}
+
 // [exec-18]
 void a_late_beginning_counts_too() {
   Counting counting(OverrunPolicy::skip, OverrunLimit{});
@@ -238,6 +360,10 @@ int main() {
       CONTAINED_TEST(without_a_limit_overruns_are_only_counted),
       CONTAINED_TEST(a_limit_counts_every_release_that_was_left_out),
       CONTAINED_TEST(overruns_are_said_at_once_and_then_as_a_sum),
+      CONTAINED_TEST(a_stop_by_job_control_is_no_overrun),
+      CONTAINED_TEST(a_step_that_always_takes_too_long_ends_the_motion),
+      CONTAINED_TEST(a_unit_that_exceeds_its_budget_is_logged_and_counted),
+      CONTAINED_TEST(a_unit_that_was_kept_from_the_processor_exceeds_nothing),
       CONTAINED_TEST(a_late_beginning_counts_too),
       CONTAINED_TEST(a_real_overrun_is_noticed_on_the_wall_clock),
   };

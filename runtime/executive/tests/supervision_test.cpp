@@ -2,6 +2,8 @@
 // does what, and when is looked.
 #include "runtime/executive/supervision.hpp"
 
+#include <ctime>
+
 #include "runtime/executive/lifecycle.hpp"
 #include "runtime/executive/standstill.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
@@ -108,9 +110,10 @@ void of_a_process_that_stood_still_every_actuator_is_concerned() {
     Moving application;
     CHECK(application.cell.construct().is_ok());
     Standstill standstill(application.cell, thread);
-    CHECK(!standstill.judge(milliseconds{999}));
+    const Time now = application.now;
+    CHECK(!standstill.judge(now - milliseconds{999}, now));
     CHECK(application.cell.control().may_move());
-    CHECK(standstill.judge(seconds{1}));
+    CHECK(standstill.judge(now - seconds{1}, now));
     CHECK_EQUAL(application.cell.control().may_move(), thread == Plan::producing);
     CHECK_EQUAL(application.cell.control().faults(), 1U);
   }
@@ -134,6 +137,110 @@ void who_waits_for_events_takes_for_missed_what_nobody_watched() {
   loop.run();
   CHECK(is_inhibited);
   CHECK(application.thread(Plan::consuming).longest_standstill >= 5'000'000'000);
+}
+
+TriggerPlan polling_the_queue() {
+  TriggerPlan plan = TriggerPlan::backing_off(Plan::values, milliseconds{1}, milliseconds{5});
+  plan.slots = {};
+  plan.queues = {Plan::jobs};
+  return plan;
+}
+
+/// Job control stopped the process in the middle of a step, for longer than the limit: no thread is judged by
+/// that, whatever releases it. The supervising thread looks again only later.
+// [stop-53]
+void a_stop_by_job_control_is_no_standstill() {
+  for (const TriggerPlan& trigger :
+       {TriggerPlan::periodic(milliseconds{1}), TriggerPlan::on_slots({}, {Plan::jobs}), polling_the_queue(),
+        TriggerPlan::free_running()}) {
+    Moving application;
+    application.options.standstill_limit = milliseconds{500};
+    application.plan.thread(Plan::consuming).trigger = trigger;
+    Control& control = application.cell.control();
+    int steps = 0;
+    application.plan.unit(Plan::consumer).script.step = [&](TestUnit&, const Tick&) {
+      if (++steps == 1) {
+        control.begin_break();
+        const timespec stopped{0, 600'000'000};
+        nanosleep(&stopped, nullptr);
+        control.end_break(MonotonicClock::now());
+      }
+      if (steps == 3) control.rise_to(Mode::ended);
+    };
+    CHECK(application.cell.construct().is_ok());
+    CHECK(application.lifecycle.start_all().is_ok());
+    ThreadLoop loop(application.cell, Plan::consuming);
+    CHECK(loop.prepare().is_ok());
+    // Never taken: it is offered again and again.
+    const Item item{};
+    CHECK(application.plan.application().queues[Plan::jobs].sinks[0]->push(&item, MonotonicClock::now()));
+    control.note_look(MonotonicClock::now());
+    loop.run();
+    CHECK_EQUAL(steps, 3);
+    CHECK_EQUAL(control.faults(), 0U);
+    CHECK_EQUAL(application.thread(Plan::consuming).longest_standstill.load(), 0);
+  }
+}
+
+// [stop-53]
+void what_is_missed_after_a_stop_by_job_control_counts_from_there() {
+  Moving application;
+  CHECK(application.cell.construct().is_ok());
+  Control& control = application.cell.control();
+  Standstill standstill(application.cell, Plan::consuming);
+  const Time resumed = application.now + seconds{10};
+  control.begin_break();
+  CHECK(!standstill.judge(application.now, resumed));
+  control.end_break(resumed);
+  CHECK(!standstill.judge(application.now, resumed + milliseconds{999}));
+  CHECK(standstill.judge(application.now, resumed + seconds{1}));
+}
+
+/// A thread that owns an actuator and ends every release too late: the arm would move on in jerks.
+// [stop-98]
+void a_thread_that_is_always_late_moves_nothing_any_more() {
+  Moving application;
+  CHECK(application.cell.construct().is_ok());
+  Control& control = application.cell.control();
+  Standstill standstill(application.cell, Plan::consuming);
+  Time now = application.now;
+  // Each release ends 300 ms after it was due. How many until Stop motion; 0: none of ten.
+  const auto releases_until_stop = [&](auto overrun) {
+    for (int i = 1; i <= 10; ++i) {
+      const Time due = now;
+      now += milliseconds{300};
+      if (standstill.judge_release(due, now, overrun(i))) return i;
+    }
+    return 0;
+  };
+  const auto always = [](int) { return true; };
+  // One in time begins anew.
+  CHECK_EQUAL(releases_until_stop([](int i) { return i % 3 != 0; }), 0);
+  CHECK_EQUAL(control.faults(), 0U);
+  CHECK(!standstill.judge_release(now, now + milliseconds{1}, false));
+  CHECK_EQUAL(releases_until_stop(always), 4);
+  CHECK_EQUAL(control.faults(), 1U);
+  CHECK(control.motion_stopped());
+  CHECK(application.thread(Plan::consuming).longest_standstill >= 1'000'000'000);
+  // Nothing moves: nothing is judged, and the next Start has the whole limit again.
+  CHECK_EQUAL(releases_until_stop(always), 0);
+  control.clear_stop_motion();
+  control.permit_motion_at_power_on();
+  CHECK_EQUAL(releases_until_stop(always), 4);
+  // A stop by job control in between does not count.
+  control.clear_stop_motion();
+  control.permit_motion_at_power_on();
+  CHECK(!standstill.judge_release(now, now + milliseconds{300}, true));
+  control.begin_break();
+  now += seconds{10};
+  CHECK(!standstill.judge_release(now - seconds{10}, now, true));
+  control.end_break(now);
+  CHECK_EQUAL(releases_until_stop(always), 4);
+  // Others are late for themselves.
+  Standstill other(application.cell, Plan::producing);
+  control.clear_stop_motion();
+  control.permit_motion_at_power_on();
+  for (int i = 0; i < 10; ++i) CHECK(!other.judge_release(now, now + seconds{1}, true));
 }
 
 /// An application whose input is over, of which an event is being handled.
@@ -182,6 +289,9 @@ int main() {
       CONTAINED_TEST(a_thread_may_have_a_time_out_of_its_own),
       CONTAINED_TEST(of_a_process_that_stood_still_every_actuator_is_concerned),
       CONTAINED_TEST(who_waits_for_events_takes_for_missed_what_nobody_watched),
+      CONTAINED_TEST(a_stop_by_job_control_is_no_standstill),
+      CONTAINED_TEST(what_is_missed_after_a_stop_by_job_control_counts_from_there),
+      CONTAINED_TEST(a_thread_that_is_always_late_moves_nothing_any_more),
       CONTAINED_TEST(of_a_time_in_which_nobody_watched_the_longest_pause_counts),
       CONTAINED_TEST(who_seldom_watches_finds_what_hangs_all_the_same),
       CONTAINED_TEST(what_an_event_began_is_waited_for_however_late_is_looked),

@@ -1,6 +1,7 @@
 // What waits in a queue releases its reader, without a new arrival.
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "runtime/executive/tests/running_cell.hpp"
 
@@ -206,6 +207,35 @@ void back_off_offers_a_full_queue_until_its_reader_takes() {
   CHECK(cell.taken() > 90);
 }
 
+/// A unit takes what it cannot complete in this step, as a job whose picture is not there yet. The queue is
+/// empty then, and nothing comes any more.
+// [exec-88]
+void what_a_unit_took_and_holds_releases_it_again() {
+  for (const TriggerPlan& trigger : {on_jobs(), backing_off_on_jobs(microseconds{200}, milliseconds{50})}) {
+    BurstCell cell(trigger);
+    cell.burst = 1;
+    std::vector<Time> steps;
+    std::optional<Item> held;
+    constexpr std::size_t enough = 4;  // steps that it takes
+    cell.unit(Cell::consumer).script.step = [&](TestUnit& unit, const Tick& tick) {
+      if (tick.stop_requested) return;
+      if (const auto job = unit.jobs.pop()) held = *job;
+      if (!held) return;
+      CHECK_EQUAL(tick.fired, 1U);
+      CHECK(!tick.timed_out);
+      steps.push_back(tick.now);
+      if (steps.size() == enough) held.reset();
+    };
+    cell.unit(Cell::consumer).script.is_idle = [&](const TestUnit&) { return !held; };
+    cell.run(milliseconds{300});
+    CHECK_EQUAL(steps.size(), enough);
+    // The first after the step that took it, the others in growing pauses.
+    CHECK(steps[1] - steps[0] <= microseconds{300});
+    CHECK(steps[3] - steps[2] > steps[2] - steps[1]);
+    CHECK(steps.back() - steps.front() < milliseconds{10});
+  }
+}
+
 /// Of a queue that others read a thread is told of arrivals alone.
 // [exec-8]
 void what_waits_for_others_releases_nobody_else() {
@@ -278,6 +308,7 @@ int main() {
       CONTAINED_TEST(what_waits_is_no_timeout),
       CONTAINED_TEST(back_off_works_a_burst_off_and_learns_only_arrivals),
       CONTAINED_TEST(back_off_offers_a_full_queue_until_its_reader_takes),
+      CONTAINED_TEST(what_a_unit_took_and_holds_releases_it_again),
       CONTAINED_TEST(what_waits_for_others_releases_nobody_else),
       CONTAINED_TEST(a_device_works_off_what_waits_too),
       CONTAINED_TEST(what_waits_wakes_a_sleeping_thread),

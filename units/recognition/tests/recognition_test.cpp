@@ -354,6 +354,23 @@ bool a_job_may_be_ahead_of_its_picture() {
          world->bench.feedback().outdated == 1;
 }
 
+/// Its thread has to be released again, though nothing may come into the queue any more; and a job that is
+/// held when it begins anew is not lost without a trace.
+bool a_job_that_is_held_keeps_it_from_rest_and_is_counted() {
+  const auto world = std::make_unique<World>();
+  VisionRegion early = world->job_at(block_pose.position);
+  early.frame = world->frame + 1;
+  world->found.push(early);
+  const bool rests = world->bench.unit().is_idle();
+  world->step();
+  const bool holds = !world->bench.unit().is_idle();
+  world->bench.unit().reset();
+  const bool dropped = world->bench.unit().is_idle() && world->bench.feedback().outdated == 1;
+  world->publish();
+  world->step();
+  return rests && holds && dropped && world->count() == 0 && world->bench.unit().is_idle();
+}
+
 bool without_the_tools_pose_it_says_so() {
   const auto world = std::make_unique<World>();
   world->frames.publish(++world->frame, world->bench.now() + std::chrono::seconds(5));
@@ -425,6 +442,7 @@ void outdated(void**) {
 }
 void early(void**) {
   assert_true(a_job_may_be_ahead_of_its_picture());
+  assert_true(a_job_that_is_held_keeps_it_from_rest_and_is_counted());
 }
 void no_pose(void**) {
   assert_true(without_the_tools_pose_it_says_so());
