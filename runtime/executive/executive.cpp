@@ -123,11 +123,13 @@ class ConfigurationBefore {
   std::vector<Values> values_;
 };
 
-/// Of the log, where standard error is a file. That a reader went away is his own affair.
-Status log_file_failure() {
+/// Of the log. That a reader went away is his own affair: a pipe's (EPIPE), or a terminal's (EIO).
+Status log_failure() {
   const int error = log_write_error();
+  if (error == 0) return {};
   struct stat errors {};
-  if (error == 0 || fstat(STDERR_FILENO, &errors) != 0 || !S_ISREG(errors.st_mode)) return {};
+  const bool is_file = fstat(STDERR_FILENO, &errors) == 0 && S_ISREG(errors.st_mode);
+  if (!is_file && (error == EPIPE || error == EIO)) return {};
   return Status::error(StatusCode::unavailable, "standard error: %s (%llu lines of the log are not there)",
                        cause_of(error).c_str(), static_cast<unsigned long long>(unwritten_log_lines()));
 }
@@ -309,7 +311,7 @@ std::vector<Status> Executive::say_last(std::vector<std::string> texts) {
   note(said ? output_.failure()
             : Status::error(StatusCode::timeout,
                             "nobody reads standard output or error; what is left to be said is not written"));
-  note(log_file_failure());
+  note(log_failure());
   return failures;
 }
 
@@ -502,6 +504,12 @@ void Executive::supervise(RunSummary& summary) {
     control.note_look(now);
     if (signal > 0) obey(sent, summary);
     looked = now;
+    if (const int replaced = last_gasp::put_handlers_back(); replaced != 0)
+      log_error(
+          replaced_handler_, cell_.application().name,
+          "{} was given to another handler, as by a library of a unit; the one that makes devices safe is "
+          "back. Keep the library from handling it",
+          StaticText{signals::name_of(replaced)});
     if (running_since == Time{} && control.mode() >= Mode::running) {
       running_since = now;
       summary.start_time = now - began_;

@@ -109,6 +109,7 @@ class Executive {
   std::atomic<bool> lives_{false};
   bool asked_to_end_ = false;  // by a signal; the main thread
   LogLimit useless_signal_;
+  LogLimit replaced_handler_;
   Time log_time_{};  // of what is said before and after virtual time runs
   Time began_{};
   ValueSaver saver_;

@@ -135,8 +135,9 @@ void ThreadLoop::wait_with_descriptor(std::uint32_t heard, Time until, int descr
   const int ready =
       ppoll(watched, descriptor < 0 ? 1 : 2, until == Time::max() ? nullptr : &timeout, nullptr);
   record_->bell->settle();
-  // Hang-up and error are something to receive too: the driver reads and learns of it.
-  readable_ = ready > 0 && (watched[1].revents & (POLLIN | POLLHUP | POLLERR)) != 0;
+  // Hang-up and error are something to receive too, and so is a descriptor that somebody else has closed: the
+  // driver reads and learns of it.
+  readable_ = ready > 0 && (watched[1].revents & (POLLIN | POLLHUP | POLLERR | POLLNVAL)) != 0;
 }
 
 }  // namespace flexrf

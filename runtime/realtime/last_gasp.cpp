@@ -51,7 +51,8 @@ constinit std::atomic<bool> crashing{false};
 /// What the thread that ended the process first has written; −1: nothing yet.
 constinit std::atomic<int> written_in_crash{none};
 constinit thread_local bool crashed_here [[gnu::tls_model("initial-exec")]] = false;
-constinit std::atomic<bool> exit_is_unexpected{false};
+/// Whose exit is unexpected; 0: nobody's. A child that was forked has another number.
+constinit std::atomic<pid_t> exit_is_unexpected_of{0};
 constinit thread_local const char* stepped_unit [[gnu::tls_model("initial-exec")]] = nullptr;
 
 struct Prepared {
@@ -209,17 +210,42 @@ const char* meaning_of(int signal) noexcept {
 
 constexpr int exit_fault = 2;
 
-void at_exit() noexcept {
-  if (!exit_is_unexpected.load(std::memory_order_acquire)) return;
+bool exit_is_unexpected() noexcept {
+  const pid_t process = exit_is_unexpected_of.load(std::memory_order_acquire);
+  return process != 0 && process == getpid();
+}
+
+[[noreturn]] void leave(int status) noexcept {
+  for (;;) syscall(SYS_exit_group, status);
+}
+
+[[noreturn]] void leave_after_last_gasp(const char* called) noexcept {
   // A thread that crashes meanwhile ends the process itself.
   if (write_first()) {
     Message message;
-    message << "\nflexrf: exit() was called while the application ran";
+    message << "\nflexrf: " << called << " was called while the application ran";
     if (stepped_unit != nullptr) message << ", in " << stepped_unit;
     message << "; prepared outputs written: " << written_in_crash.load() << "\n";
     message.write_to(STDERR_FILENO);
   }
-  _exit(exit_fault);
+  leave(exit_fault);
+}
+
+void at_exit() noexcept {
+  if (exit_is_unexpected()) leave_after_last_gasp("exit()");
+}
+
+void at_quick_exit() noexcept {
+  if (exit_is_unexpected()) leave_after_last_gasp("quick_exit()");
+}
+
+struct sigaction crash_action() noexcept {
+  struct sigaction action {};
+  action.sa_sigaction = &handle;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+  // All others wait: a crash in the handler itself then ends the process at once.
+  sigfillset(&action.sa_mask);
+  return action;
 }
 
 bool takes_text(int descriptor) noexcept {
@@ -269,11 +295,7 @@ void restore_terminal() noexcept {
 }
 
 Status install() noexcept {
-  struct sigaction action {};
-  action.sa_sigaction = &handle;
-  action.sa_flags = SA_SIGINFO | SA_ONSTACK;
-  // All others wait: a crash in the handler itself then ends the process at once.
-  sigfillset(&action.sa_mask);
+  const struct sigaction action = crash_action();
   for (const int signal : signals::crashing)
     if (sigaction(signal, &action, nullptr) != 0)
       return Status::error(StatusCode::internal, "%s cannot be handled: %s", meaning_of(signal),
@@ -281,9 +303,23 @@ Status install() noexcept {
   return {};
 }
 
+int put_handlers_back() noexcept {
+  int replaced = 0;
+  for (const int signal : signals::crashing) {
+    struct sigaction present {};
+    if (sigaction(signal, nullptr, &present) != 0 || present.sa_sigaction == &handle) continue;
+    // In a crash the handler itself asks for the default.
+    if (crashing.load(std::memory_order_acquire)) return 0;
+    const struct sigaction action = crash_action();
+    sigaction(signal, &action, nullptr);
+    if (replaced == 0) replaced = signal;
+  }
+  return replaced;
+}
+
 void expect_no_exit(bool on) noexcept {
-  static const bool registered = std::atexit(at_exit) == 0;
-  exit_is_unexpected.store(on && registered, std::memory_order_release);
+  static const bool registered = std::atexit(at_exit) == 0 && std::at_quick_exit(at_quick_exit) == 0;
+  exit_is_unexpected_of.store(on && registered ? getpid() : 0, std::memory_order_release);
 }
 
 int claim_slot(Turn turn) noexcept {
@@ -376,4 +412,26 @@ AlternateStack::~AlternateStack() {
   sigaltstack(&outer, nullptr);
 }
 
+#if !FLEXRF_SANITIZER
+namespace {
+
+[[noreturn]] void end_process(const char* called, int status) noexcept {
+  if (exit_is_unexpected()) leave_after_last_gasp(called);
+  leave(status);
+}
+
+}  // namespace
+#endif
+
 }  // namespace flexrf::last_gasp
+
+#if !FLEXRF_SANITIZER
+// In place of the C library's, which run no handler: a unit or a library that calls them would leave its
+// actuators as they were commanded last. A sanitizer has its own.
+extern "C" void _exit(int status) {  // NOLINT(bugprone-reserved-identifier)
+  flexrf::last_gasp::end_process("_exit()", status);
+}
+extern "C" void _Exit(int status) noexcept {  // NOLINT(bugprone-reserved-identifier)
+  flexrf::last_gasp::end_process("_Exit()", status);
+}
+#endif

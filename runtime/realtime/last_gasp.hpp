@@ -22,6 +22,9 @@ inline constexpr std::size_t handler_stack_size = 64 * 1024;
 /// says which signal and which unit, and lets the signal's default action end the process. Once, by the main
 /// thread. It and every other thread that may crash take an AlternateStack.
 Status install() noexcept;
+/// Where something else was installed for one of these signals since, as by a library, puts the handler back.
+/// @returns the first such signal; 0: there was none. Any thread.
+int put_handlers_back() noexcept;
 /// What it does on one of them, for a handler of one's own that finds it not to be its own.
 void handle(int signal, siginfo_t* information, void* context) noexcept;
 
@@ -30,9 +33,10 @@ void handle(int signal, siginfo_t* information, void* context) noexcept;
 /// signal handler; a thread of any kind.
 [[noreturn]] void abort_with_trace(const char* text) noexcept;
 
-/// While on, an exit() from anywhere does as a crash does: prepared bytes, terminal, a message. The process
-/// then ends at once with code 2, before destructors of static objects take away what running threads use.
-/// Main thread.
+/// While on, exit(), quick_exit(), _exit() and _Exit() from anywhere in this process do as a crash does:
+/// prepared bytes, terminal, a message. The process then ends at once with code 2, before destructors of
+/// static objects take away what running threads use. The system call itself (exit_group) cannot be caught.
+/// A child of this process ends as it asks to. With a sanitizer only exit() and quick_exit(). Main thread.
 void expect_no_exit(bool on) noexcept;
 
 /// What is written when. `last`: after all that is `first`, as a message by which several devices do at the

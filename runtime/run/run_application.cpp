@@ -1,11 +1,13 @@
 #include "runtime/run/run_application.hpp"
 
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -28,6 +30,9 @@ namespace {
 constexpr int exit_usage = 1;
 constexpr int exit_fault = 2;
 constexpr int exit_right_missing = 3;
+/// Bytes of stack of the main thread. It uses less than 128 KiB of its own; in virtual time units step on it,
+/// which have 256 KiB unless their tables say otherwise.
+constexpr rlim_t least_stack = 512 << 10;
 
 int exit_code_of(const Status& status) noexcept {
   switch (status.code()) {
@@ -94,11 +99,22 @@ Status lock_cell(const Cell& cell, const Options& options, InstanceLock& lock) {
   return {};
 }
 
-}  // namespace
+Status check_stack() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+      limit.rlim_cur >= least_stack)
+    return {};
+  return Status::error(
+      StatusCode::invalid_argument,
+      "the limit of the stack (RLIMIT_STACK) is %llu KiB, at least %llu KiB are needed; set it "
+      "by ulimit -s, or LimitSTACK of a service",
+      static_cast<unsigned long long>(limit.rlim_cur >> 10),
+      static_cast<unsigned long long>(least_stack >> 10));
+}
 
-int run_application(const Application& application, int argument_count, char** arguments,
-                    const ObserverPart* part) {
-  hold_standard_descriptors();
+/// In a frame of its own, as a stack that is too small is found out before.
+[[gnu::noinline]] int run_checked(const Application& application, int argument_count, char** arguments,
+                                  const ObserverPart* part) {
   Result<Options> options = parse_options(application, part, argument_count, arguments);
   if (!options) return refuse(application, options.status());
   const OptionValues asked = options->values();
@@ -125,7 +141,8 @@ int run_application(const Application& application, int argument_count, char** a
     executive.set_observer(*observer);
   }
   if (options->status_view && !options->virtual_time) executive.set_view(&StatusView::make);
-  RunSummary summary = executive.run();
+  // What is thrown while threads run must not take away what they use: it ends the process as a crash does.
+  RunSummary summary = [&executive]() noexcept { return executive.run(); }();
   // Whatever is left to be said may wait for its reader: nobody else does by then.
   if (!summary.stuck && observer != nullptr) observer->stop();
   const auto note_failure = [&](const Status& status) {
@@ -143,6 +160,22 @@ int run_application(const Application& application, int argument_count, char** a
   // A thread that hangs can be neither joined nor destroyed under; the process can only be left.
   if (summary.stuck || executive.is_still_saying() || executive.is_still_saving()) _exit(summary.exit_code);
   return summary.exit_code;
+}
+
+}  // namespace
+
+int run_application(const Application& application, int argument_count, char** arguments,
+                    const ObserverPart* part) {
+  hold_standard_descriptors();
+  // Before the first write: a limit of file sizes would end the process without a word.
+  signals::ignore_what_writes_tell();
+  if (const Status status = check_stack(); !status) return refuse(application, status);
+  try {
+    return run_checked(application, argument_count, arguments, part);
+  } catch (const std::exception& error) {
+    // As by a library that gets no descriptor or no memory.
+    return refuse(application, Status::error(StatusCode::unavailable, "%s", error.what()));
+  }
 }
 
 }  // namespace flexrf

@@ -191,6 +191,48 @@ void a_write_that_fails_says_why() {
   CHECK_CONTAINS(large.errors, "File too large");
 }
 
+/// A device that is full, as a disk. In each way in which a run ends.
+// [stop-103]
+void a_standard_error_that_fails_is_an_error() {
+  for (const bool is_ended : {false, true}) {
+    const Folder folder;
+    Process process(folder, words(), Input::pipe, [] { dup2(open("/dev/full", O_WRONLY), STDERR_FILENO); });
+    start_moving(folder, process);
+    is_ended ? process.send(SIGTERM) : process.end_input();
+    CHECK_EQUAL(process.wait().exit_code, 1);
+  }
+}
+
+// [stop-103]
+void a_reader_of_standard_error_that_went_away_is_none() {
+  const Folder folder;
+  Process process(folder, words(), Input::pipe, [] {
+    int ends[2];
+    if (pipe(ends) == 0 && close(ends[0]) == 0) dup2(ends[1], STDERR_FILENO);
+  });
+  start_moving(folder, process);
+  process.end_input();
+  CHECK_EQUAL(process.wait().exit_code, 0);
+}
+
+/// The application starts, or says why it does not: neither a bare signal nor an exception that nobody
+/// catches.
+// [stop-105] [stop-106]
+void a_limit_of_the_process_is_told() {
+  const Folder small;
+  const Ending file = run(small, {"prlimit", "--fsize=0", application, "--report", "report"});
+  CHECK_EQUAL(file.exit_code, 1);
+  for (const char* const bytes : {"65536", "131072", "262144", "393216"}) {
+    const Folder folder;
+    const Ending stack = run(folder, {"prlimit", std::string{"--stack="} + bytes, application});
+    CHECK_EQUAL(stack.exit_code, 1);
+    CHECK_CONTAINS(stack.errors, "trial: the limit of the stack (RLIMIT_STACK) is ");
+    CHECK_CONTAINS(stack.errors, "ulimit -s");
+  }
+  const Folder folder;
+  CHECK_EQUAL(run(folder, {"prlimit", "--stack=524288", application}).exit_code, 0);
+}
+
 /// A service is always ended by a signal: what failed is not to hide behind that.
 // [stop-62]
 void a_standard_output_that_fails_is_seen_behind_a_signal() {
@@ -460,6 +502,9 @@ int main() {
       CONTAINED_TEST(a_signal_just_before_the_report_ends_the_wait_for_its_reader),
       CONTAINED_TEST(a_standard_output_that_fails_is_an_error),
       CONTAINED_TEST(a_write_that_fails_says_why),
+      CONTAINED_TEST(a_standard_error_that_fails_is_an_error),
+      CONTAINED_TEST(a_reader_of_standard_error_that_went_away_is_none),
+      CONTAINED_TEST(a_limit_of_the_process_is_told),
       CONTAINED_TEST(a_standard_output_that_fails_is_seen_behind_a_signal),
       CONTAINED_TEST(an_answer_that_is_not_written_is_an_error),
       CONTAINED_TEST(what_somebody_ends_it_with_is_a_controlled_stop),

@@ -217,6 +217,21 @@ void a_limit_between_budget_and_need_is_noticed() {
   CHECK_EQUAL(ending.exit_code, 0);
 }
 
+/// It starts, or says why it does not: the panel's library throws where it gets no descriptor.
+// [stop-104]
+void too_few_open_files_are_told() {
+  // Below the first no program is loaded.
+  for (const int files : {4, 5, 6, 7, 8, 10, 12, 16, 20}) {
+    const Folder folder;
+    const Ending ending =
+        run(folder, {"prlimit", "--nofile=" + std::to_string(files), place::keyboard, "--panel",
+                     "127.0.0.1:0", "--no-realtime", "--standstill-limit", "10min"});
+    CHECK_EQUAL(ending.signal, 0);
+    CHECK_EQUAL(ending.errors.find("terminate called"), std::string::npos);
+    if (ending.exit_code != 0) CHECK(!ending.errors.empty());
+  }
+}
+
 }  // namespace
 }  // namespace flexrf::whole
 
@@ -232,6 +247,7 @@ int main() {
       CONTAINED_TEST(who_is_not_real_time_keeps_off_its_cpus),
       CONTAINED_TEST(a_machine_file_that_makes_no_sense_keeps_it_from_starting),
       CONTAINED_TEST(a_limit_between_budget_and_need_is_noticed),
+      CONTAINED_TEST(too_few_open_files_are_told),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

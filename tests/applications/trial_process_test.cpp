@@ -159,13 +159,75 @@ void crash_signals_write_the_last_gasp() {
   }
 }
 
-// [stop-23]
-void exit_from_a_unit_writes_the_last_gasp() {
+void check_leaving(const char* key, const std::string& call) {
   const Folder folder;
-  const Ending ending = ending_in_motion(folder, "x");
+  const Ending ending = ending_in_motion(folder, key);
   CHECK_EQUAL(ending.exit_code, 2);
   CHECK_CONTAINS(ending.errors,
-                 "exit() was called while the application ran, in saboteur; prepared outputs written: 1");
+                 call + " was called while the application ran, in saboteur; prepared outputs written: 1");
+  CHECK_EQUAL(drive_log(folder), moving + last_gasp);
+}
+
+// [stop-23] [stop-99]
+void exit_from_a_unit_writes_the_last_gasp() {
+  check_leaving("x", "exit()");
+  check_leaving("q", "quick_exit()");
+}
+
+// [stop-100]
+void an_exit_without_handlers_writes_the_last_gasp() {
+#if FLEXRF_SANITIZER
+  skip();
+#endif
+  check_leaving("y", "_exit()");
+  check_leaving("z", "_Exit()");
+}
+
+/// What a child does on its way out would brake the drive of a process that goes on.
+// [stop-99]
+void a_childs_exit_is_its_own() {
+#if FLEXRF_CHECKED
+  skip();  // no real-time thread may start a process there
+#endif
+  const Folder folder;
+  Process process(folder, words());
+  process.type("d");
+  wait_until_moving(folder);
+  process.type("cm");
+  usleep(300'000);
+  CHECK_EQUAL(drive_log(folder), moving);
+  process.send(SIGTERM);
+  CHECK_EQUAL(process.wait().exit_code, 128 + SIGTERM);
+  CHECK_EQUAL(drive_log(folder), moving + at_rest);
+}
+
+// [stop-101]
+void signals_that_a_unit_ignores_do_what_they_did() {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Folder folder;
+    Process process(folder, words());
+    process.type("d");
+    wait_until_moving(folder);
+    process.type("im");
+    usleep(200'000);
+    process.send(signal);
+    CHECK_EQUAL(process.wait().exit_code, 128 + signal);
+    CHECK_EQUAL(drive_log(folder), moving + at_rest);
+  }
+}
+
+// [stop-102]
+void the_handler_of_a_crash_is_put_back() {
+  const Folder folder;
+  Process process(folder, words());
+  process.type("d");
+  wait_until_moving(folder);
+  process.type("v");
+  process.wait_for_error("SIGSEGV was given to another handler");
+  process.type("s");
+  const Ending ending = process.wait();
+  CHECK_EQUAL(ending.signal, SIGSEGV);
+  CHECK_CONTAINS(ending.errors, "prepared outputs written: 1");
   CHECK_EQUAL(drive_log(folder), moving + last_gasp);
 }
 
@@ -284,6 +346,10 @@ int main() {
       CONTAINED_TEST(a_second_signal_does_not_wait),
       CONTAINED_TEST(crash_signals_write_the_last_gasp),
       CONTAINED_TEST(exit_from_a_unit_writes_the_last_gasp),
+      CONTAINED_TEST(an_exit_without_handlers_writes_the_last_gasp),
+      CONTAINED_TEST(a_childs_exit_is_its_own),
+      CONTAINED_TEST(signals_that_a_unit_ignores_do_what_they_did),
+      CONTAINED_TEST(the_handler_of_a_crash_is_put_back),
       CONTAINED_TEST(the_end_of_input_is_the_gentlest),
       CONTAINED_TEST(finish_timeout_ends_what_does_not_finish),
       CONTAINED_TEST(an_allocation_is_caught),

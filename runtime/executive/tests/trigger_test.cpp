@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 
 #include "runtime/executive/tests/running_cell.hpp"
 
@@ -263,6 +264,28 @@ void a_device_releases_its_thread_on_the_wall_clock() {
   close(descriptor);
 }
 
+/// By a unit or a library, say. The driver learns of it, and no thread turns in circles.
+// [stop-107]
+void a_device_whose_descriptor_was_closed_by_others_learns_of_it() {
+  Cell cell;
+  cell.thread(Cell::consuming).trigger = TriggerPlan::on_device(Cell::actuator);
+  const int descriptor = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  std::atomic<bool> is_closed{false};
+  cell.device(Cell::actuator).script.descriptor = [&, descriptor] { return is_closed ? -1 : descriptor; };
+  cell.device(Cell::actuator).script.receive = [&, descriptor](TestDevice&, const Tick&) {
+    std::uint64_t value = 0;
+    is_closed = read(descriptor, &value, sizeof(value)) < 0 && errno == EBADF;
+  };
+  RunningCell running(cell);
+  running.start();
+  CHECK(wait_until([&] { return running.control().mode() == Mode::running; }));
+  close(descriptor);
+  // It sleeps on what was closed until somebody rings.
+  running.control().wake_all();
+  CHECK(wait_until([&] { return is_closed.load(); }));
+  CHECK_EQUAL(running.finish().exit_code, 0);
+}
+
 void a_flood_does_not_turn_a_thread_in_circles() {
   Cell cell;
   TriggerPlan& trigger = cell.thread(Cell::consuming).trigger;
@@ -351,6 +374,7 @@ int main() {
       CONTAINED_TEST(a_device_releases_its_thread_in_virtual_time),
       CONTAINED_TEST(before_a_device_has_something_it_is_the_timeout),
       CONTAINED_TEST(a_device_releases_its_thread_on_the_wall_clock),
+      CONTAINED_TEST(a_device_whose_descriptor_was_closed_by_others_learns_of_it),
       CONTAINED_TEST(a_flood_does_not_turn_a_thread_in_circles),
       CONTAINED_TEST(back_off_finds_every_item_of_a_steady_source_soon),
       CONTAINED_TEST(a_free_thread_steps_without_a_reason),

@@ -87,6 +87,24 @@ void Saboteur::obey(char key) {
       std::abort();
     case 'x':
       std::exit(0);
+    case 'q':
+      std::quick_exit(0);
+    case 'y':
+      _exit(0);
+    case 'z':
+      std::_Exit(0);
+    case 'c': {
+      // A child's end is its own. Nobody waits for it: the process that started this one gets it.
+      const pid_t child = fork();
+      if (child == 0) std::exit(0);
+      break;
+    }
+    case 'i':
+      for (const int signal : {SIGINT, SIGTERM, SIGTSTP}) std::signal(signal, SIG_IGN);
+      break;
+    case 'v':
+      for (const int signal : {SIGSEGV, SIGABRT}) std::signal(signal, SIG_DFL);
+      break;
     case 'o':
       if (const int file = open("/dev/null", O_RDONLY | O_CLOEXEC); file >= 0) close(file);
       break;
