@@ -4,7 +4,8 @@
 
 namespace flexrf {
 
-std::uint64_t CellAccess::send(ParameterRequest& request, Time now) noexcept {
+std::uint64_t CellAccess::send(ParameterRequest& request, Time now, bool keeps) noexcept {
+  request.keeps = keeps || request.who[0] != '\0';
   request.requester = post_->requester;
   request.correlation = ++post_->sent;
   request.issued_at = now;

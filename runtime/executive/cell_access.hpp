@@ -33,8 +33,9 @@ class CellAccess {
   ComponentIndex self() const noexcept { return post_->unit; }
 
   /// Sends it, in the unit's name, and gives the number that comes back as the answer's correlation; a number
-  /// is never used twice while the application runs. Roles are the caller's to judge.
-  std::uint64_t send(ParameterRequest& request, Time now) noexcept;
+  /// is never used twice while the application runs. Roles are the caller's to judge. `keeps`: what it sets
+  /// belongs into the configuration file; it does so in any case where the request names a person.
+  std::uint64_t send(ParameterRequest& request, Time now, bool keeps = false) noexcept;
   /// What a person did who came in by this unit, for the audit: AuditIntake::note().
   void note(std::string_view who, const char* did, std::string_view what = {}) noexcept;
   /// The next answer that has come, also to what the unit asked before it was restarted.

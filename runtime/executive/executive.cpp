@@ -266,6 +266,7 @@ RunSummary Executive::run() {
     run_on_the_wall_clock(summary);
   }
   summary.save_failure = saver_.finish();
+  summary.writings = saver_.state().writings;
   output_.catch_up();
   summary.cause = cell_.control().cause();
   summary.wall_time = MonotonicClock::now() - began_;

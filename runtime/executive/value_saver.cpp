@@ -21,6 +21,8 @@ namespace {
 constexpr timespec look_interval{0, 20'000'000};
 /// Of the end with a file system that does not answer.
 constexpr Duration file_patience = std::chrono::seconds{10};
+/// Writings in one run by which nobody sets values by hand any more.
+constexpr std::uint64_t many_writings = 100;
 
 std::int64_t milliseconds_since_1970() noexcept {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -33,7 +35,7 @@ bool has_same_cause(const Status& one, const Status& other) noexcept {
 
 }  // namespace
 
-ValueSaver::ValueSaver(Cell& cell) : cell_(&cell) {
+ValueSaver::ValueSaver(Cell& cell) : cell_(&cell), tell_wear_at_(many_writings) {
   cell.set_saver(*this);
 }
 
@@ -163,16 +165,20 @@ void ValueSaver::save() {
   last_attempt_ = MonotonicClock::now();
   first_change_ = {};
   bool asked = false;
+  std::uint64_t writings = 0;
   {
     const std::lock_guard lock(mutex_);
     asked = number != state_.answered;
     state_.answered = number;
     state_.failure = status;
     if (status) state_.saved_at = milliseconds_since_1970();
+    if (status) ++state_.writings;
+    writings = state_.writings;
   }
   attempts_.fetch_add(1, std::memory_order_acq_rel);
   if (bell_ != nullptr) bell_->ring();
   tell(status, asked);
+  tell_wear(writings);
 }
 
 Status ValueSaver::write_file() const {
@@ -200,6 +206,17 @@ void ValueSaver::tell(const Status& status, bool asked) {
     log_info(name, "the values are saved again");
   }
   told_ = status;
+}
+
+/// Each time that there are twice as many.
+void ValueSaver::tell_wear(std::uint64_t writings) {
+  if (writings < tell_wear_at_) return;
+  tell_wear_at_ *= 2;
+  log_warning(
+      cell_->application().name,
+      "the configuration file was written {} times in this run, which wears out a disk: look for what "
+      "sets values again and again, give these persist = false, or save on command only",
+      writings);
 }
 
 // ---- the end

@@ -23,6 +23,7 @@ struct SaveState {
   bool unsaved = false;        ///< somebody set something that the file does not hold yet
   std::uint64_t answered = 0;  ///< requests up to this one are done, and `failure` says how
   std::int64_t saved_at = 0;   ///< ms since 1970: when the last saving succeeded; 0: not yet
+  std::uint64_t writings = 0;  ///< of the file since the start, asked for or not
   Status failure;              ///< of the last attempt; ok: the file holds what was set until then
 };
 
@@ -68,6 +69,7 @@ class ValueSaver {
   void save();
   Status write_file() const;
   void tell(const Status& status, bool asked);
+  void tell_wear(std::uint64_t writings);
 
   Cell* cell_;
   Doorbell* bell_ = nullptr;
@@ -87,6 +89,7 @@ class ValueSaver {
   Time last_change_{};
   Time last_attempt_{};
   Status told_;
+  std::uint64_t tell_wear_at_;  ///< writings
 };
 
 }  // namespace flexrf

@@ -22,25 +22,6 @@ bool is_saved(const ParameterDescriptor& parameter) noexcept {
   return parameter.persist && !is_momentary(*parameter.field);
 }
 
-/// Each value below the field that differs, as a whole. `before` (null: zeros) and `now` are the structs that
-/// the field lies in, `offset` bytes within the outermost one. True when something was not marked before.
-bool mark_differing(const FieldDescriptor& field, const std::byte* before, const std::byte* now,
-                    std::size_t offset, SetMarks& marks) noexcept {
-  const std::size_t at = offset + field.offset;
-  if (field.scalar != Scalar::structure) {
-    const std::size_t size = field_size(field);
-    const bool same = before == nullptr ? std::all_of(now + at, now + at + size,
-                                                      [](std::byte b) { return b == std::byte{0}; })
-                                        : std::memcmp(before + at, now + at, size) == 0;
-    return !same && marks.mark(at, size);
-  }
-  bool any = false;
-  for (std::uint32_t element = 0; element < field.count; ++element)
-    for (const FieldDescriptor& member : field.type->fields)
-      any |= mark_differing(member, before, now, at + element * element_size(field), marks);
-  return any;
-}
-
 }  // namespace
 
 Status RuntimeParameters::connect(Component& component, SlotControl* slot, const void* defaults,
@@ -78,9 +59,10 @@ Status RuntimeParameters::connect(Component& component, SlotControl* slot, const
   // One that is constructed anew keeps what was set before.
   if (record_.size() != block_->type->size) {
     former_.assign(values_, values_ + block_->type->size);
+    kept_ = former_;
     marks_ = SetMarks(block_->type->size);
     record_.reserve(block_->type->size);
-    record_.publish(values_, marks_);
+    record_.publish(kept_.data(), marks_);
   }
   return {};
 }
@@ -88,8 +70,9 @@ Status RuntimeParameters::connect(Component& component, SlotControl* slot, const
 void RuntimeParameters::restore(const SetMarks& marks) noexcept {
   if (values_ == nullptr || marks.size() != former_.size()) return;
   std::copy_n(values_, former_.size(), former_.begin());
+  kept_ = former_;
   std::copy(marks.flags().begin(), marks.flags().end(), marks_.flags().begin());
-  record_.publish(values_, marks_);
+  record_.publish(kept_.data(), marks_);
 }
 
 Status RuntimeParameters::adopt(const void* values, Time now) noexcept {
@@ -188,9 +171,11 @@ RuntimeParameters::Verdict RuntimeParameters::apply_member(const ParameterReques
   if (const Status status = accept_proposed(); !status) return {status};
   end_leases("the member began anew", now);
   pressed_ = false;
-  marks_changed_ |= marks_.clear(0, marks_.size());
-  // Somebody chose the other member's values for this one.
-  if (request.kind == RequestKind::clone) mark_differences(defaults_);
+  if (request.keeps) {
+    kept_changed_ |= marks_.clear(0, marks_.size());
+    // Somebody chose the other member's values for this one.
+    if (request.kind == RequestKind::clone) keep_differences(defaults_);
+  }
   note_changes(request, now);
   commit_settings(now);
   return {};
@@ -305,13 +290,12 @@ const char* RuntimeParameters::unmet_need(const ParameterRequest& request, bool 
 }
 
 void RuntimeParameters::commit_settings(Time now) noexcept {
-  const bool is_to_save = marks_changed_ || saved_values_differ();
   std::memcpy(values_, proposed_, block_->type->size);
   publish(now);
   settings_ = sequence_;
-  if (!is_to_save) return;
-  marks_changed_ = false;
-  record_.publish(values_, marks_);
+  if (!kept_changed_) return;
+  kept_changed_ = false;
+  record_.publish(kept_.data(), marks_);
   if (revision_ != nullptr) revision_->fetch_add(1, std::memory_order_acq_rel);
 }
 
@@ -321,10 +305,13 @@ void RuntimeParameters::commit_settings(Time now) noexcept {
 void RuntimeParameters::note_changes(const ParameterRequest& request, Time now) noexcept {
   if (audit_ != nullptr)
     audit_->note_differences(request.who, index_, ParameterKind::runtime, *block_, values_, proposed_, now);
+  if (!request.keeps) return;
   const auto apply_to = [&](const ParameterDescriptor& parameter, std::size_t offset, std::size_t size) {
     if (!is_saved(parameter)) return;
-    marks_changed_ |=
-        request.kind == RequestKind::reset ? marks_.clear(offset, size) : marks_.mark(offset, size);
+    if (request.kind == RequestKind::reset)
+      kept_changed_ |= marks_.clear(offset, size);
+    else
+      keep(offset, size);
   };
   for (std::uint16_t i = 0; i < request.change_count; ++i) {
     const ParameterChange& change = request.changes[i];
@@ -336,21 +323,40 @@ void RuntimeParameters::note_changes(const ParameterRequest& request, Time now) 
       apply_to(parameter, field.offset + change.offset, change.size);
   }
   if (request.kind == RequestKind::reset && request.change_count == 0)
-    marks_changed_ |= marks_.clear(0, marks_.size());
+    kept_changed_ |= marks_.clear(0, marks_.size());
 }
 
-void RuntimeParameters::mark_differences(const std::byte* before) noexcept {
+/// Of the proposed values; bytes within the struct.
+void RuntimeParameters::keep(std::size_t offset, std::size_t size) noexcept {
+  std::byte* const kept = kept_.data() + offset;
+  kept_changed_ |= marks_.mark(offset, size);
+  kept_changed_ |= std::memcmp(kept, proposed_ + offset, size) != 0;
+  std::memcpy(kept, proposed_ + offset, size);
+}
+
+/// `before`: the whole struct; null: zeros.
+void RuntimeParameters::keep_differences(const std::byte* before) noexcept {
   for (const ParameterDescriptor& parameter : block_->parameters)
-    if (is_saved(parameter)) marks_changed_ |= mark_differing(*parameter.field, before, proposed_, 0, marks_);
+    if (is_saved(parameter)) keep_differing(*parameter.field, before, 0);
 }
 
-bool RuntimeParameters::saved_values_differ() const noexcept {
-  return std::any_of(block_->parameters.begin(), block_->parameters.end(), [this](const auto& parameter) {
-    const std::size_t offset = parameter.field->offset;
-    const std::size_t size = field_size(*parameter.field);
-    return is_saved(parameter) && marks_.any(offset, size) &&
-           std::memcmp(former_.data() + offset, proposed_ + offset, size) != 0;
-  });
+/// Each value below the field that differs, as a whole. The field lies in a struct that lies `offset` bytes
+/// within the outermost one.
+void RuntimeParameters::keep_differing(const FieldDescriptor& field, const std::byte* before,
+                                       std::size_t offset) noexcept {
+  const std::size_t at = offset + field.offset;
+  if (field.scalar != Scalar::structure) {
+    const std::size_t size = field_size(field);
+    const std::byte* const now = proposed_ + at;
+    const bool same = before == nullptr
+                          ? std::all_of(now, now + size, [](std::byte b) { return b == std::byte{0}; })
+                          : std::memcmp(before + at, now, size) == 0;
+    if (!same) keep(at, size);
+    return;
+  }
+  for (std::uint32_t element = 0; element < field.count; ++element)
+    for (const FieldDescriptor& member : field.type->fields)
+      keep_differing(member, before, at + element * element_size(field));
 }
 
 // ---- what the component changes by itself
@@ -373,7 +379,8 @@ Status RuntimeParameters::judge_own_changes(Time now) noexcept {
                          "it changed its own values, and they are refused: %s; they are as before",
                          status.cause());
   }
-  mark_differences(former_.data());
+  // In a step with a press a person asked for it; otherwise a unit would wear out the disk.
+  if (pressed_) keep_differences(former_.data());
   commit_settings(now);
   return {};
 }

@@ -1,6 +1,6 @@
 // The runtime parameters of one component, as its owning thread keeps them: applies requests between two
 // steps, counts presses, ends leases, checks what the component changes by itself, publishes the values in
-// force, and remembers which of them somebody has set.
+// force, and remembers which of them a person or a script has set.
 #pragma once
 
 #include <atomic>
@@ -74,8 +74,9 @@ class RuntimeParameters {
     if (live_leases_ != 0) end_overdue_leases(now);
   }
   /// After each step: it has seen the presses. What it changed of its own settings is checked as a request
-  /// is, and counts as set; an error when it is refused: the component goes into fault, and all its settings
-  /// are as before the step.
+  /// is; an error when it is refused: the component goes into fault, and all its settings are as before the
+  /// step. It belongs into the configuration file only where the step saw a press, as then a person asked for
+  /// it.
   [[nodiscard]] Status after_step(Time now) noexcept {
     Status status = take_own_changes(now);
     if (pressed_) clear_presses(now);
@@ -129,8 +130,9 @@ class RuntimeParameters {
   Status check_own_changes() noexcept;
   void put_settings_back() noexcept;
   void note_changes(const ParameterRequest& request, Time now) noexcept;
-  void mark_differences(const std::byte* before) noexcept;
-  bool saved_values_differ() const noexcept;
+  void keep(std::size_t offset, std::size_t size) noexcept;
+  void keep_differences(const std::byte* before) noexcept;
+  void keep_differing(const FieldDescriptor& field, const std::byte* before, std::size_t offset) noexcept;
   const ParameterDescriptor* parameter_of(const ParameterChange& change, const ParameterRequest& request,
                                           Verdict& verdict) const noexcept;
   Lease* lease_of(std::uint32_t offset) noexcept;
@@ -157,9 +159,10 @@ class RuntimeParameters {
   std::uint32_t live_leases_ = 0;
   bool pressed_ = false;
   std::vector<std::byte> former_;  // the values as they were published last: the last good ones
+  std::vector<std::byte> kept_;    // the values for the configuration file, of which the marked ones count
   SetMarks marks_;
-  bool marks_changed_ = false;  // since the record was published
-  SettingsRecord record_;
+  bool kept_changed_ = false;  // or the marks, since the record was published
+  SettingsRecord record_;      // of both
   std::atomic<std::uint64_t>* revision_ = nullptr;
   Lease leases_[max_holds]{};
 };

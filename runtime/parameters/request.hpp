@@ -58,6 +58,9 @@ struct ParameterRequest {
   std::uint64_t lease_sequence = 0;  ///< hold, refresh: greater than in every former request of this lease
   /// The person, for the audit. Empty: none, as when a unit asks; then nothing is written down.
   char who[longest_who] = {};
+  /// What it sets belongs into the configuration file. Not so where a unit asks by itself
+  /// (CellAccess::send()).
+  bool keeps = true;
 
   /// Adds a change; false (and nothing is added) when it does not fit. `offset`: bytes into the parameter.
   bool add(std::uint16_t parameter, std::uint32_t offset, const void* value, std::size_t size) noexcept;

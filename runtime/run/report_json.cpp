@@ -18,7 +18,8 @@ void write_run(JsonWriter& json, const ReportData& data) {
   json.member("fault", summary.had_fault)
       .member("cut_short", summary.cut_short)
       .member("stuck", summary.stuck)
-      .member("not_saved", summary.save_failure.cause());
+      .member("not_saved", summary.save_failure.cause())
+      .member("configuration_writings", summary.writings);
   json.member("virtual_time", summary.virtual_time).member("realtime", summary.realtime);
   json.member("run_time_ns", summary.run_time.count()).member("wall_time_ns", summary.wall_time.count());
   json.member("start_time_ns", summary.start_time.count());

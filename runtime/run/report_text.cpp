@@ -163,8 +163,13 @@ std::string faults_text(const ReportData& data) {
 }
 
 std::string values_text(const ReportData& data) {
-  const Status& failure = data.summary.save_failure;
-  return failure ? std::string{} : "\nValues not saved: " + std::string{failure.cause()} + "\n";
+  const RunSummary& summary = data.summary;
+  std::string text;
+  if (summary.writings > 0)
+    text += "\nConfiguration file: written " + std::to_string(summary.writings) + " times\n";
+  if (!summary.save_failure)
+    text += "\nValues not saved: " + std::string{summary.save_failure.cause()} + "\n";
+  return text;
 }
 
 std::string memory_text(const ReportData& data) {

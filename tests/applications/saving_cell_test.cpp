@@ -159,8 +159,20 @@ void a_unit_changes_its_own_values() {
   running.type("g");
   CHECK(wait_until([&] { return running.newest("tuner.values", "gain") == 3.0; }));
   CHECK(is_saved(folder, "<gain>3</gain>"));
+  // The value that the table has.
   running.type("d");
   CHECK(is_saved(folder, "<gain>1</gain>"));
+  // What nobody asked for is in force, and not kept: not even where it would be written for another reason.
+  constexpr std::uint64_t writings = 2;
+  CHECK(wait_until([&] { return running.executive().saver().state().writings == writings; }));
+  running.type("o");
+  CHECK(wait_until([&] { return running.newest("tuner.values", "gain") == 4.0; }));
+  CHECK(!running.executive().saver().state().unsaved);
+  CHECK_EQUAL(running.executive().saver().state().writings, writings);
+  set(running, offset, 0.5);
+  CHECK(is_saved(folder, "<offset unit=\"m\">0.5</offset>"));
+  CHECK(holds(folder, "<gain>1</gain>"));
+  CHECK(wait_until([&] { return running.executive().saver().state().writings > writings; }));
   running.type("t");
   CHECK(wait_until([&] { return running.newest("tuner.values", "tries") == 1; }));
   CHECK(save_now(running).is_ok());

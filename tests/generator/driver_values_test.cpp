@@ -223,17 +223,19 @@ void they_are_kept_under_their_driver(void**) {
   static std::string told;
   static const Folder folder;
   folder.write(
-      "<device name=\"station\" driver=\"metering\"><runtime><settles>true</settles></runtime></device>");
+      "<device name=\"station\" "
+      "driver=\"metering\"><runtime><settles>true</settles><trim>0.25</trim></runtime>"
+      "</device>");
   told = seen_with("metering", folder.file());
+  // What it sets itself is in force, and what a person set stays in the file.
   assert_true(holds(told, "trim 0.125"));
   const std::string section = "<device name=\"station\" driver=\"metering\">";
   told = folder.read();
-  assert_true(holds(told, section.c_str()) && holds(told, "<trim unit=\"V\">0.125</trim>"));
+  assert_true(holds(told, section.c_str()) && holds(told, "<trim unit=\"V\">0.25</trim>"));
   // Another driver neither takes nor loses them.
   assert_true(holds(seen_with("mock", folder.file()), "StationFeedback of 8,"));
   told = folder.read();
-  assert_true(holds(told, section.c_str()) && holds(told, "<trim unit=\"V\">0.125</trim>"));
-  assert_true(holds(seen_with("metering", folder.file()), "trim 0.125"));
+  assert_true(holds(told, section.c_str()) && holds(told, "<trim unit=\"V\">0.25</trim>"));
 }
 
 void a_value_that_the_driver_has_not_is_told(void**) {

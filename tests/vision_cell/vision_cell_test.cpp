@@ -35,7 +35,8 @@ Options in_virtual_time() {
 
 class VisionCell {
  public:
-  VisionCell() : executive_(application::application, in_virtual_time()) {
+  explicit VisionCell(const Options& options = in_virtual_time())
+      : executive_(application::application, options) {
     const Status status = executive_.prepare();
     if (!status) throw fixture::CheckFailed{std::string{"prepare: "} + status.cause()};
   }
@@ -251,6 +252,99 @@ void a_person_freezes_saves_and_brings_back() {
   cell.run();
 }
 
+/// A file that two runs share, each in a process of its own.
+std::string shared_file(const char* name) {
+  return "/tmp/flexrf_vision_" + std::string{name} + "_" + std::to_string(getppid());
+}
+
+Options with_file(const std::string& file) {
+  Options options = in_virtual_time();
+  options.configuration_file = file;
+  return options;
+}
+
+void remove_all(const std::string& file) {
+  for (const char* const end : {"", ".previous", ".lock", ".genes"}) std::remove((file + end).c_str());
+}
+
+/// Weights, identity and probation belong together: nothing of them outlasts a run by itself, so that no
+/// member that went, or has not shown what it is worth, is trusted in the next.
+void what_evolves_is_not_kept_by_itself() {
+  const std::string file = shared_file("unsaved");
+  remove_all(file);
+  VisionCell cell(with_file(file));
+  cell.when(
+      "members that came and went",
+      [&] { return cell.evolution().births > 3 && cell.evolution().deaths > 2; }, [] {});
+  cell.run();
+  CHECK_EQUAL(contents_of(file), "");
+  remove_all(file);
+}
+
+/// The members' weights as they were saved, for the next run.
+void a_saved_generation_is_written() {
+  const std::string file = shared_file("saved");
+  remove_all(file);
+  VisionCell cell(with_file(file));
+  AttentionEvolutionRuntime saved{};
+  cell.when(
+      "some generations", [&] { return cell.evolution().generation == 8; }, [&] { cell.press("save"); });
+  cell.when(
+      "what was saved",
+      [&] {
+        saved = cell.newest<AttentionEvolutionRuntime>("evolution.values");
+        return std::count(saved.saved_members.begin(), saved.saved_members.end(), true) > 0;
+      },
+      [] {});
+  // Which are not kept.
+  cell.when(
+      "others", [&] { return cell.evolution().generation == 12; }, [] {});
+  cell.run();
+  CHECK_CONTAINS(contents_of(file), "saved_genes");
+  write_file(file + ".genes", std::string(reinterpret_cast<const char*>(&saved), sizeof(saved)));
+}
+
+void the_next_run_begins_with_the_saved_generation() {
+  const std::string file = shared_file("saved");
+  const std::string bytes = contents_of(file + ".genes");
+  AttentionEvolutionRuntime saved{};
+  CHECK_EQUAL(bytes.size(), sizeof(saved));
+  std::memcpy(&saved, bytes.data(), sizeof(saved));
+  VisionCell cell(with_file(file));
+  cell.set("evolution", "frozen", true);
+  cell.when(
+      "reports of all", [&] { return cell.eye().pictures > 30 && !cell.evolution().restoring; },
+      [&] {
+        const auto now = cell.newest<AttentionGeneration>("generation");
+        for (std::size_t i = 0; i < now.members.size(); ++i) {
+          CHECK_EQUAL(now.members[i].active, saved.saved_members[i]);
+          CHECK(!now.members[i].probation);
+          const auto& genes = now.members[i].genes;
+          CHECK(!now.members[i].active ||
+                std::equal(genes.begin(), genes.end(),
+                           saved.saved_genes.begin() + static_cast<std::ptrdiff_t>(i * genes.size())));
+        }
+      });
+  cell.run();
+  remove_all(file);
+}
+
+/// All but the one that has the weights of the tables.
+void what_begins_different_is_on_probation() {
+  VisionCell cell;
+  cell.set("evolution", "probation_frames", std::uint32_t{100'000});
+  cell.when(
+      "reports of all", [&] { return cell.eye().pictures > 20; },
+      [&] {
+        const auto now = cell.newest<AttentionGeneration>("generation");
+        CHECK(now.members[0].active && !now.members[0].probation);
+        for (std::size_t i = 1; i < now.members.size(); ++i)
+          CHECK(!now.members[i].active || now.members[i].probation);
+        CHECK(cell.evolution().on_probation > 1);
+      });
+  cell.run();
+}
+
 std::uint64_t digest_of_five_seconds() {
   VisionCell cell;
   cell.when(
@@ -288,6 +382,10 @@ int main() {
       TEST_APART(the_member_of_the_target_in_hand_is_left_alone),
       TEST_APART(a_covered_lens_is_told_and_passes),
       TEST_APART(a_person_freezes_saves_and_brings_back),
+      TEST_APART(what_evolves_is_not_kept_by_itself),
+      TEST_APART(a_saved_generation_is_written),
+      TEST_APART(the_next_run_begins_with_the_saved_generation),
+      TEST_APART(what_begins_different_is_on_probation),
       TEST_APART(the_same_seed_makes_the_same_run),
       TEST_APART(the_same_seed_makes_the_same_run),
   };

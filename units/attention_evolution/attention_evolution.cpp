@@ -31,7 +31,10 @@ Status AttentionEvolution::initialise() {
   begins_anew_ = finds_nothing_ = needs_newcomer_ = false;
   restored_ = most_members;
   varied_ = 0;
+  begins_ = true;
   writes_saved_ = false;
+  // What the members are now, not what they reported last to the unit as it was before.
+  for (auto& one : reports) one.forget();
   if (const Status status = find_population(); !status) return status;
   return find_parameters();
 }
@@ -90,6 +93,7 @@ void AttentionEvolution::step(const Tick& tick) {
   look_at_hand();
   read_verdicts();
   hear_answers();
+  if (begins_) begin();
   if (writes_saved_) write_saved();
   press_buttons();
   const bool may_change = !runtime.frozen && correlation_ == 0 && restored_ == most_members;
@@ -242,13 +246,30 @@ void AttentionEvolution::hear_answers() noexcept {
 void AttentionEvolution::press_buttons() noexcept {
   if (runtime.save > 0) save_generation();
   if (runtime.restore == 0) return;
-  if (std::none_of(runtime.saved_members.begin(), runtime.saved_members.end(),
-                   [](bool saved) { return saved; })) {
+  if (!has_saved()) {
     complain("no generation was saved yet: Save this generation keeps one to come back to");
     return;
   }
   restored_ = 0;
   feedback.set_trouble({});
+}
+
+bool AttentionEvolution::has_saved() const noexcept {
+  return std::any_of(runtime.saved_members.begin(), runtime.saved_members.end(),
+                     [](bool saved) { return saved; });
+}
+
+/// A population that begins with the tables' weights becomes the saved one, if there is one: weights of other
+/// members do not outlast a run.
+void AttentionEvolution::begin() noexcept {
+  begins_ = false;
+  for (std::size_t i = 0; i < capacity_; ++i) {
+    const Evolution::Member& member = evolution_.member(i);
+    if (member.active && (member.identity != 0 || member.genes != table_genes_)) return;
+  }
+  if (!has_saved()) return;
+  restored_ = 0;
+  varied_ = capacity_;
 }
 
 /// Those on probation are not kept: they have not shown what they are worth.
@@ -275,7 +296,8 @@ void AttentionEvolution::write_saved() noexcept {
 }
 
 /// Members that all look at the same see no more than one of them. So at the start all but the first are made
-/// different, one request at a time; those that somebody changed, or kept, stay as they are.
+/// different, one request at a time, and are on probation from then on; those that somebody changed stay as
+/// they are.
 void AttentionEvolution::vary_next(Time now) noexcept {
   for (; varied_ < capacity_; ++varied_) {
     const Evolution::Member& member = evolution_.member(varied_);
@@ -284,6 +306,7 @@ void AttentionEvolution::vary_next(Time now) noexcept {
     ParameterRequest request;
     request.kind = RequestKind::set;
     add_genes(request, evolution_.varied(table_genes_, configuration.variety));
+    add_state(request, evolution_.new_identity(), true);
     send(request, varied_++, now);
     return;
   }

@@ -42,6 +42,8 @@ class AttentionEvolution final : public AttentionEvolutionUnit {
   void begin_anew(Time now) noexcept;
   void hear_answers() noexcept;
   void press_buttons() noexcept;
+  bool has_saved() const noexcept;
+  void begin() noexcept;
   void save_generation() noexcept;
   void write_saved() noexcept;
   void vary_next(Time now) noexcept;
@@ -70,6 +72,7 @@ class AttentionEvolution final : public AttentionEvolutionUnit {
   std::uint64_t correlation_ = 0;        // of the request under way; 0: none is
   std::size_t restored_ = most_members;  // next member to bring back; most_members: none
   std::size_t varied_ = 0;               // next member to be made different from the table; capacity_: none
+  bool begins_ = true;                   // no step was made yet
   bool writes_saved_ = false;
   bool begins_anew_ = false;  // the request under way is for a first member
   std::uint64_t judged_generation_ = 0;

@@ -290,24 +290,19 @@ void what_somebody_set_is_remembered(void**) {
   assert_false(IS_SET(cell, gains));
 }
 
-void what_a_component_changes_itself_is_shown_and_to_be_saved(void**) {
+void press_go(Cell& cell) {
+  ParameterRequest press = request_of(RequestKind::press);
+  press.add_presses(sample::go);
+  assert_int_equal(cell.parameters.apply(press, start_time).kind, AnswerKind::accepted);
+}
+
+void what_a_component_changes_itself_is_shown(void**) {
   Cell& cell = begin();
-  static std::atomic<std::uint64_t> revision;
-  revision = 0;
-  cell.parameters.set_revision(revision);
   const std::uint64_t before = cell.seen_sequence();
   cell.component.runtime.step = 0.05;
-  cell.component.runtime.limits.low = -3;
-  cell.component.runtime.scratch = 8;
   assert_true(cell.parameters.after_step(start_time).is_ok());
   assert_true(cell.seen().step == 0.05);
   assert_int_equal(cell.seen_sequence(), before + 1);
-  assert_true(step_to_save(cell) == 0.05);
-  assert_true(IS_SET(cell, step));
-  assert_true(IS_SET(cell, limits.low));
-  assert_false(IS_SET(cell, limits.high));
-  assert_false(IS_SET(cell, scratch));
-  assert_int_equal(revision.load(), 1);
   // Who had seen the values before does not know them any more.
   ParameterRequest request = set_to(sample::step, 0.06);
   request.expected = before;
@@ -315,6 +310,69 @@ void what_a_component_changes_itself_is_shown_and_to_be_saved(void**) {
   // Nothing more happens in the next step.
   assert_true(cell.parameters.after_step(start_time).is_ok());
   assert_int_equal(cell.seen_sequence(), before + 1);
+}
+
+/// In a step that saw a press a person asked for it.
+void what_a_component_changes_itself_is_kept_after_a_press_only(void**) {
+  for (const bool is_pressed : {false, true}) {
+    Cell& cell = begin();
+    static std::atomic<std::uint64_t> revision;
+    revision = 0;
+    cell.parameters.set_revision(revision);
+    if (is_pressed) press_go(cell);
+    cell.component.runtime.step = 0.05;
+    cell.component.runtime.limits.low = -3;
+    cell.component.runtime.scratch = 8;
+    assert_true(cell.parameters.after_step(start_time).is_ok());
+    assert_int_equal(IS_SET(cell, step), is_pressed);
+    assert_int_equal(IS_SET(cell, limits.low), is_pressed);
+    assert_false(IS_SET(cell, limits.high));
+    assert_false(IS_SET(cell, scratch));
+    assert_int_equal(revision.load(), is_pressed ? 1 : 0);
+    if (is_pressed) assert_true(step_to_save(cell) == 0.05);
+    // The press counts for its own step.
+    cell.component.runtime.step = 0.06;
+    assert_true(cell.parameters.after_step(start_time).is_ok());
+    assert_int_equal(revision.load(), is_pressed ? 1 : 0);
+  }
+}
+
+/// The file keeps what a person set, whatever a unit makes of it afterwards, by itself or by a request that
+/// names nobody.
+void what_a_person_set_is_kept_as_it_was_set(void**) {
+  for (const RequestKind kind : {RequestKind::set, RequestKind::reset, RequestKind::clone}) {
+    Cell& cell = begin();
+    static std::atomic<std::uint64_t> revision;
+    revision = 0;
+    cell.parameters.set_revision(revision);
+    assert_int_equal(cell.parameters.apply(set_to(sample::step, 0.02), start_time).kind,
+                     AnswerKind::accepted);
+    assert_int_equal(revision.load(), 1);
+    cell.component.runtime.step = 0.05;
+    assert_true(cell.parameters.after_step(start_time).is_ok());
+    static sample::Runtime other;
+    other = sample::default_runtime;
+    ParameterRequest request = request_of(kind);
+    const std::int8_t small = 9;
+    if (kind != RequestKind::reset) request.add(sample::small, 0, &small, sizeof(small));
+    request.keeps = false;
+    assert_int_equal(cell.parameters.apply(request, start_time, &other).kind, AnswerKind::accepted);
+    assert_true(cell.seen().step == (kind == RequestKind::set ? 0.05 : 0.01));
+    assert_int_equal(revision.load(), 1);
+    assert_true(IS_SET(cell, step));
+    assert_false(IS_SET(cell, small));
+    assert_true(step_to_save(cell) == 0.02);
+    // Another value that a person sets leaves it alone, too.
+    assert_int_equal(cell.parameters.apply(set_to(sample::enabled, true), start_time).kind,
+                     AnswerKind::accepted);
+    assert_int_equal(revision.load(), 2);
+    assert_true(step_to_save(cell) == 0.02);
+    // The same value again: it is in force, and in the file already.
+    assert_int_equal(cell.parameters.apply(set_to(sample::step, 0.02), start_time).kind,
+                     AnswerKind::accepted);
+    assert_true(cell.seen().step == 0.02);
+    assert_int_equal(revision.load(), 2);
+  }
 }
 
 void what_a_component_must_not_set_itself_goes_back(void**) {
@@ -412,7 +470,9 @@ int main() {
       cmocka_unit_test(a_member_begins_with_the_tables_or_with_another_members_values),
       cmocka_unit_test(saved_values_are_checked_before_they_are_taken),
       cmocka_unit_test(what_somebody_set_is_remembered),
-      cmocka_unit_test(what_a_component_changes_itself_is_shown_and_to_be_saved),
+      cmocka_unit_test(what_a_component_changes_itself_is_shown),
+      cmocka_unit_test(what_a_component_changes_itself_is_kept_after_a_press_only),
+      cmocka_unit_test(what_a_person_set_is_kept_as_it_was_set),
       cmocka_unit_test(what_a_component_must_not_set_itself_goes_back),
       cmocka_unit_test(what_has_no_parameters_refuses_all_but_the_population),
       cmocka_unit_test(too_large_parameters_are_refused_at_the_start),

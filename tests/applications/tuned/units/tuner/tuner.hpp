@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "tuner_unit.hpp"
 
 namespace flexrf::user {
@@ -10,7 +12,9 @@ class Tuner final : public TunerUnit {
   void step(const Tick& tick) override;
 
  private:
-  void obey(char key);
+  void obey(char key, Time now);
+  template <class T>
+  void set_and_keep(std::uint16_t parameter, T value, Time now);
 
   bool learns_ = false;
 };
