@@ -1,6 +1,7 @@
 // Loading the configuration file: everything is read and checked beside the values in use, then taken at
 // once.
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
@@ -112,6 +113,7 @@ class Reader {
   void read_root(pugi::xml_node root);
   void read_component(pugi::xml_node node);
   void read_driver(pugi::xml_node node, std::size_t index);
+  static std::string name_and_index(pugi::xml_node node, std::string name);
   void read_block(pugi::xml_node section, std::size_t component);
   void read_parameter(pugi::xml_node node, const Block& block);
   void read_field(pugi::xml_node node, const FieldDescriptor& field, const std::string& path,
@@ -140,6 +142,7 @@ class Reader {
   std::vector<StagedComponent> staged_;
   std::unordered_map<std::string_view, std::size_t> by_name_;
   std::unordered_map<std::string_view, const char*> renames_;
+  std::unordered_set<std::string> others_;  // devices with drivers that are not chosen
   bool is_ours_ = true;
 };
 
@@ -227,7 +230,12 @@ void Reader::read_driver(pugi::xml_node node, std::size_t index) {
   const std::string driver = node.attribute("driver").value();
   if (!driver.empty() && driver != component.driver) {
     const auto is_this = [&driver](const char* other) { return driver == other; };
-    if (std::any_of(component.other_drivers.begin(), component.other_drivers.end(), is_this)) return;
+    if (std::any_of(component.other_drivers.begin(), component.other_drivers.end(), is_this)) {
+      // It stays as it is, once.
+      if (!others_.insert(component.name + (" " + driver)).second)
+        unfit(node, [&] { return shown() + " with driver " + quoted(driver) + " is given twice"; });
+      return;
+    }
     unfit(node, [&] {
       return shown() + " has no driver " + quoted(driver) + nearest_of(driver, [&](NearestName& nearest) {
                nearest.offer(component.driver);
@@ -254,6 +262,13 @@ void Reader::read_driver(pugi::xml_node node, std::size_t index) {
   }
 }
 
+/// "0" and "00" are one index.
+std::string Reader::name_and_index(pugi::xml_node node, std::string name) {
+  const std::string_view index = node.attribute("index").value();
+  const std::size_t zeros = std::min(index.find_first_not_of('0'), index.empty() ? 0 : index.size() - 1);
+  return name.append(" ").append(index.substr(zeros));
+}
+
 void Reader::read_block(pugi::xml_node section, std::size_t component) {
   const ComponentType& type = *components_[component].type;
   const bool is_configuration = std::strcmp(section.name(), "configuration") == 0;
@@ -276,10 +291,10 @@ void Reader::read_block(pugi::xml_node section, std::size_t component) {
     if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata)
       unfit(section, [] { return std::string("text outside of the parameters"); });
     if (node.type() != pugi::node_element) continue;
-    if (!seen.insert(std::string(node.name()) + " " + node.attribute("index").value()).second) {
-      unfit(node, [&] {
-        return quoted(block.component.name + std::string(".") + node.name()) + " is given twice";
-      });
+    // Under its present name: the former one means the same.
+    const std::string name = parameter_renamed(block.former_name, block.component.name, node.name());
+    if (!seen.insert(name_and_index(node, name)).second) {
+      unfit(node, [&] { return quoted(block.component.name + std::string(".") + name) + " is given twice"; });
       continue;
     }
     read_parameter(node, block);
@@ -344,17 +359,17 @@ void Reader::read_structure(pugi::xml_node node, const FieldDescriptor& field, c
   std::string here = path;
   if (field.dimensions > 0) {
     check_attributes(node, {"index"});
-    const char* index = node.attribute("index").value();
-    char* end = nullptr;
-    const unsigned long number = std::strtoul(index, &end, 10);
-    if (index[0] == '\0' || *end != '\0' || number >= field.count) {
+    const std::string_view index = node.attribute("index").value();
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(index.data(), index.data() + index.size(), number);
+    if (error != std::errc{} || end != index.data() + index.size() || number >= field.count) {
       unfit(node, [&] {
         return quoted(path) + " wants index=\"0\" to \"" + std::to_string(field.count - 1) + "\"";
       });
       return;
     }
-    element = static_cast<std::uint32_t>(number);
-    here += "[" + std::string(index) + "]";
+    element = number;
+    here += "[" + std::to_string(number) + "]";
   } else {
     check_attributes(node, {});
   }
@@ -363,7 +378,7 @@ void Reader::read_structure(pugi::xml_node node, const FieldDescriptor& field, c
   for (const pugi::xml_node child : node.children()) {
     if (is_stray_text(child)) unfit(child, [&] { return "text between the members of " + quoted(here); });
     if (child.type() != pugi::node_element) continue;
-    if (!seen.insert(std::string(child.name()) + " " + child.attribute("index").value()).second) {
+    if (!seen.insert(name_and_index(child, child.name())).second) {
       unfit(child, [&] { return quoted(here + "." + child.name()) + " is given twice"; });
       continue;
     }
@@ -397,6 +412,13 @@ std::optional<std::string> Reader::text_in(pugi::xml_node node) {
 
 void Reader::check_attributes(pugi::xml_node node, std::initializer_list<const char*> known) {
   for (const pugi::xml_attribute attribute : node.attributes()) {
+    // The first of a name: another one would be passed over.
+    if (node.attribute(attribute.name()) != attribute) {
+      unfit(node, [&] {
+        return std::string("attribute '") + attribute.name() + "' of <" + node.name() + "> is given twice";
+      });
+      continue;
+    }
     const auto is_this = [&](const char* name) { return std::strcmp(name, attribute.name()) == 0; };
     if (std::any_of(known.begin(), known.end(), is_this)) continue;
     unfit(node, [&] {

@@ -456,6 +456,34 @@ void what_would_be_passed_over_is_refused(void**) {
   assert_int_equal(load(), ConfigurationSource::file);
 }
 
+/// What is one, however it is written: of two the second would win without a word.
+void what_is_given_twice_is_refused(void**) {
+  static constexpr Rename renames[] = {{"jog.stride", "jog.step"}};
+  world->identity.renames = renames;
+  write(
+      "<flexrf>\n"
+      "  <unit name=\"jog\" name=\"other\">\n"
+      "    <runtime><stride>0.02</stride><step>0.03</step></runtime>\n"
+      "    <configuration>\n"
+      "      <limits index=\"1\"><low>0</low></limits>\n"
+      "      <limits index=\"01\"><low>1</low></limits>\n"
+      "      <limits index=\"-18446744073709551616\"><low>1</low></limits>\n"
+      "    </configuration>\n"
+      "  </unit>\n"
+      "  <device name=\"arm\" driver=\"real\"/>\n"
+      "  <device name=\"arm\" driver=\"mock\"/>\n"
+      "  <device name=\"arm\" driver=\"real\"/>\n"
+      "</flexrf>\n");
+  assert_int_equal(load(), ConfigurationSource::refused);
+  std::size_t line = 0;
+  expect_problem(line++, "config.xml:2:3: error: attribute 'name' of <unit> is given twice");
+  expect_problem(line++, "config.xml:3:35: error: 'jog.step' is given twice");
+  expect_problem(line++, "config.xml:6:7: error: 'jog.limits' is given twice");
+  expect_problem(line++, "config.xml:7:7: error: 'jog.limits' wants index=\"0\" to \"1\"");
+  expect_problem(line++, "config.xml:12:3: error: device 'arm' with driver 'real' is given twice");
+  assert_true(has_unchanged_values());
+}
+
 void a_syntax_error_has_line_and_column(void**) {
   write("<flexrf>\n  <unit name=\"jog\">\n    <runtime><step>0.02</stpe></runtime>\n  </unit>\n</flexrf>\n");
   assert_int_equal(load(), ConfigurationSource::refused);
@@ -645,6 +673,7 @@ int main() {
       cmocka_unit_test_setup_teardown(a_damaged_file_falls_back_to_the_previous, begin, end),
       cmocka_unit_test_setup_teardown(a_lost_file_falls_back_to_the_previous, begin, end),
       cmocka_unit_test_setup_teardown(what_would_be_passed_over_is_refused, begin, end),
+      cmocka_unit_test_setup_teardown(what_is_given_twice_is_refused, begin, end),
       cmocka_unit_test_setup_teardown(a_syntax_error_has_line_and_column, begin, end),
       cmocka_unit_test_setup_teardown(an_edited_file_is_taken_with_a_notice, begin, end),
       cmocka_unit_test_setup_teardown(all_that_does_not_fit_is_named_at_once_and_nothing_is_taken, begin,
