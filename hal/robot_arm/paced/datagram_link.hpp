@@ -10,7 +10,7 @@
 namespace flexrf {
 
 /// What came: its whole length in bytes, and when it arrived, at most now.
-struct Datagram {
+struct ArrivedDatagram {
   std::size_t size = 0;
   Time at{};
 };
@@ -24,7 +24,7 @@ class DatagramLink {
   virtual bool send(std::span<const std::uint8_t> datagram, Time now) noexcept = 0;
   /// The next one that came from the controller: of a longer one than `into` the rest is gone. Nothing: no
   /// more are there.
-  virtual std::optional<Datagram> receive(std::span<std::uint8_t> into, Time now) noexcept = 0;
+  virtual std::optional<ArrivedDatagram> receive(std::span<std::uint8_t> into, Time now) noexcept = 0;
   /// Dropped so far because somebody else sent them.
   virtual std::uint64_t strangers() const noexcept = 0;
   /// Until something is there to receive, or the time is over.

@@ -58,7 +58,7 @@ bool UdpLink::send(std::span<const std::uint8_t> datagram, Time /*now*/) noexcep
                 reinterpret_cast<const sockaddr*>(&controller_), sizeof(controller_)) == size;
 }
 
-std::optional<Datagram> UdpLink::receive(std::span<std::uint8_t> into, Time now) noexcept {
+std::optional<ArrivedDatagram> UdpLink::receive(std::span<std::uint8_t> into, Time now) noexcept {
   arrival_.compare();
   for (int i = 0; i < most_strangers; ++i) {
     sockaddr_in sender{};
@@ -74,7 +74,7 @@ std::optional<Datagram> UdpLink::receive(std::span<std::uint8_t> into, Time now)
     const ssize_t size = recvmsg(socket_, &header, MSG_DONTWAIT | MSG_TRUNC);
     if (size < 0) return std::nullopt;
     if (sender.sin_addr.s_addr == controller_.sin_addr.s_addr && sender.sin_port == controller_.sin_port)
-      return Datagram{static_cast<std::size_t>(size), arrival_.time_of(header, now)};
+      return ArrivedDatagram{static_cast<std::size_t>(size), arrival_.time_of(header, now)};
     ++strangers_;
   }
   return std::nullopt;

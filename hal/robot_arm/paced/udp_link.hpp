@@ -24,7 +24,7 @@ class UdpLink final : public DatagramLink {
   int descriptor() const noexcept { return socket_; }
 
   bool send(std::span<const std::uint8_t> datagram, Time now) noexcept override;
-  std::optional<Datagram> receive(std::span<std::uint8_t> into, Time now) noexcept override;
+  std::optional<ArrivedDatagram> receive(std::span<std::uint8_t> into, Time now) noexcept override;
   std::uint64_t strangers() const noexcept override { return strangers_; }
   void wait(Duration longest) noexcept override;
 

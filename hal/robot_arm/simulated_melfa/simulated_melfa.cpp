@@ -4,14 +4,14 @@
 
 namespace flexrf {
 
-std::optional<Datagram> MxtWireLink::receive(std::span<std::uint8_t> into, Time now) noexcept {
+std::optional<ArrivedDatagram> MxtWireLink::receive(std::span<std::uint8_t> into, Time now) noexcept {
   const melfa::MxtDatagram* first = wire_->first();
   for (; first != nullptr && first->due <= now && first->by_stranger; first = wire_->first()) {
     ++strangers_;
     wire_->pop();
   }
   if (first == nullptr || first->due > now) return std::nullopt;
-  const Datagram datagram{first->size, first->due};
+  const ArrivedDatagram datagram{first->size, first->due};
   std::copy_n(first->bytes.begin(), std::min(datagram.size, into.size()), into.begin());
   wire_->pop();
   return datagram;

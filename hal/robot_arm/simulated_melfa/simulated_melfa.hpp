@@ -16,7 +16,7 @@ class MxtWireLink final : public DatagramLink {
     wire_->arrived(datagram, now);
     return true;
   }
-  std::optional<Datagram> receive(std::span<std::uint8_t> into, Time now) noexcept override;
+  std::optional<ArrivedDatagram> receive(std::span<std::uint8_t> into, Time now) noexcept override;
   std::uint64_t strangers() const noexcept override { return strangers_; }
 
  private:

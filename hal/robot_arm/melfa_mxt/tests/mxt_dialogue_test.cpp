@@ -22,12 +22,12 @@ class WrittenLink final : public DatagramLink {
     last_ = unpack(datagram).value_or(Packet{});
     return true;
   }
-  std::optional<Datagram> receive(std::span<std::uint8_t> into, Time /*now*/) noexcept override {
+  std::optional<ArrivedDatagram> receive(std::span<std::uint8_t> into, Time /*now*/) noexcept override {
     if (answers_.empty()) return std::nullopt;
     const Answer answer = answers_.front();
     answers_.pop_front();
     std::copy(answer.bytes.begin(), answer.bytes.end(), into.begin());
-    return Datagram{answer.bytes.size(), answer.at};
+    return ArrivedDatagram{answer.bytes.size(), answer.at};
   }
   std::uint64_t strangers() const noexcept override { return 0; }
 
