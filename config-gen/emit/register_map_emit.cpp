@@ -21,6 +21,7 @@ void emit_register_map(const RegisterMap& map, const std::string& constant, Text
     if (!entry.refreshed) out << ", .refreshed = false";
     if (entry.offset != 0) out << ", .offset = " << double_literal(entry.offset);
     if (entry.missing) out << ", .missing = std::uint64_t{" << hash_literal(*entry.missing) << "}";
+    if (entry.length != 0) out << ", .length = " << entry.length;
     if (entry.scale_register) out << ", .scale_register = " << *entry.scale_register;
     out << "},\n";
   }

@@ -24,6 +24,7 @@ struct ModbusRegister {
   bool refreshed = true;                      // written again though it did not change
   double offset = 0;                          // in the unit: the value of a count of 0
   std::optional<std::uint64_t> missing;       // the bits that say that there is no value
+  std::size_t length = 0;                     // of a text: its registers
   std::optional<std::size_t> scale_register;  // into the list: what tells the power of ten
 };
 
@@ -35,13 +36,14 @@ struct RegisterMap {
 inline const std::vector<std::string> register_areas = {"coil", "discrete_input", "holding_register",
                                                         "input_register"};
 inline const std::vector<std::string> register_types = {"bool", "i16", "u16", "i32", "u32",
-                                                        "f32",  "i64", "u64", "f64"};
+                                                        "f32",  "i64", "u64", "f64", "text"};
 inline const std::vector<std::string> register_word_orders = {"abcd", "cdab", "badc", "dcba"};
 inline const std::vector<std::string> register_accesses = {"read", "write", "read_write"};
 inline const std::vector<std::string> register_poll_groups = {"fast", "normal", "slow", "once"};
 
 // As in the runtime's images: more do not fit.
 inline constexpr std::size_t max_registers_of_station = 256;
+inline constexpr std::size_t max_registers_of_text = 32;
 inline constexpr std::size_t max_input_words_of_station = 1024;
 inline constexpr std::size_t max_output_words_of_station = 512;
 

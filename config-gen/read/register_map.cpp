@@ -23,6 +23,8 @@ constexpr std::size_t read_only = 0;     // in register_accesses
 constexpr std::size_t write_only = 1;    // likewise
 constexpr std::size_t first_double = 3;  // types from here on have two registers
 constexpr std::size_t first_long = 6;    // and from here on four
+constexpr std::size_t text_type = 9;     // and this one as many as its row says
+constexpr std::size_t swaps_bytes = 2;   // in register_word_orders
 constexpr std::uint16_t whole = 0xFFFF;  // all bits of a register
 const std::vector<std::string> yes_and_no = {"yes", "no"};
 
@@ -31,21 +33,23 @@ struct Range {
   double most;
 };
 // Of the raw value, in the order of register_types.
-constexpr std::array<Range, 9> raw_ranges = {{{0, 1},
-                                              {-32768, 32767},
-                                              {0, 65535},
-                                              {-2147483648.0, 2147483647.0},
-                                              {0, 4294967295.0},
-                                              {-3.4e38, 3.4e38},
-                                              {-9223372036854775808.0, 9223372036854775807.0},
-                                              {0, 18446744073709551615.0},
-                                              {-1.7e308, 1.7e308}}};
+constexpr std::array<Range, 10> raw_ranges = {{{0, 1},
+                                               {-32768, 32767},
+                                               {0, 65535},
+                                               {-2147483648.0, 2147483647.0},
+                                               {0, 4294967295.0},
+                                               {-3.4e38, 3.4e38},
+                                               {-9223372036854775808.0, 9223372036854775807.0},
+                                               {0, 18446744073709551615.0},
+                                               {-1.7e308, 1.7e308},
+                                               {0, 0}}};
 
 bool is_fraction(std::size_t type) {
   return register_types[type][0] == 'f';
 }
 
 std::size_t words_of(const ModbusRegister& entry) {
+  if (entry.type == text_type) return entry.length;
   return entry.type >= first_long ? 4 : entry.type >= first_double ? 2 : 1;
 }
 
@@ -73,11 +77,12 @@ class MapReader : CsvRowReader {
     offset,
     missing,
     scale_register,
+    length,
     columns
   };
   static constexpr std::array<const char*, columns> column_names = {
-      "name",   "address",    "bit",        "type",    "area",   "word_order", "scale",         "unit",
-      "access", "poll_group", "safe_value", "refresh", "offset", "missing",    "scale_register"};
+      "name",   "address",    "bit",        "type",    "area",   "word_order", "scale",          "unit",
+      "access", "poll_group", "safe_value", "refresh", "offset", "missing",    "scale_register", "length"};
 
  public:
   MapReader(const CsvTable& table, Diagnostics& diagnostics)
@@ -119,13 +124,11 @@ class MapReader : CsvRowReader {
     entry_.poll_group = word(poll_group, register_poll_groups).value_or(0);
     read_unit();
     if (type_word && access_word) {
+      read_length();
       read_bit();
       read_area();
       read_word_order();
-      read_scale();
-      read_offset();
-      read_missing();
-      read_scale_register();
+      if (entry_.type != text_type) read_scaling();
       read_safe_value();
       read_refresh();
     }
@@ -187,7 +190,10 @@ class MapReader : CsvRowReader {
   void read_word_order() {
     const auto order = word(word_order, register_word_orders, "only the device's manual tells its order");
     entry_.word_order = order.value_or(0);
-    if (order && words_of(entry_) == 1)
+    if (order && entry_.type == text_type && *order != 0 && *order != swaps_bytes)
+      error(place(word_order), "the registers of a text come in their order",
+            "leave the cell empty, or write badc where the first character is in the low byte");
+    else if (order && words_of(entry_) == 1 && entry_.type != text_type)
       error(place(word_order), quote(register_types[entry_.type]) + " has no word_order",
             "leave the cell empty: only what has several registers has one");
   }
@@ -208,7 +214,41 @@ class MapReader : CsvRowReader {
     entry_.scale = *value;
   }
 
+  // A text has its registers, and nothing that is of numbers.
+  void read_length() {
+    const CsvCell* found = cell(length);
+    if (entry_.type != text_type) {
+      if (found != nullptr)
+        error(*found, "only a text has a length", "leave the cell empty, or make it a text");
+      return;
+    }
+    if (found == nullptr) {
+      error(place(length), "the text " + quote(entry_.name) + " has no length",
+            "write how many registers it takes, two characters each");
+      return;
+    }
+    const auto value = CsvTable::integer(*found, diagnostics_);
+    if (!value)
+      failed_ = true;
+    else if (*value < 1 || *value > static_cast<std::int64_t>(max_registers_of_text))
+      error(*found, "a text cannot have " + found->text + " registers",
+            "a text has from 1 to " + std::to_string(max_registers_of_text) + ", two characters each");
+    else
+      entry_.length = static_cast<std::size_t>(*value);
+    if (entry_.access != read_only) error(place(access), "a text is only read", "make its access read");
+    for (const Column column : {scale, offset, missing, scale_register, unit})
+      if (const CsvCell* number = cell(column))
+        error(*number, "a text has no " + std::string(column_names[column]), "leave the cell empty");
+  }
+
   bool is_plain() const { return entry_.scale == 1 && entry_.offset == 0; }
+
+  void read_scaling() {
+    read_scale();
+    read_offset();
+    read_missing();
+    read_scale_register();
+  }
 
   void read_offset() {
     const CsvCell* found = cell(offset);
@@ -376,7 +416,7 @@ class MapReader : CsvRowReader {
             "addresses are as in the request: what a manual calls 40001 is the holding_register 0");
     else if (last > 65535)
       error(found,
-            quote(entry_.name) + " has " + (words_of(entry_) == 2 ? "two" : "four") +
+            quote(entry_.name) + " has " + std::to_string(words_of(entry_)) +
                 " registers, and there is none after 65535",
             "give it a lower address, or a type that takes one register");
     else

@@ -68,6 +68,7 @@ double counts_of(ModbusType type, std::uint64_t bits) {
     case ModbusType::u16:
     case ModbusType::u32:
     case ModbusType::u64:
+    case ModbusType::text:
       break;
   }
   return static_cast<double>(bits);
@@ -86,11 +87,35 @@ const char* name_of(ModbusArea area) noexcept {
 }
 
 double decode_register(const ModbusRegister& meaning, const std::uint16_t* words, double factor) noexcept {
+  if (meaning.type == ModbusType::text) return std::numeric_limits<double>::quiet_NaN();
   if (meaning.type == ModbusType::boolean)
     return (meaning.is_bit_of_register() ? words[0] >> meaning.bit & 1 : words[0]) != 0 ? 1 : 0;
   const std::uint64_t bits = joined(meaning, words);
   if (meaning.missing == bits) return std::numeric_limits<double>::quiet_NaN();
   return counts_of(meaning.type, bits) * (meaning.scale * factor) + meaning.offset;
+}
+
+std::string_view decode_text(const ModbusRegister& meaning, const std::uint16_t* words,
+                             std::array<char, 2 * ModbusRegister::most_words>& text) noexcept {
+  const std::size_t size = 2 * std::min<std::size_t>(meaning.length, ModbusRegister::most_words);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint16_t word = swaps_bytes(meaning.word_order) ? swapped(words[i / 2]) : words[i / 2];
+    text[i] = static_cast<char>(i % 2 == 0 ? word >> 8 : word & 0xFF);
+  }
+  const std::string_view whole{text.data(), size};
+  std::string_view told = whole.substr(0, whole.find('\0'));
+  while (told.ends_with(' ')) told.remove_suffix(1);
+  return told;
+}
+
+void encode_text(const ModbusRegister& meaning, std::string_view text, std::uint16_t* words) noexcept {
+  const auto byte = [text](std::size_t at) {
+    return at < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[at])) : 0U;
+  };
+  for (std::size_t i = 0; i < meaning.length; ++i) {
+    const auto word = static_cast<std::uint16_t>(byte(2 * i) << 8 | byte(2 * i + 1));
+    words[i] = swaps_bytes(meaning.word_order) ? swapped(word) : word;
+  }
 }
 
 double factor_of_exponent(double exponent) noexcept {
@@ -142,6 +167,8 @@ void encode_register(const ModbusRegister& meaning, double value, std::uint16_t*
       split(meaning, std::bit_cast<std::uint64_t>(std::clamp(raw, -most, most)), words);
       break;
     }
+    case ModbusType::text:
+      break;  // which is no number
   }
 }
 

@@ -1,6 +1,7 @@
 // What the registers of a station mean: constants that config-gen makes from a list in CSV.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,7 +12,7 @@ namespace flexrf {
 
 // In the order of config-gen's words for them (config-gen/model/register_map.hpp).
 enum class ModbusArea : std::uint8_t { coil, discrete_input, holding_register, input_register };
-enum class ModbusType : std::uint8_t { boolean, i16, u16, i32, u32, f32, i64, u64, f64 };
+enum class ModbusType : std::uint8_t { boolean, i16, u16, i32, u32, f32, i64, u64, f64, text };
 /// How the bytes of a 32-bit value come over the wire; A is the most significant [register-map-1]. Of a
 /// 64-bit one likewise: its registers from the most significant on, or (cdab, dcba) from the least; their
 /// bytes swapped in badc and dcba [register-map-2].
@@ -24,7 +25,7 @@ enum class ModbusPollGroup : std::uint8_t { fast, normal, slow, once };
 struct ModbusRegister {
   static constexpr std::uint8_t whole = 16;
   static constexpr std::uint16_t none = 0xFFFF;
-  static constexpr std::size_t most_words = 4;
+  static constexpr std::size_t most_words = 32;
 
   std::string_view name;
   std::uint16_t address = 0;  ///< as in the request, from 0
@@ -48,12 +49,14 @@ struct ModbusRegister {
   /// The place in the map of the register that tells a power of ten to multiply with, as SunSpec has it; of
   /// what is only read.
   std::uint16_t scale_register = none;
+  std::uint16_t length = 0;  ///< of a text: its registers, two characters each; at most most_words
 
   constexpr bool is_read() const noexcept { return access != ModbusAccess::write; }
   constexpr bool is_written() const noexcept { return access != ModbusAccess::read; }
   constexpr bool is_bit_of_register() const noexcept { return bit != whole; }
   /// Registers (or coils) that it takes.
   constexpr std::uint16_t words() const noexcept {
+    if (type == ModbusType::text) return length;
     return type >= ModbusType::i64 ? 4 : type >= ModbusType::i32 ? 2 : 1;
   }
 };
@@ -68,14 +71,20 @@ inline constexpr std::size_t max_modbus_registers = 256;
 const char* name_of(ModbusArea area) noexcept;
 
 /// The value in the register's words: its counts times scale and `factor`, and the offset [register-map-7].
-/// Not a number where the station says that it has none: by the bits of `missing`, or by a floating-point
-/// number that is none [register-map-8].
+/// Not a number where it is a text, or the station says that it has none: by the bits of `missing`, or by a
+/// floating-point number that is none [register-map-8].
 double decode_register(const ModbusRegister& meaning, const std::uint16_t* words, double factor = 1) noexcept;
 /// The words of such a value: rounded to the nearest count [register-map-3], what does not fit becomes the
 /// nearest that does; not a number becomes the bits of `missing`, or else the safe value [register-map-4]. Of
 /// a bit the register's others stay as they are [register-map-5].
 void encode_register(const ModbusRegister& meaning, double value, std::uint16_t* words,
                      double factor = 1) noexcept;
+/// The characters of a text's words, the first in the high byte of the first word, or (badc, dcba) in its low
+/// byte, up to the first that is 0, and without the blanks at its end [register-map-10].
+std::string_view decode_text(const ModbusRegister& meaning, const std::uint16_t* words,
+                             std::array<char, 2 * ModbusRegister::most_words>& text) noexcept;
+/// The words of a text: what is longer is cut, the rest are zeros.
+void encode_text(const ModbusRegister& meaning, std::string_view text, std::uint16_t* words) noexcept;
 /// The factor that a scale register's value stands for: 10^exponent, from -10 to 10; not a number where it is
 /// no such exponent [register-map-9].
 double factor_of_exponent(double exponent) noexcept;

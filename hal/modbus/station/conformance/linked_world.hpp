@@ -47,6 +47,13 @@ class LinkedWorld : public ModbusStationWorld {
     for (std::uint16_t i = 0; i < entry.words(); ++i)
       put_word(entry.area, static_cast<std::uint16_t>(entry.address + i), words[i]);
   }
+  void put_text(std::size_t index, std::string_view text) override {
+    const ModbusRegister& entry = map_->registers[index];
+    std::array<std::uint16_t, ModbusRegister::most_words> words{};
+    encode_text(entry, text, words.data());
+    for (std::uint16_t i = 0; i < entry.words(); ++i)
+      put_word(entry.area, static_cast<std::uint16_t>(entry.address + i), words[i]);
+  }
   double held(std::size_t index) override {
     const ModbusRegister& entry = map_->registers[index];
     return decode_register(entry, words_of(entry).data(), factor_of(entry));

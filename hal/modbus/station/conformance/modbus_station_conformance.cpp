@@ -328,6 +328,37 @@ Verdict what_the_station_has_no_value_of_is_told_so(ModbusStationWorld& world) {
   return verdict(known && missing && refused && back);
 }
 
+constexpr ModbusRegister text_registers[] = {
+    {.name = "maker", .address = 60, .type = ModbusType::text, .length = 8},
+    {.name = "model",
+     .address = 68,
+     .type = ModbusType::text,
+     .word_order = ModbusWordOrder::badc,
+     .poll_group = ModbusPollGroup::once,
+     .length = 2},
+    {.name = "count", .address = 70, .type = ModbusType::u16}};
+constexpr ModbusRegisterMap text_map{text_registers};
+
+// [modbus-station-11]
+Verdict texts_are_read(ModbusStationWorld& world) {
+  constexpr std::size_t maker = 0, model = 1, count = 2;
+  if (!world.start(text_map)) return Verdict::failed;
+  if (world.station().read_text(maker).reason != NullReason::nothing_yet) return Verdict::failed;
+  world.put_text(maker, "Pump & Co  ");
+  world.put_text(model, "P-75");
+  world.put(count, 3);
+  const auto tells = [&](std::size_t index, std::string_view text) {
+    const ModbusText got = world.station().read_text(index);
+    return got && got.text() == text;
+  };
+  const bool told = until(
+      world, [&] { return tells(maker, "Pump & Co") && tells(model, "P-75") && reads(world, count, 3); });
+  const bool refused = world.station().read(maker).reason == NullReason::wrong_type &&
+                       world.station().read_text(count).reason == NullReason::wrong_type &&
+                       world.station().read_text(7).reason == NullReason::not_registered;
+  return verdict(told && refused);
+}
+
 constexpr ModbusRegister kept_registers[] = {
     {.name = "serial", .address = 50, .type = ModbusType::u16, .poll_group = ModbusPollGroup::once},
     {.name = "count", .address = 51, .type = ModbusType::u16}};
@@ -363,6 +394,7 @@ int run_modbus_station_conformance(const char* driver, MakeModbusStationWorld ma
       test("every kind of register is read", judged<every_kind_of_register_is_read>),
       test("what the station has no value of is told so",
            judged<what_the_station_has_no_value_of_is_told_so>),
+      test("texts are read", judged<texts_are_read>),
       test("what is read once does not age", judged<what_is_read_once_does_not_age>),
       test("values carry their age", judged<values_carry_their_age>),
       test("what is set is written and read back", judged<what_is_set_is_written_and_read_back>),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 
 #include "hal/modbus/station/interface/modbus_station.hpp"
 
@@ -42,6 +43,7 @@ class ModbusStationWorld {
 
   /// A register of the far end; `index` of the map.
   virtual void put(std::size_t index, double value) = 0;
+  virtual void put_text(std::size_t index, std::string_view text) = 0;
   virtual double held(std::size_t index) = 0;
   /// False: cannot be made to happen with this driver.
   virtual bool make(ModbusFarEnd behaviour) = 0;

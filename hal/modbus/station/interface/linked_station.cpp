@@ -34,37 +34,56 @@ const ModbusImage& StationEnd::update(Time now) noexcept {
   return *image_;
 }
 
-ModbusValue StationEnd::read(std::size_t index) const noexcept {
-  ModbusValue result;
+StationEnd::Known StationEnd::look_up(std::size_t index) const noexcept {
+  Known known;
   if (exchange_ == nullptr) {
-    result.reason = NullReason::writer_stopped;
-    return result;
+    known.state.reason = NullReason::writer_stopped;
+    return known;
   }
   const ModbusPlan& plan = exchange_->plan;
   if (index >= plan.places.size() || plan.places[index].input == ModbusPlace::none) {
-    result.reason = NullReason::not_registered;
-    return result;
+    known.state.reason = NullReason::not_registered;
+    return known;
   }
   const ModbusPlace& place = plan.places[index];
   const std::int64_t sampled_at = image_->sampled_at[place.read];
   const bool refused = image_->refused[place.read];
   if (sampled_at == 0) {
-    result.reason = refused ? NullReason::writer_faulted : NullReason::nothing_yet;
-    return result;
+    known.state.reason = refused ? NullReason::writer_faulted : NullReason::nothing_yet;
+    return known;
   }
   const ModbusRegister& meaning = exchange_->setup.map->registers[index];
-  const bool is_scaled = meaning.scale_register != ModbusRegister::none;
-  result = value_of_register(meaning, &image_->words[place.input],
-                             is_scaled ? read(meaning.scale_register) : ModbusValue{});
+  known.meaning = &meaning;
+  known.words = &image_->words[place.input];
+  known.state.reason = NullReason::none;
   // The link's thread may have stamped it after this cycle began.
-  result.age = std::max(Duration{}, now_ - Time{Duration{sampled_at}});
-  if (meaning.poll_group == ModbusPollGroup::once) return result;  // what was read once does not age
+  known.state.age = std::max(Duration{}, now_ - Time{Duration{sampled_at}});
+  if (meaning.poll_group == ModbusPollGroup::once) return known;  // what was read once does not age
   const Duration period = exchange_->setup.poll_periods[static_cast<std::size_t>(meaning.poll_group)];
-  result.reason = result.age <= period + max_age_ ? result.reason
-                  : refused                       ? NullReason::writer_faulted
-                  : image_->online                ? NullReason::too_old
-                                                  : NullReason::writer_stopped;
+  if (known.state.age > period + max_age_)
+    known.state.reason = refused          ? NullReason::writer_faulted
+                         : image_->online ? NullReason::too_old
+                                          : NullReason::writer_stopped;
+  return known;
+}
+
+ModbusValue StationEnd::read(std::size_t index) const noexcept {
+  const Known known = look_up(index);
+  if (known.meaning == nullptr) return known.state;
+  const bool is_scaled = known.meaning->scale_register != ModbusRegister::none;
+  ModbusValue result = value_of_register(*known.meaning, known.words,
+                                         is_scaled ? read(known.meaning->scale_register) : ModbusValue{});
+  result.age = known.state.age;
+  if (!known.state) result.reason = known.state.reason;
   return result;
+}
+
+ModbusText StationEnd::read_text(std::size_t index) const noexcept {
+  const Known known = look_up(index);
+  if (known.meaning != nullptr) return text_of_registers(*known.meaning, known.words, known.state);
+  ModbusText nothing;
+  nothing.reason = known.state.reason;
+  return nothing;
 }
 
 void StationEnd::send(const StationOutputs& outputs, bool safe, bool anew) noexcept {

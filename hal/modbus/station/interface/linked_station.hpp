@@ -21,12 +21,21 @@ class StationEnd {
   /// Takes what the link knows; valid until the next call.
   const ModbusImage& update(Time now) noexcept;
   ModbusValue read(std::size_t index) const noexcept;
+  ModbusText read_text(std::size_t index) const noexcept;
   /// Hands the outputs over, if they are others than before or `anew`.
   void send(const StationOutputs& outputs, bool safe, bool anew = false) noexcept;
   /// What was handed over last is in the station, as its answers say.
   bool is_written() const noexcept;
 
  private:
+  /// The words of a register, and how old they are or why nothing is known of them.
+  struct Known {
+    ModbusValue state;
+    const ModbusRegister* meaning = nullptr;  // null: there are no words
+    const std::uint16_t* words = nullptr;
+  };
+  Known look_up(std::size_t index) const noexcept;
+
   ModbusExchange* exchange_ = nullptr;
   const ModbusImage* image_ = nullptr;
   ModbusCommand command_{};
@@ -55,6 +64,7 @@ class LinkedStation : public Base {
   void stop() override { end_.detach(); }
 
   ModbusValue read(std::size_t index) const noexcept override { return end_.read(index); }
+  ModbusText read_text(std::size_t index) const noexcept override { return end_.read_text(index); }
 
  private:
   void take_in(const Tick& tick) noexcept override {

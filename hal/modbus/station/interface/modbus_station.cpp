@@ -32,6 +32,10 @@ Result<std::size_t> find(const ModbusRegisterMap& map, std::string_view name, bo
 ModbusValue value_of_register(const ModbusRegister& meaning, const std::uint16_t* words,
                               const ModbusValue& scale) noexcept {
   ModbusValue result;
+  if (meaning.type == ModbusType::text) {
+    result.reason = NullReason::wrong_type;
+    return result;
+  }
   const bool is_scaled = meaning.scale_register != ModbusRegister::none;
   if (is_scaled && !scale) {
     result.reason = scale.reason;
@@ -41,6 +45,15 @@ ModbusValue value_of_register(const ModbusRegister& meaning, const std::uint16_t
   const bool is_missing = std::isnan(value);
   result.value = is_missing ? 0 : value;
   result.reason = is_missing ? NullReason::writer_faulted : NullReason::none;
+  return result;
+}
+
+ModbusText text_of_registers(const ModbusRegister& meaning, const std::uint16_t* words,
+                             const ModbusValue& state) noexcept {
+  ModbusText result;
+  result.age = state.age;
+  result.reason = meaning.type == ModbusType::text ? state.reason : NullReason::wrong_type;
+  if (result) result.size = decode_text(meaning, words, result.characters).size();
   return result;
 }
 

@@ -1,6 +1,7 @@
 // ModbusStation: registers that are read and written by name.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string_view>
 
@@ -27,10 +28,24 @@ struct ModbusValue {
   explicit operator bool() const noexcept { return reason == NullReason::none; }
 };
 
+/// The text in registers, or why nothing is known.
+struct ModbusText {
+  std::array<char, 2 * ModbusRegister::most_words> characters{};
+  std::size_t size = 0;
+  Duration age{};                               ///< as of a value
+  NullReason reason = NullReason::nothing_yet;  ///< likewise
+
+  std::string_view text() const noexcept { return {characters.data(), size}; }
+  explicit operator bool() const noexcept { return reason == NullReason::none; }
+};
+
 /// What the words of a register say beside their age, for drivers. `scale`: of its scale register, if it has
 /// one.
 ModbusValue value_of_register(const ModbusRegister& meaning, const std::uint16_t* words,
                               const ModbusValue& scale) noexcept;
+/// The same of a text, with the age and the reason of its words.
+ModbusText text_of_registers(const ModbusRegister& meaning, const std::uint16_t* words,
+                             const ModbusValue& state) noexcept;
 
 /// input, output: any thread, from connect() on. All else: the thread the station lives in. Made safe, it has
 /// its safe values written, and says so once the station has confirmed them [modbus-station-7].
@@ -45,8 +60,10 @@ class ModbusStation : public Actuator<ModbusStationInterface> {
   Result<std::size_t> input(std::string_view name) const noexcept;
   Result<std::size_t> output(std::string_view name) const noexcept;
 
-  /// Never waits. An index that is no input: not_registered [modbus-station-8].
+  /// Never waits. An index that is no input: not_registered [modbus-station-8]; of a text: wrong_type.
   virtual ModbusValue read(std::size_t index) const noexcept = 0;
+  /// Likewise, of a text; of what is none: wrong_type [modbus-station-11].
+  virtual ModbusText read_text(std::size_t index) const noexcept = 0;
 
   /// What the register shall hold from the end of this cycle on, in its unit, until set()
   /// again [modbus-station-3]. What does not fit the register becomes the nearest that

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "hal/driver/mock/mock_noise.hpp"
 #include "hal/modbus/station/interface/modbus_station.hpp"
@@ -35,27 +36,23 @@ class MockModbusStation final : public MockModbusStationDriver {
   }
 
   ModbusValue read(std::size_t index) const noexcept override {
-    ModbusValue result;
-    if (index >= registers->registers.size() || !registers->registers[index].is_read()) {
-      result.reason = NullReason::not_registered;
-      return result;
-    }
-    const Cell& cell = cells_[index];
-    if (cell.told_at == Time{}) {
-      if (behaviour_ == Fault::refused) result.reason = NullReason::writer_faulted;
-      return result;
-    }
+    const ModbusValue state = state_of(index);
+    if (!is_told(index)) return state;
     const ModbusRegister& meaning = registers->registers[index];
     const bool is_scaled = meaning.scale_register != ModbusRegister::none;
-    result = value_of_register(meaning, cell.told.data(),
-                               is_scaled ? read(meaning.scale_register) : ModbusValue{});
-    result.age = now_ - cell.told_at;
-    if (meaning.poll_group == ModbusPollGroup::once) return result;
-    result.reason = seconds(result.age) <= period_of(meaning) + configuration.max_age ? result.reason
-                    : behaviour_ == Fault::refused ? NullReason::writer_faulted
-                    : behaviour_ == Fault::none    ? NullReason::too_old
-                                                   : NullReason::writer_stopped;
+    ModbusValue result = value_of_register(meaning, cells_[index].told.data(),
+                                           is_scaled ? read(meaning.scale_register) : ModbusValue{});
+    result.age = state.age;
+    if (!state) result.reason = state.reason;
     return result;
+  }
+  ModbusText read_text(std::size_t index) const noexcept override {
+    const ModbusValue state = state_of(index);
+    if (is_told(index))
+      return text_of_registers(registers->registers[index], cells_[index].told.data(), state);
+    ModbusText nothing;
+    nothing.reason = state.reason;
+    return nothing;
   }
 
   // ---- for tests
@@ -65,6 +62,11 @@ class MockModbusStation final : public MockModbusStationDriver {
   void put(std::size_t index, double value, Duration later = {}) noexcept {
     encode_register(registers->registers[index], value, cells_[index].held.data(), factor_of(index));
     cells_[index].visible_at = now_ + later;
+  }
+  /// The same of a text, at once.
+  void put_text(std::size_t index, std::string_view text) noexcept {
+    encode_text(registers->registers[index], text, cells_[index].held.data());
+    cells_[index].visible_at = now_;
   }
   /// What it holds, told or not.
   double held(std::size_t index) const noexcept {
@@ -87,6 +89,32 @@ class MockModbusStation final : public MockModbusStationDriver {
     Time told_at{};
     double noise = 0;
   };
+
+  bool is_told(std::size_t index) const noexcept {
+    return index < registers->registers.size() && registers->registers[index].is_read() &&
+           cells_[index].told_at != Time{};
+  }
+  /// How old what the register tells is, or why it tells nothing.
+  ModbusValue state_of(std::size_t index) const noexcept {
+    ModbusValue state;
+    if (index >= registers->registers.size() || !registers->registers[index].is_read()) {
+      state.reason = NullReason::not_registered;
+      return state;
+    }
+    if (!is_told(index)) {
+      if (behaviour_ == Fault::refused) state.reason = NullReason::writer_faulted;
+      return state;
+    }
+    const ModbusRegister& meaning = registers->registers[index];
+    state.age = now_ - cells_[index].told_at;
+    const bool is_valid = meaning.poll_group == ModbusPollGroup::once ||
+                          seconds(state.age) <= period_of(meaning) + configuration.max_age;
+    state.reason = is_valid                       ? NullReason::none
+                   : behaviour_ == Fault::refused ? NullReason::writer_faulted
+                   : behaviour_ == Fault::none    ? NullReason::too_old
+                                                  : NullReason::writer_stopped;
+    return state;
+  }
 
   void take_in(const Tick& tick) noexcept override {
     now_ = tick.now;

@@ -172,6 +172,29 @@ void bits_that_say_that_there_is_no_value_are_no_number(void**) {
   assert_true(std::isnan(decode_register(of(ModbusType::f32), no_float)));
 }
 
+// [register-map-10]
+void a_text_ends_at_a_zero_and_without_blanks(void**) {
+  ModbusRegister meaning = of(ModbusType::text);
+  meaning.length = 3;
+  assert_int_equal(meaning.words(), 3);
+  std::array<char, 2 * ModbusRegister::most_words> text{};
+  const std::uint16_t padded[] = {0x5061, 0x2020, 0x2020};
+  assert_true(decode_text(meaning, padded, text) == "Pa");
+  const std::uint16_t full[] = {0x5061, 0x6220, 0x6364};
+  assert_true(decode_text(meaning, full, text) == "Pab cd");
+  const std::uint16_t ended[] = {0x5000, 0x6262, 0x6363};
+  assert_true(decode_text(meaning, ended, text) == "P");
+  meaning.word_order = ModbusWordOrder::badc;
+  const std::uint16_t swapped[] = {0x6150, 0x0062, 0};
+  assert_true(decode_text(meaning, swapped, text) == "Pab");
+  std::uint16_t words[3] = {1, 1, 1};
+  encode_text(meaning, "Pab", words);
+  assert_memory_equal(words, swapped, sizeof(words));
+  encode_text(meaning, "longer than that", words);
+  assert_true(decode_text(meaning, words, text) == "longer");
+  assert_true(std::isnan(decode_register(meaning, words)));
+}
+
 // [register-map-9]
 void an_exponent_is_a_power_of_ten_within_reason(void**) {
   assert_true(factor_of_exponent(0) == 1);
@@ -196,6 +219,7 @@ int main() {
                               cmocka_unit_test(no_number_becomes_the_bits_that_say_so_or_the_safe_value),
                               cmocka_unit_test(an_offset_is_added_to_the_scaled_counts),
                               cmocka_unit_test(bits_that_say_that_there_is_no_value_are_no_number),
+                              cmocka_unit_test(a_text_ends_at_a_zero_and_without_blanks),
                               cmocka_unit_test(an_exponent_is_a_power_of_ten_within_reason)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -20,6 +20,7 @@ class MockWorld final : public ModbusStationWorld {
   void send() override { bench_->send(); }
   Time now() const override { return bench_->now(); }
   void put(std::size_t index, double value) override { bench_->driver().put(index, value); }
+  void put_text(std::size_t index, std::string_view text) override { bench_->driver().put_text(index, text); }
   double held(std::size_t index) override { return bench_->driver().held(index); }
   bool make(ModbusFarEnd behaviour) override {
     switch (behaviour) {
