@@ -83,9 +83,13 @@ Status Lifecycle::start_all() noexcept {
 void Lifecycle::seek_missing() noexcept {
   if (stamp() < seek_at_) return;
   for (const ComponentIndex component : cell_->in_starting_order()) {
-    if (cell_->application().component_state(component).life.load() != Life::waiting) continue;
-    if (start(component))
-      log_info(cell_->component_name(component), "what was missing is there: it runs now");
+    const ComponentState& state = cell_->application().component_state(component);
+    if (state.life.load() != Life::waiting) continue;
+    const Status status = start(component);
+    if (status) log_info(cell_->component_name(component), "what was missing is there: it runs now");
+    if (!state.is_in_fault()) continue;
+    cell_->control().note_fault();
+    log_error(cell_->component_name(component), "not started: {}", status.cause());
   }
   seek_at_ = stamp() + seek_interval;
 }
@@ -151,7 +155,7 @@ Status Lifecycle::start(ComponentIndex index) noexcept {
   // What the tables or the file say was checked before; accept() may still refuse it.
   const ParameterMemory memory = component.parameter_memory();
   if (status && memory.runtime != nullptr) status = cell_->parameters(index).adopt(memory.runtime, stamp());
-  if (!status && may_be_missing(index, status.code())) return wait_for(index, status);
+  if (!status && may_be_missing(index, is_late || is_absence(status.code()))) return wait_for(index, status);
   if (!status) {
     cell_->set_fault(index, status);
     return Status::error(status.code(), "%s%s: initialise: %s", record.name,
@@ -213,10 +217,11 @@ const char* Lifecycle::missing_below(ComponentIndex index) const noexcept {
   return nullptr;
 }
 
-bool Lifecycle::may_be_missing(ComponentIndex index, StatusCode code) const noexcept {
+/// One that is waited for is so until it runs: its file may be there before the right to open it.
+bool Lifecycle::may_be_missing(ComponentIndex index, bool is_missing) const noexcept {
   const Application& application = cell_->application();
-  if (application.is_unit(index) || application.devices[application.device_of(index)].required) return false;
-  return is_absence(code);
+  return is_missing && !application.is_unit(index) &&
+         !application.devices[application.device_of(index)].required;
 }
 
 /// Says so when the wait begins, and again when the reason is another one.

@@ -27,8 +27,8 @@ class Lifecycle {
   void stop_all() noexcept;
 
   /// Initialises it and hands it over to its thread. A device with `required = false` that is not there
-  /// (not_found, unavailable, timeout) is waited for from then on, and so is whatever stands on it: its life
-  /// becomes Life::waiting, and the error says why.
+  /// (not_found, unavailable, timeout) is waited for until it runs, whatever the reason becomes, and so is
+  /// what stands on it: its life becomes Life::waiting, and the error says why.
   Status start(ComponentIndex component) noexcept;
   /// Tries to start what is waited for, twice a second at most. A late component that moves something needs a
   /// new Start.
@@ -66,7 +66,7 @@ class Lifecycle {
  private:
   Status take_back(ComponentIndex component) noexcept;
   const char* missing_below(ComponentIndex component) const noexcept;
-  bool may_be_missing(ComponentIndex component, StatusCode code) const noexcept;
+  bool may_be_missing(ComponentIndex component, bool is_missing) const noexcept;
   Status wait_for(ComponentIndex component, const Status& cause) noexcept;
   void prepare_device(std::uint16_t device) noexcept;
   void begin(ComponentIndex component) noexcept;

@@ -198,6 +198,39 @@ void only_a_device_that_is_not_there_is_waited_for() {
   }
 }
 
+/// As of a device that was plugged in, whose file everybody may open a moment later.
+// [exec-95]
+void a_device_that_is_waited_for_may_be_refused_on_its_way() {
+  Cell cell;
+  cell.device(Cell::actuator).required = false;
+  int tried = 0;
+  cell.device(Cell::actuator).script.initialise = [&](TestDevice&) {
+    ++tried;
+    return tried == 1   ? Status::error(StatusCode::not_found, "no such port")
+           : tried == 2 ? Status::error(StatusCode::not_permitted, "no right to open it")
+                        : Status{};
+  };
+  const LogEar ear;
+  Executive executive(cell.application(), in_virtual_time(std::chrono::seconds{3}));
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 0);
+  CHECK_EQUAL(tried, 3);
+  CHECK(ear.has_heard("actuator: waits and is started later (driver mock): no right to open it"));
+  CHECK(cell.unit_state(Cell::consumer).steps > 0);
+}
+
+/// What stands on it fails by itself.
+void a_unit_that_fails_when_its_device_is_there_is_in_fault() {
+  CellWithout cell;
+  cell.unit(Cell::consumer).script.initialise = [](TestUnit&) {
+    return Status::error(StatusCode::unavailable, "no cable");
+  };
+  Executive executive(cell.application(), in_virtual_time(std::chrono::seconds{2}));
+  cell.unit(Cell::producer).script.step = [&](TestUnit&, const Tick&) { cell.is_there = true; };
+  CHECK_EQUAL(run_to_the_end(executive).exit_code, 2);
+  CHECK_EQUAL(executive.control().faults(), 1U);
+  CHECK_CONTAINS(cell.unit_state(Cell::consumer).fault.read().cause(), "no cable");
+}
+
 // [exec-90]
 void what_is_on_a_missing_bus_waits_with_it() {
   Cell cell;
@@ -480,6 +513,8 @@ int main() {
       CONTAINED_TEST(a_late_device_that_moves_nothing_stops_nobody),
       CONTAINED_TEST(a_device_that_is_waited_for_is_no_fault),
       CONTAINED_TEST(only_a_device_that_is_not_there_is_waited_for),
+      CONTAINED_TEST(a_device_that_is_waited_for_may_be_refused_on_its_way),
+      CONTAINED_TEST(a_unit_that_fails_when_its_device_is_there_is_in_fault),
       CONTAINED_TEST(what_is_on_a_missing_bus_waits_with_it),
       CONTAINED_TEST(a_missing_emergency_stop_permits_no_motion),
       CONTAINED_TEST(an_exception_in_a_step_is_that_units_fault),
