@@ -135,7 +135,10 @@ export class ComponentPage extends ViewBase {
 
   private fault(row: ComponentRow): unknown {
     if (row.life === 'waiting')
-      return html`<p class="box abnormal-box ${this.age}" role="status"><strong>Waiting:</strong> ${row.fault}. It is started as soon as the device is there.</p>`;
+      return html`<div class="box abnormal-box ${this.age}" role="status">
+        <p><strong>Waiting:</strong> ${row.fault}</p>
+        <p>Starts when the device is there.</p>
+      </div>`;
     if (row.life !== 'fault') return nothing;
     const told = this.core.state?.faults.find((fault) => fault.component === row.name) ?? { component: row.name, kind: row.kind, cause: row.fault };
     return html`
