@@ -340,7 +340,7 @@ void the_descriptor_tells_what_a_page_needs(void**) {
                                  [](const auto& one) { return one.at("name") == "station.feedback"; });
   text_equals(slot->at("type"), "StationFeedback");
   text_equals(slot->at("driver_types").at("metering"), "MeteringStationFeedback");
-  text_equals(gain.at("parameters").at("sum"), "station.feedback.sum");
+  text_equals(spectrum.at("parameters").at("sum"), "station.feedback.sum");
   assert_true(json.at("interfaces").at(1).contains("runtime") &&
               json.at("interfaces").at(1).contains("feedback"));
   text_equals(json.at("units").at(1).at("population"), "worker");
