@@ -13,7 +13,7 @@ void Gripper::command(const GripperGoal& goal) noexcept {
 
 void Gripper::take_in(const Tick& tick) noexcept {
   hear(tick);
-  report_.fill(name(), feedback, state(), trouble());
+  report_.fill(name(), feedback, state(), trouble(), tick.now);
 }
 
 bool Gripper::become_safe() noexcept {

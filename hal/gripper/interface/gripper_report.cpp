@@ -53,8 +53,8 @@ Restraint restraint_of(const GripperGoal& goal, const GripperCapabilities& capab
 }
 
 void GripperReport::fill(const char* name, GripperFeedback& feedback,
-                         const std::optional<GripperState>& state, const Status& trouble) noexcept {
-  log_.look(name, trouble);
+                         const std::optional<GripperState>& state, const Status& trouble, Time now) noexcept {
+  log_.look(name, trouble, now);
   const GripperState now = state.value_or(GripperState{});
   feedback.opening_known = now.opening.has_value();
   if (now.opening) feedback.opening = *now.opening;

@@ -31,7 +31,7 @@ class GripperReport {
   }
   /// `name`: of the device.
   void fill(const char* name, GripperFeedback& feedback, const std::optional<GripperState>& state,
-            const Status& trouble) noexcept;
+            const Status& trouble, Time now) noexcept;
 
  private:
   bool heard_ = false;  // before, it was not there yet, which is no trouble
