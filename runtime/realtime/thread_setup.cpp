@@ -9,6 +9,7 @@
 #include <climits>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 
 namespace flexrf {
 
@@ -30,14 +31,18 @@ std::size_t page_size() noexcept {
   return static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Whether the kernel, told to read there, meets no memory.
-bool is_guarded(const void* address) noexcept {
+/// Refuses an address at which the kernel, told to read there, meets memory.
+Status check_guard(const void* address, const char* thread) noexcept {
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) return false;
+  if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0)
+    return Status::error(StatusCode::unavailable,
+                         "whether the stack of thread %s has a guard cannot be found out: pipe: %s", thread,
+                         strerrordesc_np(errno));
   const bool refused = write(ends[1], address, 1) < 0 && errno == EFAULT;
   close(ends[0]);
   close(ends[1]);
-  return refused;
+  if (refused) return {};
+  return Status::error(StatusCode::internal, "the stack of thread %s has no guard", thread);
 }
 
 /// Faults in every page of a stack that nobody uses yet.
@@ -185,9 +190,7 @@ Status RunningThread::read_back(const ThreadSettings& settings, const CpuSet& cp
   if (frame < stack_ || frame >= stack_ + stack_size_)
     return Status::error(StatusCode::internal, "thread %s does not run on the stack it was given",
                          settings.name);
-  if (!is_guarded(stack_))
-    return Status::error(StatusCode::internal, "the stack of thread %s has no guard", settings.name);
-  return {};
+  return check_guard(stack_, settings.name);
 }
 
 void RunningThread::join() noexcept {

@@ -174,7 +174,10 @@ int run_application(const Application& application, int argument_count, char** a
     return run_checked(application, argument_count, arguments, part);
   } catch (const std::exception& error) {
     // As by a library that gets no descriptor or no memory.
-    return refuse(application, Status::error(StatusCode::unavailable, "%s", error.what()));
+    return refuse(application, Status::error(StatusCode::unavailable,
+                                             "not started: %s; look at the limits of the process (ulimit -n, "
+                                             "ulimit -v)",
+                                             error.what()));
   }
 }
 

@@ -220,15 +220,16 @@ void a_limit_between_budget_and_need_is_noticed() {
 /// It starts, or says why it does not: the panel's library throws where it gets no descriptor.
 // [stop-104]
 void too_few_open_files_are_told() {
-  // Below the first no program is loaded.
-  for (const int files : {4, 5, 6, 7, 8, 10, 12, 16, 20}) {
+  for (const int files : {5, 6, 7, 8, 10, 12, 16, 20}) {
     const Folder folder;
     const Ending ending =
         run(folder, {"prlimit", "--nofile=" + std::to_string(files), place::keyboard, "--panel",
                      "127.0.0.1:0", "--no-realtime", "--standstill-limit", "10min"});
     CHECK_EQUAL(ending.signal, 0);
     CHECK_EQUAL(ending.errors.find("terminate called"), std::string::npos);
-    if (ending.exit_code != 0) CHECK(!ending.errors.empty());
+    // 127: no program could be loaded, says the system.
+    if (ending.exit_code != 0 && ending.exit_code != 127)
+      CHECK_CONTAINS(ending.errors, "Too many open files");
   }
 }
 
