@@ -240,7 +240,7 @@ void a_bus_stops_after_what_it_carries_and_starts_before_it() {
 
 /// A device that need not be there, away when a person initialises it: it and its unit are waited for, and a
 /// person's Stop ends that.
-// [exec-90] [exec-91]
+// [exec-98] [exec-91]
 void what_is_away_at_an_initialise_is_waited_for() {
   std::atomic<bool> is_away{false};
   Machine machine([&](Cell& cell) {

@@ -118,7 +118,7 @@ struct CellWithout : Cell {
   std::atomic<bool> is_there{false};
 };
 
-// [exec-88] [exec-89] [exec-90] [exec-91]
+// [exec-96] [exec-97] [exec-98] [exec-91]
 void a_device_that_need_not_be_there_is_waited_for() {
   CellWithout cell;
   const LogEar ear;
@@ -231,7 +231,7 @@ void a_unit_that_fails_when_its_device_is_there_is_in_fault() {
   CHECK_CONTAINS(cell.unit_state(Cell::consumer).fault.read().cause(), "no cable");
 }
 
-// [exec-90]
+// [exec-98]
 void what_is_on_a_missing_bus_waits_with_it() {
   Cell cell;
   std::atomic<bool> is_there{false};
