@@ -55,17 +55,17 @@ Restraint restraint_of(const GripperGoal& goal, const GripperCapabilities& capab
 void GripperReport::fill(const char* name, GripperFeedback& feedback,
                          const std::optional<GripperState>& state, const Status& trouble, Time now) noexcept {
   log_.look(name, trouble, now);
-  const GripperState now = state.value_or(GripperState{});
-  feedback.opening_known = now.opening.has_value();
-  if (now.opening) feedback.opening = *now.opening;
-  feedback.activated = now.activated;
-  feedback.moving = now.moving;
-  feedback.object = now.object;
+  const GripperState told = state.value_or(GripperState{});
+  feedback.opening_known = told.opening.has_value();
+  if (told.opening) feedback.opening = *told.opening;
+  feedback.activated = told.activated;
+  feedback.moving = told.moving;
+  feedback.object = told.object;
   feedback.set_trouble(trouble.cause());
-  const bool lost = now.object == GripperObject::lost;
-  if (now.holds_object() && !held_) ++feedback.grips;
+  const bool lost = told.object == GripperObject::lost;
+  if (told.holds_object() && !held_) ++feedback.grips;
   if (lost && !lost_) ++feedback.losses;
-  held_ = now.holds_object();
+  held_ = told.holds_object();
   lost_ = lost;
   heard_ = heard_ || state;
   if (!heard_ || trouble.code() == trouble_) return;
