@@ -22,7 +22,7 @@ Status AxisOnBus::open(const cia402::AxisPlan& plan, CanBus& bus, const char* na
   name_ = name;
   outbox_.clear();
   began_ = told_oddities_ = false;
-  last_sent_ = told_at_ = Time{};
+  last_sent_ = Time{};
   // Tried here, for its errors; begun in the first cycle, whose time counts.
   if (const Status status = axis_.begin(plan_, Time{}, outbox_); !status.is_ok()) return status;
   outbox_.clear();
@@ -54,7 +54,6 @@ void AxisOnBus::receive(const Tick& tick) noexcept {
   while (const CanFrame* frame = inbox_.take()) {
     if (frame->extended || frame->remote) continue;
     const Message message = to_message(*frame);
-    if (message.identifier == transmit_pdo_identifier(1, plan_.node)) told_at_ = tick.now;
     axis_.receive(message, tick.now, outbox_);
   }
 }
@@ -105,7 +104,7 @@ std::optional<ServoState> AxisOnBus::state() const noexcept {
                     .at_internal_limit = state->at_internal_limit,
                     .target_reached = state->target_reached,
                     .homing = homing(),
-                    .measured_at = told_at_};
+                    .measured_at = axis_.heard_at()};
 }
 
 ServoHoming AxisOnBus::homing() const noexcept {

@@ -49,7 +49,6 @@ class AxisOnBus {
   bool began_ = false;
   bool told_oddities_ = false;  // since open()
   Time last_sent_{};
-  Time told_at_{};  // the process data with its position
 };
 
 cia402::Mode mode_of(ServoMode mode) noexcept;

@@ -272,7 +272,8 @@ bool Node::brings_back(Time now, Outbox& outbox) noexcept {
 bool Node::judge_value(const ConfigurationStep& step) noexcept {
   const std::uint32_t in_size = step.size == 4 ? 0xFFFFFFFF : (1U << (8U * step.size)) - 1;
   const bool is_constant = reads_back_ && cannot_be_written(refused_with_);
-  const std::uint32_t mask = is_constant ? step.mask & in_size : reads_back_ ? in_size : step.mask;
+  const std::uint32_t compared = reads_back_ && !is_constant ? 0xFFFFFFFF : step.mask;
+  const std::uint32_t mask = reads_back_ ? compared & in_size : compared;
   const std::uint32_t wanted = (is_constant ? step.held : step.value) & mask;
   const std::uint32_t found = static_cast<std::uint32_t>(client_.number()) & mask;
   if (found == wanted) return true;

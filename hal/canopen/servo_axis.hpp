@@ -127,6 +127,8 @@ class ServoAxis {
 
   /// What the drive said last; nothing while it is not operational or says nothing.
   const std::optional<AxisState>& state() const noexcept { return state_; }
+  /// While there is a state(): when its position arrived.
+  Time heard_at() const noexcept { return heard_; }
   /// It follows commands; in mode interpolated_position that takes some cycles more than its state machine.
   bool is_enabled() const noexcept {
     return power_.is_enabled() && (plan_.mode != Mode::interpolated_position || interpolation_.was_active());

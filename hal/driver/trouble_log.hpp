@@ -12,9 +12,8 @@ namespace flexrf {
 class TroubleLog {
  public:
   /// Once a cycle. `name`: of the device; lives for ever. A device that was never well has `time_to_begin`
-  /// before it is said that it is not there; without `now` that is not said at all. What comes and goes is
-  /// said once a second.
-  void look(const char* name, const Status& trouble, Time now = {}) noexcept {
+  /// before the log says that it is not there. A trouble that comes and goes is said once a second.
+  void look(const char* name, const Status& trouble, Time now) noexcept {
     was_well_ = was_well_ || trouble.is_ok();
     if (!was_well_ && !has_had_time(now)) return;
     if (trouble.code() == told_) return;

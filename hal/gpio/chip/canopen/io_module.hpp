@@ -50,11 +50,11 @@ class IoModule {
   const std::optional<std::uint64_t>& inputs() const noexcept { return inputs_; }
   /// Tells it all of its outputs. Nothing: it has none.
   std::optional<Message> outputs(std::uint64_t bits) const noexcept;
-  /// Once for each cycle in which it is there: asks the module for its outputs (object 6200, a byte in each
-  /// request). True once each byte was answered as it is in `bits`; a byte that the module does not let be
-  /// read is taken for right.
+  /// Once for each cycle in which it is there: reads the module's outputs back (object 6200, a byte in each
+  /// request). True once each byte that was read is as in `bits`. A byte whose reading the module refuses
+  /// counts as right.
   bool has_outputs(std::uint64_t bits, Time now, Outbox& outbox) noexcept;
-  /// What it answered of its outputs is from before: has_outputs() asks for all of them anew.
+  /// Outputs were changed: has_outputs() asks for all of them again.
   void forget_outputs() noexcept {
     confirmed_ = 0;
     asks_ = false;

@@ -10,9 +10,9 @@
 
 namespace flexrf {
 
-/// Everything: the thread the line lives in. Made safe, an output is told its safe value at once
-/// [digital-io-5], and confirms it once its chip knows that it has it; one whose chip is away does not before
-/// it is back [digital-io-9].
+/// Everything: the thread the line lives in. make_safe() sets an output to its safe value at once
+/// [digital-io-5], and is true once the chip knows that the output has it. While the chip is away it is
+/// false [digital-io-9].
 class DigitalIo : public Actuator<DigitalIoInterface> {
  public:
   using Actuator::Actuator;

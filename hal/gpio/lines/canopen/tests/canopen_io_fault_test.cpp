@@ -403,7 +403,7 @@ bool confirms_that_it_is_safe(World& world) {
   return world.until(are_safe, std::chrono::milliseconds(100));
 }
 
-// Its heartbeat comes, its inputs come, and what its outputs are told it does not take.
+// The module ignores its output PDO, while its heartbeat and its inputs come.
 // [gpio-chip-7]
 bool outputs_that_are_not_taken_are_not_confirmed(World& world) {
   constexpr std::int64_t not_in_use = 0x80000000;

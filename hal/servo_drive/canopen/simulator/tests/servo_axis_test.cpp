@@ -165,6 +165,17 @@ void a_drive_without_process_data_is_stopped_by_sdo(void**) {
   }
 }
 
+/// A truncated PDO tells no position, and is no measurement.
+void a_position_is_as_old_as_the_last_whole_pdo(void**) {
+  Cell cell;
+  assert_true(cell.run_until_enabled());
+  const Time before = cell.axis.heard_at();
+  cell.axis.receive({canopen::transmit_pdo_identifier(1, node), 1, {}}, before + milliseconds(3), cell.said);
+  assert_true(cell.axis.heard_at() == before);
+  cell.step();
+  assert_true(cell.axis.heard_at() > before);
+}
+
 /// What it does less than it was told, it says, in each cycle in which that is so.
 void what_is_held_back_is_said(void**) {
   const auto says = [](Cell& cell, const char* words, double asked, double given) {
@@ -534,6 +545,7 @@ int main() {
       cmocka_unit_test(velocities_are_followed_up_to_the_range),
       cmocka_unit_test(a_set_point_counts_only_with_its_target_and_its_speed),
       cmocka_unit_test(a_drive_without_process_data_is_stopped_by_sdo),
+      cmocka_unit_test(a_position_is_as_old_as_the_last_whole_pdo),
       cmocka_unit_test(what_is_held_back_is_said),
       cmocka_unit_test(an_endless_axis_has_no_end),
       cmocka_unit_test(an_endless_axis_goes_on_when_the_counter_runs_over),
