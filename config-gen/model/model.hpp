@@ -113,7 +113,7 @@ struct Literal {
 
 enum class PanelRole { viewer, op, engineer, admin };  // `op`: operator, which is a keyword
 
-// What must be so for a button or a hold to have an effect, or for a parameter of the configuration to be
+// A condition: without it a button or a hold has no effect, and a parameter of the configuration cannot be
 // set.
 struct Need {
   enum class Of { motion, runtime, feedback, configuration };  // the last of conditions only

@@ -125,7 +125,7 @@ class NestingCheck {
   std::size_t dots_ = 0;
 };
 
-// What it is instead of a file that can be read as a whole; empty: it is one.
+// The kind of a path that is no regular file, as "a pipe"; empty for a regular file.
 std::string other_kind_of(const struct stat& status) {
   if (S_ISREG(status.st_mode)) return "";
   if (S_ISFIFO(status.st_mode)) return "a pipe";

@@ -189,7 +189,7 @@ class EdsReader {
            !without_blanks(std::string_view(entry->value).substr(0, entry->value.find(';'))).empty();
   }
 
-  // Values and limits may be texts: it is for whoever needs a number to say so.
+  // Values and limits may be texts. The check that needs a number refuses a text.
   static std::optional<EdsNumber> value_of(const IniSection& section, std::string_view key,
                                            EdsVariable& variable) {
     const IniEntry* entry = section.find(key);

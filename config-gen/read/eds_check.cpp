@@ -110,7 +110,8 @@ class EdsCheck {
     check_value(*found);
   }
 
-  // Of what the driver sets or asks when it brings the device up; what goes in each cycle is another matter.
+  // ObjFlags of the objects that the driver writes or reads at bring-up. Objects in PDOs are not judged by
+  // them.
   void check_flags(const EdsVariable& found) {
     if (!found.flags || needed_->pdo != Pdo::none) return;
     const bool writes = needed_->access != Access::read && (found.flags->value & eds_refuses_writing) != 0;
@@ -196,7 +197,7 @@ class EdsCheck {
     if (needed_->access != Access::read && !fixed) tell_configured(found, *wanted);
   }
 
-  // What a tool has set is replaced when the driver brings the device up.
+  // Warns of a ParameterValue that the driver overwrites at bring-up.
   void tell_configured(const EdsVariable& found, std::int64_t wanted) {
     if (!found.configured || !found.value || found.value->of_node) return;
     if (needed_->of_node) {

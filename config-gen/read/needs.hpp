@@ -1,4 +1,4 @@
-// What commands and parameters of the configuration need: the key `needs`.
+// Reads the key `needs`: conditions of commands and of parameters of the configuration.
 #pragma once
 
 #include "config-gen/model/model.hpp"

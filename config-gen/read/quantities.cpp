@@ -219,7 +219,7 @@ Dimension dimension_of(std::string_view unit) {
   return sum;
 }
 
-// What the last word of a name is, in singular or plural.
+// The quantity that the last word of a name stands for, in singular or plural; null: none is known.
 const Quantity* quantity_of(std::string_view name) {
   const std::string_view word = name.substr(name.rfind('_') + 1);
   const auto* const found =

@@ -25,9 +25,9 @@ std::string replace_symbol(std::string_view unit, std::string_view symbol, std::
 // "velocity_factor".
 bool names_quantity(std::string_view name);
 
-// What units the quantity that a name ends in is measured in, as "\"m/s\", \"rad/s\" or \"px/s\"", where this
-// unit, which judge_unit() takes, measures something else; empty where it fits, or the name ends in no
-// quantity. "counts_per_force" is measured in none of a force.
+// For a unit that does not measure the quantity at the end of the name: the units that do, as "\"m/s\",
+// \"rad/s\" or \"px/s\"". Empty where the unit fits, and where the name ends in no quantity, or in the
+// denominator of a ratio ("counts_per_force"). `unit`: one that judge_unit() takes.
 std::string units_instead(std::string_view name, std::string_view unit);
 
 }  // namespace flexrf::config_gen

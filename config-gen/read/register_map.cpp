@@ -266,7 +266,7 @@ class MapReader : CsvRowReader {
     entry_.offset = *value;
   }
 
-  // Of what is written too, a value might be one that says that there is none.
+  // A register that is written, too, has no missing value: the count for it could be written by mistake.
   bool is_only_read(Column column) {
     if (entry_.access == read_only) return true;
     error(place(column), "what is written has no " + std::string(column_names[column]),

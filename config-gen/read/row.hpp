@@ -18,13 +18,13 @@ struct DurationBounds {
   std::int64_t least = 1;
   std::int64_t most = max_duration;
 };
-// Of what releases a thread, and of what a step may take.
+// Periods and other triggers of threads, and budgets of steps.
 inline constexpr DurationBounds release_bounds{1'000};
-// Of a back-off's sleep: what comes meanwhile waits for its end.
+// Sleeps of a back-off: an item that arrives during one waits for its end.
 inline constexpr DurationBounds sleep_bounds{1'000, 3'600'000'000'000};
-// Of how long a person stays logged in.
+// Lengths and time-outs of a log-in.
 inline constexpr DurationBounds session_bounds{1'000'000'000};
-// Of what somebody waits for until something counts as hung or failed.
+// Time-outs after which something counts as hung or failed.
 inline constexpr DurationBounds supervision_bounds{1'000'000, 3'600'000'000'000};
 
 class Row {
