@@ -343,13 +343,13 @@ void Reader::check_item(Row& row, const PanelWidget& widget) {
   if (parameter != nullptr && !widget.parameters.empty()) {
     const auto found = names_.shown.find(widget.parameters.front().second);
     if (found == names_.shown.end()) return;
-    const auto& [shown, overrides] = found->second;
+    const Parameter& shown = *found->second.parameter;
+    const std::vector<ParameterOverride>& overrides = *found->second.overrides;
     const bool has_range =
-        std::any_of(overrides->begin(), overrides->end(), [&](const ParameterOverride& change) {
-          return change.parameter == shown->field.name && change.kind == shown->kind &&
-                 change.low.has_value();
+        std::any_of(overrides.begin(), overrides.end(), [&](const ParameterOverride& change) {
+          return change.parameter == shown.field.name && change.kind == shown.kind && change.low.has_value();
         });
-    needs = widget_misfit(assembly_.model, widget.kind, *shown, has_range);
+    needs = widget_misfit(assembly_.model, widget.kind, shown, has_range);
   } else if (slot != nullptr && !widget.slots.empty()) {
     const auto& slots = assembly_.model.slots;
     const auto found = std::find_if(slots.begin(), slots.end(),

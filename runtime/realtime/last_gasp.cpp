@@ -239,9 +239,12 @@ void at_quick_exit() noexcept {
   if (exit_is_unexpected()) leave_after_last_gasp("quick_exit()");
 }
 
-struct sigaction crash_action() noexcept {
+/// By the signal's number; null: handle(). Written at start.
+constinit SignalHandler handlers[NSIG] = {};
+
+struct sigaction action_of(int signal) noexcept {
   struct sigaction action {};
-  action.sa_sigaction = &handle;
+  action.sa_sigaction = handlers[signal] != nullptr ? handlers[signal] : &handle;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;
   // All others wait: a crash in the handler itself then ends the process at once.
   sigfillset(&action.sa_mask);
@@ -295,22 +298,29 @@ void restore_terminal() noexcept {
 }
 
 Status install() noexcept {
-  const struct sigaction action = crash_action();
-  for (const int signal : signals::crashing)
+  for (const int signal : signals::crashing) {
+    const struct sigaction action = action_of(signal);
     if (sigaction(signal, &action, nullptr) != 0)
       return Status::error(StatusCode::internal, "%s cannot be handled: %s", meaning_of(signal),
                            strerrordesc_np(errno));
+  }
   return {};
+}
+
+bool handle_with(int signal, SignalHandler handler) noexcept {
+  handlers[signal] = handler;
+  const struct sigaction action = action_of(signal);
+  return sigaction(signal, &action, nullptr) == 0;
 }
 
 int put_handlers_back() noexcept {
   int replaced = 0;
   for (const int signal : signals::crashing) {
+    const struct sigaction action = action_of(signal);
     struct sigaction present {};
-    if (sigaction(signal, nullptr, &present) != 0 || present.sa_sigaction == &handle) continue;
+    if (sigaction(signal, nullptr, &present) != 0 || present.sa_sigaction == action.sa_sigaction) continue;
     // In a crash the handler itself asks for the default.
     if (crashing.load(std::memory_order_acquire)) return 0;
-    const struct sigaction action = crash_action();
     sigaction(signal, &action, nullptr);
     if (replaced == 0) replaced = signal;
   }

@@ -22,10 +22,15 @@ inline constexpr std::size_t handler_stack_size = 64 * 1024;
 /// says which signal and which unit, and lets the signal's default action end the process. Once, by the main
 /// thread. It and every other thread that may crash take an AlternateStack.
 Status install() noexcept;
+/// A handler of one of these signals that is the runtime's own and calls handle() for what it does not know.
+using SignalHandler = void (*)(int signal, siginfo_t* information, void* context);
+/// From here `handler` handles `signal`, also after install() and put_handlers_back(). At start, main thread.
+/// @returns false, with errno: the signal cannot be handled.
+bool handle_with(int signal, SignalHandler handler) noexcept;
 /// Where something else was installed for one of these signals since, as by a library, puts the handler back.
 /// @returns the first such signal; 0: there was none. Any thread.
 int put_handlers_back() noexcept;
-/// What it does on one of them, for a handler of one's own that finds it not to be its own.
+/// What is done on one of them by itself.
 void handle(int signal, siginfo_t* information, void* context) noexcept;
 
 /// For a guard that ends the process: writes everything prepared and restores the terminal, then says `text`

@@ -164,12 +164,8 @@ Status prepare_system_call_filter() noexcept {
   if (const int error = write_program(made->program); error != 0) return not_watched(error);
   for (int call = 0; call < call_numbers; ++call)
     made->names[static_cast<std::size_t>(call)] = seccomp_syscall_resolve_num_arch(SCMP_ARCH_NATIVE, call);
-  struct sigaction action {};
-  action.sa_sigaction = &trapped;
-  action.sa_flags = SA_SIGINFO | SA_ONSTACK;
-  sigemptyset(&action.sa_mask);
   prepare_allocation_guard();  // whose trace is ours too
-  if (sigaction(SIGSYS, &action, nullptr) != 0) return not_watched(errno);
+  if (!last_gasp::handle_with(SIGSYS, &trapped)) return not_watched(errno);
   prepared = made.release();  // for as long as there are threads
   return {};
 }
