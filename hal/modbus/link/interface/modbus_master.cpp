@@ -23,6 +23,15 @@ void publish(ModbusExchange& exchange, Time now) noexcept {
   exchange.link.touched = false;
 }
 
+/// It may have been switched off: nothing is known of what it holds. Who listens first knows that itself, and
+/// is not written to again.
+void forget_written(ModbusExchange& exchange) noexcept {
+  ModbusExchange::LinkSide& side = exchange.link;
+  side.written.assign(side.written.size(), false);
+  side.safe = false;
+  if (!exchange.setup.listens_first) side.image.written = 0;
+}
+
 }  // namespace
 
 ModbusMaster::ModbusMaster() noexcept = default;
@@ -148,10 +157,8 @@ void ModbusMaster::note_lost() noexcept {
     if (exchange == nullptr ||
         exchange->state.load(std::memory_order_acquire) != ModbusExchange::State::active)
       continue;
-    ModbusExchange::LinkSide& side = exchange->link;
-    side.written.assign(side.written.size(), false);
-    side.safe = false;
-    side.image.online = false;
+    forget_written(*exchange);
+    exchange->link.image.online = false;
     publish(*exchange, transport_->now());
   }
 }
@@ -251,10 +258,9 @@ bool ModbusMaster::write_what_is_due(ModbusExchange& exchange) noexcept {
     all_written = all_written && side.written[i];
   }
   side.safe = all_written && command.safe;
-  if (all_written && side.image.written != command.sequence) {
-    side.image.written = command.sequence;
-    side.touched = true;
-  }
+  const std::uint64_t written = all_written ? command.sequence : 0;
+  side.touched = side.touched || side.image.written != written;
+  side.image.written = written;
   return true;
 }
 
@@ -332,9 +338,8 @@ void ModbusMaster::note_answer(ModbusExchange& exchange, bool writes) noexcept {
 
 void ModbusMaster::fail(ModbusExchange& exchange, const ModbusReply& reply, bool writes) noexcept {
   ModbusExchange::LinkSide& side = exchange.link;
-  side.written.assign(side.written.size(), false);
+  forget_written(exchange);
   side.write_due.assign(side.write_due.size(), Time{});
-  side.safe = false;
   const bool is_read = !exchange.plan.reads.empty();
   if (writes) side.reads_first = is_read;
   // A station that answers readings stays online while writing fails, and is read on. One that listens first

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "hal/modbus/station/conformance/station_order_cases.hpp"
 #include "tests/conformance.hpp"
 
 namespace flexrf {
@@ -380,6 +381,11 @@ Verdict what_is_read_once_does_not_age(ModbusStationWorld& world) {
   }));
 }
 
+// [modbus-station-12]
+void orders_judged(void**) {
+  conclude(no_order_of_events_writes_what_nobody_set(make_world));
+}
+
 CMUnitTest test(const char* name, CMUnitTestFunction run) {
   return {name, run, nullptr, nullptr, nullptr};
 }
@@ -417,6 +423,7 @@ int run_modbus_station_conformance(const char* driver, MakeModbusStationWorld ma
       test("answers of another unit", judged<survives<other_unit>>),
       test("connection cut and back", judged<survives<cut>>),
       test("connection cut and back, far end switched off meanwhile", judged<survives<disconnected>>),
+      test("no order of events writes what nobody set", orders_judged),
   };
   return cmocka_run_group_tests_name(driver, tests, nullptr, nullptr);
 }

@@ -40,6 +40,8 @@ class ModbusStationWorld {
   /// Its clock is virtual, or the guest's, which counts: what the machine does otherwise is not seen in it,
   /// so that a bound in time can be a pass mark.
   virtual bool has_counted_time() const { return true; }
+  /// It passes with receive() alone.
+  virtual bool has_virtual_time() const { return true; }
 
   /// A register of the far end; `index` of the map.
   virtual void put(std::size_t index, double value) = 0;

@@ -48,7 +48,8 @@ ModbusText text_of_registers(const ModbusRegister& meaning, const std::uint16_t*
                              const ModbusValue& state) noexcept;
 
 /// input, output: any thread, from connect() on. All else: the thread the station lives in. Made safe, it has
-/// its safe values written, and says so once the station has confirmed them [modbus-station-7].
+/// its safe values written, and says so once the station has confirmed them [modbus-station-7]; where it was
+/// not heard since, they are written again, and nothing is confirmed until then [modbus-station-12].
 class ModbusStation : public Actuator<ModbusStationInterface> {
  public:
   using Actuator::Actuator;

@@ -50,6 +50,7 @@ class RealWorld : public LinkedWorld<Link, RealModbusStation> {
   /// The benches count from a time of their own until the first cycle.
   Time now() const override { return MonotonicClock::now(); }
   bool has_counted_time() const override { return false; }
+  bool has_virtual_time() const override { return false; }
   int requests() override { return std::atoi(ask("requests").c_str()); }
   /// A command of modbus_server that is answered by "ok".
   bool say(const std::string& command) { return ask(command) == "ok"; }
