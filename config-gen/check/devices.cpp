@@ -163,7 +163,8 @@ void check_bus_threads(const Model& model, const Device& bus, Diagnostics& diagn
   }
 }
 
-/// Where a device is on its bus, by one of the drivers that its row permits: a number, or a line's name.
+/// Where a device is, by one of the drivers that its row permits: on its bus a number or a line's name; of
+/// the machine a real driver's file or interface.
 struct Address {
   std::string value;
   std::string name;  // of the parameter
@@ -199,26 +200,30 @@ void take_addresses(const ParameterBlock& block, const std::vector<Literal>& val
   }
 }
 
-std::vector<Address> addresses_of(const Model& model, const Device& device, const DriverChoice& choice) {
+std::vector<Address> addresses_of(const Model& model, const Device& device, const DriverChoice& choice,
+                                  bool on_bus) {
   const Driver& driver = model.drivers[choice.driver];
   std::vector<Address> addresses;
-  if (!driver.bus_interface) return addresses;
+  if (driver.bus_interface.has_value() != on_bus) return addresses;
+  if (!on_bus && driver.kind != Driver::Kind::real) return addresses;
   take_addresses(model.interfaces[device.interface].configuration, device.configuration, addresses);
   take_addresses(driver.configuration, choice.configuration, addresses);
   return addresses;
 }
 
 // Two that answer to one address are led as if they were one, whichever of their drivers are chosen. Told
-// once of a device.
-void check_bus_addresses(const Model& model, const Device& bus, Diagnostics& diagnostics) {
+// once of a device. `bus`: null where none is between them and the machine.
+void check_addresses(const Model& model, const std::vector<const Device*>& devices, const Device* bus,
+                     Diagnostics& diagnostics) {
+  const std::string on_bus = bus != nullptr ? " on bus " + quote(bus->name) : "";
   std::map<std::string, const Device*> taken;
-  for (const Index index : bus.children) {
-    const Device& child = model.devices[index];
+  for (const Device* device : devices) {
+    const Device& child = *device;
     std::map<std::string, std::string> own;
     std::optional<Address> doubled;
     for (const DriverChoice& choice : child.drivers) {
       std::set<std::string> of_driver;
-      for (const Address& address : addresses_of(model, child, choice)) {
+      for (const Address& address : addresses_of(model, child, choice, bus != nullptr)) {
         own.emplace(address.value, address.name);
         if (!of_driver.insert(address.value).second) doubled = address;
       }
@@ -235,8 +240,7 @@ void check_bus_addresses(const Model& model, const Device& bus, Diagnostics& dia
       if (fresh) continue;
       diagnostics.error(child.position,
                         "the address " + value + " (" + quote(name) + ") of device " + quote(child.name) +
-                            " on bus " + quote(bus.name) + " is that of " + quote(other->second->name) +
-                            ", too",
+                            on_bus + " is that of " + quote(other->second->name) + ", too",
                         "give each its own, as it is on the device; the other one is at " +
                             to_string(other->second->position));
       break;
@@ -290,8 +294,13 @@ void check_devices(const Model& model, Diagnostics& diagnostics) {
     check_drivers(model, device, diagnostics);
     check_bus_circle(model, index, diagnostics);
     check_bus_threads(model, device, diagnostics);
-    check_bus_addresses(model, device, diagnostics);
+    std::vector<const Device*> children;
+    for (const Index child : device.children) children.push_back(&model.devices[child]);
+    check_addresses(model, children, &device, diagnostics);
   }
+  std::vector<const Device*> all;
+  for (const Device& device : model.devices) all.push_back(&device);
+  check_addresses(model, all, nullptr, diagnostics);
   for (const Unit& unit : model.units) check_restart(model, unit, diagnostics);
   check_autostart(model, diagnostics);
 }

@@ -15,10 +15,11 @@ Status SocketCanBus::initialise() {
   refused_in_look_ = 0;
   dropped_ = 0;
   link_ = {};
-  if (Status status = socket_.open(); !status) return status;
-  if (Status status = socket_.listen_to(wanted()); !status) return status;
   const std::string named(configuration.interface_view());
   const char* interface = named.c_str();
+  if (Status status = claim_.take(named, name()); !status) return status;
+  if (Status status = socket_.open(); !status) return status;
+  if (Status status = socket_.listen_to(wanted()); !status) return status;
   if (Status status = watch_.start(interface, socket_); !status) return status;
   follow_link();
   // It may come later, as a USB adapter does: no reason not to begin.
@@ -31,6 +32,7 @@ void SocketCanBus::stop() {
   watch_.stop();
   last_words_.clear();
   socket_.close();
+  claim_.release();
 }
 
 int SocketCanBus::claim_last_word() {

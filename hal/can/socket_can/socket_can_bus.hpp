@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hal/can/interface/can_bus.hpp"
+#include "hal/can/socket_can/can_interface_claim.hpp"
 #include "hal/can/socket_can/can_last_words.hpp"
 #include "hal/can/socket_can/can_link_watch.hpp"
 #include "hal/can/socket_can/can_socket.hpp"
@@ -11,6 +12,7 @@ namespace flexrf {
 
 /// Two system calls in a cycle, three when more than a batch has come. Bit rate, restart after bus-off and
 /// the length of the transmit queue are the interface's, set with `ip link` (docs/devices/can.md).
+/// Error of initialise(): another bus of this process has the interface [can-bus-14].
 class SocketCanBus final : public SocketCanBusDriver {
  public:
   ~SocketCanBus() override { stop(); }
@@ -33,6 +35,7 @@ class SocketCanBus final : public SocketCanBusDriver {
   void note(const can_frame& error) noexcept;
   CanBusState usable_or_not() const noexcept;
 
+  CanInterfaceClaim claim_;
   CanSocket socket_;
   CanLastWords last_words_;
   CanLinkWatch watch_;

@@ -140,6 +140,18 @@ bool an_interface_that_comes_later_is_taken() {
   return missing && there;
 }
 
+// [can-bus-14]
+bool an_interface_has_one_bus() {
+  VirtualWorld world;
+  const auto second = std::make_unique<DeviceBench<SocketCanBus>>(nullptr);
+  second->configuration().set_interface(virtual_interface);
+  const Status refused = second->driver().initialise();
+  world.bus().stop();
+  const bool later = second->driver().initialise().is_ok();
+  second->driver().stop();
+  return !refused && std::string(refused.cause()).find("that of bus `") != std::string::npos && later;
+}
+
 /// Answers each frame with the next identifier, and says something by itself every 10 ms.
 class EchoNode final : public CanNode {
  public:
@@ -251,6 +263,9 @@ bool what_a_simulated_node_answered_leaves_before_it_acts() {
 void comes_later(void**) {
   assert_true(an_interface_that_comes_later_is_taken());
 }
+void has_one_bus(void**) {
+  assert_true(an_interface_has_one_bus());
+}
 void node_answers(void**) {
   assert_true(a_simulated_node_answers_over_the_wire());
 }
@@ -263,6 +278,7 @@ void node_is_quiet(void**) {
 int main() {
   const CMUnitTest tests[] = {
       {"an interface that comes later is taken", comes_later, nullptr, nullptr, nullptr},
+      {"an interface has one bus", has_one_bus, nullptr, nullptr, nullptr},
       {"a simulated node answers over the wire", node_answers, nullptr, nullptr, nullptr},
       {"what a simulated node answered leaves before it acts", node_is_quiet, nullptr, nullptr, nullptr},
   };
