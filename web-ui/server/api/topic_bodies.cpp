@@ -127,7 +127,8 @@ void TopicBodies::write_component(JsonWriter& json, ComponentIndex index) const 
   json.member(has_driver ? "driver" : "type", has_driver ? component.driver : component.type->name);
   write_life(json, component);
   json.member("restraint", RestraintText(component.restraint).text)
-      .member("restraints", component.restraints);
+      .member("restraints", component.restraints)
+      .member("budget_overruns", component.budget_overruns);
   json.member("active", component.active).key("member");
   if (component.population == nullptr) {
     json.null();

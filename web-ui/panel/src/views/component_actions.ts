@@ -16,6 +16,8 @@ export interface ComponentRow {
   readonly restraint: string;
   /** How often that was so since the start. */
   readonly restraints: number;
+  /** Steps beyond its budget, of a unit. */
+  readonly budget_overruns: number;
   readonly active: boolean;
   readonly member: { readonly population: string; readonly index: number } | null;
   readonly steps: number;

@@ -171,10 +171,17 @@ export class ComponentPage extends ViewBase {
         ${unit && row
           ? html`${fact('Steps', countText(row.steps))}
             ${fact('Step takes', `${durationText(row.execution.mean_ns)} on average, ${durationText(row.execution.max_ns)} at most`)}
-            ${fact('Budget', unit.budget_ns ? durationText(unit.budget_ns) : '')} ${fact('Restart', unit.restart)}`
+            ${fact('Budget', this.budget(unit.budget_ns, row))} ${fact('Restart', unit.restart)}`
           : nothing}
       </dl>
     `;
+  }
+
+  private budget(budget: number | undefined, row: ComponentRow): unknown {
+    if (!budget) return '';
+    if (row.budget_overruns === 0) return durationText(budget);
+    const steps = row.budget_overruns === 1 ? 'one step' : `${countText(row.budget_overruns)} steps`;
+    return html`${durationText(budget)}, <strong class="alarm">▲ exceeded in ${steps}</strong>`;
   }
 
   /** What the application's table puts on this page. */

@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { actionsOf, componentRows, stateText, urgency, type ComponentRow } from '../component_actions';
 
 const unit: ComponentRow = {
-  name: 'jog', kind: 'unit', type: 'jog', life: 'running', fault: '', restraint: '', restraints: 0, active: true, member: null, steps: 5,
+  name: 'jog', kind: 'unit', type: 'jog', life: 'running', fault: '', restraint: '', restraints: 0, budget_overruns: 0, active: true, member: null, steps: 5,
   execution: { mean_ns: 100, max_ns: 200 },
 };
 

@@ -7,7 +7,7 @@ import { cell, driven } from '../../core/tests/cell';
 import { FakeCore, quiet, reading } from '../../core/tests/fake_core';
 
 const alive = (name: string, more: object = {}) => ({
-  name, kind: 'unit', type: 'drive', life: 'running', fault: '', restraint: '', restraints: 0, active: true, member: { population: 'axis', index: Number(name.at(-2)) },
+  name, kind: 'unit', type: 'drive', life: 'running', fault: '', restraint: '', restraints: 0, budget_overruns: 0, active: true, member: { population: 'axis', index: Number(name.at(-2)) },
   steps: 10, execution: { mean_ns: 1500, max_ns: 9000 }, ...more,
 });
 
@@ -117,6 +117,16 @@ describe('the page of a unit', () => {
     fake.topic('components', [alive('axis[0]', { restraints: 2 })]);
     await settled();
     expect(text()).toContain('Restrained 2 times: the log says by what.');
+  });
+
+  it('says how often a step exceeded its budget', async () => {
+    const text = (): string => page().shadowRoot!.textContent!.replace(/\s+/g, ' ');
+    fake.topic('components', [alive('axis[0]', {})]);
+    await settled();
+    expect(text()).toContain('Budget50.0 µs Restart');
+    fake.topic('components', [alive('axis[0]', { budget_overruns: 1200 })]);
+    await settled();
+    expect(text()).toContain('Budget50.0 µs, ▲ exceeded in 1 200 steps');
   });
 
   it('turns grey: state, fault, times, members', async () => {
