@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <random>
 #include <span>
@@ -19,6 +20,14 @@ inline bool is_long_run() {
 /// `Event`: an enumeration that begins at 0 and ends with `count`.
 template <class Event>
 inline constexpr std::size_t events_of = static_cast<std::size_t>(Event::count);
+
+/// What one order came to.
+struct OrderOutcome {
+  const char* violation = nullptr;  ///< null: the rule held
+  int done = 0;                     ///< how often was done what was asked for
+};
+
+namespace detail {
 
 /// Calls `holds` with all orders of so many events, until it returns false; returns what it returned last.
 template <std::size_t Length, class Event, class Holds>
@@ -49,13 +58,31 @@ bool hold_in_random_orders(int count, const Holds& holds) {
   return true;
 }
 
-/// "stop, start, silent". `names`: of the events, in their order.
-template <class Event>
-std::string described(std::span<const Event> order, std::span<const char* const> names) {
-  std::string text;
-  for (const Event event : order)
-    text += (text.empty() ? "" : ", ") + std::string(names[static_cast<std::size_t>(event)]);
-  return text;
+}  // namespace detail
+
+/// Calls `attempt` with all orders of `Length` events; in a long run with all of `Long`, too, and with so
+/// many of five and six at random. `attempt` returns an OrderOutcome; what goes wrong first is printed by
+/// `names` of the events. True: the rule held in all of them, and something was done, for what never does
+/// anything proves nothing.
+template <class Event, std::size_t Length, std::size_t Long, class Attempt>
+bool hold_in_orders(const std::array<const char*, events_of<Event>>& names, int at_random,
+                    const Attempt& attempt) {
+  int done = 0;
+  const auto holds = [&](std::span<const Event> order) {
+    const OrderOutcome outcome = attempt(order);
+    done += outcome.done;
+    if (outcome.violation == nullptr) return true;
+    std::string text;
+    for (const Event event : order)
+      text += (text.empty() ? "" : ", ") + std::string(names[static_cast<std::size_t>(event)]);
+    std::printf("%s: %s\n", text.c_str(), outcome.violation);
+    return false;
+  };
+  bool held = detail::hold_in_all_orders<Length, Event>(holds);
+  if (held && is_long_run())
+    held = detail::hold_in_all_orders<Long, Event>(holds) &&
+           detail::hold_in_random_orders<Event>(at_random, holds);
+  return held && done > 0;
 }
 
 }  // namespace flexrf

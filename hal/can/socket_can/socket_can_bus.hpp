@@ -12,7 +12,7 @@ namespace flexrf {
 
 /// Two system calls in a cycle, three when more than a batch has come. Bit rate, restart after bus-off and
 /// the length of the transmit queue are the interface's, set with `ip link` (docs/devices/can.md).
-/// Error of initialise(): another bus of this process has the interface [can-bus-14].
+/// Error of initialise(): another bus of this process has the interface.
 class SocketCanBus final : public SocketCanBusDriver {
  public:
   ~SocketCanBus() override { stop(); }

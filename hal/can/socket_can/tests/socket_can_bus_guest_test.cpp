@@ -140,7 +140,6 @@ bool an_interface_that_comes_later_is_taken() {
   return missing && there;
 }
 
-// [can-bus-14]
 bool an_interface_has_one_bus() {
   VirtualWorld world;
   const auto second = std::make_unique<DeviceBench<SocketCanBus>>(nullptr);
