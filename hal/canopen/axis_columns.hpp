@@ -30,6 +30,7 @@ void read_axis_columns(const Columns& columns, cia402::AxisPlan& plan) noexcept 
   plan.forbids_remote = columns.forbids_remote;
   plan.is_guarded = columns.guarded;
   plan.changes_mode_enabled = columns.changes_mode_enabled;
+  plan.changes_target_at_once = columns.changes_target_at_once;
   plan.maps_mode = columns.maps_mode;
   plan.maps_speed = columns.maps_speed;
   plan.maps_velocity = columns.maps_velocity;

@@ -4,6 +4,7 @@ namespace flexrf::canopen::cia402 {
 
 void SetPointHandshake::reset(std::int32_t actual) noexcept {
   step_ = Step::free;
+  is_under_way_ = false;
   waiting_.reset();
   target_ = actual;
   problem_ = {};
@@ -13,39 +14,46 @@ std::uint16_t SetPointHandshake::advance(std::uint16_t statusword, Time now, boo
   const bool acknowledged = (statusword & status_bit::set_point_acknowledged) != 0;
   if (step_ == Step::offered && acknowledged) {
     step_ = Step::withdrawn;
+    is_under_way_ = true;
     since_ = now;
   } else if (step_ == Step::withdrawn && !acknowledged) {
     step_ = Step::free;
+  } else if (step_ == Step::withdrawn && !at_once_ && (statusword & status_bit::target_reached) == 0) {
+    since_ = now;
   }
+  const bool is_there = step_ == Step::free && (statusword & status_bit::target_reached) != 0;
+  if (is_there) is_under_way_ = false;
   if (step_ == Step::prepared) {
     if (is_told) {
       step_ = Step::offered;
       since_ = now;
     }
-  } else if (step_ == Step::free && waiting_ && !acknowledged) {
+  } else if (step_ == Step::free && waiting_ && !acknowledged && (at_once_ || !is_under_way_)) {
     target_ = waiting_->target;
     speed_ = waiting_->speed;
     waiting_.reset();
     step_ = Step::prepared;
     since_ = now;
   }
-  if (step_ != Step::free && now - since_ > timeout_ && problem_.is_ok()) {
-    problem_ = Status::error(StatusCode::timeout, "the drive does not %s a new set-point (statusword %04X)",
-                             unanswered(), unsigned{statusword});
-  }
-  if (step_ == Step::offered) return control_bit::new_set_point | control_bit::change_immediately;
-  return control_bit::change_immediately;
+  if (step_ != Step::free && now - since_ > timeout_ && problem_.is_ok()) give_up(statusword);
+  const std::uint16_t bits = at_once_ ? control_bit::change_immediately : 0;
+  return step_ == Step::offered ? bits | control_bit::new_set_point : bits;
 }
 
-const char* SetPointHandshake::unanswered() const noexcept {
-  switch (step_) {
-    case Step::prepared:
-      return "answer that it took the speed of";
-    case Step::offered:
-      return "acknowledge";
-    default:
-      return "let go of";
+void SetPointHandshake::give_up(std::uint16_t statusword) noexcept {
+  if (step_ == Step::prepared) {
+    problem_ =
+        Status::error(StatusCode::timeout,
+                      "the drive does not answer that it took the speed of a new set-point (statusword %04X)",
+                      unsigned{statusword});
+    return;
   }
+  const bool may_finish_first = at_once_ && (statusword & status_bit::target_reached) == 0;
+  problem_ = Status::error(StatusCode::timeout, "the drive does not %s a new set-point (statusword %04X)%s",
+                           step_ == Step::offered ? "acknowledge" : "let go of", unsigned{statusword},
+                           may_finish_first ? "; for one that takes a target only when it is at the one "
+                                              "before: `changes_target_at_once = false`"
+                                            : "");
 }
 
 std::uint16_t InterpolationSwitch::advance(std::uint16_t statusword, Time now) noexcept {

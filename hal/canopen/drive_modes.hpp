@@ -13,9 +13,10 @@ namespace flexrf::canopen::cia402 {
 /// and its acknowledge (statusword bit 12).
 class SetPointHandshake {
  public:
-  /// `speed`: before the first command.
-  explicit SetPointHandshake(Duration timeout, double speed = 0) noexcept
-      : timeout_{timeout}, speed_{speed} {}
+  /// `speed`: before the first command. `at_once` false: of a drive that takes a set-point only when it is at
+  /// the one before (controlword bit 5 is 0), and may say until then that it has that one.
+  explicit SetPointHandshake(Duration timeout, double speed = 0, bool at_once = true) noexcept
+      : timeout_{timeout}, at_once_{at_once}, speed_{speed} {}
 
   /// At every enabling: nothing is on its way. `actual`: where the axis is, for target().
   void reset(std::int32_t actual) noexcept;
@@ -30,8 +31,14 @@ class SetPointHandshake {
   std::int32_t target() const noexcept { return target_; }
   /// Of that target.
   double speed() const noexcept { return speed_; }
-  /// The drive took the last command.
-  bool is_taken() const noexcept { return (step_ == Step::free || step_ == Step::withdrawn) && !waiting_; }
+  /// The drive goes to target(), and nothing else is on its way to it.
+  bool is_taken() const noexcept {
+    return (step_ == Step::free || step_ == Step::withdrawn) && (!waiting_ || !at_once_);
+  }
+  /// The drive may be on its way to a target, and go on to it after a halt.
+  bool may_be_under_way() const noexcept { return is_under_way_ || step_ == Step::offered; }
+  /// The last command waits until the drive is at the one before.
+  bool is_kept_waiting() const noexcept { return waiting_ && !at_once_ && is_under_way_; }
   /// The drive took the last command and says that it is there; before it took it, it may say so of the one
   /// before.
   bool is_reached(std::uint16_t statusword) const noexcept {
@@ -47,9 +54,11 @@ class SetPointHandshake {
     double speed = 0;
   };
 
-  const char* unanswered() const noexcept;
+  void give_up(std::uint16_t statusword) noexcept;
 
   Duration timeout_;
+  bool at_once_;
+  bool is_under_way_ = false;  // to a target that it took
   Step step_ = Step::free;
   std::optional<Waiting> waiting_;
   std::int32_t target_ = 0;

@@ -35,7 +35,7 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
                               .highest = plan.endless ? no_end : plan.highest,
                               .velocity = plan.fastest,
                               .acceleration = plan.acceleration}};
-  handshake_ = SetPointHandshake{plan.set_point_timeout, plan.fastest};
+  handshake_ = SetPointHandshake{plan.set_point_timeout, plan.fastest, plan.changes_target_at_once};
   interpolation_ = InterpolationSwitch{plan.set_point_timeout};
   homing_.begin({.run = plan.homing_timeout,
                  .settle = plan.homing_settle,
@@ -54,7 +54,7 @@ Status ServoAxis::begin(const AxisPlan& plan, Time now, Outbox& outbox) noexcept
   mode_said_ = plan.mode;
   was_operational_ = false;
   bring_ups_ = node_.times_operational();
-  was_commanded_ = halts_ = is_off_for_mode_ = false;
+  was_commanded_ = halts_ = is_off_for_mode_ = drops_target_ = false;
   may_have_torque_ = false;
   off_heard_ = stood_ = 0;
   velocity_heard_ = Time{};
@@ -178,13 +178,15 @@ void ServoAxis::send(bool may_move, Time now, Duration elapsed, Outbox& outbox) 
   const bool wanted = may_move && fault_.is_ok();
   if (!plan_.changes_mode_enabled && mode_shown_ != homing_.mode()) is_off_for_mode_ = true;
   if (!wanted || !homing_.is_running()) is_off_for_mode_ = false;
-  const bool enables = mode_is_taken(wanted, now) && wanted && fault_.is_ok();
+  const bool at_rest = is_at_rest(now);
+  if (!wanted || power_.is_off()) drops_target_ = false;
+  const bool drops = drops_target_ && !homing_.is_running() && (at_rest || !power_.is_enabled());
+  const bool enables = mode_is_taken(wanted, now) && wanted && fault_.is_ok() && !drops;
   power_.pursue(enables ? DrivePower::Goal::enabled : DrivePower::Goal::off);
   if (enables) {
     may_have_torque_ = true;
     off_heard_ = 0;  // what the drive said so far is from before
   }
-  const bool at_rest = is_at_rest(now);
   std::uint16_t word = power_.advance(statusword_, at_rest, now);
   if (!power_.problem().is_ok()) fail(power_.problem());
   if (enables && power_.is_enabled()) is_off_for_mode_ = false;
@@ -241,6 +243,7 @@ void ServoAxis::tell_restraint() noexcept {
   if (plan_.mode == Mode::profile_position && is_of_speed && state_->target_reached) held_ = {};
   if (restraint_.reason != nullptr || !power_.is_enabled()) return;
   restraint_ = held_;
+  if (handshake_.is_kept_waiting()) restraint_ = {.reason = servo_restraints::target_waits};
   if (ignored_ == ignoring_cycles) restraint_ = {.reason = servo_restraints::set_points_ignored};
   const bool is_led = is_led_in(Mode::cyclic_position, Mode::interpolated_position);
   if (restraint_.reason == nullptr && is_led && is_outpaced())
@@ -267,7 +270,7 @@ void ServoAxis::watch(bool may_move, Time now) noexcept {
   const bool operational = node_.is_operational();
   const bool is_new = node_.times_operational() != bring_ups_;
   if (was_operational_ && (!operational || is_new)) {
-    const bool was_led = power_.goal() == DrivePower::Goal::enabled || is_off_for_mode_;
+    const bool was_led = power_.goal() == DrivePower::Goal::enabled || is_off_for_mode_ || drops_target_;
     if (was_led && fault_.is_ok()) {
       fault_ = node_.problem().is_ok() ? Status::error(StatusCode::unavailable,
                                                        "node %u was gone and came back", unsigned{plan_.node})

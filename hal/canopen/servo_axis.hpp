@@ -52,10 +52,13 @@ struct AxisPlan {
   bool forbids_remote = true;          ///< bit 30 of the identifiers of what it sends
   bool is_guarded = false;             ///< it has no heartbeat, see NodePlan
   bool changes_mode_enabled = true;    ///< else it is switched off for that, before and after a homing
-  bool maps_mode = true;               ///< objects 6060 and 6061 in its PDOs; else see UnmappedObjects
-  bool maps_speed = true;              ///< object 6081 in a PDO; else likewise
-  bool maps_velocity = true;           ///< object 606C in a PDO; else its velocity is that of its positions
-  bool tells_speed = true;             ///< object 6081; else each profile is as fast as the drive's own
+  /// Controlword bit 5: it takes another target on its way to one. Else each waits until it is at the one
+  /// before, and it is switched off and on after a halt, so that it forgets where it was going.
+  bool changes_target_at_once = true;
+  bool maps_mode = true;      ///< objects 6060 and 6061 in its PDOs; else see UnmappedObjects
+  bool maps_speed = true;     ///< object 6081 in a PDO; else likewise
+  bool maps_velocity = true;  ///< object 606C in a PDO; else its velocity is that of its positions
+  bool tells_speed = true;    ///< object 6081; else each profile is as fast as the drive's own
   // Of an axis that may meet something, as a gripper's does.
   bool limits_torque = false;   ///< object 6072, see limit_torque(); in mode profile_position only
   bool tells_torque = false;    ///< object 6077
@@ -247,6 +250,7 @@ class ServoAxis {
   bool heard_now_ = false;  // since the last send()
   std::optional<Time> mode_wanted_;
   bool is_off_for_mode_ = false;  // on its way off, into another mode and on again, for a homing
+  bool drops_target_ = false;     // halted, and on its way off and on again, so that it forgets where it went
   std::uint16_t statusword_ = 0;
   Mode mode_shown_ = Mode::none;
   Mode mode_said_ = Mode::none;

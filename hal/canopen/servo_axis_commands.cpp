@@ -67,6 +67,8 @@ void ServoAxis::halt() noexcept {
   homing_.halt();
   if (homing_.is_running()) return;
   cyclic_.brake();
+  if (!plan_.changes_target_at_once && plan_.mode == Mode::profile_position)
+    drops_target_ = drops_target_ || handshake_.may_be_under_way();
   handshake_.reset(handshake_.target());
   held_ = {};
   was_commanded_ = false;

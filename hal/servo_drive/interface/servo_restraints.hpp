@@ -18,6 +18,8 @@ inline constexpr char set_points_ignored[] =
 inline constexpr char own_speed[] =
     "the speed of a target is not told (`tells_speed = false`): it goes as fast as its maker's tool has set "
     "it";
+inline constexpr char target_waits[] =
+    "a target waits until it is at the one before (`changes_target_at_once = false`)";
 inline constexpr char another_mode[] =
     "a command of another mode than the configured `mode` is without effect";
 inline constexpr char no_homing[] =

@@ -276,7 +276,8 @@ void ForeignDrive::take_controlword() {
   }
   const std::uint32_t mode = object(0x6061);
   if (mode == 1) {
-    if (bit_4_rises) {
+    const bool may_take = !nature_.finishes_targets || reached_;
+    if (bit_4_rises && may_take) {
       const auto target = static_cast<std::int32_t>(object(0x607A));
       const bool has_speed = objects_.contains(key(0x6081, 0));
       set_points_.push_back({target, object(0x6081)});
@@ -284,7 +285,7 @@ void ForeignDrive::take_controlword() {
       goal_speed_ = has_speed ? object(0x6081) : own_speed;
       reached_ = false;
       acknowledged_ = true;
-    } else if ((word & 0x10) == 0) {
+    } else if ((word & 0x10) == 0 && may_take) {
       acknowledged_ = false;
     }
   }

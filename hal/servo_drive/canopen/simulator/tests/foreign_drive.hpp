@@ -29,8 +29,11 @@ class ForeignDrive {
     bool acts_at_last = false;              ///< on a controlword behind all else that came before SYNC
     bool leaves_bit_12 = false;             ///< of its statusword at 0 in cyclic position, as older drives do
     bool changes_mode_off = false;          ///< it takes another mode only while it is off
-    bool refuses_what_is_so = false;        ///< to be written what an object is already, in any state
-    bool homes_without_bit_10 = false;      ///< that its home is found it says by bit 12 alone
+    /// Knows no bit 5 of the controlword: takes a target only when it is at the one before, and acknowledges
+    /// it until then.
+    bool finishes_targets = false;
+    bool refuses_what_is_so = false;    ///< to be written what an object is already, in any state
+    bool homes_without_bit_10 = false;  ///< that its home is found it says by bit 12 alone
     std::optional<std::uint32_t> quick_stop_option{};  ///< object 605A; nothing: it has none
     std::optional<std::uint32_t> window{};             ///< object 6067; nothing: it has none
     double stops_short = 0;     ///< increments before its target; it says that it is there within its window

@@ -445,6 +445,64 @@ void a_drive_that_changes_its_mode_while_it_is_off_needs_the_column(void**) {
   }
 }
 
+bool is_last_target(const ForeignCell& cell, double place) {
+  const auto& taken = cell.drive.set_points();
+  return !taken.empty() && taken.back().target == 1000 * place;
+}
+
+// Each waits until it is at the one before, and of several the newest counts.
+void a_drive_that_finishes_its_targets_needs_the_column(void**) {
+  AxisPlan plan = plan_for(Mode::profile_position);
+  ForeignCell unsaid{plan, {.finishes_targets = true}};
+  assert_true(unsaid.comes_up());
+  unsaid.axis.move_to(3, 1);
+  unsaid.run(1000);
+  assert_true(unsaid.fault_says("changes_target_at_once = false"));
+  plan.changes_target_at_once = false;
+  for (const bool finishes : {true, false}) {  // one that could do otherwise is led all the same
+    for (int cycles_between = 0; cycles_between < 10; ++cycles_between) {
+      ForeignCell cell{plan, {.finishes_targets = finishes}};
+      assert_true(cell.comes_up());
+      cell.axis.move_to(3, 2);
+      for (int i = 0; i < cycles_between; ++i) cell.step();
+      cell.axis.move_to(1, 3);
+      assert_true(cell.arrives() && cell.is_at(1));
+      for (const ForeignDrive::SetPoint& one : cell.drive.set_points())
+        assert_int_equal(one.speed, speed_of(one.target));
+      const std::size_t taken = cell.drive.set_points().size();
+      cell.axis.move_to(3, 1);
+      cell.run(1000);
+      cell.axis.move_to(-2, 4);
+      cell.run(100);
+      assert_string_equal(cell.restraint.reason, servo_restraints::target_waits);
+      assert_true(is_last_target(cell, 3));
+      cell.axis.move_to(1, 3);
+      assert_true(cell.arrives() && cell.is_at(1) && is_last_target(cell, 1));
+      assert_int_equal(cell.drive.set_points().size(), taken + 2);
+    }
+  }
+}
+
+// Where it was going when it was halted it does not go, whatever it is told next.
+void a_drive_that_finishes_its_targets_forgets_one_by_a_halt(void**) {
+  AxisPlan plan = plan_for(Mode::profile_position);
+  plan.changes_target_at_once = false;
+  for (int cycles = 0; cycles < 40; ++cycles) {
+    ForeignCell cell{plan, {.finishes_targets = true}};
+    assert_true(cell.comes_up());
+    cell.axis.move_to(5, 1);
+    for (int i = 0; i < cycles; ++i) cell.step();
+    cell.axis.halt();
+    cell.run(1000);
+    assert_true(cell.axis.fault().is_ok() && cell.axis.is_enabled());
+    const double rest = cell.drive.position();
+    cell.run(500);
+    assert_true(cell.drive.position() == rest);
+    cell.axis.move_to(-1, 2);
+    assert_true(cell.arrives() && cell.is_at(-1) && is_last_target(cell, -1));
+  }
+}
+
 // In whichever moment of it the permission is withdrawn: it is off and stays so, and begins anew where it is.
 void a_homing_that_switches_off_is_stopped_in_each_of_its_cycles(void**) {
   for (int cycles = 0; cycles < 120; ++cycles) {
@@ -570,6 +628,8 @@ int main() {
       cmocka_unit_test(a_drive_that_does_not_say_how_fast_it_is_tells_it_by_its_positions),
       cmocka_unit_test(what_the_table_asks_for_and_is_missing_is_told_with_its_column),
       cmocka_unit_test(a_drive_that_leaves_bit_12_is_led_all_the_same),
+      cmocka_unit_test(a_drive_that_finishes_its_targets_needs_the_column),
+      cmocka_unit_test(a_drive_that_finishes_its_targets_forgets_one_by_a_halt),
       cmocka_unit_test(the_product_is_asked_for_only_where_it_is_named),
       cmocka_unit_test(identifiers_that_are_right_already_need_not_be_written),
       cmocka_unit_test(what_cannot_be_written_and_is_right_already_is_taken),
