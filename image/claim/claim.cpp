@@ -24,15 +24,19 @@ Status check(const Wish& wish) {
 Answer Claim::attempt(const Wish& wish, const panel::Address& address, Time now) {
   if (is_done_) return {403, "Somebody has claimed this PC already. Reload the page to log in.", 0};
   if (const Status status = check(wish); !status) return {400, status.cause(), 0};
-  if (const Duration wait = limits_.admit(address, false, now); wait > Duration::zero()) {
+  if (shown_since_ == Time{}) shown_since_ = now;
+  // As people at the machine are: with no delay on account of others.
+  if (const Duration wait = limits_.admit(address, true, now); wait > Duration::zero()) {
     const unsigned seconds = panel::seconds_to_wait(wait);
     return {429, "Too many wrong codes. Try again in " + std::to_string(seconds) + " s.", seconds};
   }
   if (!code_.is(wish.code)) {
-    if (++failures_ < tries) return {403, "That is not the code on the PC's screen.", 0};
+    if (++failures_ < tries || now - shown_since_ < shortest_life)
+      return {403, "That is not the code on the PC's screen.", 0};
     failures_ = 0;
+    shown_since_ = now;
     code_ = ClaimCode{};
-    return {403, "That was the fifth wrong code: the PC's screen shows a new one now.", 0};
+    return {403, "Too many wrong codes came from everywhere: the PC's screen shows a new one now.", 0};
   }
   limits_.succeeded(address);
   // Whoever put a file there meanwhile, as with a disk in another PC, is not overruled.

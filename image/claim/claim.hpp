@@ -27,11 +27,15 @@ struct Answer {
   unsigned wait_s = 0;    ///< with 429
 };
 
-/// One thread.
+/// Who guesses elsewhere must not keep the person out who stands before the PC: wrong codes delay their own
+/// address alone, and a code stays until so many were wrong that a guess becomes thinkable (50 bits: one of
+/// 10^10 is right by then), and for two minutes at least. One thread.
 class Claim {
  public:
   /// Wrong codes until there is a new one.
-  static constexpr unsigned tries = 5;
+  static constexpr unsigned tries = 100'000;
+  /// How long a code that was shown can be typed.
+  static constexpr Duration shortest_life = std::chrono::minutes{2};
 
   explicit Claim(std::string users_file) : users_file_(std::move(users_file)) {}
 
@@ -44,6 +48,7 @@ class Claim {
  private:
   std::string users_file_;
   ClaimCode code_;
+  Time shown_since_{};  // 0: not known before the first attempt
   unsigned failures_ = 0;
   bool is_done_ = false;
   panel::LoginLimits limits_;
