@@ -94,13 +94,15 @@ std::string network_file(std::string_view interface, const AddressSetting& setti
   if (setting.way == AddressWay::fixed) {
     text.append("Address=").append(setting.address).append("\n");
     if (!setting.gateway.empty()) text.append("Gateway=").append(setting.gateway).append("\n");
-    text.append("LinkLocalAddressing=ipv6\n");
+    text.append("LinkLocalAddressing=no\n");
   } else {
-    text.append("DHCP=yes\nLinkLocalAddressing=yes\n");
+    text.append("DHCP=ipv4\nLinkLocalAddressing=ipv4\n");
   }
-  text.append("LLMNR=no\nMulticastDNS=no\nLLDP=no\nEmitLLDP=no\n");
+  text.append("IPv6AcceptRA=no\nLLMNR=no\nMulticastDNS=no\nLLDP=no\nEmitLLDP=no\n");
   if (setting.way == AddressWay::dhcp)
-    text.append("\n[DHCPv4]\nClientIdentifier=mac\nUseDNS=no\nUseNTP=no\nUseHostname=no\n");
+    text.append(
+        "\n[DHCPv4]\nClientIdentifier=mac\nUseDNS=no\nUseNTP=no\nUseHostname=no\nUseRoutes=no\nUseGateway="
+        "yes\n");
   return text;
 }
 

@@ -113,10 +113,34 @@ Answer Network::begin(const std::string& interface, const AddressSetting& settin
   return {};
 }
 
-Answer Network::keep() {
+Answer Network::check_reached(const std::string& interface, const AddressSetting& setting,
+                              const std::string& reached_by) const {
+  if (tells_at_) return refuse(409, "the new address is not used yet; ask again in a few seconds");
+  const std::vector<Interface> all = surroundings_.interfaces();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Interface& one) { return one.name == interface; });
+  std::string there;
+  if (found != all.end()) {
+    for (const std::string& address : found->addresses) {
+      if (setting.way == AddressWay::fixed && address != setting.address) continue;
+      const std::string alone = address.substr(0, address.find('/'));
+      if (alone == reached_by) return {};
+      there.append(there.empty() ? "" : " or ").append(alone);
+    }
+  }
+  return refuse(409, "this PC is asked at " + in_quotes(reached_by) +
+                         ", which does not show that it is found by the address of " + interface +
+                         " that is on trial: " +
+                         (there.empty() ? "it has none yet; is its cable in?"
+                                        : "open its panel at " + there + " and keep it there"));
+}
+
+Answer Network::keep(const std::string& reached_by) {
   const std::optional<AddressTrial> on_trial = read_trial(files_);
   if (!on_trial) return refuse(409, "no address is on trial; it may have been taken back");
   const AddressSetting setting = setting_of(files_, on_trial->interface);
+  if (Answer reached = check_reached(on_trial->interface, setting, reached_by); !reached.is_done())
+    return reached;
   const std::string kept = file_of(files_.kept, on_trial->interface);
   const Status written = setting.way == AddressWay::image
                              ? remove_file(kept)

@@ -40,13 +40,17 @@ class Network {
   Answer check(const std::string& interface, const AddressSetting& setting) const;
   /// The trial begins.
   Answer begin(const std::string& interface, const AddressSetting& setting);
-  /// The setting on trial is the one from now on.
-  Answer keep();
+  /// The setting on trial is the one from now on, if this PC is reached by an address that it gave:
+  /// `reached_by`, as "192.168.1.10".
+  Answer keep(const std::string& reached_by);
   /// About once a second: says the addresses when they are others, has systemd-networkd use what was set, and
   /// takes back what nobody kept.
   void tick();
 
  private:
+  /// Why it is not shown by this that the setting on trial leads here; ok: it is.
+  Answer check_reached(const std::string& interface, const AddressSetting& setting,
+                       const std::string& reached_by) const;
   Status use(const std::string& interface, const AddressSetting& setting) const;
   Status end_trial() const;
   void take_back(const AddressTrial& trial);

@@ -21,7 +21,7 @@ constexpr std::array<Shape, 8> shapes = {
      {Verb::choose, "choose", {"user", "password", "slot"}},
      {Verb::restart, "restart", {"user", "password"}},
      {Verb::network, "network", {"user", "password", "interface", "address", "gateway"}},
-     {Verb::keep_network, "keep-network", {"user", "password"}}}};
+     {Verb::keep_network, "keep-network", {"user", "password", "reached_by"}}}};
 
 Answer malformed(const std::string& what) {
   return refuse(400, what + "; a request is a JSON object with a verb and its members in one line");
@@ -55,6 +55,7 @@ Request taken(Fields& fields, const Shape& shape) {
     if (member == "interface") request.interface = fields.text(member);
     if (member == "address") request.address = fields.text(member);
     if (member == "gateway") request.gateway = fields.text(member);
+    if (member == "reached_by") request.reached_by = fields.text(member);
     if (member == "size") request.size = fields.integer(member);
     if (member == "offset") request.offset = fields.integer(member);
     if (member == "older") request.older = fields.boolean(member);

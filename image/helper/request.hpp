@@ -29,6 +29,7 @@ struct Request {
   std::string interface;  ///< of the network
   std::string address;    ///< its setting, see parse_setting()
   std::string gateway;
+  std::string reached_by;  ///< the PC's own address at which its panel was asked
 };
 
 inline constexpr std::size_t longest_line = 1024;

@@ -67,7 +67,7 @@ Answer Verbs::perform(const Request& request) {
     case Verb::network:
       return set_address(request);
     case Verb::keep_network:
-      return keep_address();
+      return keep_address(request.reached_by);
     default:
       return restart();
   }
@@ -196,8 +196,8 @@ Answer Verbs::set_address(const Request& request) {
   return answer;
 }
 
-Answer Verbs::keep_address() {
-  Answer answer = network_.keep();
+Answer Verbs::keep_address(const std::string& reached_by) {
+  Answer answer = network_.keep(reached_by);
   word_.renew();
   return answer;
 }

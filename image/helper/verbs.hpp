@@ -49,7 +49,7 @@ class Verbs {
   Answer choose(const Request& request);
   Answer restart();
   Answer set_address(const Request& request);
-  Answer keep_address();
+  Answer keep_address(const std::string& reached_by);
 
   Answer check_installable(const Request& request, bool& is_older) const;
   Answer check_standstill() const;

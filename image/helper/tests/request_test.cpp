@@ -49,7 +49,9 @@ void each_verb_has_its_members() {
   CHECK(network.verb == Verb::network);
   CHECK_EQUAL(network.interface + ' ' + network.address + ' ' + network.gateway,
               "enp0s2 10.0.2.16/24 10.0.2.2");
-  CHECK(request(R"({"verb":"keep-network","user":"a","password":"b"})").verb == Verb::keep_network);
+  CHECK_EQUAL(
+      request(R"({"verb":"keep-network","user":"a","password":"b","reached_by":"10.0.2.16"})").reached_by,
+      "10.0.2.16");
 }
 
 void what_is_no_request_is_told_what_is_wrong() {

@@ -33,6 +33,16 @@ bool Address::is_loopback() const noexcept {
   return is_version_4() ? bytes_[mapped_prefix.size()] == 127 : bytes_ == loopback_6;
 }
 
+std::string Address::text() const {
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  if (is_version_4()) {
+    inet_ntop(AF_INET, bytes_.data() + mapped_prefix.size(), text.data(), text.size());
+  } else {
+    inet_ntop(AF_INET6, bytes_.data(), text.data(), text.size());
+  }
+  return text.data();
+}
+
 Address Address::neighbourhood() const noexcept {
   Address network = *this;
   if (!is_version_4()) std::fill(network.bytes_.begin() + 8, network.bytes_.end(), std::uint8_t{0});

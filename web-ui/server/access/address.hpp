@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace flexrf::panel {
@@ -18,6 +19,8 @@ class Address {
   bool is_loopback() const noexcept;  ///< 127.0.0.0/8, ::1
   /// What one party can choose from: an IPv6 network of 64 bits, or the one IPv4 address.
   Address neighbourhood() const noexcept;
+  /// "192.168.0.7", "fe80::1".
+  std::string text() const;
 
   bool operator==(const Address&) const noexcept = default;
 

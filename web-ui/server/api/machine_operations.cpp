@@ -60,7 +60,8 @@ void MachineOperations::read(const Caller& caller) {
         Status::error(StatusCode::busy, "the PC's helper has too much to do; try again in a second"));
 }
 
-void MachineOperations::act(const Caller& caller, std::string_view verb, Fields& fields) {
+void MachineOperations::act(const Caller& caller, std::string_view verb, Fields& fields,
+                            const Address& reached_by) {
   if (!check_there(caller)) return;
   const Act& act = act_of(verb);
   if (!permission_->has_role(caller, Role::admin, act.refused)) return;
@@ -96,6 +97,8 @@ void MachineOperations::act(const Caller& caller, std::string_view verb, Fields&
     json.member("interface", interface).member("address", address);
     json.member("gateway", fields.has("gateway") ? fields.text("gateway") : std::string_view{});
     set_text(waiting.what, std::string{interface.substr(0, 16)} + ": " + std::string{address.substr(0, 20)});
+  } else if (verb == "keep-network") {
+    json.member("reached_by", reached_by.text());
   }
   json.end_object();
   std::string message = json.release();

@@ -268,7 +268,7 @@ void RestHandler::act(const Match& found, const Request& request, const Caller& 
       return find_operation(action == "reset" || action == "press" ? action : "action")->run(asked);
     }
     case Resource::machine_act:
-      return parts_.machine.act(caller, found.route->operation, fields);
+      return parts_.machine.act(caller, found.route->operation, fields, request.local_end);
     case Resource::operation:
       return find_operation(found.route->operation)->run(asked);
     default:

@@ -32,6 +32,8 @@ void loopback_is_this_machine(void**) {
 }
 
 void a_neighbourhood_is_what_one_party_can_choose_from(void**) {
+  assert_string_equal(Address::parse("::ffff:192.168.0.7")->text().c_str(), "192.168.0.7");
+  assert_string_equal(Address::parse("FE80::0:1%eth0")->text().c_str(), "fe80::1");
   assert_true(Address::parse("2001:db8::1")->neighbourhood() ==
               Address::parse("2001:db8::ffff:2")->neighbourhood());
   assert_false(Address::parse("2001:db8::1")->neighbourhood() ==

@@ -157,6 +157,8 @@ void an_admin_updates_the_pc() {
                                                      {"address", "10.0.2.16/24"},
                                                      {"gateway", ""}}));
   CHECK_EQUAL(world.post("keep-network", {{"password", "p"}}).status, 200U);
+  CHECK(world.helper.asked("keep-network").at(0) ==
+        json({{"verb", "keep-network"}, {"user", "adam"}, {"password", "p"}, {"reached_by", "10.0.2.16"}}));
   CHECK(world.is_in_audit("set the address of", "enp0s2: 10.0.2.16/24"));
   CHECK(world.is_in_audit("kept the address", ""));
   const std::string told = world.rig.get("audit", an_admin).body.dump() + world.rig.get("log").body.dump();

@@ -200,6 +200,7 @@ Answer Rig::request(Method method, const std::string& path, SessionIndex session
                     const std::string& content_type) {
   const std::string whole = "/api/v1/" + path;
   Request request;
+  request.local_end = *Address::parse("10.0.2.16");
   request.method = method;
   request.path = whole;
   request.query = query;
