@@ -310,6 +310,8 @@ long waits_of_this_thread() {
 bool kept_from_the_processor() {
   Cell cell;
   cell.thread(Cell::producing).priority = 40;
+  cell.unit(Cell::producer).budget =
+      milliseconds{5};  // of the processor, more than a look at the clock takes
   const Application& application = cell.application();
   const long waits = waits_of_this_thread();
   BudgetWatch watch(application, application.threads[Cell::producing]);
