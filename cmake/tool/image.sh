@@ -121,7 +121,7 @@ make_root() {  # make_root WORK APPLICATION PC [ARGUMENT...]
   local -a names
   mapfile -t names < <(package_names "$executable" | sort -u)
   mkdir "$work/programs" &&
-    cp "$root"/build/release/image/{boot/flexrf-boot-choice,claim/flexrf-claim,helper/flexrf-helper} "$work/programs/" &&
+    cp "$root"/build/release/image/{boot/flexrf-boot-choice,claim/flexrf-claim,helper/flexrf-helper,screen/flexrf-screen} "$work/programs/" &&
     fetch "${names[@]}" >"$work/packages" &&
     bash "$disk_scripts/make_root.sh" "$work/root" "$work/packages" "$image_folder/kernel" "$work/programs" "$executable" \
       "$work/descriptor" "$3" "$work/identity" "${@:4}"

@@ -70,7 +70,7 @@ image_command() {
   check_output "$output"
   if [[ $variant == test ]]; then install_packages build image guest; else install_packages build image; fi
   choose_keys
-  build release "$application" flexrf-boot-choice flexrf-claim flexrf-helper || exit 1
+  build release "$application" flexrf-boot-choice flexrf-claim flexrf-helper flexrf-screen || exit 1
   "make_$kind" "$application" "$output" "$variant" "$@"
   [[ $kind == bundle ]] || say "next, with the PC's disk plugged in here: ./flexrf flash $(printf %q "$output")"
 }

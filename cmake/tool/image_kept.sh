@@ -5,7 +5,7 @@
 
 kept_folder=${cache:-$image_folder}/image-tests
 kept_of_a_name=2 # folders of one name; older ones are removed
-image_programs=(apps/pick-station/pick-station image/boot/flexrf-boot-choice image/claim/flexrf-claim image/helper/flexrf-helper)
+image_programs=(apps/pick-station/pick-station image/boot/flexrf-boot-choice image/claim/flexrf-claim image/helper/flexrf-helper image/screen/flexrf-screen)
 judging_programs=(image/power_cut/flexrf-power-cut web-ui/server/access/flexrf-password image/boot/boot_choice_what_boots)
 image_inputs='' # when they are known
 

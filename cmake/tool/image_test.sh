@@ -301,7 +301,7 @@ TEXT
 image_lanes=${FLEXRF_IMAGE_LANES:-2} # groups of tests that go on beside each other: a PC keeps hardly more than one processor busy
 
 image_targets() {  # image_targets LEVEL: what its tests need of the release build
-  printf '%s\n' pick-station flexrf-boot-choice flexrf-claim flexrf-helper
+  printf '%s\n' pick-station flexrf-boot-choice flexrf-claim flexrf-helper flexrf-screen
   [[ $1 == first ]] || printf '%s\n' flexrf-power-cut flexrf-password boot_choice_what_boots
   [[ $1 != full ]] || printf '%s\n' visual-servoing flexrf_without_flush
 }

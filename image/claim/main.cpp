@@ -9,6 +9,7 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
 #include <string>
 #include <utility>
 
@@ -32,6 +33,7 @@ constexpr const char* usage =
     "  --listen ADDRESS:PORT      else 0.0.0.0:8443\n"
     "  --tls-certificate FILE     else /data/flexrf/panel.crt\n"
     "  --tls-key FILE             else /data/flexrf/panel.key\n"
+    "  --code-file FILE           gets the code, for the PC's screen; else /run/flexrf-claim/code\n"
     "Exit code: 0 claimed; 1 wrong usage; 2 something failed; 3 ended by a signal before anybody came.\n";
 
 struct Arguments {
@@ -39,12 +41,23 @@ struct Arguments {
   std::string listen = "0.0.0.0:8443";
   std::string certificate = "/data/flexrf/panel.crt";
   std::string key = "/data/flexrf/panel.key";
+  std::string code_file = "/run/flexrf-claim/code";
 };
 
 /// Whoever stands before the PC reads this.
 void say(const std::string& line) {
   std::printf("%s\n", line.c_str());
   std::fflush(stdout);
+}
+
+/// For flexrf-screen, which shows it in large letters.
+void hand_over(const std::string& file, const std::string& code) {
+  const std::string anew = file + ".new";
+  std::ofstream out(anew);
+  out << code << '\n';
+  out.close();
+  if (!out || std::rename(anew.c_str(), file.c_str()) != 0)
+    say("The PC's screen does not get the code: " + file + " cannot be written.");
 }
 
 int fail(int code, const std::string& why) {
@@ -78,7 +91,8 @@ std::string machine_name() {
 /// Says the code again when this PC gets another address: only then it is known where to go.
 class TellingService final : public panel::Service {
  public:
-  TellingService(ClaimService& service, Claim& claim) : service_(service), claim_(claim) {}
+  TellingService(ClaimService& service, Claim& claim, std::string code_file)
+      : service_(service), claim_(claim), code_file_(std::move(code_file)) {}
 
   bool admit(const panel::Request& request, panel::SessionIndex& session, panel::Reply& reply) override {
     return service_.admit(request, session, reply);
@@ -96,6 +110,7 @@ class TellingService final : public panel::Service {
  private:
   ClaimService& service_;
   Claim& claim_;
+  std::string code_file_;
   panel::Server* server_ = nullptr;
   std::string addresses_;
   std::string code_;
@@ -112,6 +127,7 @@ void TellingService::on_tick(Time now) {
   const std::string addresses = own_addresses();
   const std::string code = claim_.code().text();
   if (addresses == addresses_ && code == code_) return;
+  if (code != code_) hand_over(code_file_, code);
   addresses_ = addresses;
   code_ = code;
   say("Nobody has claimed this PC. The code is  " + code + "  at https://ADDRESS:" +
@@ -133,6 +149,7 @@ int main(int argument_count, char** words) {
                                : word == "--listen"          ? &arguments.listen
                                : word == "--tls-certificate" ? &arguments.certificate
                                : word == "--tls-key"         ? &arguments.key
+                               : word == "--code-file"       ? &arguments.code_file
                                                              : nullptr;
     if (value == nullptr) return fail(1, "there is no option '" + word + "'");
     if (++i == argument_count) return fail(1, word + " needs a value");
@@ -152,7 +169,7 @@ int main(int argument_count, char** words) {
   std::signal(SIGPIPE, SIG_IGN);
   Claim claim(arguments.users);
   ClaimService service(claim, machine_name());
-  TellingService telling(service, claim);
+  TellingService telling(service, claim, arguments.code_file);
   panel::ServerSettings settings;
   settings.slow_call = std::chrono::seconds{10};
   settings.body_types = {"application/x-www-form-urlencoded"};

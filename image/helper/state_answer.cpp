@@ -35,18 +35,6 @@ void add_lines(std::vector<std::string>& notices, const std::string& file) {
   }
 }
 
-std::vector<std::string> notices_of(const Files& files) {
-  std::vector<std::string> notices;
-  std::vector<std::string> files_of_lines;
-  std::error_code error;
-  for (std::filesystem::directory_iterator file(files.notices, error), end; !error && file != end;
-       file.increment(error))
-    if (file->path().extension() != ".new") files_of_lines.push_back(file->path().string());
-  std::sort(files_of_lines.begin(), files_of_lines.end());
-  for (const std::string& one : files_of_lines) add_lines(notices, one);
-  return notices;
-}
-
 /// As the unit left it that wrote the slot: lines, or the version alone.
 std::string version_in(const Files& files, boot::Slot slot) {
   const Result<std::string> text = read_file(version_file(files.update, slot));
@@ -101,6 +89,18 @@ void write_network(JsonWriter& json, const NetworkFiles& files, const OfThisMome
 }
 
 }  // namespace
+
+std::vector<std::string> notices_of(const Files& files) {
+  std::vector<std::string> notices;
+  std::vector<std::string> files_of_lines;
+  std::error_code error;
+  for (std::filesystem::directory_iterator file(files.notices, error), end; !error && file != end;
+       file.increment(error))
+    if (file->path().extension() != ".new") files_of_lines.push_back(file->path().string());
+  std::sort(files_of_lines.begin(), files_of_lines.end());
+  for (const std::string& one : files_of_lines) add_lines(notices, one);
+  return notices;
+}
 
 std::string state_answer(const Files& files, const Facts& facts, const OfThisMoment& moment) {
   const Result<NamedLines> read = NamedLines::read(files.version);
