@@ -87,7 +87,8 @@ data_is_missing() {
   local disk=$pc_folder/missing.img
   pc_disk=()
   claimed_disk "$disk" && PATH=$PATH:/usr/sbin:/sbin sfdisk -q --part-label "$disk" 7 other && start_pc missing bios "$disk" -no-reboot &&
-    await_line 'What this PC needs could not be started'
+    await_line 'What this PC needs could not be started' && await_screen '^What this PC needs could not be started \(see above\)' &&
+    screen >"$pc_folder/screen-missing.text"
 }
 
 with_real_camera() { sed -i '/^ExecStart=/s/$/ --hardware camera=v4l2,station_link=tcp,io_station=real/' "$1/etc/systemd/system/flexrf.service"; }

@@ -1,5 +1,4 @@
-# Sourced by image_test.sh: GRUB's menu, as somebody at the PC's screen and keyboard finds it (docs/industrial-pc.md). Keys are QEMU's, the
-# screen is read from the memory of the screen's text, which is where PCs that boot by BIOS have it.
+# Sourced by image_test.sh: GRUB's menu, as somebody at the PC's screen and keyboard finds it (docs/industrial-pc.md). Keys are QEMU's.
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
 # Of "only for this test", with few rounds: an emulated PC computes them.
@@ -27,27 +26,6 @@ type_text() {  # type_text TEXT: and Enter
     press "${key/ /spc}"
   done
   press ret
-}
-
-screen() {
-  local text=$pc_folder/screen.text
-  rm -f "$text"
-  printf 'pmemsave 0xb8000 4000 "%s"\n' "$text" >&"$to_monitor"
-  until [[ $(stat -c %s "$text" 2>/dev/null) == 4000 ]]; do kill -0 "$pc_pid" 2>/dev/null && sleep 0.05 || return; done
-  # A character and its colours, 80 times in a line.
-  od -A n -v -t u1 -w2 "$text" | awk '{ printf "%c", ($1 >= 32 && $1 < 127) ? $1 : 32 } NR % 80 == 0 { print "" }' | sed 's/ *$//; /^$/d'
-}
-
-await_screen() {  # await_screen PATTERN [KEY]: which is pressed again and again
-  local shown
-  until shown=$(screen) && grep -q -E -e "$1" <<<"$shown"; do
-    if ! kill -0 "$pc_pid" 2>/dev/null || (($(pc_seconds) > pc_limit)); then
-      printf 'the screen never showed: %s; but:\n%s\n' "$1" "$shown"
-      return 1
-    fi
-    [[ ! ${2-} ]] || press "$2"
-    sleep 0.2
-  done
 }
 
 menu='^   FlexRF, version A, whatever its marks'

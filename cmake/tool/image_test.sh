@@ -110,6 +110,28 @@ await_line() {  # await_line PATTERN: until the console has a line like it, whic
   printf '%s\n' "${lines%%$'\n'*}"
 }
 
+# Of a PC that boots by BIOS, where the text of the screen is in memory; letters that are not of ASCII are blanks.
+screen() {
+  local text=$pc_folder/screen.text
+  rm -f "$text"
+  printf 'pmemsave 0xb8000 4000 "%s"\n' "$text" >&"$to_monitor"
+  until [[ $(stat -c %s "$text" 2>/dev/null) == 4000 ]]; do kill -0 "$pc_pid" 2>/dev/null && sleep 0.05 || return; done
+  # A character and its colours, 80 times in a line.
+  od -A n -v -t u1 -w2 "$text" | awk '{ printf "%c", ($1 >= 32 && $1 < 127) ? $1 : 32 } NR % 80 == 0 { print "" }' | sed 's/ *$//; /^$/d'
+}
+
+await_screen() {  # await_screen PATTERN [KEY]: which is pressed again and again
+  local shown
+  until shown=$(screen) && grep -q -E -e "$1" <<<"$shown"; do
+    if ! kill -0 "$pc_pid" 2>/dev/null || (($(pc_seconds) > pc_limit)); then
+      printf 'the screen never showed: %s; but:\n%s\n' "$1" "$shown"
+      return 1
+    fi
+    [[ ! ${2-} ]] || press "$2"
+    sleep 0.2
+  done
+}
+
 ask_panel() {  # ask_panel [PATH [OPTION OF CURL...]]
   curl -s -S -k --retry 10 --retry-all-errors --max-time 300 "${@:2}" "https://localhost:$pc_port/${1-}"
 }
@@ -141,9 +163,11 @@ try_to_claim() {  # try_to_claim CODE: prints the status
 claim_pc() {
   local code
   await_line 'Nobody has claimed this PC\. The code is' >/dev/null || return
+  await_screen 'Nobody has claimed this PC\. Open its page, and type the code  [0-9A-Z]{5}-[0-9A-Z]{5}$' && await_screen '^  https://10\.0\.2\.15:8443/$' || return
   [[ $(ask_panel api/v1/state --retry 0 -o "$pc_folder/state.json" -w '%{http_code}') == 503 && $(try_to_claim 00000-00000) == 403 ]] ||
     { echo "an unclaimed PC answered: $(<"$pc_folder/state.json") $(<"$pc_folder/claimed.html")" && return 1; }
-  code=$(console_lines | sed -n 's/.*The code is  \([0-9A-Z-]*\)  at.*/\1/p' | tail -n 1)
+  screen >"$pc_folder/screen-unclaimed.text" && code=$(sed -n 's/.*type the code  //p' "$pc_folder/screen-unclaimed.text")
+  [[ $code == "$(console_lines | sed -n 's/.*The code is  \([0-9A-Z-]*\)  at.*/\1/p' | tail -n 1)" ]] || { echo "screen and serial line show two codes" && return 1; }
   [[ $(try_to_claim "$code") == 200 ]] || { echo "the claim was answered: $(<"$pc_folder/claimed.html")" && return 1; }
   await_line 'This PC is claimed'
 }
@@ -208,7 +232,8 @@ record_first_boot() {
     await_line 'the cell runs' && panel_answers && log_in &&
     await_line 'motion is not permitted: nobody has claimed this PC' &&
     await_line 'this machine does not permit motion: this version has not confirmed itself' &&
-    await_line 'the version in slot A has confirmed itself' && promised confirmed && await_line 'this machine permits motion'
+    await_line 'the version in slot A has confirmed itself' && promised confirmed && await_line 'this machine permits motion' &&
+    await_screen '^The cell runs, and all is well\.$' && await_screen '^Nothing may move before Start is given at the panel\.$'
 }
 
 # A disk that is larger than the image; nobody was there before. The PC is kept as it is when its version has confirmed itself.
@@ -217,6 +242,7 @@ first_boot_by_bios() {
   need_product && cp --sparse=always "$pc_shared/product.img" "$disk" && truncate -s +512M "$disk" &&
     start_recorded_pc bios "$disk" -no-reboot && record_first_boot && fingerprint >"$pc_folder/fingerprint" || return
   [[ $(console_lines) == *"$(<"$pc_folder/fingerprint")"* ]] || { echo "the console does not show the certificate's fingerprint" && return 1; }
+  [[ $(tr -d ' :\n' <"$pc_folder/screen-unclaimed.text") == *"$(sed 's/.*=//' "$pc_folder/fingerprint" | tr -d :)"* ]] || { echo "the screen does not show it" && return 1; }
   save_pc "$pc_folder/bios.memory" && punch_versions "$pc_folder/bios.base" && keep claimed "$pc_folder"/bios.{img,memory,base,log,promises} "$pc_folder/fingerprint"
 }
 

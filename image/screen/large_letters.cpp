@@ -50,12 +50,15 @@ constexpr Letter letters[] = {
     {'X', {0b10001, 0b10001, 0b01010, 0b00100, 0b01010, 0b10001, 0b10001}},
     {'Y', {0b10001, 0b10001, 0b01010, 0b00100, 0b00100, 0b00100, 0b00100}},
     {'Z', {0b11111, 0b00001, 0b00010, 0b00100, 0b01000, 0b10000, 0b11111}},
+    {'.', {0b00000, 0b00000, 0b00000, 0b00000, 0b00000, 0b01100, 0b01100}},
     {'-', {0b00000, 0b00000, 0b00000, 0b11111, 0b00000, 0b00000, 0b00000}},
 };
 
 const Letter* letter_of(char character) noexcept {
+  const char capital =
+      character >= 'a' && character <= 'z' ? static_cast<char>(character - 'a' + 'A') : character;
   const auto* const found = std::find_if(std::begin(letters), std::end(letters),
-                                         [&](const Letter& one) { return one.character == character; });
+                                         [&](const Letter& one) { return one.character == capital; });
   return found == std::end(letters) ? nullptr : found;
 }
 

@@ -80,11 +80,11 @@ void add_state(const helper::Files& files, Facts& facts) {
   facts.state = facts.is_well ? "The cell runs, and all is well." : panel.why_not_healthy + '.';
   const std::string word = first_line_of(files.word);
   if (panel.may_move) {
-    facts.state += " Actuators may move.";
+    facts.motion = "Actuators may move.";
   } else if (word == "permitted") {
-    facts.state += " Nothing may move before Start is given at the panel.";
+    facts.motion = "Nothing may move before Start is given at the panel.";
   } else {
-    facts.state += " Nothing may move: " + (word.empty() ? "the helper has not said so yet" : word) + ".";
+    facts.motion = "Nothing may move: " + (word.empty() ? "the helper has not said so yet" : word) + ".";
   }
 }
 

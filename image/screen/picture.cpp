@@ -1,6 +1,7 @@
 #include "image/screen/picture.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 
 #include "image/screen/large_letters.hpp"
@@ -9,12 +10,28 @@ namespace flexrf::screen {
 namespace {
 
 constexpr const char* page_port = ":8443/";
+// Of what is large beside the code, there is room on screens with more rows than those of text have.
+constexpr unsigned rows_for_large_address = 36;
 
 /// Printable ASCII alone: what a console has letters for, and what cannot steer it.
 std::string plain(std::string_view text) {
   std::string kept;
   for (const char one : text) kept += one >= ' ' && one <= '~' ? one : ' ';
   return kept;
+}
+
+/// In rows, broken at gaps where there are some.
+std::vector<std::string> wrapped(std::string_view text, std::size_t columns) {
+  std::string rest = plain(text);
+  std::vector<std::string> rows;
+  while (rest.size() > columns) {
+    const std::size_t gap = rest.rfind(' ', columns);
+    const bool is_broken = gap == std::string::npos || gap == 0;
+    rows.push_back(rest.substr(0, is_broken ? columns : gap));
+    rest.erase(0, is_broken ? columns : gap + 1);
+  }
+  rows.push_back(std::move(rest));
+  return rows;
 }
 
 class Sheet {
@@ -27,16 +44,7 @@ class Sheet {
     lines_.push_back(std::move(line));
   }
   void add_wrapped(std::string_view text) {
-    std::string rest = plain(text);
-    do {
-      std::size_t end = rest.size();
-      if (end > size_.columns) {
-        const std::size_t gap = rest.rfind(' ', size_.columns);
-        end = gap == std::string::npos || gap == 0 ? size_.columns : gap;
-      }
-      add(std::string_view{rest}.substr(0, end));
-      rest.erase(0, rest.size() > end && rest[end] == ' ' ? end + 1 : end);
-    } while (!rest.empty());
+    for (std::string& row : wrapped(text, size_.columns)) lines_.push_back(std::move(row));
   }
   void add_large(std::string_view text) {
     if (text.size() * columns_of_letter > size_.columns) return add(text);
@@ -44,6 +52,16 @@ class Sheet {
   }
   void gap() { lines_.emplace_back(); }
 
+  /// The last rows that there is room for.
+  void add_end_of(const std::deque<std::string>& texts) {
+    std::vector<std::string> rows;
+    for (const std::string& text : texts)
+      for (std::string& row : wrapped(text, size_.columns)) rows.push_back(std::move(row));
+    const std::size_t shown = std::min(rows_left(), rows.size());
+    std::move(rows.end() - static_cast<std::ptrdiff_t>(shown), rows.end(), std::back_inserter(lines_));
+  }
+
+  unsigned rows() const { return size_.rows; }
   std::size_t rows_left() const { return lines_.size() < size_.rows ? size_.rows - lines_.size() : 0; }
   std::vector<std::string> release() {
     if (lines_.size() > size_.rows) lines_.resize(size_.rows);
@@ -62,11 +80,15 @@ void add_addresses(const Facts& facts, Sheet& sheet) {
     return;
   }
   for (const std::string& address : facts.addresses) sheet.add("  https://" + address + page_port);
+  if (!facts.claim_code.empty() && sheet.rows() >= rows_for_large_address) {
+    sheet.gap();
+    sheet.add_large(facts.addresses.front());
+  }
 }
 
 void add_fingerprint(const Facts& facts, Sheet& sheet) {
   if (facts.fingerprint.empty()) return;
-  sheet.add("The browser warns of a certificate that it does not know; this is its fingerprint (SHA-256):");
+  sheet.add("The browser warns of the certificate. Its fingerprint (SHA-256):");
   constexpr std::size_t digits_of_line = 32;
   for (std::size_t i = 0; i < facts.fingerprint.size(); i += digits_of_line) {
     std::string line = "  ";
@@ -79,9 +101,7 @@ void add_fingerprint(const Facts& facts, Sheet& sheet) {
 void add_log(const Facts& facts, Sheet& sheet) {
   if (facts.log.empty() || sheet.rows_left() < 3) return;
   sheet.gap();
-  const std::size_t room = sheet.rows_left();
-  const std::size_t shown = std::min(room, facts.log.size());
-  for (std::size_t i = facts.log.size() - shown; i < facts.log.size(); ++i) sheet.add(facts.log[i]);
+  sheet.add_end_of(facts.log);
 }
 
 }  // namespace
@@ -89,6 +109,10 @@ void add_log(const Facts& facts, Sheet& sheet) {
 std::vector<std::string> draw(const Facts& facts, Size size) {
   Sheet sheet(size);
   const std::string name = facts.application.empty() ? "FlexRF" : facts.application;
+  if (facts.claim_code.empty() && size.rows >= Size{}.rows) {
+    sheet.add_large(name);
+    sheet.gap();
+  }
   sheet.add(name + (facts.version.empty() ? "" : "   version " + facts.version) +
             (facts.slot.empty() ? "" : "   slot " + facts.slot));
   sheet.gap();
@@ -102,6 +126,7 @@ std::vector<std::string> draw(const Facts& facts, Size size) {
     add_fingerprint(facts, sheet);
   } else {
     sheet.add_wrapped((facts.is_well ? "" : "! ") + facts.state);
+    if (!facts.motion.empty()) sheet.add_wrapped(facts.motion);
     add_addresses(facts, sheet);
   }
   for (const std::string& notice : facts.notices) sheet.add_wrapped("! " + notice);

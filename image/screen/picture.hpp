@@ -17,6 +17,7 @@ struct Facts {
   std::string claim_code;              ///< as "7QK2M-9XR4T"; empty: it does not wait to be claimed
   std::string fingerprint;             ///< SHA-256 of the panel's certificate, 64 hexadecimal digits
   std::string state;                   ///< of the cell, for a person
+  std::string motion;                  ///< whether anything may move
   bool is_well = false;                ///< else `state` is marked
   std::vector<std::string> notices;    ///< of the helper: repairs, a version that was given up
   std::deque<std::string> log;         ///< what the PC's services said, the newest last
@@ -28,8 +29,9 @@ struct Size {
 };
 
 /// The lines of a picture of this size, in UTF-8, none longer than its columns. The claim code is in large
-/// letters where there is room for it (66 columns), the log takes the rows that are left. Texts of others are
-/// shown without control characters.
+/// letters where there is room for it (66 columns), on larger screens the first address, too; once it is
+/// claimed the application's name is. The log takes the rows that are left. Texts of others are shown without
+/// control characters.
 std::vector<std::string> draw(const Facts& facts, Size size);
 
 }  // namespace flexrf::screen

@@ -61,8 +61,14 @@ void who_is_to_claim_it_sees_code_address_and_fingerprint() {
   for (const std::string& line : lines) CHECK(letters_in(line) <= of_text.columns);
 }
 
+void a_large_screen_has_the_address_in_large_letters() {
+  const std::vector<std::string> lines = draw(unclaimed(), {160, 50});
+  CHECK(has(lines, large_letters("192.168.1.17")[3]));
+  CHECK(lines.size() <= 50 && lines.back() == "second");
+}
+
 void every_character_of_a_code_has_a_shape_of_its_own() {
-  const std::string characters = "0123456789ABCDEFGHJKMNPQRSTVWXYZ-";
+  const std::string characters = "0123456789ABCDEFGHJKMNPQRSTVWXYZ-.";
   std::vector<std::string> shapes;
   for (const char one : characters) {
     shapes.push_back(shape_of(one));
@@ -94,9 +100,14 @@ void once_claimed_it_shows_how_the_cell_is() {
   Facts facts = unclaimed();
   facts.claim_code.clear();
   facts.is_well = true;
-  facts.state = "The cell runs, and all is well. Nothing may move before Start is given at the panel.";
+  facts.state = "The cell runs, and all is well.";
+  facts.motion = "Nothing may move before Start is given at the panel.";
+  CHECK(has(draw(facts, of_text), facts.motion));
   CHECK(has(draw(facts, of_text), "The cell runs, and all is well."));
   CHECK(!has(draw(facts, of_text), "! "));
+  // Its name, seven rows high.
+  CHECK_EQUAL(draw(facts, of_text)[0], large_letters("PICK-STATION")[0]);
+  CHECK_EQUAL(draw(facts, of_text)[8], "pick-station   version 20261129T001500Z-4fb48992   slot A");
   facts.is_well = false;
   facts.state =
       "the panel says: drive left is in fault: node 5 is not heard, and a text that is much longer than a "
@@ -128,6 +139,10 @@ void the_log_takes_the_rows_that_are_left() {
     CHECK(lines.size() <= rows);
     if (rows >= 25) CHECK(lines.back() == "line 59");
   }
+  facts.log = {"first", std::string(30, 'a') + ' ' + std::string(60, 'b')};
+  const std::vector<std::string> wrapped = draw(facts, of_text);
+  CHECK(wrapped[wrapped.size() - 3] == "first");
+  CHECK(wrapped[wrapped.size() - 2] == std::string(30, 'a') && wrapped.back() == std::string(60, 'b'));
 }
 
 }  // namespace
@@ -137,6 +152,7 @@ int main() {
   using namespace flexrf::screen;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(who_is_to_claim_it_sees_code_address_and_fingerprint),
+      CONTAINED_TEST(a_large_screen_has_the_address_in_large_letters),
       CONTAINED_TEST(every_character_of_a_code_has_a_shape_of_its_own),
       CONTAINED_TEST(a_small_screen_has_the_code_in_small_letters),
       CONTAINED_TEST(without_an_address_it_says_why),
