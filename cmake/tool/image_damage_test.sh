@@ -87,7 +87,7 @@ data_is_missing() {
   local disk=$pc_folder/missing.img
   pc_disk=()
   claimed_disk "$disk" && PATH=$PATH:/usr/sbin:/sbin sfdisk -q --part-label "$disk" 7 other && start_pc missing bios "$disk" -no-reboot &&
-    await_line 'What this PC needs could not be started' && await_screen '^What this PC needs could not be started \(see above\)' &&
+    await_line 'What this PC needs could not be started' && await_screen '^What this PC needs could not be started \(see above\)' && await_screen 'Timed out waiting for device .*data' &&
     screen >"$pc_folder/screen-missing.text"
 }
 
