@@ -37,8 +37,8 @@ if(FLEXRF_COMMON_HEADERS AND FLEXRF_SANITIZER)
 endif()
 # Includes name their layer from the repository's root: "runtime/blackboard/slot.hpp".
 target_include_directories(flexrf_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
-# Libraries are for this build only: their objects are not copied, and ar makes the index itself.
-set(CMAKE_CXX_ARCHIVE_CREATE "<CMAKE_AR> qcs --thin <TARGET> <LINK_FLAGS> <OBJECTS>")
+# ar makes the index itself: no second program is started for each library.
+set(CMAKE_CXX_ARCHIVE_CREATE "<CMAKE_AR> qcs <TARGET> <LINK_FLAGS> <OBJECTS>")
 set(CMAKE_CXX_ARCHIVE_FINISH "")
 if(FLEXRF_LINKER)
   add_link_options(-fuse-ld=${FLEXRF_LINKER})
