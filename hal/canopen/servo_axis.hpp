@@ -132,9 +132,11 @@ class ServoAxis {
   const std::optional<AxisState>& state() const noexcept { return state_; }
   /// While there is a state(): when its position arrived.
   Time heard_at() const noexcept { return heard_; }
-  /// It follows commands; in mode interpolated_position that takes some cycles more than its state machine.
+  /// It follows commands; in mode interpolated_position that takes some cycles more than its state machine. A
+  /// drive that has to forget its target after a halt follows none until it was off.
   bool is_enabled() const noexcept {
-    return power_.is_enabled() && (plan_.mode != Mode::interpolated_position || interpolation_.was_active());
+    return power_.is_enabled() && !drops_target_ &&
+           (plan_.mode != Mode::interpolated_position || interpolation_.was_active());
   }
   /// The drive was not enabled since begin(), or its last off_cycles statuswords said that it has no torque.
   /// A drive that is not heard is not off.

@@ -483,7 +483,32 @@ void a_drive_that_finishes_its_targets_needs_the_column(void**) {
   }
 }
 
-// Where it was going when it was halted it does not go, whatever it is told next.
+// A halted drive would first go on to its old target when it is given another: in whichever cycle after the
+// halt the command comes.
+void a_drive_that_finishes_its_targets_takes_none_while_it_is_halted(void**) {
+  AxisPlan plan = plan_for(Mode::profile_position);
+  plan.changes_target_at_once = false;
+  for (int cycles = 0; cycles < 80; ++cycles) {
+    ForeignCell cell{plan, {.finishes_targets = true}};
+    assert_true(cell.comes_up());
+    cell.axis.move_to(5, 1);
+    cell.run(700);
+    cell.axis.halt();
+    cell.step();
+    const double halted = cell.drive.position();
+    for (int i = 0; i < cycles; ++i) cell.step();
+    const bool takes_commands = cell.axis.state()->enabled;
+    cell.axis.move_to(-1, 2);
+    for (int i = 0; i < 600; ++i) {
+      cell.step();
+      assert_true(cell.drive.position() < halted + 20);  // what it does until the halt has reached it
+    }
+    assert_true(cell.axis.fault().is_ok() && cell.axis.is_enabled());
+    assert_true(cell.is_at(-1) == takes_commands);
+  }
+}
+
+// The next target after a halt is the only one that the drive goes to.
 void a_drive_that_finishes_its_targets_forgets_one_by_a_halt(void**) {
   AxisPlan plan = plan_for(Mode::profile_position);
   plan.changes_target_at_once = false;
@@ -629,6 +654,7 @@ int main() {
       cmocka_unit_test(what_the_table_asks_for_and_is_missing_is_told_with_its_column),
       cmocka_unit_test(a_drive_that_leaves_bit_12_is_led_all_the_same),
       cmocka_unit_test(a_drive_that_finishes_its_targets_needs_the_column),
+      cmocka_unit_test(a_drive_that_finishes_its_targets_takes_none_while_it_is_halted),
       cmocka_unit_test(a_drive_that_finishes_its_targets_forgets_one_by_a_halt),
       cmocka_unit_test(the_product_is_asked_for_only_where_it_is_named),
       cmocka_unit_test(identifiers_that_are_right_already_need_not_be_written),
