@@ -110,7 +110,7 @@ await_line() {  # await_line PATTERN: until the console has a line like it, whic
   printf '%s\n' "${lines%%$'\n'*}"
 }
 
-# Of a PC that boots by BIOS, where the text of the screen is in memory; letters that are not of ASCII are blanks.
+# The text on the PC's screen. A PC that boots by BIOS has it in memory; characters that are not ASCII are read as blanks.
 screen() {
   local text=$pc_folder/screen.text
   rm -f "$text"

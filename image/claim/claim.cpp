@@ -25,7 +25,7 @@ Answer Claim::attempt(const Wish& wish, const panel::Address& address, Time now)
   if (is_done_) return {403, "Somebody has claimed this PC already. Reload the page to log in.", 0};
   if (const Status status = check(wish); !status) return {400, status.cause(), 0};
   if (shown_since_ == Time{}) shown_since_ = now;
-  // As people at the machine are: with no delay on account of others.
+  // "At the machine": failures of other addresses delay nobody.
   if (const Duration wait = limits_.admit(address, true, now); wait > Duration::zero()) {
     const unsigned seconds = panel::seconds_to_wait(wait);
     return {429, "Too many wrong codes. Try again in " + std::to_string(seconds) + " s.", seconds};

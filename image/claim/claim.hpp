@@ -27,9 +27,9 @@ struct Answer {
   unsigned wait_s = 0;    ///< with 429
 };
 
-/// Who guesses elsewhere must not keep the person out who stands before the PC: wrong codes delay their own
-/// address alone, and a code stays until so many were wrong that a guess becomes thinkable (50 bits: one of
-/// 10^10 is right by then), and for two minutes at least. One thread.
+/// A guesser in the network must not lock out the person at the PC. A wrong code therefore delays only the
+/// address that it came from. The code is replaced after `tries` wrong ones, but not before `shortest_life`;
+/// by then one of 2^50 codes was guessed with a probability of 10^-10. One thread.
 class Claim {
  public:
   /// Wrong codes until there is a new one.

@@ -9,12 +9,12 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <string>
 #include <utility>
 
 #include "base/standard_descriptors.hpp"
 #include "image/claim/claim_service.hpp"
+#include "runtime/parameters/durable_file.hpp"
 #include "web-ui/server/access/panel_access.hpp"
 #include "web-ui/server/encryption.hpp"
 #include "web-ui/server/listen_address.hpp"
@@ -50,14 +50,10 @@ void say(const std::string& line) {
   std::fflush(stdout);
 }
 
-/// For flexrf-screen, which shows it in large letters.
-void hand_over(const std::string& file, const std::string& code) {
-  const std::string anew = file + ".new";
-  std::ofstream out(anew);
-  out << code << '\n';
-  out.close();
-  if (!out || std::rename(anew.c_str(), file.c_str()) != 0)
-    say("The PC's screen does not get the code: " + file + " cannot be written.");
+/// Hands the code to flexrf-screen, which shows it in large letters.
+void write_code(const std::string& file, const std::string& code) {
+  if (const Status written = replace_file(file, code + '\n', 0600); !written)
+    say(std::string{"The PC's screen cannot show the code: "} + written.cause());
 }
 
 int fail(int code, const std::string& why) {
@@ -127,7 +123,7 @@ void TellingService::on_tick(Time now) {
   const std::string addresses = own_addresses();
   const std::string code = claim_.code().text();
   if (addresses == addresses_ && code == code_) return;
-  if (code != code_) hand_over(code_file_, code);
+  if (code != code_) write_code(code_file_, code);
   addresses_ = addresses;
   code_ = code;
   say("Nobody has claimed this PC. The code is  " + code + "  at https://ADDRESS:" +

@@ -22,8 +22,7 @@ struct OfThisMoment {
   Time now{};
 };
 
-/// What the PC tells a person of its own accord: the lines of the files that stand there, 16 at most. Any
-/// thread.
+/// The notices for a person: the lines of all files in the folder of notices, 16 at most. Any thread.
 std::vector<std::string> notices_of(const Files& files);
 /// A JSON object of at most some 10 KiB. Reads the files of versions, notices and the update. Any thread.
 std::string state_answer(const Files& files, const Facts& facts, const OfThisMoment& moment);

@@ -11,7 +11,7 @@
 namespace flexrf::screen {
 namespace {
 
-// Of those that people have to read; started and stopped units are told of beside their own words.
+// The units whose lines a person has to read. journalctl adds what systemd says of them.
 constexpr const char* arguments[] = {"journalctl",
                                      "--quiet",
                                      "--follow",

@@ -1,4 +1,4 @@
-// What the PC's own services say, as the journal has it.
+// The lines of the PC's own services, from the journal.
 #pragma once
 
 #include <sys/types.h>

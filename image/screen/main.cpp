@@ -1,7 +1,7 @@
-// flexrf-screen: what an industrial PC shows to whoever stands before it (docs/image.md). No log-in: nothing
-// that is typed there is read.
+// flexrf-screen: draws the screen of an industrial PC (docs/image.md). There is no log-in; keys are ignored.
 
 #include <sys/ioctl.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ constexpr const char* usage =
 
 constexpr const char* code_file = "/run/flexrf-claim/code";
 constexpr std::uint16_t panel_port = 8443;
-constexpr Duration look_interval = std::chrono::seconds{1};
+constexpr Duration look_interval = std::chrono::seconds{2};  // each look is a TLS connection to the panel
 constexpr Duration wait_for_panel = std::chrono::seconds{2};
 /// The kernel writes on the same console, and what it says of a fault is worth reading for a while.
 constexpr Duration redraw_interval = std::chrono::seconds{10};
@@ -45,6 +45,15 @@ Size size_of_console() {
   winsize size{};
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) return {};
   return {size.ws_col, size.ws_row};
+}
+
+/// Keys neither appear on the screen nor stop it, as Ctrl-S would.
+void ignore_keys() {
+  termios settings{};
+  if (tcgetattr(STDOUT_FILENO, &settings) != 0) return;  // no console, as in a pipe
+  settings.c_lflag &= ~static_cast<tcflag_t>(ECHO | ICANON | ISIG);
+  settings.c_iflag &= ~static_cast<tcflag_t>(IXON);
+  tcsetattr(STDOUT_FILENO, TCSANOW, &settings);
 }
 
 /// Link-local ones only where there are no others.
@@ -129,6 +138,7 @@ int main(int argument_count, char**) {
     return 1;
   }
   std::signal(SIGPIPE, SIG_IGN);
+  ignore_keys();
   const helper::Files files;
   Journal journal;
   std::string shown;

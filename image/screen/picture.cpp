@@ -10,7 +10,7 @@ namespace flexrf::screen {
 namespace {
 
 constexpr const char* page_port = ":8443/";
-// Of what is large beside the code, there is room on screens with more rows than those of text have.
+// A text screen of 25 rows has no room for a large address beside the large code.
 constexpr unsigned rows_for_large_address = 36;
 
 /// Printable ASCII alone: what a console has letters for, and what cannot steer it.

@@ -1,4 +1,4 @@
-// What the screen of an industrial PC shows.
+// Draws the picture on the screen of an industrial PC.
 #pragma once
 
 #include <deque>
@@ -7,7 +7,7 @@
 
 namespace flexrf::screen {
 
-/// What is known at this moment; empty where nothing is.
+/// The contents of a picture. A text that is not known is empty.
 struct Facts {
   std::string application;
   std::string version;

@@ -30,7 +30,7 @@ bool handle_with(int signal, SignalHandler handler) noexcept;
 /// Where something else was installed for one of these signals since, as by a library, puts the handler back.
 /// @returns the first such signal; 0: there was none. Any thread.
 int put_handlers_back() noexcept;
-/// What is done on one of them by itself.
+/// The handler of these signals where handle_with() has set no other.
 void handle(int signal, siginfo_t* information, void* context) noexcept;
 
 /// For a guard that ends the process: writes everything prepared and restores the terminal, then says `text`

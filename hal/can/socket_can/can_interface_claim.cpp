@@ -5,9 +5,10 @@
 namespace flexrf {
 namespace {
 
+/// Never destroyed: a bus that lives until the process ends releases its interface after static objects.
 std::map<std::string, std::string>& buses() {
-  static std::map<std::string, std::string> by_interface;
-  return by_interface;
+  static auto* const by_interface = new std::map<std::string, std::string>;
+  return *by_interface;
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ void an_address_is_tried_and_kept() {
   bench.pc.run(helper, 1);
   CHECK_CONTAINS(bench.pc.motion(), "the address of enp0s2 is on trial");
   CHECK_EQUAL(kept(bench), "");
-  // Who still reaches it where it was has not shown that anybody finds it there.
+  // A request at the former address does not prove that the new one works.
   CHECK_CONTAINS(keep_at(bench, "10.0.2.15"), "409 this PC is asked at '10.0.2.15'");
   CHECK_CONTAINS(keep_at(bench, "10.0.2.15"), "it has none yet; is its cable in?");
   has_address(bench, "10.0.2.16/24");

@@ -1,4 +1,4 @@
-// What stands on the screen of an industrial PC.
+// Tests of the picture on the screen of an industrial PC.
 #include <algorithm>
 #include <string>
 #include <vector>

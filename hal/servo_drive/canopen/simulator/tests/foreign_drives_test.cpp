@@ -483,8 +483,8 @@ void a_drive_that_finishes_its_targets_needs_the_column(void**) {
   }
 }
 
-// A halted drive would first go on to its old target when it is given another: in whichever cycle after the
-// halt the command comes.
+// A command releases the halt, and the drive would first go on to its old target. Commands come in each of 80
+// cycles after the halt.
 void a_drive_that_finishes_its_targets_takes_none_while_it_is_halted(void**) {
   AxisPlan plan = plan_for(Mode::profile_position);
   plan.changes_target_at_once = false;
