@@ -162,6 +162,7 @@ void columns_of_a_drive(void**) {
       "increments_per_unit",
       "homing_method",
       "set_point_timeout",
+      "changes_target_at_once",
       "maps_speed",
       "tells_speed",
   };
