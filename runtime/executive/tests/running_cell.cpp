@@ -24,8 +24,13 @@ RunningCell::~RunningCell() {
   if (thread_.joinable()) finish();
 }
 
-void RunningCell::start() {
+void RunningCell::begin_to_start() {
   thread_ = std::thread([this] { summary_ = executive_.run(); });
+}
+
+void RunningCell::start() {
+  begin_to_start();
+  if (!wait_until([&] { return control().mode() != Mode::starting; })) throw CheckFailed{"does not start"};
 }
 
 ParameterAnswer RunningCell::ask(const ParameterRequest& request) {
