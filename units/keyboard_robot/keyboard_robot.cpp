@@ -43,14 +43,13 @@ void KeyboardRobot::step(const Tick& tick) {
       is_to_be_seeded_ = !follows;
       moved_ = false;
     }
-    if (!follows) {
-      for (int n = 0; n < most_keys_per_step && keyboard->read(); ++n)
-        continue;  // not kept for when the arm may move again
-    } else if (tick.stop_requested) {
-      motion_.stop();
-    } else {
-      follow_keys();
-    }
+    if (follows && tick.stop_requested) motion_.stop();
+  }
+  if (state && follows && !tick.stop_requested) {
+    follow_keys();
+  } else {
+    for (int n = 0; n < most_keys_per_step && keyboard->read(); ++n)
+      continue;  // not kept for when the arm may move, or is heard again
   }
   if (!motion_.is_seeded()) return;
   motion_.advance(std::min(seconds(tick.elapsed), longest_advance));

@@ -42,17 +42,28 @@ class Leader {
 
 // [robot-arm-12] [stop-3] [stop-96]
 void no_order_moves_a_mock(void**) {
-  arm_orders::no_order_moves_it<Leader, arm_orders::MockedArm, 3, 4>(20'000);
+  arm_orders::no_order_moves_it<Leader, arm_orders::MockedArm, 3, 4>(1'000, 20'000);
 }
 
 // [stop-96]
 void no_order_moves_a_melfa(void**) {
-  arm_orders::no_order_moves_it<Leader, arm_orders::MelfaArm, 2, 4>(5'000);
+  arm_orders::no_order_moves_it<Leader, arm_orders::MelfaArm, 2, 4>(500, 5'000);
 }
 
 // [stop-96]
 void no_order_moves_an_arm_of_drives(void**) {
-  arm_orders::no_order_moves_it<Leader, arm_orders::ArmOfSimulatedDrives, 2, 4>(2'000);
+  arm_orders::no_order_moves_it<Leader, arm_orders::ArmOfSimulatedDrives, 2, 4>(200, 2'000);
+}
+
+/// Such a key was kept, and moved the arm as soon as it was heard again.
+// [stop-96]
+void a_key_for_an_arm_that_is_silent_is_forgotten(void**) {
+  using enum arm_orders::Event;
+  for (const arm_orders::Event first : {start, stop}) {
+    const arm_orders::Event order[] = {first, silent, target, start, idle, speaks};
+    const OrderOutcome outcome = arm_orders::outcome_of<Leader, arm_orders::MockedArm>(order);
+    assert_null(outcome.violation);
+  }
 }
 
 }  // namespace
@@ -64,6 +75,7 @@ int main() {
       cmocka_unit_test(no_order_moves_a_mock),
       cmocka_unit_test(no_order_moves_a_melfa),
       cmocka_unit_test(no_order_moves_an_arm_of_drives),
+      cmocka_unit_test(a_key_for_an_arm_that_is_silent_is_forgotten),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
