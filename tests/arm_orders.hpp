@@ -263,10 +263,10 @@ OrderOutcome outcome_of(std::span<const Event> order) {
   return {world.violation(), world.moved_as_asked()};
 }
 
-/// All orders of `Length` events; in a long run all of `Long`, and so many of five and six at random.
+/// See hold_in_orders().
 template <class Leader, class Which, std::size_t Length, std::size_t Long>
-void no_order_moves_it(int at_random) {
-  const bool held = hold_in_orders<Event, Length, Long>(names, at_random, outcome_of<Leader, Which>);
+void no_order_moves_it(std::size_t some, std::size_t at_random) {
+  const bool held = hold_in_orders<Event, Length, Long>(names, some, at_random, outcome_of<Leader, Which>);
   assert_true(held);
 }
 

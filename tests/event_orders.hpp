@@ -12,10 +12,23 @@
 
 namespace flexrf {
 
-/// `--full` runs the tests in which more is tried (FLEXRF_LONG).
-inline bool is_long_run() {
-  return std::getenv("FLEXRF_LONG") != nullptr;
-}
+/// Which orders are tried beside the short ones that every run tries.
+struct OrderExtent {
+  bool some = false;   ///< `--full` (FLEXRF_LONG=1): a few at random
+  unsigned part = 0;   ///< `--soak` (FLEXRF_LONG="part 3 of 20"): of all of them one part, from 1 on
+  unsigned parts = 0;  ///< 0: none of these
+  bool has(std::size_t number) const { return parts != 0 && number % parts == part - 1; }
+
+  static OrderExtent of_environment() {
+    const char* const text = std::getenv("FLEXRF_LONG");
+    OrderExtent extent;
+    if (text == nullptr) return extent;
+    const bool is_part = std::sscanf(text, "part %u of %u", &extent.part, &extent.parts) == 2 &&
+                         extent.part >= 1 && extent.part <= extent.parts;
+    if (!is_part) extent = {.some = true};
+    return extent;
+  }
+};
 
 /// `Event`: an enumeration that begins at 0 and ends with `count`.
 template <class Event>
@@ -29,13 +42,15 @@ struct OrderOutcome {
 
 namespace detail {
 
-/// Calls `holds` with all orders of so many events, until it returns false; returns what it returned last.
-template <std::size_t Length, class Event, class Holds>
-bool hold_in_all_orders(const Holds& holds) {
+/// Calls `holds` with the orders of so many events whose number is wanted, until it returns false; returns
+/// what it returned last.
+template <std::size_t Length, class Event, class Wanted, class Holds>
+bool hold_in_all_orders(const Wanted& is_wanted, const Holds& holds) {
   std::size_t count = 1;
   for (std::size_t i = 0; i < Length; ++i) count *= events_of<Event>;
   std::array<Event, Length> order{};
   for (std::size_t number = 0; number < count; ++number) {
+    if (!is_wanted(number)) continue;
     std::size_t rest = number;
     for (Event& event : order) {
       event = static_cast<Event>(rest % events_of<Event>);
@@ -46,27 +61,27 @@ bool hold_in_all_orders(const Holds& holds) {
   return true;
 }
 
-/// Likewise, with so many orders of five and of six events, the same in each run.
-template <class Event, class Holds>
-bool hold_in_random_orders(int count, const Holds& holds) {
+/// Likewise, of so many orders of five and of six events at random, the same in each run.
+template <class Event, class Wanted, class Holds>
+bool hold_in_random_orders(std::size_t count, const Wanted& is_wanted, const Holds& holds) {
   std::mt19937 random{32};
   std::array<Event, 6> order{};
-  for (int n = 0; n < count; ++n) {
+  for (std::size_t n = 0; n < count; ++n) {
     for (Event& event : order) event = static_cast<Event>(random() % events_of<Event>);
-    if (!holds(std::span<const Event>(order).first(5 + static_cast<std::size_t>(n) % 2))) return false;
+    if (is_wanted(n) && !holds(std::span<const Event>(order).first(5 + n % 2))) return false;
   }
   return true;
 }
 
 }  // namespace detail
 
-/// Calls `attempt` with all orders of `Length` events; in a long run with all of `Long`, too, and with so
-/// many of five and six at random. `attempt` returns an OrderOutcome; what goes wrong first is printed by
-/// `names` of the events. True: the rule held in all of them, and something was done, for what never does
-/// anything proves nothing.
+/// Calls `attempt` with all orders of `Length` events; with `--full` also with `some` of five and six at
+/// random, with `--soak` with `at_random` of these and with all of `Long` (OrderExtent). `attempt` returns an
+/// OrderOutcome; what goes wrong first is printed by `names` of the events. True: the rule held in all of
+/// them, and something was done, for what never does anything proves nothing.
 template <class Event, std::size_t Length, std::size_t Long, class Attempt>
-bool hold_in_orders(const std::array<const char*, events_of<Event>>& names, int at_random,
-                    const Attempt& attempt) {
+bool hold_in_orders(const std::array<const char*, events_of<Event>>& names, std::size_t some,
+                    std::size_t at_random, const Attempt& attempt) {
   int done = 0;
   const auto holds = [&](std::span<const Event> order) {
     const OrderOutcome outcome = attempt(order);
@@ -78,10 +93,14 @@ bool hold_in_orders(const std::array<const char*, events_of<Event>>& names, int 
     std::printf("%s: %s\n", text.c_str(), outcome.violation);
     return false;
   };
-  bool held = detail::hold_in_all_orders<Length, Event>(holds);
-  if (held && is_long_run())
-    held = detail::hold_in_all_orders<Long, Event>(holds) &&
-           detail::hold_in_random_orders<Event>(at_random, holds);
+  const OrderExtent extent = OrderExtent::of_environment();
+  const auto each = [](std::size_t) { return true; };
+  const auto of_the_part = [&](std::size_t number) { return extent.has(number); };
+  bool held = detail::hold_in_all_orders<Length, Event>(each, holds);
+  if (held && extent.some) held = detail::hold_in_random_orders<Event>(some, each, holds);
+  if (held && extent.parts > 0)
+    held = detail::hold_in_all_orders<Long, Event>(of_the_part, holds) &&
+           detail::hold_in_random_orders<Event>(at_random, of_the_part, holds);
   return held && done > 0;
 }
 

@@ -51,6 +51,23 @@ test_panel() {
   run_tests release -L '^panel$' "${without_long[@]}"
 }
 
+order_parts=20
+
+# Of the tests that try all orders of some events (tests/event_orders.hpp) one part. What passed is remembered for each part, so that a second
+# start goes on where the first was stopped.
+test_orders() {  # test_orders PART
+  local FLEXRF_LONG="part $1 of $order_parts" preset=release
+  local -a names selection=()
+  export FLEXRF_LONG
+  rm -rf "$stages/keys-release" # they depend on FLEXRF_LONG
+  find_test_keys release
+  mapfile -t names < <(sort -u "$root/build/release/tests_read.txt" | while IFS=$'\t' read -r name path; do
+    [[ -f $path && -x $path ]] && grep -q -a -F 'part %u of %u' "$path" && printf '%s\n' "$name"
+  done | sort -u)
+  ((${#names[@]})) || { printf 'there are no tests that try orders\n' && count 1 1 && return 1; }
+  run_changed release run_ctest "${names[@]}"
+}
+
 test_guest() {  # test_guest [NAME...]
   local name key
   local -a names
@@ -165,6 +182,13 @@ level_full() {
   await_image_lane first gate full
 }
 
+level_soak() {
+  local part
+  release_is_built
+  for ((part = 1; part <= order_parts; ++part)); do stage "orders $part" test_orders "$part"; done
+  image_stage soak
+}
+
 level_presets() {  # level_presets PRESET...: these and nothing else
   if [[ $1 == release ]]; then
     release_is_built
@@ -228,7 +252,7 @@ test_level() {
     quick) release_is_built && stage "test release" test_release ;;
     guest) level_guest "$@" ;;
     image) level_image "$@" ;;
-    soak) image_stage soak ;;
+    soak) level_soak ;;
     presets) level_presets "$@" ;;
   esac
   end_lanes

@@ -11,6 +11,7 @@ if [[ $2 == */tsan && -e $STAND_IN/busy ]]; then # until the build of asan behin
   until [[ -s $STAND_IN/tree/build/.stages/build\ asan.result ]]; do sleep 1; done
   sleep 0.5
 fi
+[[ ${FLEXRF_LONG-} == part* ]] && echo "1/1 Test #1: it ....   Passed  1 s"
 [[ $2 == */checked && -e $STAND_IN/failing ]] && { echo "75% tests passed, 1 tests failed out of 4"; exit 8; }
 echo "100% tests passed, 0 tests failed out of 4"
 BODY
@@ -77,8 +78,20 @@ expect "selections of --full" "$(test_calls | grep -e ' -L')" "*/fuzz * -L ^fuzz
 expect "what is built of fuzz" "$(grep "^ninja .*/fuzz" "$calls")" "*tests_fuzz"
 
 : >"$calls"
+printf '%s\t%s\n' it "$tree/build/release/it" other "$tree/build/release/other" it "$tree/cmake" >"$tree/build/release/tests_read.txt"
+printf 'tries part %%u of %%u\n' >"$tree/build/release/it"
+printf 'tries nothing\n' >"$tree/build/release/other"
+chmod +x "$tree"/build/release/{it,other}
 flexrf test --soak </dev/null
+expect "exit code of --soak" "$status" 0
+expect "orders of --soak" "$(grep -e '^ctest .*-j' -e '^long: part' "$calls" | head -n 4)" \
+  "ctest */release * -R ^(it)\$"$'\n'"long: part 1 of 20"$'\n'"ctest */release * -R ^(it)\$"$'\n'"long: part 2 of 20"
+expect "parts of --soak" "$(grep -c '^long: part' "$calls")" 20
 expect "image of --soak" "$(grep ^image "$calls")" "image soak campaign; long: 1"
+: >"$calls"
+flexrf test --soak </dev/null
+expect "orders of a second --soak" "$(grep -c '^long: part' "$calls")" 0
+rm "$tree"/build/release/{it,other,tests_read.txt}
 
 : >"$calls"
 flexrf test tsan debug --no-memory </dev/null

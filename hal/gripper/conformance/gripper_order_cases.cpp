@@ -129,7 +129,7 @@ class Operator {
 
 Verdict no_order_of_events_moves_it(MakeGripperWorld make) {
   if (!make()->has_virtual_time()) return Verdict::skipped;
-  return verdict(hold_in_orders<Happening, 2, 4>(names, 10'000, [&](std::span<const Happening> order) {
+  return verdict(hold_in_orders<Happening, 2, 4>(names, 500, 10'000, [&](std::span<const Happening> order) {
     const auto world = make();
     Operator person(*world);
     // Stopped in the middle of its way, and left there.

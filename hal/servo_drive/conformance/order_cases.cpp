@@ -173,7 +173,7 @@ Verdict no_order_of_events_moves_it(MakeServoDriveWorld make, ServoMode mode) {
   if (const auto world = make(setup);
       !world->shares_its_cycle() || !world->lose_drive() || !world->find_drive())
     return Verdict::skipped;
-  return verdict(hold_in_orders<Event, 2, 4>(names, 7000, [&](std::span<const Event> order) {
+  return verdict(hold_in_orders<Event, 2, 4>(names, 500, 7000, [&](std::span<const Event> order) {
     const auto world = make(setup);
     Person person(*world, mode);
     // It has been led somewhere already.

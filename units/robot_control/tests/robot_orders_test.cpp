@@ -64,17 +64,17 @@ void one_that_speaks_after_start_stays(void**) {
 
 // [robot-arm-12] [stop-3] [stop-96]
 void no_order_moves_a_mock(void**) {
-  arm_orders::no_order_moves_it<Leader, MockedArm, 4, 4>(20'000);
+  arm_orders::no_order_moves_it<Leader, MockedArm, 4, 4>(1'000, 20'000);
 }
 
 // [stop-96]
 void no_order_moves_a_melfa(void**) {
-  arm_orders::no_order_moves_it<Leader, MelfaArm, 2, 4>(5'000);
+  arm_orders::no_order_moves_it<Leader, MelfaArm, 2, 4>(500, 5'000);
 }
 
 // [stop-96]
 void no_order_moves_an_arm_of_drives(void**) {
-  arm_orders::no_order_moves_it<Leader, ArmOfSimulatedDrives, 2, 4>(2'000);
+  arm_orders::no_order_moves_it<Leader, ArmOfSimulatedDrives, 2, 4>(200, 2'000);
 }
 
 }  // namespace

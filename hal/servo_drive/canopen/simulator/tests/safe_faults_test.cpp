@@ -162,7 +162,7 @@ class FaultyCell {
 
 template <Mode Of>
 void what_counts_as_off_stands(void**) {
-  const bool held = hold_in_orders<Fault, 2, 3>(names, 5000, [](std::span<const Fault> order) {
+  const bool held = hold_in_orders<Fault, 2, 3>(names, 300, 5000, [](std::span<const Fault> order) {
     FaultyCell cell(Of);
     for (const Fault fault : order) cell.happens(fault);
     const bool rightly = cell.is_made_safe_rightly();
