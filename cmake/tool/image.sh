@@ -110,10 +110,10 @@ version_text() {  # when the last commit was made, and which it is
   printf '%s%s%s\n' "$(TZ=UTC date -d "@${time:-$SOURCE_DATE_EPOCH}" +%Y%m%dT%H%M%SZ)" "${commit:+-$commit}" "$changed"
 }
 
-make_identity() {  # make_identity WORK APPLICATION: what version this is, and whose updates it takes
+make_identity() {  # make_identity WORK APPLICATION DRIVERS: what version this is, and whose updates it takes
   mkdir "$1/identity" && cp "$image_keyring" "$1/identity/keyring.pem" && chmod 644 "$1/identity/keyring.pem" &&
     printf '%s\n' "application=$2" "version=${image_version:-$(version_text)}" "built=$SOURCE_DATE_EPOCH" "development_key=$development_key" \
-      >"$1/identity/version"
+      "drivers=$3" >"$1/identity/version"
 }
 
 make_root() {  # make_root WORK APPLICATION PC [ARGUMENT...]
@@ -180,16 +180,18 @@ time_of_version() { printf '%s\n' "${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 
 
 # The two partitions of a version, of which disks and bundles are made.
 make_version() {  # make_version WORK APPLICATION product|test [ARGUMENT...]: boot.img, root.img and identity/version in WORK
-  local work=$1 application=$2 variant=$3 options pc=$root/apps/$2/pc
+  local work=$1 application=$2 variant=$3 executable=$root/build/release/apps/$2/$2 options drivers pc=$root/apps/$2/pc
   shift 3
   umask 022
   [[ -f $pc/machine.conf ]] || pc=$disk_scripts
   SOURCE_DATE_EPOCH=$(time_of_version)
   export SOURCE_DATE_EPOCH
   [[ $development_key ]] || choose_keys # the command has done so before it built
-  "$root/build/release/apps/$application/$application" --descriptor </dev/null >"$work/descriptor" || die "the application does not say what it is"
+  "$executable" --descriptor </dev/null >"$work/descriptor" || die "the application does not say what it is"
+  drivers=$("$executable" "$@" --drivers </dev/null) || die "with these ARGS the application would not start on the PC"
   options=$(bash "$disk_scripts/kernel_options.sh" "$work/descriptor" "$pc/machine.conf") || exit 1
-  make_identity "$work" "$application" || die "what version this is could not be written"
+  say "drivers: ${drivers//,/, }"
+  make_identity "$work" "$application" "$drivers" || die "what version this is could not be written"
   take_time "took the kernel" make_image_kernel || die "there is no kernel for the image"
   take_time "made the start" make_boot "$work" "$options" || die "the partition with the kernel could not be made"
   take_time "made the root" make_root "$work" "$application" "$pc" "$@" || die "the root could not be made"

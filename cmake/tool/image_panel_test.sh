@@ -3,11 +3,12 @@
 # are the product's.
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
-make_product_update() (  # a bundle with another version, of what the claimed PC runs
+make_product_update() (  # a bundle with another version, of what the claimed PC runs, which says that its camera has another driver
   work=$pc_folder/product
   rm -rf "$work"
   mkdir -p "$work/identity" && take_partition "$claimed/bios.img" root-a "$work/packed" && take_partition "$claimed/bios.img" boot-a "$work/boot.img" &&
-    unsquashfs -q -n -d "$work/root" "$work/packed" >/dev/null && cp "$work/root/usr/lib/flexrf/version" "$work/identity/" &&
+    unsquashfs -q -n -d "$work/root" "$work/packed" >/dev/null &&
+    sed -i '/^drivers=/s/camera=simulated/camera=v4l2/' "$work/root/usr/lib/flexrf/version" && cp "$work/root/usr/lib/flexrf/version" "$work/identity/" &&
     version_of_test pack_changed "$work" second "$pc_folder/second.raucb" && rm -rf "$work"
 )
 
@@ -80,7 +81,8 @@ an_admin_at_the_panel() {
     restore_pc "$uefi/uefi.memory" admin uefi "$pc_folder/admin.img" && log_in &&
     await_machine '.version == "first" and .slot == "A" and .boot == "confirmed" and .development_key' && another_address_is_kept &&
     send_bundle "$pc_folder/second.raucb" && await_machine '.update.phase == "verified" and .update.version == "second" and (.update.older | not)' &&
-    ask_machine 200 install && await_machine '.update.phase == "installed"' &&
+    await_machine '.update.driver_changes == [{"device": "camera", "from": "simulated", "to": "v4l2"}] and (.drivers | contains("camera=simulated"))' &&
+    ask_machine 409 install && ask_machine 200 install '{"other_drivers": true}' && await_machine '.update.phase == "installed"' &&
     await_machine '.motion == "an update was installed: the PC has to be restarted" and .slots.B.whole and .slots.B.primary' &&
     ask_machine 200 restart && await_line 'the version in slot B has confirmed itself' && log_in &&
     await_machine '.version == "second" and .slot == "B" and .boot == "trial" and .confirmed and .slots.A.version == "first"' &&

@@ -7,11 +7,28 @@
 
 namespace flexrf::config_gen {
 
-constexpr std::array<std::string_view, 22> own_options = {
-    "--audit",       "--config",      "--descriptor",         "--digest",          "--hardware",
-    "--help",        "--helper",      "--insecure-http",      "--motion-permit",   "--no-autostart",
-    "--no-realtime", "--panel",       "--panel-edit-timeout", "--panel-host",      "--panel-users",
-    "--report",      "--seed",        "--standstill-limit",   "--tls-certificate", "--tls-key",
-    "--version",     "--virtual-time"};
+constexpr std::array<std::string_view, 23> own_options = {"--audit",
+                                                          "--config",
+                                                          "--descriptor",
+                                                          "--digest",
+                                                          "--drivers",
+                                                          "--hardware",
+                                                          "--help",
+                                                          "--helper",
+                                                          "--insecure-http",
+                                                          "--motion-permit",
+                                                          "--no-autostart",
+                                                          "--no-realtime",
+                                                          "--panel",
+                                                          "--panel-edit-timeout",
+                                                          "--panel-host",
+                                                          "--panel-users",
+                                                          "--report",
+                                                          "--seed",
+                                                          "--standstill-limit",
+                                                          "--tls-certificate",
+                                                          "--tls-key",
+                                                          "--version",
+                                                          "--virtual-time"};
 
 }  // namespace flexrf::config_gen

@@ -49,6 +49,11 @@ std::string version_file(const UpdateFiles& files, boot::Slot slot) {
   return files.folder + (slot == boot::Slot::a ? "/version-a" : "/version-b");
 }
 
+NamedLines version_lines(const UpdateFiles& files, boot::Slot slot) {
+  const Result<NamedLines> lines = NamedLines::read(version_file(files, slot));
+  return lines ? *lines : NamedLines{};
+}
+
 boot::Running read_running(const Files& files) {
   std::ifstream file(files.command_line);
   return boot::running_from(

@@ -5,6 +5,7 @@
 
 #include "base/time.hpp"
 #include "image/helper/files.hpp"
+#include "image/helper/named_lines.hpp"
 #include "image/helper/permission.hpp"
 
 namespace flexrf::helper {
@@ -16,6 +17,8 @@ inline constexpr Duration wait_for_choice = std::chrono::seconds{2};
 Facts read_facts(const Files& files, Duration wait);
 /// What stands in it tells the version in a slot to the one in the other. Any thread.
 std::string version_file(const UpdateFiles& files, boot::Slot slot);
+/// What it tells; nothing where it cannot be read. Any thread.
+NamedLines version_lines(const UpdateFiles& files, boot::Slot slot);
 /// What GRUB told of this boot. Any thread.
 boot::Running read_running(const Files& files);
 

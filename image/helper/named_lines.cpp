@@ -14,7 +14,7 @@ NamedLines NamedLines::of(std::string_view text) {
     text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
     const std::size_t sign = line.find('=');
     if (sign == std::string_view::npos) continue;
-    lines.values_[std::string{line.substr(0, sign)}] = line.substr(sign + 1, longest_value);
+    lines.values_[std::string{line.substr(0, sign)}] = line.substr(sign + 1);
   }
   return lines;
 }
@@ -26,6 +26,10 @@ Result<NamedLines> NamedLines::read(const std::string& file) {
 }
 
 std::string NamedLines::text(std::string_view name) const {
+  return whole(name).substr(0, longest_value);
+}
+
+std::string NamedLines::whole(std::string_view name) const {
   const auto found = values_.find(name);
   return found == values_.end() ? std::string{} : found->second;
 }

@@ -10,7 +10,6 @@
 
 namespace flexrf::helper {
 
-/// What others wrote goes to people: values are cut to `longest_value` bytes.
 class NamedLines {
  public:
   static constexpr std::size_t longest_value = 200;
@@ -20,8 +19,10 @@ class NamedLines {
   /// not_found: there is no such file. Blocks.
   static Result<NamedLines> read(const std::string& file);
 
-  /// Empty: there is none.
+  /// Cut to `longest_value` bytes, as what others wrote goes to people. Empty: there is none.
   std::string text(std::string_view name) const;
+  /// All of it. Empty: there is none.
+  std::string whole(std::string_view name) const;
   /// 0: there is none.
   std::uint64_t number(std::string_view name) const;
 

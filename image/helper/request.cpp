@@ -17,8 +17,8 @@ constexpr std::array<Shape, 8> shapes = {
     {{Verb::state, "state", {}},
      {Verb::upload, "upload", {"user", "password", "size"}},
      {Verb::part, "part", {"upload", "offset"}},
-     {Verb::install, "install", {"user", "password", "older"}},
-     {Verb::choose, "choose", {"user", "password", "slot"}},
+     {Verb::install, "install", {"user", "password", "older", "other_drivers"}},
+     {Verb::choose, "choose", {"user", "password", "slot", "other_drivers"}},
      {Verb::restart, "restart", {"user", "password"}},
      {Verb::network, "network", {"user", "password", "interface", "address", "gateway"}},
      {Verb::keep_network, "keep-network", {"user", "password", "reached_by"}}}};
@@ -59,6 +59,7 @@ Request taken(Fields& fields, const Shape& shape) {
     if (member == "size") request.size = fields.integer(member);
     if (member == "offset") request.offset = fields.integer(member);
     if (member == "older") request.older = fields.boolean(member);
+    if (member == "other_drivers") request.other_drivers = fields.boolean(member);
   }
   return request;
 }

@@ -20,11 +20,12 @@ struct Request {
   Verb verb = Verb::state;
   std::string user;
   std::string password;
-  std::uint64_t size = 0;    ///< of the bundle, bytes
-  std::string upload;        ///< the token
-  std::uint64_t offset = 0;  ///< of the part
-  std::string bytes;         ///< the part
-  bool older = false;        ///< a bundle that is older than what runs may be installed
+  std::uint64_t size = 0;      ///< of the bundle, bytes
+  std::string upload;          ///< the token
+  std::uint64_t offset = 0;    ///< of the part
+  std::string bytes;           ///< the part
+  bool older = false;          ///< a bundle that is older than what runs may be installed
+  bool other_drivers = false;  ///< devices may get other drivers than those that run
   boot::Slot slot = boot::Slot::a;
   std::string interface;  ///< of the network
   std::string address;    ///< its setting, see parse_setting()

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/json_writer.hpp"
+#include "image/helper/driver_changes.hpp"
 #include "image/helper/facts.hpp"
 #include "image/helper/named_lines.hpp"
 #include "image/helper/network.hpp"
@@ -35,31 +36,33 @@ void add_lines(std::vector<std::string>& notices, const std::string& file) {
   }
 }
 
-/// As the unit left it that wrote the slot: lines, or the version alone.
-std::string version_in(const Files& files, boot::Slot slot) {
-  const Result<std::string> text = read_file(version_file(files.update, slot));
-  if (!text) return {};
-  const std::string named = NamedLines::of(*text).text("version");
-  return named.empty() && text->find('=') == std::string::npos
-             ? text->substr(0, std::min(text->find('\n'), NamedLines::longest_value))
-             : named;
+void write_changes(JsonWriter& json, const std::vector<DriverChange>& changes) {
+  json.key("driver_changes").begin_array();
+  for (const DriverChange& change : changes) {
+    json.begin_object().member("device", change.device).member("from", change.from);
+    json.member("to", change.to).end_object();
+  }
+  json.end_array();
 }
 
-void write_slots(JsonWriter& json, const Files& files, const Facts& facts, const std::string& version) {
+void write_slots(JsonWriter& json, const Files& files, const Facts& facts, const NamedLines& running) {
   json.key("slots").begin_object();
   for (const boot::Slot slot : {boot::Slot::a, boot::Slot::b}) {
     const bool is_whole = facts.choice && facts.choice->of(slot).is_whole;
     const bool runs = facts.running.slot == slot;
     json.key(slot == boot::Slot::a ? "A" : "B").begin_object();
-    json.member("version", runs ? version : is_whole ? version_in(files, slot) : std::string{});
+    const NamedLines lines = runs ? running : is_whole ? version_lines(files.update, slot) : NamedLines{};
+    json.member("version", lines.text("version"));
     json.member("whole", is_whole).member("primary", facts.choice && facts.choice->primary == slot);
+    write_changes(json, is_whole ? driver_changes(running.whole("drivers"), lines.whole("drivers"))
+                                 : std::vector<DriverChange>{});
     json.end_object();
   }
   json.end_object();
 }
 
 void write_update(JsonWriter& json, const Progress& progress, const Upload::Received& upload,
-                  std::uint64_t built) {
+                  const NamedLines& running) {
   const bool is_receiving = upload.is_under_way;
   const JobResult& bundle = progress.bundle;
   const std::uint64_t percent =
@@ -68,7 +71,10 @@ void write_update(JsonWriter& json, const Progress& progress, const Upload::Rece
   json.member("phase", name_of(is_receiving ? Phase::receiving : progress.phase));
   json.member("received", upload.bytes).member("size", upload.size).member("percent", percent);
   json.member("version", bundle.version).member("application", bundle.application);
-  json.member("older", bundle.state == JobState::done && bundle.built < built);
+  const bool is_known = bundle.state == JobState::done;
+  json.member("older", is_known && bundle.built < running.number("built"));
+  write_changes(json, is_known ? driver_changes(running.whole("drivers"), bundle.drivers)
+                               : std::vector<DriverChange>{});
   json.member("why", progress.why).end_object();
 }
 
@@ -105,16 +111,15 @@ std::vector<std::string> notices_of(const Files& files) {
 std::string state_answer(const Files& files, const Facts& facts, const OfThisMoment& moment) {
   const Result<NamedLines> read = NamedLines::read(files.version);
   const NamedLines running = read ? *read : NamedLines{};
-  const std::string version = running.text("version");
   JsonWriter json{std::string{}};
   json.begin_object().member("ok", true);
-  json.member("application", running.text("application")).member("version", version);
-  json.member("built", running.number("built"));
+  json.member("application", running.text("application")).member("version", running.text("version"));
+  json.member("built", running.number("built")).member("drivers", running.whole("drivers"));
   json.member("slot",
               facts.running.slot ? std::string(1, boot::letter_of(*facts.running.slot)) : std::string{});
   json.member("boot", facts.running.why.empty() ? "unknown" : facts.running.why);
   json.member("confirmed", is_confirmed(facts));
-  write_slots(json, files, facts, version);
+  write_slots(json, files, facts, running);
   json.member("claimed", facts.is_claimed);
   json.member("motion", moment.word.empty() ? permission_of(facts) : moment.word);
   json.member("development_key", running.text("development_key") == "yes");
@@ -124,7 +129,7 @@ std::string state_answer(const Files& files, const Facts& facts, const OfThisMom
   json.member("healthy_for_s", seconds(moment.health.so_far));
   json.member("healthy_needed_s", seconds(moment.health_needed));
   json.member("why_not_healthy", moment.health.why_not);
-  write_update(json, read_progress(files.update), moment.upload, running.number("built"));
+  write_update(json, read_progress(files.update), moment.upload, running);
   write_network(json, files.network, moment);
   json.end_object();
   return json.release();

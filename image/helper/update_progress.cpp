@@ -50,6 +50,7 @@ JobResult read_result(const UpdateFiles& files, Job job) {
   result.application = lines->text("application");
   result.version = lines->text("version");
   result.built = lines->number("built");
+  result.drivers = lines->whole("drivers");
   result.why = result.state == JobState::unknown ? file + " does not say how far it is" : lines->text("why");
   return result;
 }
@@ -76,6 +77,10 @@ std::string bundle_of(const UpdateFiles& files) {
 
 std::string permission_for_older(const UpdateFiles& files) {
   return files.folder + "/older-is-allowed";
+}
+
+std::string permission_for_drivers(const UpdateFiles& files) {
+  return files.folder + "/other-drivers-are-allowed";
 }
 
 const char* name_of(Phase phase) noexcept {

@@ -29,6 +29,7 @@ struct JobResult {
   std::string application;
   std::string version;
   std::uint64_t built = 0;  ///< seconds since 1970; 0: not told
+  std::string drivers;      ///< which driver each device has, as --hardware takes it; empty: not told
   std::string why;          ///< it failed, or the file tells nothing
 
   bool is_under_way() const noexcept { return state == JobState::starting || state == JobState::running; }
@@ -45,6 +46,8 @@ Status remove_result(const UpdateFiles& files, Job job);
 std::string bundle_of(const UpdateFiles& files);
 /// Permits the unit to install a bundle that is older than what runs.
 std::string permission_for_older(const UpdateFiles& files);
+/// Permits it to install one whose devices have other drivers than those that run.
+std::string permission_for_drivers(const UpdateFiles& files);
 
 enum class Phase : std::uint8_t {
   none,

@@ -10,6 +10,7 @@
 #include "image/boot/environment.hpp"
 #include "image/boot/folder_medium.hpp"
 #include "image/boot/verbs.hpp"
+#include "image/helper/driver_changes.hpp"
 #include "image/helper/named_lines.hpp"
 #include "runtime/parameters/durable_file.hpp"
 #include "web-ui/server/access/login_log.hpp"
@@ -108,10 +109,10 @@ Answer Verbs::take_part(const Request& request) {
 }
 
 Answer Verbs::install(const Request& request) {
-  bool is_older = false;
-  if (Answer fit = check_installable(request, is_older); !fit.is_done()) return fit;
+  Deviation deviation;
+  if (Answer fit = check_installable(request, deviation); !fit.is_done()) return fit;
   if (Answer held = hold_motion(installing); !held.is_done()) return held;
-  Answer answer = answer_of(permit_older(is_older));
+  Answer answer = answer_of(permit(deviation));
   if (answer.is_done()) answer = answer_of(write_starting(files_.update, Job::install));
   if (answer.is_done()) answer = start(Job::install);
   // Else the word is held until the unit has said something: what it begins with is to write its file anew.
@@ -120,7 +121,7 @@ Answer Verbs::install(const Request& request) {
   return answer;
 }
 
-Answer Verbs::check_installable(const Request& request, bool& is_older) const {
+Answer Verbs::check_installable(const Request& request, Deviation& deviation) const {
   const Progress progress = read_progress(files_.update);
   if (Answer free = check_not_installing(progress); !free.is_done()) return free;
   if (progress.phase == Phase::installed) return refuse(409, was_installed);
@@ -143,10 +144,24 @@ Answer Verbs::check_installable(const Request& request, bool& is_older) const {
   const Result<NamedLines> running = NamedLines::read(files_.version);
   if (!running)
     return refuse(503, std::string{"which version runs cannot be told: "} + running.status().cause());
-  is_older = progress.bundle.built < running->number("built");
-  if (is_older && !request.older)
+  deviation.is_older = progress.bundle.built < running->number("built");
+  if (deviation.is_older && !request.older)
     return refuse(409, "the bundle is older than what runs; install it with 'older' if that is meant");
+  deviation.has_other_drivers = progress.bundle.drivers != running->whole("drivers");
+  if (Answer meant = check_drivers(request, progress.bundle.drivers); !meant.is_done()) return meant;
   return check_standstill();
+}
+
+/// A version with simulated drivers finds itself healthy on a PC whose real ones nobody asks then.
+Answer Verbs::check_drivers(const Request& request, const std::string& other) const {
+  const Result<NamedLines> running = NamedLines::read(files_.version);
+  if (!running)
+    return refuse(503, std::string{"which drivers run cannot be told: "} + running.status().cause());
+  const std::vector<DriverChange> changes = driver_changes(running->whole("drivers"), other);
+  if (changes.empty() || request.other_drivers) return {};
+  return refuse(409, (other.empty() ? "that version does not say which drivers its devices have"
+                                    : "that version has other drivers (" + text_of(changes) + ")") +
+                         "; ask again with 'other_drivers' if that is meant");
 }
 
 Answer Verbs::choose(const Request& request) {
@@ -163,6 +178,10 @@ Answer Verbs::choose(const Request& request) {
     if (!choice.of(request.slot).is_whole)
       return refuse(409, "slot " + letter + " has no whole version; install one there");
     if (choice.primary == request.slot) return refuse(409, "slot " + letter + " is chosen already");
+  }
+  if (read_running(files_).slot != request.slot) {
+    const std::string drivers = version_lines(files_.update, request.slot).whole("drivers");
+    if (Answer meant = check_drivers(request, drivers); !meant.is_done()) return meant;
   }
   const boot::Outcome outcome = boot::perform({"set-primary", letter}, medium, read_running(files_));
   if (outcome.exit == boot::Exit::done) return {};
@@ -225,12 +244,19 @@ Answer Verbs::hold_motion(const std::string& why) {
   }
 }
 
-Status Verbs::permit_older(bool is_permitted) const {
-  const std::string file = permission_for_older(files_.update);
-  if (is_permitted) return replace_file(file, "");
-  if (unlink(file.c_str()) == 0 || errno == ENOENT) return {};
-  return Status::error(StatusCode::unavailable, "cannot remove '%s': %s", file.c_str(),
-                       cause_of(errno).c_str());
+Status Verbs::permit(const Deviation& deviation) const {
+  const std::pair<std::string, bool> permissions[] = {
+      {permission_for_older(files_.update), deviation.is_older},
+      {permission_for_drivers(files_.update), deviation.has_other_drivers}};
+  for (const auto& [file, is_permitted] : permissions) {
+    if (is_permitted) {
+      if (const Status written = replace_file(file, ""); !written) return written;
+    } else if (unlink(file.c_str()) != 0 && errno != ENOENT) {
+      return Status::error(StatusCode::unavailable, "cannot remove '%s': %s", file.c_str(),
+                           cause_of(errno).c_str());
+    }
+  }
+  return {};
 }
 
 Answer Verbs::start(Job job) {
@@ -266,7 +292,10 @@ void Verbs::release_when_unit_speaks() {
 
 void Verbs::remove_what_is_of_no_use() {
   const Progress progress = read_progress(files_.update);
-  if (!progress.install.is_under_way()) unlink(permission_for_older(files_.update).c_str());
+  if (!progress.install.is_under_way()) {
+    unlink(permission_for_older(files_.update).c_str());
+    unlink(permission_for_drivers(files_.update).c_str());
+  }
   // After a restart of the PC nothing is known of a bundle, and one that is installed or no good is not
   // needed.
   const bool is_needed = (progress.bundle.is_under_way() || progress.bundle.state == JobState::done) &&

@@ -51,10 +51,17 @@ class Verbs {
   Answer set_address(const Request& request);
   Answer keep_address(const std::string& reached_by);
 
-  Answer check_installable(const Request& request, bool& is_older) const;
+  /// How the bundle differs from what runs in a way that an admin has to have meant.
+  struct Deviation {
+    bool is_older = false;
+    bool has_other_drivers = false;
+  };
+
+  Answer check_installable(const Request& request, Deviation& deviation) const;
+  Answer check_drivers(const Request& request, const std::string& other) const;
   Answer check_standstill() const;
   Answer hold_motion(const std::string& why);
-  Status permit_older(bool is_permitted) const;
+  Status permit(const Deviation& deviation) const;
   Answer start(Job job);
   void look_after(Job job);
   void release_when_unit_speaks();

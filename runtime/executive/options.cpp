@@ -30,6 +30,8 @@ constexpr std::array own_options{
     Option{"--motion-permit", OptionKind::text, "FILE",
            "nothing moves unless this file says `permitted`; else its first line says why not"},
     Option{"--descriptor", OptionKind::flag, nullptr, "print descriptor.json and end"},
+    Option{"--drivers", OptionKind::flag, nullptr,
+           "print which driver each device has, as --hardware takes it, and end"},
     Option{"--version", OptionKind::flag, nullptr, "which application of which FlexRF this is"},
     Option{"--help", OptionKind::flag, nullptr, "this text"},
 };

@@ -15,6 +15,7 @@
 
 #include "base/quantity_text.hpp"
 #include "base/standard_descriptors.hpp"
+#include "runtime/executive/driver_choice.hpp"
 #include "runtime/executive/executive.hpp"
 #include "runtime/executive/file_options.hpp"
 #include "runtime/log/log.hpp"
@@ -121,6 +122,11 @@ Status check_stack() {
   if (asked.has("--help")) return answer(application, usage(application, part));
   if (asked.has("--version")) return answer(application, version_line(application));
   if (asked.has("--descriptor")) return answer(application, std::string{application.descriptor_json} + "\n");
+  if (asked.has("--drivers")) {
+    const auto drivers = choose_drivers(application, *options);
+    return drivers ? answer(application, hardware_text(application, *drivers) + "\n")
+                   : refuse(application, drivers.status());
+  }
   if (const Status status = check_file_options(*options); !status) return refuse(application, status);
   InstanceLock lock;
   Executive executive(application, *options);

@@ -72,7 +72,7 @@ void an_update_goes_through() {
   state = client.ask({}, "state");
   CHECK_EQUAL(state.at("update").at("phase"), "verified");
   CHECK_EQUAL(state.at("update").at("version"), "v2");
-  CHECK(client.ask(with(anna, {{"older", false}}), "install").at("ok").get<bool>());
+  CHECK(client.ask(with(anna, {{"older", false}, {"other_drivers", false}}), "install").at("ok").get<bool>());
   CHECK_CONTAINS(asked_of_systemd(pc), "start --no-block flexrf-update@install.service\n");
   CHECK_EQUAL(pc.word(), "an update is being installed\n");
   // Who kills the helper now moves nothing by it.

@@ -244,7 +244,7 @@ void a_standard_output_that_fails_is_seen_behind_a_signal() {
 }
 
 void an_answer_that_is_not_written_is_an_error() {
-  for (const char* const option : {"--help", "--version", "--descriptor"}) {
+  for (const char* const option : {"--help", "--version", "--descriptor", "--drivers"}) {
     const Folder folder;
     Process process(folder, {application, option}, Input::pipe,
                     [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });

@@ -46,6 +46,8 @@ class Pc {
       if (update["phase"] != "verified") return refusal(409, "Nothing is verified: upload an update first.");
       if (update.value("older", false) && !request.at("older").get<bool>())
         return refusal(409, "It is older than what runs: say that it may be.");
+      if (!update["driver_changes"].empty() && !request.at("other_drivers").get<bool>())
+        return refusal(409, "It has other drivers: say that it may.");
       begin("installing");
     } else if (verb == "choose") {
       make_primary(request.at("slot"));
@@ -114,7 +116,8 @@ class Pc {
     } else {
       update["phase"] = "installed";
       const std::string other = state_["slot"] == "A" ? "B" : "A";
-      state_["slots"][other] = {{"version", update["version"]}, {"whole", true}};
+      state_["slots"][other] = {
+          {"version", update["version"]}, {"whole", true}, {"driver_changes", json::array()}};
       make_primary(other);
     }
   }
@@ -144,8 +147,8 @@ class Pc {
       {"boot", "confirmed"},
       {"confirmed", true},
       {"slots",
-       {{"A", {{"version", running}, {"whole", true}, {"primary", true}}},
-        {"B", {{"version", ""}, {"whole", false}, {"primary", false}}}}},
+       {{"A", {{"version", running}, {"whole", true}, {"primary", true}, {"driver_changes", json::array()}}},
+        {"B", {{"version", ""}, {"whole", false}, {"primary", false}, {"driver_changes", json::array()}}}}},
       {"claimed", true},
       {"motion", "permitted"},
       {"development_key", false},
@@ -192,8 +195,9 @@ int main(int argument_count, char** arguments) {
     // A state has all its members, also those of an update that there is not.
     json whole = answer;
     if (whole.contains("update")) {
-      json update = {{"phase", "none"}, {"received", 0},     {"size", 0},      {"percent", 0},
-                     {"version", ""},   {"application", ""}, {"older", false}, {"why", ""}};
+      json update = {{"phase", "none"}, {"received", 0}, {"size", 0},
+                     {"percent", 0},    {"version", ""}, {"application", ""},
+                     {"older", false},  {"why", ""},     {"driver_changes", json::array()}};
       update.merge_patch(whole["update"]);
       whole["update"] = update;
     }

@@ -171,6 +171,48 @@ void an_older_bundle_has_to_be_meant() {
   CHECK_CONTAINS(refusal(bench.ask(meant)), "503 which version runs cannot be told");
 }
 
+/// Simulated drivers are healthy on every PC: only who is told of them keeps them off one with real ones.
+void other_drivers_have_to_be_meant() {
+  Bench bench;
+  const std::string permission = permission_for_drivers(bench.pc.files.update);
+  const auto runs_with = [&](const std::string& drivers) {
+    Pc::write(bench.pc.files.version, "version=v1\nbuilt=1000\n" + drivers);
+  };
+  const auto holds = [&](const std::string& drivers) {
+    bench.pc.result(Job::install, "state=failed\nwhy=\n");
+    bench.pc.has_verified_bundle("2000\n" + drivers);
+  };
+  Request meant = request(Verb::install);
+  meant.other_drivers = true;
+  runs_with("drivers=arm=canopen,camera=v4l2,lamp=gpio,gripper=robotiq,valve=gpio\n");
+  holds("drivers=arm=simulated,camera=simulated,gripper=simulated,valve=gpio,horn=gpio\n");
+  CHECK_CONTAINS(bench.answer_to(Verb::install),
+                 "409 that version has other drivers (arm: canopen -> simulated, camera: v4l2 -> "
+                 "simulated, lamp: gpio -> none, and 2 more); ask again with 'other_drivers'");
+  CHECK(!bench.pc.has(permission));
+  CHECK_EQUAL(refusal(bench.ask(meant)), "200 ");
+  CHECK(bench.pc.has(permission));
+  bench.verbs->tick();
+  CHECK(bench.pc.has(permission));
+  bench.pc.result(Job::install, "state=failed\nwhy=\n");
+  bench.verbs->tick();
+  CHECK(!bench.pc.has(permission));
+  // The same drivers need no word, in whatever order they stand; the unit compares the lines.
+  runs_with("drivers=arm=canopen,lamp=gpio\n");
+  holds("drivers=lamp=gpio,arm=canopen\n");
+  CHECK_EQUAL(bench.answer_to(Verb::install), "200 ");
+  CHECK(bench.pc.has(permission));
+  holds("drivers=arm=canopen,lamp=gpio\n");
+  CHECK_EQUAL(refusal(bench.ask(meant)), "200 ");
+  CHECK(!bench.pc.has(permission));
+  // Neither of two versions is believed that does not tell them.
+  holds("");
+  CHECK_CONTAINS(bench.answer_to(Verb::install), "409 that version does not say which drivers its devices");
+  runs_with("");
+  holds("drivers=arm=canopen\n");
+  CHECK_CONTAINS(bench.answer_to(Verb::install), "409 that version has other drivers (arm: none -> canopen)");
+}
+
 void what_a_helper_began_the_next_one_goes_on_with() {
   Bench bench;
   bench.pc.has_verified_bundle();
@@ -231,6 +273,7 @@ int main() {
       CONTAINED_TEST(a_version_that_is_not_confirmed_installs_nothing),
       CONTAINED_TEST(the_only_version_need_not_be_confirmed_for_an_update),
       CONTAINED_TEST(an_older_bundle_has_to_be_meant),
+      CONTAINED_TEST(other_drivers_have_to_be_meant),
       CONTAINED_TEST(what_a_helper_began_the_next_one_goes_on_with),
       CONTAINED_TEST(a_result_that_nobody_understands_forbids_all_but_a_restart),
       CONTAINED_TEST(a_unit_that_never_begins_is_given_up),

@@ -41,8 +41,11 @@ void each_verb_has_its_members() {
   CHECK_EQUAL(part.upload, "00ff");
   CHECK_EQUAL(part.offset, 61440U);
   CHECK(part.bytes == bytes);
-  CHECK(request(R"({"verb":"install","user":"a","password":"b","older":true})").older);
-  CHECK(request(R"({"verb":"choose","user":"a","password":"b","slot":"B"})").slot == boot::Slot::b);
+  CHECK(request(R"({"verb":"install","user":"a","password":"b","older":true,"other_drivers":false})").older);
+  CHECK(request(R"({"verb":"install","user":"a","password":"b","older":false,"other_drivers":true})")
+            .other_drivers);
+  CHECK(request(R"({"verb":"choose","user":"a","password":"b","slot":"B","other_drivers":false})").slot ==
+        boot::Slot::b);
   CHECK(request(R"({"password":"b","user":"a","verb":"restart"})").verb == Verb::restart);
   const Request network = request(
       R"({"verb":"network","user":"a","password":"b","interface":"enp0s2","address":"10.0.2.16/24","gateway":"10.0.2.2"})");
@@ -70,11 +73,13 @@ void what_is_no_request_is_told_what_is_wrong() {
   CHECK_CONTAINS(refusal(R"({"verb":"upload","user":"a","password":"b","size":1.5})"),
                  "'size' is not an integer");
   CHECK_CONTAINS(refusal(R"({"verb":"upload","user":null,"password":"b","size":1})"), "'user' is not a text");
-  CHECK_CONTAINS(refusal(R"({"verb":"install","user":"a","password":"b","older":"no"})"),
-                 "'older' is not true or false");
-  CHECK_CONTAINS(refusal(R"({"verb":"choose","user":"a","password":"b","slot":"C"})"),
+  CHECK_CONTAINS(
+      refusal(R"({"verb":"install","user":"a","password":"b","older":"no","other_drivers":false})"),
+      "'older' is not true or false");
+  CHECK_CONTAINS(refusal(R"({"verb":"choose","user":"a","password":"b","slot":"C","other_drivers":false})"),
                  "400 'slot' is 'C'; the slots are A and B");
-  CHECK_CONTAINS(refusal(R"({"verb":"choose","user":"a","password":"b"})"), "400 'slot' is missing");
+  CHECK_CONTAINS(refusal(R"({"verb":"choose","user":"a","password":"b","other_drivers":false})"),
+                 "400 'slot' is missing");
   CHECK_CONTAINS(refusal("{\"verb\":\"restart\",\"user\":\"a\",\"password\":\"b\"}\n{\"verb\":\"state\"}"),
                  "400 behind the line of 'restart' comes nothing");
   CHECK_CONTAINS(refusal(R"({"verb":"part","upload":"00","offset":0})"), "400 the part's bytes are missing");

@@ -91,8 +91,9 @@ void an_upload_is_verified_by_a_unit() {
       Job::verify,
       "state=done\npercent=100\napplication=pick-station\nversion=20270101T000000Z-1\nbuilt=2000\n");
   CHECK_CONTAINS(bench.state(), R"("phase":"verified")");
-  CHECK_CONTAINS(bench.state(),
-                 R"("version":"20270101T000000Z-1","application":"pick-station","older":false,"why":""},)");
+  CHECK_CONTAINS(
+      bench.state(),
+      R"("version":"20270101T000000Z-1","application":"pick-station","older":false,"driver_changes":[],"why":""},)");
   // A new one begins: what was verified is gone with its results.
   CHECK_EQUAL(bench.answer_to(Verb::upload), "200 ");
   CHECK(!bench.pc.has(bench.pc.bundle()));
@@ -124,12 +125,21 @@ void a_slot_is_chosen_that_is_whole() {
   running.slot = boot::Slot::a;
   CHECK_CONTAINS(refusal(bench.ask(running)), "409 slot A is chosen already");
   bench.pc.choose({"mark-whole", "B", bench.pc.files.command_line});
-  CHECK_EQUAL(bench.answer_to(Verb::choose), "200 ");
+  Pc::write(bench.pc.files.version, "version=v1\nbuilt=1000\ndrivers=arm=canopen\n");
+  Pc::write(bench.pc.files.update.folder + "/version-b", "version=v0\ndrivers=arm=simulated\n");
+  CHECK_CONTAINS(bench.answer_to(Verb::choose),
+                 "409 that version has other drivers (arm: canopen -> simulated); ask again with "
+                 "'other_drivers' if that is meant");
+  fs::remove(bench.pc.files.update.folder + "/version-b");
+  CHECK_CONTAINS(bench.answer_to(Verb::choose), "409 that version does not say which drivers");
+  Request meant = request(Verb::choose);
+  meant.other_drivers = true;
+  CHECK_EQUAL(refusal(bench.ask(meant)), "200 ");
   CHECK_CONTAINS(bench.pc.said.back(), "choose by 'anna' from uid 990, process 7, slot B: accepted");
   CHECK(bench.pc.says("primary=B"));
   CHECK_CONTAINS(
       bench.state(),
-      R"("slot":"A","boot":"only","confirmed":true,"slots":{"A":{"version":"20261128T001500Z-4fb48992","whole":true,"primary":false},"B":{"version":"","whole":true,"primary":true}})");
+      R"("slots":{"A":{"version":"v1","whole":true,"primary":false,"driver_changes":[]},"B":{"version":"","whole":true,"primary":true,"driver_changes":[{"device":"arm","from":"canopen","to":""}]}})");
   CHECK_EQUAL(refusal(bench.ask(running)), "200 ");
   CHECK(bench.pc.says("primary=A"));
   fs::remove_all(bench.pc.files.choice);
@@ -158,28 +168,31 @@ void the_state_tells_all() {
   Pc::write(bench.pc.files.notices + "/data",
             "the data partition was made anew\n\xff" + std::string(500, 'x') + '\n');
   Pc::write(bench.pc.files.version,
-            "application=pick-station\nversion=v1\nbuilt=1795824900\ndevelopment_key=yes\n");
+            "application=pick-station\nversion=v1\nbuilt=1795824900\ndevelopment_key=yes\n"
+            "drivers=arm=canopen,lamp=gpio\n");
   Pc::write(bench.pc.files.update.folder + "/version-a", "version=of another time\n");
-  Pc::write(bench.pc.files.update.folder + "/version-b", "application=pick-station\nversion=v0\n");
+  Pc::write(bench.pc.files.update.folder + "/version-b",
+            "application=pick-station\nversion=v0\ndrivers=arm=simulated,valve=gpio\n");
   bench.pc.choose({"mark-whole", "B", bench.pc.files.command_line});
   const std::string text = bench.state();
   CHECK_CONTAINS(
       text,
-      R"({"ok":true,"application":"pick-station","version":"v1","built":1795824900,"slot":"A","boot":"only","confirmed":true,)");
+      R"({"ok":true,"application":"pick-station","version":"v1","built":1795824900,"drivers":"arm=canopen,lamp=gpio","slot":"A","boot":"only","confirmed":true,)");
   CHECK_CONTAINS(
       text,
-      R"("slots":{"A":{"version":"v1","whole":true,"primary":true},"B":{"version":"v0","whole":true,"primary":false}},"claimed":true,)");
+      R"("slots":{"A":{"version":"v1","whole":true,"primary":true,"driver_changes":[]},"B":{"version":"v0","whole":true,"primary":false,"driver_changes":[)"
+      R"({"device":"arm","from":"canopen","to":"simulated"},{"device":"lamp","from":"gpio","to":""},{"device":"valve","from":"","to":"gpio"}]}},"claimed":true,)");
   CHECK_CONTAINS(
       text,
       R"("development_key":true,"notices":["choice0.env was damaged","the data partition was made anew",)");
   CHECK_CONTAINS(
       text,
-      R"("healthy_for_s":0,"healthy_needed_s":60,"why_not_healthy":"","update":{"phase":"none","received":0,"size":0,"percent":0,"version":"","application":"","older":false,"why":""},"network":[{"interface":"enp0s2",)");
+      R"("healthy_for_s":0,"healthy_needed_s":60,"why_not_healthy":"","update":{"phase":"none","received":0,"size":0,"percent":0,"version":"","application":"","older":false,"driver_changes":[],"why":""},"network":[{"interface":"enp0s2",)");
   // Without any of these files it still is an answer.
   for (const std::string& file : {bench.pc.files.version, bench.pc.files.users, bench.pc.files.command_line})
     fs::remove(file);
   fs::remove_all(bench.pc.files.choice);
-  CHECK_CONTAINS(bench.state(), R"("built":0,"slot":"","boot":"unknown","confirmed":false)");
+  CHECK_CONTAINS(bench.state(), R"("built":0,"drivers":"","slot":"","boot":"unknown","confirmed":false)");
 }
 
 }  // namespace

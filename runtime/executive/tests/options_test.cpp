@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "runtime/executive/driver_choice.hpp"
 #include "runtime/executive/file_options.hpp"
 #include "runtime/executive/tests/running_cell.hpp"
 
@@ -128,8 +129,8 @@ void help_lists_each_group_once() {
   CHECK(text.find("--level", driver + 40) == std::string::npos);
 }
 
-/// Which of two drivers the actuator has: 0 without options, 1 with them.
-std::size_t chosen_by(Words words) {
+/// Which driver the actuator has, as --drivers says it: "usual" without options, "other" with them.
+std::string chosen_by(Words words) {
   CellWithOptions cell;
   Application application = cell.application();
   DeviceRecord device = application.devices[0];
@@ -141,16 +142,20 @@ std::size_t chosen_by(Words words) {
   application.devices = {&device, 1};
   const Result<Options> options = words.parse(application);
   CHECK(options);
+  const auto chosen = choose_drivers(application, *options);
+  CHECK(chosen);
   Executive executive(application, *options);
   CHECK(executive.prepare());
-  return static_cast<std::size_t>(cell.device_state(Cell::actuator).driver - drivers);
+  CHECK(cell.device_state(Cell::actuator).driver == chosen->at(0));
+  return hardware_text(application, *chosen);
 }
 
 void an_option_that_chooses_its_driver_yields_to_hardware() {
-  CHECK_EQUAL(chosen_by({"--virtual-time", "1s"}), 0U);
-  CHECK_EQUAL(chosen_by({"--virtual-time", "1s", "--level", "1"}), 0U);
-  CHECK_EQUAL(chosen_by({"--virtual-time", "1s", "--loud"}), 1U);
-  CHECK_EQUAL(chosen_by({"--virtual-time", "1s", "--hardware", "actuator=usual", "--loud"}), 0U);
+  CHECK_EQUAL(chosen_by({"--virtual-time", "1s"}), "actuator=usual");
+  CHECK_EQUAL(chosen_by({"--virtual-time", "1s", "--level", "1"}), "actuator=usual");
+  CHECK_EQUAL(chosen_by({"--virtual-time", "1s", "--loud"}), "actuator=other");
+  CHECK_EQUAL(chosen_by({"--virtual-time", "1s", "--hardware", "actuator=usual", "--loud"}),
+              "actuator=usual");
 }
 
 /// With a pipe, a folder and a file in it; the current one.

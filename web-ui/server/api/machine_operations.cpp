@@ -85,12 +85,15 @@ void MachineOperations::act(const Caller& caller, std::string_view verb, Fields&
     set_text(waiting.what, "(" + std::to_string(size) + " bytes)");
   } else if (verb == "install") {
     const bool older = fields.has("older") && fields.boolean("older");
-    json.member("older", older);
-    set_text(waiting.what, update_ + (older ? ", though it is older" : ""));
+    const bool other_drivers = fields.has("other_drivers") && fields.boolean("other_drivers");
+    json.member("older", older).member("other_drivers", other_drivers);
+    set_text(waiting.what,
+             update_ + (older ? ", though it is older" : "") + (other_drivers ? ", with other drivers" : ""));
   } else if (verb == "choose") {
     const std::string_view slot = fields.text("slot");
-    json.member("slot", slot);
-    set_text(waiting.what, slot.substr(0, 1));
+    const bool other_drivers = fields.has("other_drivers") && fields.boolean("other_drivers");
+    json.member("slot", slot).member("other_drivers", other_drivers);
+    set_text(waiting.what, std::string{slot.substr(0, 1)} + (other_drivers ? ", with other drivers" : ""));
   } else if (verb == "network") {
     const std::string_view interface = fields.text("interface");
     const std::string_view address = fields.text("address");

@@ -7,8 +7,16 @@ export type BootWord = 'confirmed' | 'only' | 'trial' | 'fallback' | 'manual' | 
 export type SlotName = 'A' | 'B';
 export type UpdatePhase = 'none' | 'receiving' | 'verifying' | 'verified' | 'installing' | 'installed' | 'failed';
 
+/** Of a device, against the version that runs. Empty: there is no such device, or the version does not tell its driver. */
+export interface DriverChange {
+  readonly device: string;
+  readonly from: string;
+  readonly to: string;
+}
+
 export interface MachineSlot {
   readonly version: string;
+  readonly driver_changes: readonly DriverChange[];
   /** It holds a version that can start. */
   readonly whole: boolean;
   /** It starts next. */
@@ -25,6 +33,7 @@ export interface MachineUpdate {
   readonly version: string;
   readonly application: string;
   readonly older: boolean;
+  readonly driver_changes: readonly DriverChange[];
   /** Of a failure. */
   readonly why: string;
 }

@@ -5,7 +5,7 @@ import { MachineWatch, type MachineSlot, type MachineState, type SlotName } from
 import { MachineActs } from './machine_acts';
 import { machineButton, machineButtonStyles } from './machine_button';
 import './machine_network';
-import { ageOf, bootSentence, builtText, bytesText, confirmedSentence, motionSentence, otherSlot, slotSentence, updateSentence } from './machine_words';
+import { ageOf, bootSentence, builtText, bytesText, chosenDrivers, confirmedSentence, motionSentence, otherSlot, slotSentence, updateSentence } from './machine_words';
 import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
@@ -79,6 +79,7 @@ export class Machine extends ViewBase {
       <dl>
         <dt>Application</dt><dd>${known.application}</dd>
         <dt>Version</dt><dd>${known.version}, built ${builtText(known)}</dd>
+        <dt>Drivers</dt><dd>${chosenDrivers(this.core.model.drivers)}</dd>
         <dt>Runs from</dt><dd class=${known.boot === 'fallback' || known.boot === 'unknown' ? 'warning' : ''}>${bootSentence(known)}</dd>
         <dt>Confirmed</dt><dd>${confirmedSentence(known)}
           ${known.confirmed ? nothing : html`<br /><progress aria-label="Healthy so far" max=${known.healthy_needed_s} value=${known.healthy_for_s}></progress>`}</dd>

@@ -4,7 +4,7 @@ import { postJson, putBytes } from '../core/http';
 import { MachineWatch, type MachineState, type SlotName } from '../core/machine';
 import { added } from '../core/watchers';
 import { BundleUpload } from './bundle_upload';
-import { ageOf, bytesText, otherSlot } from './machine_words';
+import { ageOf, bytesText, driversSentence, otherSlot } from './machine_words';
 
 /** The PC's helper has 10 s for a part. */
 const partWithin = 15_000;
@@ -69,28 +69,32 @@ export class MachineActs {
   askInstall(state: MachineState): void {
     const { update } = state;
     const older = ageOf(state, update) === 'older';
+    const drivers = driversSentence(update.driver_changes);
     this.core.askPassword({
       heading: older ? 'Install this older version?' : 'Install this version?',
       says: [
         `${update.application} ${update.version} is written into slot ${otherSlot(state)}; what is there now is lost. Slot ${state.slot}, which runs, stays as it is.`,
         ...(older ? [`It is older than ${state.version}, which runs: faults that were mended since may come back.`] : []),
+        ...(drivers === '' ? [] : [drivers, 'A simulated driver moves no machine, and a real one does: install it only where you mean this change.']),
         ...(update.application === state.application ? [] : [`This PC runs ${state.application}: by this update it becomes another cell.`]),
         'Nothing may move while it is written, and until somebody gives Start motion again. It starts with the next restart, on trial: if it does not find itself healthy, the PC goes back.',
       ],
-      action: older ? 'Install the older version' : 'Install',
-      act: (password) => this.post('install', { password, older }),
+      action: drivers !== '' ? 'Install, with other drivers' : older ? 'Install the older version' : 'Install',
+      act: (password) => this.post('install', { password, older, other_drivers: drivers !== '' }),
     });
   }
 
   askChoose(state: MachineState, slot: SlotName): void {
+    const drivers = slot === state.slot ? '' : driversSentence(state.slots[slot]?.driver_changes ?? []);
     this.core.askPassword({
       heading: `Start slot ${slot} next?`,
       says: [
         `Slot ${slot} holds ${state.slots[slot]?.version || 'a version without a name'}. It starts with the next restart, on trial: if it does not find itself healthy, the PC goes back to slot ${state.slot}.`,
+        ...(drivers === '' ? [] : [drivers]),
         'Until the restart what runs goes on.',
       ],
       action: `Start slot ${slot} next`,
-      act: (password) => this.post('choose', { password, slot }),
+      act: (password) => this.post('choose', { password, slot, other_drivers: drivers !== '' }),
     });
   }
 

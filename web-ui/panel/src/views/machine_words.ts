@@ -1,5 +1,5 @@
 // What the PC's helper tells, in sentences for people.
-import type { BootWord, MachineSlot, MachineState, MachineUpdate, SlotName } from '../core/machine';
+import type { BootWord, DriverChange, MachineSlot, MachineState, MachineUpdate, SlotName } from '../core/machine';
 import { clockText } from '../core/words';
 
 const why: { readonly [word in BootWord]: string } = {
@@ -60,7 +60,25 @@ const ages: { readonly [age in Age]: string } = {
 export function updateSentence(state: MachineState): string {
   const { update } = state;
   const other = update.application === state.application ? '' : ` ⚠ This PC runs ${state.application}: it would become another cell.`;
-  return `${update.application} ${update.version}: ${ages[ageOf(state, update)]}.${other}`;
+  const drivers = update.driver_changes.length === 0 ? '' : ` ⚠ ${driversSentence(update.driver_changes)}`;
+  return `${update.application} ${update.version}: ${ages[ageOf(state, update)]}.${other}${drivers}`;
+}
+
+/** "It changes drivers: axis_x from canopen to simulated; valve is new, with gpio." Empty: it changes none. */
+export function driversSentence(changes: readonly DriverChange[]): string {
+  if (changes.length === 0) return '';
+  const parts = changes.map(({ device, from, to }) =>
+    to === '' ? `${device} had ${from}, and has none that is known`
+      : from === '' ? `${device} is new, with ${to}`
+        : `${device} from ${from} to ${to}`);
+  return `It changes drivers: ${parts.join('; ')}.`;
+}
+
+/** By driver, of the application that runs: "canopen: axis_x, axis_z; simulated: camera". */
+export function chosenDrivers(drivers: { readonly [device: string]: string }): string {
+  const devices = new Map<string, string[]>();
+  for (const [device, driver] of Object.entries(drivers)) devices.set(driver, [...(devices.get(driver) ?? []), device]);
+  return [...devices].map(([driver, names]) => `${driver}: ${names.join(', ')}`).join('; ') || 'There are no devices.';
 }
 
 export function builtText(state: MachineState): string {

@@ -136,16 +136,20 @@ void an_admin_updates_the_pc() {
   CHECK_EQUAL(world.helper.bytes(), 4U);
   CHECK(world.helper.asked("part").at(0) == json({{"verb", "part"}, {"upload", token}, {"offset", 1}}));
   world.rig.get("machine");  // what it is that is installed
-  CHECK(world.post("install", {{"password", "secret of adam"}, {"older", true}}).body == json::object());
+  CHECK(world.post("install", {{"password", "secret of adam"}, {"older", true}, {"other_drivers", true}})
+            .body == json::object());
   CHECK(world.helper.asked("install").at(0).at("older") == true);
+  CHECK(world.helper.asked("install").at(0).at("other_drivers") == true);
   CHECK_EQUAL(world.post("install", {{"password", "p"}}).status, 200U);
   CHECK(world.helper.asked("install").at(1).at("older") == false);
-  CHECK_EQUAL(world.post("choose", {{"password", "p"}, {"slot", "B"}}).status, 200U);
+  CHECK(world.helper.asked("install").at(1).at("other_drivers") == false);
+  CHECK_EQUAL(world.post("choose", {{"password", "p"}, {"slot", "B"}, {"other_drivers", true}}).status, 200U);
   CHECK(world.helper.asked("choose").at(0).at("slot") == "B");
   CHECK_EQUAL(world.post("restart", {{"password", "p"}}).status, 200U);
   CHECK(world.is_in_audit("began to upload an update", "(5 bytes)"));
-  CHECK(world.is_in_audit("began to install", "pick-station 20261201T1, though it is older"));
-  CHECK(world.is_in_audit("chose for the next start the slot", "B"));
+  CHECK(world.is_in_audit("began to install",
+                          "pick-station 20261201T1, though it is older, with other drivers"));
+  CHECK(world.is_in_audit("chose for the next start the slot", "B, with other drivers"));
   CHECK(world.is_in_audit("restarted the PC", ""));
   CHECK_EQUAL(
       world.post("network", {{"password", "p"}, {"interface", "enp0s2"}, {"address", "10.0.2.16/24"}}).status,

@@ -2,7 +2,7 @@
 import type { MachineState, MachineUpdate, NetworkInterface, NetworkTrial } from '../machine';
 
 export const noUpdate: MachineUpdate = {
-  phase: 'none', received: 0, size: 0, percent: 0, version: '', application: '', older: false, why: '',
+  phase: 'none', received: 0, size: 0, percent: 0, version: '', application: '', older: false, driver_changes: [], why: '',
 };
 
 export const wired: NetworkInterface = {
@@ -14,8 +14,8 @@ export const noTrial: NetworkTrial = { interface: '', remaining_s: 0 };
 export const pc: MachineState = {
   application: 'pick-station', version: '20261128T001500Z-4fb48992', built: 1795824900, slot: 'A', boot: 'confirmed', confirmed: true,
   slots: {
-    A: { version: '20261128T001500Z-4fb48992', whole: true, primary: true },
-    B: { version: '', whole: false, primary: false },
+    A: { version: '20261128T001500Z-4fb48992', whole: true, primary: true, driver_changes: [] },
+    B: { version: '', whole: false, primary: false, driver_changes: [] },
   },
   motion: 'permitted', development_key: false, notices: [], healthy_for_s: 60, healthy_needed_s: 60, why_not_healthy: '', update: noUpdate,
   network: [wired], network_trial: noTrial,

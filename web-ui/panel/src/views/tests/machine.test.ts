@@ -166,7 +166,17 @@ describe('the view of the PC', () => {
     const question = core.questions[0]!;
     expect(question.says.join(' ')).toMatch(/20261201T1 is written into slot B.*Nothing may move/);
     expect(await question.act('p')).toBe('');
-    expect(sentTo()).toEqual([['/api/v1/machine/install', { password: 'p', older: false }]]);
+    expect(sentTo()).toEqual([['/api/v1/machine/install', { password: 'p', older: false, other_drivers: false }]]);
+  });
+
+  it('other drivers are told, and have to be meant', async () => {
+    const words = await shown({ update: { ...verified, driver_changes: [{ device: 'arm', from: 'canopen', to: 'simulated' }] } });
+    expect(words).toContain('⚠ It changes drivers: arm from canopen to simulated.');
+    button('Install')!.click();
+    expect(core.questions[0]!.says.join(' ')).toContain('arm from canopen to simulated');
+    expect(core.questions[0]!.action).toBe('Install, with other drivers');
+    await core.questions[0]!.act('p');
+    expect(sentTo()).toEqual([['/api/v1/machine/install', { password: 'p', older: false, other_drivers: true }]]);
   });
 
   it('an older version is called so, and another application, too', async () => {
@@ -176,11 +186,11 @@ describe('the view of the PC', () => {
     expect(core.questions[0]!.heading).toBe('Install this older version?');
     expect(core.questions[0]!.says.join(' ')).toMatch(/faults that were mended since.*becomes another cell/);
     await core.questions[0]!.act('p');
-    expect(sentTo()).toEqual([['/api/v1/machine/install', { password: 'p', older: true }]]);
+    expect(sentTo()).toEqual([['/api/v1/machine/install', { password: 'p', older: true, other_drivers: false }]]);
   });
 
   it('what needs a cell at rest is dead while it may move, and says so', async () => {
-    await shown({ update: verified, slots: { ...pc.slots, B: { version: '7', whole: true, primary: false } } });
+    await shown({ update: verified, slots: { ...pc.slots, B: { ...pc.slots.B!, version: '7', whole: true } } });
     core.says({ motion: { ...quiet.motion, may_move: true } });
     const words = await text();
     for (const label of ['Install', 'Start slot B next', 'Restart the PC']) {
@@ -195,7 +205,7 @@ describe('the view of the PC', () => {
   });
 
   it('chooses the other slot, and restarts', async () => {
-    await shown({ slots: { ...pc.slots, B: { version: '7', whole: true, primary: false } } });
+    await shown({ slots: { ...pc.slots, B: { ...pc.slots.B!, version: '7', whole: true } } });
     expect(button('Start slot A next')).toBeUndefined();
     button('Start slot B next')!.click();
     await core.questions[0]!.act('p');
@@ -203,7 +213,7 @@ describe('the view of the PC', () => {
     expect(core.questions[1]!.says.join(' ')).toContain('the whole PC restarts');
     await core.questions[1]!.act('p');
     expect(sentTo()).toEqual([
-      ['/api/v1/machine/choose', { password: 'p', slot: 'B' }], ['/api/v1/machine/restart', { password: 'p' }],
+      ['/api/v1/machine/choose', { password: 'p', slot: 'B', other_drivers: false }], ['/api/v1/machine/restart', { password: 'p' }],
     ]);
   });
 

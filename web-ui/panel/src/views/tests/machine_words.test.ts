@@ -1,7 +1,7 @@
 // @vitest-environment node
 import { expect, it } from 'vitest';
 import { noUpdate, pc } from '../../core/tests/machine_sample';
-import { ageOf, bootSentence, bytesText, confirmedSentence, motionSentence, slotSentence, updateSentence } from '../machine_words';
+import { ageOf, bootSentence, bytesText, chosenDrivers, confirmedSentence, driversSentence, motionSentence, slotSentence, updateSentence } from '../machine_words';
 
 it('says why a slot runs', () => {
   const words = ['confirmed', 'only', 'trial', 'fallback', 'manual', 'unknown'] as const;
@@ -27,8 +27,8 @@ it('says whether motion is permitted', () => {
 it('says what a slot is', () => {
   expect(slotSentence(pc, 'A', pc.slots.A!)).toBe('runs, starts next');
   expect(slotSentence(pc, 'B', pc.slots.B!)).toBe('holds nothing that could start');
-  expect(slotSentence(pc, 'B', { version: '7', whole: true, primary: true })).toBe('starts next');
-  expect(slotSentence(pc, 'B', { version: '7', whole: true, primary: false })).toBe('could start');
+  expect(slotSentence(pc, 'B', { ...pc.slots.B!, version: '7', whole: true, primary: true })).toBe('starts next');
+  expect(slotSentence(pc, 'B', { ...pc.slots.B!, version: '7', whole: true })).toBe('could start');
 });
 
 it('compares an update with what runs', () => {
@@ -38,6 +38,17 @@ it('compares an update with what runs', () => {
   expect(ageOf(pc, { ...update, older: true })).toBe('older');
   expect(updateSentence({ ...pc, update })).toBe('pick-station 9: newer than what runs.');
   expect(updateSentence({ ...pc, update: { ...update, application: 'keyboard' } })).toContain('it would become another cell');
+});
+
+it('says which drivers a version changes, and which run', () => {
+  const changes = [{ device: 'arm', from: 'canopen', to: 'simulated' }, { device: 'valve', from: '', to: 'gpio' }, { device: 'lamp', from: 'gpio', to: '' }];
+  expect(driversSentence([])).toBe('');
+  expect(driversSentence(changes)).toBe(
+    'It changes drivers: arm from canopen to simulated; valve is new, with gpio; lamp had gpio, and has none that is known.');
+  const update = { ...noUpdate, version: '9', application: 'pick-station', driver_changes: changes };
+  expect(updateSentence({ ...pc, update })).toMatch(/^pick-station 9: newer than what runs\. ⚠ It changes drivers: arm /);
+  expect(chosenDrivers({ x: 'canopen', camera: 'v4l2', z: 'canopen' })).toBe('canopen: x, z; v4l2: camera');
+  expect(chosenDrivers({})).toBe('There are no devices.');
 });
 
 it('counts bytes', () => {

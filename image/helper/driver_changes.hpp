@@ -1,0 +1,23 @@
+// What a version changes about which driver each device has.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexrf::helper {
+
+/// A driver's name is empty where the version has no such device, or does not say which driver it has.
+struct DriverChange {
+  std::string device;
+  std::string from;  ///< in the version that runs
+  std::string to;    ///< in the other one
+};
+
+/// Of two versions' lines `drivers=`, each as an application's --drivers prints it: first the changes of the
+/// devices that run, in their order, then the devices that are new.
+std::vector<DriverChange> driver_changes(std::string_view running, std::string_view other);
+/// For a message: "axis_x: canopen -> simulated, valve: none -> gpio, and 7 more".
+std::string text_of(const std::vector<DriverChange>& changes);
+
+}  // namespace flexrf::helper
