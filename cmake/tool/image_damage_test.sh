@@ -91,6 +91,34 @@ data_is_missing() {
     screen >"$pc_folder/screen-missing.text"
 }
 
+# confirm_both DISK: slot B gets the version of slot A, has confirmed itself, too, and is the primary.
+confirm_both() {
+  local choice=$pc_folder/choice part file words
+  rm -rf "$choice" && mkdir "$choice" || return
+  for part in boot root; do
+    take_partition "$1" "$part-a" "$pc_folder/part" && put_partition "$1" "$part-b" "$pc_folder/part" || return
+  done
+  for file in choice0.env choice1.env attempts.env; do mcopy -i "$1@@2M" "::flexrf/$file" "$choice/" || return; done
+  printf 'rauc.slot=B\n' >"$pc_folder/cmdline"
+  for words in "mark-whole B $pc_folder/part" 'set-primary B' 'confirm B'; do
+    # shellcheck disable=SC2086 # words
+    "$root/build/release/image/boot/flexrf-boot-choice" --folder "$choice" --kernel-command-line "$pc_folder/cmdline" $words || return
+  done
+  mcopy -o -i "$1@@2M" "$choice"/*.env ::flexrf/
+}
+
+# A disk that has bad sectors where the confirmed version lies: three starts come to nothing, the other version starts, and is what boots from then on.
+a_confirmed_version_that_fails_gives_way() {
+  local disk=$pc_folder/failing.img first starts
+  pc_disk=()
+  claimed_disk "$disk" && confirm_both "$disk" && read -r first _ < <(partition_of "$disk" root-b) &&
+    head -c 1M /dev/urandom | dd of="$disk" bs=1M seek=$((first / 2048)) conv=notrunc iflag=fullblock status=none && start_pc failing bios "$disk" || return
+  await_line 'the cell runs' && log_in || return
+  starts=$(console_lines | grep -c 'start: /dev/sda6 cannot be mounted: it is damaged')
+  ((starts == 3)) || { echo "it was started $starts times" && return 1; }
+  await_line 'the version in slot A has confirmed itself' && await_machine '.slot == "A" and .boot == "fallback" and .slots.A.primary and .slots.B.whole'
+}
+
 with_real_camera() { sed -i '/^ExecStart=/s/$/ --hardware camera=v4l2,station_link=tcp,io_station=real/' "$1/etc/systemd/system/flexrf.service"; }
 with_real_box() { sed -i '/^ExecStart=/s/$/ --hardware box=gpio/' "$1/etc/systemd/system/flexrf.service"; }
 

@@ -318,6 +318,7 @@ data_made_anew_stays full damage
 data_is_repaired full damage
 data_is_full full damage
 data_is_missing full missing
+a_confirmed_version_that_fails_gives_way full failing
 a_missing_camera_is_waited_for full camera
 campaign_of_power_cuts soak cut
 campaign_of_cuts_of_an_update soak variant

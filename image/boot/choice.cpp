@@ -95,7 +95,7 @@ Result<Choice> with_confirmation(Choice choice, Slot slot, const Running& runnin
                          "'mark-whole %c' first",
                          letter_of(slot), letter_of(slot));
   choice.of(slot).is_confirmed = true;
-  if (running.why == "fallback" && running.trial == choice.trial) choice.primary = slot;
+  if (running.why == "fallback" && running.trial == choice.trial) return with_primary(choice, slot);
   return choice;
 }
 

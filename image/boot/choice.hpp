@@ -42,9 +42,9 @@ inline constexpr std::uint64_t last_counter = 9'999'999'999;
 
 /// What both files hold, and GRUB decides by.
 struct Choice {
-  std::uint64_t counter = 1;  ///< one more with each change: the copy with the greater one is the newer
-  Slot primary = Slot::a;     ///< the slot that is meant to boot
-  std::uint64_t trial = 1;  ///< the counter with which it became that; GRUB counts the attempts of this trial
+  std::uint64_t counter = 1;     ///< one more with each change: the copy with the greater one is the newer
+  Slot primary = Slot::a;        ///< the slot that is meant to boot
+  std::uint64_t trial = 1;       ///< the counter with which it became that; GRUB counts the attempts since
   std::array<Marks, 2> marks{};  ///< by index_of(slot)
 
   Marks& of(Slot slot) noexcept { return marks[index_of(slot)]; }

@@ -84,6 +84,29 @@ Outcome mark_whole(Environment& environment, Medium& medium, Slot slot, const Wo
   return change(environment, slot, running, mark);
 }
 
+/// Beside what GRUB notes of other things. A version on trial has no attempt back before it is confirmed.
+Outcome give_attempts_back(Environment& environment, Slot slot, const Running& running) {
+  const bool runs = running.slot == slot;
+  if (!runs || !environment.choice().of(slot).is_confirmed) {
+    std::string why = "the attempts stay counted: slot ";
+    why += letter_of(slot);
+    why += runs ? " has not been confirmed" : " does not run, and only what runs can have come up";
+    return failed(Exit::refused, std::move(why));
+  }
+  Attempts attempts = environment.attempts();
+  if (attempts.count == 0) return {};
+  attempts.trial = 0;
+  attempts.count = 0;
+  const Status written = environment.write(attempts);
+  return written ? Outcome{} : failed(Exit::failed, written.cause());
+}
+
+Outcome confirm_and_give_back(Environment& environment, Slot slot, const Running& running) {
+  Outcome outcome = change(environment, slot, running, confirm);
+  if (outcome.exit == Exit::done) outcome = give_attempts_back(environment, slot, running);
+  return outcome;
+}
+
 Outcome with_choice(Environment& environment, Medium& medium, const Words& words, const Running& running) {
   const std::string& verb = words[0];
   if (verb == "get-primary")
@@ -95,7 +118,8 @@ Outcome with_choice(Environment& environment, Medium& medium, const Words& words
   if (verb == "set-primary") return change(environment, slot, running, choose);
   if (verb == "mark-whole") return mark_whole(environment, medium, slot, words, running);
   if (verb == "confirm" || (verb == "set-state" && words[2] == "good"))
-    return change(environment, slot, running, confirm);
+    return confirm_and_give_back(environment, slot, running);
+  if (verb == "came-up") return give_attempts_back(environment, slot, running);
   return change(environment, slot, running, unmark);
 }
 
@@ -106,13 +130,14 @@ struct Verb {
 };
 
 constexpr std::size_t any_number = 64;
-constexpr std::array<Verb, 10> known_verbs = {{{"get-primary", 0, 0},
+constexpr std::array<Verb, 11> known_verbs = {{{"get-primary", 0, 0},
                                                {"set-primary", 1, 1},
                                                {"get-state", 1, 1},
                                                {"set-state", 2, 2},
                                                {"mark-whole", 2, any_number},
                                                {"unmark-whole", 1, 1},
                                                {"confirm", 1, 1},
+                                               {"came-up", 1, 1},
                                                {"status", 0, 0},
                                                {"repair", 0, 0},
                                                {"create", 0, 0}}};
@@ -144,6 +169,8 @@ const char* const verbs_help =
     "  unmark-whole SLOT          it is about to be written over: it does not boot from now on\n"
     "  mark-whole SLOT DEVICE...  all of it is written: flushes its partitions, then it may boot\n"
     "  confirm SLOT               the slot that runs found itself healthy\n"
+    "  came-up SLOT               the slot that runs, and is confirmed, has come up: its attempts do not "
+    "count\n"
     "  status                     all that is known, as lines NAME=VALUE\n"
     "  repair                     makes damaged files whole again\n"
     "  create                     makes the files for a new disk, on which slot A alone has a version\n";

@@ -39,6 +39,8 @@ Facts read_facts(const Files& files, Duration wait) {
   const boot::Environment environment(medium);
   if (environment.has_choice()) {
     facts.choice = environment.choice();
+    const boot::Attempts& attempts = environment.attempts();
+    if (attempts.trial == facts.choice->trial) facts.attempts = attempts.count;
   } else {
     facts.choice_failure = environment.damages();
   }

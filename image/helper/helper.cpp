@@ -1,9 +1,11 @@
 #include "image/helper/helper.hpp"
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
+#include "image/boot/blocks.hpp"
 #include "image/boot/folder_medium.hpp"
-#include "image/boot/verbs.hpp"
 #include "image/helper/facts.hpp"
 #include "runtime/parameters/durable_file.hpp"
 
@@ -20,14 +22,20 @@ Helper::Helper(Files files, Limits limits, const Surroundings& surroundings, Mot
       surroundings_(surroundings),
       word_(word),
       began_(began),
-      count_(limits.healthy) {}
+      count_(limits.healthy),
+      up_(limits.healthy) {}
 
 void Helper::look(Time now) {
   // The word first: the panel may take its time to answer.
   word_.renew();
   const Facts known = read_facts(files_, wait_for_choice);
   remember_version(known);
-  if (is_confirmed(known) && !is_fallen_back_to(known)) return note({});
+  tell_of_fallback(known);
+  if (is_confirmed(known) && !is_fallen_back_to(known)) {
+    note({});
+    if (has_to_come_up(known)) await_start(known, now);
+    return;
+  }
   supervise(known, now);
   word_.renew();
 }
@@ -55,6 +63,28 @@ void Helper::remember_version(const Facts& facts) {
                       written.cause());
 }
 
+/// For the panel and the screen, for as long as this version runs.
+void Helper::tell_of_fallback(const Facts& facts) {
+  if (has_told_of_fallback_ || facts.running.why != "fallback" || !facts.running.slot || !facts.choice)
+    return;
+  has_told_of_fallback_ = true;
+  const boot::Slot given_up = other(*facts.running.slot);
+  const std::string slot{boot::letter_of(given_up)};
+  const std::string version = version_lines(files_.update, given_up).text("version");
+  std::string line = "slot " + slot + (version.empty() ? "" : ", version " + version + ",");
+  line += !facts.choice->of(given_up).is_whole    ? " is not whole"
+          : facts.attempts == boot::most_attempts ? " was started three times and did not come up"
+                                                  : " could not be started";
+  const Result<NamedLines> here = NamedLines::read(files_.version);
+  line += "; version " + (here ? here->text("version") : std::string{"unknown"}) + " in slot " +
+          boot::letter_of(*facts.running.slot) + " runs in its place";
+  std::error_code error;
+  std::filesystem::create_directories(files_.notices, error);
+  if (const Status written = replace_file(files_.notices + "/fallback", line + '\n'); !written)
+    surroundings_.say(written.cause());
+  surroundings_.say(line);
+}
+
 void Helper::supervise(const Facts& facts, Time now) {
   const std::string why_not = surroundings_.ask_panel(wait_for_health).why_not_healthy;
   count_.note(why_not, now);
@@ -65,29 +95,47 @@ void Helper::supervise(const Facts& facts, Time now) {
       said_health_);
   if (count_.is_enough()) {
     confirm(facts);
-  } else if (has_another_turn(facts) && now - began_ >= limits_.trial) {
-    began_ = now;  // should the restart fail, it is tried again after as long
-    surroundings_.say("this version is on trial and has not been healthy for long enough in " +
-                      std::to_string(limits_.trial / std::chrono::minutes{1}) +
-                      " min: it gives up its turn, and the PC restarts");
-    if (const std::string failure = surroundings_.systemctl({"reboot"}); !failure.empty())
-      surroundings_.say("the PC cannot be restarted: " + failure);
+  } else {
+    give_up_turn(facts, now, "this version is on trial and has not been healthy for long enough");
   }
+}
+
+/// A confirmed version has come up when its panel answers, also with a device in fault: another version would
+/// mend no device.
+void Helper::await_start(const Facts& facts, Time now) {
+  const PanelAnswer panel = surroundings_.ask_panel(wait_for_health);
+  up_.note(panel.has_answered ? "" : panel.why_not_healthy, now);
+  if (up_.is_enough()) {
+    for (const std::string& line : perform(facts, "came-up").said) say(line, said_failure_);
+  } else {
+    give_up_turn(facts, now, "the application of this version does not answer");
+  }
+}
+
+void Helper::give_up_turn(const Facts& facts, Time now, const std::string& why) {
+  if (!has_another_turn(facts) || now - began_ < limits_.trial) return;
+  began_ = now;  // should the restart fail, it is tried again after as long
+  surroundings_.say(why + ", in " + std::to_string(limits_.trial / std::chrono::minutes{1}) +
+                    " min: it gives up its turn, and the PC restarts");
+  if (const std::string failure = surroundings_.systemctl({"reboot"}); !failure.empty())
+    surroundings_.say("the PC cannot be restarted: " + failure);
 }
 
 void Helper::confirm(const Facts& facts) {
   if (!facts.running.slot) return;
-  const std::string slot{boot::letter_of(*facts.running.slot)};
-  boot::FolderMedium medium;
-  boot::Outcome outcome;
-  if (const Status opened = medium.open(files_.choice, wait_for_choice); opened) {
-    outcome = boot::perform({"confirm", slot}, medium, facts.running);
-  } else {
-    outcome = {boot::Exit::failed, {}, {opened.cause()}};
-  }
+  const boot::Outcome outcome = perform(facts, "confirm");
   for (const std::string& line : outcome.said) say(line, said_failure_);
-  if (outcome.exit == boot::Exit::done)
-    surroundings_.say("the version in slot " + slot + " has confirmed itself: it boots from now on");
+  if (outcome.exit != boot::Exit::done) return;
+  const std::string slot{boot::letter_of(*facts.running.slot)};
+  surroundings_.say("the version in slot " + slot + " has confirmed itself: it boots from now on");
+}
+
+boot::Outcome Helper::perform(const Facts& facts, const char* verb) {
+  boot::FolderMedium medium;
+  if (const Status opened = medium.open(files_.choice, wait_for_choice); !opened)
+    return {boot::Exit::failed, {}, {opened.cause()}};
+  const std::string slot{boot::letter_of(*facts.running.slot)};
+  return boot::perform({verb, slot}, medium, facts.running);
 }
 
 void Helper::say(const std::string& line, std::string& said) const {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/time.hpp"
+#include "image/boot/verbs.hpp"
 #include "image/helper/files.hpp"
 #include "image/helper/health_count.hpp"
 #include "image/helper/motion_word.hpp"
@@ -16,7 +17,7 @@ namespace flexrf::helper {
 /// Times by which it decides.
 struct Limits {
   Duration healthy = std::chrono::seconds{60};  ///< without a gap: the version confirms itself
-  Duration trial = std::chrono::minutes{10};    ///< after that a version on trial gives up its turn
+  Duration trial = std::chrono::minutes{10};    ///< after that a version gives up its turn
 };
 
 /// For how long the version that runs has been healthy; nothing of one that has confirmed itself.
@@ -37,8 +38,12 @@ class Helper {
 
  private:
   void remember_version(const Facts& facts);
+  void tell_of_fallback(const Facts& facts);
   void supervise(const Facts& facts, Time now);
+  void await_start(const Facts& facts, Time now);
+  void give_up_turn(const Facts& facts, Time now, const std::string& why);
   void confirm(const Facts& facts);
+  boot::Outcome perform(const Facts& facts, const char* verb);
   void note(const Health& health);
   void say(const std::string& line, std::string& said) const;
 
@@ -46,13 +51,15 @@ class Helper {
   Limits limits_;
   const Surroundings& surroundings_;
   MotionWord& word_;
-  Time began_;  // the time of the trial
+  Time began_;  // the time of the trial, or of the start
   HealthCount count_;
+  HealthCount up_;
   mutable std::mutex reading_;
   Health health_;
   std::string said_health_;  // what was said last, so that it is said once
   std::string said_failure_;
   bool has_remembered_version_ = false;
+  bool has_told_of_fallback_ = false;
 };
 
 }  // namespace flexrf::helper

@@ -11,9 +11,15 @@ bool is_fallen_back_to(const Facts& facts) noexcept {
          facts.running.trial == facts.choice->trial && facts.choice->primary != *facts.running.slot;
 }
 
+bool has_to_come_up(const Facts& facts) noexcept {
+  return is_confirmed(facts) && facts.choice->primary == *facts.running.slot && facts.attempts > 0;
+}
+
 bool has_another_turn(const Facts& facts) noexcept {
-  return facts.choice && facts.running.slot && facts.running.why == "trial" && !is_confirmed(facts) &&
-         facts.choice->of(other(*facts.running.slot)).is_whole;
+  if (!facts.choice || !facts.running.slot || !facts.choice->of(other(*facts.running.slot)).is_whole)
+    return false;
+  return is_confirmed(facts) ? has_to_come_up(facts) && facts.running.why == "confirmed"
+                             : facts.running.why == "trial";
 }
 
 std::string permission_of(const Facts& facts) {

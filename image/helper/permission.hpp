@@ -17,6 +17,7 @@ struct Facts {
   /// What the disk says; none: it cannot be read, and `choice_failure` says why.
   std::optional<boot::Choice> choice;
   std::string choice_failure;
+  unsigned attempts = 0;  ///< to start what the choice means, that count: nobody has given them back
   Phase update = Phase::none;
   std::string update_failure;
   std::string address_on_trial;  ///< of this interface; empty: of none
@@ -32,8 +33,10 @@ bool is_confirmed(const Facts& facts) noexcept;
 /// GRUB fell back to this version from the trial that the choice still means: it becomes the primary when it
 /// is found healthy, whether it is confirmed already or not.
 bool is_fallen_back_to(const Facts& facts) noexcept;
-/// A version on trial that does not come to be healthy gives up its turn by a restart: there is another one
-/// that is whole.
+/// The version that runs is confirmed, and its starts count until it has come up.
+bool has_to_come_up(const Facts& facts) noexcept;
+/// A version on trial that does not come to be healthy, or a confirmed one that does not come up, gives up
+/// its turn by a restart: there is another one that is whole.
 bool has_another_turn(const Facts& facts) noexcept;
 
 /// `permitted`, or why nothing may move, in one line: what the operator reads at Start.

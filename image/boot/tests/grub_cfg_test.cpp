@@ -89,7 +89,9 @@ Expected expected_of(const Choice& choice, Counting counting) {
   const Slot rest = other(primary);
   const bool is_rest_whole = choice.of(rest).is_whole;
   const std::optional<Slot> whole_rest = is_rest_whole ? std::optional(rest) : std::nullopt;
-  if (choice.of(primary).is_confirmed) return {primary, "confirmed", whole_rest};
+  if (choice.of(primary).is_confirmed)
+    return is_rest_whole && counting == Counting::three ? Expected{rest, "fallback", primary}
+                                                        : Expected{primary, "confirmed", whole_rest};
   if (choice.of(primary).is_whole && !is_rest_whole) return {primary, "only", std::nullopt};
   if (choice.of(primary).is_whole && may_try(counting)) return {primary, "trial", rest};
   if (choice.of(primary).is_whole) return {rest, "fallback", primary};
@@ -174,6 +176,37 @@ void a_trial_has_three_attempts() {
   // Another trial begins with no attempts.
   files[copy_names[0]] = files[copy_names[1]] = block_of(Choice{44, Slot::a, 44, {whole, confirmed}});
   CHECK_EQUAL(switch_on(script(), files).why, "trial");
+}
+
+/// One whose root has a bad sector, or whose application ends at once.
+void a_confirmed_version_that_never_comes_up_gives_way() {
+  const Choice choice{42, Slot::a, 41, {confirmed, confirmed}};
+  Files files = files_of(choice, {40, 3, Slot::b, {}});
+  const auto boots = [&](Slot slot, const char* why) {
+    const Running running = switch_on(script(), files);
+    CHECK(running.slot == slot);
+    CHECK_EQUAL(running.why, why);
+    return running;
+  };
+  for (int start = 0; start < 3; ++start) boots(Slot::a, "confirmed");
+  Running running = boots(Slot::b, "fallback");
+  boots(Slot::b, "fallback");
+  // What stands in is found healthy: it is the primary now, and may fail three times itself.
+  LostPowerDisk disk(files);
+  CHECK(perform({"confirm", "B"}, disk, running).exit == Exit::done);
+  disk.settle();
+  for (const char* name : {copy_names[0], copy_names[1], attempts_name}) files[name] = *disk.read(name);
+  for (int start = 0; start < 3; ++start) running = boots(Slot::b, "confirmed");
+  // The third came up: none counts.
+  LostPowerDisk later(files);
+  CHECK(perform({"came-up", "B"}, later, running).exit == Exit::done);
+  later.settle();
+  files[attempts_name] = *later.read(attempts_name);
+  for (int start = 0; start < 3; ++start) boots(Slot::b, "confirmed");
+  boots(Slot::a, "fallback");
+  // With nothing else on the disk nothing is counted.
+  files = files_of({42, Slot::a, 41, {confirmed, none}}, {41, 3, Slot::b, {}});
+  for (int start = 0; start < 5; ++start) boots(Slot::a, "confirmed");
 }
 
 void with_nothing_to_trust_the_slots_take_turns() {
@@ -357,6 +390,7 @@ int main() {
       CONTAINED_TEST(every_state_has_its_decision),
       CONTAINED_TEST(the_newer_copy_counts),
       CONTAINED_TEST(a_trial_has_three_attempts),
+      CONTAINED_TEST(a_confirmed_version_that_never_comes_up_gives_way),
       CONTAINED_TEST(with_nothing_to_trust_the_slots_take_turns),
       CONTAINED_TEST(a_slot_is_started_with_what_it_wants),
       CONTAINED_TEST(a_slot_that_fails_halfway_gives_way),

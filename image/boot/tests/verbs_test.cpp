@@ -100,6 +100,24 @@ void only_what_runs_and_is_whole_is_confirmed() {
   expect_refusal(disk, {"set-state", "B", "good"}, running_slot(Slot::b), "not marked as whole");
 }
 
+void what_came_up_has_its_attempts_back() {
+  LostPowerDisk disk = new_disk();
+  expect_refusal(disk, {"came-up", "A"}, running_slot(Slot::a), "has not been confirmed");
+  const auto count = [&](unsigned attempts) {
+    disk.put(attempts_name, block_of(Attempts{1, attempts, Slot::a, Slot::b}));
+  };
+  count(2);
+  answer(disk, {"confirm", "A"}, running_slot(Slot::a));
+  CHECK(Environment(disk).attempts() == (Attempts{0, 0, Slot::a, Slot::b}));
+  count(3);
+  expect_refusal(disk, {"came-up", "A"}, running_slot(Slot::b), "slot A does not run");
+  expect_refusal(disk, {"came-up", "A"}, {}, "slot A does not run");
+  const Choice choice = Environment(disk).choice();
+  answer(disk, {"came-up", "A"}, running_slot(Slot::a));
+  CHECK(Environment(disk).attempts() == (Attempts{0, 0, Slot::a, Slot::b}));
+  CHECK(Environment(disk).choice() == choice);
+}
+
 void a_fallback_that_is_healthy_stays() {
   LostPowerDisk disk = new_disk();
   answer(disk, {"mark-whole", "B", "B"});
@@ -287,6 +305,7 @@ int main() {
       CONTAINED_TEST(each_choice_begins_a_trial_of_its_own),
       CONTAINED_TEST(the_last_whole_slot_stays),
       CONTAINED_TEST(only_what_runs_and_is_whole_is_confirmed),
+      CONTAINED_TEST(what_came_up_has_its_attempts_back),
       CONTAINED_TEST(a_fallback_that_is_healthy_stays),
       CONTAINED_TEST(the_kernels_command_line_is_read),
       CONTAINED_TEST(wrong_words_are_told),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "image/boot/blocks.hpp"
 #include "image/helper/state_answer.hpp"
 #include "image/helper/tests/pc.hpp"
 
@@ -71,7 +72,7 @@ void each_slot_is_told_what_ran_in_the_other_one() {
   const std::string state = state_answer(pc.files, read_facts(pc.files, seconds{1}), {});
   CHECK_CONTAINS(
       state,
-      R"("slots":{"A":{"version":"20261128T001500Z-4fb48992","whole":true,"primary":true},"B":{"version":"second")");
+      R"("slots":{"A":{"version":"20261128T001500Z-4fb48992","whole":true,"primary":true,"driver_changes":[]},"B":{"version":"second")");
   // Who cannot note it says so, and does all else.
   fs::remove_all(pc.files.update.folder);
   Helper third = pc.helper();
@@ -136,6 +137,65 @@ void a_version_on_trial_that_is_not_healthy_gives_up_its_turn_once() {
   CHECK_CONTAINS(pc.motion(), "has not confirmed itself");
 }
 
+/// Of a PC that runs its confirmed version A, beside B, with the third start of it counted.
+struct ThirdStart {
+  Pc pc;
+  ThirdStart() {
+    pc.claim();
+    pc.choose({"confirm", "A"});
+    pc.choose({"mark-whole", "B", pc.files.command_line});
+    pc.boots("A", "confirmed");
+    const boot::Choice choice = *read_facts(pc.files, seconds{1}).choice;
+    Pc::write(pc.files.choice + "/attempts.env",
+              boot::block_of(boot::Attempts{choice.trial, 3, boot::Slot::a, {}}));
+    CHECK(pc.says("attempts=3"));
+  }
+};
+
+void a_confirmed_version_that_comes_up_has_its_starts_back() {
+  ThirdStart start;
+  Pc& pc = start.pc;
+  // No other version would mend a device.
+  pc.panel.why_not_healthy = "device arm is in fault: it does not answer";
+  Helper helper = pc.helper();
+  pc.run(helper, 60);
+  CHECK(pc.says("attempts=3"));
+  CHECK_EQUAL(pc.motion(), "permitted\n");
+  pc.run(helper, 1);
+  CHECK(pc.says("attempts=0"));
+  // From then on nobody asks, whatever becomes of the application.
+  pc.panel.has_answered = false;
+  pc.run(helper, 2000);
+  CHECK_EQUAL(pc.asked_systemd("reboot"), 0);
+}
+
+void a_confirmed_version_that_does_not_come_up_gives_up_its_turn() {
+  ThirdStart start;
+  Pc& pc = start.pc;
+  pc.panel.has_answered = false;
+  pc.panel.why_not_healthy = "the panel does not answer";
+  Helper helper = pc.helper();
+  pc.run(helper, 600);
+  CHECK_EQUAL(pc.asked_systemd("reboot"), 0);
+  pc.run(helper, 30);
+  CHECK_EQUAL(pc.asked_systemd("reboot"), 1);
+  CHECK_CONTAINS(pc.said.back(), "does not answer, in 10 min: it gives up its turn");
+  // The other one tells of it.
+  pc.boots("B", "fallback");
+  Pc::write(pc.files.update.folder + "/version-a", "version=first\n");
+  Helper instead = pc.helper();
+  pc.run(instead, 1);
+  CHECK_CONTAINS(text_of_file(pc.files.notices + "/fallback"),
+                 "slot A, version first, was started three times and did not come up; version ");
+  // With no other version there is nobody to give it to.
+  ThirdStart alone;
+  alone.pc.panel = pc.panel;
+  alone.pc.choose({"unmark-whole", "B"});
+  Helper other = alone.pc.helper();
+  alone.pc.run(other, 2000);
+  CHECK_EQUAL(alone.pc.asked_systemd("reboot"), 0);
+}
+
 /// The number of the trial that the choice means.
 std::string trial_of(const Pc& pc) {
   for (int number = 1; number < 10; ++number) {
@@ -156,6 +216,9 @@ void what_was_fallen_back_to_becomes_the_primary_unless_somebody_decides_anew() 
   pc.run(helper, 60);
   CHECK_EQUAL(pc.motion(), "permitted\n");
   CHECK(pc.says("primary=B"));
+  CHECK_EQUAL(
+      text_of_file(pc.files.notices + "/fallback"),
+      "slot B could not be started; version 20261128T001500Z-4fb48992 in slot A runs in its place\n");
   pc.run(helper, 1);
   CHECK(pc.says("primary=A"));
   // An update, or a person, means B again: that is a new trial.
@@ -255,6 +318,8 @@ int main() {
       CONTAINED_TEST(the_minute_begins_anew_after_each_gap),
       CONTAINED_TEST(an_unclaimed_pc_confirms_itself_and_does_not_move),
       CONTAINED_TEST(a_version_on_trial_that_is_not_healthy_gives_up_its_turn_once),
+      CONTAINED_TEST(a_confirmed_version_that_comes_up_has_its_starts_back),
+      CONTAINED_TEST(a_confirmed_version_that_does_not_come_up_gives_up_its_turn),
       CONTAINED_TEST(what_was_fallen_back_to_becomes_the_primary_unless_somebody_decides_anew),
       CONTAINED_TEST(a_version_without_another_one_never_restarts),
       CONTAINED_TEST(without_the_choice_nothing_moves_and_it_is_said_once),
