@@ -216,9 +216,8 @@ void what_was_fallen_back_to_becomes_the_primary_unless_somebody_decides_anew() 
   pc.run(helper, 60);
   CHECK_EQUAL(pc.motion(), "permitted\n");
   CHECK(pc.says("primary=B"));
-  CHECK_EQUAL(
-      text_of_file(pc.files.notices + "/fallback"),
-      "slot B could not be started; version 20261128T001500Z-4fb48992 in slot A runs in its place\n");
+  CHECK_EQUAL(text_of_file(pc.files.notices + "/fallback"),
+              "slot B could not be started; version 20261128T001500Z-4fb48992 in slot A runs in its place\n");
   pc.run(helper, 1);
   CHECK(pc.says("primary=A"));
   // An update, or a person, means B again: that is a new trial.
