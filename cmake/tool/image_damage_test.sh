@@ -49,6 +49,29 @@ data_is_repaired() {
   [[ $(fingerprint) == "$(<"$claimed/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
 }
 
+spoil_own_files() {  # spoil_own_files DISK: users and certificate are what somebody else wrote there
+  local work=$pc_folder/spoiled.data PATH=$PATH:/usr/sbin:/sbin
+  take_partition "$1" data "$work" && e2fsck -p "$work" >/dev/null || return
+  head -c 500 /dev/urandom >"$pc_folder/garbage"
+  debugfs -w -f - "$work" >"$pc_folder/debugfs" 2>&1 <<TEXT
+rm flexrf/panel-users
+write $pc_folder/garbage flexrf/panel-users
+rm flexrf/panel.crt
+write $pc_folder/garbage flexrf/panel.crt
+TEXT
+  put_partition "$1" data "$work" && rm "$work"
+}
+
+# Nobody could log in, and no page would be served: the PC is claimed anew, with a certificate of its own, and says why.
+damaged_users_lead_to_a_claim() {
+  local disk=$pc_folder/spoiled.img
+  pc_disk=()
+  claimed_disk "$disk" && spoil_own_files "$disk" && start_pc spoiled bios "$disk" -no-reboot && await_line 'who may log in could not be read' &&
+    await_line "the panel's key or certificate was damaged, and is made anew" && claim_pc && await_line 'the cell runs' && log_in &&
+    await_machine '[.notices[] | select(test("set aside|made anew"))] | length == 2' || return
+  ! fingerprint | grep -F -f "$claimed/fingerprint" || { echo "the certificate that was damaged is there" && return 1; }
+}
+
 fill_data() {  # fill_data DISK: a file takes every block that is free
   local work=$pc_folder/full.data size free PATH=$PATH:/usr/sbin:/sbin
   take_partition "$1" data "$work" && e2fsck -p "$work" >/dev/null || return

@@ -316,6 +316,7 @@ a_missing_chip_is_refused full chip
 flagship_starts full flagship
 data_made_anew_stays full damage
 data_is_repaired full damage
+damaged_users_lead_to_a_claim full damage
 data_is_full full damage
 data_is_missing full missing
 a_confirmed_version_that_fails_gives_way full failing

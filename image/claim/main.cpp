@@ -16,6 +16,7 @@
 #include "image/claim/claim_service.hpp"
 #include "runtime/parameters/durable_file.hpp"
 #include "web-ui/server/access/panel_access.hpp"
+#include "web-ui/server/access/user_file.hpp"
 #include "web-ui/server/encryption.hpp"
 #include "web-ui/server/listen_address.hpp"
 #include "web-ui/server/server.hpp"
@@ -34,6 +35,7 @@ constexpr const char* usage =
     "  --tls-certificate FILE     else /data/flexrf/panel.crt\n"
     "  --tls-key FILE             else /data/flexrf/panel.key\n"
     "  --code-file FILE           gets the code, for the PC's screen; else /run/flexrf-claim/code\n"
+    "  --check-users              only says whether the file of users can be read: 0 yes, 2 no, and why\n"
     "Exit code: 0 claimed; 1 wrong usage; 2 something failed; 3 ended by a signal before anybody came.\n";
 
 struct Arguments {
@@ -42,6 +44,7 @@ struct Arguments {
   std::string certificate = "/data/flexrf/panel.crt";
   std::string key = "/data/flexrf/panel.key";
   std::string code_file = "/run/flexrf-claim/code";
+  bool checks_users = false;
 };
 
 /// Whoever stands before the PC reads this.
@@ -141,6 +144,10 @@ int main(int argument_count, char** words) {
       std::fputs(usage, stdout);
       return 0;
     }
+    if (word == "--check-users") {
+      arguments.checks_users = true;
+      continue;
+    }
     std::string* const value = word == "--users"             ? &arguments.users
                                : word == "--listen"          ? &arguments.listen
                                : word == "--tls-certificate" ? &arguments.certificate
@@ -150,6 +157,11 @@ int main(int argument_count, char** words) {
     if (value == nullptr) return fail(1, "there is no option '" + word + "'");
     if (++i == argument_count) return fail(1, word + " needs a value");
     *value = words[i];
+  }
+  if (arguments.checks_users) {
+    const Result<panel::Users> users = panel::read_users(arguments.users);
+    if (!users) return fail(2, users.status().cause());
+    return users->list.empty() ? fail(2, arguments.users + " names nobody") : 0;
   }
   const Result<panel::ListenAddress> address = panel::parse_listen_address(arguments.listen);
   if (!address) return fail(1, std::string{"--listen: "} + address.status().cause());

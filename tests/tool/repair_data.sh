@@ -65,8 +65,17 @@ expect "exit code without e2fsck" "$status" 1
 expect "message without e2fsck" "$output" "*e2fsck has not done its work: exit code 127*"
 expect "user without e2fsck" "$(user)" anna
 stand_in e2fsck <<'BODY'
-exit 8
+exit 12
 BODY
+repair
+expect "exit code of e2fsck that could not look" "$status" 1
+expect "message of e2fsck that could not look" "$output" "*data could not be checked (exit code 12 of e2fsck), and is left as it is*"
+expect "user after e2fsck could not look" "$(user)" anna
+# Also with a copy of the superblock alone.
+garbage 1 1
+repair
+expect "exit code with a copy alone" "$status" 1
+expect "copy" "$(dumpe2fs -o superblock=8193 -o blocksize=1024 -h "$data" 2>/dev/null)" "*0xEF53*"
 rm "$data"
 repair
 expect "exit code without a partition" "$status" 1

@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# What is an industrial PC's own (image/disk): which configuration the slot that runs has, and what becomes of damaged users, key and
+# certificate. The scripts are the PC's, with folders of this test in the place of its own.
+source "$(dirname "$0")/stand_in.sh"
+if ! command -v openssl >/dev/null; then
+  echo "not tried: there is no openssl"
+  finish
+fi
+pc=$work/pc
+stand_in flexrf-claim <<'BODY'
+exit "$(cat "$STAND_IN/users_status")"
+BODY
+stand_in chown </dev/null
+
+runs() {  # runs SCRIPT: as the PC does; sets status and output
+  mkdir -p "$pc/scripts"
+  sed -e "s|/usr/lib/flexrf/flexrf-claim|flexrf-claim|; s|/usr/lib/flexrf/slots|$pc/scripts/slots|; s|/usr/lib/flexrf/|$repository/image/disk/root&|" \
+    -e "s|/data|$pc/data|; s|/run/|$pc/run/|; s|/etc/|$pc/etc/|" "$repository/image/disk/root/usr/lib/flexrf/$1" >"$pc/scripts/$1"
+  sed "s|/proc/cmdline|$pc/cmdline|" "$repository/image/disk/root/usr/lib/flexrf/slots" >"$pc/scripts/slots"
+  output=$(cd "$pc" && sh "$pc/scripts/$1" 2>&1)
+  status=$?
+}
+
+# ---- which configuration
+
+boots() {  # boots SLOT WHY: and chooses its configuration
+  echo "quiet rauc.slot=$1 flexrf.boot=$2 flexrf.trial=0000000001" >"$pc/cmdline"
+  runs choose-configuration
+  expect "exit code of choose-configuration" "$status" 0
+}
+own() { cat "$pc/data/flexrf/config-$1.xml" 2>/dev/null; } # own SLOT
+saves() { echo "$2" >"$pc/data/flexrf/config-$1.xml"; }    # saves SLOT VALUE
+
+mkdir -p "$pc"/{data/flexrf,run/flexrf,run/flexrf-notices,etc}
+boots A only
+saves a first
+boots B trial
+expect "configuration of a new version" "$(own b)" first
+expect "what systemd is told" "$(<"$pc/run/flexrf/configuration")" "CONFIGURATION=*/flexrf/config-b.xml"
+saves b second
+cp "$pc/data/flexrf/config-b.xml" "$pc/data/flexrf/config-b.xml.previous"
+boots A fallback
+expect "configuration after a fallback" "$(own a)" first
+boots B confirmed
+expect "configuration of the version that comes back" "$(own b)" second
+# The disk is written anew, the data is kept: slot A runs, where B ran last.
+boots A only
+expect "configuration on a disk that was written anew" "$(own a)" second
+expect "the one before it" "$(cat "$pc/data/flexrf/config-a.xml.previous")" second
+expect "what is said" "$output" "*the configuration is that of slot B, which ran last*"
+saves a third
+boots A only
+expect "configuration at the next start" "$(own a)" third
+# B was chosen by hand, and A is alone on a disk that knows nothing of it.
+boots B manual
+rm "$pc/data/flexrf"/config-b.xml*
+boots A only
+expect "configuration without another one" "$(own a)" third
+
+# ---- users, key and certificate
+
+flexrf=$pc/data/flexrf
+echo pc >"$pc/etc/hostname"
+echo 0123456789abcdef0123456789abcdef >"$pc/etc/machine-id"
+notices() { cat "$pc/run/flexrf-notices/identity" 2>/dev/null; }
+is_pair() { [[ $(openssl x509 -in "$flexrf/panel.crt" -noout -pubkey) == "$(openssl pkey -in "$flexrf/panel.key" -pubout)" ]] && echo pair; }
+look() {  # look STATUS_OF_USERS
+  rm -f "$pc/run/flexrf-notices/identity"
+  echo "$1" >"$work/users_status"
+  runs first-boot
+  expect "exit code of first-boot" "$status" 0
+  expect "key and certificate" "$(is_pair)" pair
+}
+look 0
+expect "first boot" "$output" "*first boot: data has *Fingerprint=*"
+expect "machine-id" "$(<"$pc/data/machine-id")" 0123456789abcdef0123456789abcdef
+key=$(<"$flexrf/panel.key")
+echo anna >"$flexrf/panel-users"
+look 0
+expect "second boot" "$output" ""
+expect "key of the second boot" "$(<"$flexrf/panel.key")" "$key"
+look 127
+expect "users whom nobody could look at" "$(<"$flexrf/panel-users")" anna
+look 2
+expect "damaged users" "$(<"$flexrf/panel-users.damaged") $(ls "$flexrf/panel-users" 2>/dev/null)" "anna "
+expect "notice of damaged users" "$(notices)" "who may log in could not be read, *: claim this PC anew *"
+for damage in 'echo garbage >"$flexrf/panel.crt"' 'echo garbage >"$flexrf/panel.key"' ': >"$flexrf/panel.key"' 'rm "$flexrf/panel.crt"' \
+  'openssl genpkey -algorithm EC -pkeyopt ec_paramgen_curve:P-256 -out "$flexrf/panel.key" 2>/dev/null'; do
+  eval "$damage"
+  look 0
+  expect "notice after $damage" "$(notices)" "the panel's key or certificate was damaged, and is made anew: *Fingerprint=*"
+done
+look 0
+expect "notice of what is whole" "$(notices)" ""
+finish
