@@ -5,7 +5,7 @@
 use strict;
 use warnings;
 use Errno qw(EBUSY);
-use Fcntl qw(:DEFAULT :flock);
+use Fcntl qw(:DEFAULT :flock SEEK_SET);
 
 sub refuse { print STDERR "flexrf: @_\n"; exit 1 }
 
@@ -19,6 +19,11 @@ sub hold {
     refuse("$device is locked by another program, as a flash that runs already: nothing was written to it") if $k == 50;
     select(undef, undef, undef, 0.1);
   }
+  # A virtual machine opens its disk without O_EXCL, and locks some bytes of it. struct flock of Linux: l_type, l_whence, l_start, l_len, l_pid.
+  my $others = pack('s s x![q] q q i x![q]', F_WRLCK, SEEK_SET, 0, 0, 0);
+  fcntl($disk, F_GETLK, $others) or refuse("$device: whether another program has locked it cannot be told: $!");
+  refuse("$device is locked by another program, as a virtual machine that runs from it: nothing was written to it")
+    if unpack('s', $others) != F_UNLCK;
   fcntl($disk, F_SETFD, 0) or refuse("$device cannot be held: $!");
   $ENV{FLEXRF_HELD} = fileno($disk);
   exec {$command[0]} @command or refuse("$command[0]: $!");

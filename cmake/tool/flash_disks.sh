@@ -11,13 +11,13 @@ look_at_disks() {
     die "lsblk does not say which disks there are; it has to be that of util-linux 2.37 or newer"
 }
 
-# take_disk PATH: sets what is known of it, disk_*; fails if lsblk does not list it. What devices say of themselves has no control
-# characters then, which a terminal would obey.
+# take_disk PATH: sets what is known of it, disk_*; fails if lsblk does not list it. What devices say of themselves has then no control
+# characters, which a terminal would obey, and none that are invisible or turn the direction of a text, which a person would misread.
 take_disk() {
   local fields
   fields=$(jq -r --arg path "$1" '
     def all: recurse(.children[]?);
-    def text: if . == null then "" else tostring | gsub("[[:cntrl:]]"; " ") | gsub("^ +| +$"; "") end;
+    def text: if . == null then "" else tostring | gsub("[[:cntrl:]\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]"; " ") | gsub("^ +| +$"; "") end;
     def yes: text | . == "true" or . == "1";
     def list(f): [f | select(. != "")] | join(", ");
     def mounts: .mountpoints[]? | select(. != null and . != "[SWAP]");
@@ -37,12 +37,14 @@ take_disk() {
       ([$all[] | mounts | text] | unique | join(", ")),
       ([$all[] | mounts] | unique | map(if test("^[A-Za-z0-9/._-]+$") then . else @sh end) | join(" ")),
       ([$all[] | select(.mountpoints | index("[SWAP]")) | .path] | unique | join(" ")),
-      ($holders | map("\(.path) (\(.type))") | unique | join(", ")), ($holders[0] // {} | .type, .path)
+      ($holders | map("\(.path) (\(.type))") | unique | join(", ")), ($holders[0] // {} | .type, .path),
+      ([$all[] | select(.children | not) | select((.fstype | text) | test("^(crypto_LUKS|LVM2_member|.*_raid_member|zfs_member|bcache)$"))] |
+        unique_by(.path) | (map("\(.path) (\(.fstype))") | join(", ")), (map(.path) | join(" ")))
     ] | map(text) | join("\u001f")' <<<"$disks") || return
   [[ $fields ]] || return 1
   disk_path=$1
   IFS=$'\x1f' read -r disk_type disk_top disk_size disk_sector disk_read_only disk_text disk_contents disk_is_ours disk_is_system \
-    disk_mounts disk_umount disk_swaps disk_holders disk_holder_type disk_holder <<<"$fields"
+    disk_mounts disk_umount disk_swaps disk_holders disk_holder_type disk_holder disk_members disk_member_paths <<<"$fields"
 }
 
 holds_file() {  # holds_file FILE: whether it lies on the disk that was taken
@@ -97,6 +99,8 @@ disk_obstacle() {
     echo "is in use as swap space. If all that is on it may be lost: swapoff $disk_swaps"
   elif [[ $disk_holders ]]; then
     echo "is in use as a part of $disk_holders. If all that is on it may be lost: $(how_to_release)"
+  elif [[ $disk_members ]]; then
+    echo "holds what is closed now, and belongs to other disks or needs a password: $disk_members. If all that is on it may be lost: wipefs --all $disk_member_paths"
   elif loop=$(loop_of "$disk_path"); then
     echo "is in use as $loop. If all that is on it may be lost: losetup -d $loop"
   elif [[ $disk_read_only == true ]]; then

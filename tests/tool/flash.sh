@@ -33,7 +33,7 @@ def part($name; $more): disk($name; {type: "part", vendor: null, model: null, se
 {blockdevices: [
   disk("sda"; {rm: false, tran: "sata", children: [part("sda1"; {mountpoints: ["/boot/efi"]}),
     part("sda2"; {children: [disk("vg-root"; {type: "lvm", mountpoints: ["/"]})]})]}),
-  disk("sdb"; {size: 33554432, model: "Ul\u001b[31mtra", children: [part("sdb1"; {label: "OLD", fstype: "vfat"}), part("sdb2"; {fstype: "ext4"})]}),
+  disk("sdb"; {size: 33554432, model: "Ul\u001b[31mtra\u202e", children: [part("sdb1"; {label: "OLD", fstype: "vfat"}), part("sdb2"; {fstype: "ext4"})]}),
   disk("sdc"; {children: [part("sdc1"; {mountpoints: ["/media/my data", "/mnt"]})]}),
   disk("sdd"; {children: [part("sdd1"; {mountpoints: ["[SWAP]"]})]}),
   disk("sde"; {children: [part("sde1"; {fstype: "LVM2_member", children: [disk("vg-data"; {type: "lvm"})]})]}),
@@ -45,6 +45,8 @@ def part($name; $more): disk($name; {type: "part", vendor: null, model: null, se
   disk("sdk"; {size: 0}),
   disk("sdl"; {children: [part("sdl1"; {})]}),
   disk("sdm"; {}),
+  disk("sdn"; {fstype: "crypto_LUKS"}),
+  disk("sdo"; {children: [part("sdo1"; {fstype: "vfat"}), part("sdo2"; {fstype: "LVM2_member"}), part("sdo3"; {fstype: "linux_raid_member"})]}),
   disk("sr0"; {type: "rom"}),
   disk("zram0"; {}),
   disk("loop7"; {type: "loop", size: 33554432}),
@@ -146,6 +148,8 @@ refused "*$dev/sdd is in use as swap space*swapoff $dev/sdd1" "$image" "$dev/sdd
 refused "*$dev/sde is in use as a part of $dev/vg-data (lvm)*vgchange*" "$image" "$dev/sde" --yes
 refused "*$dev/sdf is in use as a part of $dev/md0 (raid1)*mdadm --stop $dev/md0" "$image" "$dev/sdf" --yes
 refused "*$dev/sdg is in use as a part of $dev/secret (crypt)*cryptsetup close secret" "$image" "$dev/sdg" --yes
+refused "*$dev/sdn holds what is closed now, *: $dev/sdn (crypto_LUKS). *wipefs --all $dev/sdn" "$image" "$dev/sdn" --yes
+refused "*$dev/sdo holds what is closed now, *: $dev/sdo2 (LVM2_member), $dev/sdo3 (linux_raid_member). *wipefs --all $dev/sdo2 $dev/sdo3" "$image" "$dev/sdo" --yes
 refused "*$dev/vg-data is no disk of its own*(lvm)*" "$image" "$dev/vg-data" --yes
 refused "*$dev/sdh is read-only*" "$image" "$dev/sdh" --yes
 refused "*$dev/sdi has sectors of 4096 bytes*" "$image" "$dev/sdi" --yes
@@ -170,7 +174,7 @@ rm "$work/loops"
 refused "*without a terminal nobody can say that it may be*--yes*" "$image" "$disk"
 refused "*disks that can be written:*1  $disk  0.0 GB*usb, removable, serial 4C53*on it: OLD (vfat), ext4*a script names it*" "$image"
 expect "disks in use are not offered" "$errors" "*not offered:*$dev/sda (*$dev/sdc (* is mounted*"
-expect "a terminal obeys no name of a disk" "$errors" "*SanDisk Ul ?31mtra*"
+expect "a terminal obeys no name of a disk" "$errors" "*SanDisk Ul ?31mtra, usb*"
 expect "what is no disk is not in the list" "$errors" "${errors/zram0/}"
 jq '.blockdevices |= map(select(.name == "sda"))' "$work/disks.json" >"$work/only.json"
 mv "$work/disks.json" "$work/all.json" && mv "$work/only.json" "$work/disks.json"
@@ -249,6 +253,21 @@ expect "exit code of a file that changes" "$status" 1
 expect "message of a file that changes" "$errors" "*$image was changed by somebody while it was written*"
 
 # Interrupted, and two at once.
+# As QEMU locks the disk of a running virtual machine: shared, some bytes of it.
+fresh_disk
+perl -e 'use Fcntl; open(my $d, "+<", $ARGV[0]) or die; my $l = pack("s s x![q] q q i x![q]", F_RDLCK, 0, 100, 4, 0); fcntl($d, 37, $l) or die; $| = 1; print "locked\n"; sleep 600' \
+  "$disk" >"$work/locked" &
+machine=$!
+for ((k = 0; k < 600; ++k)); do
+  [[ ! -s $work/locked ]] || break
+  sleep 0.1
+done
+flexrf flash "$image" "$disk" --yes </dev/null
+expect "exit code of a virtual machine's disk" "$status" 1
+expect "message of a virtual machine's disk" "$errors" "*$disk is locked by another program, as a virtual machine that runs from it: nothing was written to it"
+kill "$machine"
+wait "$machine" 2>/dev/null
+
 fresh_disk
 touch "$work/hang"
 "$tree/flexrf" flash "$image" "$disk" --yes </dev/null >"$work/first" 2>&1 &
