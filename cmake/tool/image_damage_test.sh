@@ -62,7 +62,8 @@ TEXT
   put_partition "$1" data "$work" && rm "$work"
 }
 
-# Nobody could log in, and no page would be served: the PC is claimed anew, with a certificate of its own, and says why.
+# With damaged users nobody could log in, and with a damaged certificate no page would be served. The PC shows the claim page, with a new
+# certificate, and its notices say why.
 damaged_users_lead_to_a_claim() {
   local disk=$pc_folder/spoiled.img
   pc_disk=()
@@ -114,7 +115,7 @@ data_is_missing() {
     screen >"$pc_folder/screen-missing.text"
 }
 
-# confirm_both DISK: slot B gets the version of slot A, has confirmed itself, too, and is the primary.
+# confirm_both DISK: copies the version of slot A into slot B, marks slot B as confirmed, and makes it the primary.
 confirm_both() {
   local choice=$pc_folder/choice part file words
   rm -rf "$choice" && mkdir "$choice" || return
@@ -130,7 +131,8 @@ confirm_both() {
   mcopy -o -i "$1@@2M" "$choice"/*.env ::flexrf/
 }
 
-# A disk that has bad sectors where the confirmed version lies: three starts come to nothing, the other version starts, and is what boots from then on.
+# The disk has bad sectors in the root of the confirmed primary: after three failed starts GRUB starts the other slot, which confirms itself and becomes
+# the primary.
 a_confirmed_version_that_fails_gives_way() {
   local disk=$pc_folder/failing.img first starts
   pc_disk=()

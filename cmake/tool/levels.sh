@@ -53,7 +53,7 @@ test_panel() {
 
 order_parts=20
 
-# Of the tests that try all orders of some events (tests/event_orders.hpp) one part. What passed is remembered for each part, so that a second
+# Runs one part of the tests that try all orders of some events (tests/event_orders.hpp). Passes are remembered for each part, so that a second
 # start goes on where the first was stopped.
 test_orders() {  # test_orders PART
   local FLEXRF_LONG="part $1 of $order_parts" preset=release

@@ -84,7 +84,8 @@ Outcome mark_whole(Environment& environment, Medium& medium, Slot slot, const Wo
   return change(environment, slot, running, mark);
 }
 
-/// Beside what GRUB notes of other things. A version on trial has no attempt back before it is confirmed.
+/// Resets the count of attempts, and keeps what else GRUB has noted in the file. Refused for a version that
+/// is not confirmed: its trial would never end.
 Outcome give_attempts_back(Environment& environment, Slot slot, const Running& running) {
   const bool runs = running.slot == slot;
   if (!runs || !environment.choice().of(slot).is_confirmed) {

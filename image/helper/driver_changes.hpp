@@ -1,4 +1,4 @@
-// What a version changes about which driver each device has.
+// Which devices have another driver in another version.
 #pragma once
 
 #include <string>
@@ -14,8 +14,9 @@ struct DriverChange {
   std::string to;    ///< in the other one
 };
 
-/// Of two versions' lines `drivers=`, each as an application's --drivers prints it: first the changes of the
-/// devices that run, in their order, then the devices that are new.
+/// Compares the values of `drivers=` in two version files, which have the form that an application's
+/// --drivers prints. First come the devices of the running version whose driver differs, in its order, then
+/// new devices.
 std::vector<DriverChange> driver_changes(std::string_view running, std::string_view other);
 /// For a message: "axis_x: canopen -> simulated, valve: none -> gpio, and 7 more".
 std::string text_of(const std::vector<DriverChange>& changes);

@@ -17,7 +17,7 @@ inline constexpr Duration wait_for_choice = std::chrono::seconds{2};
 Facts read_facts(const Files& files, Duration wait);
 /// What stands in it tells the version in a slot to the one in the other. Any thread.
 std::string version_file(const UpdateFiles& files, boot::Slot slot);
-/// What it tells; nothing where it cannot be read. Any thread.
+/// Reads version_file(). Empty where it cannot be read. Any thread.
 NamedLines version_lines(const UpdateFiles& files, boot::Slot slot);
 /// What GRUB told of this boot. Any thread.
 boot::Running read_running(const Files& files);

@@ -100,8 +100,8 @@ void Helper::supervise(const Facts& facts, Time now) {
   }
 }
 
-/// A confirmed version has come up when its panel answers, also with a device in fault: another version would
-/// mend no device.
+/// A confirmed version has come up when its panel answers. A device in fault does not count: another version
+/// would not mend it.
 void Helper::await_start(const Facts& facts, Time now) {
   const PanelAnswer panel = surroundings_.ask_panel(wait_for_health);
   up_.note(panel.has_answered ? "" : panel.why_not_healthy, now);

@@ -10,6 +10,7 @@
 
 namespace flexrf::helper {
 
+/// The lines of one file.
 class NamedLines {
  public:
   static constexpr std::size_t longest_value = 200;

@@ -15,7 +15,7 @@ namespace flexrf {
 /// asked for, or its driver cannot run in virtual time.
 Result<std::vector<const DriverRecord*>> choose_drivers(const Application& application,
                                                         const Options& options);
-/// As --hardware takes it: "axis_x=canopen,camera=v4l2". Empty: there are no devices.
+/// The drivers in the form of --hardware: "axis_x=canopen,camera=v4l2". Empty: there are no devices.
 std::string hardware_text(const Application& application, std::span<const DriverRecord* const> drivers);
 
 }  // namespace flexrf

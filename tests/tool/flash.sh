@@ -253,7 +253,7 @@ expect "exit code of a file that changes" "$status" 1
 expect "message of a file that changes" "$errors" "*$image was changed by somebody while it was written*"
 
 # Interrupted, and two at once.
-# As QEMU locks the disk of a running virtual machine: shared, some bytes of it.
+# QEMU holds shared locks on some bytes of a running virtual machine's disk.
 fresh_disk
 perl -e 'use Fcntl; open(my $d, "+<", $ARGV[0]) or die; my $l = pack("s s x![q] q q i x![q]", F_RDLCK, 0, 100, 4, 0); fcntl($d, 37, $l) or die; $| = 1; print "locked\n"; sleep 600' \
   "$disk" >"$work/locked" &

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What is an industrial PC's own (image/disk): which configuration the slot that runs has, and what becomes of damaged users, key and
-# certificate. The scripts are the PC's, with folders of this test in the place of its own.
+# An industrial PC's own files (image/disk): the configuration that a slot starts with, and how damaged users, keys and certificates are
+# replaced. The PC's scripts run here on folders of this test.
 source "$(dirname "$0")/stand_in.sh"
 if ! command -v openssl >/dev/null; then
   echo "not tried: there is no openssl"
@@ -51,7 +51,7 @@ expect "what is said" "$output" "*the configuration is that of slot B, which ran
 saves a third
 boots A only
 expect "configuration at the next start" "$(own a)" third
-# B was chosen by hand, and A is alone on a disk that knows nothing of it.
+# Slot B ran last, but has left no configuration: slot A keeps its own.
 boots B manual
 rm "$pc/data/flexrf"/config-b.xml*
 boots A only

@@ -71,7 +71,7 @@ repair
 expect "exit code of e2fsck that could not look" "$status" 1
 expect "message of e2fsck that could not look" "$output" "*data could not be checked (exit code 12 of e2fsck), and is left as it is*"
 expect "user after e2fsck could not look" "$(user)" anna
-# Also with a copy of the superblock alone.
+# The first superblock is lost, and a copy of it is there.
 garbage 1 1
 repair
 expect "exit code with a copy alone" "$status" 1

@@ -178,7 +178,7 @@ void a_trial_has_three_attempts() {
   CHECK_EQUAL(switch_on(script(), files).why, "trial");
 }
 
-/// One whose root has a bad sector, or whose application ends at once.
+/// As where its root has a bad sector, or its application ends at once.
 void a_confirmed_version_that_never_comes_up_gives_way() {
   const Choice choice{42, Slot::a, 41, {confirmed, confirmed}};
   Files files = files_of(choice, {40, 3, Slot::b, {}});
@@ -191,7 +191,7 @@ void a_confirmed_version_that_never_comes_up_gives_way() {
   for (int start = 0; start < 3; ++start) boots(Slot::a, "confirmed");
   Running running = boots(Slot::b, "fallback");
   boots(Slot::b, "fallback");
-  // What stands in is found healthy: it is the primary now, and may fail three times itself.
+  // Slot B is found healthy and becomes the primary, with three attempts of its own.
   LostPowerDisk disk(files);
   CHECK(perform({"confirm", "B"}, disk, running).exit == Exit::done);
   disk.settle();

@@ -137,7 +137,7 @@ void a_version_on_trial_that_is_not_healthy_gives_up_its_turn_once() {
   CHECK_CONTAINS(pc.motion(), "has not confirmed itself");
 }
 
-/// Of a PC that runs its confirmed version A, beside B, with the third start of it counted.
+/// A PC whose slots are both whole and which runs slot A, confirmed, at its third counted start.
 struct ThirdStart {
   Pc pc;
   ThirdStart() {

@@ -171,7 +171,8 @@ void an_older_bundle_has_to_be_meant() {
   CHECK_CONTAINS(refusal(bench.ask(meant)), "503 which version runs cannot be told");
 }
 
-/// Simulated drivers are healthy on every PC: only who is told of them keeps them off one with real ones.
+/// A version with simulated drivers is healthy on every PC, so health cannot keep it off one with real
+/// drivers.
 void other_drivers_have_to_be_meant() {
   Bench bench;
   const std::string permission = permission_for_drivers(bench.pc.files.update);

@@ -24,12 +24,8 @@ RunningCell::~RunningCell() {
   if (thread_.joinable()) finish();
 }
 
-void RunningCell::begin_to_start() {
-  thread_ = std::thread([this] { summary_ = executive_.run(); });
-}
-
 void RunningCell::start() {
-  begin_to_start();
+  thread_ = std::thread([this] { summary_ = executive_.run(); });
   if (!wait_until([&] { return control().mode() != Mode::starting; })) throw CheckFailed{"does not start"};
 }
 

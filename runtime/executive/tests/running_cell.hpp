@@ -28,9 +28,8 @@ class RunningCell {
   Control& control() { return executive_.control(); }
   /// Before start().
   std::uint16_t add_requester() { return executive_.cell().add_requester(answers_); }
-  /// Returns at once. Units begin to step while others are still being initialised.
-  void begin_to_start();
-  /// Returns when every component has been initialised, or the application has failed to start.
+  /// Returns when every component has been initialised, or the application has failed to start. Units begin
+  /// to step before, while others are still being initialised.
   void start();
   /// Sends and waits for the answer.
   ParameterAnswer ask(const ParameterRequest& request);

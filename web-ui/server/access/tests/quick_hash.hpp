@@ -1,4 +1,4 @@
-// For tests that check passwords again and again: what a hash costs is up to itself.
+// Cheap password hashes for tests. A hash says itself how much work a check of it takes.
 #pragma once
 
 #include <sodium.h>
@@ -10,8 +10,8 @@
 
 namespace flexrf::panel {
 
-/// As hash_password(), for a thousandth of the time and 8 KiB of memory; checking it costs as little. Not for
-/// tests of what a person's password costs.
+/// Makes a hash of the same kind as hash_password(), with the least work and 8 KiB of memory that libsodium
+/// allows. A check of it is as cheap. Not for tests of the real cost.
 inline std::string quick_hash(std::string_view password) {
   std::array<char, crypto_pwhash_STRBYTES> text{};
   if (crypto_pwhash_str(text.data(), password.data(), password.size(), crypto_pwhash_OPSLIMIT_MIN,
