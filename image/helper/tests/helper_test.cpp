@@ -121,6 +121,14 @@ void an_unclaimed_pc_confirms_itself_and_does_not_move() {
   CHECK_CONTAINS(pc.motion(), "nobody has claimed this PC");
 }
 
+void restarts_once_after_ten_minutes(Pc& pc) {
+  Helper helper = pc.helper();
+  pc.run(helper, 600);
+  CHECK_EQUAL(pc.asked_systemd("reboot"), 0);
+  pc.run(helper, 30);
+  CHECK_EQUAL(pc.asked_systemd("reboot"), 1);
+}
+
 void a_version_on_trial_that_is_not_healthy_gives_up_its_turn_once() {
   Pc pc;
   pc.claim();
@@ -128,11 +136,7 @@ void a_version_on_trial_that_is_not_healthy_gives_up_its_turn_once() {
   pc.choose({"mark-whole", "B", pc.files.command_line});
   pc.boots("B", "trial");
   pc.panel.why_not_healthy = "device arm is in fault: it does not answer";
-  Helper helper = pc.helper();
-  pc.run(helper, 600);
-  CHECK_EQUAL(pc.asked_systemd("reboot"), 0);
-  pc.run(helper, 30);
-  CHECK_EQUAL(pc.asked_systemd("reboot"), 1);
+  restarts_once_after_ten_minutes(pc);
   CHECK_CONTAINS(pc.said.back(), "gives up its turn");
   CHECK_CONTAINS(pc.motion(), "has not confirmed itself");
 }
@@ -174,11 +178,7 @@ void a_confirmed_version_that_does_not_come_up_gives_up_its_turn() {
   Pc& pc = start.pc;
   pc.panel.has_answered = false;
   pc.panel.why_not_healthy = "the panel does not answer";
-  Helper helper = pc.helper();
-  pc.run(helper, 600);
-  CHECK_EQUAL(pc.asked_systemd("reboot"), 0);
-  pc.run(helper, 30);
-  CHECK_EQUAL(pc.asked_systemd("reboot"), 1);
+  restarts_once_after_ten_minutes(pc);
   CHECK_CONTAINS(pc.said.back(), "does not answer, in 10 min: it gives up its turn");
   // The other one tells of it.
   pc.boots("B", "fallback");

@@ -142,6 +142,17 @@ void the_only_version_need_not_be_confirmed_for_an_update() {
   CHECK_EQUAL(bench.answer_to(Verb::install), "200 ");
 }
 
+/// The file is there from the request on, and until the unit that installs has ended.
+void permits_one_installation(Bench& bench, const Request& request, const std::string& permission) {
+  CHECK_EQUAL(refusal(bench.ask(request)), "200 ");
+  CHECK(bench.pc.has(permission));
+  bench.verbs->tick();
+  CHECK(bench.pc.has(permission));
+  bench.pc.result(Job::install, "state=failed\nwhy=\n");
+  bench.verbs->tick();
+  CHECK(!bench.pc.has(permission));
+}
+
 void an_older_bundle_has_to_be_meant() {
   Bench bench;
   bench.pc.has_verified_bundle("999");
@@ -151,13 +162,7 @@ void an_older_bundle_has_to_be_meant() {
   CHECK(!bench.pc.has(permission));
   Request meant = request(Verb::install);
   meant.older = true;
-  CHECK_EQUAL(refusal(bench.ask(meant)), "200 ");
-  CHECK(bench.pc.has(permission));
-  bench.verbs->tick();
-  CHECK(bench.pc.has(permission));
-  bench.pc.result(Job::install, "state=failed\nwhy=\n");
-  bench.verbs->tick();
-  CHECK(!bench.pc.has(permission));
+  permits_one_installation(bench, meant, permission);
   // Of one that is not older it permits nothing.
   bench.pc.has_verified_bundle("1000");
   Pc::write(permission, "");
@@ -191,13 +196,7 @@ void other_drivers_have_to_be_meant() {
                  "409 that version has other drivers (arm: canopen -> simulated, camera: v4l2 -> "
                  "simulated, lamp: gpio -> none, and 2 more); ask again with 'other_drivers'");
   CHECK(!bench.pc.has(permission));
-  CHECK_EQUAL(refusal(bench.ask(meant)), "200 ");
-  CHECK(bench.pc.has(permission));
-  bench.verbs->tick();
-  CHECK(bench.pc.has(permission));
-  bench.pc.result(Job::install, "state=failed\nwhy=\n");
-  bench.verbs->tick();
-  CHECK(!bench.pc.has(permission));
+  permits_one_installation(bench, meant, permission);
   // The same drivers need no word, in whatever order they stand; the unit compares the lines.
   runs_with("drivers=arm=canopen,lamp=gpio\n");
   holds("drivers=lamp=gpio,arm=canopen\n");
