@@ -141,7 +141,9 @@ a_confirmed_version_that_fails_gives_way() {
   await_line 'the cell runs' && log_in || return
   starts=$(console_lines | grep -c 'start: /dev/sda6 cannot be mounted: it is damaged')
   ((starts == 3)) || { echo "it was started $starts times" && return 1; }
-  await_line 'the version in slot A has confirmed itself' && await_machine '.slot == "A" and .boot == "fallback" and .slots.A.primary and .slots.B.whole'
+  await_line 'the version in slot A has confirmed itself' && await_machine '.slot == "A" and .boot == "fallback" and .slots.A.primary and .slots.B.whole' &&
+    await_machine '.notices | any(test("^slot B.* was started three times and did not come up; version .* in slot A runs in its place$"))' &&
+    ask_machine 200 choose '{"slot": "B", "other_drivers": true}' && await_machine '.slots.B.primary'
 }
 
 with_real_camera() { sed -i '/^ExecStart=/s/$/ --hardware camera=v4l2,station_link=tcp,io_station=real/' "$1/etc/systemd/system/flexrf.service"; }
