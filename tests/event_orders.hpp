@@ -5,30 +5,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 #include <span>
 #include <string>
 
+#include "tests/test_extent.hpp"
+
 namespace flexrf {
-
-/// Which orders are tried beside the short ones that every run tries.
-struct OrderExtent {
-  bool some = false;   ///< `--full` (FLEXRF_LONG=1): a few at random
-  unsigned part = 0;   ///< `--soak` (FLEXRF_LONG="part 3 of 20"): of all of them one part, from 1 on
-  unsigned parts = 0;  ///< 0: none of these
-  bool has(std::size_t number) const { return parts != 0 && number % parts == part - 1; }
-
-  static OrderExtent of_environment() {
-    const char* const text = std::getenv("FLEXRF_LONG");
-    OrderExtent extent;
-    if (text == nullptr) return extent;
-    const bool is_part = std::sscanf(text, "part %u of %u", &extent.part, &extent.parts) == 2 &&
-                         extent.part >= 1 && extent.part <= extent.parts;
-    if (!is_part) extent = {.some = true};
-    return extent;
-  }
-};
 
 /// `Event`: an enumeration that begins at 0 and ends with `count`.
 template <class Event>
@@ -76,7 +59,7 @@ bool hold_in_random_orders(std::size_t count, const Wanted& is_wanted, const Hol
 }  // namespace detail
 
 /// Calls `attempt` with all orders of `Length` events; with `--full` also with `some` of five and six at
-/// random, with `--soak` with `at_random` of these and with all of `Long` (OrderExtent). `attempt` returns an
+/// random, with `--soak` with `at_random` of these and with all of `Long` (TestExtent). `attempt` returns an
 /// OrderOutcome; what goes wrong first is printed by `names` of the events. True: the rule held in all of
 /// them, and something was done, for what never does anything proves nothing.
 template <class Event, std::size_t Length, std::size_t Long, class Attempt>
@@ -93,7 +76,7 @@ bool hold_in_orders(const std::array<const char*, events_of<Event>>& names, std:
     std::printf("%s: %s\n", text.c_str(), outcome.violation);
     return false;
   };
-  const OrderExtent extent = OrderExtent::of_environment();
+  const TestExtent extent = TestExtent::of_environment();
   const auto each = [](std::size_t) { return true; };
   const auto of_the_part = [&](std::size_t number) { return extent.has(number); };
   bool held = detail::hold_in_all_orders<Length, Event>(each, holds);

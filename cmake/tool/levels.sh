@@ -51,12 +51,12 @@ test_panel() {
   run_tests release -L '^panel$' "${without_long[@]}"
 }
 
-order_parts=20
+campaign_parts=20
 
-# Runs one part of the tests that try all orders of some events (tests/event_orders.hpp). Passes are remembered for each part, so that a second
+# Runs one part of the tests that know campaigns, such as all orders of some events (tests/test_extent.hpp). Passes are remembered for each part, so that a second
 # start goes on where the first was stopped.
-test_orders() {  # test_orders PART
-  local FLEXRF_LONG="part $1 of $order_parts" preset=release
+test_campaign() {  # test_campaign PART
+  local FLEXRF_LONG="part $1 of $campaign_parts" preset=release
   local -a names selection=()
   export FLEXRF_LONG
   rm -rf "$stages/keys-release" # they depend on FLEXRF_LONG
@@ -64,7 +64,7 @@ test_orders() {  # test_orders PART
   mapfile -t names < <(sort -u "$root/build/release/tests_read.txt" | while IFS=$'\t' read -r name path; do
     [[ -f $path && -x $path ]] && grep -q -a -F 'part %u of %u' "$path" && printf '%s\n' "$name"
   done | sort -u)
-  ((${#names[@]})) || { printf 'there are no tests that try orders\n' && count 1 1 && return 1; }
+  ((${#names[@]})) || { printf 'there are no tests that know campaigns\n' && count 1 1 && return 1; }
   run_changed release run_ctest "${names[@]}"
 }
 
@@ -185,7 +185,7 @@ level_full() {
 level_soak() {
   local part
   release_is_built
-  for ((part = 1; part <= order_parts; ++part)); do stage "orders $part" test_orders "$part"; done
+  for ((part = 1; part <= campaign_parts; ++part)); do stage "campaign $part" test_campaign "$part"; done
   image_stage soak
 }
 

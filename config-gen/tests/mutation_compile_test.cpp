@@ -2,7 +2,7 @@
 // the runtime, of the standard library and of C++ among them, and texts that C++ takes for something else.
 // Classes that an author writes are made up here, for their own text is not what is judged.
 //
-//   config_gen_mutation_compile_test [COUNT [FIRST]]    default: 300 0
+//   config_gen_mutation_compile_test [COUNT [FIRST]]    default: 40 0
 #include <iostream>
 
 #include "config-gen/tests/generated_compiler.hpp"
@@ -14,7 +14,7 @@
 namespace flexrf::config_gen::tests {
 namespace {
 
-Numbers numbers{0, 300};
+Numbers numbers{0, 40};
 
 std::size_t wrong_sources() {
   const TableTree tree(place::repository);
@@ -50,6 +50,7 @@ void what_is_accepted_compiles(void**) {
 
 int main(int argument_count, char** arguments) {
   using namespace flexrf::config_gen::tests;
+  numbers.take_campaign(200);
   numbers.take(argument_count, arguments);
   const CMUnitTest tests[] = {cmocka_unit_test(what_is_accepted_compiles)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
