@@ -29,9 +29,10 @@ struct Size {
 };
 
 /// The lines of a picture of this size, in UTF-8, none longer than its columns. The claim code is in large
-/// letters where there is room for it (66 columns), on larger screens the first address, too; once it is
-/// claimed the application's name is. The log takes the rows that are left. Texts of others are shown without
-/// control characters.
+/// letters where there is room for it (66 columns, or 36 in two lines), and the first address is a QR code
+/// beside it (from 71 columns and 25 rows on, unless notices need the rows); on larger screens the first
+/// address is in large letters, too. Once it is claimed the application's name is. The log takes the rows
+/// that are left. Texts of others are shown without control characters.
 std::vector<std::string> draw(const Facts& facts, Size size);
 
 }  // namespace flexrf::screen

@@ -5,6 +5,7 @@
 
 #include "image/screen/large_letters.hpp"
 #include "image/screen/picture.hpp"
+#include "image/screen/qr_code.hpp"
 #include "runtime/executive/tests/checks.hpp"
 
 namespace flexrf::screen {
@@ -57,8 +58,48 @@ void who_is_to_claim_it_sees_code_address_and_fingerprint() {
   CHECK(has(lines, "  00:11:22:33:44:55:66:77:88:99:AA:BB:CC:DD:EE:FF"));
   CHECK(has(lines, "  00:11:22:33:44:55:66:77:88:99:AA:BB:CC:DD:EE:01"));
   CHECK(has(lines, "\u2588"));
-  CHECK(lines.back() == "second");
   for (const std::string& line : lines) CHECK(letters_in(line) <= of_text.columns);
+}
+
+void a_telephone_reads_the_address() {
+  // Light modules of a row of characters: of its upper and its lower half.
+  const auto modules = [](const std::string& row, bool lower) {
+    std::string text;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (row[i] == ' ') text += '#';
+      if ((row[i] & 0xC0) != 0xC0) continue;
+      const auto kind = static_cast<unsigned char>(row[i + 2]);  // U+2580, U+2584, U+2588
+      text += kind == 0x88 || kind == (lower ? 0x84 : 0x80) ? '.' : '#';
+    }
+    return text;
+  };
+  const std::vector<std::string> code = qr_code("https://192.168.1.17:8443/");
+  CHECK_EQUAL(code.size(), std::size_t{17});  // version 2: 25 modules, and four on each side
+  for (const std::string& row : code) CHECK_EQUAL(letters_in(row), std::size_t{33});
+  for (const std::size_t row : {0, 1}) CHECK_EQUAL(modules(code[row], true), std::string(33, '.'));
+  // Finder patterns in three corners.
+  CHECK_EQUAL(modules(code[2], false).substr(0, 12), "....#######.");
+  CHECK_EQUAL(modules(code[2], false).substr(21), ".#######....");
+  CHECK_EQUAL(modules(code[2], true).substr(0, 12), "....#.....#.");
+  CHECK_EQUAL(modules(code[14], false).substr(0, 12), "....#######.");
+  CHECK_EQUAL(modules(code[14], true), std::string(33, '.'));
+  CHECK(qr_code(std::string(5000, 'x')).empty());
+
+  const std::vector<std::string> lines = draw(unclaimed(), of_text);
+  for (const std::string& row : code) CHECK(has(lines, row));
+  CHECK(has(lines, large_letters("7QK2M-")[3]) && has(lines, large_letters("9XR4T")[3]));
+  // Notices are worth more than it, and then the code is in one line.
+  Facts damaged = unclaimed();
+  damaged.notices = {"data was damaged, and is repaired", "choice0.env is damaged", "and more"};
+  const std::vector<std::string> with_notices = draw(damaged, of_text);
+  for (const std::string& notice : damaged.notices) CHECK(has(with_notices, "! " + notice));
+  CHECK(!has(with_notices, code[3]) && has(with_notices, large_letters("7QK2M-9XR4T")[3]));
+  CHECK(with_notices.back() == "second");
+  // Without an address there is nothing to open.
+  damaged.addresses.clear();
+  damaged.notices.clear();
+  CHECK(!has(draw(damaged, of_text), code[0]));
+  CHECK(!has(draw(unclaimed(), {70, 25}), code[3]));
 }
 
 void a_large_screen_has_the_address_in_large_letters() {
@@ -123,6 +164,7 @@ void once_claimed_it_shows_how_the_cell_is() {
 
 void what_others_say_cannot_steer_the_console() {
   Facts facts = unclaimed();
+  facts.claim_code.clear();
   facts.log = {"\033[2Jgone\x9b", std::string(300, 'x'), "\xE2\x80\xAEtxet"};
   for (const std::string& line : draw(facts, of_text)) {
     CHECK(line.find('\033') == std::string::npos && line.find('\x9b') == std::string::npos);
@@ -132,6 +174,7 @@ void what_others_say_cannot_steer_the_console() {
 
 void the_log_takes_the_rows_that_are_left() {
   Facts facts = unclaimed();
+  facts.claim_code.clear();
   facts.log.clear();
   for (int i = 0; i < 60; ++i) facts.log.push_back("line " + std::to_string(i));
   for (unsigned rows = 1; rows < 100; ++rows) {
@@ -152,6 +195,7 @@ int main() {
   using namespace flexrf::screen;
   const CMUnitTest tests[] = {
       CONTAINED_TEST(who_is_to_claim_it_sees_code_address_and_fingerprint),
+      CONTAINED_TEST(a_telephone_reads_the_address),
       CONTAINED_TEST(a_large_screen_has_the_address_in_large_letters),
       CONTAINED_TEST(every_character_of_a_code_has_a_shape_of_its_own),
       CONTAINED_TEST(a_small_screen_has_the_code_in_small_letters),
