@@ -12,6 +12,8 @@ development_key='' # yes or no, when it is known
 source "$tool/image_keys.sh"
 # shellcheck source=cmake/tool/image_bundle.sh
 source "$tool/image_bundle.sh"
+# shellcheck source=cmake/tool/image_sbom.sh
+source "$tool/image_sbom.sh"
 
 image_obstacle() {  # prints why no image can be made on this machine; nothing when one can
   local release
@@ -130,16 +132,19 @@ make_root() {  # make_root WORK APPLICATION PC [ARGUMENT...]
 make_start() {  # once, and anew when what it is made of has changed: it takes long to pack
   local busybox recipe
   busybox=$(fetch busybox-static) || return
-  recipe=$(cat "$disk_scripts"/{make_start.sh,modules.txt,start/init} "$image_folder/kernel.recipe" - <<<"$busybox $SOURCE_DATE_EPOCH" | sha256sum)
+  recipe=$(cat "$disk_scripts"/{make_start.sh,partitions.sh,modules.txt,start/init} "$image_folder/kernel.recipe" - <<<"$busybox $SOURCE_DATE_EPOCH" | sha256sum)
   [[ -f $image_folder/start.recipe && -f $image_folder/start.img && $(<"$image_folder/start.recipe") == "$recipe" ]] && return
   rm -f "$image_folder/start.recipe"
   bash "$disk_scripts/make_start.sh" "$image_folder/kernel" "$busybox" "$image_folder/start.img" && printf '%s\n' "$recipe" >"$image_folder/start.recipe"
 }
 
-make_boot() {  # make_boot WORK KERNEL_OPTIONS
+# slot_block KERNEL_OPTIONS ROOT: what GRUB tells the kernel, and which root belongs to it: its size and its checksum
+slot_block() { environment_block "slot_options=$1 flexrf.root=$(stat -c %s "$2"):$(sha256sum <"$2" | head -c 64)"; }
+
+make_boot() {  # make_boot WORK KERNEL_OPTIONS: after root.img
   mkdir "$1/boot" &&
     cp "$image_folder/kernel/vmlinuz" "$1/boot/" &&
-    environment_block "slot_options=$2" >"$1/boot/slot.env" &&
+    slot_block "$2" "$1/root.img" >"$1/boot/slot.env" &&
     make_start && cp "$image_folder/start.img" "$1/boot/initrd.img" &&
     bash "$disk_scripts/make_boot.sh" "$1/boot" "$1/boot.img"
 }
@@ -193,12 +198,12 @@ make_version() {  # make_version WORK APPLICATION product|test [ARGUMENT...]: bo
   say "drivers: ${drivers//,/, }"
   make_identity "$work" "$application" "$drivers" || die "what version this is could not be written"
   take_time "took the kernel" make_image_kernel || die "there is no kernel for the image"
-  take_time "made the start" make_boot "$work" "$options" || die "the partition with the kernel could not be made"
   take_time "made the root" make_root "$work" "$application" "$pc" "$@" || die "the root could not be made"
   if [[ $variant == test ]]; then add_test_devices "$work" || die "the devices for tests could not be had"; fi
   take_time "packed the root" pack_root "$work/root" "$work/root.img" || die "the root could not be packed"
   say "root: $(mib "$(du -sb "$work/root" | cut -f 1)") unpacked, $(mib "$(stat -c %s "$work/root.img")") as squashfs"
   rm -rf "$work/root"
+  take_time "made the start" make_boot "$work" "$options" || die "the partition with the kernel could not be made"
 }
 
 make_disk() {  # make_disk WORK APPLICATION OUTPUT: of a version
@@ -216,4 +221,5 @@ make_image() {  # make_image APPLICATION OUTPUT product|test [ARGUMENT...]
   trap "rm -rf '$work'" EXIT
   make_version "$work" "$1" "${@:3}"
   make_disk "$work" "$1" "$2"
+  take_time "listed what is in it, $2.spdx.json" write_sbom "$work" "$1" image "$2" || die "what the image consists of could not be listed"
 }

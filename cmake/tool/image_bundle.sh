@@ -26,5 +26,6 @@ make_bundle() {  # make_bundle APPLICATION OUTPUT product|test [ARGUMENT...]
   trap "rm -rf '$work'" EXIT
   make_version "$work" "$1" "${@:3}"
   take_time "made the bundle" pack_bundle "$work" "flexrf-$1-amd64" "$2" || die "the bundle could not be made"
+  take_time "listed what is in it, $2.spdx.json" write_sbom "$work" "$1" bundle "$2" || die "what the bundle consists of could not be listed"
   say "bundle: $(mib "$(stat -c %s "$2")"), version $(sed -n 's/^version=//p' "$work/identity/version")"
 }

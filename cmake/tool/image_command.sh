@@ -22,9 +22,9 @@ check_combination() {  # check_combination KIND: of the options for keys
 }
 
 image_command() {
-  local application='' output='' obstacle variant=product kind=image suffix keys_folder=''
+  local application='' output='' obstacle variant=product kind=image suffix keys_folder='' signer_folder=''
   local -A place=([--key]=image_key [--certificate]=image_certificate [--keyring]=image_keyring [--version]=image_version
-    [--boot-password-hash]=image_boot_password [--output]=output [--new-keys]=keys_folder)
+    [--boot-password-hash]=image_boot_password [--output]=output [--new-keys]=keys_folder [--new-signer]=signer_folder)
   while (($#)); do
     case $1 in
       --output | --key | --certificate | --keyring)
@@ -32,7 +32,7 @@ image_command() {
         printf -v "${place[$1]}" %s "$2"
         shift
         ;;
-      --version | --boot-password-hash | --new-keys)
+      --version | --boot-password-hash | --new-keys | --new-signer)
         [[ ${2-} ]] || misuse image "$1 needs a value"
         printf -v "${place[$1]}" %s "$2"
         shift
@@ -53,6 +53,12 @@ image_command() {
     [[ ! $application && $kind == image && ! $output ]] || misuse image "--new-keys DIR stands alone"
     install_packages image
     new_keys "$keys_folder"
+    return
+  fi
+  if [[ $signer_folder ]]; then
+    [[ ! $application && $kind == image && ! $output ]] || misuse image "--new-signer DIR stands alone"
+    install_packages image
+    new_signer "$signer_folder"
     return
   fi
   [[ $application ]] || misuse image "it takes the name of one application"

@@ -1,5 +1,5 @@
 # Sourced by image.sh: whose updates a PC takes. A CA signs the certificates of those who sign updates; its own certificate is in the
-# image, the keyring. Without keys of one's own there is one for development.
+# image, the keyring, which may have those of several CAs. Without keys of one's own there is one for development.
 # shellcheck shell=bash disable=SC2154,SC2034 # shares its variables with flexrf
 
 key_years=20 # nobody is there who would renew what a PC trusts
@@ -16,15 +16,19 @@ make_certificate() {  # make_certificate NAME SUBJECT EXTENSION... [-- OPTION OF
     -keyout "$name.key" -out "$name.pem" "${@:2}"
 }
 
+make_signer() {  # make_signer NAME WHOSE: with ca.key, in the folder of now
+  make_certificate "$1" "$2: signer of updates" basicConstraints=critical,CA:FALSE keyUsage=critical,digitalSignature \
+    extendedKeyUsage=critical,codeSigning authorityKeyIdentifier=keyid -- -CA ca.pem -CAkey ca.key && chmod 644 "$1.pem"
+}
+
 make_keys() {  # make_keys FOLDER WHOSE
   local said
   said=$(
     umask 077
-    cd "$1" &&
-      make_certificate ca "$2: CA of updates" basicConstraints=critical,CA:TRUE keyUsage=critical,keyCertSign subjectKeyIdentifier=hash 2>&1 &&
-      make_certificate signer "$2: signer of updates" basicConstraints=critical,CA:FALSE keyUsage=critical,digitalSignature \
-        extendedKeyUsage=critical,codeSigning authorityKeyIdentifier=keyid -- -CA ca.pem -CAkey ca.key 2>&1 &&
-      chmod 644 ca.pem signer.pem
+    cd "$1" && {
+      make_certificate ca "$2: CA of updates" basicConstraints=critical,CA:TRUE keyUsage=critical,keyCertSign subjectKeyIdentifier=hash &&
+        chmod 644 ca.pem && make_signer signer "$2"
+    } 2>&1
   ) || { say "$said" && return 1; }
 }
 
@@ -48,6 +52,17 @@ Both end in $key_years years.
 TEXT
 }
 
+# new_signer FOLDER: another one of the CA there, for somebody else or in the place of one that was lost. PCs go on to trust the others
+new_signer() {
+  local folder said number=2
+  folder=$(readlink -m "$1")
+  [[ -r $folder/ca.key && -r $folder/ca.pem ]] || die "$folder has no ca.key and ca.pem: a signer is made where the CA is; ./flexrf image --new-keys DIR makes one"
+  while [[ -e $folder/signer-$number.key || -e $folder/signer-$number.pem ]]; do number=$((number + 1)); done
+  said=$(umask 077 && cd "$folder" && make_signer "signer-$number" FlexRF 2>&1) || { say "$said" && die "the signer could not be made"; }
+  say "another signer of this CA: --key $folder/signer-$number.key --certificate $folder/signer-$number.pem"
+  say "The others are trusted as before. If one was stolen: docs/industrial-pc.md, A key that was stolen"
+}
+
 development_keys() {  # prints their folder; makes them once
   local folder=${cache:-${XDG_CACHE_HOME:-${HOME:+$HOME/.cache}}/flexrf}/development-key made
   [[ $folder != /flexrf/* ]] || { say "there is no home to keep a development key in: give --keyring, and --key and --certificate" && return 1; }
@@ -64,9 +79,22 @@ check_keys() {  # check_keys KEY CERTIFICATE KEYRING: ends with a message if upd
   [[ $(openssl pkey -in "$1" -pubout 2>&1) == "$(openssl x509 -in "$2" -noout -pubkey 2>&1)" ]] ||
     die "the certificate $2 is not that of the key $1"
   said=$(openssl verify -CAfile "$3" -purpose any "$2" 2>&1) ||
-    die "a PC with the keyring $3 would not trust the certificate $2: $(sed -n 's/^error .*: //p' <<<"$said" | head -n 1)"
+    die "a PC with the keyring $3 would not trust the certificate $2: $(sed -n 's/^error .*: //p' <<<"$said" | head -n 1)." \
+      "To change the CA, give both first: docs/industrial-pc.md, Another CA"
   [[ $(openssl x509 -in "$2" -noout -ext extendedKeyUsage 2>/dev/null) == *'Code Signing'* ]] ||
     die "the certificate $2 is not one for signing code (extendedKeyUsage=codeSigning), which PCs ask for"
+}
+
+subjects_of_keyring() {  # of each certificate in it; fails if it has none
+  openssl crl2pkcs7 -nocrl -certfile "$image_keyring" 2>/dev/null | openssl pkcs7 -print_certs -noout 2>/dev/null | sed -n 's/^subject= *//p' | grep .
+}
+
+check_keyring() {  # ends with a message if it is none, or has what no PC looks at
+  ! grep -q 'PRIVATE KEY' "$image_keyring" ||
+    die "--keyring: $image_keyring has a private key in it, which everybody could read in the image: leave the certificate alone there"
+  ! grep -q 'X509 CRL' "$image_keyring" ||
+    die "--keyring: $image_keyring has a list of revoked certificates, which PCs do not look at. After a theft change the CA: docs/industrial-pc.md, A key that was stolen"
+  subjects_of_keyring >/dev/null || die "--keyring: $image_keyring is no certificate (PEM); ./flexrf image --new-keys DIR makes one"
 }
 
 # Sets image_key, image_certificate and image_keyring where they were not given, and development_key to yes or no.
@@ -76,9 +104,7 @@ choose_keys() {
     file=image_$option
     [[ ! ${!file-} || -r ${!file} ]] || die "--$option: there is no file ${!file} that can be read"
   done
-  if [[ ${image_keyring-} ]]; then
-    openssl x509 -in "$image_keyring" -noout 2>/dev/null || die "--keyring: $image_keyring is no certificate (PEM); ./flexrf image --new-keys DIR makes one"
-  fi
+  if [[ ${image_keyring-} ]]; then check_keyring; fi
   development_key=no
   if [[ ! ${image_keyring-} ]]; then
     folder=$(development_keys) || exit 1
@@ -86,9 +112,9 @@ choose_keys() {
     development_key=yes
     say "WARNING: the development key is what this PC trusts ($folder): anyone who has it can make an update for this PC."
     say "For a PC that is in use: ./flexrf image --new-keys DIR, and --keyring"
-  elif openssl x509 -in "$image_keyring" -noout -subject | grep -q 'FlexRF development'; then
+  elif subjects_of_keyring | grep -q 'FlexRF development'; then
     development_key=yes
-    say "WARNING: the keyring is that of a development key: anyone who has that can make an update for this PC."
+    say "WARNING: a development key is in the keyring: anyone who has it can make an update for this PC."
   fi
   if [[ ${image_key-} ]]; then check_keys "$image_key" "$image_certificate" "$image_keyring"; fi
 }

@@ -39,6 +39,7 @@ refused "*--keyring needs the name of a file*" keyboard --keyring
 refused "*--version needs a value*" keyboard --version
 refused "*--version: 'a b' is no name of a version*" keyboard --version 'a b'
 refused "*--new-keys DIR stands alone*" keyboard --new-keys "$work/keys"
+refused "*--new-signer DIR stands alone*" keyboard --new-signer "$work/keys"
 refused "*--key and --certificate belong together*" keyboard --bundle --key x
 refused "*--keyring is missing: which CA the PC trusts from this version on*" keyboard --bundle --key x --certificate y
 refused "*a bundle is signed: --keyring needs --key and --certificate*" keyboard --bundle --keyring x
@@ -65,8 +66,13 @@ expect "exit code of keys again" "$status" 1
 expect "message of keys again" "$errors" "*$work/keys has a ca.key already*"
 expect "the keys of before" "$(cat "$work"/keys/*)" "$before"
 keys "$work/others"
+refused "*$work/bin has no ca.key and ca.pem*" --new-signer "$work/bin"
+flexrf image --new-signer "$work/keys" </dev/null
+expect "exit code of --new-signer" "$status" 0
+expect "message of --new-signer" "$errors" "*--key $work/keys/signer-2.key --certificate $work/keys/signer-2.pem*A key that was stolen*"
+expect "who may read the new signer's key" "$(stat -c %a "$work"/keys/signer-2.{key,pem} | tr '\n' ' ')" "600 644 "
 refused "*--keyring: there is no file $work/nothing that can be read" keyboard --keyring "$work/nothing"
-refused "*--keyring: $work/keys/ca.key is no certificate (PEM); ./flexrf image --new-keys DIR makes one" keyboard --keyring "$work/keys/ca.key"
+refused "*--keyring: $work/installed is no certificate (PEM); ./flexrf image --new-keys DIR makes one" keyboard --keyring "$work/installed"
 refused "*the certificate $work/keys/signer.pem is not that of the key $work/others/signer.key" keyboard --bundle \
   --key "$work/others/signer.key" --certificate "$work/keys/signer.pem" --keyring "$work/keys/ca.pem"
 refused "*a PC with the keyring $work/others/ca.pem would not trust the certificate $work/keys/signer.pem: *" keyboard --bundle \
@@ -74,12 +80,50 @@ refused "*a PC with the keyring $work/others/ca.pem would not trust the certific
 refused "*the certificate $work/keys/ca.pem is not one for signing code*" keyboard --bundle \
   --key "$work/keys/ca.key" --certificate "$work/keys/ca.pem" --keyring "$work/keys/ca.pem"
 
+cat "$work/keys/ca.pem" "$work/keys/ca.key" >"$work/with_key.pem"
+refused "*--keyring: $work/with_key.pem has a private key in it*" keyboard --keyring "$work/with_key.pem"
+{ cat "$work/keys/ca.pem" && echo '-----BEGIN X509 CRL-----'; } >"$work/with_list.pem"
+refused "*--keyring: $work/with_list.pem has a list of revoked certificates, which PCs do not look at*" keyboard --keyring "$work/with_list.pem"
+
+# Another CA: a PC that trusts the old one takes a version that trusts both, and that one takes a version that trusts the new one alone. After
+# it nothing that the old one's signers have signed is taken.
+cat "$work/keys/ca.pem" "$work/others/ca.pem" >"$work/both.pem"
+bundle() {  # bundle NAME KEYS SIGNER KEYRING
+  (
+    root=$tree tool=$tree/cmake/tool
+    source "$tool/words.sh"
+    source "$tool/image.sh"
+    image_key=$2/$3.key image_certificate=$2/$3.pem image_keyring=$4
+    choose_keys
+    mkdir -p "$work/packed/identity" && head -c 4096 /dev/urandom | tee "$work/packed/boot.img" >"$work/packed/root.img"
+    printf '%s\n' "version=$1" built=1 >"$work/packed/identity/version"
+    pack_bundle "$work/packed" flexrf-keyboard-amd64 "$work/$1.raucb"
+  ) >"$work/bundled" 2>&1 || expect "packing of the bundle $1" "$(<"$work/bundled")" none
+}
+taken() {  # taken KEYRING BUNDLE: whether a PC with this keyring takes it
+  printf '%s\n' '[system]' compatible=flexrf-keyboard-amd64 bootloader=noop '[keyring]' "path=$1" check-purpose=codesign use-bundle-signing-time=true >"$work/pc.conf"
+  if rauc --conf="$work/pc.conf" info "$work/$2.raucb" >/dev/null 2>&1; then echo yes; else echo no; fi
+}
+if command -v rauc >/dev/null; then
+  bundle both-trusted "$work/keys" signer "$work/both.pem"
+  bundle new-trusted "$work/others" signer "$work/others/ca.pem"
+  bundle of-the-thief "$work/keys" signer-2 "$work/keys/ca.pem"
+  expect "the version that trusts both, on a PC that trusts the old CA" "$(taken "$work/keys/ca.pem" both-trusted)" yes
+  expect "the version of the new CA there" "$(taken "$work/keys/ca.pem" new-trusted)" no
+  for name in both-trusted new-trusted of-the-thief; do expect "$name where both are trusted" "$(taken "$work/both.pem" "$name")" yes; done
+  expect "another signer of the old CA, on a PC that trusts the new one alone" "$(taken "$work/others/ca.pem" of-the-thief)" no
+  expect "the version of the new CA there" "$(taken "$work/others/ca.pem" new-trusted)" yes
+else
+  echo "not tried: bundles, there is no rauc"
+fi
+
 # The development key is made once, kept where caches are, and said loudly.
-chosen() {  # chosen: what the command takes without keys
+chosen() {  # chosen [KEYRING]: what the command takes without keys
   (
     root=$tree tool=$tree/cmake/tool cache=$work/cache
     source "$tool/words.sh"
     source "$tool/image.sh"
+    image_keyring=${1-}
     choose_keys && printf '%s %s\n' "$development_key" "$image_keyring" && cat "$image_keyring"
   ) 2>"$work/chosen"
 }
@@ -87,6 +131,9 @@ first=$(chosen)
 expect "the development key" "$first" "yes $work/cache/development-key/ca.pem*"
 expect "the development key is said" "$(<"$work/chosen")" "*WARNING: *$work/cache/development-key*anyone who has it can make an update*"
 expect "the same again" "$(chosen)" "$first"
+cat "$work/keys/ca.pem" "$work/cache/development-key/ca.pem" >"$work/with_development.pem"
+expect "a development key beside another one" "$(chosen "$work/with_development.pem")" "yes *"
+expect "it is said" "$(<"$work/chosen")" "*WARNING: a development key is in the keyring*"
 expect "nothing left of making it" "$(echo "$work"/cache/development-key*)" "$work/cache/development-key"
 
 echo 699 >"$work/free"
@@ -112,6 +159,42 @@ BODY
 output=$(bash "$tree/image/disk/fetch_packages.sh" "$work/packages" dash coreutils 2>&1)
 expect "exit code without a network" $? 1
 expect "message without a network" "$output" "*not all packages could be had: dash coreutils*hint: is there a network*"
+
+# What is in an image: Debian's packages, headers that are compiled in, the packages of the page, GRUB; in the words of SPDX 2.3.
+deb() {  # deb NAME VERSION: its file
+  mkdir -p "$work/deb/$1/DEBIAN"
+  printf '%s\n' "Package: $1" "Version: $2" 'Architecture: amd64' 'Maintainer: x <x@example.com>' 'Description: x' >"$work/deb/$1/DEBIAN/control"
+  dpkg-deb -b "$work/deb/$1" "$work/deb/$1.deb" >/dev/null && printf '%s\n' "$work/deb/$1.deb"
+}
+stand_in dpkg-query <<'BODY'
+printf 'deb\tlibboost-dev\t1.74.0.3\tamd64\t-\t-\tSTATIC_LINK\n'
+BODY
+mkdir -p "$work/sbom/identity" "$tree/web-ui/panel" && echo root >"$work/sbom/root.img" && echo version=7 >"$work/sbom/identity/version"
+printf '%s\n' '{"packages": {"": {"version": "1"}, "node_modules/@lit/element": {"version": "2.1.2", "license": "BSD-3-Clause"},' \
+  '"node_modules/vite": {"version": "6.3.0", "dev": true}}}' >"$tree/web-ui/panel/package-lock.json"
+(
+  root=$tree tool=$tree/cmake/tool
+  source "$tool/words.sh"
+  source "$tool/image.sh"
+  export SOURCE_DATE_EPOCH=1767225600
+  deb libstdc++6 12.2.0-14+deb12u1 >"$work/sbom/packages"
+  kernel_package() { echo linux-image; }
+  fetch() { deb "$1" 1:6.1; }
+  write_sbom "$work/sbom" cell image "$work/sbom/cell.img"
+) || expect "the list of what is in it" failed written
+sbom() { jq -r "$1" "$work/sbom/cell.img.spdx.json"; } # sbom FILTER
+expect "what the document is" "$(sbom '"\(.spdxVersion) \(.dataLicense) \(.SPDXID) \(.creationInfo.created) \(.name)"')" \
+  "SPDX-2.3 CC0-1.0 SPDXRef-DOCUMENT 2026-01-01T00:00:00Z cell 7, image for an industrial PC"
+expect "what is in it" "$(sbom '[.packages[].name] | sort | join(" ")')" '@lit/element FlexRF busybox-static cell libboost-dev libstdc++6 linux-image'
+expect "how a package of Debian is named" "$(sbom '.packages[] | select(.name == "libstdc++6") | "\(.SPDXID) \(.externalRefs[0].referenceLocator)"')" \
+  'SPDXRef-deb-libstdcplusplus6 pkg:deb/debian/libstdc%2B%2B6@12.2.0-14%2Bdeb12u1[?]arch=amd64'
+expect "its checksum" "$(sbom '.packages[] | select(.name == "libstdc++6") | .checksums[0].checksumValue')" "$(sha256sum <"$work/deb/libstdc++6.deb" | head -c 64)"
+expect "how a package of the page is named" "$(sbom '.packages[] | select(.name == "@lit/element") | "\(.licenseDeclared) \(.externalRefs[0].referenceLocator)"')" \
+  'BSD-3-Clause pkg:npm/%40lit/element@2.1.2'
+expect "relationships whose ends are not there" "$(sbom '([.packages[].SPDXID, .SPDXID]) as $known | [.relationships[] | .spdxElementId, .relatedSpdxElement] - $known | length')" 0
+expect "packages without a relationship" "$(sbom '[.packages[].SPDXID] - [.relationships[].relatedSpdxElement] | length')" 0
+expect "identifiers that are there twice" "$(sbom '[.packages[].SPDXID] | length - (unique | length)')" 0
+expect "identifiers of another form" "$(sbom '[.packages[].SPDXID | select(test("^SPDXRef-[A-Za-z0-9.-]+$") | not)] | length')" 0
 
 # Which version it is: the last commit's time and name, and whether something was changed since.
 git init -q "$work/repository" && git -C "$work/repository" config user.name x && git -C "$work/repository" config user.email x@example.com
