@@ -144,6 +144,13 @@ write_image() {
   state=written
 }
 
+# All disks of an image would have the same. Without it the PC does this at its first boot, unless it has two such disks by then.
+own_identifiers() {
+  sh "$root/image/disk/root/usr/lib/flexrf/own-identifiers" "$device" >"$work/said" 2>&1 ||
+    say "WARNING: $device has the same identifiers as other disks of this image: start one PC with it before another such disk is plugged in there" \
+      "($(tail -n 1 "$work/said"))"
+}
+
 # A desktop mounts what it finds; then the disk is in use until it is let go.
 let_go() {
   local scanned=yes
@@ -180,6 +187,7 @@ trap interrupted INT TERM HUP
 start=$(microseconds)
 write_image
 trap '' INT TERM HUP # there is nothing to stop any more
+own_identifiers
 say "$device is written and was read back, in $(since "$start"): it has what $file has"
 let_go
 say "next: put it into the PC and switch that on; docs/industrial-pc.md, The first boot, tells what comes"

@@ -139,11 +139,39 @@ a_confirmed_version_that_fails_gives_way() {
   claimed_disk "$disk" && confirm_both "$disk" && read -r first _ < <(partition_of "$disk" root-b) &&
     head -c 1M /dev/urandom | dd of="$disk" bs=1M seek=$((first / 2048)) conv=notrunc iflag=fullblock status=none && start_pc failing bios "$disk" || return
   await_line 'the cell runs' && log_in || return
-  starts=$(console_lines | grep -c 'start: /dev/sda6 cannot be mounted: it is damaged')
+  starts=$(console_lines | grep -c 'start: /dev/sda6 is damaged')
   ((starts == 3)) || { echo "it was started $starts times" && return 1; }
   await_line 'the version in slot A has confirmed itself' && await_machine '.slot == "A" and .boot == "fallback" and .slots.A.primary and .slots.B.whole' &&
     await_machine '.notices | any(test("^slot B.* was started three times and did not come up; version .* in slot A runs in its place$"))' &&
     ask_machine 200 choose '{"slot": "B", "other_drivers": true}' && await_machine '.slots.B.primary'
+}
+
+# boots_of_two NAME bios|uefi FIRST SECOND: a PC with two disks; its firmware starts the first one, and the kernel sees the second one first or, on USB, later
+boots_of_two() {
+  # shellcheck disable=SC2054 # the commas are QEMU's
+  pc_disk=(-drive "file=${3//,/,,},format=raw,if=none,id=first" -drive "file=${4//,/,,},format=raw,if=none,id=second" -device qemu-xhci)
+  case $1 in
+    usb*) pc_disk+=(-device ide-hd,drive=first,bootindex=0 -device usb-storage,drive=second) ;;
+    from-usb*) pc_disk+=(-device usb-storage,drive=first,bootindex=0 -device ide-hd,drive=second) ;;
+    *) pc_disk+=(-device ide-hd,bus=ide.1,drive=first,bootindex=0 -device ide-hd,bus=ide.0,drive=second) ;;
+  esac
+  start_pc "$1" "$2" none -no-reboot
+}
+
+# Two disks of one image, of which one was claimed: the PC runs what its firmware starts, with the data beside it. Two that are copies of
+# each other are refused.
+two_disks_of_one_image() {
+  local claimed_one=$pc_folder/claimed.img new_one=$pc_folder/new.img copy=$pc_folder/copy.img
+  need_product && claimed_disk "$claimed_one" && cp --sparse=always "$pc_shared/product.img" "$new_one" && cp --sparse=always "$claimed_one" "$copy" || return
+  boots_of_two usb bios "$claimed_one" "$new_one" && await_line 'the cell runs' && log_in || return
+  stop_pc
+  boots_of_two sata uefi "$claimed_one" "$new_one" && await_line 'the cell runs' && log_in || return
+  stop_pc
+  boots_of_two from-usb uefi "$new_one" "$claimed_one" && await_line 'Nobody has claimed this PC\. The code is' || return
+  stop_pc
+  boots_of_two usb-copy bios "$claimed_one" "$copy" && await_line 'start: two disks are copies of each other \(sda5 sdb5\)' || return
+  stop_pc
+  boots_of_two sata-copy uefi "$copy" "$claimed_one" && await_line 'start: two disks are copies of each other \(sda5 sdb5\)'
 }
 
 with_real_camera() { sed -i '/^ExecStart=/s/$/ --hardware camera=v4l2,station_link=tcp,io_station=real/' "$1/etc/systemd/system/flexrf.service"; }

@@ -35,6 +35,17 @@ refuses() {  # refuses KEY USER PASSWORD: what the key would do is asked a passw
     await_screen "$menu" && await_screen '^  \*FlexRF'
 }
 
+# Without the file that says what boots there is no shell either: the PC restarts.
+grub_without_its_file_restarts() {
+  local disk=$pc_folder/without.img
+  need_claimed_pc && cp --sparse=always "$claimed/bios.img" "$disk" && mdel -i "$disk@@2M" ::grub/grub.cfg && start_pc_at_screen without "$disk" &&
+    await_screen '^GRUB cannot read how this PC starts' && press esc c e || return
+  while kill -0 "$pc_pid" 2>/dev/null; do
+    (($(pc_seconds) <= pc_limit)) || { echo "the PC does not restart" && screen && return 1; }
+    sleep 0.2
+  done
+}
+
 # Nobody may edit an entry, get a command line, or choose another entry than the first, but who knows the password; and without one, nobody.
 grubs_menu_wants_a_password() {
   need_claimed_pc && start_pc_at_screen menu "$claimed/bios.img" && await_screen "$menu" esc &&

@@ -274,7 +274,8 @@ change_root() {  # change_root DISK FUNCTION: the function changes the root of s
   rm -rf "$work" && mkdir "$work" && take_partition "$1" root-a "$work/packed" &&
     unsquashfs -quiet -no-progress -d "$work/root" "$work/packed" && "$2" "$work/root" &&
     mksquashfs "$work/root" "$work/root.squashfs" -noappend -quiet -no-progress -all-root -no-xattrs -comp zstd &&
-    put_partition "$1" root-a "$work/root.squashfs" && rm -rf "$work"
+    take_partition "$1" boot-a "$work/boot" && bind_boot "$work/boot" "$work/root.squashfs" &&
+    put_partition "$1" boot-a "$work/boot" && put_partition "$1" root-a "$work/root.squashfs" && rm -rf "$work"
 }
 
 # Three programs that each leave out one flush: the claim that of the file before it takes its name, the application that of the

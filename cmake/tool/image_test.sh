@@ -243,7 +243,14 @@ first_boot_by_bios() {
     start_recorded_pc bios "$disk" -no-reboot && record_first_boot && fingerprint >"$pc_folder/fingerprint" || return
   [[ $(console_lines) == *"$(<"$pc_folder/fingerprint")"* ]] || { echo "the console does not show the certificate's fingerprint" && return 1; }
   [[ $(tr -d ' :\n' <"$pc_folder/screen-unclaimed.text") == *"$(sed 's/.*=//' "$pc_folder/fingerprint" | tr -d :)"* ]] || { echo "the screen does not show it" && return 1; }
+  own_identifiers "$disk" || return
   save_pc "$pc_folder/bios.memory" && punch_versions "$pc_folder/bios.base" && keep claimed "$pc_folder"/bios.{img,memory,base,log,promises} "$pc_folder/fingerprint"
+}
+
+own_identifiers() {  # own_identifiers DISK: it has none of its image's
+  local shared PATH=$PATH:/usr/sbin:/sbin
+  shared=$(for disk in "$pc_shared/product.img" "$1"; do sfdisk -q -J "$disk" | jq -r '.partitiontable | .id, .partitions[].uuid' | sort -u; done | sort | uniq -d)
+  [[ ! $shared ]] || { printf 'the disk has identifiers of its image: %s\n' "$shared" && return 1; }
 }
 
 need_claimed_pc() {  # sets claimed to the folder of the PC that first_boot_by_bios keeps
@@ -309,6 +316,7 @@ an_admin_at_the_panel full uefi
 what_runs_and_what_hangs full report
 data_beyond_repair full damage
 grubs_menu_wants_a_password full menu
+grub_without_its_file_restarts full menu
 more_power_cuts full cut
 a_missing_flush_is_found full twin
 more_cuts_of_an_update full variant
@@ -320,6 +328,7 @@ damaged_users_lead_to_a_claim full damage
 data_is_full full damage
 data_is_missing full missing
 a_confirmed_version_that_fails_gives_way full failing
+two_disks_of_one_image full disks
 a_missing_camera_is_waited_for full camera
 campaign_of_power_cuts soak cut
 campaign_of_cuts_of_an_update soak variant

@@ -36,9 +36,16 @@ pack_others() {
   )
 }
 
+# bind_boot BOOT ROOT: says in the partition with the kernel which root belongs to it, as the start of the PC compares
+bind_boot() {
+  local work=$1.slot PATH=$PATH:/usr/sbin:/sbin options
+  debugfs -R "dump slot.env $work" "$1" 2>/dev/null && options=$(sed -n 's/^slot_options=\(.*\) flexrf\.root=.*/\1/p' "$work") &&
+    slot_block "$options" "$2" >"$work" && printf '%s\n' 'rm slot.env' "write $work slot.env" | debugfs -w -f - "$1" >/dev/null 2>&1 && rm "$work"
+}
+
 pack_changed() {  # pack_changed WORK VERSION OUTPUT: a bundle of the root as it was changed
   sed -i "s/^version=.*/version=$2/" "$1/identity/version" "$1/root/usr/lib/flexrf/version" &&
-    pack_root "$1/root" "$1/root.img" && pack_bundle "$1" flexrf-pick-station-amd64 "$3"
+    pack_root "$1/root" "$1/root.img" && bind_boot "$1/boot.img" "$1/root.img" && pack_bundle "$1" flexrf-pick-station-amd64 "$3"
 }
 
 # The first version of the variant for tests as a disk, others as bundles, and the disk that they are on.

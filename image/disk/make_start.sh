@@ -3,6 +3,8 @@
 # (take_kernel.sh) that modules.txt has for the start, with what these need.
 set -eu -o pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+# shellcheck source=image/disk/partitions.sh
+source "$here/partitions.sh"
 kernel=$1 busybox=$2 output=$3
 PATH=$PATH:/usr/sbin:/sbin
 release=$(<"$kernel/release")
@@ -26,6 +28,7 @@ cp "$kernel/lib/modules/$release"/modules.{builtin,builtin.modinfo,order} "$root
 depmod -b "$root" "$release"
 rm -f "$root/lib/modules/$release"/*.bin # busybox reads the others
 of_start always >"$root/always"
+for name in root-a root-b; do identifier "$name" >"$root/image-$name"; done
 
 find "$root" -exec touch -h -d "@$SOURCE_DATE_EPOCH" {} +
 (cd "$root" && find . -print0 | LC_ALL=C sort -z | cpio --quiet --null --reproducible -o -H newc --owner 0:0) |

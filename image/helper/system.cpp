@@ -56,7 +56,8 @@ std::string run_program(const std::string& program, const std::vector<std::strin
 std::uint64_t free_bytes(const std::string& folder) {
   struct statvfs status {};
   if (statvfs(folder.c_str(), &status) != 0) return 0;
-  return static_cast<std::uint64_t>(status.f_bavail) * status.f_frsize;
+  // Root may write where the application may not any more (keep-room).
+  return static_cast<std::uint64_t>(status.f_bfree) * status.f_frsize;
 }
 
 std::optional<uid_t> id_of_user(const std::string& name) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# An industrial PC's own files (image/disk): the configuration that a slot starts with, and how damaged users, keys and certificates are
-# replaced. The PC's scripts run here on folders of this test.
+# An industrial PC's own files (image/disk): the configuration that a slot starts with, how damaged users, keys and certificates are
+# replaced, and that an update is marked as whole only when the disk gives back what was written. The PC's scripts run here on folders of this test.
 source "$(dirname "$0")/stand_in.sh"
 if ! command -v openssl >/dev/null; then
   echo "not tried: there is no openssl"
@@ -14,7 +14,7 @@ stand_in chown </dev/null
 
 runs() {  # runs SCRIPT: as the PC does; sets status and output
   mkdir -p "$pc/scripts"
-  sed -e "s|/usr/lib/flexrf/flexrf-claim|flexrf-claim|; s|/usr/lib/flexrf/slots|$pc/scripts/slots|; s|/usr/lib/flexrf/|$repository/image/disk/root&|" \
+  sed -e "s|/usr/lib/flexrf/\(flexrf-[a-z-]*\)|\1|; s|/dev/flexrf/|$pc/dev/|g; s|/usr/lib/flexrf/slots|$pc/scripts/slots|; s|/usr/lib/flexrf/|$repository/image/disk/root&|" \
     -e "s|/data|$pc/data|; s|/run/|$pc/run/|; s|/etc/|$pc/etc/|" "$repository/image/disk/root/usr/lib/flexrf/$1" >"$pc/scripts/$1"
   sed "s|/proc/cmdline|$pc/cmdline|" "$repository/image/disk/root/usr/lib/flexrf/slots" >"$pc/scripts/slots"
   output=$(cd "$pc" && sh "$pc/scripts/$1" 2>&1)
@@ -92,4 +92,35 @@ for damage in 'echo garbage >"$flexrf/panel.crt"' 'echo garbage >"$flexrf/panel.
 done
 look 0
 expect "notice of what is whole" "$(notices)" ""
+# ---- what an update wrote
+
+stand_in flexrf-boot-choice </dev/null
+stand_in blockdev <<'BODY'
+[[ ! -e $STAND_IN/disk_changes ]] || printf X | dd of="$2" bs=1 seek=5000 conv=notrunc status=none
+BODY
+mkdir -p "$pc"/{dev,data/update,run/flexrf-update,bundle}
+echo 'version=second' >"$pc/bundle/version"
+: >"$pc/run/flexrf-update/manifest"
+written=0
+for part in boot root; do
+  head -c 9000 /dev/urandom >"$work/$part.img"
+  { cat "$work/$part.img" && head -c 5000 /dev/zero; } >"$pc/dev/$part-b" # the partition is larger
+  printf "RAUC_IMAGE_%s_$written='%s'\n" CLASS "$part" SIZE 9000 DIGEST "$(sha256sum <"$work/$part.img" | head -c 64)" >>"$pc/run/flexrf-update/manifest"
+  written=$((written + 1))
+done
+export RAUC_BUNDLE_MOUNT_POINT=$pc/bundle
+echo "quiet rauc.slot=A flexrf.boot=confirmed" >"$pc/cmdline"
+: >"$calls"
+runs after-install
+expect "exit code after an update" "$status" 0
+expect "the mark" "$(grep mark-whole "$calls")" "flexrf-boot-choice mark-whole B $pc/dev/boot-b $pc/dev/root-b"
+expect "the slot's version" "$(<"$pc/data/update/version-b")" version=second
+rm "$pc/data/update/version-b"
+touch "$work/disk_changes"
+: >"$calls"
+runs after-install
+expect "exit code with a disk that changes" "$status" 1
+expect "the mark with a disk that changes" "$(grep -c mark-whole "$calls")" 0
+expect "why it was refused" "$(<"$pc/run/flexrf-update/refused")" "the disk does not give back what was written to boot-b: it is defective, *"
+[[ ! -e $pc/data/update/version-b ]] || expect "a version for a slot that is not whole" there none
 finish

@@ -237,12 +237,16 @@ void a_slot_is_started_with_what_it_wants() {
   CHECK_EQUAL(started.initrd, "(hd0,gpt4)/initrd.img");
   CHECK_EQUAL(
       started.command_line(),
-      "root=PARTLABEL=root-b ro rauc.slot=B flexrf.boot=confirmed flexrf.trial=0000000041 isolcpus=1 quiet ");
+      "root=PARTUUID=identifier-of-root-b ro rauc.slot=B flexrf.boot=confirmed flexrf.trial=0000000041 "
+      "isolcpus=1 quiet ");
   for (const char* file : {"vmlinuz", "initrd.img", "slot.env"}) {
     GrubMachine lame = machine_with(files_of({42, Slot::b, 41, {confirmed, confirmed}}, {}));
     take_away(lame, Slot::b, file);
     expect_start(lame, "A", "fallback");
   }
+  GrubMachine nameless = machine_with(files_of({42, Slot::b, 41, {confirmed, confirmed}}, {}));
+  nameless.partitions.erase("(hd0,gpt6)");
+  expect_start(nameless, "A", "fallback");
 }
 
 // A kernel that is loaded and cannot be started leaves a restart as the only way on; then the other slot has

@@ -101,6 +101,16 @@ bool regexp(GrubMachine& machine, const Words& words) {
   return true;
 }
 
+// --set=NAME --part-uuid (DEVICE)
+bool probe(GrubMachine& machine, const Words& words) {
+  if (words.size() != 4 || words[1].rfind("--set=", 0) != 0 || words[2] != "--part-uuid")
+    throw ScriptError("'probe' of another form than the one known here");
+  const auto found = machine.partitions.find(words[3]);
+  if (found == machine.partitions.end()) return false;
+  machine.variables[words[1].substr(6)] = found->second;
+  return true;
+}
+
 bool set(GrubMachine& machine, const Words& words) {
   const std::size_t equals = words.size() == 2 ? words[1].find('=') : std::string::npos;
   if (equals == std::string::npos) throw ScriptError("'set' takes one NAME=VALUE");
@@ -140,6 +150,7 @@ bool run_grub_command(GrubMachine& machine, Started& started, const std::vector<
   if (name == "load_env") return load_env(machine, words);
   if (name == "save_env") return save_env(machine, words);
   if (name == "regexp") return regexp(machine, words);
+  if (name == "probe") return probe(machine, words);
   if (name == "linux") return linux_kernel(machine, started, words);
   if (name == "initrd") return initrd(machine, started, words);
   if (name == "echo" || name == "sleep") return true;

@@ -26,7 +26,8 @@ struct Started {
 };
 
 struct GrubMachine {
-  std::map<std::string, std::string> files;  ///< by path, "(hd0,gpt2)/flexrf/choice0.env"
+  std::map<std::string, std::string> files;       ///< by path, "(hd0,gpt2)/flexrf/choice0.env"
+  std::map<std::string, std::string> partitions;  ///< unique identifiers by device, "(hd0,gpt5)"
   std::map<std::string, std::string> firmware = {{"prefix", "(hd0,gpt2)/grub"},
                                                  {"root", "hd0,gpt2"}};  ///< variables at the start
   std::map<std::string, std::string> variables;                          ///< since then

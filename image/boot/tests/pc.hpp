@@ -26,6 +26,7 @@ inline std::string path_on_esp(const std::string& name) {
 /// With both slots on the disk, whether they are whole or not, and these files.
 inline GrubMachine machine_with(const Files& files) {
   GrubMachine machine;
+  machine.partitions = {{"(hd0,gpt5)", "identifier-of-root-a"}, {"(hd0,gpt6)", "identifier-of-root-b"}};
   for (const auto& [name, bytes] : files)
     if (!bytes.empty()) machine.files[path_on_esp(name)] = bytes;
   for (const char* partition : {"(hd0,gpt3)/", "(hd0,gpt4)/"}) {
