@@ -146,6 +146,17 @@ a_confirmed_version_that_fails_gives_way() {
     ask_machine 200 choose '{"slot": "B", "other_drivers": true}' && await_machine '.slots.B.primary'
 }
 
+crashes() { printf '%s\n' '#!/bin/sh' 'exit 2' >"$1/usr/lib/flexrf/pick-station"; } # crashes ROOT: as an application does that has a fault
+
+# The confirmed primary's application ends at once, each time: three restarts of the PC later the other version runs.
+a_confirmed_application_that_crashes_gives_way() {
+  local disk=$pc_folder/crashing.img pc_limit=1500
+  pc_disk=()
+  claimed_disk "$disk" && confirm_both "$disk" && change_root "$disk" crashes b && start_pc crashing bios "$disk" || return
+  await_line 'the cell runs' && log_in && await_machine '.slot == "A" and .boot == "fallback"' &&
+    await_machine '.notices | any(test("^slot B.* was started three times and did not come up"))'
+}
+
 # boots_of_two NAME bios|uefi FIRST SECOND: a PC with two disks; its firmware starts the first one, and the kernel sees the second one first or, on USB, later
 boots_of_two() {
   # shellcheck disable=SC2054 # the commas are QEMU's

@@ -269,13 +269,13 @@ campaign_of_power_cuts() {
   need_claimed_pc && once cuts record_saves && cuts_of_recording 300 3 30 "$(kept cuts)/progress"
 }
 
-change_root() {  # change_root DISK FUNCTION: the function changes the root of slot A, unpacked in the folder that it is given
-  local work=$pc_folder/changed
-  rm -rf "$work" && mkdir "$work" && take_partition "$1" root-a "$work/packed" &&
+change_root() {  # change_root DISK FUNCTION [a|b]: the function changes the root of the slot, unpacked in the folder that it is given
+  local work=$pc_folder/changed slot=${3:-a}
+  rm -rf "$work" && mkdir "$work" && take_partition "$1" "root-$slot" "$work/packed" &&
     unsquashfs -quiet -no-progress -d "$work/root" "$work/packed" && "$2" "$work/root" &&
     mksquashfs "$work/root" "$work/root.squashfs" -noappend -quiet -no-progress -all-root -no-xattrs -comp zstd &&
-    take_partition "$1" boot-a "$work/boot" && bind_boot "$work/boot" "$work/root.squashfs" &&
-    put_partition "$1" boot-a "$work/boot" && put_partition "$1" root-a "$work/root.squashfs" && rm -rf "$work"
+    take_partition "$1" "boot-$slot" "$work/boot" && bind_boot "$work/boot" "$work/root.squashfs" &&
+    put_partition "$1" "boot-$slot" "$work/boot" && put_partition "$1" "root-$slot" "$work/root.squashfs" && rm -rf "$work"
 }
 
 # Three programs that each leave out one flush: the claim that of the file before it takes its name, the application that of the

@@ -41,7 +41,7 @@ def package:
     licenseConcluded: "NOASSERTION",
     licenseDeclared: "NOASSERTION",
     copyrightText: "NOASSERTION",
-    primaryPackagePurpose: "OPERATING-SYSTEM",
+    primaryPackagePurpose: "OPERATING_SYSTEM",
     comment: "The checksum is that of the root (squashfs), which the PC compares at each start.",
     checksums: [{algorithm: "SHA256", checksumValue: $sum}]
   }] + ($packages | map(del(.relation)))),

@@ -328,6 +328,7 @@ damaged_users_lead_to_a_claim full damage
 data_is_full full damage
 data_is_missing full missing
 a_confirmed_version_that_fails_gives_way full failing
+a_confirmed_application_that_crashes_gives_way full crashing
 two_disks_of_one_image full disks
 a_missing_camera_is_waited_for full camera
 campaign_of_power_cuts soak cut

@@ -174,8 +174,8 @@ Sheet claim_sheet(const Facts& facts, Size size, const std::vector<std::string>&
 bool fits_beside(const std::vector<std::string>& qr, const Facts& facts, Size size) {
   if (qr.empty()) return false;
   const std::size_t dash = facts.claim_code.find('-') + 1;
-  const std::size_t letters = std::max(dash, facts.claim_code.size() - dash);
-  return letters * columns_of_letter + gap_beside + columns_of(qr.front()) <= size.columns;
+  const std::size_t longer_half = std::max(dash, facts.claim_code.size() - dash);
+  return longer_half * columns_of_letter + gap_beside + columns_of(qr.front()) <= size.columns;
 }
 
 std::vector<std::string> draw_claim(const Facts& facts, Size size) {

@@ -286,8 +286,11 @@ void the_slots_are_on_grubs_own_disk() {
   GrubMachine machine;
   for (const auto& [path, bytes] : machine_with(files_of({42, Slot::a, 41, {confirmed, none}}, {})).files)
     machine.files["(hd1" + path.substr(4)] = bytes;
+  machine.partitions = {{"(hd0,gpt5)", "of-the-other-disk"}, {"(hd1,gpt5)", "of-this-disk"}};
   machine.firmware = {{"prefix", "(hd1,gpt2)/grub"}, {"root", "hd1,gpt2"}};
-  CHECK_EQUAL(machine.start(script()).kernel, "(hd1,gpt3)/vmlinuz");
+  const Started started = machine.start(script());
+  CHECK_EQUAL(started.kernel, "(hd1,gpt3)/vmlinuz");
+  CHECK_EQUAL(started.option("root"), "PARTUUID=of-this-disk");
 }
 
 // start() refuses a script in which the default asks for a password, or another entry does not.

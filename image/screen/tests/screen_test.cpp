@@ -182,7 +182,7 @@ void the_log_takes_the_rows_that_are_left() {
     CHECK(lines.size() <= rows);
     if (rows >= 25) CHECK(lines.back() == "line 59");
   }
-  facts.log = {"first", std::string(30, 'a') + ' ' + std::string(60, 'b')};
+  facts.log = {"first", std::string(30, 'a').append(1, ' ').append(60, 'b')};
   const std::vector<std::string> wrapped = draw(facts, of_text);
   CHECK(wrapped[wrapped.size() - 3] == "first");
   CHECK(wrapped[wrapped.size() - 2] == std::string(30, 'a') && wrapped.back() == std::string(60, 'b'));
