@@ -6,11 +6,13 @@
 header_libraries=(libboost-dev libeigen3-dev nlohmann-json3-dev)
 
 # Lines for sbom.jq: kind, name, version, architecture, SHA-256, license, and how what is described has it; a dash for what is not known.
-debian_packages() {  # of the files of packages that standard input names
-  local file
-  while read -r file; do
-    printf '%s\t%s\t-\tCONTAINS\n' "$(dpkg-deb --show --showformat='deb\t${Package}\t${Version}\t${Architecture}' "$file")" \
-      "$(sha256sum <"$file" | head -c 64)" || return
+debian_packages() {  # of the files of packages that standard input names, as apt-get calls them: NAME_VERSION_ARCHITECTURE.deb
+  local sum file name version architecture
+  local -a files
+  mapfile -t files
+  sha256sum "${files[@]}" | while read -r sum file; do
+    IFS=_ read -r name version architecture <<<"${file##*/}"
+    printf 'deb\t%s\t%s\t%s\t%s\t-\tCONTAINS\n' "$name" "${version//%3a/:}" "${architecture%.deb}" "$sum"
   done
 }
 
