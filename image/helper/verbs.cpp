@@ -310,8 +310,11 @@ void Verbs::remove_what_is_of_no_use() {
 }
 
 void Verbs::look_after(Job job) {
-  if (read_result(files_.update, job).state != JobState::starting) return;
-  const std::optional<Time> asked = asked_for_[static_cast<std::size_t>(job)];
+  const JobState state = read_result(files_.update, job).state;
+  std::optional<Time>& asked = asked_for_[static_cast<std::size_t>(job)];
+  // When the unit has begun, the wait for it is over: a later request has a wait of its own.
+  if (state != JobState::starting && state != JobState::none) asked.reset();
+  if (state != JobState::starting) return;
   if (!asked) {
     surroundings_.say(unit_of(job) + " is started by this helper, as the one before it wanted to");
     start(job);

@@ -259,6 +259,26 @@ void a_unit_that_never_begins_is_given_up() {
   CHECK_EQUAL(bench.pc.asked_systemd("stop --no-block flexrf-update@install.service"), 1);
 }
 
+/// Each request is waited for from its own beginning on, not from that of the one before.
+void a_later_request_has_a_wait_of_its_own() {
+  Bench bench;
+  bench.pc.has_verified_bundle();
+  CHECK_EQUAL(bench.answer_to(Verb::install), "200 ");
+  for (const char* state : {"state=running\n", "state=failed\nwhy=it is older\n"}) {
+    bench.pc.result(Job::install, state);
+    bench.verbs->tick();
+  }
+  bench.pc.now += seconds{61};
+  bench.pc.result(Job::install, "state=starting\n");
+  bench.verbs->tick();
+  CHECK_EQUAL(bench.phase(), "installing");
+  CHECK_EQUAL(bench.pc.asked_systemd("stop --no-block flexrf-update@install.service"), 0);
+  CHECK_EQUAL(bench.pc.asked_systemd("start --no-block flexrf-update@install.service"), 2);
+  bench.pc.now += seconds{60};
+  bench.verbs->tick();
+  CHECK_EQUAL(bench.phase(), "failed");
+}
+
 }  // namespace
 }  // namespace flexrf::helper::install_test
 
@@ -277,6 +297,7 @@ int main() {
       CONTAINED_TEST(what_a_helper_began_the_next_one_goes_on_with),
       CONTAINED_TEST(a_result_that_nobody_understands_forbids_all_but_a_restart),
       CONTAINED_TEST(a_unit_that_never_begins_is_given_up),
+      CONTAINED_TEST(a_later_request_has_a_wait_of_its_own),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
