@@ -1,9 +1,6 @@
 // flexrf-claim: serves the page by which somebody claims a new industrial PC, and ends when that is done
 // (docs/image.md).
 
-#include <arpa/inet.h>
-#include <ifaddrs.h>
-#include <net/if.h>
 #include <unistd.h>
 
 #include <array>
@@ -19,6 +16,7 @@
 #include "web-ui/server/access/user_file.hpp"
 #include "web-ui/server/encryption.hpp"
 #include "web-ui/server/listen_address.hpp"
+#include "web-ui/server/own_addresses.hpp"
 #include "web-ui/server/server.hpp"
 
 namespace {
@@ -64,21 +62,12 @@ int fail(int code, const std::string& why) {
   return code;
 }
 
-/// "192.168.1.7, 169.254.3.4": those by which others reach this PC; empty: none yet.
-std::string own_addresses() {
-  ifaddrs* first = nullptr;
-  if (getifaddrs(&first) != 0) return {};
+/// "https://192.168.1.7:8443/ https://192.168.2.1:8443/": by which others reach this PC; empty: none yet.
+std::string pages_at(const panel::ListenAddress& listen) {
   std::string all;
-  for (const ifaddrs* one = first; one != nullptr; one = one->ifa_next) {
-    if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET ||
-        (one->ifa_flags & IFF_LOOPBACK) != 0)
-      continue;
-    std::array<char, INET_ADDRSTRLEN> text{};
-    const auto* const address = reinterpret_cast<const sockaddr_in*>(one->ifa_addr);
-    if (inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size()) == nullptr) continue;
-    all.append(all.empty() ? "" : ", ").append(text.data());
-  }
-  freeifaddrs(first);
+  for (const std::string& host : panel::reachable_hosts(listen, {}, panel::own_addresses()))
+    all.append(all.empty() ? "" : " ")
+        .append("https://" + panel::ListenAddress{host, listen.port}.text() + "/");
   return all;
 }
 
@@ -90,8 +79,8 @@ std::string machine_name() {
 /// Says the code again when this PC gets another address: only then it is known where to go.
 class TellingService final : public panel::Service {
  public:
-  TellingService(ClaimService& service, Claim& claim, std::string code_file)
-      : service_(service), claim_(claim), code_file_(std::move(code_file)) {}
+  TellingService(ClaimService& service, Claim& claim, std::string code_file, panel::ListenAddress listen)
+      : service_(service), claim_(claim), code_file_(std::move(code_file)), listen_(std::move(listen)) {}
 
   bool admit(const panel::Request& request, panel::SessionIndex& session, panel::Reply& reply) override {
     return service_.admit(request, session, reply);
@@ -110,8 +99,9 @@ class TellingService final : public panel::Service {
   ClaimService& service_;
   Claim& claim_;
   std::string code_file_;
+  panel::ListenAddress listen_;
   panel::Server* server_ = nullptr;
-  std::string addresses_;
+  std::string pages_;
   std::string code_;
   Time next_look_{};
 };
@@ -123,14 +113,14 @@ void TellingService::on_tick(Time now) {
   if (service_.may_end() || asked_to_end != 0) server_->stop();
   if (now < next_look_ || claim_.is_done()) return;
   next_look_ = now + std::chrono::seconds{2};
-  const std::string addresses = own_addresses();
+  const std::string pages = pages_at({listen_.address, server_->port()});
   const std::string code = claim_.code().text();
-  if (addresses == addresses_ && code == code_) return;
+  if (pages == pages_ && code == code_) return;
   if (code != code_) write_code(code_file_, code);
-  addresses_ = addresses;
+  pages_ = pages;
   code_ = code;
-  say("Nobody has claimed this PC. The code is  " + code + "  at https://ADDRESS:" +
-      std::to_string(server_->port()) + "/  ADDRESS: " + (addresses.empty() ? "none yet" : addresses));
+  say("Nobody has claimed this PC. The code is  " + code +
+      (pages.empty() ? "  and this PC has no address yet" : "  at " + pages));
 }
 
 }  // namespace
@@ -177,7 +167,7 @@ int main(int argument_count, char** words) {
   std::signal(SIGPIPE, SIG_IGN);
   Claim claim(arguments.users);
   ClaimService service(claim, machine_name());
-  TellingService telling(service, claim, arguments.code_file);
+  TellingService telling(service, claim, arguments.code_file, *address);
   panel::ServerSettings settings;
   settings.slow_call = std::chrono::seconds{10};
   settings.body_types = {"application/x-www-form-urlencoded"};

@@ -23,6 +23,7 @@
 #include "web-ui/server/files.hpp"
 #include "web-ui/server/listen_address.hpp"
 #include "web-ui/server/ordinary_memory.hpp"
+#include "web-ui/server/own_addresses.hpp"
 #include "web-ui/server/panel_options.hpp"
 #include "web-ui/server/server.hpp"
 
@@ -64,7 +65,8 @@ class Panel final : public Observer, public Service {
   std::vector<Address> local_addresses() const;
   Status make_api();
   void print_address();
-  std::string shown_host() const;
+  std::string certificate_host() const;
+  std::string address_of(const std::string& host) const;
   std::string address_with(const OneTimeToken* token) const;
   void write_address(const OneTimeToken& token);
   void print_certificate_command() const;
@@ -221,8 +223,8 @@ void Panel::on_tick(Time now) {
   api_->on_tick(now);
 }
 
-/// What a browser on another machine would ask for.
-std::string Panel::shown_host() const {
+/// The name that the certificate is to have.
+std::string Panel::certificate_host() const {
   if (!address_.is_any()) return address_.address;
   const std::vector<std::string> names = HostRules::names_of_machine();
   return names.empty() ? "localhost" : names.front();
@@ -230,12 +232,17 @@ std::string Panel::shown_host() const {
 
 void Panel::print_certificate_command() const {
   std::fprintf(stderr, "A certificate and its key of your own:\n  %s\n",
-               certificate_command(shown_host()).c_str());
+               certificate_command(certificate_host()).c_str());
 }
 
+std::string Panel::address_of(const std::string& host) const {
+  return (is_secure_ ? "https://" : "http://") + ListenAddress{host, address_.port}.text() + "/";
+}
+
+/// The best one, by which this machine itself reaches it at least.
 std::string Panel::address_with(const OneTimeToken* token) const {
-  const std::string where = ListenAddress{shown_host(), address_.port}.text();
-  const std::string address = (is_secure_ ? "https://" : "http://") + where + "/";
+  const std::vector<std::string> hosts = reachable_hosts(address_, host_names_, own_addresses());
+  const std::string address = address_of(hosts.empty() ? "localhost" : hosts.front());
   return token == nullptr ? address : address + "?token=" + std::string{token->text()};
 }
 
@@ -254,7 +261,18 @@ void Panel::write_address(const OneTimeToken& token) {
 void Panel::print_address() {
   // Whoever can read this terminal started the application, and may control it.
   const OneTimeToken* const token = access_->one_time_token();
-  std::string text = "Panel: " + address_with(token) + "\n";
+  std::string text;
+  const std::vector<std::string> hosts = reachable_hosts(address_, host_names_, own_addresses());
+  const bool is_industrial_pc = executive_.options().values().has("--helper");
+  if (token != nullptr || (hosts.empty() && !is_industrial_pc)) {
+    text = "Panel: " + address_with(token) + "\n";
+  } else {
+    for (const std::string& host : hosts) text += "Panel: " + address_of(host) + "\n";
+  }
+  // Nobody browses on an industrial PC itself: its own localhost would mislead.
+  if (hosts.empty())
+    text += "No other machine reaches the panel before this one has an address; the port is " +
+            std::to_string(address_.port) + "\n";
   if (token != nullptr) write_address(*token);
   if (!address_file_.empty()) text += "Once that was opened, the next address is in " + address_file_ + "\n";
   if (!tell_at_once(text)) log_warning("panel", "nobody reads standard error, where its address belongs");

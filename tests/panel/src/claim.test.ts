@@ -29,7 +29,7 @@ it('the code on the console and a password claim the PC, and the panel knows the
   const ended = new Promise<number | null>((resolve) => claim.once('close', resolve));
   onTestFinished(() => { claim.kill('SIGKILL'); });
   const shown = (): { code: string; port: string } => {
-    const all = [...console_.matchAll(/The code is {2}(\S+) {2}at https:\/\/ADDRESS:(\d+)\/ /g)];
+    const all = [...console_.matchAll(/The code is {2}(\S+) {2}at https:\/\/[\d.]+:(\d+)\//g)];
     return { code: all.at(-1)?.[1] ?? '', port: all.at(-1)?.[2] ?? '' };
   };
   await expect.poll(() => shown().code, { timeout: within }).toMatch(/^[0-9A-Z]{5}-[0-9A-Z]{5}$/);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tests/cmocka.hpp"
+#include "web-ui/server/own_addresses.hpp"
 
 namespace flexrf::panel::listen_address_test {
 namespace {
@@ -57,6 +58,32 @@ void a_refusal_says_what_is_wanted(void**) {
       strstr(result.status().cause(), "--panel robot:80: this is no numeric address; give ADDRESS:PORT"));
 }
 
+/// Each host behind a blank.
+std::string hosts(const char* listen, const std::vector<std::string>& declared,
+                  const std::vector<std::string>& own) {
+  std::string all;
+  for (const std::string& host : reachable_hosts(*parse_listen_address(listen), declared, own))
+    all += ' ' + host;
+  return all;
+}
+
+void others_are_told_addresses_and_declared_names_but_no_host_name(void**) {
+  static std::string all;
+  const auto check = [](std::string found, const char* expected) {
+    all = std::move(found);
+    assert_string_equal(all.c_str(), expected);
+  };
+  check(hosts("10.0.0.5:8443", {"cell7"}, {"10.0.0.5", "10.0.0.6"}), " 10.0.0.5");
+  check(hosts("0.0.0.0:8443", {}, {"169.254.3.4", "10.0.0.5", "10.0.0.6"}), " 10.0.0.5 10.0.0.6");
+  check(hosts("0.0.0.0:8443", {"cell7"}, {"10.0.0.5"}), " cell7 10.0.0.5");
+  check(hosts("[::]:8443", {}, {"169.254.3.4"}), " 169.254.3.4");
+  check(hosts("0.0.0.0:8443", {}, {}), "");
+  for (const std::string& address : own_addresses()) {
+    assert_true(Address::parse(address).has_value());
+    assert_false(Address::parse(address)->is_loopback());
+  }
+}
+
 }  // namespace
 }  // namespace flexrf::panel::listen_address_test
 
@@ -65,6 +92,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(addresses_are_understood),
       cmocka_unit_test(a_refusal_says_what_is_wanted),
+      cmocka_unit_test(others_are_told_addresses_and_declared_names_but_no_host_name),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
