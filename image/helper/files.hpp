@@ -28,6 +28,8 @@ struct Files {
   std::string notices = "/run/flexrf-notices";         ///< a folder with files of lines for a person
   UpdateFiles update;
   NetworkFiles network;
+  /// By which the journal names this boot.
+  std::string boot_id = "/proc/sys/kernel/random/boot_id";
 };
 
 }  // namespace flexrf::helper

@@ -14,6 +14,21 @@ namespace {
 
 constexpr Duration wait_for_health = std::chrono::seconds{5};
 
+/// The reason of a start that has answered nothing yet.
+constexpr const char* no_answer_yet = "its application had not answered yet when it stopped";
+
+std::string minutes_text(Duration duration) {
+  return std::to_string(duration / std::chrono::minutes{1}) + " min";
+}
+
+/// Why a start came to nothing if it ends now.
+std::string reason_now(const PanelAnswer& panel, const std::string& why_not, Duration needed) {
+  if (why_not.empty())
+    return "it was well, but not yet for " + std::to_string(needed / std::chrono::seconds{1}) +
+           " s: the PC was restarted or switched off";
+  return panel.has_answered ? why_not : "its application did not answer: " + why_not;
+}
+
 }  // namespace
 
 Helper::Helper(Files files, Limits limits, const Surroundings& surroundings, MotionWord& word, Time began)
@@ -23,7 +38,8 @@ Helper::Helper(Files files, Limits limits, const Surroundings& surroundings, Mot
       word_(word),
       began_(began),
       count_(limits.healthy),
-      up_(limits.healthy) {}
+      up_(limits.healthy),
+      start_log_(files_, surroundings) {}
 
 void Helper::look(Time now) {
   // The word first: the panel may take its time to answer.
@@ -68,6 +84,11 @@ void Helper::tell_of_fallback(const Facts& facts) {
   if (has_told_of_fallback_ || facts.running.why != "fallback" || !facts.running.slot || !facts.choice)
     return;
   has_told_of_fallback_ = true;
+  start_log_.keep_failure(facts);
+  const std::string notice = files_.notices + "/fallback";
+  std::error_code error;
+  // The helper before this one told it, when the starts were still those that failed.
+  if (std::filesystem::exists(notice, error)) return;
   const boot::Slot given_up = other(*facts.running.slot);
   const std::string slot{boot::letter_of(given_up)};
   const std::string version = version_lines(files_.update, given_up).text("version");
@@ -78,15 +99,16 @@ void Helper::tell_of_fallback(const Facts& facts) {
   const Result<NamedLines> here = NamedLines::read(files_.version);
   line += "; version " + (here ? here->text("version") : std::string{"unknown"}) + " in slot " +
           boot::letter_of(*facts.running.slot) + " runs in its place";
-  std::error_code error;
   std::filesystem::create_directories(files_.notices, error);
-  if (const Status written = replace_file(files_.notices + "/fallback", line + '\n'); !written)
-    surroundings_.say(written.cause());
+  if (const Status written = replace_file(notice, line + '\n'); !written) surroundings_.say(written.cause());
   surroundings_.say(line);
 }
 
 void Helper::supervise(const Facts& facts, Time now) {
-  const std::string why_not = surroundings_.ask_panel(wait_for_health).why_not_healthy;
+  // A version that was well for long enough and could not be confirmed has its record cleared already.
+  if (!count_.is_enough()) start_log_.begin(facts, no_answer_yet, now);
+  const PanelAnswer panel = surroundings_.ask_panel(wait_for_health);
+  const std::string& why_not = panel.why_not_healthy;
   count_.note(why_not, now);
   note({count_.so_far(), why_not});
   say(why_not.empty() ? "the application is healthy; this version confirms itself when it has been so for " +
@@ -94,8 +116,10 @@ void Helper::supervise(const Facts& facts, Time now) {
                       : "this version cannot confirm itself yet: " + why_not,
       said_health_);
   if (count_.is_enough()) {
+    start_log_.clear(facts);
     confirm(facts);
   } else {
+    note_reason(facts, panel, why_not, now);
     give_up_turn(facts, now, "this version is on trial and has not been healthy for long enough");
   }
 }
@@ -103,20 +127,35 @@ void Helper::supervise(const Facts& facts, Time now) {
 /// A confirmed version has come up when its panel answers. A device in fault does not count: another version
 /// would not mend it.
 void Helper::await_start(const Facts& facts, Time now) {
+  if (!up_.is_enough()) start_log_.begin(facts, no_answer_yet, now);
   const PanelAnswer panel = surroundings_.ask_panel(wait_for_health);
-  up_.note(panel.has_answered ? "" : panel.why_not_healthy, now);
+  const std::string why_not = panel.has_answered ? "" : panel.why_not_healthy;
+  up_.note(why_not, now);
   if (up_.is_enough()) {
+    start_log_.clear(facts);
     for (const std::string& line : perform(facts, "came-up").said) say(line, said_failure_);
   } else {
+    note_reason(facts, panel, why_not, now);
     give_up_turn(facts, now, "the application of this version does not answer");
   }
+}
+
+void Helper::note_reason(const Facts& facts, const PanelAnswer& panel, const std::string& why_not, Time now) {
+  const std::string reason = reason_now(panel, why_not, limits_.healthy);
+  if (!why_not.empty()) last_trouble_ = reason;
+  start_log_.note(facts, reason, now);
 }
 
 void Helper::give_up_turn(const Facts& facts, Time now, const std::string& why) {
   if (!has_another_turn(facts) || now - began_ < limits_.trial) return;
   began_ = now;  // should the restart fail, it is tried again after as long
-  surroundings_.say(why + ", in " + std::to_string(limits_.trial / std::chrono::minutes{1}) +
-                    " min: it gives up its turn, and the PC restarts");
+  surroundings_.say(why + ", in " + minutes_text(limits_.trial) +
+                    ": it gives up its turn, and the PC restarts");
+  start_log_.give_up(facts,
+                     "it was not well for long enough within " + minutes_text(limits_.trial) +
+                         ", and gave up its turn" +
+                         (last_trouble_.empty() ? "" : "; at last: " + last_trouble_),
+                     now);
   if (const std::string failure = surroundings_.systemctl({"reboot"}); !failure.empty())
     surroundings_.say("the PC cannot be restarted: " + failure);
 }

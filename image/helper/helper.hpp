@@ -10,6 +10,7 @@
 #include "image/helper/health_count.hpp"
 #include "image/helper/motion_word.hpp"
 #include "image/helper/permission.hpp"
+#include "image/helper/start_log.hpp"
 #include "image/helper/surroundings.hpp"
 
 namespace flexrf::helper {
@@ -41,6 +42,7 @@ class Helper {
   void tell_of_fallback(const Facts& facts);
   void supervise(const Facts& facts, Time now);
   void await_start(const Facts& facts, Time now);
+  void note_reason(const Facts& facts, const PanelAnswer& panel, const std::string& why_not, Time now);
   void give_up_turn(const Facts& facts, Time now, const std::string& why);
   void confirm(const Facts& facts);
   boot::Outcome perform(const Facts& facts, const char* verb);
@@ -54,6 +56,8 @@ class Helper {
   Time began_;  // the time of the trial, or of the start
   HealthCount count_;
   HealthCount up_;
+  StartLog start_log_;
+  std::string last_trouble_;  // why this version was not well when it was not the last time
   mutable std::mutex reading_;
   Health health_;
   std::string said_health_;  // what was said last, so that it is said once

@@ -12,11 +12,13 @@
 
 #include "base/standard_descriptors.hpp"
 #include "image/helper/facts.hpp"
+#include "image/helper/failure_lines.hpp"
 #include "image/helper/helper.hpp"
 #include "image/helper/interfaces.hpp"
 #include "image/helper/motion_word.hpp"
 #include "image/helper/options.hpp"
 #include "image/helper/socket_server.hpp"
+#include "image/helper/start_record.hpp"
 #include "image/helper/state_answer.hpp"
 #include "image/helper/system.hpp"
 #include "image/helper/verbs.hpp"
@@ -30,6 +32,8 @@ using namespace flexrf::helper;
 constexpr Duration interval = std::chrono::seconds{1};
 /// So that who asks again and again keeps nobody from the boot choice.
 constexpr Duration between_readings = std::chrono::milliseconds{250};
+constexpr Duration wait_for_journal = std::chrono::seconds{10};
+constexpr std::size_t most_of_journal = std::size_t{1} << 20;  // 20 lines have at most 48 KiB each
 
 void say(const std::string& line) {
   std::fprintf(stderr, "flexrf-helper: %s\n", line.c_str());
@@ -91,12 +95,18 @@ int run(const Options& options) {
   Helper helper(files, options.limits, surroundings, word, MonotonicClock::now());
   Verbs verbs(files, surroundings, word);
   RecentFacts facts(files);
+  FailureLines failure_lines([&](const std::vector<std::string>& arguments) {
+    return output_of(options.journalctl, arguments, wait_for_journal, most_of_journal);
+  });
   SocketServer server(
       socket_settings(options),
       {[&] {
-         return state_answer(files, facts.now(),
-                             {word.text(), helper.health(), options.limits.healthy, verbs.received(),
-                              wired_interfaces(), MonotonicClock::now()});
+         const Time now = MonotonicClock::now();
+         OfThisMoment moment{word.text(),      helper.health(),    options.limits.healthy,
+                             verbs.received(), wired_interfaces(), now};
+         moment.failure = failure_to_show(files.update, facts.now());
+         if (moment.failure) moment.failure_lines = failure_lines.of(moment.failure->last.boots, now);
+         return state_answer(files, facts.now(), moment);
        },
        [&](const Request& request, const std::string& peer) { return verbs.perform(request, peer); },
        [&] { verbs.tick(); }, &say});

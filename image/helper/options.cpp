@@ -24,6 +24,7 @@ std::string* text_option(Options& options, std::string_view word) {
       {"--certificate", &files.certificate},
       {"--version-file", &files.version},
       {"--notices", &files.notices},
+      {"--boot-id", &files.boot_id},
       {"--update-folder", &files.update.folder},
       {"--results", &files.update.results},
       {"--network-kept", &files.network.kept},
@@ -31,6 +32,7 @@ std::string* text_option(Options& options, std::string_view word) {
       {"--socket", &options.socket},
       {"--peer", &options.peer},
       {"--systemctl", &options.systemctl},
+      {"--journalctl", &options.journalctl},
   };
   const auto* const found =
       std::find_if(std::begin(all), std::end(all), [&](const auto& one) { return one.first == word; });
@@ -94,7 +96,9 @@ const char* const usage =
     "  --network-kept DIR           files of systemd-networkd that are used from boot on; else "
     "/data/network\n"
     "  --network-used DIR           those that are used now; else /run/systemd/network\n"
+    "  --boot-id FILE               names this boot in the journal; else /proc/sys/kernel/random/boot_id\n"
     "  --systemctl FILE             starts units and restarts the PC; else /usr/bin/systemctl\n"
+    "  --journalctl FILE            reads the journal; else /usr/bin/journalctl\n"
     "Exit code: 0 ended by a signal; 1 wrong usage.\n";
 
 }  // namespace flexrf::helper

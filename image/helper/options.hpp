@@ -18,6 +18,7 @@ struct Options {
   std::string socket = "/run/flexrf-helper/socket";  ///< where requests come
   std::string peer = "flexrf";                       ///< the user that may ask, beside root
   std::string systemctl = "/usr/bin/systemctl";
+  std::string journalctl = "/usr/bin/journalctl";
   bool wants_help = false;
 };
 

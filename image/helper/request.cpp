@@ -13,7 +13,7 @@ struct Shape {
   std::array<std::string_view, 5> members;  // beside the verb
 };
 
-constexpr std::array<Shape, 8> shapes = {
+constexpr std::array<Shape, 9> shapes = {
     {{Verb::state, "state", {}},
      {Verb::upload, "upload", {"user", "password", "size"}},
      {Verb::part, "part", {"upload", "offset"}},
@@ -21,7 +21,8 @@ constexpr std::array<Shape, 8> shapes = {
      {Verb::choose, "choose", {"user", "password", "slot", "other_drivers"}},
      {Verb::restart, "restart", {"user", "password"}},
      {Verb::network, "network", {"user", "password", "interface", "address", "gateway"}},
-     {Verb::keep_network, "keep-network", {"user", "password", "reached_by"}}}};
+     {Verb::keep_network, "keep-network", {"user", "password", "reached_by"}},
+     {Verb::dismiss_failure, "dismiss-failure", {"user", "password", "slot"}}}};
 
 Answer malformed(const std::string& what) {
   return refuse(400, what + "; a request is a JSON object with a verb and its members in one line");
@@ -84,14 +85,14 @@ std::variant<Request, Answer> parse_request(JsonReader& reader, std::string_view
   const auto* const shape =
       std::find_if(shapes.begin(), shapes.end(), [&](const Shape& one) { return one.name == verb; });
   if (shape == shapes.end())
-    return refuse(400,
-                  "there is no verb " + in_quotes(verb) +
-                      "; the verbs are state, upload, part, install, choose, restart, network, keep-network");
+    return refuse(400, "there is no verb " + in_quotes(verb) +
+                           "; the verbs are state, upload, part, install, choose, restart, network, "
+                           "keep-network, dismiss-failure");
   if (const std::string foreign = foreign_member_of(*object, *shape); !foreign.empty())
     return refuse(400, in_quotes(verb) + " has no member " + in_quotes(foreign) + "; its members are " +
                            names_of(*shape));
   Request request = taken(fields, *shape);
-  if (shape->verb == Verb::choose) {
+  if (shape->verb == Verb::choose || shape->verb == Verb::dismiss_failure) {
     const std::string_view name = fields.text("slot");
     const std::optional<boot::Slot> slot = boot::slot_named(name);
     if (fields.status() && !slot)

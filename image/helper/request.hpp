@@ -12,7 +12,17 @@
 
 namespace flexrf::helper {
 
-enum class Verb : std::uint8_t { state, upload, part, install, choose, restart, network, keep_network };
+enum class Verb : std::uint8_t {
+  state,
+  upload,
+  part,
+  install,
+  choose,
+  restart,
+  network,
+  keep_network,
+  dismiss_failure
+};
 const char* name_of(Verb verb) noexcept;
 
 /// What the verb has no use for is empty.

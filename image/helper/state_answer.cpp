@@ -94,6 +94,16 @@ void write_network(JsonWriter& json, const NetworkFiles& files, const OfThisMome
   json.member("remaining_s", std::max<std::int64_t>(0, seconds(trial.until - moment.now))).end_object();
 }
 
+void write_failure(JsonWriter& json, const Failure& failure, const FailureLines::Answer& lines) {
+  json.key("last_failure").begin_object();
+  json.member("slot", std::string(1, boot::letter_of(failure.slot))).member("version", failure.version);
+  json.member("starts", failure.starts).member("start", failure.last.start);
+  json.member("began", failure.last.began).member("reason", reason_of(failure));
+  json.key("lines").begin_array();
+  for (const std::string& line : lines.lines) json.value(line);
+  json.end_array().member("why_no_lines", lines.why_none).end_object();
+}
+
 }  // namespace
 
 std::vector<std::string> notices_of(const Files& files) {
@@ -131,6 +141,7 @@ std::string state_answer(const Files& files, const Facts& facts, const OfThisMom
   json.member("why_not_healthy", moment.health.why_not);
   write_update(json, read_progress(files.update), moment.upload, running);
   write_network(json, files.network, moment);
+  if (moment.failure) write_failure(json, *moment.failure, moment.failure_lines);
   json.end_object();
   return json.release();
 }

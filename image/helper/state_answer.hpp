@@ -1,13 +1,16 @@
 // The answer to `state`: all that a person may want to know of this PC.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/time.hpp"
+#include "image/helper/failure_lines.hpp"
 #include "image/helper/files.hpp"
 #include "image/helper/helper.hpp"
 #include "image/helper/interfaces.hpp"
+#include "image/helper/start_record.hpp"
 #include "image/helper/upload.hpp"
 
 namespace flexrf::helper {
@@ -20,11 +23,13 @@ struct OfThisMoment {
   Upload::Received upload;
   std::vector<Interface> interfaces;
   Time now{};
+  std::optional<Failure> failure{};      ///< to show; see failure_to_show()
+  FailureLines::Answer failure_lines{};  ///< of it
 };
 
 /// The notices for a person: the lines of all files in the folder of notices, 16 at most. Any thread.
 std::vector<std::string> notices_of(const Files& files);
-/// A JSON object of at most some 10 KiB. Reads the files of versions, notices and the update. Any thread.
+/// A JSON object of at most some 14 KiB. Reads the files of versions, notices and the update. Any thread.
 std::string state_answer(const Files& files, const Facts& facts, const OfThisMoment& moment);
 
 }  // namespace flexrf::helper

@@ -12,6 +12,7 @@
 #include "image/boot/verbs.hpp"
 #include "image/helper/driver_changes.hpp"
 #include "image/helper/named_lines.hpp"
+#include "image/helper/start_record.hpp"
 #include "runtime/parameters/durable_file.hpp"
 #include "web-ui/server/access/login_log.hpp"
 
@@ -69,6 +70,8 @@ Answer Verbs::perform(const Request& request) {
       return set_address(request);
     case Verb::keep_network:
       return keep_address(request.reached_by);
+    case Verb::dismiss_failure:
+      return dismiss_failure(request.slot);
     default:
       return restart();
   }
@@ -221,6 +224,15 @@ Answer Verbs::keep_address(const std::string& reached_by) {
   return answer;
 }
 
+Answer Verbs::dismiss_failure(boot::Slot slot) {
+  std::optional<Failure> failure = read_failure(files_.update, slot);
+  if (!failure || failure->is_dismissed)
+    return refuse(409, std::string{"no failure of slot "} + boot::letter_of(slot) + " is shown");
+  // The file stays: another boot of the same fallback would show the failure again.
+  failure->is_dismissed = true;
+  return answer_of(write_failure(files_.update, *failure));
+}
+
 Answer Verbs::check_standstill() const {
   const PanelAnswer panel = surroundings_.ask_panel(wait_for_panel);
   if (!panel.has_answered)
@@ -342,7 +354,8 @@ void Verbs::say_outcome(const Request& request, const std::string& peer, const A
   }
   std::string line = verb + " by " + panel::shown_name(request.user).data() + " from " + peer;
   if (request.verb == Verb::upload) line += ", " + std::to_string(request.size) + " bytes";
-  if (request.verb == Verb::choose) line += std::string{", slot "} + boot::letter_of(request.slot);
+  if (request.verb == Verb::choose || request.verb == Verb::dismiss_failure)
+    line += std::string{", slot "} + boot::letter_of(request.slot);
   if (request.verb == Verb::network) line += ", " + shown(request.interface) + ": " + shown(request.address);
   surroundings_.say(line + (answer.is_done() ? ": accepted" : ": refused: " + answer.why));
 }

@@ -50,6 +50,7 @@ class Verbs {
   Answer restart();
   Answer set_address(const Request& request);
   Answer keep_address(const std::string& reached_by);
+  Answer dismiss_failure(boot::Slot slot);
 
   /// How the bundle differs from what runs in a way that an admin has to have meant.
   struct Deviation {

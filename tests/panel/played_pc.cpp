@@ -61,6 +61,8 @@ class Pc {
       interface["gateway"] = request.at("gateway");
       if (is_fixed) interface["addresses"] = {request.at("address")};
       state_["network_trial"] = {{"interface", request.at("interface")}, {"remaining_s", 120}};
+    } else if (verb == "dismiss-failure") {
+      state_.erase("last_failure");
     } else if (verb == "keep-network") {
       state_["network_trial"] = {{"interface", ""}, {"remaining_s", 0}};
     }

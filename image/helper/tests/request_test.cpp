@@ -55,6 +55,9 @@ void each_verb_has_its_members() {
   CHECK_EQUAL(
       request(R"({"verb":"keep-network","user":"a","password":"b","reached_by":"10.0.2.16"})").reached_by,
       "10.0.2.16");
+  const Request dismiss = request(R"({"verb":"dismiss-failure","user":"a","password":"b","slot":"B"})");
+  CHECK(dismiss.verb == Verb::dismiss_failure);
+  CHECK(dismiss.slot == boot::Slot::b);
 }
 
 void what_is_no_request_is_told_what_is_wrong() {

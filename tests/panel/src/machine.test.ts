@@ -174,6 +174,41 @@ it('an admin sets the address of the PC on trial, and keeps it', async () => {
   expect(pc.said).toContain('"verb":"keep-network"');
 });
 
+it('after a fallback an admin reads why the version failed, and dismisses it', async () => {
+  const pc = await PlayedPc.start();
+  const running = await start(pc);
+  pc.change({
+    boot: 'fallback', confirmed: true,
+    notices: [`slot B, version ${newVersion}, was started three times and did not come up; version 20261128T001500Z-4fb48992 in slot A runs in its place`],
+    slots: { B: { version: newVersion, whole: true } },
+    last_failure: {
+      slot: 'B', version: newVersion, starts: 3, start: 3, began: 1796112012,
+      reason: 'it was not well for long enough within 10 min, and gave up its turn; at last: the panel says: device arm is in fault: node 5 is not heard',
+      lines: Array.from({ length: 20 }, (_, i) => `[  ${(31.25 + i * 0.5).toFixed(6)}] pick-station[312]: [error] arm: node 5 does not answer the SDO request 0x6041:00 in ${i + 1} tries; check its cable and its bit rate`),
+      why_no_lines: '',
+    },
+  });
+  const viewer = await open(running.base, adam);
+  const { page } = viewer;
+  await viewer.go('machine');
+  const block = page.getByText(`Why version ${newVersion} in slot B failed`);
+  await block.waitFor();
+  expect(await page.getByText('node 5 does not answer').isVisible()).toBe(false);
+  await block.click();
+  await page.getByText('Start 3 of 3, begun').waitFor();
+  await page.getByText('node 5 does not answer').waitFor();
+  await screenshot(page, 'machine-failure');
+  expect(await violations(page)).toEqual([]);
+  await page.setViewportSize(sizes.phone);
+  await screenshot(page, 'machine-failure-phone');
+  expect(await violations(page)).toEqual([]);
+  expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
+  await page.getByRole('button', { name: 'Dismiss', exact: true }).click();
+  await answer(viewer, 'Dismiss');
+  await expect.poll(() => block.count(), { timeout: within }).toBe(0);
+  expect(pc.said).toMatch(/"slot":"B".*"verb":"dismiss-failure"/);
+});
+
 it('what lasts is said in every view, and who is no admin has no buttons', async () => {
   const pc = await PlayedPc.start();
   const running = await start(pc);

@@ -34,6 +34,7 @@ constexpr Act acts[] = {
     {"restart", "restarted the PC", "restart the PC"},
     {"network", "set the address of", "set an address"},
     {"keep-network", "kept the address", "keep an address"},
+    {"dismiss-failure", "dismissed the failure of the slot", "dismiss a failure"},
 };
 
 Status not_understood(const char* why) noexcept {
@@ -100,6 +101,10 @@ void MachineOperations::act(const Caller& caller, std::string_view verb, Fields&
     json.member("interface", interface).member("address", address);
     json.member("gateway", fields.has("gateway") ? fields.text("gateway") : std::string_view{});
     set_text(waiting.what, std::string{interface.substr(0, 16)} + ": " + std::string{address.substr(0, 20)});
+  } else if (verb == "dismiss-failure") {
+    const std::string_view slot = fields.text("slot");
+    json.member("slot", slot);
+    set_text(waiting.what, slot.substr(0, 1));
   } else if (verb == "keep-network") {
     json.member("reached_by", reached_by.text());
   }

@@ -62,6 +62,23 @@ export interface NetworkTrial {
   readonly remaining_s: number;
 }
 
+/** A version from which the PC fell back. */
+export interface MachineFailure {
+  readonly slot: SlotName;
+  readonly version: string;
+  /** That came to nothing. */
+  readonly starts: number;
+  /** Which of them left `reason`; 0: none. */
+  readonly start: number;
+  /** s since 1970, of that start; 0: unknown. */
+  readonly began: number;
+  readonly reason: string;
+  /** Of its application, the newest last. */
+  readonly lines: readonly string[];
+  /** Empty: there are lines. */
+  readonly why_no_lines: string;
+}
+
 export interface MachineState {
   readonly application: string;
   readonly version: string;
@@ -83,6 +100,8 @@ export interface MachineState {
   /** The wired ones; undefined: an older helper, which can set none. */
   readonly network?: readonly NetworkInterface[];
   readonly network_trial?: NetworkTrial;
+  /** Until an admin dismisses it, or another version is installed in its slot. */
+  readonly last_failure?: MachineFailure;
 }
 
 /** ms; the first while somebody looks or something is under way. */

@@ -4,6 +4,7 @@ import { customElement, state } from 'lit/decorators.js';
 import { MachineWatch, type MachineSlot, type MachineState, type SlotName } from '../core/machine';
 import { MachineActs } from './machine_acts';
 import { machineButton, machineButtonStyles } from './machine_button';
+import { failureBlock, machineFailureStyles } from './machine_failure';
 import './machine_network';
 import { ageOf, bootSentence, builtText, bytesText, chosenDrivers, confirmedSentence, motionSentence, otherSlot, slotSentence, updateSentence } from './machine_words';
 import { ViewBase } from './view_base';
@@ -14,6 +15,7 @@ export class Machine extends ViewBase {
   static override styles = [
     ...viewStyles,
     machineButtonStyles,
+    machineFailureStyles,
     css`
       progress {
         width: min(24rem, 100%);
@@ -86,6 +88,7 @@ export class Machine extends ViewBase {
         <dt>Motion</dt><dd class=${known.motion === 'permitted' ? '' : 'warning'}>${motionSentence(known)}</dd>
         ${known.development_key ? html`<dt>Signed</dt><dd class="warning">⚠ With the development key, which anybody has: anyone can make an update for this PC. Make an image with a key of your own for a PC that is used.</dd>` : nothing}
       </dl>
+      ${failureBlock(known.last_failure, this.button('Dismiss', '', () => this.acts.askDismissFailure(this.machine.state!.last_failure!)))}
       ${known.notices.length === 0 ? nothing : html`<h3>Notices</h3><ul>${known.notices.map((notice) => html`<li>${notice}</li>`)}</ul>`}
     `;
   }

@@ -1,7 +1,7 @@
 // What an admin does to the PC: each with what it will do, the password asked for anew, and why it cannot be done now.
 import type { Core } from '../core/core';
 import { postJson, putBytes } from '../core/http';
-import { MachineWatch, type MachineState, type SlotName } from '../core/machine';
+import { MachineWatch, type MachineFailure, type MachineState, type SlotName } from '../core/machine';
 import { added } from '../core/watchers';
 import { BundleUpload } from './bundle_upload';
 import { ageOf, bytesText, driversSentence, otherSlot } from './machine_words';
@@ -95,6 +95,15 @@ export class MachineActs {
       ],
       action: `Start slot ${slot} next`,
       act: (password) => this.post('choose', { password, slot, other_drivers: drivers !== '' }),
+    });
+  }
+
+  askDismissFailure({ slot, version }: MachineFailure): void {
+    this.core.askPassword({
+      heading: 'Dismiss this failure?',
+      says: [`Why ${version ? `version ${version}` : 'the version'} in slot ${slot} failed is shown no more, to nobody. The version stays in its slot.`],
+      action: 'Dismiss',
+      act: (password) => this.post('dismiss-failure', { password, slot }),
     });
   }
 

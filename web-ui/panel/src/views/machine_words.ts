@@ -1,5 +1,5 @@
 // What the PC's helper tells, in sentences for people.
-import type { BootWord, DriverChange, MachineSlot, MachineState, MachineUpdate, SlotName } from '../core/machine';
+import type { BootWord, DriverChange, MachineFailure, MachineSlot, MachineState, MachineUpdate, SlotName } from '../core/machine';
 import { clockText } from '../core/words';
 
 const why: { readonly [word in BootWord]: string } = {
@@ -88,4 +88,27 @@ export function builtText(state: MachineState): string {
 /** The other of the two. */
 export function otherSlot(state: MachineState): SlotName {
   return state.slot === 'A' ? 'B' : 'A';
+}
+
+/** "Why version 20261201T1 in slot B failed" */
+export function failureHeading({ version, slot }: MachineFailure): string {
+  return `Why ${version ? `version ${version}` : 'the version'} in slot ${slot} failed`;
+}
+
+/** "Start 2 of 3, begun 2026-12-01 08:00:12"; of starts that left nothing "3 starts". */
+export function failedStartText({ starts, start, began }: MachineFailure): string {
+  if (start === 0) return starts === 1 ? '1 start' : starts === 0 ? 'The boot loader could not start it' : `${starts} starts`;
+  return `Start ${start} of ${Math.max(start, starts)}${began > 0 ? `, begun ${clockText(new Date(began * 1000))}` : ''}`;
+}
+
+/** Of starts after the one that left a reason; empty: there were none. */
+export function silentStartsSentence({ starts, start }: MachineFailure): string {
+  if (start === 0 || starts <= start) return '';
+  const which = starts === start + 1 ? `Start ${starts}` : `Starts ${start + 1} to ${starts}`;
+  return `${which} stopped before the services ran: the kernel, the disk or the root failed, or the power was cut.`;
+}
+
+/** With a capital letter and a full stop. */
+export function sentence(text: string): string {
+  return text === '' ? '' : `${text[0]!.toUpperCase()}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;
 }

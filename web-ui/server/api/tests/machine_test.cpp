@@ -165,6 +165,10 @@ void an_admin_updates_the_pc() {
         json({{"verb", "keep-network"}, {"user", "adam"}, {"password", "p"}, {"reached_by", "10.0.2.16"}}));
   CHECK(world.is_in_audit("set the address of", "enp0s2: 10.0.2.16/24"));
   CHECK(world.is_in_audit("kept the address", ""));
+  CHECK_EQUAL(world.post("dismiss-failure", {{"password", "p"}, {"slot", "B"}}).status, 200U);
+  CHECK(world.helper.asked("dismiss-failure").at(0) ==
+        json({{"verb", "dismiss-failure"}, {"user", "adam"}, {"password", "p"}, {"slot", "B"}}));
+  CHECK(world.is_in_audit("dismissed the failure of the slot", "B"));
   const std::string told = world.rig.get("audit", an_admin).body.dump() + world.rig.get("log").body.dump();
   CHECK(told.find("secret of adam") == std::string::npos);
 }
@@ -173,6 +177,7 @@ void others_change_nothing() {
   World world;
   CHECK_EQUAL(world.post("upload", {{"password", "p"}, {"size", 5}}, an_engineer).status, 403U);
   CHECK_EQUAL(world.post("restart", {{"password", "p"}}, an_engineer).status, 403U);
+  CHECK_EQUAL(world.post("dismiss-failure", {{"password", "p"}, {"slot", "B"}}, an_engineer).status, 403U);
   CHECK_EQUAL(world.put("x", std::string{"upload="} + token + "&offset=0", an_engineer).status, 403U);
   CHECK(world.helper.asked("upload").empty() && world.helper.asked("restart").empty());
   CHECK_EQUAL(world.helper.bytes(), 0U);
@@ -192,6 +197,7 @@ void what_makes_no_sense_is_refused() {
   CHECK_EQUAL(world.post("upload", {{"password", "p"}}).status, 400U);
   CHECK_EQUAL(world.post("upload", {{"size", 5}}).status, 400U);
   CHECK_EQUAL(world.post("choose", {{"password", "p"}}).status, 400U);
+  CHECK_EQUAL(world.post("dismiss-failure", {{"password", "p"}}).status, 400U);
   CHECK_EQUAL(world.post("install", {{"password", "p"}, {"older", "yes"}}).status, 400U);
   CHECK_EQUAL(world.post("network", {{"password", "p"}, {"interface", "enp0s2"}}).status, 400U);
   CHECK_EQUAL(world.post("restart", {{"password", std::string(2000, 'x')}}).status, 413U);

@@ -1,5 +1,5 @@
 // What the helper of a PC says, as docs/panel-protocol.md has it.
-import type { MachineState, MachineUpdate, NetworkInterface, NetworkTrial } from '../machine';
+import type { MachineFailure, MachineState, MachineUpdate, NetworkInterface, NetworkTrial } from '../machine';
 
 export const noUpdate: MachineUpdate = {
   phase: 'none', received: 0, size: 0, percent: 0, version: '', application: '', older: false, driver_changes: [], why: '',
@@ -10,6 +10,11 @@ export const wired: NetworkInterface = {
 };
 
 export const noTrial: NetworkTrial = { interface: '', remaining_s: 0 };
+
+export const failure: MachineFailure = {
+  slot: 'B', version: '20261201T1', starts: 3, start: 3, began: 1795824900, reason: 'the panel says: device arm is in fault',
+  lines: ['[   12.300000] pick-station[312]: device arm: no answer', '[   12.400000] pick-station[312]: the cell stops'], why_no_lines: '',
+};
 
 export const pc: MachineState = {
   application: 'pick-station', version: '20261128T001500Z-4fb48992', built: 1795824900, slot: 'A', boot: 'confirmed', confirmed: true,

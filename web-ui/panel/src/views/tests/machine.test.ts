@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { FakeCore, quiet } from '../../core/tests/fake_core';
-import { noUpdate, pc } from '../../core/tests/machine_sample';
+import { failure, noUpdate, pc } from '../../core/tests/machine_sample';
 import { MachineWatch, type MachineState } from '../../core/machine';
 import { sample } from '../../core/tests/sample';
 import { partSize } from '../bundle_upload';
@@ -215,6 +215,30 @@ describe('the view of the PC', () => {
     expect(sentTo()).toEqual([
       ['/api/v1/machine/choose', { password: 'p', slot: 'B', other_drivers: false }], ['/api/v1/machine/restart', { password: 'p' }],
     ]);
+  });
+
+  it('tells why the version in the other slot failed, until an admin dismisses it', async () => {
+    expect(await shown()).not.toContain('failed');
+    expect(view.shadowRoot!.querySelector('details')).toBeNull();
+    const words = await shown({ last_failure: failure });
+    expect(words).toContain('Why version 20261201T1 in slot B failed');
+    expect(words).toContain('Start 3 of 3, begun');
+    expect(words).toContain('The panel says: device arm is in fault.');
+    expect(view.shadowRoot!.querySelector('pre')!.textContent).toBe(failure.lines.join('\n'));
+    // It stays open when the next state arrives.
+    view.shadowRoot!.querySelector('details')!.open = true;
+    await shown({ last_failure: failure, healthy_for_s: 7 });
+    expect(view.shadowRoot!.querySelector('details')!.open).toBe(true);
+    button('Dismiss')!.click();
+    expect(core.questions[0]!.says.join(' ')).toContain('version 20261201T1 in slot B');
+    expect(await core.questions[0]!.act('p')).toBe('');
+    expect(sentTo()).toEqual([['/api/v1/machine/dismiss-failure', { password: 'p', slot: 'B' }]]);
+    const nothing = { ...failure, starts: 3, start: 0, began: 0, lines: [], reason: 'it stopped before its services ran', why_no_lines: 'No start left a line.' };
+    expect(await shown({ last_failure: nothing })).toMatch(/3 starts.*It stopped before its services ran\..*No start left a line\./);
+    expect(view.shadowRoot!.querySelector('pre')).toBeNull();
+    core.roleDenied = 'needs admin';
+    await shown({ last_failure: failure });
+    expect(button('Dismiss')).toBeUndefined();
   });
 
   it('follows an update to its end', async () => {

@@ -1,7 +1,7 @@
 // @vitest-environment node
 import { expect, it } from 'vitest';
-import { noUpdate, pc } from '../../core/tests/machine_sample';
-import { ageOf, bootSentence, bytesText, chosenDrivers, confirmedSentence, driversSentence, motionSentence, slotSentence, updateSentence } from '../machine_words';
+import { failure, noUpdate, pc } from '../../core/tests/machine_sample';
+import { ageOf, bootSentence, bytesText, chosenDrivers, confirmedSentence, driversSentence, failedStartText, failureHeading, motionSentence, sentence, silentStartsSentence, slotSentence, updateSentence } from '../machine_words';
 
 it('says why a slot runs', () => {
   const words = ['confirmed', 'only', 'trial', 'fallback', 'manual', 'unknown'] as const;
@@ -54,4 +54,19 @@ it('says which drivers a version changes, and which run', () => {
 it('counts bytes', () => {
   expect([0, 999, 1000, 61_440, 999_600, 123_400_000, 2_500_000_000].map(bytesText)).toEqual(
     ['0 B', '999 B', '1.0 kB', '61 kB', '1.0 MB', '123 MB', '2.5 GB']);
+});
+
+it('says which start of a version failed, and what of the starts after it', () => {
+  expect(failureHeading(failure)).toBe('Why version 20261201T1 in slot B failed');
+  expect(failureHeading({ ...failure, version: '' })).toBe('Why the version in slot B failed');
+  expect(failedStartText(failure)).toMatch(/^Start 3 of 3, begun \d{4}-/);
+  expect(failedStartText({ ...failure, start: 1, began: 0 })).toBe('Start 1 of 3');
+  expect(failedStartText({ ...failure, start: 0 })).toBe('3 starts');
+  expect(failedStartText({ ...failure, start: 0, starts: 1 })).toBe('1 start');
+  expect(failedStartText({ ...failure, start: 0, starts: 0 })).toBe('The boot loader could not start it');
+  expect(silentStartsSentence(failure)).toBe('');
+  expect(silentStartsSentence({ ...failure, start: 0 })).toBe('');
+  expect(silentStartsSentence({ ...failure, start: 2 })).toMatch(/^Start 3 stopped before the services ran/);
+  expect(silentStartsSentence({ ...failure, start: 1 })).toMatch(/^Starts 2 to 3 stopped/);
+  expect([sentence('it failed'), sentence('Done.'), sentence('')]).toEqual(['It failed.', 'Done.', '']);
 });
