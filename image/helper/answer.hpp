@@ -19,6 +19,7 @@ struct Answer {
   unsigned retry_after_s = 0;             ///< with 429
   std::string upload;                     ///< to `upload`: the token
   std::optional<std::uint64_t> received;  ///< to `part`: bytes so far, also with 409
+  std::optional<std::uint64_t> freed;     ///< to `make-room`: bytes
 
   bool is_done() const noexcept { return status == 200; }
   /// As a JSON object.
@@ -27,7 +28,7 @@ struct Answer {
 
 /// A refusal.
 inline Answer refuse(unsigned status, std::string why) {
-  return {status, std::move(why), 0, {}, {}};
+  return {status, std::move(why), 0, {}, {}, {}};
 }
 
 /// What could not be done is refused with 503.

@@ -28,6 +28,7 @@ struct Files {
   std::string notices = "/run/flexrf-notices";         ///< a folder with files of lines for a person
   UpdateFiles update;
   NetworkFiles network;
+  std::string data = "/data";  ///< the partition for data, with the journal in its folder `journal`
   /// By which the journal names this boot.
   std::string boot_id = "/proc/sys/kernel/random/boot_id";
 };

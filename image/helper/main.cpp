@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/standard_descriptors.hpp"
+#include "image/helper/data_use.hpp"
 #include "image/helper/facts.hpp"
 #include "image/helper/failure_lines.hpp"
 #include "image/helper/helper.hpp"
@@ -95,21 +96,27 @@ int run(const Options& options) {
   Helper helper(files, options.limits, surroundings, word, MonotonicClock::now());
   Verbs verbs(files, surroundings, word);
   RecentFacts facts(files);
+  DataWatch data([&] { return measure_data(files.data); });
   FailureLines failure_lines([&](const std::vector<std::string>& arguments) {
     return output_of(options.journalctl, arguments, wait_for_journal, most_of_journal);
   });
-  SocketServer server(
-      socket_settings(options),
-      {[&] {
-         const Time now = MonotonicClock::now();
-         OfThisMoment moment{word.text(),      helper.health(),    options.limits.healthy,
-                             verbs.received(), wired_interfaces(), now};
-         moment.failure = failure_to_show(files.update, facts.now());
-         if (moment.failure) moment.failure_lines = failure_lines.of(moment.failure->last.boots, now);
-         return state_answer(files, facts.now(), moment);
-       },
-       [&](const Request& request, const std::string& peer) { return verbs.perform(request, peer); },
-       [&] { verbs.tick(); }, &say});
+  SocketServer server(socket_settings(options),
+                      {[&] {
+                         const Time now = MonotonicClock::now();
+                         OfThisMoment moment{word.text(),      helper.health(),    options.limits.healthy,
+                                             verbs.received(), wired_interfaces(), now};
+                         moment.data = data.use(now);
+                         moment.failure = failure_to_show(files.update, facts.now());
+                         if (moment.failure)
+                           moment.failure_lines = failure_lines.of(moment.failure->last.boots, now);
+                         return state_answer(files, facts.now(), moment);
+                       },
+                       [&](const Request& request, const std::string& peer) {
+                         Answer answer = verbs.perform(request, peer);
+                         if (request.verb == Verb::make_room) data.measure_again();
+                         return answer;
+                       },
+                       [&] { verbs.tick(); }, &say});
   std::thread serving([&] { server.run(); });
   constexpr timespec pause{interval / std::chrono::seconds{1}, 0};
   do helper.look(MonotonicClock::now());

@@ -25,6 +25,7 @@ std::string* text_option(Options& options, std::string_view word) {
       {"--version-file", &files.version},
       {"--notices", &files.notices},
       {"--boot-id", &files.boot_id},
+      {"--data", &files.data},
       {"--update-folder", &files.update.folder},
       {"--results", &files.update.results},
       {"--network-kept", &files.network.kept},
@@ -96,6 +97,7 @@ const char* const usage =
     "  --network-kept DIR           files of systemd-networkd that are used from boot on; else "
     "/data/network\n"
     "  --network-used DIR           those that are used now; else /run/systemd/network\n"
+    "  --data DIR                   the partition for data; else /data\n"
     "  --boot-id FILE               names this boot in the journal; else /proc/sys/kernel/random/boot_id\n"
     "  --systemctl FILE             starts units and restarts the PC; else /usr/bin/systemctl\n"
     "  --journalctl FILE            reads the journal; else /usr/bin/journalctl\n"

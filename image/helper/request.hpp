@@ -21,7 +21,8 @@ enum class Verb : std::uint8_t {
   restart,
   network,
   keep_network,
-  dismiss_failure
+  dismiss_failure,
+  make_room
 };
 const char* name_of(Verb verb) noexcept;
 
@@ -40,6 +41,7 @@ struct Request {
   std::string interface;  ///< of the network
   std::string address;    ///< its setting, see parse_setting()
   std::string gateway;
+  std::string what;        ///< of the data may go: "logs"
   std::string reached_by;  ///< the PC's own address at which its panel was asked
 };
 

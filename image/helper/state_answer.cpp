@@ -104,6 +104,14 @@ void write_failure(JsonWriter& json, const Failure& failure, const FailureLines:
   json.end_array().member("why_no_lines", lines.why_none).end_object();
 }
 
+void write_data(JsonWriter& json, const DataUse& use) {
+  json.key("data").begin_object().member("size", use.size).member("used", use.used).member("free", use.free);
+  json.member("configuration", use.configuration).member("audit", use.audit);
+  json.member("journal", use.journal).member("old_logs", use.old_logs);
+  json.member("updates", use.updates).member("other", use.other);
+  json.member("complete", use.is_complete).end_object();
+}
+
 }  // namespace
 
 std::vector<std::string> notices_of(const Files& files) {
@@ -141,6 +149,7 @@ std::string state_answer(const Files& files, const Facts& facts, const OfThisMom
   json.member("why_not_healthy", moment.health.why_not);
   write_update(json, read_progress(files.update), moment.upload, running);
   write_network(json, files.network, moment);
+  if (moment.data) write_data(json, *moment.data);
   if (moment.failure) write_failure(json, *moment.failure, moment.failure_lines);
   json.end_object();
   return json.release();

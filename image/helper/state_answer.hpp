@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "image/helper/data_use.hpp"
 #include "image/helper/failure_lines.hpp"
 #include "image/helper/files.hpp"
 #include "image/helper/helper.hpp"
@@ -23,7 +24,8 @@ struct OfThisMoment {
   Upload::Received upload;
   std::vector<Interface> interfaces;
   Time now{};
-  std::optional<Failure> failure{};      ///< to show; see failure_to_show()
+  std::optional<Failure> failure{};  ///< to show; see failure_to_show()
+  std::optional<DataUse> data{};
   FailureLines::Answer failure_lines{};  ///< of it
 };
 

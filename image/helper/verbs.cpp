@@ -10,6 +10,7 @@
 #include "image/boot/environment.hpp"
 #include "image/boot/folder_medium.hpp"
 #include "image/boot/verbs.hpp"
+#include "image/helper/data_use.hpp"
 #include "image/helper/driver_changes.hpp"
 #include "image/helper/named_lines.hpp"
 #include "image/helper/start_record.hpp"
@@ -72,6 +73,8 @@ Answer Verbs::perform(const Request& request) {
       return keep_address(request.reached_by);
     case Verb::dismiss_failure:
       return dismiss_failure(request.slot);
+    case Verb::make_room:
+      return make_room(request.what);
     default:
       return restart();
   }
@@ -233,6 +236,16 @@ Answer Verbs::dismiss_failure(boot::Slot slot) {
   return answer_of(write_failure(files_.update, *failure));
 }
 
+Answer Verbs::make_room(const std::string& what) {
+  if (what != "logs") return refuse(400, "'what' is " + in_quotes(what) + "; old logs can be removed: logs");
+  const Result<std::uint64_t> freed = remove_old_logs(files_.data + "/journal");
+  if (!freed)
+    return refuse(freed.status().code() == StatusCode::not_found ? 409 : 503, freed.status().cause());
+  Answer answer;
+  answer.freed = *freed;
+  return answer;
+}
+
 Answer Verbs::check_standstill() const {
   const PanelAnswer panel = surroundings_.ask_panel(wait_for_panel);
   if (!panel.has_answered)
@@ -356,6 +369,7 @@ void Verbs::say_outcome(const Request& request, const std::string& peer, const A
   if (request.verb == Verb::upload) line += ", " + std::to_string(request.size) + " bytes";
   if (request.verb == Verb::choose || request.verb == Verb::dismiss_failure)
     line += std::string{", slot "} + boot::letter_of(request.slot);
+  if (request.verb == Verb::make_room) line += ", " + shown(request.what);
   if (request.verb == Verb::network) line += ", " + shown(request.interface) + ": " + shown(request.address);
   surroundings_.say(line + (answer.is_done() ? ": accepted" : ": refused: " + answer.why));
 }

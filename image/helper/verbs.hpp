@@ -51,6 +51,7 @@ class Verbs {
   Answer set_address(const Request& request);
   Answer keep_address(const std::string& reached_by);
   Answer dismiss_failure(boot::Slot slot);
+  Answer make_room(const std::string& what);
 
   /// How the bundle differs from what runs in a way that an admin has to have meant.
   struct Deviation {

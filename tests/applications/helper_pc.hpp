@@ -105,6 +105,10 @@ class Pc {
             "results",
             "--update-folder",
             "update",
+            "--data",
+            "data",
+            "--journalctl",
+            folder / "journalctl",
             "--systemctl",
             folder / "systemctl"};
   }

@@ -284,6 +284,44 @@ void a_socket_that_cannot_be_made_is_made_when_it_can() {
   CHECK(client.ask({}, "state").at("ok").get<bool>());
 }
 
+/// The journal's program is the test's: it answers with its own arguments.
+void after_a_fallback_the_journal_is_read_and_old_logs_can_go() {
+  const Pc pc;
+  using std::filesystem::create_directories;
+  write_file(pc.folder / "journalctl", "#!/bin/sh\nsleep 1\necho \"[    1.000000] cell[7]: $*\"\n");
+  std::filesystem::permissions(pc.folder / "journalctl", std::filesystem::perms::owner_all);
+  create_directories(pc.folder / "data/journal/0123");
+  write_file(pc.folder / "data/journal/0123/system@00ff-1-2.journal", std::string(100'000, 'x'));
+  write_file(pc.folder / "data/journal/0123/system.journal", "in use");
+  CHECK_EQUAL(run(pc.folder, {place::choice, "--folder", "choice", "mark-whole", "B", "cmdline"}).exit_code,
+              0);
+  write_file(pc.folder / "update/version-b", "version=v2\n");
+  const std::string boot(32, 'a');
+  write_file(pc.folder / "update/last-failure-b",
+             "trial=5\nstart=2\nbegan=1800000000\nreason=unit robot is in fault\nboots=" + boot +
+                 "\nversion=v2\nstarts=3\n");
+  Process helper(pc.folder, pc.helper());
+  const Client client(pc);
+  json state = client.ask({}, "state");
+  CHECK_EQUAL(state.at("last_failure").at("reason"), "unit robot is in fault");
+  CHECK_EQUAL(state.at("last_failure").at("why_no_lines"), "The journal is being read.");
+  CHECK(wait_until([&] {
+    state = client.ask({}, "state");
+    return !state.at("last_failure").at("lines").empty() && state.contains("data");
+  }));
+  CHECK_CONTAINS(state.at("last_failure").at("lines").at(0).get<std::string>(),
+                 "cell[7]: --quiet --no-pager --no-hostname --output=short-monotonic --lines=20 "
+                 "--unit=flexrf.service _BOOT_ID=" +
+                     boot);
+  CHECK(state.at("data").at("old_logs") >= 100'000);
+  CHECK(client.ask(with(anna, {{"what", "logs"}}), "make-room").at("freed") >= 100'000);
+  CHECK(!std::filesystem::exists(pc.folder / "data/journal/0123/system@00ff-1-2.journal"));
+  CHECK(std::filesystem::exists(pc.folder / "data/journal/0123/system.journal"));
+  CHECK(wait_until([&] { return client.ask({}, "state").at("data").at("old_logs") == 0; }));
+  CHECK(client.ask(with(anna, {{"slot", "B"}}), "dismiss-failure").at("ok").get<bool>());
+  CHECK(!client.ask({}, "state").contains("last_failure"));
+}
+
 }  // namespace
 }  // namespace flexrf::whole
 
@@ -300,6 +338,7 @@ int main() {
       CONTAINED_TEST(a_helper_that_is_killed_forgets_the_upload),
       CONTAINED_TEST(another_users_process_is_refused),
       CONTAINED_TEST(a_socket_that_cannot_be_made_is_made_when_it_can),
+      CONTAINED_TEST(after_a_fallback_the_journal_is_read_and_old_logs_can_go),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -61,6 +61,14 @@ class Pc {
       interface["gateway"] = request.at("gateway");
       if (is_fixed) interface["addresses"] = {request.at("address")};
       state_["network_trial"] = {{"interface", request.at("interface")}, {"remaining_s", 120}};
+    } else if (verb == "make-room") {
+      json& data = state_["data"];
+      const json freed = data["old_logs"];
+      for (const char* const part : {"used", "journal"})
+        data[part] = data[part].get<long>() - freed.get<long>();
+      data["free"] = data["free"].get<long>() + freed.get<long>();
+      data["old_logs"] = 0;
+      return {{"ok", true}, {"freed", freed}};
     } else if (verb == "dismiss-failure") {
       state_.erase("last_failure");
     } else if (verb == "keep-network") {
@@ -159,6 +167,17 @@ class Pc {
       {"healthy_needed_s", 60},
       {"why_not_healthy", ""},
       {"update", {{"phase", "none"}}},
+      {"data",
+       {{"size", 250000000},
+        {"used", 120000000},
+        {"free", 80000000},
+        {"configuration", 40000},
+        {"audit", 3900000},
+        {"journal", 64000000},
+        {"old_logs", 56000000},
+        {"updates", 12000},
+        {"other", 200000},
+        {"complete", true}}},
       {"network",
        {{{"interface", "enp0s2"},
          {"mac", "52:54:00:12:34:56"},

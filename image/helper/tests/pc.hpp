@@ -52,10 +52,11 @@ class Pc {
     files.version = path_ + "/version";
     files.notices = path_ + "/notices";
     files.boot_id = path_ + "/boot_id";
+    files.data = path_ + "/data";
     files.network = {path_ + "/kept", path_ + "/used"};
     files.update = {path_ + "/update", path_ + "/results"};
-    for (const std::string& folder :
-         {files.choice, files.update.folder, files.update.results, files.network.kept, files.network.used})
+    for (const std::string& folder : {files.choice, files.data, files.update.folder, files.update.results,
+                                      files.network.kept, files.network.used})
       fs::create_directory(folder);
     write(files.version, "application=pick-station\nversion=20261128T001500Z-4fb48992\nbuilt=1000\n");
     write(files.boot_id, "01234567-89ab-cdef-0123-456789abcdef\n");

@@ -58,6 +58,7 @@ void each_verb_has_its_members() {
   const Request dismiss = request(R"({"verb":"dismiss-failure","user":"a","password":"b","slot":"B"})");
   CHECK(dismiss.verb == Verb::dismiss_failure);
   CHECK(dismiss.slot == boot::Slot::b);
+  CHECK_EQUAL(request(R"({"verb":"make-room","user":"a","password":"b","what":"logs"})").what, "logs");
 }
 
 void what_is_no_request_is_told_what_is_wrong() {

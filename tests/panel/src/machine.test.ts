@@ -209,6 +209,30 @@ it('after a fallback an admin reads why the version failed, and dismisses it', a
   expect(pc.said).toMatch(/"slot":"B".*"verb":"dismiss-failure"/);
 });
 
+it('on a full disk an admin sees what fills it, and removes the old logs', async () => {
+  const pc = await PlayedPc.start();
+  const running = await start(pc);
+  pc.change({ data: { used: 193_000_000, free: 7_000_000 } });
+  const viewer = await open(running.base, adam);
+  const { page } = viewer;
+  await viewer.go('machine');
+  await page.getByText('193 MB of 250 MB used, 7.0 MB free for the application.').waitFor();
+  await page.getByText('Less than 10 % is free for the application.').waitFor();
+  await page.getByRole('row', { name: 'Logs of the PC 64 MB' }).waitFor();
+  await screenshot(page, 'machine-data');
+  expect(await violations(page)).toEqual([]);
+  await page.setViewportSize(sizes.phone);
+  await page.getByRole('button', { name: 'Remove old logs' }).scrollIntoViewIfNeeded();
+  await screenshot(page, 'machine-data-phone');
+  expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
+  await page.getByRole('button', { name: 'Remove old logs' }).click();
+  await page.getByText('56 MB of closed log files of this PC are removed').waitFor();
+  await answer(viewer, 'Remove old logs');
+  await page.getByText('137 MB of 250 MB used, 63 MB free for the application.').waitFor();
+  await page.getByText('there are no old logs').waitFor();
+  expect(pc.said).toMatch(/"verb":"make-room","what":"logs"/);
+});
+
 it('what lasts is said in every view, and who is no admin has no buttons', async () => {
   const pc = await PlayedPc.start();
   const running = await start(pc);

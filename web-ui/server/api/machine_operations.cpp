@@ -34,6 +34,7 @@ constexpr Act acts[] = {
     {"restart", "restarted the PC", "restart the PC"},
     {"network", "set the address of", "set an address"},
     {"keep-network", "kept the address", "keep an address"},
+    {"make-room", "made room for data", "make room for data"},
     {"dismiss-failure", "dismissed the failure of the slot", "dismiss a failure"},
 };
 
@@ -74,6 +75,7 @@ void MachineOperations::act(const Caller& caller, std::string_view verb, Fields&
   }
   Waiting waiting{.caller = caller, .did = act.did, .refused = act.refused, .who = permission_->who(caller)};
   if (verb == "upload") waiting.wants = "upload";
+  if (verb == "make-room") waiting.wants = "freed";
   // Nothing that has a password in it is to be left behind by a text that grew.
   std::string text;
   text.reserve(2 * HelperClient::longest_line);
@@ -101,6 +103,10 @@ void MachineOperations::act(const Caller& caller, std::string_view verb, Fields&
     json.member("interface", interface).member("address", address);
     json.member("gateway", fields.has("gateway") ? fields.text("gateway") : std::string_view{});
     set_text(waiting.what, std::string{interface.substr(0, 16)} + ": " + std::string{address.substr(0, 20)});
+  } else if (verb == "make-room") {
+    const std::string_view what = fields.text("what");
+    json.member("what", what);
+    set_text(waiting.what, what.substr(0, 16));
   } else if (verb == "dismiss-failure") {
     const std::string_view slot = fields.text("slot");
     json.member("slot", slot);
@@ -214,6 +220,7 @@ void MachineOperations::answer(const Waiting& waiting, const Result<JsonObject>&
   if (waiting.did != nullptr) audit_->note(waiting.who, waiting.did, text_view(waiting.what));
   answers_->done(waiting.caller, [&](JsonWriter& json) {
     if (wanted == "upload") json.member(wanted, fields.text(wanted));
+    if (wanted == "freed") json.member(wanted, fields.integer(wanted));
     if (wanted == "received") json.member(wanted, fields.integer(wanted));
   });
 }

@@ -79,6 +79,23 @@ export interface MachineFailure {
   readonly why_no_lines: string;
 }
 
+/** Bytes on the partition for data, at most a minute old. */
+export interface MachineData {
+  readonly size: number;
+  readonly used: number;
+  /** For the application: the PC keeps the rest for updates and its journal. */
+  readonly free: number;
+  readonly configuration: number;
+  readonly audit: number;
+  readonly journal: number;
+  /** Of the journal, what can be removed. */
+  readonly old_logs: number;
+  readonly updates: number;
+  readonly other: number;
+  /** False: there are more files than were counted. */
+  readonly complete: boolean;
+}
+
 export interface MachineState {
   readonly application: string;
   readonly version: string;
@@ -100,6 +117,8 @@ export interface MachineState {
   /** The wired ones; undefined: an older helper, which can set none. */
   readonly network?: readonly NetworkInterface[];
   readonly network_trial?: NetworkTrial;
+  /** Undefined: an older helper, or not measured yet. */
+  readonly data?: MachineData;
   /** Until an admin dismisses it, or another version is installed in its slot. */
   readonly last_failure?: MachineFailure;
 }

@@ -4,6 +4,7 @@ import { customElement, state } from 'lit/decorators.js';
 import { MachineWatch, type MachineSlot, type MachineState, type SlotName } from '../core/machine';
 import { MachineActs } from './machine_acts';
 import { machineButton, machineButtonStyles } from './machine_button';
+import { dataBlock, machineDataStyles } from './machine_data';
 import { failureBlock, machineFailureStyles } from './machine_failure';
 import './machine_network';
 import { ageOf, bootSentence, builtText, bytesText, chosenDrivers, confirmedSentence, motionSentence, otherSlot, slotSentence, updateSentence } from './machine_words';
@@ -15,6 +16,7 @@ export class Machine extends ViewBase {
   static override styles = [
     ...viewStyles,
     machineButtonStyles,
+    machineDataStyles,
     machineFailureStyles,
     css`
       progress {
@@ -69,7 +71,7 @@ export class Machine extends ViewBase {
       <h2>Machine</h2>
       ${machine.trouble ? html`<p class="alarm" role="alert">⚠ How the PC is cannot be told now. ${machine.trouble}</p>` : nothing}
       ${known ? html`<div class=${old}>${this.about(known)}${this.slots(known)}${this.updating(known)}
-          <flexrf-machine-network .core=${this.core} .host=${this.host}></flexrf-machine-network>${this.restart(known)}</div>`
+          <flexrf-machine-network .core=${this.core} .host=${this.host}></flexrf-machine-network>${this.data(known)}${this.restart(known)}</div>`
         : machine.trouble ? nothing : html`<p>Waiting for the PC…</p>`}
     `;
   }
@@ -167,6 +169,10 @@ export class Machine extends ViewBase {
         <input type="file" accept=".raucb" @change=${(event: Event) => { this.file = (event.target as HTMLInputElement).files?.[0]; }} /></label>
       ${this.button('Upload', this.file ? this.file.size > 0 ? '' : 'the file is empty' : 'choose a file first', () => this.acts.askUpload(this.file!))}
     `;
+  }
+
+  private data({ data }: MachineState): unknown {
+    return dataBlock(data, data && this.button('Remove old logs', data.old_logs > 0 ? '' : 'there are no old logs', () => this.acts.askRemoveLogs(data)));
   }
 
   private restart(known: MachineState): unknown {

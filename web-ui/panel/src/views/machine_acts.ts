@@ -1,7 +1,7 @@
 // What an admin does to the PC: each with what it will do, the password asked for anew, and why it cannot be done now.
 import type { Core } from '../core/core';
 import { postJson, putBytes } from '../core/http';
-import { MachineWatch, type MachineFailure, type MachineState, type SlotName } from '../core/machine';
+import { MachineWatch, type MachineData, type MachineFailure, type MachineState, type SlotName } from '../core/machine';
 import { added } from '../core/watchers';
 import { BundleUpload } from './bundle_upload';
 import { ageOf, bytesText, driversSentence, otherSlot } from './machine_words';
@@ -95,6 +95,18 @@ export class MachineActs {
       ],
       action: `Start slot ${slot} next`,
       act: (password) => this.post('choose', { password, slot, other_drivers: drivers !== '' }),
+    });
+  }
+
+  askRemoveLogs({ old_logs }: MachineData): void {
+    this.core.askPassword({
+      heading: 'Remove the old logs?',
+      says: [
+        `${bytesText(old_logs)} of closed log files of this PC are removed; what happened then cannot be looked up any more. The newest file, the audit and the configuration stay.`,
+        'The last lines of a version that failed go, too, if they are in these files.',
+      ],
+      action: 'Remove old logs',
+      act: (password) => this.post('make-room', { password, what: 'logs' }),
     });
   }
 

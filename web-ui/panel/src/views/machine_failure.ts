@@ -5,12 +5,8 @@ import { failedStartText, failureHeading, sentence, silentStartsSentence } from 
 
 export const machineFailureStyles = css`
   details.failure {
-    border: 1px solid var(--border);
-    border-inline-start: 4px solid var(--warning);
-    padding: 0 12px;
-    margin-block: 0.8em;
-    max-width: 100%;
-    box-sizing: border-box;
+    border-inline-start: 6px solid var(--warning);
+    padding-block: 0;
   }
   details.failure summary {
     cursor: pointer;
@@ -41,7 +37,7 @@ export function failureBlock(failure: MachineFailure | undefined, dismiss: unkno
   if (!failure) return nothing;
   const silent = silentStartsSentence(failure);
   return html`
-    <details class="failure">
+    <details class="box failure">
       <summary>⚠ ${failureHeading(failure)}</summary>
       <dl>
         <dt>Start</dt><dd>${failedStartText(failure)}</dd>

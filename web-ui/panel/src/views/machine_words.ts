@@ -1,5 +1,5 @@
 // What the PC's helper tells, in sentences for people.
-import type { BootWord, DriverChange, MachineFailure, MachineSlot, MachineState, MachineUpdate, SlotName } from '../core/machine';
+import type { BootWord, DriverChange, MachineData, MachineFailure, MachineSlot, MachineState, MachineUpdate, SlotName } from '../core/machine';
 import { clockText } from '../core/words';
 
 const why: { readonly [word in BootWord]: string } = {
@@ -111,4 +111,23 @@ export function silentStartsSentence({ starts, start }: MachineFailure): string 
 /** With a capital letter and a full stop. */
 export function sentence(text: string): string {
   return text === '' ? '' : `${text[0]!.toUpperCase()}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;
+}
+
+const parts: readonly (readonly ['configuration' | 'audit' | 'journal' | 'updates' | 'other', string])[] = [
+  ['journal', 'Logs of the PC'], ['updates', 'Updates'], ['audit', 'Audit'], ['configuration', 'Configuration'], ['other', 'Other files'],
+];
+
+/** What fills the partition, the largest first: ["Logs of the PC", 64000000]. */
+export function dataParts(data: MachineData): readonly (readonly [string, number])[] {
+  return parts.map(([part, name]) => [name, data[part]] as const).filter(([, bytes]) => bytes > 0).sort((one, two) => two[1] - one[1]);
+}
+
+/** "180 MB of 250 MB used, 32 MB free for the application." */
+export function dataSentence({ used, size, free }: MachineData): string {
+  return `${bytesText(used)} of ${bytesText(size)} used, ${bytesText(free)} free for the application.`;
+}
+
+/** Less than a tenth of what the application could have is free. */
+export function isNearlyFull({ used, free }: MachineData): boolean {
+  return free * 10 < used + free;
 }

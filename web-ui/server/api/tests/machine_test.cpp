@@ -61,6 +61,7 @@ class Helper {
     if (verb == "state") return {How::answers, idle_state.dump()};
     json answer = {{"ok", true}};
     if (verb == "upload") answer["upload"] = token;
+    if (verb == "make-room") answer["freed"] = 1234;
     if (verb == "part") answer["received"] = request.at("offset").get<std::size_t>() + bytes.size();
     return {How::answers, answer.dump()};
   }
@@ -169,6 +170,10 @@ void an_admin_updates_the_pc() {
   CHECK(world.helper.asked("dismiss-failure").at(0) ==
         json({{"verb", "dismiss-failure"}, {"user", "adam"}, {"password", "p"}, {"slot", "B"}}));
   CHECK(world.is_in_audit("dismissed the failure of the slot", "B"));
+  CHECK(world.post("make-room", {{"password", "p"}, {"what", "logs"}}).body == json({{"freed", 1234}}));
+  CHECK(world.helper.asked("make-room").at(0) ==
+        json({{"verb", "make-room"}, {"user", "adam"}, {"password", "p"}, {"what", "logs"}}));
+  CHECK(world.is_in_audit("made room for data", "logs"));
   const std::string told = world.rig.get("audit", an_admin).body.dump() + world.rig.get("log").body.dump();
   CHECK(told.find("secret of adam") == std::string::npos);
 }
@@ -198,6 +203,7 @@ void what_makes_no_sense_is_refused() {
   CHECK_EQUAL(world.post("upload", {{"size", 5}}).status, 400U);
   CHECK_EQUAL(world.post("choose", {{"password", "p"}}).status, 400U);
   CHECK_EQUAL(world.post("dismiss-failure", {{"password", "p"}}).status, 400U);
+  CHECK_EQUAL(world.post("make-room", {{"password", "p"}}).status, 400U);
   CHECK_EQUAL(world.post("install", {{"password", "p"}, {"older", "yes"}}).status, 400U);
   CHECK_EQUAL(world.post("network", {{"password", "p"}, {"interface", "enp0s2"}}).status, 400U);
   CHECK_EQUAL(world.post("restart", {{"password", std::string(2000, 'x')}}).status, 413U);

@@ -1,5 +1,5 @@
 // What the helper of a PC says, as docs/panel-protocol.md has it.
-import type { MachineFailure, MachineState, MachineUpdate, NetworkInterface, NetworkTrial } from '../machine';
+import type { MachineData, MachineFailure, MachineState, MachineUpdate, NetworkInterface, NetworkTrial } from '../machine';
 
 export const noUpdate: MachineUpdate = {
   phase: 'none', received: 0, size: 0, percent: 0, version: '', application: '', older: false, driver_changes: [], why: '',
@@ -10,6 +10,10 @@ export const wired: NetworkInterface = {
 };
 
 export const noTrial: NetworkTrial = { interface: '', remaining_s: 0 };
+
+export const data: MachineData = {
+  size: 250e6, used: 180e6, free: 32e6, configuration: 40e3, audit: 4e6, journal: 64e6, old_logs: 56e6, updates: 105e6, other: 200e3, complete: true,
+};
 
 export const failure: MachineFailure = {
   slot: 'B', version: '20261201T1', starts: 3, start: 3, began: 1795824900, reason: 'the panel says: device arm is in fault',

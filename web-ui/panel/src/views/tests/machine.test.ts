@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { FakeCore, quiet } from '../../core/tests/fake_core';
-import { failure, noUpdate, pc } from '../../core/tests/machine_sample';
+import { data, failure, noUpdate, pc } from '../../core/tests/machine_sample';
 import { MachineWatch, type MachineState } from '../../core/machine';
 import { sample } from '../../core/tests/sample';
 import { partSize } from '../bundle_upload';
@@ -239,6 +239,26 @@ describe('the view of the PC', () => {
     core.roleDenied = 'needs admin';
     await shown({ last_failure: failure });
     expect(button('Dismiss')).toBeUndefined();
+  });
+
+  it('tells what fills the partition for data, and offers to remove old logs', async () => {
+    expect(await shown()).not.toContain('Data partition');
+    let words = await shown({ data });
+    expect(words).toMatch(/Data partition 180 MB of 250 MB used, 32 MB free.*Updates105 MB.*Logs of the PC64 MB/);
+    expect(words).not.toContain('Less than 10 %');
+    expect(words).not.toContain('of the first');
+    button('Remove old logs')!.click();
+    expect(core.questions[0]!.says.join(' ')).toMatch(/56 MB of closed log files.*configuration stay/);
+    expect(await core.questions[0]!.act('p')).toBe('');
+    expect(sentTo()).toEqual([['/api/v1/machine/make-room', { password: 'p', what: 'logs' }]]);
+    words = await shown({ data: { ...data, free: 1e6, old_logs: 0, complete: false } });
+    expect(words).toContain('⚠ Less than 10 % is free');
+    expect(words).toContain('of the first 20 000 files');
+    expect(isDead('Remove old logs')).toBe(true);
+    expect(words).toContain('there are no old logs');
+    core.roleDenied = 'needs admin';
+    expect(await shown({ data })).toContain('180 MB of 250 MB');
+    expect(button('Remove old logs')).toBeUndefined();
   });
 
   it('follows an update to its end', async () => {

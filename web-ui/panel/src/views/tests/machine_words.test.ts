@@ -1,7 +1,7 @@
 // @vitest-environment node
 import { expect, it } from 'vitest';
-import { failure, noUpdate, pc } from '../../core/tests/machine_sample';
-import { ageOf, bootSentence, bytesText, chosenDrivers, confirmedSentence, driversSentence, failedStartText, failureHeading, motionSentence, sentence, silentStartsSentence, slotSentence, updateSentence } from '../machine_words';
+import { data, failure, noUpdate, pc } from '../../core/tests/machine_sample';
+import { ageOf, bootSentence, bytesText, chosenDrivers, confirmedSentence, dataParts, dataSentence, driversSentence, failedStartText, failureHeading, isNearlyFull, motionSentence, sentence, silentStartsSentence, slotSentence, updateSentence } from '../machine_words';
 
 it('says why a slot runs', () => {
   const words = ['confirmed', 'only', 'trial', 'fallback', 'manual', 'unknown'] as const;
@@ -69,4 +69,13 @@ it('says which start of a version failed, and what of the starts after it', () =
   expect(silentStartsSentence({ ...failure, start: 2 })).toMatch(/^Start 3 stopped before the services ran/);
   expect(silentStartsSentence({ ...failure, start: 1 })).toMatch(/^Starts 2 to 3 stopped/);
   expect([sentence('it failed'), sentence('Done.'), sentence('')]).toEqual(['It failed.', 'Done.', '']);
+});
+
+it('says what fills the partition for data, the largest part first', () => {
+  expect(dataSentence(data)).toBe('180 MB of 250 MB used, 32 MB free for the application.');
+  expect(dataParts(data).map(([name]) => name)).toEqual(['Updates', 'Logs of the PC', 'Audit', 'Other files', 'Configuration']);
+  expect(dataParts({ ...data, updates: 0 }).map(([name]) => name)).not.toContain('Updates');
+  expect(isNearlyFull(data)).toBe(false);
+  expect(isNearlyFull({ ...data, free: 19e6 })).toBe(true);
+  expect(isNearlyFull({ ...data, free: 20e6 })).toBe(false);
 });
