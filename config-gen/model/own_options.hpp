@@ -7,7 +7,7 @@
 
 namespace flexrf::config_gen {
 
-constexpr std::array<std::string_view, 23> own_options = {"--audit",
+constexpr std::array<std::string_view, 24> own_options = {"--audit",
                                                           "--config",
                                                           "--descriptor",
                                                           "--digest",
@@ -22,6 +22,7 @@ constexpr std::array<std::string_view, 23> own_options = {"--audit",
                                                           "--panel",
                                                           "--panel-edit-timeout",
                                                           "--panel-host",
+                                                          "--panel-hosts",
                                                           "--panel-users",
                                                           "--report",
                                                           "--seed",

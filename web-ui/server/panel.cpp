@@ -16,6 +16,7 @@
 #include "runtime/realtime/thread_setup.hpp"
 #include "web-ui/server/access/access_endpoints.hpp"
 #include "web-ui/server/access/entrance.hpp"
+#include "web-ui/server/access/host_watch.hpp"
 #include "web-ui/server/access/password_helper.hpp"
 #include "web-ui/server/access/start_rules.hpp"
 #include "web-ui/server/api/api.hpp"
@@ -79,6 +80,7 @@ class Panel final : public Observer, public Service {
   std::unique_ptr<net::ssl::context> encryption_;
   bool is_secure_ = false;
   std::vector<std::string> host_names_;
+  HostFileWatch host_watch_;
   std::optional<Server> server_;
   std::optional<PanelAccess> access_;
   std::optional<HostRules> rules_;
@@ -115,6 +117,7 @@ Status Panel::read_options() {
     if (const Status status = HostRules::check_name(option.value); !status) return status;
     host_names_.push_back(option.value);
   }
+  host_watch_ = HostFileWatch{given.text("--panel-hosts", "")};
   is_secure_ = given.has("--tls-certificate");
   if (is_secure_ != given.has("--tls-key")) {
     return Status::error(StatusCode::invalid_argument,
@@ -197,6 +200,7 @@ void Panel::make_access() {
   std::vector<std::string> names = HostRules::names_of_machine();
   names.insert(names.end(), host_names_.begin(), host_names_.end());
   rules_.emplace(is_secure_, std::move(names));
+  if (auto hosts = host_watch_.read()) rules_->declare(std::move(*hosts));
   entrance_.emplace(*access_, limits_, *rules_, record_.connections);
   endpoints_.emplace(*access_, limits_, users_, user_watch_, password_check_, *server_);
 }
@@ -218,6 +222,7 @@ Handled Panel::handle(const Request& request, Reply& reply, Ticket ticket) {
 }
 
 void Panel::on_tick(Time now) {
+  if (auto hosts = host_watch_.update(now)) rules_->declare(std::move(*hosts));
   endpoints_->on_tick(now);
   api_->set_figures(server_->figures());
   api_->on_tick(now);

@@ -6,12 +6,14 @@
 
 namespace flexrf::panel {
 
-constinit const std::array<Option, 8> panel_options{
+constinit const std::array<Option, 9> panel_options{
     Option{"--panel", OptionKind::text, "ADDRESS:PORT|off",
            "where the panel listens (default 127.0.0.1:8080)"},
     Option{"--panel-users", OptionKind::file, "FILE",
            "who may log in to the panel (`./flexrf password` writes it)"},
     Option{"--panel-host", OptionKind::text, "NAME", "another name of this machine in the panel's address"},
+    Option{"--panel-hosts", OptionKind::text, "FILE",
+           "more names and IPv4 addresses of this machine, one a line; it need not be there"},
     Option{"--helper", OptionKind::text, "SOCKET",
            "what updates and restarts this PC listens there (flexrf-helper)"},
     Option{"--panel-edit-timeout", OptionKind::duration, "DURATION",

@@ -13,7 +13,7 @@ namespace flexrf::panel {
 
 inline constexpr const char* default_listen_address = "127.0.0.1:8080";
 
-extern const std::array<Option, 8> panel_options;
+extern const std::array<Option, 9> panel_options;
 
 /// Whether there is to be a panel: not with `--panel off`, nor in virtual time. invalid_argument: it was
 /// asked for and cannot be.

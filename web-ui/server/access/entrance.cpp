@@ -46,7 +46,8 @@ bool Entrance::is_ours(const Request& request, Reply& reply) const {
   if (!rules_.allows_host(request.host, request.local_end)) {
     answer_problem(reply, 421,
                    "This server is not called " + cut(request.host) +
-                       ". Ask for it by its address or its machine's name, or start the application with "
+                       ". Ask for it by its address or its machine's name. On a FlexRF PC an admin declares "
+                       "other addresses at the panel, Machine; elsewhere start the application with "
                        "--panel-host NAME.");
     return false;
   }

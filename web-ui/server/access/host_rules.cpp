@@ -25,6 +25,11 @@ bool is_name(std::string_view text) noexcept {
          std::all_of(text.begin(), text.end(), is_name_character);
 }
 
+/// Browsers take it for an IPv4 address and for nothing else (WHATWG URL Standard, "ends in a number").
+bool ends_in_number(std::string_view name) noexcept {
+  return name.substr(name.rfind('.') + 1).find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 struct Authority {
   std::string_view name;  // of an IPv6 address without brackets
   bool in_brackets = false;
@@ -75,20 +80,29 @@ std::vector<std::string> HostRules::names_of_machine() {
 }
 
 Status HostRules::check_name(std::string_view name) {
-  if (is_name(name)) return {};
-  return Status::error(
-      StatusCode::invalid_argument,
-      "'%.*s' is no host's name: letters, digits, dashes and dots, without port, as cell7.example.org",
-      static_cast<int>(std::min<std::size_t>(name.size(), 60)), name.data());
+  const std::optional<Address> literal = Address::parse(name);
+  if (is_name(name) && (!ends_in_number(name) || (literal && literal->is_version_4()))) return {};
+  return Status::error(StatusCode::invalid_argument,
+                       "'%.*s' is no host: a name of letters, digits, dashes and dots, as cell7.example.org, "
+                       "or an IPv4 address, as 203.0.113.7, without port",
+                       static_cast<int>(std::min<std::size_t>(name.size(), 60)), name.data());
+}
+
+std::optional<std::string> HostRules::name_in(std::string_view host) {
+  const std::optional<Authority> authority = parse_authority(host, 1);
+  if (!authority) return std::nullopt;
+  return std::string{authority->name};
 }
 
 bool HostRules::allows_host(std::string_view host, const Address& local_end) const noexcept {
   const std::optional<Authority> authority = parse_authority(host, 1);
   if (!authority) return false;
-  if (const std::optional<Address> literal = Address::parse(authority->name)) return *literal == local_end;
-  return equal_without_case(authority->name, "localhost") ||
-         std::any_of(names_.begin(), names_.end(),
-                     [&](const std::string& name) { return equal_without_case(authority->name, name); });
+  if (const std::optional<Address> literal = Address::parse(authority->name); literal == local_end)
+    return true;
+  // An IPv4 address has one way to be written, so that it compares as names do.
+  const auto is_it = [&](std::string_view name) { return equal_without_case(authority->name, name); };
+  return is_it("localhost") || std::any_of(names_.begin(), names_.end(), is_it) ||
+         std::any_of(declared_.begin(), declared_.end(), is_it);
 }
 
 bool HostRules::allows_origin(std::string_view origin, std::string_view host) const noexcept {

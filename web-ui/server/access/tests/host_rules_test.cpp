@@ -111,6 +111,44 @@ void long_hosts_are_refused(void**) {
   assert_false(rules(false).allows_host(text, *Address::parse("127.0.0.1")));
 }
 
+/// Whether the header is allowed on a connection that arrived at 10.0.0.5.
+bool is_allowed(const HostRules& some, const char* host) {
+  return some.allows_host(host, *Address::parse("10.0.0.5"));
+}
+
+void what_is_declared_is_ours_until_it_is_not(void**) {
+  static HostRules some(false, {"cell7"});
+  some = HostRules(false, {"cell7"});
+  for (const char* host : {"203.0.113.7:8443", "cell7.factory.example", "10.0.0.6"})
+    assert_false(is_allowed(some, host));
+  some.declare({"203.0.113.7", "cell7.factory.example"});
+  for (const char* host :
+       {"203.0.113.7", "203.0.113.7:8443", "CELL7.Factory.example:443", "cell7", "10.0.0.5"})
+    assert_true(is_allowed(some, host));
+  for (const char* host : {"203.0.113.70", "203.0.113.8", "factory.example", "x.cell7.factory.example",
+                           "[::ffff:203.0.113.7]", "203.0.113.7.evil.example", "evil.example", "10.0.0.6"})
+    assert_false(is_allowed(some, host));
+  assert_true(some.allows_origin("http://203.0.113.7:8443", "203.0.113.7:8443"));
+  assert_false(some.allows_origin("http://evil.example", "203.0.113.7"));
+  some.declare({"cell8"});
+  assert_true(is_allowed(some, "cell8"));
+  assert_false(is_allowed(some, "203.0.113.7"));
+  assert_true(is_allowed(some, "cell7"));
+}
+
+void names_are_found_in_headers(void**) {
+  static std::string name;
+  const auto name_in = [](const char* host) {
+    name = HostRules::name_in(host).value_or("malformed");
+    return name.c_str();
+  };
+  assert_string_equal(name_in("Cell7.example.org:8443"), "Cell7.example.org");
+  assert_string_equal(name_in("203.0.113.7"), "203.0.113.7");
+  assert_string_equal(name_in("[fd00::7]:8443"), "fd00::7");
+  for (const char* host : {"", ":8443", "cell7:", "cell7/", "user@cell7", "cell 7", "[::1", "::1", "<b>"})
+    assert_string_equal(name_in(host), "malformed");
+}
+
 void origins(void**) {
   for (const OriginCase& one : origin_cases) {
     if (rules(one.secure).allows_origin(one.origin, one.host) != one.allowed)
@@ -120,9 +158,11 @@ void origins(void**) {
 }
 
 void names_are_checked(void**) {
-  for (const char* name : {"cell7", "cell-7.example.org", "a_b"})
+  for (const char* name : {"cell7", "cell-7.example.org", "a_b", "7.example.org", "203.0.113.7"})
     assert_true(HostRules::check_name(name).is_ok());
-  for (const char* name : {"", "cell7:8080", "http://cell7", "cell7/", "*.example.org", ".x", "x."})
+  for (const char* name : {"", "cell7:8080", "http://cell7", "cell7/", "*.example.org", ".x", "x.",
+                           "203.0.113.7:443", "203.0.113", "203.0.113.256", "203.0.113.07", "cell.7", "::1",
+                           "[::1]", "::ffff:203.0.113.7", "cell 7"})
     assert_int_equal(HostRules::check_name(name).code(), StatusCode::invalid_argument);
 }
 
@@ -143,6 +183,8 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(hosts),
       cmocka_unit_test(long_hosts_are_refused),
+      cmocka_unit_test(what_is_declared_is_ours_until_it_is_not),
+      cmocka_unit_test(names_are_found_in_headers),
       cmocka_unit_test(origins),
       cmocka_unit_test(names_are_checked),
       cmocka_unit_test(the_machine_has_names),
