@@ -18,6 +18,11 @@ struct NetworkFiles {
   std::string used = "/run/systemd/network";  ///< what is used now: at boot a copy of `kept`
 };
 
+/// For the application's --panel-hosts. Everybody may read it.
+inline std::string file_of_hosts(const NetworkFiles& files) {
+  return files.kept + "/panel-hosts";
+}
+
 struct Files {
   std::string word = "/run/flexrf-helper/motion";      ///< for --motion-permit
   std::string users = "/data/flexrf/panel-users";      ///< who may log in

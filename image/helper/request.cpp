@@ -13,7 +13,7 @@ struct Shape {
   std::array<std::string_view, 5> members;  // beside the verb
 };
 
-constexpr std::array<Shape, 10> shapes = {
+constexpr std::array<Shape, 11> shapes = {
     {{Verb::state, "state", {}},
      {Verb::upload, "upload", {"user", "password", "size"}},
      {Verb::part, "part", {"upload", "offset"}},
@@ -23,7 +23,8 @@ constexpr std::array<Shape, 10> shapes = {
      {Verb::network, "network", {"user", "password", "interface", "address", "gateway"}},
      {Verb::keep_network, "keep-network", {"user", "password", "reached_by"}},
      {Verb::dismiss_failure, "dismiss-failure", {"user", "password", "slot"}},
-     {Verb::make_room, "make-room", {"user", "password", "what"}}}};
+     {Verb::make_room, "make-room", {"user", "password", "what"}},
+     {Verb::hosts, "hosts", {"user", "password", "hosts"}}}};
 
 Answer malformed(const std::string& what) {
   return refuse(400, what + "; a request is a JSON object with a verb and its members in one line");
@@ -59,6 +60,7 @@ Request taken(Fields& fields, const Shape& shape) {
     if (member == "gateway") request.gateway = fields.text(member);
     if (member == "what") request.what = fields.text(member);
     if (member == "reached_by") request.reached_by = fields.text(member);
+    if (member == "hosts") request.hosts = fields.text(member);
     if (member == "size") request.size = fields.integer(member);
     if (member == "offset") request.offset = fields.integer(member);
     if (member == "older") request.older = fields.boolean(member);
@@ -89,7 +91,7 @@ std::variant<Request, Answer> parse_request(JsonReader& reader, std::string_view
   if (shape == shapes.end())
     return refuse(400, "there is no verb " + in_quotes(verb) +
                            "; the verbs are state, upload, part, install, choose, restart, network, "
-                           "keep-network, dismiss-failure, make-room");
+                           "keep-network, dismiss-failure, make-room, hosts");
   if (const std::string foreign = foreign_member_of(*object, *shape); !foreign.empty())
     return refuse(400, in_quotes(verb) + " has no member " + in_quotes(foreign) + "; its members are " +
                            names_of(*shape));

@@ -22,7 +22,8 @@ enum class Verb : std::uint8_t {
   network,
   keep_network,
   dismiss_failure,
-  make_room
+  make_room,
+  hosts
 };
 const char* name_of(Verb verb) noexcept;
 
@@ -43,6 +44,7 @@ struct Request {
   std::string gateway;
   std::string what;        ///< of the data may go: "logs"
   std::string reached_by;  ///< the PC's own address at which its panel was asked
+  std::string hosts;       ///< all declared ones, see panel::split_hosts()
 };
 
 inline constexpr std::size_t longest_line = 1024;

@@ -13,6 +13,7 @@
 #include "image/helper/network.hpp"
 #include "image/helper/update_progress.hpp"
 #include "runtime/parameters/durable_file.hpp"
+#include "web-ui/server/access/host_file.hpp"
 
 namespace flexrf::helper {
 namespace {
@@ -92,6 +93,12 @@ void write_network(JsonWriter& json, const NetworkFiles& files, const OfThisMome
   const AddressTrial trial = read_trial(files).value_or(AddressTrial{});
   json.key("network_trial").begin_object().member("interface", trial.interface);
   json.member("remaining_s", std::max<std::int64_t>(0, seconds(trial.until - moment.now))).end_object();
+  const Result<panel::DeclaredHosts> hosts = panel::read_hosts(file_of_hosts(files));
+  json.key("hosts").begin_array();
+  if (hosts) {
+    for (const std::string& host : hosts->list) json.value(host);
+  }
+  json.end_array();
 }
 
 void write_failure(JsonWriter& json, const Failure& failure, const FailureLines::Answer& lines) {

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "image/boot/environment.hpp"
 #include "image/boot/folder_medium.hpp"
@@ -15,6 +16,7 @@
 #include "image/helper/named_lines.hpp"
 #include "image/helper/start_record.hpp"
 #include "runtime/parameters/durable_file.hpp"
+#include "web-ui/server/access/host_file.hpp"
 #include "web-ui/server/access/login_log.hpp"
 
 namespace flexrf::helper {
@@ -36,6 +38,15 @@ Answer check_not_installing(const Progress& progress) {
 /// As somebody sent it, in the journal.
 std::string shown(const std::string& text) {
   return panel::shown_name(text).data();
+}
+
+/// "cell7 203.0.113.7", "none": a list that was accepted.
+std::string shown_hosts(const std::string& hosts) {
+  std::string line;
+  if (const auto list = panel::split_hosts(hosts)) {
+    for (const std::string& host : *list) line.append(line.empty() ? "" : " ").append(host);
+  }
+  return line.empty() ? "none" : line;
 }
 
 const char* const was_installed = "an update was installed; restart the PC first";
@@ -75,6 +86,8 @@ Answer Verbs::perform(const Request& request) {
       return dismiss_failure(request.slot);
     case Verb::make_room:
       return make_room(request.what);
+    case Verb::hosts:
+      return declare_hosts(request.hosts);
     default:
       return restart();
   }
@@ -246,6 +259,13 @@ Answer Verbs::make_room(const std::string& what) {
   return answer;
 }
 
+/// Also while the cell moves: no connection ends, and nothing but the panel reads the list.
+Answer Verbs::declare_hosts(const std::string& hosts) const {
+  const Result<std::vector<std::string>> list = panel::split_hosts(hosts);
+  if (!list) return refuse(400, std::string{"'hosts': "} + list.status().cause());
+  return answer_of(panel::write_hosts(file_of_hosts(files_.network), *list));
+}
+
 Answer Verbs::check_standstill() const {
   const PanelAnswer panel = surroundings_.ask_panel(wait_for_panel);
   if (!panel.has_answered)
@@ -371,6 +391,8 @@ void Verbs::say_outcome(const Request& request, const std::string& peer, const A
     line += std::string{", slot "} + boot::letter_of(request.slot);
   if (request.verb == Verb::make_room) line += ", " + shown(request.what);
   if (request.verb == Verb::network) line += ", " + shown(request.interface) + ": " + shown(request.address);
+  if (request.verb == Verb::hosts)
+    line += ", " + (answer.is_done() ? shown_hosts(request.hosts) : shown(request.hosts));
   surroundings_.say(line + (answer.is_done() ? ": accepted" : ": refused: " + answer.why));
 }
 

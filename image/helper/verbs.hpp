@@ -52,6 +52,7 @@ class Verbs {
   Answer keep_address(const std::string& reached_by);
   Answer dismiss_failure(boot::Slot slot);
   Answer make_room(const std::string& what);
+  Answer declare_hosts(const std::string& hosts) const;
 
   /// How the bundle differs from what runs in a way that an admin has to have meant.
   struct Deviation {

@@ -1,4 +1,5 @@
-// Addresses that an admin sets: what is refused, the trial, and what is left of it when somebody dies.
+// Addresses that an admin sets: what is refused, the trial, and what is left of it when somebody dies. Hosts
+// that an admin declares.
 #include <string>
 
 #include "image/helper/tests/bench.hpp"
@@ -48,7 +49,7 @@ void an_address_is_tried_and_kept() {
   bench.pc.run(helper, 1);
   CHECK_CONTAINS(bench.state(),
                  R"("addresses":["10.0.2.15/24"],"setting":"image","address":"","gateway":""})");
-  CHECK_CONTAINS(bench.state(), R"("network_trial":{"interface":"","remaining_s":0}})");
+  CHECK_CONTAINS(bench.state(), R"("network_trial":{"interface":"","remaining_s":0},"hosts":[]})");
   CHECK_EQUAL(refusal(bench.ask(address("10.0.2.16/24", "10.0.2.2"))), "200 ");
   CHECK_CONTAINS(bench.pc.said.back(),
                  "network by 'anna' from uid 990, process 7, 'enp0s2': '10.0.2.16/24': accepted");
@@ -58,7 +59,7 @@ void an_address_is_tried_and_kept() {
   passes(bench, 1);
   CHECK_EQUAL(bench.pc.asked_systemd(restart_networkd), 1);
   CHECK_CONTAINS(bench.state(), R"("setting":"fixed","address":"10.0.2.16/24","gateway":"10.0.2.2"})");
-  CHECK_CONTAINS(bench.state(), R"("network_trial":{"interface":"enp0s2","remaining_s":120}})");
+  CHECK_CONTAINS(bench.state(), R"("network_trial":{"interface":"enp0s2","remaining_s":120},"hosts":[]})");
   bench.pc.run(helper, 1);
   CHECK_CONTAINS(bench.pc.motion(), "the address of enp0s2 is on trial");
   CHECK_EQUAL(kept(bench), "");
@@ -71,7 +72,7 @@ void an_address_is_tried_and_kept() {
   CHECK_EQUAL(keep_at(bench, "10.0.2.16"), "200 ");
   CHECK_EQUAL(bench.pc.motion(), "permitted\n");
   CHECK_EQUAL(kept(bench), used(bench));
-  CHECK_CONTAINS(bench.state(), R"("network_trial":{"interface":"","remaining_s":0}})");
+  CHECK_CONTAINS(bench.state(), R"("network_trial":{"interface":"","remaining_s":0},"hosts":[]})");
   CHECK_CONTAINS(keep_at(bench, "10.0.2.16"), "409 no address is on trial");
   passes(bench, 200);
   CHECK_EQUAL(kept(bench), used(bench));
@@ -215,6 +216,44 @@ void networkd_that_is_not_told_is_said() {
                  "the addresses cannot be changed now: systemctl ended with 1; restart the PC");
 }
 
+// ---- declared hosts
+
+std::string declare(Bench& bench, const std::string& hosts) {
+  Request asked = request(Verb::hosts);
+  asked.hosts = hosts;
+  return refusal(bench.ask(asked));
+}
+
+void hosts_are_declared_while_the_cell_moves() {
+  Bench bench;
+  bench.pc.panel.may_move = true;
+  CHECK_EQUAL(declare(bench, "Cell7.example.org  203.0.113.7 cell7.example.org"), "200 ");
+  CHECK_CONTAINS(bench.pc.said.back(),
+                 "hosts by 'anna' from uid 990, process 7, cell7.example.org 203.0.113.7: accepted");
+  CHECK_CONTAINS(bench.state(), R"("hosts":["cell7.example.org","203.0.113.7"]})");
+  CHECK_CONTAINS(text_of_file(bench.pc.files.network.kept + "/panel-hosts"),
+                 "\ncell7.example.org\n203.0.113.7\n");
+  CHECK_EQUAL(declare(bench, "cell8"), "200 ");
+  CHECK_CONTAINS(bench.state(), R"("hosts":["cell8"]})");
+  CHECK_EQUAL(declare(bench, ""), "200 ");
+  CHECK_CONTAINS(bench.pc.said.back(), ", none: accepted");
+  CHECK_CONTAINS(bench.state(), R"("hosts":[]})");
+  CHECK(bench.pc.systemd.empty());
+}
+
+void a_wrong_host_is_named_and_changes_nothing() {
+  Bench bench;
+  CHECK_EQUAL(declare(bench, "cell7"), "200 ");
+  for (const char* const wrong : {"https://cell8/", "cell8:8443", "203.0.113.300", "fd00::7", "cell8\\"})
+    CHECK_CONTAINS(declare(bench, std::string{"cell8 "} + wrong + " cell9"),
+                   "400 'hosts': '" + std::string{wrong} + "' is no host: ");
+  CHECK_CONTAINS(declare(bench, "a b c d e f g h i"), "400 'hosts': 'i' is one too many: at most 8");
+  CHECK_CONTAINS(bench.state(), R"("hosts":["cell7"]})");
+  fs::remove_all(bench.pc.files.network.kept);
+  CHECK_CONTAINS(declare(bench, "cell8"), "503 ");
+  CHECK_CONTAINS(bench.state(), R"("hosts":[]})");
+}
+
 }  // namespace
 }  // namespace flexrf::helper::network_test
 
@@ -230,6 +269,8 @@ int main() {
       CONTAINED_TEST(what_cannot_be_kept_stays_on_trial),
       CONTAINED_TEST(who_stands_before_the_pc_is_told_its_addresses),
       CONTAINED_TEST(networkd_that_is_not_told_is_said),
+      CONTAINED_TEST(hosts_are_declared_while_the_cell_moves),
+      CONTAINED_TEST(a_wrong_host_is_named_and_changes_nothing),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -59,6 +59,9 @@ void each_verb_has_its_members() {
   CHECK(dismiss.verb == Verb::dismiss_failure);
   CHECK(dismiss.slot == boot::Slot::b);
   CHECK_EQUAL(request(R"({"verb":"make-room","user":"a","password":"b","what":"logs"})").what, "logs");
+  const Request hosts = request(R"({"verb":"hosts","user":"a","password":"b","hosts":"cell7 203.0.113.7"})");
+  CHECK(hosts.verb == Verb::hosts);
+  CHECK_EQUAL(hosts.hosts, "cell7 203.0.113.7");
 }
 
 void what_is_no_request_is_told_what_is_wrong() {
@@ -86,6 +89,9 @@ void what_is_no_request_is_told_what_is_wrong() {
                  "400 'slot' is missing");
   CHECK_CONTAINS(refusal("{\"verb\":\"restart\",\"user\":\"a\",\"password\":\"b\"}\n{\"verb\":\"state\"}"),
                  "400 behind the line of 'restart' comes nothing");
+  CHECK_CONTAINS(refusal(R"({"verb":"hosts","user":"a","password":"b"})"), "400 'hosts' is missing");
+  CHECK_CONTAINS(refusal(R"({"verb":"hosts","user":"a","password":"b","hosts":["cell7"]})"),
+                 "400 'hosts' is not a text");
   CHECK_CONTAINS(refusal(R"({"verb":"part","upload":"00","offset":0})"), "400 the part's bytes are missing");
 }
 

@@ -9,8 +9,8 @@ namespace {
 void only_an_admin_with_the_right_password_may() {
   Bench bench;
   bench.pc.has_users("olga:engineer", "anna:admin");
-  for (const Verb verb :
-       {Verb::upload, Verb::install, Verb::choose, Verb::network, Verb::keep_network, Verb::restart}) {
+  for (const Verb verb : {Verb::upload, Verb::install, Verb::choose, Verb::network, Verb::keep_network,
+                          Verb::hosts, Verb::restart}) {
     Request asked = request(verb);
     asked.user = "olga";
     CHECK_CONTAINS(refusal(bench.ask(asked)), "403 this needs the role admin");
