@@ -65,12 +65,20 @@ std::string form_page(std::string_view machine, std::string_view token, std::str
   return page(machine, body);
 }
 
-std::string done_page(std::string_view machine, std::string_view user) {
+std::string done_page(std::string_view machine, std::string_view user, const ReachedBy& reached_by) {
+  std::string where;
+  if (!reached_by.host.empty()) {
+    const std::string host = "<b>" + escaped(reached_by.host) + "</b>";
+    where = reached_by.why_not.empty()
+                ? "<p>The panel answers at " + host + ", too, by which you opened this page.</p>\n"
+                : "<p class=\"wrong\">The panel may not answer at " + host +
+                      ", by which you opened this page: " + escaped(reached_by.why_not) +
+                      ". Open it by another address then: the PC's screen shows them.</p>\n";
+  }
   // It goes nowhere by itself: whoever reads slowly, or hears it read, is not to lose it (WCAG 2.2.1).
-  return page(machine,
-              "<p>This PC is claimed. <b>" + escaped(user) +
-                  "</b> is its admin.</p>\n<p>The cell starts now, which takes some seconds. Then its "
-                  "panel is in this page's place: <a href=\"/\">go there</a>.</p>\n");
+  return page(machine, "<p>This PC is claimed. <b>" + escaped(user) + "</b> is its admin.</p>\n" + where +
+                           "<p>The cell starts now, which takes some seconds. Then its "
+                           "panel is in this page's place: <a href=\"/\">go there</a>.</p>\n");
 }
 
 std::string_view page_style() noexcept {

@@ -12,8 +12,14 @@ namespace flexrf::claim {
 /// user's name. `token` comes back with the form.
 std::string form_page(std::string_view machine, std::string_view token, std::string_view user,
                       const Answer* last);
-/// After the claim: it goes to the panel by itself.
-std::string done_page(std::string_view machine, std::string_view user);
+/// What became of the host by which the right code was typed.
+struct ReachedBy {
+  std::string host;     ///< empty: one of the PC's own, at which its panel answers anyway
+  std::string why_not;  ///< empty: the panel answers there, too
+};
+
+/// After the claim.
+std::string done_page(std::string_view machine, std::string_view user, const ReachedBy& reached_by);
 /// Its style sheet.
 std::string_view page_style() noexcept;
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <utility>
 
-#include "image/claim/claim_page.hpp"
 #include "image/claim/form.hpp"
 #include "web-ui/server/http_problem.hpp"
 #include "web-ui/server/request_target.hpp"
@@ -29,8 +28,11 @@ void answer_page(Reply& reply, unsigned status, std::string page) {
 
 }  // namespace
 
-ClaimService::ClaimService(Claim& claim, std::string machine)
-    : claim_(claim), machine_(std::move(machine)), rules_(true, panel::HostRules::names_of_machine()) {
+ClaimService::ClaimService(Claim& claim, std::string machine, DeclareHost declare_host)
+    : claim_(claim),
+      machine_(std::move(machine)),
+      declare_host_(std::move(declare_host)),
+      rules_(true, panel::HostRules::names_of_machine()) {
   std::array<unsigned char, 16> secret{};
   randombytes_buf(secret.data(), secret.size());
   token_.resize(2 * secret.size() + 1);
@@ -40,8 +42,8 @@ ClaimService::ClaimService(Claim& claim, std::string machine)
 
 bool ClaimService::admit(const Request& request, panel::SessionIndex& session, Reply& reply) {
   session = 0;
-  if (!rules_.allows_host(request.host, request.local_end)) {
-    panel::answer_problem(reply, 421, "Ask for this PC by its address.");
+  if (!panel::HostRules::name_in(request.host)) {
+    panel::answer_problem(reply, 421, "Ask for this PC by a name or an address.");
     return false;
   }
   return true;
@@ -80,11 +82,20 @@ void ClaimService::attempt(const Request& request, Reply& reply) {
   const Answer answer =
       claim_.attempt(wish, panel::Address::parse(request.remote_address).value_or(panel::Address{}), now);
   if (answer.status == 200) {
-    done_at_ = now;
-    return answer_page(reply, 200, done_page(machine_, wish.user));
+    answer_page(reply, 200, done_page(machine_, wish.user, declare(request, wish)));
+    done_at_ = MonotonicClock::now();
+    return;
   }
   reply.retry_after = answer.wait_s;
   answer_page(reply, answer.status, form_page(machine_, token_, wish.user, &answer));
+}
+
+ReachedBy ClaimService::declare(const Request& request, const Wish& wish) const {
+  if (rules_.allows_host(request.host, request.local_end)) return {};
+  ReachedBy by{panel::HostRules::name_in(request.host).value_or(""), {}};
+  if (const Status status = declare_host_({wish.user, wish.password}, by.host); !status)
+    by.why_not = status.cause();
+  return by;
 }
 
 void ClaimService::on_tick(Time now) {

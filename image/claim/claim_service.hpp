@@ -1,19 +1,26 @@
 // What a PC that nobody has claimed serves: the page, its style, and the attempt.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "image/claim/claim.hpp"
+#include "image/claim/claim_page.hpp"
+#include "image/claim/host_declaration.hpp"
 #include "web-ui/server/access/host_rules.hpp"
 #include "web-ui/server/service.hpp"
 
 namespace flexrf::claim {
 
-/// prepare_cryptography() went well before. The server's thread. An attempt with the right code takes longer
-/// than a handler of the panel may: nothing else is served here.
+/// Any well-formed Host is answered, because the code proves that this PC is meant; the panel's own rules are
+/// stricter. prepare_cryptography() went well before. The server's thread. An attempt with the right code
+/// takes longer than a handler of the panel may: nothing else is served here.
 class ClaimService final : public panel::Service, public panel::LiveService {
  public:
-  ClaimService(Claim& claim, std::string machine);
+  /// Declares the host by which this PC was claimed, for the admin; the status says why that failed.
+  using DeclareHost = std::function<Status(const Admin& admin, const std::string& host)>;
+
+  ClaimService(Claim& claim, std::string machine, DeclareHost declare_host);
 
   /// The answer to a claim has had time to arrive: the server may end.
   bool may_end() const noexcept { return may_end_; }
@@ -33,9 +40,12 @@ class ClaimService final : public panel::Service, public panel::LiveService {
 
  private:
   void attempt(const panel::Request& request, panel::Reply& reply);
+  /// Before the claim is answered as done, so that the page can tell it.
+  ReachedBy declare(const panel::Request& request, const Wish& wish) const;
 
   Claim& claim_;
   std::string machine_;
+  DeclareHost declare_host_;
   std::string token_;  // in the form, so that only who read the page can send it
   panel::HostRules rules_;
   Time done_at_{};

@@ -11,6 +11,7 @@
 
 #include "base/standard_descriptors.hpp"
 #include "image/claim/claim_service.hpp"
+#include "image/claim/host_declaration.hpp"
 #include "runtime/parameters/durable_file.hpp"
 #include "web-ui/server/access/panel_access.hpp"
 #include "web-ui/server/access/user_file.hpp"
@@ -32,6 +33,9 @@ constexpr const char* usage =
     "  --listen ADDRESS:PORT      else 0.0.0.0:8443\n"
     "  --tls-certificate FILE     else /data/flexrf/panel.crt\n"
     "  --tls-key FILE             else /data/flexrf/panel.key\n"
+    "  --helper SOCKET            of flexrf-helper; else /run/flexrf-helper/socket\n"
+    "  --hosts FILE               of declared hosts, as the helper writes it; else "
+    "/data/network/panel-hosts\n"
     "  --code-file FILE           gets the code, for the PC's screen; else /run/flexrf-claim/code\n"
     "  --check-users              only says whether the file of users can be read: 0 yes, 2 no, and why\n"
     "Exit code: 0 claimed; 1 wrong usage; 2 something failed; 3 ended by a signal before anybody came.\n";
@@ -41,6 +45,8 @@ struct Arguments {
   std::string listen = "0.0.0.0:8443";
   std::string certificate = "/data/flexrf/panel.crt";
   std::string key = "/data/flexrf/panel.key";
+  std::string helper = "/run/flexrf-helper/socket";
+  std::string hosts = "/data/network/panel-hosts";
   std::string code_file = "/run/flexrf-claim/code";
   bool checks_users = false;
 };
@@ -142,6 +148,8 @@ int main(int argument_count, char** words) {
                                : word == "--listen"          ? &arguments.listen
                                : word == "--tls-certificate" ? &arguments.certificate
                                : word == "--tls-key"         ? &arguments.key
+                               : word == "--helper"          ? &arguments.helper
+                               : word == "--hosts"           ? &arguments.hosts
                                : word == "--code-file"       ? &arguments.code_file
                                                              : nullptr;
     if (value == nullptr) return fail(1, "there is no option '" + word + "'");
@@ -166,7 +174,13 @@ int main(int argument_count, char** words) {
   std::signal(SIGINT, end);
   std::signal(SIGPIPE, SIG_IGN);
   Claim claim(arguments.users);
-  ClaimService service(claim, machine_name());
+  const HostDeclaration declaration(arguments.helper, arguments.hosts);
+  ClaimService service(claim, machine_name(), [&](const Admin& admin, const std::string& host) {
+    Status status = declaration.declare(admin, host);
+    say(status ? "The panel answers at " + host + ", too, by which this PC was claimed."
+               : "The panel may not answer at " + host + ", by which this PC was claimed: " + status.cause());
+    return status;
+  });
   TellingService telling(service, claim, arguments.code_file, *address);
   panel::ServerSettings settings;
   settings.slow_call = std::chrono::seconds{10};

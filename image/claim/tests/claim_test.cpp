@@ -8,6 +8,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "image/claim/claim_page.hpp"
 #include "image/claim/claim_service.hpp"
@@ -211,7 +212,12 @@ void forms_are_read_as_browsers_write_them() {
 // ---- what is served
 
 struct Served {
-  explicit Served(const std::string& users) : claim(users), service(claim, "cell<7>") {}
+  explicit Served(const std::string& users)
+      : claim(users), service(claim, "cell<7>", [this](const Admin& admin, const std::string& declared_host) {
+          CHECK(claim.is_done());  // the helper asks for the password that the claim has set
+          declared.push_back(admin.user + '/' + admin.password + '@' + declared_host);
+          return why_not_declared;
+        }) {}
 
   panel::Reply ask(Method method, const std::string& path, const std::string& body = "",
                    const std::string& content_type = "application/x-www-form-urlencoded") {
@@ -220,7 +226,7 @@ struct Served {
     request.path = path;
     request.body = body;
     request.content_type = content_type;
-    request.host = "192.168.1.9:8443";
+    request.host = host;
     request.remote_address = "192.168.1.7";
     request.local_end = *panel::Address::parse("192.168.1.9");
     panel::Reply reply;
@@ -240,6 +246,9 @@ struct Served {
            "&user=anna&password=a+long+password+of+anna&repeated=a+long+password+of+anna";
   }
 
+  std::string host = "192.168.1.9:8443";
+  std::vector<std::string> declared;
+  Status why_not_declared;
   Claim claim;
   ClaimService service;
 };
@@ -306,6 +315,64 @@ void the_server_may_end_when_the_answer_is_there() {
   CHECK(served.service.may_end());
 }
 
+// ---- the host by which the code was typed
+
+void the_page_answers_to_any_host_that_is_one() {
+  const NewPc pc;
+  Served served(pc.users);
+  for (const char* const host :
+       {"192.168.1.9", "localhost:18443", "203.0.113.7:8443", "Cell7.example.org", "[fd00::7]:8443"}) {
+    served.host = host;
+    CHECK_EQUAL(served.ask(Method::get, "/").status, 200U);
+  }
+  for (const char* const host : {"", ":8443", "cell7:", "cell 7", "user@cell7", "<b>", "[::1"}) {
+    served.host = host;
+    CHECK_EQUAL(served.ask(Method::get, "/").status, 421U);
+    CHECK_EQUAL(served.ask(Method::post, "/claim", "code=x").status, 421U);
+  }
+  CHECK(!served.claim.is_done() && served.declared.empty());
+}
+
+void the_host_by_which_the_code_was_typed_is_declared() {
+  const NewPc pc;
+  Served served(pc.users);
+  served.host = "Cell7.example.org:8443";
+  CHECK_EQUAL(served.ask(Method::post, "/claim", served.form(wrong(served.claim))).status, 403U);
+  CHECK(served.declared.empty());
+  const panel::Reply reply = served.ask(Method::post, "/claim", served.form(served.claim.code().text()));
+  CHECK_EQUAL(reply.status, 200U);
+  CHECK(served.declared == std::vector<std::string>{"anna/" + password + "@Cell7.example.org"});
+  CHECK_CONTAINS(reply.text, "The panel answers at <b>Cell7.example.org</b>, too");
+  CHECK(reply.text.find("class=\"wrong\"") == std::string::npos);
+}
+
+void a_host_of_the_pcs_own_needs_no_declaration() {
+  for (const char* const host : {"192.168.1.9:8443", "localhost:18443"}) {
+    const NewPc pc;
+    Served served(pc.users);
+    served.host = host;
+    const panel::Reply reply = served.ask(Method::post, "/claim", served.form(served.claim.code().text()));
+    CHECK_EQUAL(reply.status, 200U);
+    CHECK(served.declared.empty());
+    CHECK(reply.text.find("The panel") == std::string::npos);
+  }
+}
+
+void a_host_that_cannot_be_declared_does_not_undo_the_claim() {
+  const NewPc pc;
+  Served served(pc.users);
+  served.host = "203.0.113.7";
+  served.why_not_declared = Status::error(StatusCode::unavailable, "no <helper>");
+  const panel::Reply reply = served.ask(Method::post, "/claim", served.form(served.claim.code().text()));
+  CHECK_EQUAL(reply.status, 200U);
+  CHECK(served.claim.is_done());
+  CHECK_CONTAINS(reply.text, "<b>anna</b> is its admin");
+  CHECK_CONTAINS(
+      reply.text,
+      "<p class=\"wrong\">The panel may not answer at <b>203.0.113.7</b>, by which you opened this "
+      "page: no &lt;helper&gt;. Open it by another address");
+}
+
 }  // namespace
 }  // namespace flexrf::claim
 
@@ -326,6 +393,10 @@ int main() {
       CONTAINED_TEST(a_form_of_another_page_costs_no_try),
       CONTAINED_TEST(the_page_says_what_was_wrong_and_repeats_no_secret),
       CONTAINED_TEST(the_server_may_end_when_the_answer_is_there),
+      CONTAINED_TEST(the_page_answers_to_any_host_that_is_one),
+      CONTAINED_TEST(the_host_by_which_the_code_was_typed_is_declared),
+      CONTAINED_TEST(a_host_of_the_pcs_own_needs_no_declaration),
+      CONTAINED_TEST(a_host_that_cannot_be_declared_does_not_undo_the_claim),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
