@@ -8,6 +8,7 @@
 #include <iostream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "web-ui/server/machine/tests/played_helper.hpp"
@@ -40,6 +41,12 @@ class Pc {
     if (verb == "upload") {
       update = {{"phase", "receiving"}, {"received", 0}, {"size", request.at("size")}};
       return {{"ok", true}, {"upload", token}};
+    }
+    if (verb == "hosts") {
+      std::istringstream words(request.at("hosts").get<std::string>());
+      state_["hosts"] = json::array();
+      for (std::string host; words >> host;) state_["hosts"].push_back(host);
+      return {{"ok", true}};
     }
     if (state_.value("moves", false)) return refusal(409, "The cell may move: give Stop motion first.");
     if (verb == "install") {
@@ -194,6 +201,7 @@ class Pc {
          {"address", "10.0.0.1/24"},
          {"gateway", ""}}}},
       {"network_trial", {{"interface", ""}, {"remaining_s", 0}}},
+      {"hosts", json::array()},
       {"verified",
        {{"application", "pick-station"}, {"version", "20261201T080000Z-0a1b2c3d"}, {"older", false}}},
   };

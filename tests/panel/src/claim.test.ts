@@ -1,9 +1,10 @@
 // A PC that nobody has claimed, in a browser: the code on its console, the first password, and the panel after it.
 import { spawn, spawnSync } from 'node:child_process';
 import { existsSync } from 'node:fs';
+import { request } from 'node:https';
 import { join } from 'node:path';
 import { expect, it, onTestFinished } from 'vitest';
-import { Application, build, newFolder, screenshot, sizes, tidyUp, useBrowser, violations, within } from './harness';
+import { Application, build, newFolder, playedPc, screenshot, sizes, tidyUp, useBrowser, violations, within } from './harness';
 
 const browser = useBrowser();
 const password = 'a long password of anna';
@@ -17,6 +18,51 @@ function newPc(): { folder: string; encryption: string[] } {
   expect(made.status).toBe(0);
   return { folder, encryption: ['--tls-certificate', certificate, '--tls-key', key] };
 }
+
+/** The page's answer to somebody who reaches the PC by this host. */
+function asked(port: string, host: string, path: string, form?: URLSearchParams): Promise<{ status: number; text: string }> {
+  return new Promise((resolve, reject) => {
+    const one = request({
+      host: '127.0.0.1', port, path, method: form ? 'POST' : 'GET', rejectUnauthorized: false, agent: false,
+      headers: { host, ...(form && { 'content-type': 'application/x-www-form-urlencoded', 'content-length': form.toString().length }) },
+    }, (incoming) => {
+      let text = '';
+      incoming.on('data', (part: Buffer) => { text += part.toString('utf8'); });
+      incoming.on('error', reject);
+      incoming.on('end', () => resolve({ status: incoming.statusCode ?? 0, text }));
+    });
+    one.on('error', reject);
+    one.end(form?.toString());
+  });
+}
+
+it('behind a router the host by which the code was typed is declared at the helper', async () => {
+  const pc = newPc();
+  const socket = join(pc.folder, 'helper');
+  const helper = spawn(playedPc, [socket, password], { stdio: ['pipe', 'pipe', 'inherit'] });
+  onTestFinished(() => { helper.kill('SIGKILL'); });
+  let said = '';
+  helper.stdout.on('data', (part: Buffer) => { said += part.toString('utf8'); });
+  await expect.poll(() => said, { timeout: within }).toContain('ready');
+  const claim = spawn(join(build, 'image/claim/flexrf-claim'), ['--users', join(pc.folder, 'users'), '--listen', '127.0.0.1:0',
+    '--helper', socket, '--hosts', join(pc.folder, 'hosts'), '--code-file', join(pc.folder, 'code'), ...pc.encryption]);
+  onTestFinished(() => { claim.kill('SIGKILL'); });
+  let console_ = '';
+  claim.stdout.on('data', (part: Buffer) => { console_ += part.toString('utf8'); });
+  const shown = (): RegExpMatchArray | null => /The code is {2}(\S+) {2}at https:\/\/ADDRESS:(\d+)\/ /.exec(console_);
+  await expect.poll(shown, { timeout: within }).not.toBeNull();
+  const [, code = '', port = ''] = shown()!;
+
+  expect((await asked(port, 'cell 7', '/')).status).toBe(421);
+  const form = await asked(port, 'cell7.example.org:8443', '/');
+  expect(form.status).toBe(200);
+  const token = /name="token" value="([0-9a-f]{32})"/.exec(form.text)?.[1] ?? '';
+  const done = await asked(port, 'cell7.example.org:8443', '/claim', new URLSearchParams({ token, code, user: 'anna', password, repeated: password }));
+  expect(done.status).toBe(200);
+  expect(done.text).toContain('The panel answers at <b>cell7.example.org</b>, too');
+  expect(said).toContain('{"hosts":"cell7.example.org","user":"anna","verb":"hosts"}');
+  expect(console_).toContain('The panel answers at cell7.example.org, too, by which this PC was claimed.');
+});
 
 it('the code on the console and a password claim the PC, and the panel knows them', async () => {
   const pc = newPc();

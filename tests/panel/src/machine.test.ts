@@ -1,6 +1,6 @@
 // An industrial PC at its panel: what runs on it, an update from the file to the restart, and what comes in between.
 import { spawn, type ChildProcess } from 'node:child_process';
-import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { expect, it, onTestFinished } from 'vitest';
 import {
@@ -51,8 +51,8 @@ class PlayedPc {
   }
 }
 
-async function start(pc: PlayedPc): Promise<Application> {
-  const running = await Application.start('panel_cell', { users: [adam, vera], arguments: ['--helper', pc.socket, '--audit', 'audit'] });
+async function start(pc: PlayedPc, more: readonly string[] = []): Promise<Application> {
+  const running = await Application.start('panel_cell', { users: [adam, vera], arguments: ['--helper', pc.socket, '--audit', 'audit', ...more] });
   onTestFinished(() => running.end());
   return running;
 }
@@ -231,6 +231,66 @@ it('on a full disk an admin sees what fills it, and removes the old logs', async
   await page.getByText('137 MB of 250 MB used, 63 MB free for the application.').waitFor();
   await page.getByText('there are no old logs').waitFor();
   expect(pc.said).toMatch(/"verb":"make-room","what":"logs"/);
+});
+
+it('an admin declares the other addresses of the PC, and is warned before he locks himself out', async () => {
+  const pc = await PlayedPc.start();
+  const running = await start(pc);
+  const viewer = await open(running.base, adam);
+  const { page } = viewer;
+  await viewer.go('machine');
+  await page.getByText('Set now: none').waitFor();
+  const hosts = page.getByLabel('Names and IPv4 addresses');
+  await hosts.fill('cell7.example.org https://203.0.113.7/');
+  await page.getByText('“https://203.0.113.7/” is no host').waitFor();
+  await hosts.fill('cell7.example.org 203.0.113.7');
+  pc.change({ moves: true }); // it moves nothing
+  const set = page.getByRole('button', { name: 'Set other addresses' });
+  await set.scrollIntoViewIfNeeded();
+  await screenshot(page, 'machine-hosts');
+  expect(await violations(page)).toEqual([]);
+  await hosts.press('Enter');
+  await page.getByText('The panel answers at cell7.example.org, 203.0.113.7, too, in a second or two.').waitFor();
+  await answer(viewer, 'Set other addresses');
+  await page.getByText('Set now: cell7.example.org, 203.0.113.7').waitFor();
+  expect(pc.said).toMatch(/"hosts":"cell7\.example\.org 203\.0\.113\.7".*"verb":"hosts"/);
+
+  // As if this page was opened by a declared address.
+  pc.change({ hosts: ['127.0.0.1'] });
+  await page.getByText('Set now: 127.0.0.1').waitFor();
+  await hosts.fill('');
+  await page.setViewportSize(sizes.phone);
+  await set.scrollIntoViewIfNeeded();
+  await screenshot(page, 'machine-hosts-phone');
+  const { x, width } = (await hosts.boundingBox())!;
+  expect(x).toBeGreaterThanOrEqual(0);
+  expect(x + width).toBeLessThanOrEqual(sizes.phone.width);
+  await hosts.press('Enter');
+  await page.getByText('You opened this page by 127.0.0.1; after this change it no longer answers there.').waitFor();
+  await screenshot(page, 'machine-hosts-asked');
+  expect(await violations(page)).toEqual([]);
+  const file = () => readFileSync(join(running.folder, 'audit'), 'utf8');
+  await expect.poll(file, { timeout: within }).toContain('"did":"declared as other addresses of the PC","what":"cell7.example.org 203.0.113.7"');
+});
+
+it('the panel answers to the hosts that a file declares, as the file is now, and to no other', async () => {
+  const pc = await PlayedPc.start();
+  const file = join(newFolder(), 'panel-hosts');
+  const running = await start(pc, ['--panel-hosts', file]);
+  const asked = async (host: string): Promise<number> => (await running.rest().ask('/', { headers: { host } })).status;
+  expect(await asked('cell7.example.org')).toBe(421);
+  writeFileSync(file, 'cell7.example.org\nhttps://cell7/\n203.0.113.7\n');
+  await expect.poll(() => asked('Cell7.example.org:8443'), { timeout: within }).toBe(200);
+  expect(await asked('203.0.113.7')).toBe(200);
+  for (const host of ['203.0.113.8', 'evil.example', 'cell7.example.org.evil.example']) expect(await asked(host), host).toBe(421);
+  expect(running.text).toContain(`${file}:2: 'https://cell7/' is no host`);
+  rmSync(file);
+  await expect.poll(() => asked('cell7.example.org'), { timeout: within }).toBe(421);
+  expect(await asked(`127.0.0.1:${running.port}`)).toBe(200);
+
+  writeFileSync(file, '203.0.113.7\n');
+  const again = await start(pc, ['--panel-hosts', file]); // read before the panel listens
+  expect((await again.rest().ask('/', { headers: { host: '203.0.113.7' } })).status).toBe(200);
 });
 
 it('what lasts is said in every view, and who is no admin has no buttons', async () => {

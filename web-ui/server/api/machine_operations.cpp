@@ -36,6 +36,7 @@ constexpr Act acts[] = {
     {"keep-network", "kept the address", "keep an address"},
     {"make-room", "made room for data", "make room for data"},
     {"dismiss-failure", "dismissed the failure of the slot", "dismiss a failure"},
+    {"hosts", "declared as other addresses of the PC", "declare other addresses of the PC"},
 };
 
 Status not_understood(const char* why) noexcept {
@@ -113,6 +114,10 @@ void MachineOperations::act(const Caller& caller, std::string_view verb, Fields&
     set_text(waiting.what, slot.substr(0, 1));
   } else if (verb == "keep-network") {
     json.member("reached_by", reached_by.text());
+  } else if (verb == "hosts") {
+    const std::string_view hosts = fields.text("hosts");
+    json.member("hosts", hosts);
+    set_text(waiting.what, hosts.empty() ? "(none)" : hosts);
   }
   json.end_object();
   std::string message = json.release();

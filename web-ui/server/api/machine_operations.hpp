@@ -38,7 +38,7 @@ class MachineOperations {
 
   void read(const Caller& caller);
   /// `verb`: as the helper calls it: upload, install, choose, restart, network, keep-network,
-  /// dismiss-failure, make-room. `reached_by`: the PC's own address that the caller asked at.
+  /// dismiss-failure, make-room, hosts. `reached_by`: the PC's own address that the caller asked at.
   void act(const Caller& caller, std::string_view verb, Fields& fields, const Address& reached_by);
   /// A part of what is uploaded under this token.
   void put(const Caller& caller, std::string_view upload, std::uint64_t offset, std::string_view bytes);

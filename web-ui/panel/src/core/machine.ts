@@ -121,6 +121,8 @@ export interface MachineState {
   readonly data?: MachineData;
   /** Until an admin dismisses it, or another version is installed in its slot. */
   readonly last_failure?: MachineFailure;
+  /** Declared: further names and IPv4 addresses at which the panel answers; undefined: an older helper, which declares none. */
+  readonly hosts?: readonly string[];
 }
 
 /** ms; the first while somebody looks or something is under way. */

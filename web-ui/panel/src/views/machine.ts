@@ -6,6 +6,7 @@ import { MachineActs } from './machine_acts';
 import { machineButton, machineButtonStyles } from './machine_button';
 import { dataBlock, machineDataStyles } from './machine_data';
 import { failureBlock, machineFailureStyles } from './machine_failure';
+import './machine_hosts';
 import './machine_network';
 import { ageOf, bootSentence, builtText, bytesText, chosenDrivers, confirmedSentence, motionSentence, otherSlot, slotSentence, updateSentence } from './machine_words';
 import { ViewBase } from './view_base';
@@ -71,7 +72,8 @@ export class Machine extends ViewBase {
       <h2>Machine</h2>
       ${machine.trouble ? html`<p class="alarm" role="alert">⚠ How the PC is cannot be told now. ${machine.trouble}</p>` : nothing}
       ${known ? html`<div class=${old}>${this.about(known)}${this.slots(known)}${this.updating(known)}
-          <flexrf-machine-network .core=${this.core} .host=${this.host}></flexrf-machine-network>${this.data(known)}${this.restart(known)}</div>`
+          <flexrf-machine-network .core=${this.core} .host=${this.host}></flexrf-machine-network>
+          <flexrf-machine-hosts .core=${this.core} .host=${this.host}></flexrf-machine-hosts>${this.data(known)}${this.restart(known)}</div>`
         : machine.trouble ? nothing : html`<p>Waiting for the PC…</p>`}
     `;
   }

@@ -1,7 +1,8 @@
-// What an admin does to the addresses of the PC, and where the PC is found while that is on trial.
+// What an admin does to the addresses of the PC and to its declared hosts, and where the PC is found while that is on trial.
 import type { Core } from '../core/core';
-import { MachineWatch, trialOf, type NetworkInterface } from '../core/machine';
+import { MachineWatch, trialOf, type MachineState, type NetworkInterface } from '../core/machine';
 import { added } from '../core/watchers';
+import { hostsConsequences } from './hosts_words';
 import { MachineActs } from './machine_acts';
 import { consequences, pageAt, type AddressChoice } from './network_words';
 
@@ -58,6 +59,20 @@ export class NetworkActs {
       says: ['It does not return to the former one any more, and stays after a restart of the PC.'],
       action: 'Keep this address',
       act: (password) => this.#acts.post('keep-network', { password }),
+    });
+  }
+
+  /** `done`: they are declared, and the state tells them. */
+  askHosts(known: MachineState, hosts: readonly string[], done: () => void): void {
+    this.core.askPassword({
+      heading: 'Set the other addresses of this PC?',
+      says: hostsConsequences(known, hosts, location.hostname),
+      action: 'Set other addresses',
+      act: async (password) => {
+        const refusal = await this.#acts.post('hosts', { password, hosts: hosts.join(' ') });
+        if (refusal === '') void this.#machine.refresh().then(done);
+        return refusal;
+      },
     });
   }
 

@@ -87,7 +87,7 @@ export function addressFault(address: string, gateway: string): string {
 }
 
 /** Of an IPv4 address; undefined: it is none. */
-function numberOf(text: string): number | undefined {
+export function numberOf(text: string): number | undefined {
   const parts = text.split('.');
   // "010" is 8 to some programs.
   if (parts.length !== 4 || parts.some((part) => !/^(0|[1-9]\d{0,2})$/.test(part) || Number(part) > 255)) return undefined;

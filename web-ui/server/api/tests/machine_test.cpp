@@ -25,6 +25,7 @@ const json idle_state = {
     {"boot", "confirmed"},
     {"slots", {{"A", {{"version", "x"}, {"whole", true}, {"primary", true}}}}},
     {"notices", json::array({"a \"notice\""})},
+    {"hosts", json::array({"cell7.example.org"})},
     {"update", {{"phase", "verified"}, {"application", "pick-station"}, {"version", "20261201T1"}}},
 };
 
@@ -174,6 +175,15 @@ void an_admin_updates_the_pc() {
   CHECK(world.helper.asked("make-room").at(0) ==
         json({{"verb", "make-room"}, {"user", "adam"}, {"password", "p"}, {"what", "logs"}}));
   CHECK(world.is_in_audit("made room for data", "logs"));
+  CHECK_EQUAL(world.post("hosts", {{"password", "p"}, {"hosts", "cell7.example.org 203.0.113.7"}}).status,
+              200U);
+  CHECK(world.helper.asked("hosts").at(0) == json({{"verb", "hosts"},
+                                                   {"user", "adam"},
+                                                   {"password", "p"},
+                                                   {"hosts", "cell7.example.org 203.0.113.7"}}));
+  CHECK_EQUAL(world.post("hosts", {{"password", "p"}, {"hosts", ""}}).status, 200U);
+  CHECK(world.is_in_audit("declared as other addresses of the PC", "cell7.example.org 203.0.113.7"));
+  CHECK(world.is_in_audit("declared as other addresses of the PC", "(none)"));
   const std::string told = world.rig.get("audit", an_admin).body.dump() + world.rig.get("log").body.dump();
   CHECK(told.find("secret of adam") == std::string::npos);
 }
@@ -183,7 +193,9 @@ void others_change_nothing() {
   CHECK_EQUAL(world.post("upload", {{"password", "p"}, {"size", 5}}, an_engineer).status, 403U);
   CHECK_EQUAL(world.post("restart", {{"password", "p"}}, an_engineer).status, 403U);
   CHECK_EQUAL(world.post("dismiss-failure", {{"password", "p"}, {"slot", "B"}}, an_engineer).status, 403U);
+  CHECK_EQUAL(world.post("hosts", {{"password", "p"}, {"hosts", "cell7"}}, an_engineer).status, 403U);
   CHECK_EQUAL(world.put("x", std::string{"upload="} + token + "&offset=0", an_engineer).status, 403U);
+  CHECK(world.helper.asked("hosts").empty());
   CHECK(world.helper.asked("upload").empty() && world.helper.asked("restart").empty());
   CHECK_EQUAL(world.helper.bytes(), 0U);
 }
@@ -206,9 +218,13 @@ void what_makes_no_sense_is_refused() {
   CHECK_EQUAL(world.post("make-room", {{"password", "p"}}).status, 400U);
   CHECK_EQUAL(world.post("install", {{"password", "p"}, {"older", "yes"}}).status, 400U);
   CHECK_EQUAL(world.post("network", {{"password", "p"}, {"interface", "enp0s2"}}).status, 400U);
+  CHECK_EQUAL(world.post("hosts", {{"password", "p"}}).status, 400U);
+  CHECK_EQUAL(world.post("hosts", {{"password", "p"}, {"hosts", json::array({"cell7"})}}).status, 400U);
+  CHECK_EQUAL(world.post("hosts", {{"password", "p"}, {"hosts", std::string(2000, 'x')}}).status, 413U);
   CHECK_EQUAL(world.post("restart", {{"password", std::string(2000, 'x')}}).status, 413U);
   CHECK_EQUAL(world.rig.get("machine/restart", an_admin).status, 405U);
   CHECK(world.helper.asked("upload").empty() && world.helper.asked("restart").empty());
+  CHECK(world.helper.asked("hosts").empty());
 }
 
 void only_the_bundle_takes_bytes() {

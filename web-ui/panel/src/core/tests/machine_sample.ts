@@ -27,5 +27,5 @@ export const pc: MachineState = {
     B: { version: '', whole: false, primary: false, driver_changes: [] },
   },
   motion: 'permitted', development_key: false, notices: [], healthy_for_s: 60, healthy_needed_s: 60, why_not_healthy: '', update: noUpdate,
-  network: [wired], network_trial: noTrial,
+  network: [wired], network_trial: noTrial, hosts: [],
 };
