@@ -49,7 +49,7 @@ it('behind a router the host by which the code was typed is declared at the help
   onTestFinished(() => { claim.kill('SIGKILL'); });
   let console_ = '';
   claim.stdout.on('data', (part: Buffer) => { console_ += part.toString('utf8'); });
-  const shown = (): RegExpMatchArray | null => /The code is {2}(\S+) {2}at https:\/\/ADDRESS:(\d+)\/ /.exec(console_);
+  const shown = (): RegExpMatchArray | null => /The code is {2}(\S+) {2}at https:\/\/[\d.]+:(\d+)\//.exec(console_);
   await expect.poll(shown, { timeout: within }).not.toBeNull();
   const [, code = '', port = ''] = shown()!;
 
