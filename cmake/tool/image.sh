@@ -61,14 +61,16 @@ fetch() {  # fetch NAME...: prints the packages' files
   bash "$disk_scripts/fetch_packages.sh" "${cache:-$image_folder}/image-packages" "$@"
 }
 
+kernel_file='' busybox_file='' # packages that a version has beside those of its root, when they were fetched
+
 make_image_kernel() {  # once, and anew when what it is made of has changed
-  local name package recipe
+  local name recipe
   name=$(kernel_package)
   [[ $name ]] || { fetch linux-image-rt-amd64 >/dev/null && name=$(kernel_package); }
-  package=$(fetch "$name") || return
-  recipe=$(cat "$disk_scripts"/{take_kernel.sh,modules.txt} - <<<"$package" | sha256sum)
+  kernel_file=$(fetch "$name") || return
+  recipe=$(cat "$disk_scripts"/{take_kernel.sh,modules.txt} - <<<"$kernel_file" | sha256sum)
   [[ -f $image_folder/kernel.recipe && -d $image_folder/kernel && $(<"$image_folder/kernel.recipe") == "$recipe" ]] && return
-  bash "$disk_scripts/take_kernel.sh" "$package" "$image_folder/kernel" && printf '%s\n' "$recipe" >"$image_folder/kernel.recipe"
+  bash "$disk_scripts/take_kernel.sh" "$kernel_file" "$image_folder/kernel" && printf '%s\n' "$recipe" >"$image_folder/kernel.recipe"
 }
 
 environment_block() {  # environment_block LINE...: as GRUB reads it
@@ -130,12 +132,12 @@ make_root() {  # make_root WORK APPLICATION PC [ARGUMENT...]
 }
 
 make_start() {  # once, and anew when what it is made of has changed: it takes long to pack
-  local busybox recipe
-  busybox=$(fetch busybox-static) || return
-  recipe=$(cat "$disk_scripts"/{make_start.sh,partitions.sh,modules.txt,start/init} "$image_folder/kernel.recipe" - <<<"$busybox $SOURCE_DATE_EPOCH" | sha256sum)
+  local recipe
+  busybox_file=$(fetch busybox-static) || return
+  recipe=$(cat "$disk_scripts"/{make_start.sh,partitions.sh,modules.txt,start/init} "$image_folder/kernel.recipe" - <<<"$busybox_file $SOURCE_DATE_EPOCH" | sha256sum)
   [[ -f $image_folder/start.recipe && -f $image_folder/start.img && $(<"$image_folder/start.recipe") == "$recipe" ]] && return
   rm -f "$image_folder/start.recipe"
-  bash "$disk_scripts/make_start.sh" "$image_folder/kernel" "$busybox" "$image_folder/start.img" && printf '%s\n' "$recipe" >"$image_folder/start.recipe"
+  bash "$disk_scripts/make_start.sh" "$image_folder/kernel" "$busybox_file" "$image_folder/start.img" && printf '%s\n' "$recipe" >"$image_folder/start.recipe"
 }
 
 # slot_block KERNEL_OPTIONS ROOT: what GRUB tells the kernel, and which root belongs to it: its size and its checksum

@@ -27,11 +27,10 @@ page_packages() {  # of the panel's page, which is in the application's executab
 }
 
 write_sbom() {  # write_sbom WORK APPLICATION image|bundle FILE: of a version
-  local work=$1 name kernel busybox
-  name=$(kernel_package) && kernel=$(fetch "$name") && busybox=$(fetch busybox-static) || return
+  local work=$1
   {
     printf 'own\tFlexRF\t%s\t-\t-\tApache-2.0\tCONTAINS\n' "$(version_text)"
-    { cat "$work/packages" && printf '%s\n' "$kernel" "$busybox"; } | sort -u | debian_packages &&
+    { cat "$work/packages" && printf '%s\n' "$kernel_file" "$busybox_file"; } | sort -u | debian_packages &&
       installed_packages STATIC_LINK "${header_libraries[@]}" && page_packages || return
     # An update leaves GRUB as it is.
     [[ $3 != image ]] || installed_packages CONTAINS grub-pc-bin grub-efi-amd64-bin

@@ -177,8 +177,7 @@ printf '%s\n' '{"packages": {"": {"version": "1"}, "node_modules/@lit/element": 
   source "$tool/image.sh"
   export SOURCE_DATE_EPOCH=1767225600
   deb libstdc++6 12.2.0-14+deb12u1 >"$work/sbom/packages"
-  kernel_package() { echo linux-image; }
-  fetch() { deb "$1" 1:6.1; }
+  kernel_file=$(deb linux-image 6.1) busybox_file=$(deb busybox-static 1:6.1)
   write_sbom "$work/sbom" cell image "$work/sbom/cell.img"
 ) || expect "the list of what is in it" failed written
 sbom() { jq -r "$1" "$work/sbom/cell.img.spdx.json"; } # sbom FILTER
