@@ -38,21 +38,30 @@ number() {  # number VALUE BYTES: as a processor of a PC has it
 
 patch() { dd of="$1" bs=1 seek="$2" conv=notrunc status=none; } # patch FILE OFFSET: with standard input
 
-grub_modules=(part_gpt fat ext2 normal configfile test regexp loadenv probe linux boot echo sleep reboot password_pbkdf2)
+grub_modules=(memdisk tar part_gpt fat ext2 normal configfile test regexp loadenv probe linux boot echo sleep reboot password_pbkdf2)
 
-# Where grub.cfg cannot be read, or leads to nothing, GRUB restarts the PC, as it would otherwise give its shell to anybody.
-cat >"$work/early.cfg" <<'GRUB'
-configfile $prefix/grub.cfg
-echo "GRUB cannot read how this PC starts (grub/grub.cfg). Restarting in 10 seconds."
-sleep 10
-reboot
+# GRUB has a script in itself, which reads grub.cfg. Where that cannot be read to its end, GRUB restarts the PC, as it would otherwise give its
+# shell to anybody.
+make_early_script() {
+  mkdir "$work/early"
+  cat >"$work/early/early.cfg" <<'GRUB'
+set superusers="service"
+source $prefix/grub.cfg
+if [ "x$is_complete" != xyes ]; then
+  echo "GRUB cannot read how this PC starts (grub/grub.cfg). Restarting in 10 seconds."
+  sleep 10
+  reboot
+fi
 GRUB
+  tar -C "$work/early" --owner=0 --group=0 --mtime="@$SOURCE_DATE_EPOCH" -cf "$work/early.tar" early.cfg
+  echo 'normal (memdisk)/early.cfg' >"$work/start.cfg"
+}
 
 make_esp() {
   cp -r "$esp" "$work/esp"
   mkdir -p "$work/esp/EFI/BOOT"
   # Without a driver of the screen GRUB could not tell the kernel where it is, and nothing would be on it.
-  grub-mkimage -O x86_64-efi -p /grub -c "$work/early.cfg" -o "$work/esp/EFI/BOOT/BOOTX64.EFI" efi_gop efi_uga "${grub_modules[@]}"
+  grub-mkimage -O x86_64-efi -m "$work/early.tar" -p /grub -c "$work/start.cfg" -o "$work/esp/EFI/BOOT/BOOTX64.EFI" efi_gop efi_uga "${grub_modules[@]}"
   find "$work/esp" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
   # Clusters of 4 KiB: each copy of the choice has one of its own.
   truncate -s "$(mib_of esp)M" "$work/esp.fat"
@@ -64,7 +73,7 @@ make_esp() {
 # The first sector of the disk starts core.img, whose own first sector loads the rest of it.
 make_bios() {
   local sectors core=$work/core.img first=$work/boot.img at
-  grub-mkimage -O i386-pc -p '(,gpt2)/grub' -c "$work/early.cfg" -o "$core" biosdisk "${grub_modules[@]}"
+  grub-mkimage -O i386-pc -m "$work/early.tar" -p '(,gpt2)/grub' -c "$work/start.cfg" -o "$core" biosdisk "${grub_modules[@]}"
   sectors=$((($(stat -c %s "$core") + 511) / 512))
   ((sectors * 512 <= $(mib_of bios) * 1048576)) || { echo "GRUB's core.img does not fit into its partition" && return 1; }
   at=$((begins[bios] * 2048))
@@ -84,6 +93,7 @@ make_data() {
 }
 
 partition
+make_early_script
 make_bios
 make_esp
 make_data
