@@ -1,4 +1,4 @@
-// How much a test tries that could try without end: what `flexrf test` says by FLEXRF_LONG.
+// The extent of a test that could go on without end. `flexrf test` sets it by FLEXRF_LONG.
 #pragma once
 
 #include <cstddef>

@@ -12,7 +12,7 @@ struct Numbers {
   std::uint64_t first = 0;
   std::uint64_t count = 0;
 
-  // The part of a campaign that FLEXRF_LONG names, if it names one: so many, beyond those of the other runs.
+  // Selects the part of the campaign that FLEXRF_LONG names, if it names one: numbers that no other run uses.
   void take_campaign(std::uint64_t in_each_part) {
     const TestExtent extent = TestExtent::of_environment();
     if (extent.parts == 0) return;

@@ -12,7 +12,7 @@ namespace flexrf::claim {
 /// user's name. `token` comes back with the form.
 std::string form_page(std::string_view machine, std::string_view token, std::string_view user,
                       const Answer* last);
-/// What became of the host by which the right code was typed.
+/// The host in the address at which the right code was typed, and whether the panel answers there.
 struct ReachedBy {
   std::string host;     ///< empty: one of the PC's own, at which its panel answers anyway
   std::string why_not;  ///< empty: the panel answers there, too

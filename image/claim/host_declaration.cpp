@@ -1,6 +1,5 @@
 #include "image/claim/host_declaration.hpp"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -17,7 +16,7 @@ namespace {
 constexpr Duration patience = std::chrono::seconds{10};
 constexpr std::chrono::milliseconds between_looks{10};
 
-/// What the helper made of a request.
+/// The status in an answer of the helper.
 Status outcome_of(const std::string& text) {
   const auto reader = std::make_unique<JsonReader>();
   const Result<JsonObject> said = reader->object(text);

@@ -8,7 +8,7 @@
 
 namespace flexrf::claim {
 
-/// Who may declare hosts: the admin whom the claim made.
+/// The admin whom the claim has created. Hosts are declared in the name of this admin.
 struct Admin {
   std::string user;
   std::string password;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the file takes on the disk; 0: there is none any more.
+/// Disk space of the file, bytes; 0 if it no longer exists.
 std::uint64_t bytes_of(const fs::path& file) {
   struct stat found {};
   constexpr std::uint64_t block = 512;  // whatever the file system's are
@@ -89,43 +89,15 @@ Result<std::uint64_t> remove_old_logs(const std::string& journal_folder) {
 }
 
 DataWatch::DataWatch(std::function<std::optional<DataUse>()> measure)
-    : measure_(std::move(measure)), thread_([this] { work(); }) {}
-
-DataWatch::~DataWatch() {
-  {
-    const std::lock_guard lock(mutex_);
-    has_to_end_ = true;
-  }
-  changed_.notify_one();
-  thread_.join();
-}
+    : measuring_([measure = std::move(measure)](const Nothing&) { return measure(); }) {}
 
 std::optional<DataUse> DataWatch::use(Time now) {
-  const std::lock_guard lock(mutex_);
-  if (!asked_at_ || now - *asked_at_ >= interval) {
+  if (is_outdated_.exchange(false) || now - asked_at_ >= interval) {
     asked_at_ = now;
-    is_wanted_ = true;
-    changed_.notify_one();
+    measuring_.ask({});
   }
-  return use_;
-}
-
-void DataWatch::measure_again() {
-  const std::lock_guard lock(mutex_);
-  asked_at_.reset();
-}
-
-void DataWatch::work() {
-  std::unique_lock lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [this] { return has_to_end_ || is_wanted_; });
-    if (has_to_end_) return;
-    is_wanted_ = false;
-    lock.unlock();
-    std::optional<DataUse> measured = measure_();
-    lock.lock();
-    use_ = measured;
-  }
+  const auto found = measuring_.found();
+  return found ? found->value : std::nullopt;
 }
 
 }  // namespace flexrf::helper

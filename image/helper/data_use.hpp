@@ -1,17 +1,16 @@
-// What fills the partition for data, and removing old logs from it.
+// Disk usage of the data partition, and removal of archived journal files.
 #pragma once
 
-#include <condition_variable>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "base/status.hpp"
 #include "base/time.hpp"
+#include "image/helper/background.hpp"
 
 namespace flexrf::helper {
 
@@ -31,8 +30,8 @@ struct DataUse {
 
 inline constexpr std::size_t most_data_entries = 20'000;
 
-/// Counts at most so many entries below the folder, follows no symbolic link and leaves out what cannot be
-/// read. Empty: there is no such folder. Blocks. Any thread.
+/// Measures the disk usage below the folder: at most `most_entries` entries, no symbolic links, without
+/// folders that cannot be read. Empty: there is no such folder. Blocks. Any thread.
 std::optional<DataUse> measure_data(const std::string& folder, std::size_t most_entries = most_data_entries);
 
 /// Whether journald has closed a file of this name: it archived it, or found it damaged.
@@ -48,27 +47,19 @@ class DataWatch {
   static constexpr Duration interval = std::chrono::minutes{1};
 
   explicit DataWatch(std::function<std::optional<DataUse>()> measure);
-  /// Waits for a measurement that is under way.
-  ~DataWatch();
-  DataWatch(const DataWatch&) = delete;
-  DataWatch& operator=(const DataWatch&) = delete;
 
-  /// As it was measured last; empty: not yet, or it cannot be measured. Never waits for the disk. Any thread.
+  /// The latest measurement; empty before the first one, or if the latest failed. Never waits for the disk.
+  /// One thread.
   std::optional<DataUse> use(Time now);
-  /// The next use() measures, whenever the last one did. Any thread.
-  void measure_again();
+  /// The next use() starts a measurement, however recent the latest one is. Any thread.
+  void measure_again() noexcept { is_outdated_ = true; }
 
  private:
-  void work();
+  struct Nothing {};
 
-  std::function<std::optional<DataUse>()> measure_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::optional<Time> asked_at_;
-  bool is_wanted_ = false;
-  bool has_to_end_ = false;
-  std::optional<DataUse> use_;
-  std::thread thread_;  // the last: it uses the others
+  std::atomic<bool> is_outdated_ = true;
+  Time asked_at_{};
+  Background<Nothing, std::optional<DataUse>> measuring_;
 };
 
 }  // namespace flexrf::helper

@@ -6,7 +6,7 @@
 namespace flexrf::helper {
 namespace {
 
-constexpr const char* is_read = "The journal is being read.";
+constexpr const char* is_being_read = "The journal is being read.";
 constexpr const char* no_boot = "No start left a line: none came as far as its services.";
 constexpr const char* no_line = "The journal has no line of these starts any more, or none reached the disk.";
 
@@ -43,50 +43,28 @@ std::vector<std::string> last_lines(std::string_view text) {
   return lines;
 }
 
-FailureLines::FailureLines(Read read) : read_(std::move(read)), thread_([this] { work(); }) {}
-
-FailureLines::~FailureLines() {
-  {
-    const std::lock_guard lock(mutex_);
-    has_to_end_ = true;
-  }
-  changed_.notify_one();
-  thread_.join();
-}
+FailureLines::FailureLines(Read read)
+    : reading_([read = std::move(read)](const Boots& boots) -> Lines {
+        const Result<std::string> text = read(journal_arguments(boots));
+        if (!text) return text.status();
+        return last_lines(*text);
+      }) {}
 
 FailureLines::Answer FailureLines::of(const std::vector<std::string>& boots, Time now) {
   if (boots.empty()) return {{}, no_boot};
-  const std::lock_guard lock(mutex_);
-  if (boots != boots_ || (has_failed_ && now - asked_at_ >= retry_interval)) {
+  const auto found = reading_.found();
+  const bool is_read = found && found->number == number_ && boots == boots_;
+  const bool has_failed = is_read && !found->value;
+  if (boots != boots_ || (has_failed && now - asked_at_ >= retry_interval)) {
     boots_ = boots;
-    wanted_ = boots;
     asked_at_ = now;
-    has_failed_ = false;
-    answer_ = {{}, is_read};
-    changed_.notify_one();
+    number_ = reading_.ask(boots);
+    return {{}, is_being_read};
   }
-  return answer_;
-}
-
-void FailureLines::work() {
-  std::unique_lock lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [this] { return has_to_end_ || !wanted_.empty(); });
-    if (has_to_end_) return;
-    const std::vector<std::string> boots = std::exchange(wanted_, {});
-    lock.unlock();
-    const Result<std::string> text = read_(journal_arguments(boots));
-    Answer answer{text ? last_lines(*text) : std::vector<std::string>{}, {}};
-    if (!text) {
-      answer.why_none = std::string{"The journal cannot be read: "} + text.status().cause();
-    } else if (answer.lines.empty()) {
-      answer.why_none = no_line;
-    }
-    lock.lock();
-    if (boots_ != boots) continue;  // others are wanted by now
-    has_failed_ = !text;
-    answer_ = std::move(answer);
-  }
+  if (!is_read) return {{}, is_being_read};
+  if (has_failed)
+    return {{}, std::string{"The journal cannot be read: "} + found->value.status().cause()};
+  return {*found->value, found->value->empty() ? no_line : ""};
 }
 
 }  // namespace flexrf::helper

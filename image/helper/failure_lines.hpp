@@ -1,16 +1,15 @@
 // The last lines that the application's unit left in the journal in some boots.
 #pragma once
 
-#include <condition_variable>
+#include <cstdint>
 #include <functional>
-#include <mutex>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "base/status.hpp"
 #include "base/time.hpp"
+#include "image/helper/background.hpp"
 
 namespace flexrf::helper {
 
@@ -18,8 +17,8 @@ inline constexpr std::size_t most_journal_lines = 20;
 inline constexpr std::size_t longest_journal_line = 200;
 inline constexpr std::size_t most_journal_bytes = 4096;
 
-/// What journalctl is asked for: the lines of flexrf.service, and of systemd about it, from these boots, each
-/// with the seconds since its kernel began.
+/// Arguments of journalctl for the lines of flexrf.service, and of systemd about it, in these boots. Each
+/// line has the seconds since its kernel started.
 std::vector<std::string> journal_arguments(const std::vector<std::string>& boots);
 /// The last lines of its output, in printable ASCII, within the limits above.
 std::vector<std::string> last_lines(std::string_view text);
@@ -35,31 +34,23 @@ class FailureLines {
   /// The output of journalctl with these arguments. Called by the reading thread.
   using Read = std::function<Result<std::string>(const std::vector<std::string>& arguments)>;
 
-  /// After that a read that failed is tried again.
+  /// Time from a failed read to the next try.
   static constexpr Duration retry_interval = std::chrono::minutes{1};
 
   explicit FailureLines(Read read);
-  /// Waits for a read that is under way.
-  ~FailureLines();
-  FailureLines(const FailureLines&) = delete;
-  FailureLines& operator=(const FailureLines&) = delete;
 
-  /// What is known by now; begins to read what is not. Never waits for the journal. Any thread.
+  /// The lines of these boots. Starts to read them if that was not done, and says so; never waits for the
+  /// journal. One thread.
   Answer of(const std::vector<std::string>& boots, Time now);
 
  private:
-  void work();
+  using Boots = std::vector<std::string>;
+  using Lines = Result<std::vector<std::string>>;
 
-  Read read_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<std::string> wanted_;  // empty: nothing is to be read
-  std::vector<std::string> boots_;   // whose lines are in answer_, or are being read
-  Answer answer_;
-  bool has_failed_ = false;
+  Boots boots_;               // of the latest question
+  std::uint64_t number_ = 0;  // of the latest question
   Time asked_at_{};
-  bool has_to_end_ = false;
-  std::thread thread_;  // the last: it uses the others
+  Background<Boots, Lines> reading_;
 };
 
 }  // namespace flexrf::helper

@@ -1,10 +1,8 @@
 #include "image/helper/network.hpp"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <utility>
 #include <vector>
 
@@ -22,19 +20,6 @@ std::string file_of(const std::string& folder, const std::string& interface) {
 
 std::string file_of_trial(const NetworkFiles& files) {
   return files.used + "/trial";
-}
-
-Status remove_file(const std::string& file) {
-  if (unlink(file.c_str()) != 0 && errno != ENOENT)
-    return Status::error(StatusCode::unavailable, "cannot remove '%s': %s", file.c_str(),
-                         cause_of(errno).c_str());
-  const int folder = open(folder_of(file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool is_on_disk = folder >= 0 && fsync(folder) == 0;
-  const int error = errno;
-  if (folder >= 0) close(folder);
-  return is_on_disk ? Status{}
-                    : Status::error(StatusCode::unavailable, "that '%s' is removed is not on the disk: %s",
-                                    file.c_str(), cause_of(error).c_str());
 }
 
 std::string text_of(const AddressSetting& setting) {

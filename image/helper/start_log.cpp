@@ -64,7 +64,7 @@ void StartLog::clear(const Facts& facts) {
   record_.reset();
   for (const std::string& file : {start_record_file(files_.update, *facts.running.slot),
                                   failure_file(files_.update, *facts.running.slot)})
-    if (const Status removed = remove_record(file); !removed) say(removed);
+    if (const Status removed = remove_file(file); !removed) say(removed);
 }
 
 void StartLog::keep_failure(const Facts& facts) {
@@ -84,7 +84,7 @@ void StartLog::keep_failure(const Facts& facts) {
   if (!is_kept) {
     if (const Status written = write_failure(files_.update, failure); !written) return say(written);
   }
-  if (const Status removed = remove_record(start_record_file(files_.update, failure.slot)); !removed)
+  if (const Status removed = remove_file(start_record_file(files_.update, failure.slot)); !removed)
     say(removed);
 }
 

@@ -1,10 +1,6 @@
 #include "image/helper/start_record.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <string_view>
 
 #include "image/helper/facts.hpp"
@@ -99,22 +95,6 @@ Status write_failure(const UpdateFiles& files, const Failure& failure) {
                       text_of(last) + "version=" + failure.version +
                           "\nstarts=" + std::to_string(failure.starts) +
                           (failure.is_dismissed ? "\ndismissed=yes\n" : "\n"));
-}
-
-Status remove_record(const std::string& file) {
-  if (unlink(file.c_str()) != 0) {
-    if (errno == ENOENT) return {};
-    return Status::error(StatusCode::unavailable, "cannot remove %s: %s", file.c_str(),
-                         cause_of(errno).c_str());
-  }
-  const std::string folder = folder_of(file);
-  const int directory = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool is_flushed = directory >= 0 && fsync(directory) == 0;
-  const int error = errno;
-  if (directory >= 0) close(directory);
-  if (is_flushed) return {};
-  return Status::error(StatusCode::unavailable, "cannot write %s: %s", folder.c_str(),
-                       cause_of(error).c_str());
 }
 
 std::string reason_of(const Failure& failure) {

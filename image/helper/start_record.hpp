@@ -54,8 +54,6 @@ Status write_start_record(const UpdateFiles& files, boot::Slot slot, const Start
 std::optional<Failure> read_failure(const UpdateFiles& files, boot::Slot slot);
 /// Durable when it returns. Blocks. One thread at a time.
 Status write_failure(const UpdateFiles& files, const Failure& failure);
-/// Removes one of these files, durably. A file that is not there is no error. Blocks.
-Status remove_record(const std::string& file);
 
 /// For a person, in one sentence without a full stop.
 std::string reason_of(const Failure& failure);

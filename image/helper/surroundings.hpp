@@ -19,7 +19,7 @@ struct Surroundings {
   std::function<void(const std::string& line)> say;
   /// systemd's tool with these arguments. Empty: done; else why not, in one line. Blocks.
   std::function<std::string(const std::vector<std::string>& arguments)> systemctl;
-  /// Of the file system that the folder is in, for whom has no privileges.
+  /// Free space of the file system that the folder is in, for root, bytes.
   std::function<std::uint64_t(const std::string& folder)> free_bytes;
   std::function<std::vector<Interface>()> interfaces;
 };

@@ -20,7 +20,8 @@ std::string run_program(const std::string& program, const std::vector<std::strin
 /// cannot be run, or failed. Blocks. Any thread.
 Result<std::string> output_of(const std::string& program, const std::vector<std::string>& arguments,
                               Duration wait, std::size_t most);
-/// For whom has no privileges; 0 also when it cannot be told. Any thread.
+/// Free space of the file system that the folder is in, for root, bytes; 0 also if it cannot be told. Any
+/// thread.
 std::uint64_t free_bytes(const std::string& folder);
 /// None: there is no such user. One thread.
 std::optional<uid_t> id_of_user(const std::string& name);

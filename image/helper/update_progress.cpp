@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <utility>
 
 #include "image/helper/named_lines.hpp"
@@ -65,10 +64,7 @@ Status write_failed(const UpdateFiles& files, Job job, const std::string& why) {
 }
 
 Status remove_result(const UpdateFiles& files, Job job) {
-  const std::string file = file_of(files, job);
-  if (unlink(file.c_str()) == 0 || errno == ENOENT) return {};
-  return Status::error(StatusCode::unavailable, "cannot remove '%s': %s", file.c_str(),
-                       cause_of(errno).c_str());
+  return remove_file(file_of(files, job));
 }
 
 std::string bundle_of(const UpdateFiles& files) {

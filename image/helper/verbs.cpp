@@ -1,9 +1,7 @@
 #include "image/helper/verbs.hpp"
 
-#include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -294,12 +292,7 @@ Status Verbs::permit(const Deviation& deviation) const {
       {permission_for_older(files_.update), deviation.is_older},
       {permission_for_drivers(files_.update), deviation.has_other_drivers}};
   for (const auto& [file, is_permitted] : permissions) {
-    if (is_permitted) {
-      if (const Status written = replace_file(file, ""); !written) return written;
-    } else if (unlink(file.c_str()) != 0 && errno != ENOENT) {
-      return Status::error(StatusCode::unavailable, "cannot remove '%s': %s", file.c_str(),
-                           cause_of(errno).c_str());
-    }
+    if (const Status done = is_permitted ? replace_file(file, "") : remove_file(file); !done) return done;
   }
   return {};
 }

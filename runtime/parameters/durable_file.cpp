@@ -54,6 +54,14 @@ Status write_all(const std::string& path, std::string_view contents, mode_t mode
   return {};
 }
 
+/// Only the directory's own fsync makes a new or removed name outlive a power failure.
+Status flush_folder_of(const std::string& path) {
+  const std::string folder = folder_of(path);
+  const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!directory.is_open() || ::fsync(directory.number()) != 0) return failure("write", folder);
+  return {};
+}
+
 }  // namespace
 
 const char* name_of_file_kind(mode_t mode) noexcept {
@@ -123,11 +131,12 @@ Status replace_file(const std::string& path, std::string_view contents, mode_t f
     ::unlink(fresh.c_str());
     return status;
   }
-  // Only the directory's own fsync makes the new name outlive a power failure.
-  const std::string folder = folder_of(target);
-  const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!directory.is_open() || ::fsync(directory.number()) != 0) return failure("write", folder);
-  return {};
+  return flush_folder_of(target);
+}
+
+Status remove_file(const std::string& path) {
+  if (::unlink(path.c_str()) == 0) return flush_folder_of(path);
+  return errno == ENOENT ? Status{} : failure("remove", path);
 }
 
 }  // namespace flexrf

@@ -35,4 +35,7 @@ Result<std::string> read_file(const std::string& path);
 Status replace_file(const std::string& path, std::string_view contents, mode_t fresh_mode = 0644,
                     std::size_t largest = largest_read_file);
 
+/// Removes the file: unlink, fsync of the directory. No error if there is no such file. Blocks.
+Status remove_file(const std::string& path);
+
 }  // namespace flexrf

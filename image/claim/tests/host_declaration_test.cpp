@@ -53,7 +53,7 @@ void a_host_is_added_to_those_that_are_declared() {
   CHECK(panel::write_hosts(file, {"cell7.example.org", "cell8"}));
   CHECK(declaration.declare(admin, "203.0.113.7"));
   CHECK_CONTAINS(helper.asked().at(1), R"("hosts":"cell7.example.org cell8 203.0.113.7"})");
-  // What is declared already needs nobody.
+  // The helper is not asked about a host that is declared already.
   CHECK(declaration.declare(admin, "CELL8"));
   CHECK_EQUAL(helper.asked().size(), 2U);
 }

@@ -1,4 +1,4 @@
-// What fills the partition for data, and what an admin may remove from it.
+// Disk usage of the data partition, and removal of archived journal files by an admin.
 #include <atomic>
 #include <string>
 #include <thread>

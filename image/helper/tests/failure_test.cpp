@@ -36,7 +36,7 @@ struct Disk {
     Pc::write(pc.files.update.folder + "/version-b", "version=" + version + '\n');
   }
   boot::Choice choice() const { return *read_facts(pc.files, seconds{1}).choice; }
-  /// As GRUB starts a slot after it has counted so many starts of the primary.
+  /// Starts a slot as GRUB does when it has counted this number of starts of the primary.
   void starts(char slot, const std::string& why, unsigned attempts) {
     ++boots;
     boot_id = std::to_string(boots) + std::string(31, '0');
@@ -67,7 +67,7 @@ struct Disk {
   std::optional<Failure> shown() const {
     return failure_to_show(pc.files.update, read_facts(pc.files, seconds{1}));
   }
-  /// What a process reads that begins now.
+  /// The answer to `state` of a helper that has just started.
   std::string state() const {
     OfThisMoment moment;
     moment.failure = shown();
@@ -201,7 +201,7 @@ void the_version_that_gave_up_its_turn_says_so() {
   const std::string given_up =
       std::string{"it was not well for long enough within 10 min, and gave up its turn; at last: "} + fault;
   CHECK_EQUAL(disk.record().reason, given_up);
-  // What the panel says while the PC goes down is of no interest, whoever looks.
+  // The answers of the panel while the PC shuts down do not replace the reason.
   disk.is_silent();
   disk.runs(20);
   disk.helper.reset();
