@@ -1,19 +1,16 @@
 // The declared hosts of the PC: at which names and addresses its panel answers beside its own, and setting them.
 import { css, html, nothing } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
-import { deniedLink } from '../core/access';
-import { MachineWatch, type MachineState } from '../core/machine';
+import type { MachineState } from '../core/machine';
 import { hostsFault, hostsIn, hostsText } from './hosts_words';
-import { MachineActs } from './machine_acts';
 import { machineButton, machineButtonStyles, reasonOf } from './machine_button';
-import { NetworkActs } from './network_acts';
-import { ViewBase } from './view_base';
+import { MachinePart } from './machine_part';
 import { viewStyles } from './view_styles';
 
 const setLabel = 'Set other addresses';
 
 @customElement('flexrf-machine-hosts')
-export class MachineHosts extends ViewBase {
+export class MachineHosts extends MachinePart {
   static override styles = [
     ...viewStyles,
     machineButtonStyles,
@@ -37,34 +34,14 @@ export class MachineHosts extends ViewBase {
 
   /** What was typed; undefined: nothing yet. */
   @state() private typed: string | undefined;
-  private mayAct = false;
-  private acts!: MachineActs;
-  private network!: NetworkActs;
-  private machine!: MachineWatch;
-
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.acts = MachineActs.of(this.core);
-    this.network = NetworkActs.of(this.core);
-    this.machine = MachineWatch.of(this.core);
-    this.watchAge();
-    this.until(this.machine.watch(() => this.requestUpdate()));
-    this.until(this.core.watchState(() => this.requestUpdate()));
-  }
-
-  /** A short silence takes no field away from whoever types. */
-  protected override willUpdate(): void {
-    if (deniedLink(this.core) === '') this.mayAct = this.acts.denied === '';
-  }
 
   protected override render(): unknown {
     const known = this.machine.state;
     if (!known?.hosts) return nothing;
-    const old = this.age || (this.machine.trouble ? 'stale' : '');
     return html`
       <h3>Other addresses of this PC</h3>
       <p class="muted">For a PC behind NAT or a VPN router, or with a name in the company’s DNS: the panel answers at these names and addresses, too.</p>
-      <p class=${old}>Set now: ${hostsText(known.hosts)}</p>
+      <p class=${this.staleness}>Set now: ${hostsText(known.hosts)}</p>
       ${this.mayAct ? this.form(known, known.hosts) : nothing}
     `;
   }

@@ -1,19 +1,16 @@
 // The wired interfaces of the PC: what addresses they have, and setting them.
 import { css, html, nothing } from 'lit';
 import { customElement, state } from 'lit/decorators.js';
-import { deniedLink } from '../core/access';
-import { MachineWatch, trialOf, type MachineState, type NetworkInterface, type NetworkSetting } from '../core/machine';
-import { MachineActs } from './machine_acts';
+import { trialOf, type MachineState, type NetworkInterface, type NetworkSetting } from '../core/machine';
 import { machineButton, machineButtonStyles, reasonOf } from './machine_button';
-import { NetworkActs } from './network_acts';
+import { MachinePart } from './machine_part';
 import { addressesText, choiceOf, faultOf, pageAt, settingSentence, settings, trialSentence, type AddressChoice } from './network_words';
-import { ViewBase } from './view_base';
 import { viewStyles } from './view_styles';
 
 const setLabel = 'Set the address';
 
 @customElement('flexrf-machine-network')
-export class MachineNetwork extends ViewBase {
+export class MachineNetwork extends MachinePart {
   static override styles = [
     ...viewStyles,
     machineButtonStyles,
@@ -38,34 +35,13 @@ export class MachineNetwork extends ViewBase {
 
   /** What was chosen and typed; undefined: nothing yet. */
   @state() private typed: AddressChoice | undefined;
-  private mayAct = false;
-  private acts!: MachineActs;
-  private network!: NetworkActs;
-  private machine!: MachineWatch;
-
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.acts = MachineActs.of(this.core);
-    this.network = NetworkActs.of(this.core);
-    this.machine = MachineWatch.of(this.core);
-    this.watchAge();
-    this.until(this.machine.watch(() => this.requestUpdate()));
-    this.until(this.network.watch(() => this.requestUpdate()));
-    this.until(this.core.watchState(() => this.requestUpdate()));
-  }
-
-  /** A short silence takes no field away from whoever types. */
-  protected override willUpdate(): void {
-    if (deniedLink(this.core) === '') this.mayAct = this.acts.denied === '';
-  }
 
   protected override render(): unknown {
     const known = this.machine.state;
     if (!known?.network) return nothing;
-    const old = this.age || (this.machine.trouble ? 'stale' : '');
     return html`
       <h3 id="network">Network</h3>
-      <div class=${old}>${this.interfaces(known.network)}${this.trial(known)}</div>
+      <div class=${this.staleness}>${this.interfaces(known.network)}${this.trial(known)}</div>
       <div role="status">${this.whereTo(known.network)}</div>
       ${this.mayAct && known.network.length > 0 ? this.form(known, known.network) : nothing}
     `;

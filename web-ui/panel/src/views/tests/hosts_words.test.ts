@@ -40,7 +40,7 @@ describe('what will happen', () => {
       'The panel answers at this PC’s own addresses and names only, in a second or two. It no longer answers at cell7.example.org, 203.0.113.7.',
     ]);
   });
-  it('warns whoever would lock himself out', () => {
+  it('warns an admin whose own address would be removed', () => {
     expect(hostsConsequences(declared, ['203.0.113.7'], 'cell7.example.org')[1]).toBe(
       '⚠ You opened this page by cell7.example.org; after this change it no longer answers there.');
     // The PC's own address needs no declaration.

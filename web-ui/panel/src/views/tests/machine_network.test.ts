@@ -1,81 +1,42 @@
-import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { FakeCore, quiet } from '../../core/tests/fake_core';
+import { describe, expect, it, vi } from 'vitest';
+import { quiet } from '../../core/tests/fake_core';
 import { pc, wired } from '../../core/tests/machine_sample';
-import { MachineWatch, type MachineState } from '../../core/machine';
-import { sample } from '../../core/tests/sample';
 import type { MachineNetwork } from '../machine_network';
 import '../machine_network';
+import { PartSetup } from './machine_part_setup';
 
-const admin = { name: 'panel-1', user: 'adam', role: 'admin', local: true } as const;
 const second = { ...wired, interface: 'enp3s0', mac: '52:54:00:12:34:57', link: false, addresses: [] };
 const onTrial = { interface: 'enp0s2', remaining_s: 87 };
 const setLabel = 'Set the address';
 const whereTo = `Open ${location.protocol}//192.168.1.10:${location.port}/, log in there and keep the address within two minutes.`;
 
-let core: FakeCore;
-let view: MachineNetwork;
-let answer: object;
-const posted = vi.fn();
+const part = new PartSetup<MachineNetwork>('flexrf-machine-network');
+const { posted } = part;
 
-async function shown(state: Partial<MachineState> = {}): Promise<string> {
-  answer = { ...pc, ...state };
-  await MachineWatch.of(core.core).refresh();
-  return text();
-}
-async function text(): Promise<string> {
-  await view.updateComplete;
-  return view.shadowRoot!.textContent!.replace(/\s+/g, ' ').replaceAll(' ,', ',');
-}
+const shown = part.shown.bind(part);
+const text = part.text.bind(part);
 function button(label: string): HTMLButtonElement | undefined {
-  return [...view.shadowRoot!.querySelectorAll('button')].find((one) => one.textContent === label);
+  return [...part.view.shadowRoot!.querySelectorAll('button')].find((one) => one.textContent === label);
 }
 function control<Control extends HTMLInputElement | HTMLSelectElement>(label: string): Control | undefined {
-  return [...view.shadowRoot!.querySelectorAll('label')].find((one) => one.textContent!.trim().startsWith(label))
+  return [...part.view.shadowRoot!.querySelectorAll('label')].find((one) => one.textContent!.trim().startsWith(label))
     ?.querySelector<Control>('input, select') ?? undefined;
 }
 async function chooses(label: string, value: string): Promise<void> {
   const select = control<HTMLSelectElement>(label)!;
   select.value = value;
   select.dispatchEvent(new Event('change'));
-  await view.updateComplete;
+  await part.view.updateComplete;
 }
-async function types(label: string, value: string): Promise<void> {
-  const input = control<HTMLInputElement>(label)!;
-  input.value = value;
-  input.dispatchEvent(new Event('input'));
-  await view.updateComplete;
-}
+const types = (label: string, value: string): Promise<void> => part.types(control<HTMLInputElement>(label)!, value);
 async function choosesFixed(address = '192.168.1.10/24', gateway = ''): Promise<void> {
   await chooses('Its address', 'fixed');
   await types('Address', address);
   await types('Gateway', gateway);
 }
-/** Of the button that sets; empty: it acts. */
-function dead(): string {
-  const one = button(setLabel)!;
-  const reason = view.shadowRoot!.getElementById(one.getAttribute('aria-describedby')!)!.textContent;
-  expect(one.getAttribute('aria-disabled')).toBe(reason ? 'true' : null);
-  return reason;
-}
+/** Why the button that sets does nothing; empty: it acts. */
+const dead = (): string => part.reasonOf(button(setLabel)!);
 const sentTo = (): unknown[] => (posted.mock.calls as [string, RequestInit][]).map(([path, { body }]) => [path, JSON.parse(body as string)]);
-
-beforeEach(() => {
-  posted.mockReset();
-  posted.mockImplementation(() => Promise.resolve(new Response('{}')));
-  answer = pc;
-  vi.stubGlobal('fetch', (path: string, options: RequestInit) =>
-    path === '/api/v1/machine' ? Promise.resolve(new Response(JSON.stringify(answer))) : posted(path, options) as Promise<Response>);
-  core = new FakeCore(sample);
-  core.hasMachine = true;
-  core.session = admin;
-  view = Object.assign(document.createElement('flexrf-machine-network') as MachineNetwork, { core: core.core, host: core.host });
-  document.body.append(view);
-});
-afterEach(() => {
-  document.body.replaceChildren();
-  vi.useRealTimers();
-  vi.unstubAllGlobals();
-});
 
 describe('the network of the PC', () => {
   it('shows each interface', async () => {
@@ -86,17 +47,15 @@ describe('the network of the PC', () => {
 
   it('is not shown of an older helper, and needs an interface to set one', async () => {
     const { network, network_trial, ...older } = pc;
-    answer = older;
-    await MachineWatch.of(core.core).refresh();
-    expect(await text()).not.toContain('Network');
+    expect(await part.told(older)).not.toContain('Network');
     expect(await shown({ network: [] })).toContain('This PC has no wired interface.');
     expect(button(setLabel)).toBeUndefined();
   });
 
   it('has nothing to set for who is no admin', async () => {
-    core.roleDenied = 'needs admin';
+    part.core.roleDenied = 'needs admin';
     expect(await shown({ network_trial: onTrial })).toContain('the former one returns in 87 s unless it is kept');
-    expect(view.shadowRoot!.querySelectorAll('button, input, select')).toHaveLength(0);
+    expect(part.view.shadowRoot!.querySelectorAll('button, input, select')).toHaveLength(0);
   });
 });
 
@@ -109,13 +68,13 @@ describe('setting an address', () => {
     expect(dead()).toBe('type an address as 192.168.1.10/24');
     expect(control('Gateway')!.getAttribute('aria-describedby')).toBe(button(setLabel)!.getAttribute('aria-describedby'));
     button(setLabel)!.click();
-    expect(core.questions).toEqual([]);
+    expect(part.core.questions).toEqual([]);
     await choosesFixed();
     expect(dead()).toBe('');
-    core.says({ motion: { ...quiet.motion, may_move: true } });
-    await view.updateComplete;
+    part.core.says({ motion: { ...quiet.motion, may_move: true } });
+    await part.view.updateComplete;
     expect(dead()).toBe('the cell may move: give Stop motion first');
-    core.says({});
+    part.core.says({});
     await shown({ network_trial: { ...onTrial, interface: 'enp3s0' } });
     expect(dead()).toBe('the address of enp3s0 is on trial: keep it first, or wait');
   });
@@ -124,7 +83,7 @@ describe('setting an address', () => {
     await shown();
     await choosesFixed(' 192.168.1.10/24 ', '192.168.1.1');
     button(setLabel)!.click();
-    const question = core.questions[0]!;
+    const question = part.core.questions[0]!;
     expect(question.heading).toBe('Set the address of enp0s2?');
     expect(question.says.join(' ')).toContain(`open ${location.protocol}//192.168.1.10:${location.port}/, log in there`);
     posted.mockImplementationOnce(() => Promise.resolve(new Response('{"detail":"User or password is wrong."}', { status: 403 })));
@@ -134,9 +93,9 @@ describe('setting an address', () => {
     expect(await question.act('p')).toBe('');
     expect(sentTo()).toEqual([['/api/v1/machine/network', { password: 'p', interface: 'enp0s2', address: '192.168.1.10/24', gateway: '192.168.1.1' }]]);
     expect(await text()).toContain(whereTo);
-    expect(view.shadowRoot!.querySelector('a')!.href).toBe(`${location.protocol}//192.168.1.10:${location.port}/`);
-    core.link = { ...core.link, phase: 'waiting' };
-    core.says({});
+    expect(part.view.shadowRoot!.querySelector('a')!.href).toBe(`${location.protocol}//192.168.1.10:${location.port}/`);
+    part.core.link = { ...part.core.link, phase: 'waiting' };
+    part.core.says({});
     expect(await text()).toContain(whereTo);
   });
 
@@ -146,7 +105,7 @@ describe('setting an address', () => {
     await choosesFixed();
     await chooses('Its address', 'dhcp');
     button(setLabel)!.click();
-    await core.questions[0]!.act('p');
+    await part.core.questions[0]!.act('p');
     expect(sentTo()).toEqual([['/api/v1/machine/network', { password: 'p', interface: 'enp0s2', address: 'dhcp', gateway: '' }]]);
     expect(await text()).toContain('Open this page at the address that the DHCP server gave to 52:54:00:12:34:56, log in there');
   });
@@ -156,7 +115,7 @@ describe('setting an address', () => {
     expect(control<HTMLInputElement>('Address')!.value).toBe('10.0.2.16/24');
     await chooses('Its address', 'image');
     button(setLabel)!.click();
-    await core.questions[0]!.act('p');
+    await part.core.questions[0]!.act('p');
     expect(sentTo()).toEqual([['/api/v1/machine/network', { password: 'p', interface: 'enp0s2', address: 'image', gateway: '' }]]);
   });
 
@@ -166,10 +125,10 @@ describe('setting an address', () => {
     await choosesFixed('192.168.1.1');
     const input = control<HTMLInputElement>('Address')!;
     await shown({ network: [{ ...wired, link: false }, { ...second, link: true }], notices: ['another'] });
-    core.roleDenied = 'values are old';
-    core.link = { ...core.link, stale: true };
-    core.says({});
-    await view.updateComplete;
+    part.core.roleDenied = 'values are old';
+    part.core.link = { ...part.core.link, stale: true };
+    part.core.says({});
+    await part.view.updateComplete;
     expect(control('Address')).toBe(input);
     expect(input.value).toBe('192.168.1.1');
     expect(control<HTMLSelectElement>('Interface')!.value).toBe('enp3s0');
@@ -191,7 +150,7 @@ describe('setting an address', () => {
   it('Enter in a field asks as the button does, and leaves the page where it is', async () => {
     await shown();
     await choosesFixed();
-    const form = view.shadowRoot!.querySelector('form')!;
+    const form = part.view.shadowRoot!.querySelector('form')!;
     const left = vi.fn((event: Event) => event.defaultPrevented);
     form.addEventListener('submit', left);
     form.requestSubmit();
@@ -205,14 +164,14 @@ describe('an address on trial', () => {
     await shown();
     await choosesFixed();
     button(setLabel)!.click();
-    await core.questions[0]!.act('p');
+    await part.core.questions[0]!.act('p');
   }
 
   it('is kept with the password', async () => {
     expect(await shown({ network_trial: onTrial })).toContain('The address of enp0s2 is on trial: the former one returns in 87 s unless it is kept.');
     button('Keep this address')!.click();
-    expect(core.questions[0]!.heading).toBe('Keep the address of enp0s2?');
-    expect(await core.questions[0]!.act('p')).toBe('');
+    expect(part.core.questions[0]!.heading).toBe('Keep the address of enp0s2?');
+    expect(await part.core.questions[0]!.act('p')).toBe('');
     expect(sentTo()).toEqual([['/api/v1/machine/keep-network', { password: 'p' }]]);
     await shown();
     expect(button('Keep this address')).toBeUndefined();
