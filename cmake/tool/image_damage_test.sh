@@ -16,6 +16,12 @@ asks_with_certificate() {  # with the panel's certificate as the only one that i
     "https://flexrf:$pc_port/"
 }
 
+answers_at() {  # answers_at HOST STATUS
+  local status
+  status=$(ask_panel '' --retry 0 -H "Host: $1:8443" -o "$pc_folder/at.html" -w '%{http_code}')
+  [[ $status == "$2" ]] || { echo "asked for $1 the panel answers $status" && return 1; }
+}
+
 time_of_pc() { date -d "$(ask_panel '' -I | sed -n 's/^Date: *//Ip' | tr -d '\r')" +%s; }
 
 # Neither the superblock nor a copy of it is left, a copy of the boot choice is damaged, and the clock has lost its battery: the PC is one that
@@ -26,7 +32,9 @@ data_beyond_repair() {
   claimed_disk "$disk" && overwrite_data "$disk" 0 200000 && printf 'damaged' >"$pc_folder/choice1.env" &&
     mcopy -o -i "$disk@@2M" "$pc_folder/choice1.env" ::flexrf/ && start_pc damaged bios "$disk" -no-reboot -rtc base=2001-01-01T00:00:00 &&
     await_line 'data was damaged beyond repair, and is made anew' && await_line 'motion is not permitted: nobody has claimed this PC' &&
-    claim_pc && await_line 'the cell runs' && log_in && await_machine '.notices | any(test("choice1.env is damaged"))' && asks_with_certificate && now=$(time_of_pc) || return
+    claim_pc -H 'Host: cell7.example.org:8443' && await_line 'The panel answers at cell7.example.org, too' && await_line 'the cell runs' && log_in &&
+    await_machine '(.notices | any(test("choice1.env is damaged"))) and .hosts == ["cell7.example.org"]' &&
+    answers_at cell7.example.org 200 && answers_at elsewhere.example.org 421 && asks_with_certificate && now=$(time_of_pc) || return
   # That of the version, which systemd takes for one that stands before it.
   ((now >= time_of_test_version && now < $(date +%s))) || { echo "the PC's clock says $now" && return 1; }
   ! fingerprint | grep -F -f "$claimed/fingerprint" || { echo "the key that was lost is there" && return 1; }
@@ -100,7 +108,7 @@ data_is_full() {
   local disk=$pc_folder/full.img status
   pc_disk=()
   claimed_disk "$disk" && fill_data "$disk" && start_pc full bios "$disk" -no-reboot && await_line 'the cell runs' && log_in &&
-    await_line 'motion is permitted' || return
+    await_line 'motion is permitted' && await_machine '.data.free == 0 and .data.other > 100000000' || return
   ask_panel api/v1/control/take -b "$pc_folder/cookies" -o "$pc_folder/taken.json" -X POST || return
   status="$(change_speed 0.777) $(try_to_save)"
   [[ $status == '200 507' && $(<"$pc_folder/saved.json") == *'make room there'* ]] ||
@@ -143,6 +151,7 @@ a_confirmed_version_that_fails_gives_way() {
   ((starts == 3)) || { echo "it was started $starts times" && return 1; }
   await_line 'the version in slot A has confirmed itself' && await_machine '.slot == "A" and .boot == "fallback" and .slots.A.primary and .slots.B.whole' &&
     await_machine '.notices | any(test("^slot B.* was started three times and did not come up; version .* in slot A runs in its place$"))' &&
+    await_machine '.last_failure | .slot == "B" and .starts == 3 and .start == 0 and (.reason | test("before its services ran"))' &&
     ask_machine 200 choose '{"slot": "B", "other_drivers": true}' && await_machine '.slots.B.primary'
 }
 
@@ -154,7 +163,9 @@ a_confirmed_application_that_crashes_gives_way() {
   pc_disk=()
   claimed_disk "$disk" && confirm_both "$disk" && change_root "$disk" crashes b && start_pc crashing bios "$disk" || return
   await_line 'the cell runs' && log_in && await_machine '.slot == "A" and .boot == "fallback"' &&
-    await_machine '.notices | any(test("^slot B.* was started three times and did not come up"))'
+    await_machine '.notices | any(test("^slot B.* was started three times and did not come up"))' &&
+    await_machine '.last_failure | .slot == "B" and .starts == 3 and .start == 3 and (.reason | test("did not answer")) and (.lines | any(test("flexrf.service")))' &&
+    ask_machine 200 dismiss-failure '{"slot": "B"}' && await_machine '.last_failure == null'
 }
 
 # boots_of_two NAME bios|uefi FIRST SECOND: a PC with two disks; its firmware starts the first one, and the kernel sees the second one first or, on USB, later

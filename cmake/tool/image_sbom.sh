@@ -1,5 +1,5 @@
-# Sourced by image.sh: what an image or a bundle consists of, in the format SPDX 2.3 (JSON), beside it as FILE.spdx.json. Whoever has to answer
-# for a PC looks there for a package in which a vulnerability was found.
+# Sourced by image.sh: what an image or a bundle consists of, in the format SPDX 2.3 (JSON), beside it as FILE.spdx.json. The person
+# responsible for a PC looks there for a package in which a vulnerability was found.
 # shellcheck shell=bash disable=SC2154 # shares its variables with flexrf
 
 # Libraries of which only headers exist, or are used: their code is in the executables.

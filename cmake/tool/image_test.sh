@@ -151,16 +151,16 @@ fingerprint() {  # of the certificate that the panel shows
   openssl s_client -connect "127.0.0.1:$pc_port" </dev/null 2>/dev/null | openssl x509 -noout -fingerprint -sha256
 }
 
-try_to_claim() {  # try_to_claim CODE: prints the status
+try_to_claim() {  # try_to_claim CODE [OPTION OF CURL...]: prints the status
   local page token
   page=$(ask_panel) || return
   token=$(sed -n 's/.*name="token" value="\([0-9a-f]*\)".*/\1/p' <<<"$page")
   ask_panel claim --retry 0 -o "$pc_folder/claimed.html" -w '%{http_code}\n' --data-urlencode "token=$token" --data-urlencode "code=$1" \
-    -d user=anna --data-urlencode 'password=only for this test' --data-urlencode 'repeated=only for this test'
+    -d user=anna --data-urlencode 'password=only for this test' --data-urlencode 'repeated=only for this test' "${@:2}"
 }
 
 # As somebody does who stands before the PC: before that there is its page, and nothing else.
-claim_pc() {
+claim_pc() {  # claim_pc [OPTION OF CURL...]
   local code
   await_line 'Nobody has claimed this PC\. The code is' >/dev/null || return
   await_screen 'Nobody has claimed this PC\. Open its page, and type the code  [0-9A-Z]{5}-[0-9A-Z]{5}$' && await_screen '^  https://10\.0\.2\.15:8443/$' || return
@@ -168,7 +168,7 @@ claim_pc() {
     { echo "an unclaimed PC answered: $(<"$pc_folder/state.json") $(<"$pc_folder/claimed.html")" && return 1; }
   screen >"$pc_folder/screen-unclaimed.text" && code=$(sed -n 's/.*type the code  //p' "$pc_folder/screen-unclaimed.text")
   [[ $code == "$(console_lines | sed -n 's/.*The code is  \([0-9A-Z-]*\)  at.*/\1/p' | tail -n 1)" ]] || { echo "screen and serial line show two codes" && return 1; }
-  [[ $(try_to_claim "$code") == 200 ]] || { echo "the claim was answered: $(<"$pc_folder/claimed.html")" && return 1; }
+  [[ $(try_to_claim "$code" "$@") == 200 ]] || { echo "the claim was answered: $(<"$pc_folder/claimed.html")" && return 1; }
   await_line 'This PC is claimed'
 }
 
@@ -243,7 +243,7 @@ first_boot_by_bios() {
     start_recorded_pc bios "$disk" -no-reboot && record_first_boot && fingerprint >"$pc_folder/fingerprint" || return
   [[ $(console_lines) == *"$(<"$pc_folder/fingerprint")"* ]] || { echo "the console does not show the certificate's fingerprint" && return 1; }
   [[ $(tr -d ' :\n' <"$pc_folder/screen-unclaimed.text") == *"$(sed 's/.*=//' "$pc_folder/fingerprint" | tr -d :)"* ]] || { echo "the screen does not show it" && return 1; }
-  own_identifiers "$disk" || return
+  own_identifiers "$disk" && keeps_room "$disk" || return
   save_pc "$pc_folder/bios.memory" && punch_versions "$pc_folder/bios.base" && keep claimed "$pc_folder"/bios.{img,memory,base,log,promises} "$pc_folder/fingerprint"
 }
 
@@ -251,6 +251,13 @@ own_identifiers() {  # own_identifiers DISK: it has none of its image's
   local shared PATH=$PATH:/usr/sbin:/sbin
   shared=$(for disk in "$pc_shared/product.img" "$1"; do sfdisk -q -J "$disk" | jq -r '.partitiontable | .id, .partitions[].uuid' | sort -u; done | sort | uniq -d)
   [[ ! $shared ]] || { printf 'the disk has identifiers of its image: %s\n' "$shared" && return 1; }
+}
+
+keeps_room() {  # keeps_room DISK: a quarter of data, which is smaller than 2 GiB, is root's
+  local first total reserved PATH=$PATH:/usr/sbin:/sbin
+  read -r first _ < <(partition_of "$1" data) && read -r total reserved < <(dumpe2fs -h "$1?offset=$((first * 512))" 2>/dev/null |
+    awk -F : '$1 == "Block count" { total = $2 } $1 == "Reserved block count" { print total + 0, $2 + 0 }') || return
+  ((reserved * 100 > total * 24 && reserved * 100 < total * 26)) || { echo "of $total blocks of data $reserved are root's" && return 1; }
 }
 
 need_claimed_pc() {  # sets claimed to the folder of the PC that first_boot_by_bios keeps

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # An industrial PC's own files (image/disk): the configuration that a slot starts with, how damaged users, keys and certificates are
-# replaced, and that an update is marked as whole only when the disk gives back what was written. The PC's scripts run here on folders of this test.
+# replaced, that an update is marked as whole only when the disk gives back what was written, and how much room is kept. The PC's scripts run here on folders of this test.
 source "$(dirname "$0")/stand_in.sh"
 if ! command -v openssl >/dev/null; then
   echo "not tried: there is no openssl"
@@ -96,6 +96,7 @@ expect "notice of what is whole" "$(notices)" ""
 
 stand_in flexrf-boot-choice </dev/null
 stand_in blockdev <<'BODY'
+[[ $1 != --getsize64 ]] || exec stat -c %s "$2"
 [[ ! -e $STAND_IN/disk_changes ]] || printf X | dd of="$2" bs=1 seek=5000 conv=notrunc status=none
 BODY
 mkdir -p "$pc"/{dev,data/update,run/flexrf-update,bundle}
@@ -123,4 +124,16 @@ expect "exit code with a disk that changes" "$status" 1
 expect "the mark with a disk that changes" "$(grep -c mark-whole "$calls")" 0
 expect "why it was refused" "$(<"$pc/run/flexrf-update/refused")" "the disk does not give back what was written to boot-b: it is defective, *"
 [[ ! -e $pc/data/update/version-b ]] || expect "a version for a slot that is not whole" there none
+# ---- room for updates
+
+PATH=$PATH:/usr/sbin:/sbin
+for size in 256 4096; do # MiB
+  truncate -s "${size}M" "$work/data.img"
+  mke2fs -q -F -t ext4 -m 0 "$work/data.img"
+  for _ in first second; do sh "$repository/image/disk/root/usr/lib/flexrf/keep-room" "$work/data.img" 2>"$work/said" || expect "keep-room of $size MiB" "$(<"$work/said")" none; done
+  kept=$(dumpe2fs -h "$work/data.img" 2>/dev/null | awk -F : '$1 == "Reserved block count" { blocks = $2 } $1 == "Block size" { print blocks * $2 / 1048576 }')
+  expect "MiB kept of $size" "$kept" $((size / 4 < 512 ? size / 4 : 512))
+  expect "the second time" "$(<"$work/said")" ''
+  rm "$work/data.img"
+done
 finish
