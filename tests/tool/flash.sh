@@ -354,9 +354,12 @@ trap 'umount "$work/mounted" 2>/dev/null; losetup -d "$loop"; rm -rf "$work"' EX
 before=$(written)
 mkdir "$work/only" && cp "$work/bin/dpkg-query" "$work/only/"
 PATH=$work/only:$PATH
-perl "$tree/cmake/tool/disk.pl" hold "$loop" sleep 60 &
+perl "$tree/cmake/tool/disk.pl" hold "$loop" bash -c 'touch "$0"; exec sleep 600' "$work/held" &
 holder=$!
-sleep 1
+for ((k = 0; k < 600; ++k)); do
+  [[ ! -e $work/held ]] || break
+  sleep 0.1
+done
 refused "*$loop is in use by another program*nothing was written to it" "$image" "$loop" --yes
 kill "$holder"
 wait "$holder" 2>/dev/null
