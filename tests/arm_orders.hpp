@@ -29,11 +29,15 @@ enum class Event : std::uint8_t {
   target,
   other_target,
   made_safe,
+  target_then_start,  // within one cycle
   idle,
   count
 };
 inline constexpr std::array<const char*, events_of<Event>> names{
-    "stop", "start", "silent", "speaks", "by hand", "target", "other target", "made safe", "idle"};
+    "stop",         "start",     "silent",
+    "speaks",       "by hand",   "target",
+    "other target", "made safe", "target then start",
+    "idle"};
 
 /// An arm, and what a person does to it beside giving Stop and Start.
 class Arm {
@@ -157,9 +161,11 @@ class ArmWorld {
         since_.reset();
         break;
       case Event::start:
+      case Event::target_then_start:
         // Control refuses it until the thread had a cycle without.
         permit(false);
         run_unwatched(1);
+        if (event == Event::target_then_start) leader_.ask(false);
         permit(true);
         since_ = held_->arm().state();
         is_said_safe_ = false;

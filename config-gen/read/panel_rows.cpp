@@ -81,6 +81,7 @@ class Reader {
   void check_kind(Row& row, PanelWidget& widget);
   void read_slots(Row& row, PanelWidget& widget);
   void read_parameters(Row& row, PanelWidget& widget);
+  void check_joints(const Node& joints, const PanelWidget& widget);
   void read_device(Row& row, PanelWidget& widget);
   void read_options(Row& row, PanelWidget& widget);
   void check_roles(Row& row, const PanelWidget& widget);
@@ -251,15 +252,42 @@ void Reader::read_device(Row& row, PanelWidget& widget) {
     }
   }
   if (widget.kind != "robot") return;
-  const Node* slots = row.node().find("slots");
-  if (slots == nullptr || slots->find("joints") == nullptr)
+  const Node* const slots = row.node().find("slots");
+  const Node* const joints = slots == nullptr ? nullptr : slots->find("joints");
+  if (joints == nullptr)
     row.missing("slots.joints", "add slots = { joints = \"NAME\" }: the slot with the joints' positions");
+  else
+    check_joints(*joints, widget);
   if (!name) {
     row.missing("device", "add device = \"arm\": the robot to be shown");
   } else if (widget.device && !robot_of(assembly_.model, *widget.device)) {
     assembly_.diagnostics.error(row.position("device"), quote(*name) + " has no URDF that could be shown",
                                 "name a device whose row has urdf = \"FILE\"");
   }
+}
+
+// The panel takes the joints' positions from the field `position` of this slot, whatever else it carries.
+void Reader::check_joints(const Node& joints, const PanelWidget& widget) {
+  const auto& slots = assembly_.model.slots;
+  const auto found =
+      std::find_if(slots.begin(), slots.end(), [&](const Slot& slot) { return slot.name == joints.text; });
+  const DeviceResource* const robot = widget.device ? robot_of(assembly_.model, *widget.device) : nullptr;
+  if (found == slots.end() || found->partial || robot == nullptr || !robot->chain) return;
+  const std::size_t count = robot->chain->joints.size();
+  const auto fits = [&](const Field& field) {
+    return field.name == "position" && field.type.kind == FieldType::Kind::scalar &&
+           field.type.scalar != Scalar::boolean && field.type.scalar != Scalar::text &&
+           field.shape.size() == 1 && field.shape[0] >= count;
+  };
+  const Type* const type = declared_type(assembly_.model, *found);
+  if (type != nullptr && std::any_of(type->fields.begin(), type->fields.end(), fits)) return;
+  const std::string& device = assembly_.model.devices[*widget.device].name;
+  assembly_.diagnostics.error(
+      joints.position,
+      "the widget 'robot' cannot show " + quote(joints.text) +
+          ": it needs a slot with a field 'position' that has a number for each of the " +
+          std::to_string(count) + " joints of " + quote(device),
+      "name another slot, such as the output 'joints' of a unit robot_control");
 }
 
 void Reader::read_options(Row& row, PanelWidget& widget) {

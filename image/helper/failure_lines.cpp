@@ -62,8 +62,7 @@ FailureLines::Answer FailureLines::of(const std::vector<std::string>& boots, Tim
     return {{}, is_being_read};
   }
   if (!is_read) return {{}, is_being_read};
-  if (has_failed)
-    return {{}, std::string{"The journal cannot be read: "} + found->value.status().cause()};
+  if (has_failed) return {{}, std::string{"The journal cannot be read: "} + found->value.status().cause()};
   return {*found->value, found->value->empty() ? no_line : ""};
 }
 

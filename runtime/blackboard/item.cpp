@@ -37,6 +37,8 @@ const char* name_of(NullReason reason) noexcept {
       return "driver not chosen";
     case NullReason::ahead_of_time:
       return "stamped ahead of time";
+    case NullReason::not_available:
+      return "not available";
   }
   return "unknown";
 }

@@ -1,6 +1,7 @@
 // What every item on the blackboard carries beside its value, and what a reader learns when there is none.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "base/time.hpp"
@@ -21,7 +22,9 @@ enum class NullReason : std::uint8_t {
   no_longer_kept,     ///< a history no longer keeps that time
   driver_not_chosen,  ///< only a driver writes it that was not chosen at the start
   ahead_of_time,      ///< stamped later than the step's time, by more than the input's max_age
+  not_available,      ///< the device was asked, and says that it has no value
 };
+inline constexpr std::size_t null_reason_count = static_cast<std::size_t>(NullReason::not_available) + 1;
 const char* name_of(NullReason reason) noexcept;
 
 /// What a read says of the value against the reader's last step.

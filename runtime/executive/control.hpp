@@ -112,6 +112,11 @@ class Control {
   }
   bool safe_state_latched() const noexcept { return safe_state_.load(std::memory_order_acquire); }
 
+  /// What tells the time of a Start; null: CLOCK_MONOTONIC. While nobody can give one.
+  void use_clock(const Time* clock) noexcept { clock_ = clock; }
+  /// When the newest Start was given that was not one already; no time: none was.
+  Time started_at() const noexcept { return Time{Duration{started_at_.load(std::memory_order_acquire)}}; }
+
   /// autostart: actuators may move from power-on. Before anything is initialised, so that no unit takes the
   /// moment in between for an inhibition.
   void permit_motion_at_power_on() noexcept { permission_.fetch_or(granted, std::memory_order_seq_cst); }
@@ -165,6 +170,11 @@ class Control {
   Status start_motion() noexcept {
     const std::uint64_t before = permission_.load(std::memory_order_seq_cst);
     if (const Status status = check_start(); !status) return status;
+    if ((before & granted) == 0) {
+      // Before the permission, so that whoever sees that sees this.
+      const Time now = clock_ != nullptr ? *clock_ : MonotonicClock::now();
+      started_at_.store(nanoseconds(now), std::memory_order_release);
+    }
     // Whatever withdraws it says why first, and then makes this another word.
     std::uint64_t seen = before;
     if (!permission_.compare_exchange_strong(seen, before | granted, std::memory_order_seq_cst) &&
@@ -244,6 +254,8 @@ class Control {
   std::atomic<bool> stop_motion_{false};
   std::atomic<bool> safe_state_{false};
   std::atomic<std::uint64_t> permission_{0};
+  const Time* clock_ = nullptr;
+  std::atomic<std::int64_t> started_at_{0};  // ns
   std::atomic<bool> forbidden_{false};
   mutable std::mutex forbidding_;
   Status forbidden_because_;                  // under the mutex

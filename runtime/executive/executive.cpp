@@ -352,6 +352,7 @@ void Executive::run_in_virtual_time(RunSummary& summary) {
   summary.run_time = time.run(*options_.virtual_time);
   lifecycle_.stop_all();
   lifecycle_.use_clock(nullptr);
+  cell_.control().use_clock(nullptr);
   signalled_control = nullptr;
   summary.signal = last_signal;
   summary.had_fault = supervision.had_fault();

@@ -279,6 +279,7 @@ void Stepper::begin(const Release& release) noexcept {
   tick_.finishing = mode == Mode::finishing;
   stopping_ = mode >= Mode::stopping;
   tick_.motion_inhibited = !may_move_;
+  tick_.permitted_since = control.started_at();
   inhibited_ = may_move_ ? std::nullopt : std::optional(withdrawals_);
   making_safe_ = mode >= Mode::safe;
   add(state_->cycles, std::uint64_t{1});

@@ -44,6 +44,7 @@ VirtualTime::Thread::Thread(Cell& cell, std::uint16_t index) : releases(cell, in
 VirtualTime::VirtualTime(Cell& cell, Lifecycle& lifecycle, Supervision& supervision)
     : cell_(&cell), lifecycle_(&lifecycle), supervision_(&supervision), now_(beginning) {
   lifecycle.use_clock(&now_);
+  cell.control().use_clock(&now_);
   const std::size_t count = cell.application().threads.size();
   threads_.reserve(count);
   for (std::size_t i = 0; i < count; ++i) threads_.emplace_back(cell, static_cast<std::uint16_t>(i));

@@ -18,6 +18,8 @@ struct Tick {
   bool finishing = false;         ///< no more input will come: complete what is begun
   bool stop_requested = false;    ///< controlled stop: come to rest within stop_timeout, then be idle
   bool motion_inhibited = false;  ///< no actuator of this application may be moved now
+  Time permitted_since{};         ///< the Start by which it may be: what was asked for before it is not to be
+                                  ///< followed [stop-96]; no time: from power-on
 };
 
 }  // namespace flexrf

@@ -35,7 +35,7 @@ void Gantry::step(const Tick& tick) {
     go_on(tick);
     command();
   }
-  publish();
+  publish(tick);
 }
 
 /// Whether both drives follow. When they do not, what was ordered is given up, and the set-points stay where
@@ -69,6 +69,12 @@ void Gantry::take_up_order(const Tick& tick) noexcept {
     return;
   }
   if (wanted->number == taken_.number) return;
+  if (wanted.sampled_at() < tick.permitted_since) {
+    taken_ = *wanted;
+    end(GantryOutcome::failed,
+        Status::error(StatusCode::not_permitted, "the order is from before the Start"));
+    return;
+  }
   if (phase_ != Phase::resting && phase_ != Phase::settling) {
     brake();  // and is taken up when the axes rest
     return;
@@ -206,9 +212,12 @@ void Gantry::command() noexcept {
   z->command_position(path_.point()[1]);
 }
 
-void Gantry::publish() noexcept {
+/// A position is as old as what the drives told last.
+void Gantry::publish(const Tick& tick) noexcept {
   GantryState now{};
+  Time sampled_at = tick.now;
   if (x_state_ && z_state_) {
+    sampled_at = std::min(x_state_->measured_at, z_state_->measured_at);
     now.position = {x_state_->position, z_state_->position};
     now.known = true;
     now.enabled = x_state_->enabled && z_state_->enabled;
@@ -217,7 +226,7 @@ void Gantry::publish() noexcept {
   now.order = taken_.number;
   now.outcome = outcome_;
   now.set_trouble(!hindrance_ ? hindrance_.cause() : trouble_.cause());
-  state.publish(now);
+  state.publish(now, sampled_at);
 
   feedback.position = now.position;
   feedback.set_point = path_.point();

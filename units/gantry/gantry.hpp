@@ -39,7 +39,7 @@ class Gantry final : public GantryUnit {
   void seed_from_drives() noexcept;
   double elapsed_in(const Tick& tick) noexcept;
   void command() noexcept;
-  void publish() noexcept;
+  void publish(const Tick& tick) noexcept;
 
   std::optional<ServoState> x_state_;
   std::optional<ServoState> z_state_;

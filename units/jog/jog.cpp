@@ -43,10 +43,11 @@ void Jog::step(const Tick& tick) {
     left_behind_ = false;
   }
   heed_answer();
-  for (int n = 0; n < most_keys_per_step; ++n) {
-    const auto key = keys.pop();
-    if (!key) break;
-    if (move_by_key(*target_, *key, runtime.step, runtime.turn)) ++feedback.presses;
+  KeyEvent key{};
+  ItemHeader pressed{};
+  for (int n = 0; n < most_keys_per_step && keys.pop(key, pressed); ++n) {
+    if (pressed.sampled_at < tick.permitted_since) continue;
+    if (move_by_key(*target_, key, runtime.step, runtime.turn)) ++feedback.presses;
   }
   target.publish(*target_);
 }

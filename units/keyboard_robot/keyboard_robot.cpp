@@ -1,6 +1,7 @@
 #include "units/keyboard_robot/keyboard_robot.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "motion/pose_conversion.hpp"
 #include "units/arm_motion/key_motion.hpp"
@@ -21,7 +22,7 @@ constexpr int most_keys_per_step = 64;
 
 Status KeyboardRobot::initialise() {
   motion_.use(arm->kinematic_chain());
-  moved_ = is_to_be_seeded_ = false;
+  moved_ = is_to_be_seeded_ = was_inhibited_ = false;
   return {};
 }
 
@@ -45,7 +46,9 @@ void KeyboardRobot::step(const Tick& tick) {
     }
     if (follows && tick.stop_requested) motion_.stop();
   }
-  if (state && follows && !tick.stop_requested) {
+  // Whether a key of the first cycle after a Start was pressed before it is not known.
+  const bool was_inhibited = std::exchange(was_inhibited_, tick.motion_inhibited);
+  if (state && follows && !was_inhibited && !tick.stop_requested) {
     follow_keys();
   } else {
     for (int n = 0; n < most_keys_per_step && keyboard->read(); ++n)

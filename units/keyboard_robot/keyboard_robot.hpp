@@ -24,6 +24,7 @@ class KeyboardRobot final : public KeyboardRobotUnit {
   LogLimit refusals_;
   bool moved_ = false;            // the target was, since the last motion began
   bool is_to_be_seeded_ = false;  // it did not follow, or told nothing, since it was seeded
+  bool was_inhibited_ = false;    // in the cycle before
   bool idle_ = true;
 };
 

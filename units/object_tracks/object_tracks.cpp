@@ -47,7 +47,7 @@ Status ObjectTracks::initialise() {
   return check_camera(configuration.camera);
 }
 
-void ObjectTracks::step(const Tick& /*tick*/) {
+void ObjectTracks::step(const Tick& tick) {
   if (runtime.forget > 0)
     for (std::size_t i = 0; i < most_tracks; ++i) end(i);
   const auto hand = in_hand.latest();
@@ -60,7 +60,8 @@ void ObjectTracks::step(const Tick& /*tick*/) {
   if (of && of.is_new()) {
     list_.frame = of->frame;
     list_.time = of->time;
-    forget_before(of->time);
+    // One that is stamped ahead of time says nothing of how long a track was not measured.
+    forget_before(std::min(of->time, nanoseconds(tick.now)));
     post(*of, of.sampled_at());
     is_changed_ = true;
   }

@@ -56,7 +56,8 @@ void RobotControl::step(const Tick& tick) {
   }
   // A target that was published before the last Start is not followed after it, even if it is published
   // again.
-  if (wanted && tick.motion_inhibited) targets_.leave(*wanted);
+  if (wanted && (tick.motion_inhibited || wanted.sampled_at() < tick.permitted_since))
+    targets_.leave(*wanted);
   if (!is_seeded_) {
     feedback.set_holding("no joint positions from the arm yet");
     idle_ = true;
@@ -116,7 +117,9 @@ void RobotControl::look(const Tick& tick) noexcept {
       refused_by_mode_ = steps_are_refused;
     }
   }
-  servo_.look(servo.latest(), !tick.motion_inhibited);
+  const auto streamed = servo.latest();
+  servo_.look(streamed,
+              !tick.motion_inhibited && (!streamed || streamed.sampled_at() >= tick.permitted_since));
 }
 
 /// Who leads now, of those that want to and may; null: nobody.

@@ -24,7 +24,10 @@ class Leader {
     keyboard_.receive(arm_orders::cycle);
     bench_.step(arm_orders::cycle);
   }
-  void permit(bool on) { bench_.tick().motion_inhibited = !on; }
+  void permit(bool on) {
+    bench_.tick().motion_inhibited = !on;
+    if (on) bench_.tick().permitted_since = bench_.now() + std::chrono::microseconds(1);
+  }
   void ask(bool otherwise) {
     for (int i = 0; i < 5; ++i)
       keyboard_.driver().press({Key::character, static_cast<std::uint32_t>(otherwise ? 'a' : 's')});

@@ -328,6 +328,19 @@ bool forgetting_empties_the_list() {
   return empty && world->first().identity == 2;
 }
 
+/// A camera whose clock jumped.
+bool a_picture_ahead_of_time_ends_nothing() {
+  const auto world = std::make_unique<World>();
+  world->follow(6, 0.42, 0.03);
+  world->of.time += nanoseconds(world->bench.now()) + 3600'000'000'000;
+  ++world->of.frame;
+  world->features.publish(world->of, world->bench.now());
+  world->step();
+  const bool kept = world->count() == 1 && world->first().identity == 1;
+  world->follow(1, 0.42, 0.03);
+  return kept && world->count() == 1 && world->first().identity == 1 && world->first().frames == 7;
+}
+
 bool on_a_belt_it_is_expected_further_on() {
   const auto world = std::make_unique<World>();
   world->bench.runtime().belt = true;
@@ -460,6 +473,8 @@ int main() {
        nullptr, nullptr, nullptr},
       {"what is no number is no track", check<what_is_no_number_is_no_track>, nullptr, nullptr, nullptr},
       {"forgetting empties the list", check<forgetting_empties_the_list>, nullptr, nullptr, nullptr},
+      {"a picture ahead of time ends nothing", check<a_picture_ahead_of_time_ends_nothing>, nullptr, nullptr,
+       nullptr},
       {"on a belt it is expected further on", check<on_a_belt_it_is_expected_further_on>, nullptr, nullptr,
        nullptr},
       {"a verdict counts when its picture was taken", check<a_verdict_counts_when_its_picture_was_taken>,

@@ -26,7 +26,10 @@ class Leader {
     assert_true(bench_.unit().initialise().is_ok());
   }
   void step() { bench_.step(arm_orders::cycle); }
-  void permit(bool on) { bench_.tick().motion_inhibited = !on; }
+  void permit(bool on) {
+    bench_.tick().motion_inhibited = !on;
+    if (on) bench_.tick().permitted_since = bench_.now() + std::chrono::microseconds(1);
+  }
   void ask(bool by_stream) {
     Pose wanted = to_pose(forward_kinematics(six_axis, home_position(six_axis)));
     if (by_stream) {

@@ -219,7 +219,10 @@ void LiveSession::write_hello(Client& client, Time now, std::string& to) {
   for (const DeviceRecord& device : application.devices)
     json.member(device.name, parts_.executive.cell().driver_name(device.index));
   json.end_object();
-  json.key("session");
+  json.key("null_reasons").begin_array();
+  for (std::size_t reason = 0; reason < null_reason_count; ++reason)
+    json.value(name_of(static_cast<NullReason>(reason)));
+  json.end_array().key("session");
   write_session(json, info);
   json.member("server_time_ns", nanoseconds(now)).member("allocations", has_allocation_guard());
   json.member("machine", parts_.has_machine).end_object();

@@ -96,7 +96,7 @@ void StateEvent::write_values(JsonWriter& json) const {
   json.member("on", state.on_change ? "change" : "command").member("unsaved", state.unsaved);
   json.key("saved_at_ms");
   state.saved_at == 0 ? json.null() : json.value(state.saved_at);
-  json.member("failure", state.failure.cause()).end_object();
+  json.member("writings", state.writings).member("failure", state.failure.cause()).end_object();
 }
 
 void StateEvent::write(std::string& text, SessionIndex you, Time now) const {

@@ -313,7 +313,7 @@ Verdict what_the_station_has_no_value_of_is_told_so(ModbusStationWorld& world) {
   });
   const auto is_missing = [&](std::size_t index) {
     const ModbusValue got = world.station().read(index);
-    return !got && got.reason == NullReason::writer_faulted && got.value == 0;
+    return !got && got.reason == NullReason::not_available && got.value == 0;
   };
   for (const std::size_t index : {heat, gas, exponent}) world.put(index, std::nan(""));
   const bool missing = until(world, [&] {

@@ -44,7 +44,7 @@ ModbusValue value_of_register(const ModbusRegister& meaning, const std::uint16_t
   const double value = decode_register(meaning, words, is_scaled ? factor_of_exponent(scale.value) : 1);
   const bool is_missing = std::isnan(value);
   result.value = is_missing ? 0 : value;
-  result.reason = is_missing ? NullReason::writer_faulted : NullReason::none;
+  result.reason = is_missing ? NullReason::not_available : NullReason::none;
   return result;
 }
 

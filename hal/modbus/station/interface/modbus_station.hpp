@@ -20,8 +20,8 @@ struct ModbusValue {
   Duration age{};    ///< since the answer came that it was in
   /// none: valid. nothing_yet: never read. Older than its poll group's period and max_age: writer_faulted
   /// when the station refuses to tell it, writer_stopped when the station does not answer, else
-  /// too_old [modbus-station-1]; what is read once does not age [modbus-station-10]. writer_faulted also when
-  /// the station says that it has no value, or tells a power of ten that is none; while its scale register is
+  /// too_old [modbus-station-1]; what is read once does not age [modbus-station-10]. not_available: the
+  /// station says that it has no value, or tells a power of ten that is none; while its scale register is
   /// not valid, that one's reason [modbus-station-9].
   NullReason reason = NullReason::nothing_yet;
 

@@ -7,16 +7,6 @@ const messageHeader = 32;
 const itemHeader = 32;
 const high = 4294967296;
 
-/** NullReason of runtime/blackboard/item.hpp, in words. */
-const reasons = [
-  '', 'nothing yet', 'too old', 'writer stopped', 'writer in fault', 'writer retired', 'not registered', 'wrong type',
-  'no longer kept', 'driver not chosen',
-];
-
-export function reasonText(reason: number): string {
-  return reasons[reason] ?? 'unknown reason';
-}
-
 /** Newest item of one slot, as it came. */
 export interface FrameItem {
   /** Index in descriptor.json's "slots". */
@@ -25,7 +15,7 @@ export interface FrameItem {
   readonly bytes: DataView;
   readonly sequence: number;
   readonly sampledAt: number;
-  /** As NullReason; 0: there is a value. */
+  /** Number in the null_reasons of hello; 0: there is a value. */
   readonly reason: number;
   readonly jpeg: boolean;
   /** By how much a JPEG was scaled down. */

@@ -209,7 +209,7 @@ export class PanelCore implements Core {
     const restarted = this.#boot !== undefined && this.#boot !== hello.boot;
     this.#boot = hello.boot;
     this.state = undefined;
-    this.#store.forgetValues();
+    this.#store.beginLink(hello.null_reasons);
     if (restarted) {
       this.#log = [];
       this.host.history.clear();

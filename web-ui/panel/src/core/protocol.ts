@@ -41,6 +41,8 @@ export interface Hello {
   readonly descriptor: string;
   /** Of each device the driver that was chosen at this start. */
   readonly drivers: Drivers;
+  /** Words for the reason of each item that is NULL, by its number. */
+  readonly null_reasons: readonly string[];
   readonly session: SessionInfo;
   readonly server_time_ns: number;
   /** It runs on a PC of which GET machine tells. */
@@ -76,6 +78,8 @@ export interface SavedValues {
   readonly unsaved: boolean;
   /** When it was last found to hold everything, since 1970; null: not since the start. */
   readonly saved_at_ms: number | null;
+  /** How often the file was written since the start. */
+  readonly writings: number;
   /** Why the last attempt failed; empty: it did not. */
   readonly failure: string;
 }

@@ -1,6 +1,6 @@
 // Newest value of everything that is subscribed, and who wants to be told: in one animation frame for all of them.
 import type { Reading, Value } from '../contract';
-import { decodeField, decodeStructure, reasonText, type Frame, type FrameItem } from './decode';
+import { decodeField, decodeStructure, type Frame, type FrameItem } from './decode';
 import type { Item, Model, Source } from './descriptor';
 import { partOf } from './value_path';
 
@@ -29,6 +29,7 @@ const tolerance = 4;
 
 export class Store {
   #model: Model | undefined;
+  #nullReasons: readonly string[] = [];
   #slots = new Map<number, SlotState>();
   #watchers = new Map<number, Set<Watcher>>();
   #scheduled = false;
@@ -45,8 +46,12 @@ export class Store {
     this.#watchers.clear();
   }
 
-  /** Forgets all values: they are from before a loss of the link. Those who watch keep the last until there is a new one. */
-  forgetValues(): void {
+  /**
+   * Forgets all values: they are from before a loss of the link. Those who watch keep the last until there is a new one.
+   * nullReasons: words for the reasons of items that are NULL, by their numbers.
+   */
+  beginLink(nullReasons: readonly string[]): void {
+    this.#nullReasons = nullReasons;
     this.#slots.clear();
   }
 
@@ -129,7 +134,8 @@ export class Store {
       // Of a picture that is there but cannot be encoded, the log has the cause.
       const otherwise = item.jpeg ? 'the picture cannot be shown: the log says why' : 'no value';
       // Of a slot whose driver was not chosen all else is said by the drivers that there are.
-      return { ...base, value: null, reason: source.slot.unwritten ?? (reasonText(item.reason) || otherwise) };
+      const reason = item.reason === 0 ? otherwise : (this.#nullReasons[item.reason] ?? `unknown reason ${item.reason}`);
+      return { ...base, value: null, reason: source.slot.unwritten ?? reason };
     }
     if (item.jpeg) {
       state.image ??= new Blob([item.bytes as DataView<ArrayBuffer>], { type: 'image/jpeg' });

@@ -19,7 +19,8 @@ export function standingOf(values: SavedValues): Standing {
   if (values.unsaved && values.on === 'command') return { text: '⚠ Not saved: changes are lost at the end.', kind: 'warning' };
   if (values.unsaved) return { text: 'Not saved yet: that follows by itself.', kind: '' };
   if (values.saved_at_ms === null) return { text: 'Nothing was changed since the start.', kind: '' };
-  return { text: `Saved at ${new Date(values.saved_at_ms).toLocaleTimeString()}.`, kind: '' };
+  const written = values.writings === 1 ? 'once' : `${values.writings} times`;
+  return { text: `Saved at ${new Date(values.saved_at_ms).toLocaleTimeString()}. The file was written ${written} since the start.`, kind: '' };
 }
 
 @customElement('flexrf-values-saver')

@@ -1,6 +1,9 @@
 // The live connection: greeting, state, topics, frames of values, clients that are slow or hostile.
 #include <cstring>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "runtime/log/log.hpp"
 #include "web-ui/server/api/tests/rig.hpp"
@@ -39,6 +42,12 @@ void a_page_is_greeted_and_told_the_state() {
   CHECK_EQUAL(hello.at("descriptor").get<std::string>(), "0000000000007e57");
   CHECK_EQUAL(hello.at("boot").get<std::string>().size(), 16U);
   CHECK(hello.at("drivers") == json({{"actuator", "mock"}}));
+  const json& reasons = hello.at("null_reasons");
+  CHECK_EQUAL(reasons.at(static_cast<std::size_t>(NullReason::ahead_of_time)).get<std::string>(),
+              "stamped ahead of time");
+  // Each has words of its own.
+  const auto words = reasons.get<std::vector<std::string>>();
+  CHECK_EQUAL(std::set<std::string>(words.begin(), words.end()).size(), null_reason_count);
   CHECK(
       hello.at("session") ==
       json(

@@ -55,6 +55,7 @@ void what_is_set_is_saved_when_somebody_asks() {
                         {"on", "command"},
                         {"unsaved", false},
                         {"saved_at_ms", nullptr},
+                        {"writings", 0},
                         {"failure", ""}}));
   PlayedLink& link = rig.connect(an_operator);
   rig.event(link, "state");
@@ -69,6 +70,7 @@ void what_is_set_is_saved_when_somebody_asks() {
   CHECK_CONTAINS(place.contents(), ">2.5</gain>");
   CHECK(rig.wait_until([&] { return rig.event(link, "state").at("values").at("unsaved") == false; }));
   CHECK(rig.get("state").body.at("values").at("saved_at_ms") == saved.at("saved_at_ms"));
+  CHECK(rig.get("state").body.at("values").at("writings") == 1);
 }
 
 void by_rest_too() {

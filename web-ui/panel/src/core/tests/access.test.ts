@@ -16,7 +16,7 @@ function situation(role: Role, holder: ControlSession | null = you, more: Partia
     session: { name: 'panel-1', role, local: false, user: '' },
     state: {
       mode: 'running', cause: '', motion: { stopped: false, may_move: true }, faults: [],
-      values: { file: false, on: 'change', unsaved: false, saved_at_ms: null, failure: '' },
+      values: { file: false, on: 'change', unsaved: false, saved_at_ms: null, writings: 0, failure: '' },
       control: { holder, wanted_by: wanted }, edit: null, server: { connections: 1, places: 8, loop_delay_us: { p99: 1, max: 2 } },
     },
     ...more,

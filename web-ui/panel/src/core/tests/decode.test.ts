@@ -1,6 +1,6 @@
 // @vitest-environment node
 import { describe, expect, it } from 'vitest';
-import { decodeFrame, decodeField, decodeStructure, reasonText } from '../decode';
+import { decodeFrame, decodeField, decodeStructure } from '../decode';
 import { makeTypes } from '../types';
 import { feedbackBytes, frameOf, runtimeBytes, sample } from './sample';
 
@@ -63,8 +63,5 @@ describe('values', () => {
   ] as const)('decodes %s', (scalar, size, bytes, expected) => {
     const field = { name: 'x', scalar, shape: [], offset: 0, elementSize: size, count: 1, unit: '', summary: '' };
     expect(decodeField(viewOf(new Uint8Array(bytes)), 0, field, types)).toBe(expected);
-  });
-  it('says why there is none', () => {
-    expect([0, 4, 9, 99].map(reasonText)).toEqual(['', 'writer in fault', 'driver not chosen', 'unknown reason']);
   });
 });

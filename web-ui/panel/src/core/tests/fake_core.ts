@@ -21,7 +21,7 @@ export function reading(value: Value | null, more: Partial<Reading> = {}): Readi
 
 export const quiet: ApplicationState = {
   mode: 'running', cause: '', motion: { stopped: true, may_move: false }, faults: [],
-  values: { file: false, on: 'change', unsaved: false, saved_at_ms: null, failure: '' },
+  values: { file: false, on: 'change', unsaved: false, saved_at_ms: null, writings: 0, failure: '' },
   control: { holder: null, wanted_by: null }, edit: null,
   server: { connections: 1, places: 8, loop_delay_us: { p99: 1, max: 2 } },
 };

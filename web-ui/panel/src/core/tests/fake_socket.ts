@@ -29,6 +29,7 @@ export class FakeSocket implements Socket {
     this.readyState = 1;
     this.say({
       event: 'hello', protocol: 1, application: 'sample', boot: 'a', descriptor: '84bdd5562b9e2e53', drivers: {},
+      null_reasons: ['none', 'nothing yet', 'too old'],
       session: { name: 'panel-1', role: 'operator', local: true, user: '' }, server_time_ns: 5_000_000_000, ...fields,
     });
   }

@@ -29,6 +29,7 @@ function item(key: string): NonNullable<ReturnType<typeof model.item>> {
 beforeEach(() => {
   frames = [];
   store = new Store({ serverNow: () => 3_000_000_000, requestFrame: (callback) => frames.push(callback) });
+  store.beginLink(['none', 'nothing yet', 'too old', 'writer stopped', 'writer in fault']);
   store.reset(model);
 });
 
@@ -68,6 +69,8 @@ describe('store', () => {
     arrive([{ slot: 0, reason: 3, sequence: 9 }]);
     animate(0);
     expect(callback).toHaveBeenCalledWith(expect.objectContaining({ value: null, reason: 'writer stopped', sequence: 9 }));
+    arrive([{ slot: 0, reason: 77, sequence: 9 }]);
+    expect(store.reading(item('jog.step'))).toMatchObject({ value: null, reason: 'unknown reason 77' });
   });
   it('does not read beyond a value that is too short', () => {
     arrive([{ slot: 0, bytes: runtimeBytes(1).slice(0, 40) }]);
@@ -94,7 +97,7 @@ describe('store', () => {
     arrive([{ slot: 0, bytes: runtimeBytes(1) }, { slot: 1, bytes: feedbackBytes(1n, 0, '') }]);
     store.forgetSlot(0);
     expect(store.reading(item('jog.step'))).toBeUndefined();
-    store.forgetValues();
+    store.beginLink([]);
     expect(store.reading(item('jog.feedback.mode'))).toBeUndefined();
   });
   it('does not call who has gone, and one that throws harms nobody', () => {

@@ -37,7 +37,7 @@ describe('the overview without a word from the application', () => {
   });
   it('tells what becomes of values, with a button where there is a file', async () => {
     const fake = new FakeCore(sample);
-    const values = { file: false, on: 'change', unsaved: true, saved_at_ms: null, failure: '' } as const;
+    const values = { file: false, on: 'change', unsaved: true, saved_at_ms: null, writings: 0, failure: '' } as const;
     fake.says({ values });
     view = document.createElement('flexrf-overview') as Overview;
     Object.assign(view, { core: fake.core, host: fake.host, path: [] });

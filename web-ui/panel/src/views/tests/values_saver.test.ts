@@ -4,11 +4,13 @@ import type { SavedValues } from '../../core/protocol';
 import { standingOf, type ValuesSaver } from '../values_saver';
 import { FakeCore } from '../../core/tests/fake_core';
 
-const saved: SavedValues = { file: true, on: 'change', unsaved: false, saved_at_ms: 1_700_000_000_000, failure: '' };
+const saved: SavedValues = { file: true, on: 'change', unsaved: false, saved_at_ms: 1_700_000_000_000, writings: 1, failure: '' };
 
 describe('how it stands with the configuration file', () => {
   it('says when it was saved, that it is not, or why not', () => {
-    expect(standingOf(saved).text).toBe(`Saved at ${new Date(1_700_000_000_000).toLocaleTimeString()}.`);
+    const time = new Date(1_700_000_000_000).toLocaleTimeString();
+    expect(standingOf(saved).text).toBe(`Saved at ${time}. The file was written once since the start.`);
+    expect(standingOf({ ...saved, writings: 240 }).text).toBe(`Saved at ${time}. The file was written 240 times since the start.`);
     expect(standingOf({ ...saved, saved_at_ms: null }).text).toContain('Nothing was changed');
     expect(standingOf({ ...saved, unsaved: true })).toEqual({ text: 'Not saved yet: that follows by itself.', kind: '' });
     expect(standingOf({ ...saved, unsaved: true, on: 'command' }).kind).toBe('warning');
