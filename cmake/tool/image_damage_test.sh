@@ -115,6 +115,41 @@ data_is_full() {
     { echo "set and save were answered: $status $(<"$pc_folder/set.json") $(<"$pc_folder/saved.json")" && return 1; }
 }
 
+# as_documented DISK: what docs/industrial-pc.md says of writing the image anew, word for word, with mounts of its own, so that this machine's
+# disks have no part in it
+as_documented() (
+  local loop words
+  loop=$(PATH=$PATH:/usr/sbin:/sbin losetup -P -f --show "$1" 2>&1) || { printf '%s\n' "$loop" && return 1; }
+  trap 'PATH=$PATH:/usr/sbin:/sbin losetup -d "$loop"' EXIT
+  words=$(sed -n '/^### Writing the image anew/,/^### /s/^    //p' "$root/docs/industrial-pc.md" |
+    sed "s|^\./flexrf|$root/flexrf|; s|build/image/pick-station.img|$pc_shared/product.img|; s|/dev/sdX|$loop --yes|")
+  [[ $words == *cp*flash*cp* ]] || { printf 'the steps are not found: %s\n' "$words" && return 1; }
+  rm -rf "$pc_folder/other-machine" && mkdir -p "$pc_folder/other-machine" /dev/disk && cd "$pc_folder/other-machine" || return
+  # shellcheck disable=SC2016 # expands inside
+  unshare --mount bash -e -c 'mount -t tmpfs none /dev/disk && mkdir /dev/disk/by-partlabel && ln -s "$1" /dev/disk/by-partlabel/data && eval "$2"' \
+    recovery "${loop}p7" "$words" >steps.log 2>&1 || { cat steps.log && return 1; }
+)
+
+# The image is written anew, and what the PC had on its data partition is put back, in another machine.
+written_anew_it_is_as_before() {
+  local disk=$pc_folder/anew.img status
+  pc_disk=()
+  if ! PATH=$PATH:/usr/sbin:/sbin losetup -f >/dev/null 2>&1; then
+    echo "not tried: a loop device, which is root's to make"
+    return 0
+  fi
+  need_product && claimed_disk "$disk" && restore_pc "$claimed/bios.memory" anew bios "$disk" -no-reboot && log_in &&
+    ask_panel api/v1/control/take -b "$pc_folder/cookies" -o "$pc_folder/taken.json" -X POST || return
+  status="$(change_speed 0.777) $(try_to_save)"
+  [[ $status == '200 200' ]] || { echo "set and save were answered: $status $(<"$pc_folder/set.json") $(<"$pc_folder/saved.json")" && return 1; }
+  stop_pc
+  as_documented "$disk" && start_pc again bios "$disk" -no-reboot && await_line 'the cell runs' && log_in || return
+  [[ $(fingerprint) == "$(<"$claimed/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
+  ask_panel api/v1/components/pick/parameters -b "$pc_folder/cookies" | jq -e '.runtime.speed == 0.777' || return
+  await_line 'the version in slot A has confirmed itself' && no_complaint || return
+  ! console_lines | grep -E 'Nobody has claimed|data was'
+}
+
 data_is_missing() {
   local disk=$pc_folder/missing.img
   pc_disk=()

@@ -333,6 +333,7 @@ data_made_anew_stays full damage
 data_is_repaired full damage
 damaged_users_lead_to_a_claim full damage
 data_is_full full damage
+written_anew_it_is_as_before full anew
 data_is_missing full missing
 a_confirmed_version_that_fails_gives_way full failing
 a_confirmed_application_that_crashes_gives_way full crashing

@@ -9,8 +9,11 @@ namespace flexrf::panel {
 namespace {
 
 /// For a place: requests that are under way are done by then.
-constexpr Duration most_waiting_time = std::chrono::seconds{3};
-constexpr std::size_t most_waiting = 32;
+constexpr Duration patience = std::chrono::seconds{3};
+/// Where others are given places meanwhile, as long as browsers wait.
+constexpr Duration longest_patience = std::chrono::seconds{30};
+/// Two of each address in a network of 256, which one host may have all of.
+constexpr std::size_t most_waiting = 512;
 
 }  // namespace
 
@@ -98,7 +101,7 @@ void Server::welcome(Socket socket) {
   error_code error;
   const tcp::endpoint remote = socket.remote_endpoint(error);
   if (error) return;
-  Newcomer newcomer{std::move(socket), remote_address_of(remote), surroundings_.now + most_waiting_time};
+  Newcomer newcomer{std::move(socket), remote_address_of(remote), surroundings_.now};
   if (newcomers_.empty() && place(newcomer)) return;
   if (newcomers_.size() == most_waiting) {
     // Of the address that has most of those who wait, so that one that floods sends itself away.
@@ -114,21 +117,34 @@ void Server::welcome(Socket socket) {
     newcomers_.erase(last);
   }
   newcomers_.push_back(std::move(newcomer));
-  place_newcomers();
 }
 
+/// In the order in which they came, so that a crowd delays others, and does not keep them out.
 void Server::place_newcomers() {
+  bool none_is_left = false;
+  bool none_for_remote = false;
   for (auto newcomer = newcomers_.begin(); newcomer != newcomers_.end();) {
-    if (place(*newcomer)) {
+    const bool is_hopeless = none_is_left || (none_for_remote && !is_local(newcomer->address));
+    if (!is_hopeless && place(*newcomer)) {
+      placed_at_ = surroundings_.now;
       newcomer = newcomers_.erase(newcomer);
-    } else if (surroundings_.now >= newcomer->until &&
-               (turn_away(newcomer->socket, bound_of(newcomer->address)) ||
-                surroundings_.now >= newcomer->until + most_waiting_time)) {
-      newcomer = newcomers_.erase(newcomer);
-    } else {
-      ++newcomer;
+      continue;
     }
+    const Bound bound = bound_of(newcomer->address);
+    none_is_left = none_is_left || bound == Bound::none;
+    none_for_remote = none_for_remote || bound == Bound::of_remote;
+    newcomer = has_waited_enough(*newcomer, bound) ? newcomers_.erase(newcomer) : newcomer + 1;
   }
+}
+
+/// And is told so, if there is somebody to tell it.
+bool Server::has_waited_enough(Newcomer& newcomer, Bound bound) {
+  const Duration waited = surroundings_.now - newcomer.since;
+  if (waited < patience) return false;
+  const bool others_get_places = bound != Bound::of_address && surroundings_.now - placed_at_ < patience;
+  if (others_get_places && waited < longest_patience) return false;
+  return turn_away(newcomer.socket, bound) || waited >= longest_patience + patience ||
+         (!others_get_places && waited >= 2 * patience);
 }
 
 /// Who is turned away is heard, and told: he may not begin to speak before (TLS), and closing with something

@@ -60,7 +60,7 @@ class Server final : public LaterReplies {
   struct Newcomer {
     Socket socket;
     Address address;
-    Time until;
+    Time since;
   };
   bool is_local(const Address& address) const noexcept;
   Bound bound_of(const Address& address) const noexcept;
@@ -69,6 +69,7 @@ class Server final : public LaterReplies {
   bool place(Newcomer& newcomer);
   void welcome(Socket socket);
   void place_newcomers();
+  bool has_waited_enough(Newcomer& newcomer, Bound bound);
   bool turn_away(Socket& socket, Bound bound);
 
   void beat();
@@ -98,6 +99,7 @@ class Server final : public LaterReplies {
   std::deque<Connection> porters_;  // who have none, and tell it to whom there is no room for
   std::uint32_t occupied_ = 0;      // places, after the last turn
   Time next_placing_{};
+  Time placed_at_{};  // when the last who waited got a place
   LogLimit full_;
   // Of the listener and the timers.
   HandlerMemory handler_memory_;

@@ -2,6 +2,7 @@
 import { spawn, spawnSync } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { request } from 'node:https';
+import { connect } from 'node:net';
 import { join } from 'node:path';
 import { expect, it, onTestFinished } from 'vitest';
 import { Application, build, newFolder, playedPc, screenshot, sizes, tidyUp, useBrowser, violations, within } from './harness';
@@ -19,11 +20,11 @@ function newPc(): { folder: string; encryption: string[] } {
   return { folder, encryption: ['--tls-certificate', certificate, '--tls-key', key] };
 }
 
-/** The page's answer to somebody who reaches the PC by this host. */
-function asked(port: string, host: string, path: string, form?: URLSearchParams): Promise<{ status: number; text: string }> {
+/** The page's answer to somebody who reaches the PC by this host, from this address. */
+function asked(port: string, host: string, path: string, form?: URLSearchParams, localAddress = '127.0.0.1'): Promise<{ status: number; text: string }> {
   return new Promise((resolve, reject) => {
     const one = request({
-      host: '127.0.0.1', port, path, method: form ? 'POST' : 'GET', rejectUnauthorized: false, agent: false,
+      host: '127.0.0.1', port, path, method: form ? 'POST' : 'GET', rejectUnauthorized: false, agent: false, localAddress, timeout: 30_000,
       headers: { host, ...(form && { 'content-type': 'application/x-www-form-urlencoded', 'content-length': form.toString().length }) },
     }, (incoming) => {
       let text = '';
@@ -32,8 +33,66 @@ function asked(port: string, host: string, path: string, form?: URLSearchParams)
       incoming.on('end', () => resolve({ status: incoming.statusCode ?? 0, text }));
     });
     one.on('error', reject);
+    one.on('timeout', () => { one.destroy(new Error('no answer')); });
     one.end(form?.toString());
   });
+}
+
+function claimForm(token: string, code: string): URLSearchParams {
+  return new URLSearchParams({ token, code, user: 'anna', password, repeated: password });
+}
+
+/** The form's token, as a browser sends it. */
+async function tokenOf(port: string, localAddress?: string): Promise<string> {
+  const page = await asked(port, `127.0.0.1:${port}`, '/', undefined, localAddress);
+  const token = /name="token" value="([0-9a-f]{32})"/.exec(page.text)?.[1];
+  if (token === undefined) throw new Error(`the page has no form: ${page.status} ${page.text}`);
+  return token;
+}
+
+/** One host with 250 addresses: from each it takes what connections it gets, and guesses, until it is over. */
+function besieged(port: string): { guesses: number; over: boolean } {
+  const siege = { guesses: 0, over: false };
+  const pause = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 100));
+  const guess = async (localAddress: string): Promise<void> => {
+    while (!siege.over) {
+      try {
+        const token = await tokenOf(port, localAddress);
+        await asked(port, `127.0.0.1:${port}`, '/claim', claimForm(token, '00000-00000'), localAddress);
+        siege.guesses += 1;
+      } catch {
+        await pause();
+      }
+    }
+  };
+  const occupy = async (localAddress: string): Promise<void> => {
+    while (!siege.over) {
+      await new Promise<void>((resolve) => {
+        const socket = connect({ host: '127.0.0.1', port: Number(port), localAddress });
+        socket.on('error', () => undefined);
+        socket.on('close', () => { resolve(); });
+      });
+      await pause();
+    }
+  };
+  for (let i = 1; i <= 250; i += 1) {
+    void guess(`127.1.0.${i}`);
+    void occupy(`127.1.0.${i}`);
+  }
+  return siege;
+}
+
+/** As somebody who reads the code, and tries again whenever the page does not come. */
+async function claimInSpite(port: string, code: () => string): Promise<void> {
+  for (;;) {
+    try {
+      const done = await asked(port, `127.0.0.1:${port}`, '/claim', claimForm(await tokenOf(port), code()));
+      if (done.status === 200) return;
+    } catch {
+      // The connection was closed, or never taken.
+    }
+    await new Promise((resolve) => setTimeout(resolve, 200));
+  }
 }
 
 it('behind a router the host by which the code was typed is declared at the helper', async () => {
@@ -57,11 +116,35 @@ it('behind a router the host by which the code was typed is declared at the help
   const form = await asked(port, 'cell7.example.org:8443', '/');
   expect(form.status).toBe(200);
   const token = /name="token" value="([0-9a-f]{32})"/.exec(form.text)?.[1] ?? '';
-  const done = await asked(port, 'cell7.example.org:8443', '/claim', new URLSearchParams({ token, code, user: 'anna', password, repeated: password }));
+  const done = await asked(port, 'cell7.example.org:8443', '/claim', claimForm(token, code));
   expect(done.status).toBe(200);
   expect(done.text).toContain('The panel answers at <b>cell7.example.org</b>, too');
   expect(said).toContain('{"hosts":"cell7.example.org","user":"anna","verb":"hosts"}');
   expect(console_).toContain('The panel answers at cell7.example.org, too, by which this PC was claimed.');
+});
+
+it('a host that guesses from 250 addresses keeps nobody from claiming the PC', async () => {
+  const rounds = process.env['FLEXRF_LONG'] === '1' ? 20 : 1;
+  for (let round = 0; round < rounds; round += 1) {
+    const pc = newPc();
+    const claim = spawn(join(build, 'image/claim/flexrf-claim'), ['--users', join(pc.folder, 'users'), '--listen', '127.0.0.1:0', ...pc.encryption]);
+    onTestFinished(() => { claim.kill('SIGKILL'); });
+    let console_ = '';
+    claim.stdout.on('data', (part: Buffer) => { console_ += part.toString('utf8'); });
+    const shown = (): RegExpMatchArray | undefined => [...console_.matchAll(/The code is {2}(\S+) {2}at https:\/\/[\d.]+:(\d+)\//g)].at(-1);
+    await expect.poll(shown, { timeout: within }).toBeDefined();
+    const port = shown()?.[2] ?? '';
+    const siege = besieged(port);
+    onTestFinished(() => { siege.over = true; });
+    await expect.poll(() => siege.guesses, { timeout: within }).toBeGreaterThan(50);
+    const began = performance.now();
+    await claimInSpite(port, () => shown()?.[1] ?? '');
+    const seconds = (performance.now() - began) / 1000;
+    siege.over = true;
+    console.log(`claimed after ${seconds.toFixed(1)} s, and ${siege.guesses} guesses`);
+    expect(console_).toContain('This PC is claimed.');
+    claim.kill('SIGKILL');
+  }
 });
 
 it('the code on the console and a password claim the PC, and the panel knows them', async () => {
