@@ -18,8 +18,11 @@ struct Tick {
   bool finishing = false;         ///< no more input will come: complete what is begun
   bool stop_requested = false;    ///< controlled stop: come to rest within stop_timeout, then be idle
   bool motion_inhibited = false;  ///< no actuator of this application may be moved now
-  Time permitted_since{};         ///< the Start by which it may be: what was asked for before it is not to be
-                                  ///< followed [stop-96]; no time: from power-on
+  Time permitted_since{};         ///< the Start by which they may; no time: from power-on
+
+  /// Whether an actuator may be led by what was asked for then: not by what is from before the
+  /// Start [stop-96].
+  bool may_follow(Time asked_at) const noexcept { return !motion_inhibited && asked_at >= permitted_since; }
 };
 
 }  // namespace flexrf

@@ -69,7 +69,7 @@ void Gantry::take_up_order(const Tick& tick) noexcept {
     return;
   }
   if (wanted->number == taken_.number) return;
-  if (wanted.sampled_at() < tick.permitted_since) {
+  if (!tick.may_follow(wanted.sampled_at())) {
     taken_ = *wanted;
     end(GantryOutcome::failed,
         Status::error(StatusCode::not_permitted, "the order is from before the Start"));

@@ -46,7 +46,7 @@ void Jog::step(const Tick& tick) {
   KeyEvent key{};
   ItemHeader pressed{};
   for (int n = 0; n < most_keys_per_step && keys.pop(key, pressed); ++n) {
-    if (pressed.sampled_at < tick.permitted_since) continue;
+    if (!tick.may_follow(pressed.sampled_at)) continue;
     if (move_by_key(*target_, key, runtime.step, runtime.turn)) ++feedback.presses;
   }
   target.publish(*target_);

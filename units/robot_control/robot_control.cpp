@@ -56,8 +56,7 @@ void RobotControl::step(const Tick& tick) {
   }
   // A target that was published before the last Start is not followed after it, even if it is published
   // again.
-  if (wanted && (tick.motion_inhibited || wanted.sampled_at() < tick.permitted_since))
-    targets_.leave(*wanted);
+  if (wanted && !tick.may_follow(wanted.sampled_at())) targets_.leave(*wanted);
   if (!is_seeded_) {
     feedback.set_holding("no joint positions from the arm yet");
     idle_ = true;
@@ -118,8 +117,7 @@ void RobotControl::look(const Tick& tick) noexcept {
     }
   }
   const auto streamed = servo.latest();
-  servo_.look(streamed,
-              !tick.motion_inhibited && (!streamed || streamed.sampled_at() >= tick.permitted_since));
+  servo_.look(streamed, tick.may_follow(streamed.sampled_at()));
 }
 
 /// Who leads now, of those that want to and may; null: nobody.
