@@ -20,6 +20,7 @@ struct Machine {
       unit.device->command = static_cast<double>(tick.number + 1);
       moved.push_back(unit.device->position);
       inhibited.push_back(tick.motion_inhibited);
+      ticks.push_back(tick);
       held.push_back(unit.runtime.move);
     };
     cell.unit(Cell::producer).script.step = [this, person = std::move(person)](TestUnit&, const Tick& tick) {
@@ -46,6 +47,7 @@ struct Machine {
   std::optional<Executive> executive;
   std::vector<double> moved;    // the actuator's position as each step found it
   std::vector<bool> inhibited;  // what each step was told
+  std::vector<Tick> ticks;
   std::vector<bool> held;
   int exit_code = -1;
 };
@@ -103,6 +105,28 @@ void start_lets_move_and_stop_motion_ends_it_in_the_next_period() {
   for (std::size_t i = 0; i < 60; ++i) {
     CHECK_EQUAL(machine.inhibited[i], i < 10 || (i >= 30 && i < 50));
   }
+}
+
+// [stop-96]
+void a_step_may_follow_what_was_asked_for_since_the_start() {
+  Machine machine(false, milliseconds{40}, [](Machine& self, std::uint64_t number) {
+    // A Start while motion is permitted begins nothing anew.
+    if ((number == 10 || number == 15 || number == 30) && !self.control().start_motion())
+      throw CheckFailed{"Start was refused"};
+    if (number == 20) self.control().stop_motion();
+    if (number == 25) self.control().clear_stop_motion();
+  });
+  CHECK_EQUAL(machine.exit_code, 0);
+  for (std::size_t i = 0; i < 40; ++i) {
+    const Tick& tick = machine.ticks[i];
+    const bool permitted = (i >= 10 && i < 20) || i >= 30;
+    const Time start = beginning + milliseconds{i < 30 ? 10 : 30};
+    CHECK_EQUAL(tick.may_follow(tick.now), permitted);
+    CHECK_EQUAL(tick.may_follow(start + std::chrono::microseconds{500}), permitted);
+    CHECK(!tick.may_follow(start - Duration{1}));
+  }
+  Machine started(true, milliseconds{3}, [](Machine&, std::uint64_t) {});
+  CHECK(started.ticks.front().may_follow(Time{}));
 }
 
 /// All three between two looks of the thread that moves something.
@@ -275,6 +299,7 @@ int main() {
       CONTAINED_TEST(autostart_lifts_it_at_power_on),
       CONTAINED_TEST(without_autostart_the_table_does_not_count),
       CONTAINED_TEST(start_lets_move_and_stop_motion_ends_it_in_the_next_period),
+      CONTAINED_TEST(a_step_may_follow_what_was_asked_for_since_the_start),
       CONTAINED_TEST(a_stop_that_was_cleared_at_once_is_not_lost),
       CONTAINED_TEST(a_unit_without_an_actuator_sees_each_stop),
       CONTAINED_TEST(stop_motion_counts_before_the_first_step),
