@@ -282,12 +282,13 @@ void Reader::check_joints(const Node& joints, const PanelWidget& widget) {
   const Type* const type = declared_type(assembly_.model, *found);
   if (type != nullptr && std::any_of(type->fields.begin(), type->fields.end(), fits)) return;
   const std::string& device = assembly_.model.devices[*widget.device].name;
-  assembly_.diagnostics.error(
-      joints.position,
-      "the widget 'robot' cannot show " + quote(joints.text) +
-          ": it needs a slot with a field 'position' that has a number for each of the " +
-          std::to_string(count) + " joints of " + quote(device),
-      "name another slot, such as the output 'joints' of a unit robot_control");
+  const std::string numbers =
+      count == 1 ? "a number for the joint" : "a number for each of the " + std::to_string(count) + " joints";
+  assembly_.diagnostics.error(joints.position,
+                              "the widget 'robot' cannot show " + quote(joints.text) +
+                                  ": it needs a slot with a field 'position' that has " + numbers + " of " +
+                                  quote(device),
+                              "name another slot, such as the output 'joints' of a unit robot_control");
 }
 
 void Reader::read_options(Row& row, PanelWidget& widget) {

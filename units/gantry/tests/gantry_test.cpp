@@ -36,6 +36,7 @@ struct World {
     binding.outputs = outputs;
     binding.devices = devices;
     bench.unit().connect(binding);
+    x.configuration().homing_method = z.configuration().homing_method = 35;  // at home where it is
     assert_true(x.driver().initialise().is_ok() && z.driver().initialise().is_ok());
     assert_true(bench.unit().initialise().is_ok());
   }
