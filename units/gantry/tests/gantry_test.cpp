@@ -64,6 +64,7 @@ struct World {
     z.driver().set_inhibited(!on);
   }
   void home() {
+    run(3);  // the drives enable themselves
     say(GantryCommand::home);
     run(200);
     assert_int_equal(told().outcome, GantryOutcome::done);
