@@ -69,12 +69,6 @@ void Gantry::take_up_order(const Tick& tick) noexcept {
     return;
   }
   if (wanted->number == taken_.number) return;
-  if (!tick.may_follow(wanted.sampled_at())) {
-    taken_ = *wanted;
-    end(GantryOutcome::failed,
-        Status::error(StatusCode::not_permitted, "the order is from before the Start"));
-    return;
-  }
   if (phase_ != Phase::resting && phase_ != Phase::settling) {
     brake();  // and is taken up when the axes rest
     return;
