@@ -36,7 +36,8 @@ class Leader {
       wanted.position[0] += 0.03;
       servo_.publish(ServoTarget{.valid = true, .pose = wanted}, bench_.now());
     } else {
-      wanted.position[2] -= 0.05;
+      way_ = 0.07 - way_;  // another one than before, which would not be followed twice
+      wanted.position[2] -= way_;
       target_.publish(wanted, bench_.now());
     }
   }
@@ -53,6 +54,7 @@ class Leader {
   SlotControl* outputs_[4] = {&pose_.control(), &joints_.control(), &answer_.control(), &led_by_.control()};
   Device* device_;
   Device* const* devices_[1] = {&device_};
+  double way_ = 0.02;
 };
 
 /// An arm that was moved by hand while nobody heard it, and speaks again after Start.
